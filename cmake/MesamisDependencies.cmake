@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: Apache-2.0
+# What the io library needs of VTK: asked for here and again by whoever uses the installed one.
+set(MESAMIS_VTK_VERSION 9.1)
+set(MESAMIS_VTK_COMPONENTS
+  CommonCore CommonDataModel IOCore IOXML IOPLY IOLegacy IOGeometry IOImage FiltersCore
+  FiltersGeometry FiltersExtraction ImagingGeneral RenderingCore RenderingAnnotation RenderingFreeType
+  RenderingOpenGL2)

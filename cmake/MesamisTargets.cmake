@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+# What every target of the project is compiled with.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+# Warnings are errors, and a*b+c is never fused: the same input gives the same bits everywhere.
+# gcc 12 sees overlaps where strings are added up that are not there (its bug 105651).
+function(mesamis_compile_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
+                                           -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+  if(MESAMIS_SANITIZE)
+    # In instrumented code gcc takes members of the standard library for uninitialised.
+    target_compile_options(${target} PRIVATE -fsanitize=${MESAMIS_SANITIZE}
+                                             -fno-omit-frame-pointer -Wno-maybe-uninitialized)
+    target_link_options(${target} PRIVATE -fsanitize=${MESAMIS_SANITIZE})
+  endif()
+endfunction()
+
+# Adds a room to a library. Its sources.cmake names its doors (ROOM_HEADERS, which are installed)
+# and its sources (ROOM_SOURCES); any other header is the room's own.
+function(mesamis_add_room target room)
+  set(folder ${PROJECT_SOURCE_DIR}/src/mesamis/${room})
+  include(${folder}/sources.cmake)
+  list(TRANSFORM ROOM_HEADERS PREPEND ${folder}/)
+  list(TRANSFORM ROOM_SOURCES PREPEND ${folder}/)
+  target_sources(${target}
+    PRIVATE ${ROOM_SOURCES}
+    PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${ROOM_HEADERS})
+endfunction()

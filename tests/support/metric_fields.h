@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "mesamis/base/sym3.h"
+#include "mesamis/mesh/metric_field.h"
+#include "mesamis/mesh/tet_mesh.h"
+
+/// Metric fields given by formulas, for tests and benchmarks.
+namespace mesamis {
+
+/// Any function of space as a metric field.
+class FormulaMetric : public MetricField {
+ public:
+  explicit FormulaMetric(std::function<Sym3(const Vec3&)> formula) : formula_(std::move(formula)) {}
+  Sym3 at(const Vec3& p, Index&) const override { return formula_(p); }
+
+ private:
+  std::function<Sym3(const Vec3&)> formula_;
+};
+
+inline FormulaMetric uniform_metric(double size) {
+  return FormulaMetric([size](const Vec3&) { return 1 / (size * size) * kIdentity3; });
+}
+
+/// The cubes of the UGAWG adaptation benchmarks on [0, 1]^3: a flat layer, a curved one, and a
+/// curved one that is finer along the arc too.
+enum class Ugawg { kLinear, kPolar1, kPolar2 };
+
+/// Size across the layer, `distance` from its middle.
+inline double ugawg_layer_size(double distance) { return 1e-3 + 2 * (0.1 - 1e-3) * distance; }
+
+inline Sym3 ugawg_polar(const Vec3& p, bool finer_arc, double scale) {
+  const double r = std::hypot(p.x, p.y);
+  const Vec3 radial = r > 1e-14 ? Vec3{p.x / r, p.y / r, 0} : Vec3{1, 0, 0};
+  const Vec3 tangent{-radial.y, radial.x, 0};
+  const double h_radial = ugawg_layer_size(std::abs(r - 0.5));
+  const double blend = std::min(10 * std::abs(r - 0.5), 1.0);
+  const double h_tangent = finer_arc ? 0.1 * blend + 0.025 * (1 - blend) : 0.1;
+  const double s2 = scale * scale;
+  return (s2 / (h_radial * h_radial)) * outer(radial) +
+         (s2 / (h_tangent * h_tangent)) * outer(tangent) + (100 * s2) * outer(Vec3{0, 0, 1});
+}
+
+/// @param scale  sizes are divided by it.
+inline FormulaMetric ugawg_metric(Ugawg which, double scale) {
+  if (which == Ugawg::kLinear) {
+    return FormulaMetric([scale](const Vec3& p) {
+      const double hz = ugawg_layer_size(std::abs(p.z - 0.5)) / scale;
+      const double hx = 0.1 / scale;
+      return Sym3{1 / (hx * hx), 0, 0, 1 / (hx * hx), 0, 1 / (hz * hz)};
+    });
+  }
+  const bool finer_arc = which == Ugawg::kPolar2;
+  return FormulaMetric([=](const Vec3& p) { return ugawg_polar(p, finer_arc, scale); });
+}
+
+/// The scale that makes about this many cells.
+inline double ugawg_scale(Ugawg which, double cells) {
+  constexpr double kComplexity[]{4668, 3837, 7620}, kCellsPerUnit[]{8.5, 12, 8.9};
+  const auto i = static_cast<std::size_t>(which);
+  return std::cbrt(cells / (kComplexity[i] * kCellsPerUnit[i]));
+}
+
+inline const Box kUnitBox{{0, 0, 0}, {1, 1, 1}};
+
+inline std::vector<Sym3> metrics_at_nodes(const TetMesh& mesh, const MetricField& field) {
+  std::vector<Sym3> metrics;
+  metrics.reserve(mesh.points.size());
+  Index hint = 0;
+  for (const Vec3& p : mesh.points) metrics.push_back(field.at(p, hint));
+  return metrics;
+}
+
+/// FNV-1a over the mesh's bytes.
+inline std::uint64_t mesh_hash(const TetMesh& mesh) {
+  std::uint64_t hash = 14695981039346656037u;
+  auto add = [&hash](const void* data, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i) {
+      hash = (hash ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211u;
+    }
+  };
+  add(mesh.points.data(), mesh.points.size() * sizeof(Vec3));
+  add(mesh.cells.data(), mesh.cells.size() * sizeof(Cell));
+  return hash;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "support/temp_folder.h"
+
+namespace mesamis {
+
+/// The program mesamis, run as a user runs it.
+struct ProgramRun {
+  int status = -1;  ///< exit status; minus the signal's number if one ended it
+  std::string out, err;
+
+  std::size_t error_lines() const {
+    return static_cast<std::size_t>(std::count(err.begin(), err.end(), '\n'));
+  }
+};
+
+/// Starts the program with its output going to files in the folder.
+inline pid_t start_program(const TempFolder& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), MESAMIS_PROGRAM);
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  const std::string out = folder / ".out", err = folder / ".err";
+  const pid_t child = fork();
+  if (child == 0) {
+    constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC;
+    dup2(open(out.c_str(), kFlags, 0600), STDOUT_FILENO);
+    dup2(open(err.c_str(), kFlags, 0600), STDERR_FILENO);
+    execv(MESAMIS_PROGRAM, pointers.data());
+    _exit(126);
+  }
+  return child;
+}
+
+inline ProgramRun await_program(const TempFolder& folder, pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_bytes(folder / ".out"),
+          read_bytes(folder / ".err")};
+}
+
+inline ProgramRun run_program(const TempFolder& folder, std::vector<std::string> arguments) {
+  return await_program(folder, start_program(folder, std::move(arguments)));
+}
+
+}  // namespace mesamis
+
+/// A failure as promised: the status, one line on stderr with these words, nothing on stdout.
+#define EXPECT_FAILS(run, expected_status, words)            \
+  {                                                          \
+    const mesamis::ProgramRun mesamis_run = run;                    \
+    EXPECT_EQ(mesamis_run.status, expected_status);          \
+    EXPECT_EQ(mesamis_run.out, "");                          \
+    EXPECT_EQ(mesamis_run.error_lines(), 1u);                \
+    EXPECT_THAT(mesamis_run.err, testing::HasSubstr(words)); \
+  }                                                          \
+  static_assert(true)
