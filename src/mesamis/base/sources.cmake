@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: Apache-2.0
+set(ROOM_HEADERS
+  error.h
+  parallel.h
+  progress.h
+  sym3.h
+  types.h)
+set(ROOM_SOURCES
+  parallel.cpp
+  sym3.cpp)

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+/// The small values every room passes around: indices, vectors and tensors of space.
+namespace mesamis {
+
+/// Index of a point, cell, triangle or voxel line. Counts and products are kept in 64 bits.
+using Index = std::int32_t;
+inline constexpr Index kNoIndex = -1;
+
+/// A point or a direction in space; lengths in mm unless the name says otherwise.
+struct Vec3 {
+  double x = 0, y = 0, z = 0;
+  double& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
+  double operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+  friend bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+inline Vec3 operator*(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Vec3& operator+=(Vec3& a, const Vec3& b) { return a = a + b; }
+inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
+
+/// A symmetric 3x3 matrix: metrics (1/mm^2), gradient covariances.
+struct Sym3 {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  friend bool operator==(const Sym3&, const Sym3&) = default;
+};
+
+inline constexpr Sym3 kIdentity3{1, 0, 0, 1, 0, 1};
+
+inline Sym3 operator+(const Sym3& a, const Sym3& b) {
+  return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz};
+}
+inline Sym3 operator-(const Sym3& a, const Sym3& b) {
+  return {a.xx - b.xx, a.xy - b.xy, a.xz - b.xz, a.yy - b.yy, a.yz - b.yz, a.zz - b.zz};
+}
+inline Sym3 operator*(double s, const Sym3& a) {
+  return {s * a.xx, s * a.xy, s * a.xz, s * a.yy, s * a.yz, s * a.zz};
+}
+inline Sym3& operator+=(Sym3& a, const Sym3& b) { return a = a + b; }
+inline Vec3 operator*(const Sym3& a, const Vec3& v) {
+  return {a.xx * v.x + a.xy * v.y + a.xz * v.z, a.xy * v.x + a.yy * v.y + a.yz * v.z,
+          a.xz * v.x + a.yz * v.y + a.zz * v.z};
+}
+/// v v^T
+inline Sym3 outer(const Vec3& v) {
+  return {v.x * v.x, v.x * v.y, v.x * v.z, v.y * v.y, v.y * v.z, v.z * v.z};
+}
+/// v^T a v
+inline double quadratic_form(const Sym3& a, const Vec3& v) {
+  return v.x * (a.xx * v.x + 2 * (a.xy * v.y + a.xz * v.z)) + v.y * (a.yy * v.y + 2 * a.yz * v.z) +
+         a.zz * v.z * v.z;
+}
+inline double trace(const Sym3& a) { return a.xx + a.yy + a.zz; }
+inline double determinant(const Sym3& a) {
+  return a.xx * (a.yy * a.zz - a.yz * a.yz) - a.xy * (a.xy * a.zz - a.yz * a.xz) +
+         a.xz * (a.xy * a.yz - a.yy * a.xz);
+}
+
+/// A general 3x3 matrix by rows: direction cosines of a volume.
+struct Mat3 {
+  std::array<Vec3, 3> rows{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+  friend bool operator==(const Mat3&, const Mat3&) = default;
+};
+inline Vec3 operator*(const Mat3& a, const Vec3& v) {
+  return {dot(a.rows[0], v), dot(a.rows[1], v), dot(a.rows[2], v)};
+}
+inline Mat3 transpose(const Mat3& a) {
+  const auto& r = a.rows;
+  return {
+      {Vec3{r[0].x, r[1].x, r[2].x}, Vec3{r[0].y, r[1].y, r[2].y}, Vec3{r[0].z, r[1].z, r[2].z}}};
+}
+inline double determinant(const Mat3& a) { return dot(a.rows[0], cross(a.rows[1], a.rows[2])); }
+
+/// An axis-aligned box, lo < hi in every direction.
+struct Box {
+  Vec3 lo, hi;
+  Vec3 extent() const { return hi - lo; }
+  double volume() const {
+    const Vec3 e = extent();
+    return e.x * e.y * e.z;
+  }
+  friend bool operator==(const Box&, const Box&) = default;
+};
+
+}  // namespace mesamis
