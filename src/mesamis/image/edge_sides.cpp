@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/image/edge_sides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesamis/image/grey_values.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kBoneHu = 200;
+constexpr std::size_t kFewPoints = 10;
+constexpr int kRounds = 10;
+constexpr double kSettled = 0.005;  // change of the level, against the contrast
+constexpr std::size_t kMostPoints = 200'000;
+
+/// mm per voxel when walking along the unit direction d.
+double voxel_step(const Volume& volume, const Vec3& d) {
+  const Vec3& s = volume.spacing;
+  return 1 / norm({d.x / s.x, d.y / s.y, d.z / s.z});
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The value at the end of a ray of one and a half voxels, if the guide keeps to its side of the
+/// level on the way.
+std::optional<double> look_along(const Volume& volume, const Volume& guide, const Vec3& from,
+                                 const Vec3& direction, double level, bool above) {
+  const double step = voxel_step(volume, direction);
+  const Box box = volume.box();
+  Vec3 p;
+  for (const double voxels : {0.75, 1.5}) {
+    p = from + voxels * step * direction;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (p[axis] < box.lo[axis] || p[axis] > box.hi[axis]) return std::nullopt;
+    }
+    if ((interpolate(guide, p) > level) != above) return std::nullopt;
+  }
+  return interpolate(volume, p);
+}
+
+Vec3 gradient_at(const Volume& volume, Index i, Index j, Index k) {
+  const std::array<Index, 3> at{i, j, k};
+  Vec3 g;
+  for (int axis = 0; axis < 3; ++axis) {
+    auto low = at, high = at;
+    low[axis] = std::max(at[axis] - 1, 0);
+    high[axis] = std::min(at[axis] + 1, volume.size[axis] - 1);
+    g[axis] = (volume.at(high[0], high[1], high[2]) - volume.at(low[0], low[1], low[2])) /
+              ((high[axis] - low[axis]) * volume.spacing[axis]);
+  }
+  return g;
+}
+
+/// Calls visit(i, j, k, axis) where the line from voxel (i, j, k) to its next crosses the level.
+template <class Visit>
+void for_each_crossing(const Volume& volume, double level, Visit&& visit) {
+  for (Index k = 0; k < volume.size[2]; ++k) {
+    for (Index j = 0; j < volume.size[1]; ++j) {
+      for (Index i = 0; i < volume.size[0]; ++i) {
+        const bool here = volume.at(i, j, k) > level;
+        if (i + 1 < volume.size[0] && (volume.at(i + 1, j, k) > level) != here) visit(i, j, k, 0);
+        if (j + 1 < volume.size[1] && (volume.at(i, j + 1, k) > level) != here) visit(i, j, k, 1);
+        if (k + 1 < volume.size[2] && (volume.at(i, j, k + 1) > level) != here) visit(i, j, k, 2);
+      }
+    }
+  }
+}
+
+SurfacePoint crossing(const Volume& volume, double level, std::array<Index, 3> at, int axis) {
+  auto next = at;
+  ++next[axis];
+  const double a = volume.at(at[0], at[1], at[2]), b = volume.at(next[0], next[1], next[2]);
+  const double t = std::clamp((level - a) / (b - a), 0.0, 1.0);
+  SurfacePoint point;
+  for (int c = 0; c < 3; ++c) point.position[c] = at[c] * volume.spacing[c];
+  point.position[axis] += t * volume.spacing[axis];
+  const Vec3 g = (1 - t) * gradient_at(volume, at[0], at[1], at[2]) +
+                 t * gradient_at(volume, next[0], next[1], next[2]);
+  const double length = norm(g);
+  if (length > 0) point.normal = (-1 / length) * g;
+  return point;
+}
+
+/// Where the tissue around `value` ends upwards: counts right of its peak down to a tenth.
+double upper_end_of_tissue(const Volume& volume, double value, double level) {
+  constexpr int kBins = 64;
+  const double width = (level - value) / (kBins / 2);  // the level lies in the last bin
+  std::vector<double> counts(kBins, 0);
+  for (const float sample : volume.samples) {
+    const double bin = (sample - value) / width + kBins / 2.0;
+    if (bin >= 0 && bin < kBins) ++counts[static_cast<std::size_t>(bin)];
+  }
+  auto bin = static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+  const double tenth = counts[static_cast<std::size_t>(bin)] / 10;
+  while (bin + 1 < kBins && counts[static_cast<std::size_t>(bin)] > tenth) ++bin;
+  return value + (bin - kBins / 2.0) * width;
+}
+
+double choose_threshold(const Volume& volume, const EdgeSides& sides, double level) {
+  constexpr double kThirdClass = 0.5;  // distance of the two dark classes, against the contrast
+  const OtsuSplit dark = otsu_split(volume, level);
+  if (dark.mean_above - dark.mean_below < kThirdClass * (sides.inside - sides.outside)) {
+    return std::numeric_limits<double>::lowest();
+  }
+  return std::min(upper_end_of_tissue(volume, sides.outside, level),
+                  sides.outside + 0.5 * (level - sides.outside));
+}
+
+}  // namespace
+
+std::optional<EdgeSides> measure_sides(const Volume& volume, const Volume& guide,
+                                       const std::vector<SurfacePoint>& points, double level) {
+  std::vector<double> inside, outside;
+  for (const SurfacePoint& point : points) {
+    if (norm(point.normal) == 0) continue;
+    if (const auto value = look_along(volume, guide, point.position, -point.normal, level, true)) {
+      inside.push_back(*value);
+    }
+    if (const auto value = look_along(volume, guide, point.position, point.normal, level, false)) {
+      outside.push_back(*value);
+    }
+  }
+  if (inside.size() < kFewPoints || outside.size() < kFewPoints) return std::nullopt;
+  EdgeSides sides;
+  sides.inside = median(inside);
+  sides.outside = median(outside);
+  sides.samples = inside.size() + outside.size();
+  return sides;
+}
+
+std::size_t count_crossings(const Volume& volume, double level) {
+  std::size_t count = 0;
+  for_each_crossing(volume, level, [&count](Index, Index, Index, int) { ++count; });
+  return count;
+}
+
+std::vector<SurfacePoint> crossing_points(const Volume& volume, double level, std::size_t most) {
+  const std::size_t every =
+      std::max<std::size_t>(1, count_crossings(volume, level) / std::max<std::size_t>(1, most));
+  std::vector<SurfacePoint> points;
+  std::size_t n = 0;
+  for_each_crossing(volume, level, [&](Index i, Index j, Index k, int axis) {
+    if (n++ % every == 0) points.push_back(crossing(volume, level, {i, j, k}, axis));
+  });
+  return points;
+}
+
+ObjectEdges find_object(const Volume& volume) {
+  const Volume calm = smoothed(volume);
+  ObjectEdges object;
+  object.level = otsu_split(volume).threshold;
+  if (is_hounsfield(volume) && quantiles(volume, {0.999})[0] > kBoneHu) object.level = kBoneHu;
+  object.threshold = std::numeric_limits<double>::lowest();
+  for (int round = 0; round < kRounds; ++round) {
+    const auto points = crossing_points(calm, object.level, kMostPoints);
+    const auto sides = measure_sides(volume, calm, points, object.level);
+    if (!sides) break;
+    const double change = std::abs(sides->middle() - object.level);
+    object.sides = *sides;
+    object.level = sides->middle();
+    if (change < kSettled * (sides->inside - sides->outside)) break;
+  }
+  object.crossings = count_crossings(calm, object.level);
+  if (object.sides.samples > 0) {
+    object.threshold = choose_threshold(volume, object.sides, object.level);
+  }
+  return object;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/image/volume.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "mesamis/base/error.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kDirectionTolerance = 1e-6;
+
+template <class... Part>
+[[noreturn]] void refuse(const Part&... parts) {
+  std::ostringstream line;
+  (line << ... << parts);
+  throw InputError(line.str());
+}
+
+void require_sizes(const Volume& volume) {
+  const auto& n = volume.size;
+  if (std::min({n[0], n[1], n[2]}) < 2) {
+    refuse("volume: expected at least 2 voxels in each direction, found ", n[0], " x ", n[1], " x ",
+           n[2]);
+  }
+  if (volume.samples.size() != volume.voxel_count()) {
+    refuse("volume: expected ", volume.voxel_count(), " samples for ", n[0], " x ", n[1], " x ",
+           n[2], " voxels, found ", volume.samples.size());
+  }
+}
+
+void require_grid(const Volume& volume) {
+  for (int a = 0; a < 3; ++a) {
+    if (!(volume.spacing[a] > 0) || !std::isfinite(volume.spacing[a])) {
+      refuse("volume: expected a positive spacing along axis ", a, ", found ", volume.spacing[a],
+             " mm");
+    }
+    if (!std::isfinite(volume.origin[a])) {
+      refuse("volume: expected a finite origin, found ", volume.origin[a], " along axis ", a);
+    }
+  }
+  const auto& rows = volume.direction.rows;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = a; b < 3; ++b) {
+      const double deviation = std::abs(dot(rows[a], rows[b]) - (a == b ? 1 : 0));
+      if (!(deviation <= kDirectionTolerance)) {
+        refuse("volume: expected an orthonormal direction to ", kDirectionTolerance,
+               ", found a deviation of ", deviation);
+      }
+    }
+  }
+}
+
+void require_samples(const Volume& volume) {
+  const std::vector<float>& f = volume.samples;
+  const auto unknown = std::find_if(f.begin(), f.end(), [](float x) { return !std::isfinite(x); });
+  if (unknown != f.end()) {
+    const auto at = static_cast<std::size_t>(unknown - f.begin());
+    const auto nx = static_cast<std::size_t>(volume.size[0]);
+    const auto ny = static_cast<std::size_t>(volume.size[1]);
+    refuse("volume: expected finite samples, found ", *unknown, " at voxel ", at % nx, " ",
+           at / nx % ny, " ", at / nx / ny);
+  }
+  if (std::all_of(f.begin(), f.end(), [&f](float x) { return x == f[0]; })) {
+    refuse("volume: expected samples that differ, found ", f[0], " everywhere");
+  }
+}
+
+/// What a copy keeps: `count` voxels per direction, the first at `begin`, `stride` apart.
+struct Selection {
+  std::array<Index, 3> begin, count, stride;
+};
+
+Volume select(const Volume& volume, const Selection& kept) {
+  Volume out = volume;
+  out.samples = {};
+  out.size = kept.count;
+  Vec3 corner;
+  for (int a = 0; a < 3; ++a) {
+    const auto s = static_cast<std::size_t>(a);
+    corner[a] = kept.begin[s] * volume.spacing[a];
+    out.spacing[a] = volume.spacing[a] * kept.stride[s];
+  }
+  out.origin = volume.to_world(corner);
+  out.samples.reserve(out.voxel_count());
+  for (Index k = 0; k < kept.count[2]; ++k) {
+    for (Index j = 0; j < kept.count[1]; ++j) {
+      const float* line =
+          volume.samples.data() + volume.offset(kept.begin[0], kept.begin[1] + j * kept.stride[1],
+                                                kept.begin[2] + k * kept.stride[2]);
+      for (Index i = 0; i < kept.count[0]; ++i) {
+        out.samples.push_back(line[static_cast<std::ptrdiff_t>(i) * kept.stride[0]]);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+void require_usable(const Volume& volume) {
+  require_sizes(volume);
+  require_grid(volume);
+  require_samples(volume);
+}
+
+Volume crop(const Volume& volume, const CropRange& range) {
+  Selection kept{range.begin, {}, {1, 1, 1}};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Index n = volume.size[a];
+    const Index end = range.end[a] == -1 ? n : range.end[a];
+    if (range.begin[a] < 0 || range.begin[a] > n || end < 0 || end > n) {
+      refuse("crop: expected a range within 0:", n, " along axis ", a, ", found ", range.begin[a],
+             ":", end);
+    }
+    if (end - range.begin[a] < 2) {
+      refuse("crop: expected at least 2 voxels along axis ", a, ", found ", range.begin[a], ":",
+             end);
+    }
+    kept.count[a] = end - range.begin[a];
+  }
+  return select(volume, kept);
+}
+
+Volume subsample(const Volume& volume, const std::array<Index, 3>& stride) {
+  Selection kept{{0, 0, 0}, {}, stride};
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (stride[a] < 1) {
+      refuse("subsample: expected a stride of at least 1 along axis ", a, ", found ", stride[a]);
+    }
+    kept.count[a] = (volume.size[a] - 1) / stride[a] + 1;
+    if (kept.count[a] < 2) {
+      refuse("subsample: expected at least 2 voxels to remain along axis ", a, ", found ",
+             kept.count[a], " (stride ", stride[a], " on ", volume.size[a], ")");
+    }
+  }
+  return select(volume, kept);
+}
+
+}  // namespace mesamis

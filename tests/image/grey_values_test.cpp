@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/image/grey_values.h"
+
+#include <gtest/gtest.h>
+
+#include "mesamis/base/error.h"
+#include "support/ball_volume.h"
+
+namespace mesamis {
+namespace {
+
+Volume ramp(double low, double high) {
+  Volume volume;
+  volume.size = {100, 10, 10};
+  for (int n = 0; n < 10'000; ++n) {
+    volume.samples.push_back(static_cast<float>(low + (high - low) * n / 9999));
+  }
+  return volume;
+}
+
+TEST(GreyMap, MapsTheWindowAndClampsAtTheThreshold) {
+  const Volume grey = apply({-200, 1075, 55}, ramp(-1000, 2000));
+  EXPECT_FLOAT_EQ(grey.samples.front(), 51);  // 55 HU
+  EXPECT_FLOAT_EQ(grey.samples.back(), 255);
+  const GreyMap map{-200, 1075, 55};
+  for (const double native : {-200.0, 0.0, 300.0}) {
+    EXPECT_DOUBLE_EQ(map.to_native(map.to_grey(native)), native);
+  }
+  EXPECT_DOUBLE_EQ(map.to_grey(1075), 255);
+}
+
+TEST(GreyMap, WithoutThresholdTheWindowStartsAtZero) {
+  const Volume grey = apply({-200, 1075, -1e300}, ramp(-1000, 2000));
+  EXPECT_FLOAT_EQ(grey.samples.front(), 0);
+}
+
+TEST(GreyMap, RefusesAnEmptyWindow) { EXPECT_THROW(apply({5, 5, 0}, ramp(0, 1)), InputError); }
+
+TEST(Quantiles, OfARamp) {
+  const auto q = quantiles(ramp(0, 1000), {0.001, 0.5, 0.999});
+  EXPECT_NEAR(q[0], 1, 0.5);
+  EXPECT_NEAR(q[1], 500, 0.5);
+  EXPECT_NEAR(q[2], 999, 0.5);
+}
+
+TEST(Otsu, SeparatesTwoClasses) {
+  const OtsuSplit split = otsu_split(make_ball({.noise = 10}));
+  EXPECT_GT(split.threshold, 150);
+  EXPECT_LT(split.threshold, 200);
+  EXPECT_NEAR(split.mean_below, 120, 5);
+  EXPECT_NEAR(split.mean_above, 220, 10);
+}
+
+TEST(Otsu, CanLookAtTheDarkSamplesAlone) {
+  const Volume volume = make_ball({.background = 40, .object = 900, .noise = 10, .air = -1000});
+  const OtsuSplit split = otsu_split(volume, 400);
+  EXPECT_NEAR(split.mean_below, -1000, 60);
+  EXPECT_NEAR(split.mean_above, 40, 100);
+}
+
+TEST(DefaultWindow, GivesBoneItsContrastInHounsfieldUnits) {
+  Volume ct = ramp(-1024, 3000);
+  EXPECT_TRUE(is_hounsfield(ct));
+  EXPECT_EQ(default_window(ct, 40).low, -200);
+  EXPECT_EQ(default_window(ct, 40).high, 2000);
+  EXPECT_NEAR(default_window(ct, -990).low, -1020, 5);
+  ct.modality = "MR";
+  EXPECT_FALSE(is_hounsfield(ct));
+  EXPECT_NEAR(default_window(ct, 0).high, 2996, 5);
+}
+
+TEST(DefaultWindow, IsNeverEmpty) {
+  Volume rare = ramp(0, 0);
+  rare.samples[17] = 1;  // beyond every percentile
+  EXPECT_LT(default_window(rare, 0).low, default_window(rare, 0).high);
+}
+
+TEST(Smoothed, KeepsConstantsAndTheSumOfAPeak) {
+  Volume volume = ramp(0, 0);
+  volume.size = {25, 20, 20};
+  volume.samples.assign(10'000, 3);
+  for (const float sample : smoothed(volume).samples) EXPECT_FLOAT_EQ(sample, 3);
+  volume.samples.assign(10'000, 0);
+  volume.samples[volume.offset(10, 10, 10)] = 4096;
+  const Volume peak = smoothed(volume);
+  double sum = 0;
+  for (const float sample : peak.samples) sum += sample;
+  EXPECT_DOUBLE_EQ(sum, 4096);
+  EXPECT_FLOAT_EQ(peak.at(10, 10, 10), 512);
+  EXPECT_FLOAT_EQ(peak.at(9, 10, 10), 256);
+  EXPECT_FLOAT_EQ(peak.at(8, 10, 10), 0);
+}
+
+}  // namespace
+}  // namespace mesamis
