@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/mesh/locate.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace mesamis {
+namespace {
+
+/// A point this far outside a face, relative to the cell, still counts as inside: round-off.
+constexpr double kTolerance = 1e-12;
+
+std::array<double, 4> barycentric(const TetMesh& mesh, Index cell, const Vec3& p) {
+  const Cell& k = mesh.cells[static_cast<std::size_t>(cell)];
+  const std::array<Vec3, 4> x{mesh.points[k[0]], mesh.points[k[1]], mesh.points[k[2]],
+                              mesh.points[k[3]]};
+  std::array<double, 4> w{six_volume(p, x[1], x[2], x[3]), six_volume(x[0], p, x[2], x[3]),
+                          six_volume(x[0], x[1], p, x[3]), six_volume(x[0], x[1], x[2], p)};
+  const double sum = w[0] + w[1] + w[2] + w[3];
+  for (double& value : w) value /= sum;
+  return w;
+}
+
+Location clamped(Index cell, std::array<double, 4> w) {
+  double sum = 0;
+  for (double& value : w) {
+    value = std::max(value, 0.0);
+    sum += value;
+  }
+  for (double& value : w) value /= sum;
+  return {cell, w};
+}
+
+/// Tries every cell; the one whose worst barycentric coordinate is largest wins.
+Location locate_exhaustively(const TetMesh& mesh, const Vec3& p) {
+  Index best = 0;
+  std::array<double, 4> best_weights{};
+  double best_worst = -std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto w = barycentric(mesh, static_cast<Index>(c), p);
+    const double worst = *std::min_element(w.begin(), w.end());
+    if (worst > best_worst) {
+      best = static_cast<Index>(c);
+      best_weights = w;
+      best_worst = worst;
+    }
+  }
+  return clamped(best, best_weights);
+}
+
+}  // namespace
+
+Location locate(const TetMesh& mesh, std::span<const std::array<Index, 4>> neighbors, const Vec3& p,
+                Index start) {
+  // A walk through the worst face can circle on a mesh that is not Delaunay. After a while the
+  // face is picked by a small generator instead, which leaves every circle sooner or later.
+  constexpr int kSteadySteps = 200, kMaxSteps = 4000;
+  Index cell = start;
+  unsigned random = 12345;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const auto w = barycentric(mesh, cell, p);
+    int exit = -1;
+    int candidates = 0;
+    bool outside = false;
+    for (int f = 0; f < 4; ++f) {
+      if (w[f] >= -kTolerance) continue;
+      outside = true;
+      if (neighbors[cell][f] == kNoIndex) continue;
+      ++candidates;
+      random = random * 1664525u + 1013904223u;
+      const bool steady = step < kSteadySteps;
+      const bool take =
+          exit < 0 ||
+          (steady ? w[f] < w[exit] : (random >> 16) % static_cast<unsigned>(candidates) == 0);
+      if (take) exit = f;
+    }
+    if (!outside) return clamped(cell, w);
+    if (exit < 0) break;  // behind the boundary only: outside the box, or a blind corner
+    cell = neighbors[cell][exit];
+  }
+  return locate_exhaustively(mesh, p);
+}
+
+}  // namespace mesamis

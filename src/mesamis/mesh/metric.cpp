@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/mesh/metric.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/base/sym3.h"
+#include "mesamis/mesh/edges.h"
+
+namespace mesamis {
+
+double metric_length(const Sym3& ma, const Sym3& mb, const Vec3& e) {
+  const double la = std::sqrt(quadratic_form(ma, e));
+  const double lb = std::sqrt(quadratic_form(mb, e));
+  // Close to equal, the quotient loses digits and the mean is as good.
+  if (std::abs(la - lb) <= 1e-3 * std::max(la, lb)) return 0.5 * (la + lb);
+  return (la - lb) / std::log(la / lb);
+}
+
+double metric_quality(const Sym3& m, const std::array<Vec3, 4>& p) {
+  const double volume = six_volume(p[0], p[1], p[2], p[3]) / 6;
+  const double det = determinant(m);
+  if (volume <= 0 || det <= 0) return 0;
+  double squares = 0;
+  for (const auto& [i, j] : kCellEdges) squares += quadratic_form(m, p[j] - p[i]);
+  const double unit_volumes = volume * std::sqrt(det) * 6 * std::sqrt(2.0);
+  return std::cbrt(unit_volumes * unit_volumes) / (squares / 6);
+}
+
+Sym3 log_euclidean_mean(std::span<const Sym3> metrics, std::span<const double> weights) {
+  Sym3 mean;
+  for (std::size_t i = 0; i < metrics.size(); ++i) mean += weights[i] * log_spd(metrics[i]);
+  return exp_sym(mean);
+}
+
+Sym3 clamp_sizes(const Sym3& m, double h_min, double h_max) {
+  SymEigen e = eigen_decompose(m);
+  for (double& value : e.values) {
+    value = std::clamp(value, 1 / (h_max * h_max), 1 / (h_min * h_min));
+  }
+  return compose(e.values, e.vectors);
+}
+
+double complexity(const TetMesh& mesh, std::span<const Sym3> node_metrics) {
+  if (node_metrics.size() != mesh.points.size()) {
+    throw InputError("complexity: " + std::to_string(node_metrics.size()) + " metrics for " +
+                     std::to_string(mesh.points.size()) + " nodes");
+  }
+  return parallel_sum(mesh.cells.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t c = begin; c < end; ++c) {
+      double roots = 0;
+      for (const Index n : mesh.cells[c]) roots += std::sqrt(determinant(node_metrics[n]));
+      sum += cell_volume(mesh, static_cast<Index>(c)) * roots / 4;
+    }
+    return sum;
+  });
+}
+
+MeshFit measure_fit(const TetMesh& mesh, std::span<const Sym3> node_metrics) {
+  if (node_metrics.size() != mesh.points.size()) {
+    throw InputError("mesh fit: " + std::to_string(node_metrics.size()) + " metrics for " +
+                     std::to_string(mesh.points.size()) + " nodes");
+  }
+  MeshFit fit;
+  const std::vector<Edge> edges = unique_edges(mesh);
+  fit.edges = static_cast<std::int64_t>(edges.size());
+  fit.length_min = edges.empty() ? 0 : 1e300;
+  std::int64_t unit = 0;
+  for (const auto& [a, b] : edges) {
+    const double length =
+        metric_length(node_metrics[a], node_metrics[b], mesh.points[b] - mesh.points[a]);
+    unit += length >= std::sqrt(0.5) && length <= std::sqrt(2.0);
+    fit.length_min = std::min(fit.length_min, length);
+    fit.length_max = std::max(fit.length_max, length);
+  }
+  fit.unit_edge_fraction =
+      edges.empty() ? 0 : static_cast<double>(unit) / static_cast<double>(edges.size());
+  fit.quality_min = mesh.cells.empty() ? 0 : 1e300;
+  for (const Cell& cell : mesh.cells) {
+    Index finest = cell[0];
+    for (const Index n : cell) {
+      if (determinant(node_metrics[n]) > determinant(node_metrics[finest])) finest = n;
+    }
+    const double quality = metric_quality(
+        node_metrics[finest],
+        {mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]], mesh.points[cell[3]]});
+    fit.quality_min = std::min(fit.quality_min, quality);
+    fit.quality_mean += quality / static_cast<double>(mesh.cells.size());
+  }
+  return fit;
+}
+
+}  // namespace mesamis

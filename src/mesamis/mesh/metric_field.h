@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "mesamis/base/types.h"
+#include "mesamis/mesh/tet_mesh.h"
+
+namespace mesamis {
+
+/// A metric at every point of the box, for the remesher to ask. Implementations are
+/// immutable: any number of threads may ask at once.
+class MetricField {
+ public:
+  virtual ~MetricField() = default;
+
+  /// The metric at p (mm), in 1/mm^2; p outside the box counts as its nearest point inside.
+  /// @param hint  where the last look-up ended; start with 0, pass the same variable again for
+  ///              nearby points. It speeds the search up and never changes the answer beyond
+  ///              round-off: callers that need equal bits must pass equal hints.
+  virtual Sym3 at(const Vec3& p, Index& hint) const = 0;
+};
+
+/// Metrics at the nodes of a regular grid, interpolated log-Euclidean and trilinear.
+class GridMetricField : public MetricField {
+ public:
+  /// @param box          the grid's box, mm.
+  /// @param size         nodes per direction, each at least 2.
+  /// @param log_metrics  logarithms of the nodal metrics, xx xy xz yy yz zz, x fastest.
+  /// @throws InputError  if sizes differ or an entry is not finite; the node is named.
+  GridMetricField(const Box& box, const std::array<Index, 3>& size,
+                  std::vector<std::array<float, 6>> log_metrics);
+  Sym3 at(const Vec3& p, Index& hint) const override;
+
+ private:
+  Box box_;
+  std::array<Index, 3> size_;
+  std::vector<std::array<float, 6>> log_metrics_;
+};
+
+/// Metrics at the nodes of a mesh, interpolated log-Euclidean and linear on its cells.
+class MeshMetricField : public MetricField {
+ public:
+  /// @param mesh          the background mesh, copied; fills its bounding box.
+  /// @param node_metrics  one symmetric positive definite matrix per node.
+  /// @throws InputError   if the sizes differ, or a metric is not finite or not positive
+  ///                      definite; the message names the node.
+  MeshMetricField(TetMesh mesh, std::span<const Sym3> node_metrics);
+  Sym3 at(const Vec3& p, Index& hint) const override;
+
+ private:
+  TetMesh mesh_;
+  Box box_;
+  std::vector<std::array<Index, 4>> neighbors_;
+  std::vector<Sym3> log_metrics_;
+};
+
+/// Another field with all sizes multiplied by a factor; refers to the field, which must live on.
+class ScaledMetricField : public MetricField {
+ public:
+  ScaledMetricField(const MetricField& field, double size_factor)
+      : field_(field), factor_(1 / (size_factor * size_factor)) {}
+  Sym3 at(const Vec3& p, Index& hint) const override { return factor_ * field_.at(p, hint); }
+
+ private:
+  const MetricField& field_;
+  double factor_;
+};
+
+/// The field at each point, in parallel.
+std::vector<Sym3> sample(const MetricField& field, std::span<const Vec3> points);
+
+}  // namespace mesamis

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include "mesamis/base/types.h"
+
+namespace mesamis {
+
+/// Six times the volume of (a, b, c, d) if it is positive beyond doubt, else 0.
+///
+/// The determinant must exceed a bound on its own rounding error, so that a positive answer is
+/// exact although no exact arithmetic is used. Source: Shewchuk, Adaptive precision
+/// floating-point arithmetic and fast robust geometric predicates, 1997, static filter orient3d.
+inline double certified_six_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  constexpr double kErrorFactor = 8e-16;  // (7 + 56 eps) eps, rounded up
+  const Vec3 p = b - a, q = c - a, r = d - a;
+  const double qyrz = q.y * r.z, qzry = q.z * r.y;
+  const double qxrz = q.x * r.z, qzrx = q.z * r.x;
+  const double qxry = q.x * r.y, qyrx = q.y * r.x;
+  const double det = p.x * (qyrz - qzry) - p.y * (qxrz - qzrx) + p.z * (qxry - qyrx);
+  const double permanent = std::abs(p.x) * (std::abs(qyrz) + std::abs(qzry)) +
+                           std::abs(p.y) * (std::abs(qxrz) + std::abs(qzrx)) +
+                           std::abs(p.z) * (std::abs(qxry) + std::abs(qyrx));
+  return det > kErrorFactor * permanent ? det : 0;
+}
+
+inline bool certified_positive(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return certified_six_volume(a, b, c, d) > 0;
+}
+
+}  // namespace mesamis
