@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/fem/transfer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesamis/base/parallel.h"
+#include "mesamis/fem/cell_quadrature.h"
+#include "mesamis/mesh/locate.h"
+
+namespace mesamis {
+namespace {
+
+/// Weights of the voxels along one axis for each node: the hat function of the node's
+/// neighbourhood sampled at the voxels, normalised.
+struct AxisFilter {
+  struct Tap {
+    Index first;
+    std::vector<double> weights;
+  };
+  std::vector<Tap> taps;
+};
+
+AxisFilter hat_filter(Index voxels, Index nodes) {
+  AxisFilter filter;
+  const double step = static_cast<double>(voxels - 1) / (nodes - 1);  // voxels per node
+  for (Index n = 0; n < nodes; ++n) {
+    const double center = n * step;
+    const auto first = std::max<Index>(0, static_cast<Index>(std::floor(center - step)) + 1);
+    const auto last = std::min<Index>(voxels - 1, static_cast<Index>(std::ceil(center + step)) - 1);
+    AxisFilter::Tap tap{first, {}};
+    double sum = 0;
+    for (Index i = first; i <= last; ++i) {
+      tap.weights.push_back(1 - std::abs(i - center) / step);
+      sum += tap.weights.back();
+    }
+    for (double& weight : tap.weights) weight /= sum;
+    filter.taps.push_back(std::move(tap));
+  }
+  return filter;
+}
+
+/// Kuhn interpolation of nodal values: from the lowest corner along the axes, the largest
+/// fraction first.
+double interpolate_on_grid(const KuhnGrid& grid, std::span<const double> values, const Vec3& p) {
+  const auto stride = grid.stride();
+  std::array<double, 3> t{};
+  std::array<int, 3> order{0, 1, 2};
+  std::size_t node = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double x = p[axis] / grid.spacing[axis];
+    const double cell = std::clamp(std::floor(x), 0.0, static_cast<double>(grid.size[axis] - 2));
+    t[axis] = std::clamp(x - cell, 0.0, 1.0);
+    node += static_cast<std::size_t>(cell) * stride[axis];
+  }
+  std::sort(order.begin(), order.end(), [&t](int a, int b) { return t[a] > t[b]; });
+  double value = values[node];
+  for (const int axis : order) {
+    const std::size_t next = node + stride[axis];
+    value += t[axis] * (values[next] - values[node]);
+    node = next;
+  }
+  return value;
+}
+
+}  // namespace
+
+std::vector<double> project_image(const Volume& image, const MeshSpace& space, double point_scale,
+                                  const SolveOptions& options, SolveReport* report) {
+  const TetMesh& mesh = space.mesh();
+  std::vector<std::array<double, 4>> loads(mesh.cells.size());
+  parallel_blocks(mesh.cells.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      std::array<Vec3, 4> p;
+      for (std::size_t i = 0; i < 4; ++i) p[i] = point_scale * mesh.points[mesh.cells[c][i]];
+      const std::array<double, 4> fit = fit_image_on_cell(image, p);
+      const double sum = fit[0] + fit[1] + fit[2] + fit[3];
+      const double weight = cell_volume(mesh, static_cast<Index>(c)) / 20;
+      for (std::size_t i = 0; i < 4; ++i) loads[c][i] = weight * (fit[i] + sum);
+    }
+  });
+  std::vector<double> load(mesh.points.size(), 0);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    for (std::size_t i = 0; i < 4; ++i) load[mesh.cells[c][i]] += loads[c][i];
+  }
+  std::vector<double> f(load);
+  for (std::size_t n = 0; n < f.size(); ++n) f[n] /= space.lumped_mass()[n];
+  const SolveReport solved = solve(space.consistent_mass(), load, f, options);
+  if (report) *report = solved;
+  return f;
+}
+
+std::vector<double> project_image(const Volume& image, const KuhnGrid& grid) {
+  const AxisFilter x = hat_filter(image.size[0], grid.size[0]);
+  const AxisFilter y = hat_filter(image.size[1], grid.size[1]);
+  const AxisFilter z = hat_filter(image.size[2], grid.size[2]);
+  std::vector<double> f(grid.node_count());
+  const auto stride = grid.stride();
+  parallel_for_each(static_cast<std::size_t>(grid.size[2]), [&](std::size_t k) {
+    for (std::size_t j = 0; j < y.taps.size(); ++j) {
+      for (std::size_t i = 0; i < x.taps.size(); ++i) {
+        double sum = 0;
+        for (std::size_t c = 0; c < z.taps[k].weights.size(); ++c) {
+          for (std::size_t b = 0; b < y.taps[j].weights.size(); ++b) {
+            const double row_weight = z.taps[k].weights[c] * y.taps[j].weights[b];
+            const std::size_t row =
+                image.offset(x.taps[i].first, y.taps[j].first + static_cast<Index>(b),
+                             z.taps[k].first + static_cast<Index>(c));
+            for (std::size_t a = 0; a < x.taps[i].weights.size(); ++a) {
+              sum += row_weight * x.taps[i].weights[a] * image.samples[row + a];
+            }
+          }
+        }
+        f[k * stride[2] + j * stride[1] + i] = sum;
+      }
+    }
+  });
+  return f;
+}
+
+std::vector<std::vector<double>> interpolate_fields(const TetMesh& from,
+                                                    std::span<const std::span<const double>> fields,
+                                                    std::span<const Vec3> points) {
+  const auto neighbors = cell_neighbors(from);
+  std::vector<std::vector<double>> result(fields.size(), std::vector<double>(points.size()));
+  parallel_blocks(points.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    Index cell = 0;
+    for (std::size_t n = begin; n < end; ++n) {
+      const Location where = locate(from, neighbors, points[n], cell);
+      cell = where.cell;
+      for (std::size_t f = 0; f < fields.size(); ++f) {
+        double value = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+          value += where.weights[i] * fields[f][from.cells[cell][i]];
+        }
+        result[f][n] = value;
+      }
+    }
+  });
+  return result;
+}
+
+std::vector<std::vector<double>> interpolate_fields(const KuhnGrid& from,
+                                                    std::span<const std::span<const double>> fields,
+                                                    std::span<const Vec3> points) {
+  std::vector<std::vector<double>> result(fields.size(), std::vector<double>(points.size()));
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    parallel_for(points.size(), [&](std::size_t n) {
+      result[f][n] = interpolate_on_grid(from, fields[f], points[n]);
+    });
+  }
+  return result;
+}
+
+}  // namespace mesamis
