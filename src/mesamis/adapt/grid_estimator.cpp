@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/adapt/grid_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "mesamis/adapt/metric_from_estimate.h"
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/mesh/kuhn.h"
+
+namespace mesamis {
+namespace {
+
+constexpr std::size_t kPaths = 6;
+
+/// A cell seen from a brick: the brick's offset and which of its six paths.
+struct RelativeCell {
+  std::array<Index, 3> brick;
+  std::size_t path;
+};
+
+/// What all cells of one Kuhn path have in common.
+struct PathGeometry {
+  CellShape shape;
+  std::array<double, 4> face_area;
+  std::array<Vec3, 4> normal;
+  std::array<RelativeCell, 4> neighbor;
+  std::vector<RelativeCell> patch;  // Delta_K, the cell itself included
+};
+
+RelativeCell relative_to_center(Index cell) {
+  const Index brick = cell / static_cast<Index>(kPaths);
+  return {{brick % 3 - 1, brick / 3 % 3 - 1, brick / 9 - 1},
+          static_cast<std::size_t>(cell) % kPaths};
+}
+
+bool share_a_point(const Cell& a, const Cell& b) {
+  return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
+}
+
+/// Read off a box of 3x3x3 bricks: its middle brick sees every kind of neighbour.
+std::array<PathGeometry, kPaths> path_geometries(const Vec3& h) {
+  const TetMesh mesh = box_mesh({{0, 0, 0}, 3.0 * h}, {3, 3, 3});
+  const auto neighbors = cell_neighbors(mesh);
+  std::array<PathGeometry, kPaths> result;
+  for (std::size_t path = 0; path < kPaths; ++path) {
+    const std::size_t c = 13 * kPaths + path;
+    PathGeometry& g = result[path];
+    std::array<Vec3, 4> p;
+    for (std::size_t i = 0; i < 4; ++i) p[i] = mesh.points[mesh.cells[c][i]];
+    g.shape = cell_shape(p);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& [a, b, d] = kCellFaces[i];
+      const Vec3 doubled = cross(p[b] - p[a], p[d] - p[a]);
+      g.face_area[i] = norm(doubled) / 2;
+      g.normal[i] = (1 / norm(doubled)) * doubled;
+      g.neighbor[i] = relative_to_center(neighbors[c][i]);
+    }
+    for (std::size_t t = 0; t < mesh.cells.size(); ++t) {
+      if (share_a_point(mesh.cells[c], mesh.cells[t])) {
+        g.patch.push_back(relative_to_center(static_cast<Index>(t)));
+      }
+    }
+  }
+  return result;
+}
+
+/// grad u, its outer product, grad v, its outer product: what patches add up.
+using CellSums = std::array<double, 18>;
+
+CellSums sums_of(const Vec3& u, const Vec3& v) {
+  const Sym3 uu = outer(u), vv = outer(v);
+  return {u.x, u.y, u.z, uu.xx, uu.xy, uu.xz, uu.yy, uu.yz, uu.zz,
+          v.x, v.y, v.z, vv.xx, vv.xy, vv.xz, vv.yy, vv.yz, vv.zz};
+}
+Vec3 u_gradient(const CellSums& s) { return {s[0], s[1], s[2]}; }
+Vec3 v_gradient(const CellSums& s) { return {s[9], s[10], s[11]}; }
+
+PatchSums patch_of(const double* s, double count, double cell_volume) {
+  return {count * cell_volume, cell_volume * Vec3{s[0], s[1], s[2]},
+          cell_volume * Sym3{s[3], s[4], s[5], s[6], s[7], s[8]}};
+}
+
+struct Totals {
+  ResidualTerms residuals;
+  double zeta_a = 0, zeta_b = 0, predicted = 0;
+};
+
+class GridEstimator {
+ public:
+  GridEstimator(const KuhnGrid& grid, const AtParameters& parameters, std::span<const double> u,
+                std::span<const double> v, std::span<const double> f,
+                const CellMetricOptions& metric)
+      : grid_(grid),
+        parameters_(parameters),
+        u_(u),
+        v_(v),
+        f_(f),
+        metric_(metric),
+        bricks_{grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1},
+        cell_volume_(grid.spacing.x * grid.spacing.y * grid.spacing.z / 6),
+        paths_(path_geometries(grid.spacing)) {
+    for (std::size_t path = 0; path < kPaths; ++path) {
+      for (const RelativeCell& cell : paths_[path].patch) {
+        const auto row = static_cast<std::ptrdiff_t>(bricks_[0]) * cell.brick[1] + cell.brick[0];
+        steps_[path].push_back(
+            {static_cast<std::size_t>(cell.brick[2] + 1),
+             row * static_cast<std::ptrdiff_t>(kPaths) + static_cast<std::ptrdiff_t>(cell.path)});
+      }
+    }
+  }
+
+  /// Adds |K| M_K of the layers [begin, end) to their nodes.
+  Totals run_layers(Index begin, Index end, std::vector<PackedSym3>& metrics) const {
+    Ring ring;
+    Totals totals;
+    fill_layer(begin - 1, ring);
+    fill_layer(begin, ring);
+    for (Index k = begin; k < end; ++k) {
+      fill_layer(k + 1, ring);
+      for (Index j = 0; j < bricks_[1]; ++j) {
+        for (Index i = 0; i < bricks_[0]; ++i) {
+          for (std::size_t path = 0; path < kPaths; ++path) {
+            add_cell({i, j, k}, path, ring, metrics, totals);
+          }
+        }
+      }
+    }
+    return totals;
+  }
+
+ private:
+  /// Three consecutive layers of cells; layer k is kept at k modulo 3.
+  using Ring = std::array<std::vector<CellSums>, 3>;
+
+  static std::size_t slot(Index k) { return static_cast<std::size_t>((k + 3) % 3); }
+
+  std::size_t place(Index i, Index j, std::size_t path) const {
+    return (static_cast<std::size_t>(j) * static_cast<std::size_t>(bricks_[0]) +
+            static_cast<std::size_t>(i)) *
+               kPaths +
+           path;
+  }
+
+  bool is_inside(const std::array<Index, 3>& brick) const {
+    return brick[0] >= 0 && brick[0] < bricks_[0] && brick[1] >= 0 && brick[1] < bricks_[1] &&
+           brick[2] >= 0 && brick[2] < bricks_[2];
+  }
+
+  std::array<std::size_t, 4> nodes_of(const std::array<Index, 3>& brick, std::size_t path) const {
+    const auto stride = grid_.stride();
+    std::array<std::size_t, 4> n{};
+    n[0] = static_cast<std::size_t>(brick[0]) + static_cast<std::size_t>(brick[1]) * stride[1] +
+           static_cast<std::size_t>(brick[2]) * stride[2];
+    for (std::size_t s = 0; s < 3; ++s) n[s + 1] = n[s] + stride[kKuhnPaths[path][s]];
+    return n;
+  }
+
+  /// Differences along the path's three axis-parallel edges.
+  Vec3 gradient(std::span<const double> z, const std::array<std::size_t, 4>& nodes,
+                std::size_t path) const {
+    Vec3 g;
+    for (std::size_t s = 0; s < 3; ++s) {
+      const int axis = kKuhnPaths[path][s];
+      g[axis] = (z[nodes[s + 1]] - z[nodes[s]]) / grid_.spacing[axis];
+    }
+    return g;
+  }
+
+  void fill_layer(Index k, Ring& ring) const {
+    if (k < 0 || k >= bricks_[2]) return;
+    std::vector<CellSums>& layer = ring[slot(k)];
+    layer.resize(place(0, bricks_[1], 0));
+    for (Index j = 0; j < bricks_[1]; ++j) {
+      for (Index i = 0; i < bricks_[0]; ++i) {
+        for (std::size_t path = 0; path < kPaths; ++path) {
+          const auto nodes = nodes_of({i, j, k}, path);
+          layer[place(i, j, path)] = sums_of(gradient(u_, nodes, path), gradient(v_, nodes, path));
+        }
+      }
+    }
+  }
+
+  const CellSums* find(const std::array<Index, 3>& brick, const RelativeCell& cell,
+                       const Ring& ring) const {
+    const std::array<Index, 3> at{brick[0] + cell.brick[0], brick[1] + cell.brick[1],
+                                  brick[2] + cell.brick[2]};
+    if (!is_inside(at)) return nullptr;
+    return &ring[slot(at[2])][place(at[0], at[1], cell.path)];
+  }
+
+  CellData data_of(const std::array<Index, 3>& brick, std::size_t path, const Ring& ring) const {
+    const PathGeometry& g = paths_[path];
+    const CellSums& own = ring[slot(brick[2])][place(brick[0], brick[1], path)];
+    std::array<std::size_t, 4> nodes = nodes_of(brick, path);
+    CellData data;
+    data.volume = cell_volume_;
+    data.shape = g.shape;
+    data.grad_u = u_gradient(own);
+    data.grad_v = v_gradient(own);
+    data.grad_f = gradient(f_, nodes, path);
+    if (kuhn_path_is_odd(kKuhnPaths[path])) std::swap(nodes[2], nodes[3]);
+    data.face_area = g.face_area;
+    for (std::size_t i = 0; i < 4; ++i) {
+      data.u[i] = u_[nodes[i]];
+      data.v[i] = v_[nodes[i]];
+      data.f[i] = f_[nodes[i]];
+      const CellSums* beyond = find(brick, g.neighbor[i], ring);
+      const Vec3 jump_u = beyond ? data.grad_u - u_gradient(*beyond) : 2.0 * data.grad_u;
+      const Vec3 jump_v = beyond ? data.grad_v - v_gradient(*beyond) : 2.0 * data.grad_v;
+      data.jump_u[i] = std::abs(dot(jump_u, g.normal[i]));
+      data.jump_v[i] = std::abs(dot(jump_v, g.normal[i]));
+    }
+    return data;
+  }
+
+  bool is_surrounded(const std::array<Index, 3>& brick) const {
+    for (int a = 0; a < 3; ++a) {
+      if (brick[a] < 1 || brick[a] + 1 >= bricks_[a]) return false;
+    }
+    return true;
+  }
+
+  /// Adds up the patch of a cell; returns how many cells it has.
+  double sum_patch(const std::array<Index, 3>& brick, std::size_t path, const Ring& ring,
+                   CellSums& sums) const {
+    const std::vector<RelativeCell>& patch = paths_[path].patch;
+    if (!is_surrounded(brick)) {
+      double count = 0;
+      for (const RelativeCell& cell : patch) {
+        const CellSums* found = find(brick, cell, ring);
+        if (!found) continue;
+        for (std::size_t s = 0; s < sums.size(); ++s) sums[s] += (*found)[s];
+        ++count;
+      }
+      return count;
+    }
+    // Nearly all cells: no bounds to check, and fixed steps through three layers.
+    std::array<const CellSums*, 3> own;
+    for (Index dz = -1; dz <= 1; ++dz) {
+      own[static_cast<std::size_t>(dz + 1)] =
+          ring[slot(brick[2] + dz)].data() + place(brick[0], brick[1], 0);
+    }
+    for (std::size_t c = 0; c < patch.size(); ++c) {
+      const auto& [layer, step] = steps_[path][c];
+      const CellSums& cell = own[layer][step];
+      for (std::size_t s = 0; s < sums.size(); ++s) sums[s] += cell[s];
+    }
+    return static_cast<double>(patch.size());
+  }
+
+  void add_cell(const std::array<Index, 3>& brick, std::size_t path, const Ring& ring,
+                std::vector<PackedSym3>& metrics, Totals& totals) const {
+    CellSums sums{};
+    const double count = sum_patch(brick, path, ring, sums);
+    const CellEstimate e =
+        estimate_cell(data_of(brick, path, ring), parameters_,
+                      recovered_error(patch_of(sums.data(), count, cell_volume_)),
+                      recovered_error(patch_of(sums.data() + 9, count, cell_volume_)));
+    const Sym3 m = cell_metric(e.gamma, metric_);
+    for (std::size_t t = 0; t < 5; ++t) totals.residuals.a[t] += e.residuals.a[t];
+    for (std::size_t t = 0; t < 3; ++t) totals.residuals.b[t] += e.residuals.b[t];
+    totals.zeta_a += e.zeta_a;
+    totals.zeta_b += e.zeta_b;
+    totals.predicted += cell_volume_ * std::sqrt(std::max(determinant(m), 0.0)) / kReferenceVolume;
+    const Sym3 share = cell_volume_ * m;
+    const PackedSym3 packed = pack(share);
+    for (const std::size_t n : nodes_of(brick, path)) {
+      for (std::size_t c = 0; c < 6; ++c) metrics[n][c] += packed[c];
+    }
+  }
+
+  const KuhnGrid& grid_;
+  const AtParameters& parameters_;
+  std::span<const double> u_, v_, f_;
+  CellMetricOptions metric_;
+  std::array<Index, 3> bricks_;
+  double cell_volume_;
+  std::array<PathGeometry, kPaths> paths_;
+  /// Each patch as steps from the own brick in the layer below, beside or above.
+  struct Step {
+    std::size_t layer;
+    std::ptrdiff_t step;
+  };
+  std::array<std::vector<Step>, kPaths> steps_;
+};
+
+void add(const Totals& totals, GridEstimate& result) {
+  for (std::size_t t = 0; t < 5; ++t) result.residual_sums.a[t] += totals.residuals.a[t];
+  for (std::size_t t = 0; t < 3; ++t) result.residual_sums.b[t] += totals.residuals.b[t];
+  result.zeta_a += totals.zeta_a;
+  result.zeta_b += totals.zeta_b;
+  result.predicted_cells += totals.predicted;
+}
+
+void require_sizes(const KuhnGrid& grid, std::span<const double> u, std::span<const double> v,
+                   std::span<const double> f) {
+  for (const auto& field : {u, v, f}) {
+    if (field.size() != grid.node_count()) {
+      throw InputError("grid estimate: " + std::to_string(field.size()) + " values for " +
+                       std::to_string(grid.node_count()) + " nodes");
+    }
+  }
+}
+
+}  // namespace
+
+GridEstimate estimate_on_grid(const KuhnGrid& grid, const AtParameters& parameters,
+                              std::span<const double> u, std::span<const double> v,
+                              std::span<const double> f, CellMetricOptions metric) {
+  require_sizes(grid, u, v, f);
+  metric.cell_count = grid.cell_count();
+  GridEstimate result;
+  result.node_metrics.assign(grid.node_count(), PackedSym3{});
+  const GridEstimator estimator(grid, parameters, u, v, f, metric);
+  // Slabs of one parity touch disjoint nodes: even ones run concurrently, then odd ones, so that
+  // every node has one order of summation.
+  constexpr Index kSlab = 8;
+  const Index layers = grid.size[2] - 1;
+  const Index slabs = (layers + kSlab - 1) / kSlab;
+  std::vector<Totals> totals(static_cast<std::size_t>(slabs));
+  for (Index parity = 0; parity < 2; ++parity) {
+    const auto count = static_cast<std::size_t>((slabs + 1 - parity) / 2);
+    parallel_for_each(count, [&](std::size_t s) {
+      const Index slab = 2 * static_cast<Index>(s) + parity;
+      totals[static_cast<std::size_t>(slab)] = estimator.run_layers(
+          slab * kSlab, std::min(layers, (slab + 1) * kSlab), result.node_metrics);
+    });
+  }
+  for (const Totals& t : totals) add(t, result);
+  const GridSpace space(grid);
+  parallel_for(result.node_metrics.size(), [&](std::size_t n) {
+    // The cells around a node have four times its lumped mass.
+    const auto factor = static_cast<float>(3.0 / 8 / (4 * space.lumped_mass()[n]));
+    for (float& entry : result.node_metrics[n]) entry *= factor;
+  });
+  return result;
+}
+
+void smooth_log_metrics(const KuhnGrid& grid, std::vector<PackedSym3>& logs, int sweeps) {
+  const auto stride = grid.stride();
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    const std::vector<PackedSym3> before = logs;
+    parallel_for(logs.size(), [&](std::size_t n) {
+      PackedSym3 sum{};
+      float weights = 0;
+      auto add = [&](std::size_t m, float weight) {
+        for (std::size_t c = 0; c < 6; ++c) sum[c] += weight * before[m][c];
+        weights += weight;
+      };
+      add(n, 2);
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t at = n / stride[axis] % static_cast<std::size_t>(grid.size[axis]);
+        if (at > 0) add(n - stride[axis], 1);
+        if (at + 1 < static_cast<std::size_t>(grid.size[axis])) add(n + stride[axis], 1);
+      }
+      for (std::size_t c = 0; c < 6; ++c) logs[n][c] = sum[c] / weights;
+    });
+  }
+}
+
+}  // namespace mesamis

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/adapt/size_control.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "mesamis/base/error.h"
+
+namespace mesamis {
+namespace {
+
+std::vector<Sym3> random_metrics(std::size_t count) {
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> uniform(-3, 3);
+  std::vector<Sym3> metrics(count);
+  for (Sym3& m : metrics) {
+    m = exp_sym({uniform(generator), uniform(generator), uniform(generator), uniform(generator),
+                 uniform(generator), uniform(generator)});
+  }
+  return metrics;
+}
+
+double complexity_of(const std::vector<Sym3>& metrics, const std::vector<double>& weights) {
+  double sum = 0;
+  for (std::size_t n = 0; n < metrics.size(); ++n) {
+    sum += weights[n] * std::sqrt(determinant(metrics[n]));
+  }
+  return sum;
+}
+
+TEST(SizeControl, MeetsTheBoundAfterClamping) {
+  auto metrics = random_metrics(500);
+  const std::vector<double> weights(500, 0.1);
+  const double bound = complexity_of(metrics, weights) / 10;
+  const double factor = control_sizes(metrics, weights, {0.05, 3, bound});
+  EXPECT_GT(factor, 1);
+  EXPECT_NEAR(complexity_of(metrics, weights) / bound, 1, 1e-5);
+  for (const Sym3& m : metrics) {
+    const SymEigen e = eigen_decompose(m);
+    EXPECT_LE(e.values[0], 1 / (0.05 * 0.05) * (1 + 1e-9));
+    EXPECT_GE(e.values[2], 1 / 9.0 * (1 - 1e-9));
+  }
+}
+
+TEST(SizeControl, ScalesAloneAsTwoThirdsPowerWithoutClamps) {
+  // Equation (12): without clamps M scales by (bound / complexity)^(2/3).
+  auto metrics = random_metrics(50);
+  const auto before = metrics;
+  const std::vector<double> weights(50, 0.3);
+  const double factor =
+      control_sizes(metrics, weights, {1e-9, 1e9, complexity_of(metrics, weights) / 27});
+  EXPECT_NEAR(factor, 3, 1e-6);
+  EXPECT_NEAR(metrics[7].xy, before[7].xy / 9, 1e-5 * std::abs(before[7].xx));
+}
+
+TEST(SizeControl, NeverRefines) {
+  auto metrics = random_metrics(50);
+  const auto before = metrics;
+  const std::vector<double> weights(50, 0.3);
+  EXPECT_EQ(control_sizes(metrics, weights, {1e-9, 1e9, 1e12}), 1);
+  for (std::size_t n = 0; n < 50; ++n)
+    EXPECT_NEAR(metrics[n].xx, before[n].xx, 1e-9 * trace(before[n]));
+}
+
+TEST(SizeControl, AZeroMetricGetsTheLargestSize) {
+  std::vector<Sym3> metrics(3);
+  const std::vector<double> weights(3, 1);
+  control_sizes(metrics, weights, {0.1, 4, 0});
+  for (const Sym3& m : metrics) EXPECT_EQ(m, (1.0 / 16) * kIdentity3);
+}
+
+TEST(SizeControl, LogarithmsAreThoseOfTheMetric) {
+  auto metrics = random_metrics(60);
+  std::vector<PackedSym3> packed;
+  for (const Sym3& m : metrics) packed.push_back(pack(m));
+  const std::vector<double> weights(60, 1);
+  const SizeControl control{0.2, 5, 20};
+  const double a = control_sizes(metrics, weights, control);
+  const double b = control_sizes_to_log(packed, weights, control);
+  EXPECT_NEAR(a, b, 1e-5);
+  for (std::size_t n = 0; n < 60; ++n) {
+    EXPECT_NEAR(trace(exp_sym(unpack(packed[n]))) / trace(metrics[n]), 1, 1e-4);
+  }
+}
+
+TEST(SizeControl, SetComplexityScalesAllSizesAlike) {
+  auto metrics = random_metrics(40);
+  const std::vector<double> weights(40, 0.2);
+  std::vector<PackedSym3> logs;
+  for (const Sym3& m : metrics) logs.push_back(pack(log_spd(m)));
+  const double before = complexity_of(metrics, weights);
+  set_complexity(logs, weights, 8 * before);
+  for (std::size_t n = 0; n < 40; ++n) {
+    const Sym3 scaled = exp_sym(unpack(logs[n]));
+    EXPECT_NEAR(trace(scaled) / trace(metrics[n]), 4, 1e-4);
+    metrics[n] = scaled;
+  }
+  EXPECT_NEAR(complexity_of(metrics, weights) / before, 8, 1e-3);
+}
+
+TEST(SizeControl, RefusesWeightsOfAnotherSize) {
+  std::vector<Sym3> metrics(3);
+  EXPECT_THROW(control_sizes(metrics, std::vector<double>(2, 1), {}), InputError);
+}
+
+}  // namespace
+}  // namespace mesamis
