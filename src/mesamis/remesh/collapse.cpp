@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/remesh/collapse.h"
+
+#include <algorithm>
+
+#include "mesamis/remesh/edge_candidates.h"
+#include "mesamis/remesh/geometry.h"
+
+namespace mesamis::remeshing {
+namespace {
+
+/// A vertex may leave for another only if that lies on all of its box planes.
+bool may_move(const Vertex& vertex, const Vertex& onto) {
+  return !(vertex.mask & kFrozen) && (vertex.mask & ~onto.mask & kPlanes) == 0;
+}
+
+double worst_quality3(const WorkingMesh& mesh, std::span<const Index> cells) {
+  double worst = 1;
+  for (const Index c : cells) worst = std::min(worst, double{mesh.cells[c].quality3});
+  return worst;
+}
+
+/// Proposes the vertex's cells with `onto` in its place; those that have both vanish.
+bool propose_moved(Workbench& bench, std::span<const Index> ball, std::array<Index, 2> move,
+                   double quality3_min) {
+  bench.cavity.clear();
+  for (const Index c : ball) {
+    Cell moved = bench.mesh.cells[c].points;
+    if (local_index(moved, move[1]) >= 0) continue;
+    moved[local_index(moved, move[0])] = move[1];
+    const double q = quality3(bench.mesh, moved);
+    if (q < quality3_min) return false;
+    bench.cavity.propose(moved, q);
+  }
+  return !bench.cavity.proposed().empty();
+}
+
+bool keeps_edges_short(Workbench& bench, Index onto, double length_max) {
+  const auto& vertices = bench.mesh.vertices;
+  bench.seen.clear();
+  bench.seen.insert(onto);
+  for (const auto& [points, q] : bench.cavity.proposed()) {
+    for (const Index p : points) {
+      if (bench.seen.insert(p) && length(vertices[onto], vertices[p]) > length_max) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseRule& rule) {
+  WorkingMesh& mesh = bench.mesh;
+  if (!may_move(mesh.vertices[vertex], mesh.vertices[onto])) return false;
+  const auto ball = bench.cavity.ball(vertex);
+  if (ball.empty()) return false;
+  const double loss_limit = rule.quality3_loss * worst_quality3(mesh, ball);
+  const double limit = std::min(rule.quality3_min, std::max(loss_limit, kTinyQuality3));
+  if (!propose_moved(bench, ball, {vertex, onto}, limit)) return false;
+  if (!keeps_edges_short(bench, onto, rule.new_length_max)) return false;
+  bench.cavity.replace(ball);
+  mesh.free_vertex(vertex);
+  return true;
+}
+
+std::int64_t collapse_short_edges(Workbench& bench, const CollapseRule& rule) {
+  const WorkingMesh& mesh = bench.mesh;
+  std::int64_t collapses = 0;
+  EdgeCandidate last{0, kNoIndex, kNoIndex, kNoIndex};
+  for (const EdgeCandidate& edge : short_edges(bench.mesh, rule.length_min)) {
+    if (edge.is_same_edge(last) || edge.is_gone(mesh)) continue;
+    last = edge;
+    collapses += collapse_vertex(bench, edge.a, edge.b, rule) ||
+                 collapse_vertex(bench, edge.b, edge.a, rule);
+  }
+  return collapses;
+}
+
+}  // namespace mesamis::remeshing

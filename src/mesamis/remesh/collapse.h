@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "mesamis/remesh/workbench.h"
+
+namespace mesamis::remeshing {
+
+struct CollapseRule {
+  double length_min = 0.70710678118654752;  ///< shorter edges are collapsed
+  double new_length_max = 1.6;              ///< no new edge is longer
+  double quality3_min = 0.008;              ///< new cells are at least this good,
+  double quality3_loss = 0.3;               ///< or lose no more than this factor
+};
+
+/// Collapses short edges of cells not yet looked at, shortest first, onto one of their ends.
+/// @return the number of collapses.
+std::int64_t collapse_short_edges(Workbench& bench, const CollapseRule& rule);
+
+/// Moves a vertex onto a neighbour, which takes its place, if the rule allows.
+bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseRule& rule);
+
+}  // namespace mesamis::remeshing

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace mesamis::remeshing {
+
+/// How many operations were done.
+struct Counters {
+  std::int64_t splits = 0, collapses = 0, swaps = 0, moves = 0;
+  Counters& operator+=(const Counters& other) {
+    splits += other.splits;
+    collapses += other.collapses;
+    swaps += other.swaps;
+    moves += other.moves;
+    return *this;
+  }
+};
+
+}  // namespace mesamis::remeshing

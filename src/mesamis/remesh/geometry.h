@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesamis/mesh/predicates.h"
+#include "mesamis/remesh/working_mesh.h"
+
+/// Lengths and qualities in the metric, as every operation measures them.
+namespace mesamis::remeshing {
+
+/// L^T v: the vector as the metric sees it.
+inline Vec3 in_metric(const MetricFactor& l, const Vec3& v) {
+  return {l.xx * v.x + l.yx * v.y + l.zx * v.z, l.yy * v.y + l.zy * v.z, l.zz * v.z};
+}
+
+/// L v: with in_metric(L, u) for v it is M u.
+inline Vec3 from_metric(const MetricFactor& l, const Vec3& v) {
+  return {l.xx * v.x, l.yx * v.x + l.yy * v.y, l.zx * v.x + l.zy * v.y + l.zz * v.z};
+}
+
+inline double squared_length(const MetricFactor& l, const Vec3& e) {
+  const Vec3 v = in_metric(l, e);
+  return dot(v, v);
+}
+
+/// Length of the edge between two vertices: the logarithmic mean of its lengths in both
+/// metrics, taken as (2 G + A) / 3 of their geometric and arithmetic means.
+inline double length(const Vertex& a, const Vertex& b) {
+  const Vec3 e = b.position - a.position;
+  const double la2 = squared_length(a.metric, e), lb2 = squared_length(b.metric, e);
+  const double arithmetic = 0.5 * (std::sqrt(la2) + std::sqrt(lb2));
+  return (2 * std::sqrt(std::sqrt(la2 * lb2)) + arithmetic) / 3;
+}
+
+/// Cube of the mean ratio in the metric of the finest vertex, 432 d^2 det M / S^3 with d six
+/// times the volume and S the sum of the squared edge lengths: no roots are needed. 1 for a
+/// regular cell; 0 for one that is not certified positive.
+inline double quality3(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) {
+  const double six_volume = certified_six_volume(a.position, b.position, c.position, d.position);
+  if (six_volume <= 0) return 0;
+  const Vertex* finest = &a;
+  for (const Vertex* other : {&b, &c, &d}) {
+    if (other->density > finest->density) finest = other;
+  }
+  const MetricFactor& l = finest->metric;
+  const Vec3 p = in_metric(l, b.position - a.position);
+  const Vec3 q = in_metric(l, c.position - a.position);
+  const Vec3 r = in_metric(l, d.position - a.position);
+  const Vec3 sum = p + q + r;
+  const double squares = 4 * (dot(p, p) + dot(q, q) + dot(r, r)) - dot(sum, sum);
+  const double metric_volume = six_volume * density(l);
+  return 432 * metric_volume * metric_volume / (squares * squares * squares);
+}
+
+inline double quality3(const WorkingMesh& mesh, const Cell& cell) {
+  return quality3(mesh.vertices[cell[0]], mesh.vertices[cell[1]], mesh.vertices[cell[2]],
+                  mesh.vertices[cell[3]]);
+}
+
+/// Sets the metric of a vertex at its position; the look-up starts from the hint.
+inline void measure(Vertex& vertex, const MetricSampler& sampler, Index hint) {
+  vertex.hint = hint;
+  vertex.metric = sampler.at(vertex.position, vertex.hint);
+  vertex.density = static_cast<float>(
+      std::min(density(vertex.metric), double{std::numeric_limits<float>::max()}));
+}
+
+/// Cells below this are not made by swaps and moves: their energy would drown all others.
+inline constexpr double kTinyQuality3 = 1e-30;
+
+/// What swaps and moves lower, summed over cells: 0 for a regular cell.
+inline double energy(double quality3) { return 1 / std::max(quality3, kTinyQuality3) - 1; }
+
+}  // namespace mesamis::remeshing

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/remesh/remesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "mesamis/base/error.h"
+#include "mesamis/remesh/collapse.h"
+#include "mesamis/remesh/explore.h"
+#include "mesamis/remesh/partition.h"
+#include "mesamis/remesh/repair.h"
+#include "mesamis/remesh/smooth.h"
+#include "mesamis/remesh/split.h"
+#include "mesamis/remesh/swap.h"
+#include "mesamis/remesh/workbench.h"
+
+namespace mesamis {
+namespace {
+
+using namespace remeshing;
+
+constexpr double kCellsPerComplexity = 9;
+
+/// Shares of the vertices that a round makes or removes.
+constexpr double kMany = 0.2, kFew = 0.02, kHardlyAny = 0.004;
+/// So many rounds accept new edges a little outside the goal.
+constexpr int kWideRounds = 10;
+
+struct Rules {
+  SplitRule split;
+  CollapseRule collapse;
+  SwapRule swap;
+  SmoothRule smooth;
+};
+
+/// Triggers and acceptance bands that meet would jam; so new edges may first be a little
+/// shorter and longer than the goal, and only later rounds insist on it.
+Rules make_rules(bool strict) {
+  Rules rules;
+  if (strict) {
+    rules.split.new_length_min = std::sqrt(0.5);
+    rules.collapse.new_length_max = std::sqrt(2.0);
+  }
+  return rules;
+}
+
+Counters adapt_once(Workbench& bench, const Rules& rules) {
+  Counters done;
+  done.splits = split_long_edges(bench, rules.split);
+  done.collapses = collapse_short_edges(bench, rules.collapse);
+  done.swaps = swap_bad_cells(bench, rules.swap);
+  done.swaps += swap_bad_cells(bench, rules.swap);
+  done.moves = smooth_bad_cells(bench, rules.smooth);
+  done.swaps += swap_bad_cells(bench, rules.swap);
+  return done;
+}
+
+Counters polish_once(Workbench& bench) {
+  constexpr SwapRule kSwap{.quality3_max = 0.512, .gain = 0.03};
+  constexpr SmoothRule kSmooth{.quality3_max = 1};
+  Counters done;
+  done.swaps = swap_bad_cells(bench, kSwap);
+  done.moves = smooth_bad_cells(bench, kSmooth);
+  done.swaps += swap_bad_cells(bench, kSwap);
+  return done;
+}
+
+class Remesher {
+ public:
+  Remesher(const TetMesh& start, const MetricField& metric, const RemeshOptions& options)
+      : options_(options),
+        sampler_(metric, bounding_box(start.points)),
+        mesh_(load(start, bounding_box(start.points))) {
+    compact(mesh_);
+    compact_count_ = mesh_.cell_count();
+    choose_size_factor();
+    measure_all(mesh_, sampler_);
+  }
+
+  void adapt() {
+    double last_change = 1;
+    for (int round = 0; round < options_.max_rounds && !report_.converged; ++round) {
+      tell_progress(0.8 * (1 - std::pow(0.85, round)));
+      Counters done = explore();
+      done += run_round(round);
+      count(done);
+      const double change = share_of_vertices(done);
+      const bool circling = change < kFew && change > 0.8 * last_change;
+      const bool resized = control_count(change);
+      report_.converged = strict_ && !resized && (change < kHardlyAny || circling);
+      // A start that fits already needs no freedom to get there.
+      strict_ |= round + 1 == kWideRounds || change < (round == 0 ? kMany : kHardlyAny);
+      last_change = change;
+    }
+  }
+
+  void polish() {
+    set_pending(mesh_, kToSwap | kToSmooth);
+    for (int round = 0; round < options_.polish_rounds; ++round) {
+      tell_progress(0.8 + 0.2 * round / options_.polish_rounds);
+      count(on_parts(options_.max_rounds + round, polish_once));
+    }
+    Workbench bench(mesh_, sampler_);
+    count(repair_worst_cells(bench, {}));
+  }
+
+  TetMesh result() {
+    compact(mesh_);
+    return unload(mesh_);
+  }
+  const RemeshReport& report() const { return report_; }
+
+ private:
+  /// The share of vertices that came or went.
+  double share_of_vertices(const Counters& done) const {
+    return static_cast<double>(done.splits + done.collapses) /
+           static_cast<double>(mesh_.vertex_count());
+  }
+
+  void tell_progress(double fraction) const {
+    if (options_.progress && !options_.progress("remesh", fraction)) throw Cancelled();
+  }
+
+  void count(const Counters& done) {
+    report_.splits += done.splits;
+    report_.collapses += done.collapses;
+    report_.swaps += done.swaps;
+    report_.moves += done.moves;
+  }
+
+  /// No more cells than this at any time, by splits.
+  std::int64_t most_cells() const {
+    if (options_.max_cells <= 0) return kMostCells / 2;
+    return std::min(kMostCells / 2, 2 * options_.max_cells + 1000);
+  }
+
+  /// Late rounds know all there is to find.
+  Counters explore() {
+    if (strict_) return {};
+    Workbench bench(mesh_, sampler_);
+    SplitRule rule;
+    rule.most_cells = most_cells();
+    return {.splits = split_unseen_detail(bench, rule)};
+  }
+
+  Counters run_round(int round) {
+    ++report_.rounds;
+    const double growth =
+        static_cast<double>(most_cells()) / static_cast<double>(mesh_.cell_count());
+    return on_parts(round, [&](Workbench& bench) {
+      Rules rules = make_rules(strict_);
+      rules.split.most_cells =
+          static_cast<std::int64_t>(growth * static_cast<double>(bench.mesh.cell_count()));
+      return adapt_once(bench, rules);
+    });
+  }
+
+  /// Small meshes are worked on as a whole.
+  Counters on_parts(int round, const std::function<Counters(Workbench&)>& work) {
+    const std::int64_t parts = mesh_.cell_count() / std::max(Index{1000}, options_.part_cells);
+    auto work_on_mesh = [&](WorkingMesh& mesh) {
+      Workbench bench(mesh, sampler_);
+      return work(bench);
+    };
+    if (parts >= 2) {
+      compact(mesh_);
+      return work_on_parts(mesh_, round, static_cast<Index>(parts), work_on_mesh);
+    }
+    const Counters done = work_on_mesh(mesh_);
+    keep_compact();
+    return done;
+  }
+
+  void keep_compact() {
+    const double ratio =
+        static_cast<double>(mesh_.cell_count()) / static_cast<double>(compact_count_);
+    if (ratio < 1.15 && ratio > 0.85) return;
+    compact(mesh_);
+    compact_count_ = mesh_.cell_count();
+  }
+
+  void choose_size_factor() {
+    const double predicted = kCellsPerComplexity * probe_complexity(sampler_, mesh_.box);
+    if (options_.max_cells > 0) {
+      const double ratio = predicted / static_cast<double>(options_.max_cells);
+      set_size_factor(std::max(1.0, std::cbrt(ratio)));
+    } else if (!(predicted < static_cast<double>(kMostCells / 2))) {
+      throw InputError("remesh: the metric asks for about " + std::to_string(predicted) +
+                       " cells, more than fit; expected max_cells to be set");
+    }
+  }
+
+  void set_size_factor(double factor) {
+    report_.size_factor = factor;
+    sampler_.set_size_factor(factor);
+  }
+
+  /// Steers the number of cells to max_cells, which acts as a factor on all sizes.
+  /// @return whether the factor had to change.
+  bool control_count(double change) {
+    if (options_.max_cells <= 0) return false;
+    const double ratio =
+        static_cast<double>(mesh_.cell_count()) / static_cast<double>(options_.max_cells);
+    const double tolerance = change < kFew ? 0.02 : change < kMany ? 0.08 : 0.3;
+    const bool above = ratio > 1 + tolerance;
+    const bool below = ratio < 1 - tolerance && change < kMany && report_.size_factor > 1;
+    if (!above && !below) return false;
+    resize(std::max(1.0, report_.size_factor * std::cbrt(ratio)));
+    return true;
+  }
+
+  void resize(double factor) {
+    const auto scale = static_cast<float>(report_.size_factor / factor);
+    for (Vertex& vertex : mesh_.vertices) {
+      MetricFactor& l = vertex.metric;
+      l = {scale * l.xx, scale * l.yx, scale * l.zx, scale * l.yy, scale * l.zy, scale * l.zz};
+      vertex.density *= scale * scale * scale;
+    }
+    set_size_factor(factor);
+    set_pending(mesh_, kToSplit | kToCollapse | kToExplore);
+  }
+
+  const RemeshOptions& options_;
+  MetricSampler sampler_;
+  WorkingMesh mesh_;
+  std::int64_t compact_count_ = 0;
+  bool strict_ = false;  ///< new edges must be within the goal
+  RemeshReport report_;
+};
+
+}  // namespace
+
+TetMesh remesh(const TetMesh& start, const MetricField& metric, const RemeshOptions& options,
+               RemeshReport* report) {
+  const std::string flaw = find_flaw(start, bounding_box(start.points));
+  if (!flaw.empty()) throw InputError("remesh: the start mesh is not valid: " + flaw);
+  Remesher remesher(start, metric, options);
+  remesher.adapt();
+  remesher.polish();
+  TetMesh result = remesher.result();
+  if (report != nullptr) *report = remesher.report();
+  return result;
+}
+
+}  // namespace mesamis

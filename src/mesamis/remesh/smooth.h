@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "mesamis/remesh/workbench.h"
+
+namespace mesamis::remeshing {
+
+struct SmoothRule {
+  double quality3_max = 0.729;  ///< vertices of better cells alone stay where they are
+  double energy_ratio = 0.995;  ///< a move must bring the energy below this share
+  double quality3_loss = 0.3;   ///< no cell may fall below this share of the worst before
+};
+
+/// Moves vertices of bad cells not yet looked at towards where their cells would be ideal.
+/// @return the number of moves.
+std::int64_t smooth_bad_cells(Workbench& bench, const SmoothRule& rule);
+
+/// Moves one vertex if that makes its cells better.
+bool smooth_vertex(Workbench& bench, Index vertex, const SmoothRule& rule);
+
+}  // namespace mesamis::remeshing

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/remesh/split.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesamis/remesh/edge_candidates.h"
+#include "mesamis/remesh/geometry.h"
+
+namespace mesamis::remeshing {
+namespace {
+
+/// Where the edge's middle lies in the metric, as a share of the edge; the size is taken to
+/// vary geometrically along it.
+double metric_middle(const Vertex& a, const Vertex& b) {
+  const Vec3 e = b.position - a.position;
+  const double la = std::sqrt(squared_length(a.metric, e));
+  const double lb = std::sqrt(squared_length(b.metric, e));
+  const double ratio = lb / la;
+  if (ratio > 0.95 && ratio < 1.05) return 0.5;
+  return std::clamp(std::log((1 + ratio) / 2) / std::log(ratio), 0.25, 0.75);
+}
+
+Vec3 middle_point(const WorkingMesh& mesh, const Vertex& a, const Vertex& b) {
+  Vec3 p = a.position + metric_middle(a, b) * (b.position - a.position);
+  const unsigned planes = a.mask & b.mask;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (planes >> (2 * axis) & 1) p[axis] = mesh.box.lo[axis];
+    if (planes >> (2 * axis) & 2) p[axis] = mesh.box.hi[axis];
+  }
+  return p;
+}
+
+Index make_middle(Workbench& bench, Index a, Index b) {
+  WorkingMesh& mesh = bench.mesh;
+  const Index v = mesh.new_vertex();
+  const Vertex &va = mesh.vertices[a], &vb = mesh.vertices[b];
+  Vertex& middle = mesh.vertices[v];
+  middle.position = middle_point(mesh, va, vb);
+  middle.mask = va.mask & vb.mask & kPlanes;
+  measure(middle, bench.sampler, va.hint);
+  return v;
+}
+
+bool keeps_distance(const Workbench& bench, std::array<Index, 2> edge, Index v, double distance) {
+  const auto& vertices = bench.mesh.vertices;
+  auto is_far = [&](Index other) { return length(vertices[other], vertices[v]) >= distance; };
+  const auto ring = bench.cavity.ring();
+  return is_far(edge[0]) && is_far(edge[1]) && std::all_of(ring.begin(), ring.end(), is_far);
+}
+
+/// Proposes both halves of every cell around the edge. @return whether they are good enough.
+bool propose_halves(Workbench& bench, std::array<Index, 2> edge, Index v, const SplitRule& rule,
+                    bool urgent) {
+  bench.cavity.clear();
+  double before = 1, after = 1;
+  for (const Index c : bench.cavity.shell()) {
+    before = std::min(before, double{bench.mesh.cells[c].quality3});
+    for (const Index end : edge) {
+      Cell half = bench.mesh.cells[c].points;
+      half[local_index(half, end)] = v;
+      const double q = quality3(bench.mesh, half);
+      if (q <= 0) return false;
+      after = std::min(after, q);
+      bench.cavity.propose(half, q);
+    }
+  }
+  return urgent || after >= rule.quality3_min || after >= rule.quality3_loss * before;
+}
+
+}  // namespace
+
+bool split_edge(Workbench& bench, Index cell, std::array<Index, 2> edge, const SplitRule& rule,
+                bool urgent) {
+  WorkingMesh& mesh = bench.mesh;
+  const auto [a, b] = edge;
+  if (mesh.vertices[a].mask & mesh.vertices[b].mask & kFrozen) return false;
+  if (!bench.cavity.find_shell(cell, a, b)) return false;
+  const Index v = make_middle(bench, a, b);
+  const bool placed = planes_of(mesh.box, mesh.vertices[v].position) == mesh.vertices[v].mask;
+  if (!placed || (!urgent && !keeps_distance(bench, edge, v, rule.new_length_min)) ||
+      !propose_halves(bench, edge, v, rule, urgent)) {
+    mesh.free_vertex(v);
+    return false;
+  }
+  bench.cavity.replace(bench.cavity.shell());
+  return true;
+}
+
+std::int64_t split_long_edges(Workbench& bench, const SplitRule& rule) {
+  std::int64_t splits = 0;
+  EdgeCandidate last{0, kNoIndex, kNoIndex, kNoIndex};
+  for (const EdgeCandidate& edge : long_edges(bench.mesh, rule.length_max)) {
+    if (edge.is_same_edge(last) || edge.is_gone(bench.mesh)) continue;
+    if (bench.mesh.cell_count() >= rule.most_cells) break;
+    last = edge;
+    splits +=
+        split_edge(bench, edge.cell, {edge.a, edge.b}, rule, edge.length > rule.urgent_length);
+  }
+  return splits;
+}
+
+}  // namespace mesamis::remeshing

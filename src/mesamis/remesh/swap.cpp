@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/remesh/swap.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "mesamis/remesh/geometry.h"
+
+namespace mesamis::remeshing {
+namespace {
+
+constexpr double kImpossible = std::numeric_limits<double>::infinity();
+
+double energy_of(const WorkingMesh& mesh, std::span<const Index> cells) {
+  double sum = 0;
+  for (const Index c : cells) sum += energy(mesh.cells[c].quality3);
+  return sum;
+}
+
+/// Removal of an edge: its ring is triangulated, and each triangle joined to both ends of the
+/// edge. The best triangulation is found by dynamic programming over the ring's arcs.
+/// Source: Klincsek, Minimal triangulations of polygonal domains, 1980.
+class EdgeRemoval {
+ public:
+  EdgeRemoval(const WorkingMesh& mesh, std::span<const Index> ring, std::array<Index, 2> edge)
+      : mesh_(mesh), ring_(ring), edge_(edge) {}
+
+  static constexpr std::size_t kMostRing = 12;
+
+  /// The least energy of the new cells, or kImpossible if none is below `limit`.
+  double solve(double limit) {
+    const std::size_t n = ring_.size();
+    for (std::size_t i = 0; i + 1 < n; ++i) best_[i][i + 1] = 0;
+    for (std::size_t width = 2; width < n; ++width) {
+      bool any = false;
+      for (std::size_t i = 0; i + width < n; ++i) any |= solve_arc(i, i + width, limit);
+      if (!any && width == 2) return kImpossible;  // every triangulation cuts off an ear
+    }
+    return best_[0][n - 1];
+  }
+
+  void propose(Cavity& cavity) const { propose_arc(cavity, 0, ring_.size() - 1); }
+
+ private:
+  Cell upper(std::size_t i, std::size_t k, std::size_t j) const {
+    return {ring_[i], ring_[k], ring_[j], edge_[1]};
+  }
+  Cell lower(std::size_t i, std::size_t k, std::size_t j) const {
+    return {ring_[k], ring_[i], ring_[j], edge_[0]};
+  }
+
+  bool solve_arc(std::size_t i, std::size_t j, double limit) {
+    double best = limit;
+    bool found = false;
+    for (std::size_t k = i + 1; k < j; ++k) {
+      double sum = best_[i][k] + best_[k][j];
+      if (!add_energy(upper(i, k, j), best, sum) || !add_energy(lower(i, k, j), best, sum))
+        continue;
+      best = sum;
+      apex_[i][j] = static_cast<std::uint8_t>(k);
+      found = true;
+    }
+    best_[i][j] = found ? best : kImpossible;
+    return found;
+  }
+
+  /// Adds a cell's energy to the sum; false once the sum is no better than the best.
+  bool add_energy(const Cell& cell, double best, double& sum) const {
+    if (sum >= best) return false;
+    const double q = quality3(mesh_, cell);
+    if (q <= kTinyQuality3) return false;
+    sum += energy(q);
+    return sum < best;
+  }
+
+  void propose_arc(Cavity& cavity, std::size_t i, std::size_t j) const {
+    if (j - i < 2) return;
+    const std::size_t k = apex_[i][j];
+    propose_arc(cavity, i, k);
+    propose_arc(cavity, k, j);
+    for (const Cell& cell : {upper(i, k, j), lower(i, k, j)}) {
+      cavity.propose(cell, quality3(mesh_, cell));
+    }
+  }
+
+  const WorkingMesh& mesh_;
+  std::span<const Index> ring_;
+  std::array<Index, 2> edge_;
+  std::array<std::array<double, kMostRing>, kMostRing> best_;
+  std::array<std::array<std::uint8_t, kMostRing>, kMostRing> apex_;
+};
+
+/// An edge on one box plane can go, the face edges of its ring's ends meet in that plane; an
+/// edge of the box cannot.
+bool may_remove(const Cavity& cavity, unsigned shared_planes) {
+  const std::size_t ring = cavity.ring().size();
+  if (ring < 3 || ring > EdgeRemoval::kMostRing) return false;
+  return cavity.shell_is_closed() || shared_planes != 0;
+}
+
+struct BestSwap {
+  double gain;
+  int edge = -1, face = -1;
+};
+
+bool is_tried(const WorkCell& cell, int bit) { return cell.tried >> bit & 1; }
+
+void set_tried(WorkCell& cell, int bit) {
+  cell.tried = static_cast<std::uint16_t>(cell.tried | 1 << bit);
+}
+
+int local_edge(const Cell& cell, const std::array<Index, 2>& edge) {
+  constexpr std::array<std::array<std::int8_t, 4>, 4> kEdge{
+      {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}}};
+  return kEdge[local_index(cell, edge[0])][local_index(cell, edge[1])];
+}
+
+/// The energy that removing the edge of the present shell saves, or 0 if no more than `gain`.
+double edge_removal_gain(const Workbench& bench, const std::array<Index, 2>& edge, double gain) {
+  const double before = energy_of(bench.mesh, bench.cavity.shell());
+  if (before <= gain) return 0;
+  const double after = EdgeRemoval(bench.mesh, bench.cavity.ring(), edge).solve(before - gain);
+  return after == kImpossible ? 0 : before - after;
+}
+
+void try_edge_removals(Workbench& bench, Index cell, BestSwap& best) {
+  WorkingMesh& mesh = bench.mesh;
+  const Cell points = mesh.cells[cell].points;
+  for (int e = 0; e < 6; ++e) {
+    if (is_tried(mesh.cells[cell], e)) continue;
+    const std::array<Index, 2> edge{points[kCellEdges[e][0]], points[kCellEdges[e][1]]};
+    const unsigned shared = mesh.vertices[edge[0]].mask & mesh.vertices[edge[1]].mask;
+    if ((shared & kFrozen) || std::popcount(shared & kPlanes) > 1) continue;
+    if (!bench.cavity.find_shell(cell, edge[0], edge[1])) continue;
+    double gain = 0;
+    if (may_remove(bench.cavity, shared)) gain = edge_removal_gain(bench, edge, best.gain);
+    if (gain > best.gain) {
+      best = {gain, e, -1};
+    } else if (best.edge < 0) {
+      for (const Index c : bench.cavity.shell()) {
+        set_tried(mesh.cells[c], local_edge(mesh.cells[c].points, edge));
+      }
+    }
+  }
+}
+
+/// The three cells around the edge between the corners opposite a face.
+std::array<Cell, 3> cells_through_face(const WorkingMesh& mesh, Index cell, int face) {
+  const WorkCell& k = mesh.cells[cell];
+  const FaceRef n = k.neighbors[face];
+  const Index d = k.points[face], e = mesh.cells[cell_of(n)].points[face_of(n)];
+  const auto& f = kCellFaces[face];
+  const Index p = k.points[f[0]], q = k.points[f[1]], r = k.points[f[2]];
+  return {Cell{d, e, p, q}, Cell{d, e, q, r}, Cell{d, e, r, p}};
+}
+
+/// The energy that turning a face into an edge saves, or no more than `gain`.
+double face_removal_gain(const WorkingMesh& mesh, Index cell, int face, double gain) {
+  const WorkCell& k = mesh.cells[cell];
+  double left = energy(k.quality3) + energy(mesh.cells[cell_of(k.neighbors[face])].quality3);
+  for (const Cell& candidate : cells_through_face(mesh, cell, face)) {
+    if (left <= gain) break;
+    const double q = quality3(mesh, candidate);
+    left = q > kTinyQuality3 ? left - energy(q) : 0;
+  }
+  return left;
+}
+
+void try_face_removals(WorkingMesh& mesh, Index cell, BestSwap& best) {
+  for (int f = 0; f < 4; ++f) {
+    const FaceRef across = mesh.cells[cell].neighbors[f];
+    if (across == kNoIndex || is_tried(mesh.cells[cell], 6 + f)) continue;
+    const double gain = face_removal_gain(mesh, cell, f, best.gain);
+    if (gain > best.gain) {
+      best = {gain, -1, f};
+    } else if (best.edge < 0 && best.face < 0) {
+      set_tried(mesh.cells[cell], 6 + f);
+      set_tried(mesh.cells[cell_of(across)], 6 + face_of(across));
+    }
+  }
+}
+
+bool remove_edge(Workbench& bench, Index cell, int local_edge) {
+  const Cell points = bench.mesh.cells[cell].points;
+  const std::array<Index, 2> edge{points[kCellEdges[local_edge][0]],
+                                  points[kCellEdges[local_edge][1]]};
+  bench.cavity.find_shell(cell, edge[0], edge[1]);
+  EdgeRemoval removal(bench.mesh, bench.cavity.ring(), edge);
+  if (removal.solve(energy_of(bench.mesh, bench.cavity.shell())) == kImpossible) return false;
+  bench.cavity.clear();
+  removal.propose(bench.cavity);
+  bench.cavity.replace(bench.cavity.shell());
+  return true;
+}
+
+void remove_face(Workbench& bench, Index cell, int face) {
+  const std::array<Index, 2> old_cells{cell, cell_of(bench.mesh.cells[cell].neighbors[face])};
+  bench.cavity.clear();
+  for (const Cell& c : cells_through_face(bench.mesh, cell, face)) {
+    bench.cavity.propose(c, quality3(bench.mesh, c));
+  }
+  bench.cavity.replace(old_cells);
+}
+
+}  // namespace
+
+bool swap_around_cell(Workbench& bench, Index cell, double gain) {
+  BestSwap best{gain};
+  try_edge_removals(bench, cell, best);
+  try_face_removals(bench.mesh, cell, best);
+  if (best.edge >= 0) return remove_edge(bench, cell, best.edge);
+  if (best.face >= 0) remove_face(bench, cell, best.face);
+  return best.face >= 0;
+}
+
+std::int64_t swap_bad_cells(Workbench& bench, const SwapRule& rule) {
+  std::int64_t swaps = 0;
+  const auto cells = static_cast<Index>(bench.mesh.cells.size());  // new ones wait for next time
+  for (Index c = 0; c < cells; ++c) {
+    if (bench.mesh.cells[c].quality3 > rule.quality3_max) continue;
+    if (take_pending(bench.mesh, c, kToSwap)) swaps += swap_around_cell(bench, c, rule.gain);
+  }
+  return swaps;
+}
+
+}  // namespace mesamis::remeshing

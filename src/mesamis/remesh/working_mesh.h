@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesamis/base/types.h"
+#include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/remesh/metric_sampler.h"
+
+/// The remesher's own view of a mesh: what changes fast, close together in memory.
+namespace mesamis::remeshing {
+
+/// Bits of Vertex::mask: the box planes x_lo x_hi y_lo y_hi z_lo z_hi that hold the vertex.
+inline constexpr std::uint8_t kPlanes = 0x3f;
+/// The vertex is shared with another part and must not change now.
+inline constexpr std::uint8_t kFrozen = 0x80;
+
+/// Bits of WorkCell::pending: the operations that have not looked at the cell since it was made.
+inline constexpr std::uint8_t kToSplit = 1, kToCollapse = 2, kToSwap = 4, kToSmooth = 8,
+                              kToExplore = 16, kToAll = 31;
+
+struct alignas(64) Vertex {
+  Vec3 position;
+  MetricFactor metric;
+  float density = 0;      ///< sqrt(det M), to find a cell's finest vertex
+  Index cell = kNoIndex;  ///< one of the cells around it; kNoIndex: unused slot
+  Index hint = 0;         ///< where the metric field found it
+  std::uint8_t mask = 0;
+};
+
+/// A face as seen from one of its cells: 4 * cell + local face, or kNoIndex.
+using FaceRef = Index;
+inline constexpr Index cell_of(FaceRef face) { return face >> 2; }
+inline constexpr int face_of(FaceRef face) { return face & 3; }
+inline constexpr FaceRef face_ref(Index cell, int face) { return 4 * cell + face; }
+/// What a FaceRef can number.
+inline constexpr std::int64_t kMostCells = (std::int64_t{1} << 29) - 1;
+
+struct WorkCell {
+  Cell points{kNoIndex, kNoIndex, kNoIndex, kNoIndex};  ///< points[0] == kNoIndex: unused slot
+  std::array<FaceRef, 4> neighbors{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
+  float quality3 = 0;      ///< cube of the mean ratio in the metric
+  std::uint32_t mark = 0;  ///< Cavity's
+  std::uint8_t pending = kToAll;
+  /// Swap's: bit e, the removal of edge e was found useless; bit 6 + f, that of face f. Holds
+  /// until a cell around the edge or face changes, which then is new and tries again itself.
+  std::uint16_t tried = 0;
+
+  bool alive() const { return points[0] != kNoIndex; }
+};
+
+/// Local index of a point in a cell, or -1.
+inline int local_index(const Cell& cell, Index point) {
+  for (int i = 0; i < 4; ++i) {
+    if (cell[i] == point) return i;
+  }
+  return -1;
+}
+
+struct WorkingMesh {
+  Box box;
+  std::vector<Vertex> vertices;
+  std::vector<WorkCell> cells;
+  std::vector<Index> free_vertices, free_cells;
+  bool is_part = false;  ///< some vertices may be frozen
+
+  std::int64_t vertex_count() const { return std::ssize(vertices) - std::ssize(free_vertices); }
+  std::int64_t cell_count() const { return std::ssize(cells) - std::ssize(free_cells); }
+  Index new_vertex();
+  void free_vertex(Index v);
+  Index new_cell();
+  void free_cell(Index c);
+};
+
+/// The planes of the box that hold p exactly.
+std::uint8_t planes_of(const Box& box, const Vec3& p);
+
+/// Has the operation still to look at this cell? It is looked at now, and ticked off; cells at a
+/// frozen vertex stay on the list, since not all could be tried there.
+bool take_pending(WorkingMesh& mesh, Index cell, std::uint8_t operation);
+
+/// Puts every cell on the lists of the operations given.
+void set_pending(WorkingMesh& mesh, std::uint8_t operations);
+
+/// @param start  a valid mesh of the box. Metrics and qualities are left to measure_all.
+WorkingMesh load(const TetMesh& start, const Box& box);
+
+/// Asks for the metric at every vertex and sets all qualities. Needs a compact mesh.
+void measure_all(WorkingMesh& mesh, const MetricSampler& sampler);
+
+/// Numbers vertices and cells along a Morton curve and drops unused slots. Frozen vertices come
+/// first, in their old order.
+void compact(WorkingMesh& mesh);
+
+/// Points and cells of a compact mesh.
+TetMesh unload(const WorkingMesh& mesh);
+
+}  // namespace mesamis::remeshing

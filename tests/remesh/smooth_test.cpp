@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/remesh/smooth.h"
+
+#include "remesh/small_mesh.h"
+
+namespace mesamis::remeshing {
+namespace {
+
+TEST(Smooth, EveryMoveLowersTheEnergy) {
+  const FormulaMetric metric = ugawg_metric(Ugawg::kPolar1, 0.5);
+  SmallMesh small(perturbed_box(kUnitBox, {5, 5, 5}, 0.2), metric);
+  std::int64_t moves = 0;
+  for (Index v = 0; v < std::ssize(small.mesh.vertices); ++v) {
+    const double before = total_energy(small.mesh);
+    const bool moved = smooth_vertex(small.bench, v, {});
+    if (moved) {
+      EXPECT_LT(total_energy(small.mesh), before);
+    }
+    moves += moved;
+  }
+  EXPECT_GT(moves, 20);
+  expect_sound(small.mesh);
+}
+
+TEST(Smooth, BoundaryVerticesStayOnTheirPlanes) {
+  const FormulaMetric metric = ugawg_metric(Ugawg::kPolar1, 0.5);
+  SmallMesh small(perturbed_box(kUnitBox, {5, 5, 5}, 0.2), metric);
+  const auto before = small.mesh.vertices;
+  for (int pass = 0; pass < 5; ++pass) smooth_bad_cells(small.bench, {.quality3_max = 1});
+  int on_box_moved = 0;
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    const Vertex& now = small.mesh.vertices[v];
+    EXPECT_EQ(now.mask, before[v].mask);
+    if (std::popcount(unsigned{now.mask}) == 3) {
+      EXPECT_EQ(now.position, before[v].position);
+    }
+    on_box_moved += now.mask != 0 && now.position != before[v].position;
+  }
+  EXPECT_GT(on_box_moved, 0);
+  expect_sound(small.mesh);
+}
+
+TEST(Smooth, UndoesAPerturbation) {
+  const FormulaMetric metric = uniform_metric(0.25);
+  SmallMesh small(perturbed_box(kUnitBox, {4, 4, 4}, 0.2), metric);
+  const SmallMesh regular(box_mesh(kUnitBox, {4, 4, 4}), metric);
+  for (int pass = 0; pass < 30; ++pass) {
+    set_pending(small.mesh, kToSmooth);
+    if (smooth_bad_cells(small.bench, {.quality3_max = 1}) == 0) break;
+  }
+  EXPECT_LT(total_energy(small.mesh), 1.02 * total_energy(regular.mesh));
+}
+
+}  // namespace
+}  // namespace mesamis::remeshing
