@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mesamis/surface/tri_mesh.h"
+
+/// What one triangle adds to the measures of its surface.
+namespace mesamis {
+
+/// Twice the area, along the outward normal.
+inline Vec3 area_vector(const TriMesh& surface, std::size_t t) {
+  const Triangle& k = surface.triangles[t];
+  const Vec3& a = surface.points[k[0]];
+  return cross(surface.points[k[1]] - a, surface.points[k[2]] - a);
+}
+
+inline double triangle_area(const TriMesh& surface, std::size_t t) {
+  return 0.5 * norm(area_vector(surface, t));
+}
+
+/// Volume of the cone from the surface's first point: near the surface, so that little is lost to
+/// round-off when it lies far from the origin.
+inline double cone_volume(const TriMesh& surface, std::size_t t) {
+  const Vec3& base = surface.points[surface.triangles[t][0]];
+  return dot(base - surface.points[0], area_vector(surface, t)) / 6;
+}
+
+}  // namespace mesamis

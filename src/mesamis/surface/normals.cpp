@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/normals.h"
+
+#include "mesamis/surface/measure.h"
+
+namespace mesamis {
+
+std::vector<Vec3> vertex_normals(const TriMesh& surface) {
+  require_sound(surface);
+  std::vector<Vec3> normals(surface.points.size());
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Vec3 weighted = area_vector(surface, t);
+    for (const Index p : surface.triangles[t]) normals[p] += weighted;
+  }
+  for (Vec3& n : normals) {
+    const double length = norm(n);
+    n = length > 0 ? (1 / length) * n : Vec3{};
+  }
+  return normals;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "mesamis/base/error.h"
+#include "mesamis/surface/distance.h"
+#include "mesamis/surface/measure.h"
+
+namespace mesamis {
+namespace {
+
+/// Point i of the two-dimensional Weyl sequence with the plastic number, in the unit square.
+/// Source: M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018.
+std::array<double, 2> low_discrepancy(std::size_t i) {
+  constexpr double kPlastic = 1.32471795724474602596;
+  const double n = static_cast<double>(i) + 1;
+  const double s = n / kPlastic, t = n / (kPlastic * kPlastic);
+  return {s - std::floor(s), t - std::floor(t)};
+}
+
+/// The unit square folded onto the triangle.
+Vec3 place_in(const TriMesh& surface, std::size_t triangle, std::array<double, 2> st) {
+  if (st[0] + st[1] > 1) st = {1 - st[0], 1 - st[1]};
+  const Triangle& k = surface.triangles[triangle];
+  const Vec3& a = surface.points[k[0]];
+  return a + st[0] * (surface.points[k[1]] - a) + st[1] * (surface.points[k[2]] - a);
+}
+
+}  // namespace
+
+std::vector<Vec3> sample_by_area(const TriMesh& surface, std::size_t count) {
+  require_sound(surface);
+  std::vector<Vec3> samples;
+  if (count == 0) return samples;
+  double total = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) total += triangle_area(surface, t);
+  if (!(total > 0) || !std::isfinite(total)) {
+    throw InputError("sampling: expected a surface with a finite area, found " +
+                     std::to_string(total));
+  }
+  samples.reserve(count);
+  double passed = 0;  // area of the triangles before and including t
+  for (std::size_t t = 0; t < surface.triangles.size() && samples.size() < count; ++t) {
+    passed += triangle_area(surface, t);
+    // Summed in the same order, `passed` ends at exactly `total`: no sample is left over.
+    while (samples.size() < count &&
+           (static_cast<double>(samples.size()) + 0.5) * (total / static_cast<double>(count)) <
+               passed) {
+      samples.push_back(place_in(surface, t, low_discrepancy(samples.size())));
+    }
+  }
+  return samples;
+}
+
+}  // namespace mesamis

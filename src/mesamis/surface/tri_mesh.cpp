@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/tri_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/surface/disjoint_sets.h"
+#include "mesamis/surface/edge_sides.h"
+#include "mesamis/surface/measure.h"
+
+namespace mesamis {
+namespace {
+
+void count_edges(std::span<const EdgeSide> sides, SurfaceCheck& check) {
+  for_each_edge(sides, [&check](std::span<const EdgeSide> edge) {
+    if (edge.size() == 1) ++check.open_edges;
+    if (edge.size() == 2 && edge[0].forward == edge[1].forward) ++check.misoriented_edges;
+    if (edge.size() > 2) ++check.nonmanifold_edges;
+  });
+}
+
+/// Triangles around a point belong to one fan if one can walk from each to each across edges.
+std::int64_t count_nonmanifold_points(const TriMesh& surface, std::span<const EdgeSide> sides) {
+  DisjointSets fans(3 * surface.triangles.size());
+  for_each_edge(sides, [&fans](std::span<const EdgeSide> edge) {
+    for (const EdgeSide& side : edge.subspan(1)) {
+      fans.unite(edge[0].corner_at_lo(), side.corner_at_lo());
+      fans.unite(edge[0].corner_at_hi(), side.corner_at_hi());
+    }
+  });
+  std::vector<Index> fan_count(surface.points.size(), 0);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (is_degenerate(surface.triangles[t])) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (fans.find(3 * t + i) == 3 * t + i) ++fan_count[surface.triangles[t][i]];
+    }
+  }
+  return std::count_if(fan_count.begin(), fan_count.end(), [](Index n) { return n > 1; });
+}
+
+std::int64_t count_components(const TriMesh& surface, std::span<const EdgeSide> sides) {
+  DisjointSets parts = connected_triangles(sides, surface.triangles.size());
+  std::int64_t count = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    count += parts.find(t) == t && !is_degenerate(surface.triangles[t]);
+  }
+  return count;
+}
+
+double sum_over_triangles(const TriMesh& surface, double (*measure)(const TriMesh&, std::size_t)) {
+  return parallel_sum(surface.triangles.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t t = begin; t < end; ++t) sum += measure(surface, t);
+    return sum;
+  });
+}
+
+}  // namespace
+
+void require_sound(const TriMesh& surface) {
+  const auto points = static_cast<std::int64_t>(surface.points.size());
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    const Vec3& p = surface.points[i];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw InputError("surface: point " + std::to_string(i) + " is not finite");
+    }
+  }
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (const Index i : surface.triangles[t]) {
+      if (i >= 0 && i < points) continue;
+      throw InputError("surface: triangle " + std::to_string(t) + " names point " +
+                       std::to_string(i) + ", expected 0 to " + std::to_string(points - 1));
+    }
+  }
+}
+
+SurfaceCheck check_surface(const TriMesh& surface) {
+  require_sound(surface);
+  SurfaceCheck check;
+  check.degenerate_triangles =
+      std::count_if(surface.triangles.begin(), surface.triangles.end(), is_degenerate);
+  const auto sides = sorted_edge_sides(surface.triangles, surface.points.size());
+  count_edges(sides, check);
+  check.nonmanifold_points = count_nonmanifold_points(surface, sides);
+  check.components = count_components(surface, sides);
+  check.volume = sum_over_triangles(surface, cone_volume);
+  check.area = sum_over_triangles(surface, triangle_area);
+  return check;
+}
+
+}  // namespace mesamis

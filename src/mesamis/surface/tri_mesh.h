@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesamis/base/types.h"
+
+namespace mesamis {
+
+using Triangle = std::array<Index, 3>;
+
+/// A triangle surface; seen from outside the object, triangles turn counter-clockwise.
+struct TriMesh {
+  std::vector<Vec3> points;  ///< mm
+  std::vector<Triangle> triangles;
+};
+
+/// @throws InputError  if a triangle names a missing point or a coordinate is not finite.
+void require_sound(const TriMesh& surface);
+
+/// What a printer, or a solver, would stumble over. Triangles with a repeated index are counted
+/// as degenerate and left out of all other counts.
+struct SurfaceCheck {
+  std::int64_t open_edges = 0;            ///< edges with one triangle
+  std::int64_t nonmanifold_edges = 0;     ///< edges with more than two
+  std::int64_t misoriented_edges = 0;     ///< edges that their two triangles run in one direction
+  std::int64_t nonmanifold_points = 0;    ///< points whose triangles form more than one fan
+  std::int64_t degenerate_triangles = 0;  ///< a repeated index
+  std::int64_t components = 0;            ///< parts connected by edges
+  double volume = 0;                      ///< mm^3, signed: positive when oriented outward
+  double area = 0;                        ///< mm^2
+
+  /// For an open surface the volume says nothing.
+  bool closed() const { return open_edges == 0; }
+  /// Every edge joins two triangles (one on a rim), every point has one fan, orientation agrees.
+  bool manifold() const {
+    return nonmanifold_edges == 0 && nonmanifold_points == 0 && misoriented_edges == 0 &&
+           degenerate_triangles == 0;
+  }
+};
+
+/// @throws InputError  as require_sound. O(n log n).
+SurfaceCheck check_surface(const TriMesh& surface);
+
+}  // namespace mesamis

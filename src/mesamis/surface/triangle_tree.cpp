@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/triangle_tree.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace mesamis {
+namespace {
+
+constexpr std::size_t kLeafSize = 4;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double squared_norm(const Vec3& a) { return dot(a, a); }
+
+double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 ab = b - a, ap = p - a;
+  const double along = dot(ap, ab), whole = dot(ab, ab);
+  if (along <= 0) return squared_norm(ap);
+  if (along >= whole) return squared_norm(p - b);
+  return squared_norm(ap - (along / whole) * ab);
+}
+
+void extend(Box& box, const Vec3& p) {
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lo[axis] = std::min(box.lo[axis], p[axis]);
+    box.hi[axis] = std::max(box.hi[axis], p[axis]);
+  }
+}
+
+constexpr Box kEmptyBox{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+
+int longest_axis(const Box& box) {
+  const Vec3 e = box.extent();
+  if (e.x >= e.y && e.x >= e.z) return 0;
+  return e.y >= e.z ? 1 : 2;
+}
+
+}  // namespace
+
+double squared_distance(const Vec3& p, const Corners& t) {
+  // A triangle this low, relative to its length, has no normal to speak of.
+  constexpr double kFlat = 1e-8;
+  const Vec3 ab = t[1] - t[0], bc = t[2] - t[1], ca = t[0] - t[2];
+  const Vec3 n = cross(ca, ab);
+  const double longest = std::max({squared_norm(ab), squared_norm(bc), squared_norm(ca)});
+  const bool flat = squared_norm(n) <= kFlat * kFlat * longest * longest;
+  double nearest = kInfinity;
+  // Beyond which edges does p lie? The nearest point is on one of these.
+  const std::array<Vec3, 3> edges{ab, bc, ca};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (flat || dot(cross(n, edges[i]), p - t[i]) <= 0) {
+      nearest = std::min(nearest, squared_distance_to_segment(p, t[i], t[(i + 1) % 3]));
+    }
+  }
+  if (nearest < kInfinity) return nearest;
+  const double height = dot(n, p - t[0]);
+  return height * height / squared_norm(n);
+}
+
+struct TriangleTree::Item {
+  Vec3 center;  // of the bounding box, twice
+  Index triangle;
+};
+
+TriangleTree::TriangleTree(const TriMesh& surface) {
+  std::vector<Corners> corners(surface.triangles.size());
+  std::vector<Item> items(surface.triangles.size());
+  for (std::size_t t = 0; t < items.size(); ++t) {
+    const Triangle& k = surface.triangles[t];
+    corners[t] = {surface.points[k[0]], surface.points[k[1]], surface.points[k[2]]};
+    Box box = kEmptyBox;
+    for (const Vec3& p : corners[t]) extend(box, p);
+    items[t] = {box.lo + box.hi, static_cast<Index>(t)};
+  }
+  triangles_ = std::move(corners);
+  build(items, 0, items.size());
+  std::vector<Corners> sorted(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) sorted[i] = triangles_[items[i].triangle];
+  triangles_ = std::move(sorted);
+}
+
+/// Appends the node of items [begin, end) and, halved at the median, its children.
+void TriangleTree::build(std::vector<Item>& items, std::size_t begin, std::size_t end) {
+  Box box = kEmptyBox, centers = kEmptyBox;
+  for (std::size_t i = begin; i < end; ++i) {
+    for (const Vec3& p : triangles_[items[i].triangle]) extend(box, p);
+    extend(centers, items[i].center);
+  }
+  const std::size_t node = nodes_.size();
+  nodes_.push_back({box, static_cast<Index>(begin), static_cast<Index>(end - begin)});
+  if (end - begin <= kLeafSize) return;
+  const std::size_t middle = begin + (end - begin) / 2;
+  const int axis = longest_axis(centers);
+  const auto at = [&items](std::size_t i) {
+    return items.begin() + static_cast<std::ptrdiff_t>(i);
+  };
+  std::nth_element(at(begin), at(middle), at(end), [axis](const Item& a, const Item& b) {
+    const double x = a.center[axis], y = b.center[axis];
+    return x != y ? x < y : a.triangle < b.triangle;
+  });
+  build(items, begin, middle);
+  nodes_[node].first = static_cast<Index>(nodes_.size());
+  nodes_[node].count = 0;
+  build(items, middle, end);
+}
+
+double TriangleTree::squared_distance_to_box(const Vec3& p, std::size_t node) const {
+  const Box& box = nodes_[node].box;
+  const double x = std::max({box.lo.x - p.x, 0.0, p.x - box.hi.x});
+  const double y = std::max({box.lo.y - p.y, 0.0, p.y - box.hi.y});
+  const double z = std::max({box.lo.z - p.z, 0.0, p.z - box.hi.z});
+  return x * x + y * y + z * z;
+}
+
+double TriangleTree::squared_distance_to(const Vec3& p, std::size_t& hint) const {
+  struct Waiting {
+    std::size_t node;
+    double lower_bound;
+  };
+  std::array<Waiting, 64> stack;  // the tree is halved at each step: depth at most 32
+  std::size_t size = 0;
+  double nearest = squared_distance(p, triangles_[hint]);
+  stack[size++] = {0, squared_distance_to_box(p, 0)};
+  while (size > 0) {
+    auto [node, bound] = stack[--size];
+    while (bound < nearest && nodes_[node].count == 0) {
+      std::size_t near = node + 1, far = static_cast<std::size_t>(nodes_[node].first);
+      double near_bound = squared_distance_to_box(p, near);
+      double far_bound = squared_distance_to_box(p, far);
+      if (far_bound < near_bound) {
+        std::swap(near, far);
+        std::swap(near_bound, far_bound);
+      }
+      if (far_bound < nearest) stack[size++] = {far, far_bound};
+      node = near;
+      bound = near_bound;
+    }
+    if (!(bound < nearest)) continue;
+    const auto first = static_cast<std::size_t>(nodes_[node].first);
+    for (std::size_t i = first; i < first + static_cast<std::size_t>(nodes_[node].count); ++i) {
+      const double distance = squared_distance(p, triangles_[i]);
+      if (distance < nearest) {
+        nearest = distance;
+        hint = i;
+      }
+    }
+  }
+  return nearest;
+}
+
+}  // namespace mesamis

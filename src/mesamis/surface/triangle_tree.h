@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesamis/surface/tri_mesh.h"
+
+namespace mesamis {
+
+using Corners = std::array<Vec3, 3>;
+
+/// Squared distance from p to the triangle.
+double squared_distance(const Vec3& p, const Corners& triangle);
+
+/// A bounding volume hierarchy over triangles: who is nearest to a point?
+class TriangleTree {
+ public:
+  /// @param surface  sound, at least one triangle.
+  explicit TriangleTree(const TriMesh& surface);
+
+  /// Squared distance from p to the nearest triangle.
+  /// @param hint  where the last search ended; start with 0. It speeds the search up when the last
+  ///              point was near, and never changes the answer beyond round-off.
+  double squared_distance_to(const Vec3& p, std::size_t& hint) const;
+
+ private:
+  struct Node {
+    Box box;
+    Index first;  // leaf: its first triangle; else: its second child (the first comes next)
+    Index count;  // leaf: its triangles; else 0
+  };
+  struct Item;
+
+  void build(std::vector<Item>& items, std::size_t begin, std::size_t end);
+  double squared_distance_to_box(const Vec3& p, std::size_t node) const;
+
+  std::vector<Node> nodes_;
+  std::vector<Corners> triangles_;  // in the order of the leaves
+};
+
+}  // namespace mesamis

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/distance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/surface/triangle_tree.h"
+#include "support/shapes.h"
+
+namespace mesamis {
+namespace {
+
+std::vector<Vec3> random_points(std::size_t count, const Vec3& lo, const Vec3& hi, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Vec3> points(count);
+  for (Vec3& p : points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      p[axis] = lo[axis] + uniform(generator) * (hi[axis] - lo[axis]);
+    }
+  }
+  return points;
+}
+
+TEST(SquaredDistance, IsRightInEachRegionOfATriangle) {
+  const Corners triangle{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}};
+  const std::vector<std::pair<Vec3, double>> cases{
+      {{1, 1, 3}, 9},  {{1, 1, -3}, 9},  {{-3, -4, 0}, 25}, {{-3, -4, 12}, 169},
+      {{7, 0, 4}, 25}, {{2, -5, 0}, 25}, {{4, 4, 0}, 8},    {{-1, 2, 1}, 2},
+      {{0, 9, 0}, 25}, {{1, 1, 0}, 0},   {{8, -3, 0}, 25}};
+  for (const auto& [p, expected] : cases) {
+    EXPECT_NEAR(squared_distance(p, triangle), expected, 1e-13) << p.x << ' ' << p.y << ' ' << p.z;
+  }
+}
+
+TEST(SquaredDistance, ToATriangleWithoutAreaIsThatToItsEdges) {
+  const Vec3 a{0, 0, 0}, b{10, 0, 0}, m{5, 0, 0};
+  for (const Corners& t :
+       {Corners{a, b, m}, Corners{b, m, a}, Corners{m, a, b}, Corners{a, a, b}}) {
+    EXPECT_NEAR(squared_distance({5, 3, 4}, t), 25, 1e-13);
+    EXPECT_NEAR(squared_distance({13, 4, 0}, t), 25, 1e-13);
+  }
+  EXPECT_NEAR(squared_distance({3, 4, 0}, {a, a, a}), 25, 1e-13);
+}
+
+/// Least distance to any triangle, by minimising over barycentric coordinates in long double: the
+/// inside by the normal equations, else the three edges.
+double brute_distance(const Vec3& p, const TriMesh& surface) {
+  using Real = long double;
+  Real nearest = std::numeric_limits<Real>::infinity();
+  for (const Triangle& k : surface.triangles) {
+    const Vec3 &a = surface.points[k[0]], &b = surface.points[k[1]], &c = surface.points[k[2]];
+    std::array<Real, 3> e, f, q;
+    for (int i = 0; i < 3; ++i) {
+      e[i] = Real(b[i]) - a[i], f[i] = Real(c[i]) - a[i], q[i] = Real(p[i]) - a[i];
+    }
+    auto product = [](const auto& x, const auto& y) {
+      return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+    };
+    auto length2 = [&](Real s, Real t) {
+      std::array<Real, 3> r;
+      for (int i = 0; i < 3; ++i) r[i] = q[i] - s * e[i] - t * f[i];
+      return product(r, r);
+    };
+    auto part = [](Real x) { return std::clamp(x, Real(0), Real(1)); };
+    const Real ee = product(e, e), ff = product(f, f), ef = product(e, f);
+    const Real eq = product(e, q), fq = product(f, q), det = ee * ff - ef * ef;
+    const Real s = (ff * eq - ef * fq) / det, t = (ee * fq - ef * eq) / det;
+    if (s >= 0 && t >= 0 && s + t <= 1) nearest = std::min(nearest, length2(s, t));
+    nearest = std::min({nearest, length2(part(eq / ee), 0), length2(0, part(fq / ff))});
+    const Real w = part((fq - eq - ef + ee) / (ee + ff - 2 * ef));
+    nearest = std::min(nearest, length2(1 - w, w));
+  }
+  return static_cast<double>(std::sqrt(nearest));
+}
+
+TEST(Distance, AgreesWithBruteForceAtAllLengthRatios) {
+  for (const Vec3& stretch : {Vec3{1, 1, 1}, Vec3{1000, 1, 1}, Vec3{1000, 1000, 1}}) {
+    const TriMesh surface = random_triangles(300, stretch);
+    const auto points = random_points(300, -0.5 * stretch, 1.5 * stretch, 2);
+    const std::vector<double> distances = distances_to_surface(points, surface);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_NEAR(distances[i], brute_distance(points[i], surface), 1e-12 * stretch.x) << i;
+    }
+  }
+}
+
+TEST(Distance, AgreesWithBruteForceOnNeedles) {
+  // Flat long triangles in all directions, 1000 : 1 and points right beside them.
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal;
+  auto direction = [&] { return Vec3{normal(generator), normal(generator), normal(generator)}; };
+  TriMesh surface;
+  std::vector<Vec3> points;
+  for (Index t = 0; t < 200; ++t) {
+    const Vec3 a = 100 * direction(), along = 1000 * direction(), across = direction();
+    surface.points.insert(surface.points.end(), {a, a + along, a + 0.3 * along + across});
+    surface.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    points.push_back(a + 0.3 * along + 0.5 * across + 0.1 * direction());
+  }
+  const std::vector<double> distances = distances_to_surface(points, surface);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(distances[i], brute_distance(points[i], surface), 1e-10) << i;
+  }
+}
+
+TEST(Distance, OfPointsOnTheSurfaceIsZero) {
+  const TriMesh surface = random_triangles(500, {1, 1, 1});
+  for (const double d : distances_to_surface(surface.points, surface)) EXPECT_EQ(d, 0);
+  for (const double d : distances_to_surface(sample_by_area(surface, 500), surface)) {
+    EXPECT_LT(d, 1e-14);
+  }
+}
+
+TEST(Distance, CopesWithEqualTriangles) {
+  TriMesh surface{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}};
+  surface.triangles.assign(1000, {0, 1, 2});
+  const std::vector<Vec3> points{{0.2, 0.2, 2}, {-3, -4, 0}};
+  EXPECT_EQ(distances_to_surface(points, surface), (std::vector<double>{2, 5}));
+}
+
+TEST(Distance, HasTheSameBitsForAnyNumberOfThreads) {
+  const TriMesh surface = random_triangles(2000, {1, 1, 1});
+  const auto points = random_points(10'000, {-1, -1, -1}, {2, 2, 2}, 5);
+  set_thread_count(1);
+  const auto one = distances_to_surface(points, surface);
+  set_thread_count(3);
+  EXPECT_EQ(distances_to_surface(points, surface), one);
+  set_thread_count(0);
+}
+
+TEST(Distance, RefusesWhatHasNoAnswer) {
+  const std::vector<Vec3> points{{0, 0, 0}};
+  EXPECT_THROW(distances_to_surface(points, {}), InputError);
+  EXPECT_THROW(distances_to_surface(points, {{{0, 0, 0}}, {{0, 0, 1}}}), InputError);
+  const std::vector<Vec3> bad{{0, std::nan(""), 0}};
+  EXPECT_THROW(distances_to_surface(bad, cube()), InputError);
+  EXPECT_TRUE(distances_to_surface({}, cube()).empty());
+}
+
+TEST(Summarize, KnowsOneToAHundred) {
+  std::vector<double> values;
+  for (int i = 100; i >= 1; --i) values.push_back(i);
+  const DistanceSummary summary = summarize(values);
+  EXPECT_EQ(summary.count, 100u);
+  EXPECT_DOUBLE_EQ(summary.mean, 50.5);
+  EXPECT_DOUBLE_EQ(summary.rms, std::sqrt(3383.5));
+  EXPECT_EQ(summary.p95, 95);
+  EXPECT_EQ(summary.p99, 99);
+  EXPECT_EQ(summary.max, 100);
+}
+
+TEST(Summarize, OfOneAndOfNone) {
+  const DistanceSummary one = summarize({3});
+  EXPECT_EQ(one.p95, 3);
+  EXPECT_EQ(one.p99, 3);
+  EXPECT_EQ(one.max, 3);
+  EXPECT_EQ(summarize({}).count, 0u);
+  EXPECT_EQ(summarize({}).max, 0);
+}
+
+}  // namespace
+}  // namespace mesamis
