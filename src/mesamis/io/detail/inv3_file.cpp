@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+#include <map>
+#include <optional>
+
+#include "mesamis/io/detail/formats.h"
+#include "mesamis/io/detail/refuse.h"
+
+namespace mesamis::detail {
+namespace {
+
+constexpr std::size_t kTarBlock = 512;
+constexpr std::uint64_t kLongestPlist = 1 << 20;
+constexpr std::size_t kDeepestPlist = 16;
+
+/// One entry of a tar: its name without folders, where its bytes begin, how many there are.
+struct TarEntry {
+  std::string name;
+  std::uint64_t begin = 0, size = 0;
+};
+
+std::string_view tar_field(const std::array<char, kTarBlock>& block, std::size_t at,
+                           std::size_t length) {
+  const std::string_view field(block.data() + at, length);
+  return field.substr(0, field.find('\0'));
+}
+
+/// Octal digits, or (GNU) base 256 where the first bit is set.
+std::optional<std::uint64_t> tar_size(const std::array<char, kTarBlock>& block) {
+  std::uint64_t size = 0;
+  if (static_cast<unsigned char>(block[124]) == 0x80) {
+    for (std::size_t n = 128; n < 136; ++n) size = size << 8 | static_cast<unsigned char>(block[n]);
+    return size;
+  }
+  const std::string_view digits = trimmed(tar_field(block, 124, 12));
+  for (const char c : digits) {
+    if (c < '0' || c > '7') return std::nullopt;
+    size = size * 8 + static_cast<std::uint64_t>(c - '0');
+  }
+  return size;
+}
+
+/// A tar read from front to back.
+class Tar {
+ public:
+  explicit Tar(const std::filesystem::path& file) : file_(file), bytes_(file, Packing::kSniffed) {}
+
+  /// The next regular file; none at the end of the archive.
+  std::optional<TarEntry> next() {
+    std::array<char, kTarBlock> block;
+    while (true) {
+      position_ += bytes_.skip(unread_);
+      if (bytes_.read(block.data(), kTarBlock) < kTarBlock || block[0] == '\0') return {};
+      position_ += kTarBlock;
+      const auto size = tar_size(block);
+      if (std::string_view(block.data() + 257, 5) != "ustar" || !size ||
+          *size > bytes_.most_bytes()) {
+        refuse(file_, say("expected a tar entry at byte ", position_ - kTarBlock, ", found none"));
+      }
+      unread_ = (*size + kTarBlock - 1) / kTarBlock * kTarBlock;
+      if (block[156] != '0' && block[156] != '\0') continue;
+      const std::filesystem::path name(tar_field(block, 0, 100));
+      return TarEntry{name.filename().string(), position_, *size};
+    }
+  }
+
+  /// The bytes of the entry that next() gave.
+  std::string text(const TarEntry& entry) {
+    if (entry.size > kLongestPlist) {
+      refuse(file_,
+             say(entry.name, ": expected at most ", kLongestPlist, " bytes, found ", entry.size));
+    }
+    std::string out(entry.size, '\0');
+    if (bytes_.read(out.data(), out.size()) < out.size()) refuse(file_, entry.name + " is cut off");
+    unread_ -= out.size();
+    position_ += out.size();
+    return out;
+  }
+
+ private:
+  std::filesystem::path file_;
+  ByteSource bytes_;
+  std::uint64_t position_ = 0, unread_ = 0;
+};
+
+/// The leaves of a property list by path ("matrix/shape"); an array's items follow one another.
+using Plist = std::map<std::string, std::vector<std::string>>;
+
+/// One tag of XML: its name ("/dict" when it closes) and the text up to the next tag.
+struct XmlTag {
+  std::string name, text;
+};
+
+std::vector<XmlTag> xml_tags(std::string_view xml) {
+  std::vector<XmlTag> tags;
+  while (true) {
+    const auto open = xml.find('<');
+    const auto close = open == std::string_view::npos ? open : xml.find('>', open);
+    if (close == std::string_view::npos) return tags;
+    const auto next = xml.find('<', close);
+    const auto length = next == std::string_view::npos ? next : next - close - 1;
+    tags.push_back({std::string(xml.substr(open + 1, close - open - 1)),
+                    std::string(trimmed(xml.substr(close + 1, length)))});
+    xml.remove_prefix(close + 1);
+  }
+}
+
+Plist parse_plist(const std::string& xml) {
+  Plist plist;
+  std::vector<std::string> path;  // one key per open dict
+  for (const XmlTag& tag : xml_tags(xml)) {
+    if (path.size() > kDeepestPlist) break;
+    if (tag.name == "dict") path.emplace_back();
+    if (tag.name == "/dict" && !path.empty()) path.pop_back();
+    if (tag.name == "key" && !path.empty()) path.back() = tag.text;
+    if (tag.name == "string" || tag.name == "integer" || tag.name == "real") {
+      std::string name;
+      for (const std::string& key : path) name += (name.empty() ? "" : "/") + key;
+      plist[name].push_back(tag.text);
+    }
+  }
+  return plist;
+}
+
+const std::vector<std::string>& need(const std::filesystem::path& file, const Plist& plist,
+                                     const std::string& key, std::size_t count) {
+  static const std::vector<std::string> kNone;
+  const auto found = plist.find(key);
+  const auto& values = found == plist.end() ? kNone : found->second;
+  if (values.size() != count) {
+    refuse(file, say("main.plist: expected ", count, " values for ", in_quotes(key), ", found ",
+                     values.size()));
+  }
+  return values;
+}
+
+template <class Number>
+std::array<Number, 3> three(const std::filesystem::path& file, const Plist& plist,
+                            const std::string& key) {
+  std::array<Number, 3> numbers{};
+  const auto& texts = need(file, plist, key, 3);
+  for (std::size_t n = 0; n < 3; ++n) {
+    if (!parse_number(std::string_view(texts[n]), numbers[n])) {
+      refuse(file, say("main.plist: expected numbers for ", in_quotes(key), ", found ",
+                       in_quotes(texts[n])));
+    }
+  }
+  return numbers;
+}
+
+SampleType sample_type(const std::filesystem::path& file, const std::string& dtype) {
+  static const std::map<std::string, SampleType> kTypes{
+      {"int8", SampleType::kInt8},       {"uint8", SampleType::kUint8},
+      {"int16", SampleType::kInt16},     {"uint16", SampleType::kUint16},
+      {"int32", SampleType::kInt32},     {"uint32", SampleType::kUint32},
+      {"float32", SampleType::kFloat32}, {"float64", SampleType::kFloat64}};
+  const auto type = kTypes.find(dtype);
+  if (type == kTypes.end()) {
+    refuse(file, say("main.plist: expected a dtype of one number, found ", in_quotes(dtype)));
+  }
+  return type->second;
+}
+
+std::optional<Plist> find_main_plist(const std::filesystem::path& file) {
+  Tar tar(file);
+  while (const auto entry = tar.next()) {
+    if (entry->name == "main.plist") return parse_plist(tar.text(*entry));
+  }
+  return std::nullopt;
+}
+
+std::optional<TarEntry> find_entry(const std::filesystem::path& file, const std::string& name) {
+  Tar tar(file);
+  while (const auto entry = tar.next()) {
+    if (entry->name == name) return entry;
+  }
+  return std::nullopt;
+}
+
+void place(ScanFile& scan, const Plist& plist) {
+  const auto s = three<double>(scan.file, plist, "spacing");
+  for (const double step : s) {
+    if (!(step > 0))
+      refuse(scan.file, say("main.plist: expected a positive spacing, found ", step));
+  }
+  set_axes(scan, {Vec3{s[0], 0, 0}, Vec3{0, -s[1], 0}, Vec3{0, 0, s[2]}});
+}
+
+}  // namespace
+
+ScanFile open_inv3(const std::filesystem::path& file) {
+  ScanFile scan{file, "InVesalius", {}, {}, {}};
+  const auto plist = find_main_plist(file);
+  if (!plist) refuse(file, "expected an InVesalius project, found no main.plist in it");
+  const auto shape = three<std::int64_t>(file, *plist, "matrix/shape");
+  set_size(scan, {shape[2], shape[1], shape[0]});
+  place(scan, *plist);
+  const std::string& matrix = need(file, *plist, "matrix/filename", 1)[0];
+  const auto entry = find_entry(file, matrix);
+  if (!entry) refuse(file, say("expected the matrix ", in_quotes(matrix), ", found none"));
+  scan.source.file = file;
+  scan.source.type = sample_type(file, need(file, *plist, "matrix/dtype", 1)[0]);
+  scan.source.packing = Packing::kSniffed;
+  scan.source.skip = entry->begin;
+  const std::uint64_t needed =
+      scan.grid.voxel_count() * static_cast<std::uint64_t>(size_in_bytes(scan.source.type));
+  if (entry->size != needed) {
+    refuse(file, say(matrix, ": expected ", needed, " bytes, found ", entry->size));
+  }
+  const auto named = plist->find("modality");
+  if (named != plist->end() && named->second.size() == 1)
+    scan.grid.modality = shown(named->second[0]);
+  return scan;
+}
+
+}  // namespace mesamis::detail

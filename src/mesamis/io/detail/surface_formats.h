@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "mesamis/io/surface_files.h"
+
+/// The formats behind surface_files.h. Writers take points as they go to the file; readers take a
+/// file's bytes, unpacked, and its path for messages, and throw InputError. What they return is not
+/// checked further: indices may be out of range.
+namespace mesamis::detail {
+
+/// "mesamis, millimetre, SPACE=LPS": 3D Slicer looks for the last part in all four formats.
+std::string frame_note(Frame frame);
+
+/// Single precision, as the format has it; triangles with two equal corners there are left out.
+std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// Binary or text; equal corners become one point, in the order of their first use.
+TriMesh parse_stl(const std::filesystem::path& file, std::string_view bytes);
+
+/// Double precision: VTK, MeshLab, CloudCompare, Blender, Open3D and Assimp read it.
+std::string ply_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// Text or binary of either order. Polygons are cut into fans.
+TriMesh parse_ply(const std::filesystem::path& file, std::string_view bytes);
+
+/// Shortest decimals that give the same doubles back.
+std::string obj_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// Polygons are cut into fans; everything but positions and faces is passed over.
+TriMesh parse_obj(const std::filesystem::path& file, std::string_view bytes);
+
+/// Double precision, appended binary.
+std::string vtp_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// Polygons are cut into fans, strips into triangles; points and lines are passed over.
+TriMesh parse_vtp(const std::filesystem::path& file, std::string_view bytes);
+/// Legacy VTK, DATASET POLYDATA.
+TriMesh parse_vtk(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace mesamis::detail

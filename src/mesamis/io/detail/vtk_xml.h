@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesamis/io/detail/number_type.h"
+
+/// VTK's XML files, read without VTK: its own reader crashes on damaged ones.
+namespace mesamis::detail {
+
+struct XmlElement {
+  std::string name;
+  std::map<std::string, std::string> attributes;
+  std::vector<XmlElement> children;
+  std::string_view text;  ///< up to the first child
+
+  /// The attribute's value or an empty text.
+  std::string attribute(const std::string& key) const;
+  /// The first child of this name, or null.
+  const XmlElement* child(std::string_view child_name) const;
+};
+
+class VtkXml {
+ public:
+  /// @param file   for messages
+  /// @param bytes  the whole file, unpacked; must live on.
+  /// @param type   e.g. "PolyData".
+  /// @throws InputError  if it is no such file.
+  VtkXml(std::filesystem::path file, std::string_view bytes, const std::string& type);
+
+  /// The element <PolyData>, or what the type is.
+  const XmlElement& data_set() const;
+
+  /// The values of a DataArray: text, base64 or raw, plain or packed by zlib.
+  /// @throws InputError  if they are cut off, broken or packed in another way.
+  std::vector<double> values(const XmlElement& data_array) const;
+
+ private:
+  std::string array_bytes(const XmlElement& data_array) const;
+  std::string unpack(const std::string& stored) const;
+  std::uint64_t header_number(const std::string& stored, std::size_t index) const;
+
+  std::filesystem::path file_;
+  std::string type_;
+  XmlElement root_;
+  std::string_view appended_;
+  bool appended_is_raw_ = false, packed_ = false;
+  ByteOrder order_ = ByteOrder::kLittle;
+  NumberType header_type_ = NumberType::kUint32;
+};
+
+}  // namespace mesamis::detail

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/io/surface_files.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include "mesamis/base/error.h"
+#include "mesamis/io/atomic_file.h"
+#include "mesamis/io/detail/byte_source.h"
+#include "mesamis/io/detail/refuse.h"
+#include "mesamis/io/detail/surface_formats.h"
+
+namespace mesamis {
+
+using namespace detail;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Parser = TriMesh (*)(const fs::path&, std::string_view);
+using Formatter = std::string (*)(const TriMesh&, const SurfaceWriteOptions&);
+
+constexpr auto kMostPoints = static_cast<std::size_t>(std::numeric_limits<Index>::max());
+
+struct Format {
+  const char* extension;
+  Parser parse;
+  Formatter bytes;  // null: not written this way
+};
+
+constexpr Format kFormats[] = {{".stl", parse_stl, stl_bytes},
+                               {".ply", parse_ply, ply_bytes},
+                               {".obj", parse_obj, obj_bytes},
+                               {".vtp", parse_vtp, vtp_bytes},
+                               {".vtk", parse_vtk, nullptr}};
+
+[[noreturn]] void refuse_extension(const fs::path& path, const std::string& known) {
+  const std::string found = path.extension().string();
+  refuse(path, "expected a surface file (" + known + "), found " +
+                   (found.empty() ? "no extension" : "the extension " + in_quotes(found)));
+}
+
+Parser parser_for(const fs::path& path) {
+  const bool packed = lower(path.extension().string()) == ".gz";
+  const std::string extension = lower((packed ? path.stem() : path).extension().string());
+  for (const Format& format : kFormats) {
+    if (extension == format.extension) return format.parse;
+  }
+  refuse_extension(path, ".stl .ply .obj .vtp .vtk, each also with .gz");
+}
+
+std::string read_all(const fs::path& path) {
+  constexpr std::size_t kStep = std::size_t{1} << 22;
+  ByteSource source(path, Packing::kSniffed);
+  std::string bytes;
+  for (std::size_t got = kStep; got == kStep;) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + kStep);
+    got = source.read(bytes.data() + before, kStep);
+    bytes.resize(before + got);
+  }
+  return bytes;
+}
+
+void write_all(const fs::path& path, const fs::path& temporary, const std::string& bytes) {
+  std::ofstream out(temporary, std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out) refuse(path, "cannot be written; is the disk full?");
+}
+
+/// Half a turn about z: a rotation, so that triangles keep facing outward.
+void turn(std::vector<Vec3>& points) {
+  for (Vec3& p : points) p = {-p.x, -p.y, p.z};
+}
+
+/// One line, as headers and comments must be.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+void write_surface(const fs::path& path, const TriMesh& surface,
+                   const SurfaceWriteOptions& options) {
+  if (surface.triangles.empty()) refuse(path, "an empty surface is not written");
+  require_sound(surface);
+  const std::string extension = lower(path.extension().string());
+  const auto* format = std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) {
+    return extension == f.extension && f.bytes != nullptr;
+  });
+  if (format == std::end(kFormats)) refuse_extension(path, ".stl .ply .obj .vtp");
+  TriMesh turned = surface;
+  if (options.frame == Frame::kRas) turn(turned.points);
+  const SurfaceWriteOptions clean{options.frame, one_line(options.name)};
+  AtomicFile file(path);
+  write_all(path, file.temporary_path(), format->bytes(turned, clean));
+  file.commit();
+}
+
+TriMesh read_surface(const fs::path& path) {
+  const Parser parse = parser_for(path);
+  TriMesh surface = parse(path, read_all(path));
+  if (surface.triangles.empty()) refuse(path, "holds no triangle");
+  if (surface.points.size() > kMostPoints) refuse(path, "its points exceed 32-bit indices");
+  try {
+    require_sound(surface);
+  } catch (const InputError& error) {
+    refuse(path, error.what());
+  }
+  return surface;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mesamis/surface/tri_mesh.h"
+
+namespace mesamis {
+
+/// The frame a file's coordinates are given in: LPS (DICOM, ITK) or RAS (x and y negated).
+enum class Frame { kLps, kRas };
+
+struct SurfaceWriteOptions {
+  Frame frame = Frame::kLps;  ///< stated in the file: "SPACE=LPS", as 3D Slicer writes and reads it
+  std::string name{};         ///< what the object is called
+};
+
+/// Writes a surface by extension. The file appears whole or not at all (written beside, then
+/// renamed).
+///
+///   .stl  binary, single precision. Triangles with two corners that are equal there are left out.
+///   .ply  binary, double precision (what reads PLY in this field takes it)
+///   .obj  text, double precision
+///   .vtp  VTK XML, appended binary, double precision
+///
+/// Frame and name stand in the header (.stl, cut at 80 bytes), in comments (.ply, .obj) or in
+/// field data (.vtp).
+/// @param surface  points in LPS mm.
+/// @throws InputError  for another extension, an empty or unsound surface or a file that cannot be
+///                     written.
+void write_surface(const std::filesystem::path& path, const TriMesh& surface,
+                   const SurfaceWriteOptions& options = {});
+
+/// Reads .stl .ply .obj (text or binary where there are both), .vtp, legacy .vtk, also gzip'd
+/// (.gz). Equal points of an STL are welded; polygons are cut into fans. Coordinates are returned
+/// as the file has them: no frame is assumed or changed.
+/// @return at least one triangle; indices in range, finite coordinates; else as the file has it.
+/// @throws InputError  one line: the file, what was expected and what was found.
+TriMesh read_surface(const std::filesystem::path& path);
+
+}  // namespace mesamis
