@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/mes_amis.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "mesamis/adapt/estimator.h"
+#include "mesamis/adapt/grid_estimator.h"
+#include "mesamis/adapt/metric_from_estimate.h"
+#include "mesamis/adapt/size_control.h"
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/fem/grid_space.h"
+#include "mesamis/fem/mesh_space.h"
+#include "mesamis/fem/transfer.h"
+#include "mesamis/image/edge_sides.h"
+#include "mesamis/mesh/metric_field.h"
+#include "mesamis/remesh/remesh.h"
+#include "mesamis/surface/extract.h"
+
+namespace mesamis {
+namespace {
+
+/// Cells a remesher makes per unit of complexity, before it has been measured on this run.
+constexpr double kCellsPerComplexity = 9.3;
+/// Sweeps over the grid's log-metric before the first mesh is refined towards it.
+constexpr int kSmoothingSweeps = 3;
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    start_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Nodal fields carried from mesh to mesh.
+struct Fields {
+  std::vector<double> f, u, v;
+};
+
+double length_unit_mm(const Settings& settings, const Volume& volume) {
+  if (settings.length_unit == LengthUnit::kMm) return 1;
+  return std::cbrt(volume.spacing.x * volume.spacing.y * volume.spacing.z);
+}
+
+/// The first grid: every stride-th voxel, spread so that it fills the whole box.
+KuhnGrid first_grid(const Volume& volume, const std::array<Index, 3>& stride, double unit) {
+  KuhnGrid grid;
+  const Vec3 extent = volume.box().extent();
+  for (int a = 0; a < 3; ++a) {
+    grid.size[a] = std::max<Index>(2, (volume.size[a] - 1) / stride[a] + 1);
+    grid.spacing[a] = extent[a] / (grid.size[a] - 1) / unit;
+  }
+  return grid;
+}
+
+std::array<Vec3, 4> corners(const TetMesh& mesh, const Cell& k) {
+  return {mesh.points[k[0]], mesh.points[k[1]], mesh.points[k[2]], mesh.points[k[3]]};
+}
+
+void measure_aspects(const TetMesh& mesh, Iteration& iteration) {
+  iteration.aspect_max = iteration.aspect_mean = {};
+  for (const Cell& cell : mesh.cells) {
+    const auto s = aspect_ratios(cell_shape(corners(mesh, cell)));
+    for (std::size_t i = 0; i < 3; ++i) {
+      iteration.aspect_max[i] = std::max(iteration.aspect_max[i], s[i]);
+      iteration.aspect_mean[i] += s[i] / static_cast<double>(mesh.cells.size());
+    }
+  }
+}
+
+/// One run of Algorithm 2; the steps share the volume, the settings and the report.
+class Run {
+ public:
+  Run(const Volume& volume, const Settings& settings, const Progress& progress)
+      : volume_(volume), progress_(progress) {
+    result_.settings = settings;
+  }
+
+  Result execute() {
+    prepare();
+    start_on_grid();
+    for (int k = 2; k <= settings().adaptations && !settled_; ++k) {
+      announce(adaptation_name(k));
+      minimise();
+      adapt();
+    }
+    announce("final minimisation");
+    minimise();
+    result_.fit = measure_fit(mesh_, asked_);
+    extract();
+    deliver();
+    return std::move(result_);
+  }
+
+ private:
+  Settings& settings() { return result_.settings; }
+  Iteration& iteration() { return result_.iterations.back(); }
+
+  /// Tells which stage begins.
+  void announce(std::string stage) {
+    stage_ = std::move(stage);
+    advance(0);
+  }
+  std::string adaptation_name(int k) {
+    return "adaptation " + std::to_string(k) + " of " + std::to_string(settings().adaptations);
+  }
+
+  /// Tells how far the stage has come.
+  void advance(double share) const {
+    if (progress_ && !progress_(stage_, share)) throw Cancelled();
+  }
+
+  /// Fills in the defaults that depend on the volume, and maps it to grey values.
+  void prepare() {
+    Stopwatch watch;
+    announce("preparation");
+    result_.unit_mm = length_unit_mm(settings(), volume_);
+    if (!settings().eta) settings().eta = settings().epsilon * settings().epsilon;
+    const Vec3 extent = volume_.box().extent();
+    if (!settings().h_max) {
+      settings().h_max = std::max(settings().h_min,
+                                  std::max({extent.x, extent.y, extent.z}) / 4 / result_.unit_mm);
+    }
+    const ObjectEdges object = find_object(volume_);
+    if (!settings().max_tets) settings().max_tets = default_max_tets(object.crossings);
+    if (!settings().window) {
+      settings().window = default_window(volume_, object.sides.outside);
+    }
+    result_.level_native = settings().level.value_or(object.level);
+    choose_threshold(object);
+    grey_ = apply(result_.grey, volume_);
+    amis_.parameters = {settings().epsilon, *settings().eta, settings().beta, settings().gamma};
+    amis_.max_iterations = settings().amis_iterations;
+    amis_.v_tolerance = settings().tol_v;
+    amis_.solver.tolerance = settings().solver_tolerance;
+    result_.seconds.prepare = watch.lap();
+  }
+
+  void choose_threshold(const ObjectEdges& object) {
+    const ThresholdRule rule = settings().threshold_rule;
+    const double t = rule == ThresholdRule::kAuto ? object.threshold : settings().threshold;
+    result_.grey = {settings().window->low, settings().window->high, settings().window->low};
+    // A level below T would be everywhere: what the user asks to see comes first.
+    result_.threshold_used = rule != ThresholdRule::kNone && t > settings().window->low &&
+                             !(rule == ThresholdRule::kAuto && t >= result_.level_native);
+    if (result_.threshold_used) result_.grey.threshold = t;
+    if (rule == ThresholdRule::kAuto) settings().threshold = t;
+  }
+
+  /// The first pass, on the voxel grid; the mesh it leads to is refined from a coarse box.
+  void start_on_grid() {
+    announce(adaptation_name(1) + ", on the voxel grid");
+    result_.iterations.emplace_back();
+    Stopwatch watch;
+    const KuhnGrid grid = first_grid(volume_, settings().stride, result_.unit_mm);
+    box_ = {{0, 0, 0}, (1 / result_.unit_mm) * volume_.box().extent()};
+    const GridSpace space(grid);
+    iteration().tets = grid.cell_count();
+    iteration().nodes = static_cast<std::int64_t>(grid.node_count());
+    Fields fields;
+    fields.f = project_image(grey_, grid);
+    iteration().seconds.project = watch.lap();
+    run_amis_on(space, fields);
+    advance(0.2);
+    iteration().seconds.amis = watch.lap();
+    GridEstimate estimated = estimate_on_grid(grid, amis_.parameters, fields.u, fields.v, fields.f,
+                                              metric_options(grid.cell_count()));
+    iteration().estimator = estimated.zeta_a + estimated.zeta_b;
+    iteration().predicted_tets = estimated.predicted_cells;
+    const double factor =
+        control_sizes_to_log(estimated.node_metrics, space.lumped_mass(), size_control());
+    smooth_log_metrics(grid, estimated.node_metrics, kSmoothingSweeps);
+    bounded_ = factor > 1;
+    if (bounded_) {
+      set_complexity(estimated.node_metrics, space.lumped_mass(), size_control().complexity);
+    }
+    iteration().seconds.estimate = watch.lap();
+    const GridMetricField field(box_, grid.size, std::move(estimated.node_metrics));
+    replace_mesh(coarse_box_mesh(box_), field);
+    iteration().seconds.remesh = watch.lap();
+    carry(interpolate_fields(grid, std::vector<std::span<const double>>{fields.u, fields.v},
+                             mesh_.points));
+    iteration().seconds.transfer = watch.lap();
+    const auto s =
+        aspect_ratios(cell_shape({Vec3{0, 0, 0}, Vec3{grid.spacing.x, 0, 0},
+                                  Vec3{grid.spacing.x, grid.spacing.y, 0}, grid.spacing}));
+    iteration().aspect_max = iteration().aspect_mean = s;
+  }
+
+  void run_amis_on(const P1Space& space, Fields& fields) {
+    if (fields.v.empty()) fields.v.assign(space.node_count(), 1);
+    AmisFields solved =
+        run_amis(space, fields.f, std::move(fields.v), fields.u, amis_, &iteration().amis);
+    fields.u = std::move(solved.u);
+    fields.v = std::move(solved.v);
+    iteration().energy = energy(space, amis_.parameters, fields.u, fields.v, fields.f);
+  }
+
+  /// Projects the image onto the present mesh and runs Algorithm 1 there.
+  void minimise() {
+    result_.iterations.emplace_back();
+    Stopwatch watch;
+    const MeshSpace space(mesh_);
+    iteration().tets = static_cast<std::int64_t>(mesh_.cells.size());
+    iteration().nodes = static_cast<std::int64_t>(mesh_.points.size());
+    fields_.f = project_image(grey_, space, result_.unit_mm, amis_.solver);
+    advance(0.1);
+    iteration().seconds.project = watch.lap();
+    run_amis_on(space, fields_);
+    advance(0.3);
+    iteration().seconds.amis = watch.lap();
+    measure_aspects(mesh_, iteration());
+    if (result_.iterations.size() > 1) {
+      const double before = result_.iterations.rbegin()[1].energy.total();
+      iteration().energy_change = std::abs(iteration().energy.total() - before) / before;
+    }
+  }
+
+  void adapt() {
+    Stopwatch watch;
+    set_metric(estimate_metric());
+    iteration().seconds.estimate = watch.lap();
+    const TetMesh old = mesh_;
+    const MeshMetricField field(old, metric_);
+    replace_mesh(old, field);
+    iteration().seconds.remesh = watch.lap();
+    carry(interpolate_fields(old, std::vector<std::span<const double>>{fields_.u, fields_.v},
+                             mesh_.points));
+    iteration().seconds.transfer = watch.lap();
+    check_settled(static_cast<double>(old.cells.size()));
+  }
+
+  void check_settled(double cells_before) {
+    iteration().mesh_change =
+        std::abs(static_cast<double>(mesh_.cells.size()) - cells_before) / cells_before;
+    // Energies on the grid and on adapted meshes are not compared: the first Ei means nothing.
+    const bool energy_known = result_.iterations.size() > 2;
+    const bool mesh_settled = iteration().mesh_change <= settings().tol_mesh;
+    const bool energy_settled = energy_known && iteration().energy_change <= settings().tol_energy;
+    settled_ =
+        settings().stop_at_first ? mesh_settled || energy_settled : mesh_settled && energy_settled;
+  }
+
+  std::vector<Sym3> estimate_metric() {
+    const Estimate estimated = estimate(mesh_, amis_.parameters, fields_.u, fields_.v, fields_.f);
+    iteration().estimator = estimated.zeta_a + estimated.zeta_b;
+    std::vector<Sym3> cells(mesh_.cells.size());
+    const auto options = metric_options(static_cast<std::int64_t>(cells.size()));
+    parallel_for(cells.size(),
+                 [&](std::size_t c) { cells[c] = cell_metric(estimated.gamma[c], options); });
+    iteration().predicted_tets = predicted_cells(mesh_, cells);
+    return node_metrics(mesh_, cells);
+  }
+
+  void set_metric(std::vector<Sym3> metric) {
+    metric_ = std::move(metric);
+    std::vector<double> weights(mesh_.points.size(), 0);
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+      for (const Index n : mesh_.cells[c]) {
+        weights[n] += cell_volume(mesh_, static_cast<Index>(c)) / 4;
+      }
+    }
+    bounded_ = control_sizes(metric_, weights, size_control()) > 1;
+  }
+
+  CellMetricOptions metric_options(std::int64_t cells) {
+    return {cells, settings().tau, settings().max_stretch};
+  }
+
+  SizeControl size_control() {
+    return {settings().h_min, *settings().h_max,
+            static_cast<double>(*settings().max_tets) / cells_per_complexity_};
+  }
+
+  void replace_mesh(const TetMesh& start, const MetricField& field) {
+    constexpr double kShareBefore = 0.4;  // of a stage's time, what comes before remeshing
+    RemeshOptions options;
+    options.max_cells = *settings().max_tets;
+    options.progress = [this](std::string_view, double share) {
+      advance(kShareBefore + (1 - kShareBefore) * share);
+      return true;
+    };
+    RemeshReport report;
+    mesh_ = remesh(start, field, options, &report);
+    asked_ = sample(ScaledMetricField(field, report.size_factor), mesh_.points);
+    if (!bounded_) return;
+    // What one unit of the complexity asked for has cost steers the next pass.
+    const double complexity = size_control().complexity / std::pow(report.size_factor, 3);
+    cells_per_complexity_ =
+        std::clamp(static_cast<double>(mesh_.cells.size()) / complexity, 4.0, 20.0);
+  }
+
+  void carry(std::vector<std::vector<double>> fields) {
+    fields_.u = std::move(fields[0]);
+    fields_.v = std::move(fields[1]);
+  }
+
+  double to_grey_level(double native) const { return result_.grey.to_grey(native); }
+
+  void extract() {
+    Stopwatch watch;
+    announce("surface");
+    if (settings().surface == SurfaceKind::kBand) {
+      result_.surface = extract_band(mesh_, fields_.v, settings().band_threshold);
+    } else {
+      if (!settings().level) refine_level();
+      result_.surface = extract_solid(mesh_, fields_.u, to_grey_level(result_.level_native));
+    }
+    result_.seconds.surface = watch.lap();
+  }
+
+  /// Midway between the two sides of the surface itself, measured in the unclamped image.
+  void refine_level() {
+    const TriMesh surface = extract_solid(mesh_, fields_.u, to_grey_level(result_.level_native));
+    std::vector<SurfacePoint> points;
+    const double unit = result_.unit_mm;
+    for (const Triangle& t : surface.triangles) {
+      const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+      const Vec3 normal = cross(b - a, c - a);
+      const double length = norm(normal);
+      if (length > 0) points.push_back({(unit / 3) * (a + b + c), (1 / length) * normal});
+    }
+    const auto sides = measure_sides(volume_, volume_, points, result_.level_native);
+    const double lowest =
+        result_.threshold_used ? result_.grey.threshold : std::numeric_limits<double>::lowest();
+    if (sides && sides->middle() > lowest) result_.level_native = sides->middle();
+  }
+
+  /// From length units in the grid's axes to mm in the world frame.
+  void deliver() {
+    const Vec3 extent = volume_.box().extent();
+    auto to_world = [&](std::vector<Vec3>& points) {
+      parallel_for(points.size(), [&](std::size_t n) {
+        Vec3 p = result_.unit_mm * points[n];
+        for (int a = 0; a < 3; ++a) {
+          // Round-off must not move the box: what lay on it lies on the voxels' own box.
+          if (points[n][a] == box_.hi[a] || p[a] > extent[a]) p[a] = extent[a];
+        }
+        points[n] = volume_.to_world(p);
+      });
+    };
+    to_world(mesh_.points);
+    to_world(result_.surface.points);
+    if (determinant(volume_.direction) < 0) mirror();
+    for (const Iteration& pass : result_.iterations) {
+      solved_ &= pass.amis.solver_converged;
+    }
+    result_.converged = settled_ && solved_;
+    result_.metric = world_metric();
+    result_.mesh = std::move(mesh_);
+    result_.u = std::move(fields_.u);
+    result_.v = std::move(fields_.v);
+    result_.f = std::move(fields_.f);
+  }
+
+  /// A left-handed grid turns every orientation round.
+  void mirror() {
+    for (Cell& cell : mesh_.cells) std::swap(cell[2], cell[3]);
+    for (Triangle& triangle : result_.surface.triangles) std::swap(triangle[1], triangle[2]);
+  }
+
+  /// D M D' / unit^2 with D the direction cosines.
+  std::vector<Sym3> world_metric() const {
+    const auto& r = volume_.direction.rows;
+    const double scale = 1 / (result_.unit_mm * result_.unit_mm);
+    std::vector<Sym3> world(asked_.size());
+    parallel_for(world.size(), [&](std::size_t n) {
+      const std::array<Vec3, 3> mr{asked_[n] * r[0], asked_[n] * r[1], asked_[n] * r[2]};
+      world[n] = scale * Sym3{dot(r[0], mr[0]), dot(r[0], mr[1]), dot(r[0], mr[2]),
+                              dot(r[1], mr[1]), dot(r[1], mr[2]), dot(r[2], mr[2])};
+    });
+    return world;
+  }
+
+  const Volume& volume_;
+  const Progress& progress_;
+  Result result_;
+  Volume grey_;
+  AmisOptions amis_;
+  Box box_;
+  TetMesh mesh_;
+  Fields fields_;
+  std::vector<Sym3> metric_, asked_;  // of the mesh estimated, and of the mesh it led to
+  double cells_per_complexity_ = kCellsPerComplexity;
+  bool bounded_ = false;  // max_tets acted on the last metric
+  bool settled_ = false, solved_ = true;
+  std::string stage_;
+};
+
+}  // namespace
+
+Result mes_amis(const Volume& volume, const Settings& settings, const Progress& progress) {
+  Stopwatch watch;
+  require_valid(settings);
+  require_usable(volume);
+  const CropRange& range = settings.crop;
+  const bool whole = range.begin == CropRange{}.begin && range.end == CropRange{}.end;
+  Result result = whole ? Run(volume, settings, progress).execute()
+                        : Run(crop(volume, range), settings, progress).execute();
+  result.seconds.total = watch.lap();
+  return result;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "mesamis/base/error.h"
+
+namespace mesamis {
+namespace {
+
+void require_range(const char* name, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  std::ostringstream message;
+  message << name << ": expected " << low << " to " << high << ", found " << value;
+  throw InputError(message.str());
+}
+
+/// Smallest and largest positive values that make sense of a weight or a length.
+constexpr double kTiny = 1e-12, kHuge = 1e12;
+
+}  // namespace
+
+void require_valid(const Settings& s) {
+  for (const Index stride : s.stride) require_range("stride", stride, 1, 1000);
+  require_range("epsilon", s.epsilon, kTiny, kHuge);
+  if (s.eta) require_range("eta", *s.eta, kTiny * kTiny, kHuge);
+  require_range("beta", s.beta, kTiny, kHuge);
+  require_range("gamma", s.gamma, kTiny, kHuge);
+  require_range("amis-iterations", s.amis_iterations, 1, 1000);
+  require_range("tol-v", s.tol_v, 0, 1);
+  require_range("solver-tolerance", s.solver_tolerance, 1e-14, 1e-2);
+  if (s.max_tets) require_range("max-tets", static_cast<double>(*s.max_tets), 100, 2e8);
+  require_range("tau", s.tau, kTiny, kHuge);
+  require_range("adaptations", s.adaptations, 1, 100);
+  require_range("tol-mesh", s.tol_mesh, 0, kHuge);
+  require_range("tol-energy", s.tol_energy, 0, kHuge);
+  require_range("max-stretch", s.max_stretch, 1.1, 1e6);
+  require_range("h-min", s.h_min, kTiny, kHuge);
+  if (s.h_max) require_range("h-max", *s.h_max, s.h_min, kHuge);
+  require_range("band-threshold", s.band_threshold, 0, 1);
+  if (s.window && !(s.window->low < s.window->high)) {
+    std::ostringstream message;
+    message << "window: expected low below high, found " << s.window->low << "," << s.window->high;
+    throw InputError(message.str());
+  }
+}
+
+std::int64_t default_max_tets(std::size_t crossings) {
+  constexpr std::int64_t kCellsPerCrossing = 3, kFewest = 20'000, kMost = 2'000'000;
+  return std::clamp(static_cast<std::int64_t>(crossings) * kCellsPerCrossing, kFewest, kMost);
+}
+
+}  // namespace mesamis

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "mesamis/base/types.h"
+#include "mesamis/image/grey_values.h"
+#include "mesamis/image/volume.h"
+
+namespace mesamis {
+
+enum class LengthUnit {
+  kVoxel,  ///< the geometric mean of the input's spacing: the parameters fit any resolution
+  kMm      ///< 1 mm, as in the paper
+};
+enum class SurfaceKind {
+  kSolid,  ///< level set of u, closed
+  kBand    ///< the paper's Sigma_h: boundary of the cells where v is small
+};
+enum class ThresholdRule { kAuto, kNone, kValue };
+
+/// Everything a run depends on, with its default, unit and range. Empty optionals are chosen from
+/// the volume; the result tells the values used.
+struct Settings {
+  // The image.
+  CropRange crop;                                       ///< voxels
+  std::array<Index, 3> stride{1, 1, 1};                 ///< voxels per node of the first grid, >= 1
+  std::optional<Window> window;                         ///< native units; default: default_window()
+  ThresholdRule threshold_rule = ThresholdRule::kAuto;  ///< (13)
+  double threshold = 0;  ///< T, native units, for ThresholdRule::kValue
+
+  // The functional (2); lengths in length units.
+  LengthUnit length_unit = LengthUnit::kVoxel;
+  double epsilon = 1e-3;           ///< > 0
+  std::optional<double> eta;       ///< > 0; default: epsilon^2
+  double beta = 2;                 ///< > 0
+  double gamma = 0.1;              ///< > 0
+  int amis_iterations = 10;        ///< Jmax of Algorithm 1, 1 to 1000
+  double tol_v = 1e-2;             ///< Fxv, 0 to 1
+  double solver_tolerance = 1e-6;  ///< relative residual of each solve, 1e-14 to 1e-2
+
+  // The mesh.
+  std::optional<std::int64_t> max_tets;  ///< NMAX, 100 to 2e8; default: default_max_tets()
+  double tau = 1e-2;                     ///< tolerance on the estimator, > 0
+  int adaptations = 10;                  ///< at most, 1 to 100
+  double tol_mesh = 1e-2;                ///< relative change of the cell count, >= 0
+  double tol_energy = 1e-2;              ///< relative change of the energy, >= 0
+  bool stop_at_first = false;            ///< true: the printed rule, stop when one stagnates
+  double max_stretch = 10;               ///< longest to shortest size of a cell, 1.1 to 1e6
+  double h_min = 0.5;                    ///< smallest edge, length units, > 0
+  std::optional<double> h_max;           ///< largest edge, length units; default: a quarter
+                                         ///< of the box's longest side
+
+  // The surface.
+  SurfaceKind surface = SurfaceKind::kSolid;
+  std::optional<double> level;  ///< native units; default: midway, see find_object()
+  double band_threshold = 0.1;  ///< TOLth, 0 to 1
+};
+
+/// @throws InputError  for the first value out of range, naming the setting, range and value.
+void require_valid(const Settings& settings);
+
+/// The default of max_tets: three cells for every crossing of the voxel grid's lines with the
+/// object's surface (half as many again as marching cubes would make triangles), between 20 000
+/// and 2 000 000. It grows with the extent of the edges, not with the empty space around them.
+/// @param crossings  see ObjectEdges.
+std::int64_t default_max_tets(std::size_t crossings);
+
+}  // namespace mesamis

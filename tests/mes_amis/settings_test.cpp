@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/settings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "mesamis/base/error.h"
+
+namespace mesamis {
+namespace {
+
+std::string refusal(const Settings& settings) {
+  try {
+    require_valid(settings);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Settings, DefaultsAreValid) { EXPECT_EQ(refusal({}), ""); }
+
+TEST(Settings, ARefusedValueNamesItsRange) {
+  Settings settings;
+  settings.beta = -1;
+  EXPECT_EQ(refusal(settings), "beta: expected 1e-12 to 1e+12, found -1");
+  settings = {};
+  settings.adaptations = -1;
+  EXPECT_THAT(refusal(settings), ::testing::HasSubstr("adaptations"));
+  settings = {};
+  settings.window = Window{3, 3};
+  EXPECT_EQ(refusal(settings), "window: expected low below high, found 3,3");
+}
+
+TEST(Settings, NothingThatIsNotANumberPasses) {
+  for (double Settings::*member :
+       {&Settings::epsilon, &Settings::beta, &Settings::gamma, &Settings::tol_v,
+        &Settings::solver_tolerance, &Settings::tau, &Settings::tol_mesh, &Settings::tol_energy,
+        &Settings::h_min, &Settings::band_threshold}) {
+    Settings settings;
+    settings.*member = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(refusal(settings), "");
+    settings.*member = std::numeric_limits<double>::infinity();
+    EXPECT_NE(refusal(settings), "");
+  }
+}
+
+TEST(DefaultMaxTets, GrowsWithTheEdgesWithinBounds) {
+  EXPECT_EQ(default_max_tets(0), 20'000);
+  EXPECT_EQ(default_max_tets(50'000), 150'000);
+  EXPECT_EQ(default_max_tets(1'000'000'000), 2'000'000);
+}
+
+}  // namespace
+}  // namespace mesamis
