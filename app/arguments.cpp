@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+
+namespace mesamis {
+namespace {
+
+template <class Number>
+std::vector<Number> parse_list(const std::string& text, std::size_t count,
+                               const std::string& option) {
+  std::vector<Number> numbers;
+  const char* at = text.data();
+  const char* end = at + text.size();
+  bool more = true;  // a number must follow
+  while (more) {
+    Number value{};
+    const auto [stop, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || !std::isfinite(static_cast<double>(value))) break;
+    numbers.push_back(value);
+    more = stop != end && *stop == ',';
+    at = more ? stop + 1 : stop;
+  }
+  if (more || at != end || numbers.size() != count) {
+    throw CLI::ValidationError(option, "expected " + std::to_string(count) +
+                                           " numbers with commas between, found '" + text + "'");
+  }
+  return numbers;
+}
+
+}  // namespace
+
+std::vector<double> parse_numbers(const std::string& text, std::size_t count,
+                                  const std::string& option) {
+  return parse_list<double>(text, count, option);
+}
+
+std::vector<int> parse_integers(const std::string& text, std::size_t count,
+                                const std::string& option) {
+  return parse_list<int>(text, count, option);
+}
+
+std::string one_line(const std::string& text) {
+  std::string line = text;
+  while (!line.empty() && (line.back() == '\n' || line.back() == ' ')) line.pop_back();
+  for (char& c : line) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 32 || code == 127) c = ' ';
+  }
+  return line;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace mesamis {
+
+/// "3,2.5,4" as numbers.
+/// @throws CLI::ValidationError  naming the option, if there are not `count` finite numbers.
+std::vector<double> parse_numbers(const std::string& text, std::size_t count,
+                                  const std::string& option);
+
+/// The same for whole numbers.
+std::vector<int> parse_integers(const std::string& text, std::size_t count,
+                                const std::string& option);
+
+/// Text on one line, control characters replaced: what may stand in a message.
+std::string one_line(const std::string& text);
+
+}  // namespace mesamis

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace mesamis {
+
+/// What the program's exit status means.
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitInternal = 1;      ///< a bug
+inline constexpr int kExitUsage = 2;         ///< the command line
+inline constexpr int kExitInput = 3;         ///< an input was refused
+inline constexpr int kExitNotConverged = 4;  ///< outputs are written and marked in the report
+inline constexpr int kExitNotClosed = 5;     ///< a surface that should be closed is not
+
+/// Options of every command.
+struct CommonOptions {
+  bool quiet = false;     ///< nothing on stderr but errors
+  bool log_json = false;  ///< stderr as JSON lines
+  int threads = 0;        ///< 0: as many as the machine has
+};
+
+/// What the command line asked for, ready to run; returns an exit status. InputError and
+/// NumericalError may leave it.
+using Action = std::function<int()>;
+
+/// Each adds its subcommand, which sets the action when it is chosen. `common` and `action` must
+/// outlive the parsing.
+void add_baseline_command(CLI::App& app, CommonOptions& common, Action& action);
+void add_compare_command(CLI::App& app, CommonOptions& common, Action& action);
+void add_info_command(CLI::App& app, CommonOptions& common, Action& action);
+void add_picture_command(CLI::App& app, CommonOptions& common, Action& action);
+void add_remesh_command(CLI::App& app, CommonOptions& common, Action& action);
+void add_segment_command(CLI::App& app, CommonOptions& common, Action& action);
+
+}  // namespace mesamis

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "file_kind.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace mesamis {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return extension;
+}
+
+}  // namespace
+
+FileKind kind_of(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) return FileKind::kVolume;
+  std::string extension = lower_extension(path);
+  if (extension == ".gz") extension = lower_extension(path.stem());
+  constexpr std::array kSurfaces{".stl", ".ply", ".obj", ".vtp", ".vtk"};
+  const bool surface = std::find(kSurfaces.begin(), kSurfaces.end(), extension) != kSurfaces.end();
+  if (surface) return FileKind::kSurface;
+  return extension == ".vtu" || extension == ".mesh" ? FileKind::kMesh : FileKind::kVolume;
+}
+
+}  // namespace mesamis

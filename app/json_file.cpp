@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "json_file.h"
+
+#include <fstream>
+
+#include "mesamis/base/error.h"
+#include "mesamis/io/atomic_file.h"
+#include "version.h"
+
+namespace mesamis {
+
+void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& value) {
+  AtomicFile file(path);
+  std::ofstream out(file.temporary_path(), std::ios::binary);
+  out << value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
+  out.close();
+  if (!out) throw InputError(path.string() + ": cannot be written");
+  file.commit();
+}
+
+nlohmann::json read_json(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in || std::filesystem::is_directory(path)) {
+    throw InputError(path.string() + ": cannot be opened");
+  }
+  try {
+    return nlohmann::json::parse(in);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(path.string() + ": not JSON: " + error.what());
+  }
+}
+
+nlohmann::ordered_json program_json() {
+  return {{"name", "mesamis"}, {"version", kVersion}, {"commit", kCommit}};
+}
+
+}  // namespace mesamis

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace mesamis {
+
+/// Writes an indented JSON file that appears whole or not at all. Numbers that are not finite
+/// become null, text that is not UTF-8 is repaired.
+/// @throws InputError  if the file cannot be written.
+void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& value);
+
+/// @throws InputError  if the file cannot be read or is not JSON; the message says where.
+nlohmann::json read_json(const std::filesystem::path& path);
+
+/// The entry "program" of every report: name, version, commit.
+nlohmann::ordered_json program_json();
+
+}  // namespace mesamis

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "log.h"
+
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "arguments.h"
+
+namespace mesamis {
+namespace {
+
+bool bar_allowed = false;
+
+void append(const std::string& text, spdlog::memory_buf_t& to) {
+  to.append(text.data(), text.data() + text.size());
+}
+
+/// The message as a JSON string, quotes included.
+class JsonMessage : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm&,
+              spdlog::memory_buf_t& to) override {
+    const std::string text(message.payload.data(), message.payload.size());
+    append(nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), to);
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<JsonMessage>();
+  }
+};
+
+/// "warning: " before what is one.
+class LevelPrefix : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm&,
+              spdlog::memory_buf_t& to) override {
+    if (message.level == spdlog::level::warn) append("warning: ", to);
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<LevelPrefix>();
+  }
+};
+
+}  // namespace
+
+void set_up_log(const CommonOptions& options) {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  bar_allowed = terminal && !options.log_json && !options.quiet;
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  formatter->add_flag<JsonMessage>('J').add_flag<LevelPrefix>('W');
+  formatter->set_pattern(options.log_json
+                             ? R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z","level":"%l","message":%J})"
+                             : std::string(bar_allowed ? kWipeLine : "") + "mesamis: %W%v");
+  auto logger = std::make_shared<spdlog::logger>("mesamis",
+                                                 std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  logger->set_formatter(std::move(formatter));
+  logger->set_level(options.quiet ? spdlog::level::err : spdlog::level::info);
+  logger->flush_on(spdlog::level::info);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+void log_info(const std::string& message) {
+  spdlog::default_logger_raw()->info(spdlog::string_view_t(one_line(message)));
+}
+void log_warning(const std::string& message) {
+  spdlog::default_logger_raw()->warn(spdlog::string_view_t(one_line(message)));
+}
+void log_error(const std::string& message) {
+  spdlog::default_logger_raw()->error(spdlog::string_view_t(one_line(message)));
+}
+
+bool log_allows_bar() { return bar_allowed; }
+
+}  // namespace mesamis

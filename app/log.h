@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "commands.h"
+
+/// Everything the program says beside its results, on stderr, one line per message.
+namespace mesamis {
+
+/// Call once, before anything is logged. With --quiet only errors appear.
+void set_up_log(const CommonOptions& options);
+
+void log_info(const std::string& message);
+void log_warning(const std::string& message);
+void log_error(const std::string& message);
+
+/// Whether a progress bar may be drawn: stderr is a terminal and its lines are for people.
+bool log_allows_bar();
+
+/// How the log wipes a bar off the terminal's current line before it writes.
+inline constexpr const char* kWipeLine = "\r\033[K";
+
+}  // namespace mesamis

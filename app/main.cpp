@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program mesamis: reads the command line, runs one command, turns every failure into one
+// line on stderr and an exit status.
+#include <signal.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+#include <string>
+
+#include "arguments.h"
+#include "commands.h"
+#include "log.h"
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/io/atomic_file.h"
+#include "version.h"
+
+namespace mesamis {
+namespace {
+
+/// Leaves nothing half-written, then dies of the signal, as a shell expects.
+extern "C" void on_signal(int number) {
+  remove_unfinished_files();
+  constexpr char kMessage[] = "\nmesamis: interrupted\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+  signal(number, SIG_DFL);
+  raise(number);
+}
+
+void handle_signals() {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    if (signal(number, on_signal) == SIG_IGN) signal(number, SIG_IGN);  // nohup
+  }
+}
+
+void add_common_options(CLI::App& app, CommonOptions& common) {
+  app.add_flag("--quiet", common.quiet, "Nothing on stderr but errors");
+  app.add_flag("--log-json", common.log_json, "Log on stderr as JSON lines");
+  app.add_option("--threads", common.threads, "Threads at most (default: all)")
+      ->check(CLI::Range(1, 1024));
+}
+
+std::string version_text() {
+  return std::string("mesamis ") + kVersion + " (commit " + kCommit + ")";
+}
+
+void add_commands(CLI::App& app, CommonOptions& common, Action& action) {
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  app.fallthrough();  // the common options may stand after the command
+  add_common_options(app, common);
+  add_segment_command(app, common, action);
+  add_remesh_command(app, common, action);
+  add_baseline_command(app, common, action);
+  add_compare_command(app, common, action);
+  add_picture_command(app, common, action);
+  add_info_command(app, common, action);
+}
+
+int run(const Action& action) {
+  try {
+    return action();
+  } catch (const CLI::Error& error) {
+    log_error(error.what());
+    return kExitUsage;
+  } catch (const InputError& error) {
+    log_error(error.what());
+    return kExitInput;
+  } catch (const NumericalError& error) {
+    log_error(error.what());
+    return kExitNotConverged;
+  } catch (const std::bad_alloc&) {
+    log_error("not enough memory for this input");
+    return kExitInput;
+  } catch (const std::exception& error) {
+    log_error(std::string("internal error: ") + error.what());
+    return kExitInternal;
+  }
+}
+
+/// One line for what the parser found wrong, and where to read more.
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int count,
+                          char** arguments) {
+  const auto chosen = app.get_subcommands();
+  if (chosen.empty() && count > 1 && arguments[1][0] != '-') {
+    return "no command '" + std::string(arguments[1]) + "' (mesamis --help lists them)";
+  }
+  if (chosen.empty()) return "a command is required (mesamis --help lists them)";
+  return one_line(error.what()) + " (mesamis " + chosen[0]->get_name() + " --help tells more)";
+}
+
+int run_program(int count, char** arguments) {
+  CLI::App app("Anisotropic segmentation of 3D scans: printable surfaces and adapted meshes");
+  CommonOptions common;
+  Action action;
+  add_commands(app, common, action);
+  try {
+    app.parse(count, arguments);
+  } catch (const CLI::Success& request) {  // --help, --version
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    set_up_log(common);
+    log_error(usage_message(app, error, count, arguments));
+    return kExitUsage;
+  }
+  set_up_log(common);
+  set_thread_count(common.threads);
+  return run(action);
+}
+
+}  // namespace
+}  // namespace mesamis
+
+int main(int count, char** arguments) {
+  mesamis::handle_signals();
+  return mesamis::run_program(count, arguments);
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// mesamis picture: a PNG of a surface, a mesh or a slice of a volume.
+#include <memory>
+#include <optional>
+
+#include "arguments.h"
+#include "commands.h"
+#include "file_kind.h"
+#include "log.h"
+#include "mesamis/base/error.h"
+#include "mesamis/io/picture.h"
+#include "mesamis/io/read_volume.h"
+#include "mesamis/io/surface_files.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PictureCommand {
+  fs::path input, output, outline;
+  std::string series;
+  PictureOptions picture;
+};
+
+Clip parse_clip(const std::string& text) {
+  const std::string axes = "xyz";
+  const auto axis = text.size() > 2 && text[1] == ',' ? axes.find(text[0]) : std::string::npos;
+  if (axis == std::string::npos) {
+    throw CLI::ValidationError("--clip",
+                               "expected x, y or z, a comma and mm, found '" + text + "'");
+  }
+  return {static_cast<int>(axis), parse_numbers(text.substr(2), 1, "--clip")[0]};
+}
+
+void draw_volume(const PictureCommand& command) {
+  if (!command.picture.color.empty() || command.picture.edges) {
+    throw InputError(command.input.string() + ": a volume has no array to colour by and no edges");
+  }
+  const VolumeFile file = read_volume(command.input, {command.series});
+  for (const std::string& warning : file.warnings) log_warning(warning);
+  std::optional<TriMesh> outline;
+  if (!command.outline.empty()) outline = read_surface(command.outline);
+  draw_slice(command.output, file.volume, outline ? &*outline : nullptr, command.picture);
+}
+
+int run_picture(const PictureCommand& command) {
+  const FileKind kind = kind_of(command.input);
+  if (kind != FileKind::kVolume && !command.outline.empty()) {
+    throw InputError(command.input.string() + ": --outline is for slices of a volume");
+  }
+  switch (kind) {
+    case FileKind::kSurface:
+      draw_surface(command.output, read_surface(command.input), command.picture);
+      break;
+    case FileKind::kMesh:
+      draw_mesh(command.output,
+                command.input.extension() == ".mesh"
+                    ? MeshWithArrays{read_medit_mesh(command.input), {}, {}}
+                    : read_vtu(command.input),
+                command.picture);
+      break;
+    case FileKind::kVolume:
+      draw_volume(command);
+      break;
+  }
+  return kExitDone;
+}
+
+std::string check_png(const std::string& path) {
+  return fs::path(path).extension() == ".png" ? "" : "expected a name that ends with .png";
+}
+
+}  // namespace
+
+void add_picture_command(CLI::App& app, CommonOptions&, Action& action) {
+  auto options = std::make_shared<PictureCommand>();
+  CLI::App* command = app.add_subcommand("picture", "Draw a surface, a mesh or a slice as PNG");
+  command->add_option("input", options->input, "Surface, mesh or volume")->required();
+  command->add_option("-o,--output", options->output, "Picture: .png")
+      ->required()
+      ->check(CLI::Validator(check_png, "PNG"));
+  command->add_option("--view", options->picture.view, "Where it is seen from (not for volumes)")
+      ->check(CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "oblique"}));
+  command->add_flag("--edges", options->picture.edges, "Draw the edges of triangles or cells");
+  command->add_option_function<std::string>(
+      "--clip", [options](const std::string& text) { options->picture.clip = parse_clip(text); },
+      "AXIS,MM: cut the object open there; of a volume, the slice (default: the middle along z)");
+  command->add_option("--color", options->picture.color, "Array of the mesh to colour by");
+  command->add_option_function<std::string>(
+      "--size",
+      [options](const std::string& text) {
+        const auto size = parse_integers(text, 2, "--size");
+        options->picture.pixels = {size[0], size[1]};
+      },
+      "WIDTH,HEIGHT in pixels (default 1000,800)");
+  command->add_option("--outline", options->outline, "Surface to draw over a volume's slice");
+  command->add_option("--series", options->series, "DICOM series UID");
+  command->callback([options, &action] { action = [options] { return run_picture(*options); }; });
+}
+
+}  // namespace mesamis

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "progress.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "log.h"
+
+namespace mesamis {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kBetweenBars = 100ms;
+constexpr auto kBetweenLines = 2s;
+constexpr double kSecondsBeforeEstimate = 1;
+
+int terminal_columns() {
+  winsize size{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
+}
+
+/// "1:05:09" or "5:09"
+std::string clock_text(double seconds) {
+  const long whole = std::lround(seconds);
+  char text[32];
+  if (whole >= 3600) {
+    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+  } else {
+    std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
+  }
+  return text;
+}
+
+}  // namespace
+
+Progress ProgressDisplay::callback() {
+  return [this](std::string_view stage, double fraction) {
+    if (!quiet_) show(stage, std::isfinite(fraction) ? std::clamp(fraction, 0.0, 1.0) : 0);
+    return true;
+  };
+}
+
+void ProgressDisplay::finish() {
+  if (drawn_) std::fputs(kWipeLine, stderr);
+  drawn_ = false;
+}
+
+void ProgressDisplay::show(std::string_view stage, double fraction) {
+  // A stage that starts over, for instance on the next mesh, is timed anew.
+  if (stage != stage_ || fraction < fraction_at_start_) enter(stage, fraction);
+  const auto now = Clock::now();
+  if (!log_allows_bar() || (drawn_ && now - last_drawn_ < kBetweenBars)) return;
+  last_drawn_ = now;
+  draw_bar(fraction);
+}
+
+void ProgressDisplay::enter(std::string_view stage, double fraction) {
+  const auto now = Clock::now();
+  const bool changed = stage != stage_;
+  stage_ = stage;
+  stage_start_ = now;
+  fraction_at_start_ = fraction;
+  if (log_allows_bar() || !changed || now - last_line_ < kBetweenLines) return;
+  last_line_ = now;
+  log_info(stage_);
+}
+
+void ProgressDisplay::draw_bar(double fraction) {
+  const double elapsed = std::chrono::duration<double>(Clock::now() - stage_start_).count();
+  const double done = fraction - fraction_at_start_;
+  std::string left;
+  if (elapsed > kSecondsBeforeEstimate && done > 0) {
+    left = "  " + clock_text(elapsed * (1 - fraction) / done) + " left";
+  }
+  char percent[16];
+  std::snprintf(percent, sizeof percent, " %3.0f %%", 100 * fraction);
+  const std::string text = percent + left;
+  const int room = terminal_columns() - static_cast<int>(stage_.size() + text.size()) - 4;
+  const int width = std::clamp(room, 0, 40);
+  const int full = static_cast<int>(std::lround(fraction * width));
+  const std::string bar = std::string(static_cast<std::size_t>(full), '#') +
+                          std::string(static_cast<std::size_t>(width - full), '-');
+  std::fprintf(stderr, "%s%s [%s]%s", kWipeLine, stage_.c_str(), bar.c_str(), text.c_str());
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+}  // namespace mesamis

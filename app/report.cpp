@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report.h"
+
+#include <algorithm>
+
+#include "process.h"
+#include "settings_json.h"
+#include "version.h"
+
+namespace mesamis {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json vec(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+ordered_json energy_json(const Energy& e) {
+  return {
+      {"total", e.total()}, {"fidelity", e.fidelity}, {"smoothing", e.smoothing}, {"edge", e.edge}};
+}
+
+ordered_json input_json(const InputFacts& input) {
+  return {{"path", input.path.string()},      {"format", input.format},
+          {"sha256", input.sha256},           {"size", input.size},
+          {"spacing_mm", vec(input.spacing)}, {"range", {input.lowest, input.highest}},
+          {"modality", input.modality},       {"warnings", input.warnings}};
+}
+
+ordered_json iteration_json(const Iteration& i) {
+  return {{"tets", i.tets},
+          {"nodes", i.nodes},
+          {"energy", i.energy.total()},
+          {"energy_parts", energy_json(i.energy)},
+          {"energy_change", i.energy_change},
+          {"mesh_change", i.mesh_change},
+          {"amis_iterations", i.amis.iterations},
+          {"v_change", i.amis.v_change},
+          {"v_clamped", i.amis.clamped},
+          {"solver",
+           {{"iterations", i.amis.solver_iterations},
+            {"residual", i.amis.solver_residual},
+            {"converged", i.amis.solver_converged}}},
+          {"estimator", i.estimator},
+          {"predicted_tets", i.predicted_tets},
+          {"aspect_max", i.aspect_max},
+          {"aspect_mean", i.aspect_mean},
+          {"seconds",
+           {{"project", i.seconds.project},
+            {"amis", i.seconds.amis},
+            {"estimate", i.seconds.estimate},
+            {"remesh", i.seconds.remesh},
+            {"transfer", i.seconds.transfer}}}};
+}
+
+ordered_json mesh_json(const Result& result) {
+  return {{"tets", result.mesh.cells.size()},
+          {"nodes", result.mesh.points.size()},
+          {"edge_unit_fraction", result.fit.unit_edge_fraction},
+          {"quality_min", result.fit.quality_min},
+          {"quality_mean", result.fit.quality_mean}};
+}
+
+ordered_json surface_json(const Result& result, const SurfaceCheck& check) {
+  const bool solid = result.settings.surface == SurfaceKind::kSolid;
+  ordered_json j{{"kind", solid ? "solid" : "band"}};
+  if (solid) {
+    j["level_native"] = result.level_native;
+    j["level_grey"] = result.grey.to_grey(result.level_native);
+  }
+  j["triangles"] = result.surface.triangles.size();
+  j["vertices"] = result.surface.points.size();
+  j["closed"] = check.closed();
+  j["manifold"] = check.manifold();
+  j["components"] = check.components;
+  j["volume_mm3"] = check.volume;
+  j["area_mm2"] = check.area;
+  return j;
+}
+
+/// Settings with the values used, so that a run can be repeated from its report.
+Settings settings_used(const Result& result) {
+  Settings used = result.settings;
+  used.threshold_rule = result.threshold_used ? ThresholdRule::kValue : ThresholdRule::kNone;
+  used.threshold = result.grey.threshold;
+  if (used.surface == SurfaceKind::kSolid) used.level = result.level_native;
+  return used;
+}
+
+/// Names of the settings that were left to the program.
+ordered_json chosen(const Settings& asked) {
+  ordered_json names = ordered_json::array();
+  const ordered_json values = to_json(asked);
+  for (const auto& [name, value] : values.items()) {
+    if (value == "auto") names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file) {
+  const Volume& volume = file.volume;
+  InputFacts facts{path, file.format, sha256(path), volume.modality, volume.size, volume.spacing,
+                   0,    0,           file.warnings};
+  if (!volume.samples.empty()) {
+    const auto [low, high] = std::minmax_element(volume.samples.begin(), volume.samples.end());
+    facts.lowest = *low;
+    facts.highest = *high;
+  }
+  return facts;
+}
+
+ordered_json segment_report(const InputFacts& input, const Settings& settings, const Result& result,
+                            const SurfaceCheck& surface) {
+  ordered_json report;
+  report["program"] = {{"name", "mesamis"}, {"version", kVersion}, {"commit", kCommit}};
+  report["input"] = input_json(input);
+  report["settings"] = to_json(settings_used(result));
+  report["chosen"] = chosen(settings);
+  report["grey"] = {
+      {"length_unit_mm", result.unit_mm},
+      {"window_native", {result.grey.low, result.grey.high}},
+      {"threshold_grey", result.threshold_used
+                             ? ordered_json(result.grey.to_grey(result.grey.threshold))
+                             : ordered_json(nullptr)}};
+  report["iterations"] = ordered_json::array();
+  for (const Iteration& i : result.iterations) report["iterations"].push_back(iteration_json(i));
+  report["mesh"] = mesh_json(result);
+  report["surface"] = surface_json(result, surface);
+  report["converged"] = result.converged;
+  report["seconds_parts"] = {{"prepare", result.seconds.prepare},
+                             {"surface", result.seconds.surface},
+                             {"method", result.seconds.total}};
+  report["seconds"] = wall_seconds();
+  report["peak_memory_mb"] = peak_memory_mb();
+  return report;
+}
+
+}  // namespace mesamis

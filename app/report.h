@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "mesamis/io/read_volume.h"
+#include "mesamis/mes_amis.h"
+#include "mesamis/surface/tri_mesh.h"
+
+namespace mesamis {
+
+struct InputFacts {
+  std::filesystem::path path;
+  std::string format, sha256, modality;
+  std::array<Index, 3> size{0, 0, 0};
+  Vec3 spacing;
+  double lowest = 0, highest = 0;  ///< native units
+  std::vector<std::string> warnings;
+};
+InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file);
+
+/// The report of a run, as docs/formats.md describes it.
+/// @param settings  those asked for, to tell what was chosen automatically.
+nlohmann::ordered_json segment_report(const InputFacts& input, const Settings& settings,
+                                      const Result& result, const SurfaceCheck& surface);
+
+}  // namespace mesamis

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+// mesamis segment: a scan in, a surface, an adapted mesh and a report out.
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "json_file.h"
+#include "log.h"
+#include "mesamis/adapt/estimator.h"
+#include "mesamis/base/error.h"
+#include "mesamis/io/mesh_files.h"
+#include "mesamis/io/read_volume.h"
+#include "mesamis/io/surface_files.h"
+#include "mesamis/mes_amis.h"
+#include "mesamis/surface/extract.h"
+#include "progress.h"
+#include "report.h"
+#include "settings_json.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct SegmentOptions {
+  fs::path input, settings_file, report;
+  std::vector<fs::path> surfaces, meshes, band_meshes;
+  std::string series;
+  Frame frame = Frame::kLps;
+  json overrides = json::object();  // settings given as options, on top of the file's
+};
+
+/// "3,2.5,4" as numbers; a single number stands for all `count` when `repeat`.
+json numbers(const std::string& text, std::size_t count, const std::string& option) {
+  json values = json::array();
+  std::stringstream in(text);
+  for (std::string part; std::getline(in, part, ',');) {
+    const json value = json::parse(part, nullptr, false);
+    if (!value.is_number()) throw CLI::ValidationError(option, "'" + part + "' is not a number");
+    values.push_back(value);
+  }
+  if (values.size() != count) {
+    throw CLI::ValidationError(option, "expected " + std::to_string(count) +
+                                           " numbers with commas between, found " + text);
+  }
+  return values;
+}
+
+/// "I0:I1,J0:J1,K0:K1"; an empty bound is the volume's own.
+json crop_ranges(const std::string& text) {
+  json ranges = json::array();
+  std::stringstream in(text);
+  for (std::string part; std::getline(in, part, ',');) {
+    const auto colon = part.find(':');
+    if (colon == std::string::npos) {
+      throw CLI::ValidationError("--crop", "expected I0:I1,J0:J1,K0:K1, found " + text);
+    }
+    auto bound = [&](const std::string& number, int otherwise) {
+      if (number.empty()) return json(otherwise);
+      const json value = json::parse(number, nullptr, false);
+      if (!value.is_number_integer()) {
+        throw CLI::ValidationError("--crop", "'" + number + "' is not a whole number");
+      }
+      return value;
+    };
+    ranges.push_back({bound(part.substr(0, colon), 0), bound(part.substr(colon + 1), -1)});
+  }
+  if (ranges.size() != 3) throw CLI::ValidationError("--crop", "expected three ranges");
+  return ranges;
+}
+
+/// A number, or one of the words allowed.
+json number_or_word(const std::string& text, const std::vector<std::string>& words,
+                    const std::string& option) {
+  for (const std::string& word : words) {
+    if (text == word) return word;
+  }
+  const json value = json::parse(text, nullptr, false);
+  if (value.is_number()) return value;
+  throw CLI::ValidationError(option, "'" + text + "' is neither a number nor a word it knows");
+}
+
+/// Adds an option whose text becomes one entry of the overrides.
+using Parse = std::function<json(const std::string&)>;
+void add_setting(CLI::App& command, const std::shared_ptr<SegmentOptions>& options,
+                 const std::string& flag, const std::string& help, const Parse& parse) {
+  std::string key = flag.substr(2);
+  std::replace(key.begin(), key.end(), '-', '_');
+  command
+      .add_option_function<std::string>(
+          flag, [=](const std::string& text) { options->overrides[key] = parse(text); }, help)
+      ->group("Settings");
+}
+
+void add_number(CLI::App& command, const std::shared_ptr<SegmentOptions>& options,
+                const std::string& flag, const std::string& help,
+                const std::vector<std::string>& words = {}) {
+  add_setting(command, options, flag, help,
+              [=](const std::string& text) { return number_or_word(text, words, flag); });
+}
+
+void add_word(CLI::App& command, const std::shared_ptr<SegmentOptions>& options,
+              const std::string& flag, const std::string& help) {
+  add_setting(command, options, flag, help, [](const std::string& text) { return json(text); });
+}
+
+void add_image_settings(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
+  add_setting(c, o, "--crop", "Voxels to use, I0:I1,J0:J1,K0:K1 (ends excluded, may be empty)",
+              crop_ranges);
+  add_setting(c, o, "--stride", "Voxels per node of the first grid, X,Y,Z (default 1,1,1)",
+              [](const std::string& text) { return numbers(text, 3, "--stride"); });
+  add_setting(c, o, "--window", "Native values mapped to 0 and 255, LO,HI or auto (default auto)",
+              [](const std::string& text) {
+                return text == "auto" ? json(text) : numbers(text, 2, "--window");
+              });
+  add_number(c, o, "--threshold", "Native value below which all is one tissue, auto or none",
+             {"auto", "none"});
+  add_number(c, o, "--level", "Native value of the solid surface, or auto", {"auto"});
+}
+
+void add_method_settings(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
+  add_word(c, o, "--length-unit", "Unit of the parameters' lengths: voxel or mm (default voxel)");
+  add_number(c, o, "--epsilon", "Thickness of the edge indicator (default 1e-3)");
+  add_number(c, o, "--eta", "Smallest diffusion at edges (default epsilon squared)", {"auto"});
+  add_number(c, o, "--beta", "Weight of smoothness away from edges (default 2)");
+  add_number(c, o, "--gamma", "Price of edges (default 0.1)");
+  add_number(c, o, "--amis-iterations", "Alternations per mesh at most (default 10)");
+  add_number(c, o, "--tol-v", "Alternations stop at this change of v (default 1e-2)");
+  add_number(c, o, "--solver-tolerance", "Relative residual of each solve (default 1e-6)");
+  add_number(c, o, "--max-tets", "Cells of the mesh at most, or auto", {"auto"});
+  add_number(c, o, "--tau", "Tolerance on the error estimator (default 1e-2)");
+  add_number(c, o, "--adaptations", "Adaptations at most (default 10)");
+  add_number(c, o, "--tol-mesh", "Settled: relative change of the cell count (default 1e-2)");
+  add_number(c, o, "--tol-energy", "Settled: relative change of the energy (default 1e-2)");
+  add_number(c, o, "--max-stretch", "Longest to shortest size of a cell (default 10)");
+  add_number(c, o, "--h-min", "Smallest edge, in length units (default 0.5)");
+  add_number(c, o, "--h-max", "Largest edge, in length units, or auto", {"auto"});
+  add_word(c, o, "--surface", "solid: closed level set of u (default); band: the paper's surface");
+  add_number(c, o, "--band-threshold", "The band's cells have v below this (default 0.1)");
+  c.add_flag_callback(
+       "--stop-at-first", [o] { o->overrides["stop_at_first"] = true; },
+       "Stop when mesh or energy has settled, as printed in the paper (default: both)")
+      ->group("Settings");
+}
+
+Settings settings_of(const SegmentOptions& options) {
+  Settings settings;
+  if (!options.settings_file.empty()) {
+    json file = read_json(options.settings_file);
+    // A whole report serves as well: its settings are those of the run.
+    if (file.is_object() && file.contains("settings")) file = file["settings"];
+    from_json(file, settings);
+  }
+  from_json(options.overrides, settings);
+  require_valid(settings);
+  return settings;
+}
+
+std::vector<double> metric_values(std::span<const Sym3> metrics) {
+  std::vector<double> values;
+  values.reserve(6 * metrics.size());
+  for (const Sym3& m : metrics) {
+    values.insert(values.end(), {m.xx, m.yy, m.zz, m.xy, m.yz, m.xz});
+  }
+  return values;
+}
+
+/// Cell arrays: the aspect ratios (6), and 1 where the cell belongs to an edge.
+std::vector<MeshArray> cell_arrays(const Result& result) {
+  std::vector<MeshArray> arrays{{"s1", 1, {}}, {"s2", 1, {}}, {"s3", 1, {}}, {"edge", 1, {}}};
+  for (const Cell& k : result.mesh.cells) {
+    const auto& p = result.mesh.points;
+    const auto s = aspect_ratios(cell_shape({p[k[0]], p[k[1]], p[k[2]], p[k[3]]}));
+    for (std::size_t i = 0; i < 3; ++i) arrays[i].values.push_back(s[i]);
+  }
+  arrays[3].values.assign(result.mesh.cells.size(), 0);
+  for (const Index cell : band_cells(result.mesh, result.v, result.settings.band_threshold)) {
+    arrays[3].values[static_cast<std::size_t>(cell)] = 1;
+  }
+  return arrays;
+}
+
+void write_mesh(const fs::path& path, const Result& result, Frame frame) {
+  if (path.extension() == ".mesh") {
+    write_medit_mesh(path, result.mesh);
+    fs::path fields = path;
+    const std::vector<std::vector<double>> values{result.u, result.v, result.f};
+    write_medit_scalars(fields.replace_extension(".sol"), values);
+    return;
+  }
+  const std::vector<MeshArray> points{{"u", 1, result.u},
+                                      {"v", 1, result.v},
+                                      {"f", 1, result.f},
+                                      {"metric", 6, metric_values(result.metric)}};
+  write_vtu(path, result.mesh, points, cell_arrays(result), frame);
+}
+
+/// T_h^th and v_h^th: the cells of the band alone, points renumbered.
+void write_band_mesh(const fs::path& path, const Result& result, Frame frame) {
+  TetMesh band;
+  std::vector<Index> new_index(result.mesh.points.size(), kNoIndex);
+  MeshArray v{"v", 1, {}};
+  for (const Index c : band_cells(result.mesh, result.v, result.settings.band_threshold)) {
+    Cell cell = result.mesh.cells[static_cast<std::size_t>(c)];
+    for (Index& n : cell) {
+      if (new_index[n] == kNoIndex) {
+        new_index[n] = static_cast<Index>(band.points.size());
+        band.points.push_back(result.mesh.points[n]);
+        v.values.push_back(result.v[n]);
+      }
+      n = new_index[n];
+    }
+    band.cells.push_back(cell);
+  }
+  write_vtu(path, band, std::vector<MeshArray>{v}, {}, frame);
+}
+
+std::string why_not_converged(const Result& result) {
+  const auto& passes = result.iterations;
+  for (const Iteration& pass : passes) {
+    if (!pass.amis.solver_converged) {
+      return "not converged: a linear solve ended with a relative residual of " +
+             std::to_string(pass.amis.solver_residual) + ", expected " +
+             std::to_string(result.settings.solver_tolerance);
+    }
+  }
+  const Iteration& last = passes[passes.size() - 2];
+  return "not converged: after " + std::to_string(result.settings.adaptations) +
+         " adaptations the cell count changed by " + std::to_string(last.mesh_change) +
+         " and the energy by " + std::to_string(last.energy_change) + ", expected at most " +
+         std::to_string(result.settings.tol_mesh) + " and " +
+         std::to_string(result.settings.tol_energy);
+}
+
+int run_segment(const SegmentOptions& options, const CommonOptions& common) {
+  const Settings settings = settings_of(options);
+  const VolumeFile file = read_volume(options.input, {options.series});
+  for (const std::string& warning : file.warnings) log_warning(warning);
+  require_usable(file.volume);
+  ProgressDisplay display(common.quiet);
+  const Result result = mes_amis(file.volume, settings, display.callback());
+  display.finish();
+  const SurfaceCheck check = check_surface(result.surface);
+  const std::string name = options.input.stem().string();
+  for (const fs::path& path : options.surfaces) {
+    write_surface(path, result.surface, {options.frame, name});
+  }
+  for (const fs::path& path : options.meshes) write_mesh(path, result, options.frame);
+  for (const fs::path& path : options.band_meshes) write_band_mesh(path, result, options.frame);
+  if (!options.report.empty()) {
+    write_json(options.report,
+               segment_report(facts_of(options.input, file), settings, result, check));
+  }
+  if (!check.closed() || !check.manifold()) {
+    log_error("the surface is not closed and 2-manifold: " + std::to_string(check.open_edges) +
+              " open edges, " + std::to_string(check.nonmanifold_edges) + " non-manifold edges");
+    return kExitNotClosed;
+  }
+  if (result.converged) return kExitDone;
+  log_error(why_not_converged(result));
+  return kExitNotConverged;
+}
+
+}  // namespace
+
+void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
+  auto options = std::make_shared<SegmentOptions>();
+  CLI::App* command = app.add_subcommand("segment", "Segment a scan: surface, mesh, report");
+  command->add_option("input", options->input, "Volume file, DICOM directory or file")->required();
+  command->add_option("-o,--output", options->surfaces, "Surface: .stl .ply .obj .vtp");
+  command->add_option("--mesh", options->meshes, "Adapted mesh: .vtu, or Medit .mesh and .sol");
+  command->add_option("--band-mesh", options->band_meshes, "The band's cells with v: .vtu");
+  command->add_option("--report", options->report, "Report: .json");
+  command->add_option("--series", options->series, "DICOM series UID");
+  command->add_option("--settings", options->settings_file, "Settings or a report: .json");
+  const std::map<std::string, Frame> frames{{"lps", Frame::kLps}, {"ras", Frame::kRas}};
+  command->add_option("--frame", options->frame, "Frame of the files: lps (default) or ras")
+      ->transform(CLI::CheckedTransformer(frames, CLI::ignore_case));
+  add_image_settings(*command, options);
+  add_method_settings(*command, options);
+  command->callback([options, &common, &action] {
+    action = [options, &common] { return run_segment(*options, common); };
+  });
+}
+
+}  // namespace mesamis

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line itself: help, version, usage, the log.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/run_program.h"
+
+namespace mesamis {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(Arguments, VersionAndHelpAreResults) {
+  const TempFolder folder;
+  const ProgramRun version = run_program(folder, {"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_THAT(version.out, testing::MatchesRegex("mesamis [0-9.]+ \\(commit .+\\)\n"));
+  EXPECT_EQ(version.err, "");
+  const ProgramRun help = run_program(folder, {"--help"});
+  EXPECT_EQ(help.status, 0);
+  for (const auto* command : {"segment", "remesh", "compare", "picture", "info"}) {
+    EXPECT_THAT(help.out, HasSubstr(command));
+    const ProgramRun one = run_program(folder, {command, "--help"});
+    EXPECT_EQ(one.status, 0);
+    EXPECT_THAT(one.out, HasSubstr("Usage"));
+  }
+}
+
+TEST(Arguments, UsageErrorsAreOneLineAndStatusTwo) {
+  const TempFolder folder;
+  EXPECT_FAILS(run_program(folder, {}), 2, "command is required");
+  EXPECT_FAILS(run_program(folder, {"sgement"}), 2, "sgement");
+  EXPECT_FAILS(run_program(folder, {"info"}), 2, "input");
+  EXPECT_FAILS(run_program(folder, {"info", "a", "b"}), 2, "b");
+  EXPECT_FAILS(run_program(folder, {"info", "a", "--frobnicate"}), 2, "--frobnicate");
+  EXPECT_FAILS(run_program(folder, {"info", "a", "--threads", "none"}), 2, "--threads");
+  EXPECT_FAILS(run_program(folder, {"remesh", "a.mesh", "-o", "b.mesh"}), 2, "--metric");
+}
+
+TEST(Arguments, CommonOptionsMayStandBeforeOrAfterTheCommand) {
+  const TempFolder folder;
+  const std::string none = folder / "none.nii";
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {"--log-json", "--threads", "1", "info", none}, {"info", none, "--log-json"}}) {
+    const ProgramRun run = run_program(folder, arguments);
+    EXPECT_EQ(run.status, 3);
+    const auto line = nlohmann::json::parse(run.err);
+    EXPECT_EQ(line["level"], "error");
+    EXPECT_THAT(line["message"], HasSubstr("none.nii"));
+  }
+}
+
+TEST(Arguments, FailuresStayOnOneLineWhateverTheNames) {
+  const TempFolder folder;
+  EXPECT_FAILS(run_program(folder, {"info", "two\nlines\x1b[31m.nii"}), 3, "lines");
+  EXPECT_FAILS(run_program(folder, {"--quiet", "info", "missing.nii"}), 3, "missing.nii");
+}
+
+}  // namespace
+}  // namespace mesamis

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "mesamis/io/mesh_files.h"
+#include "support/run_program.h"
+#include "support/test_data.h"
+
+namespace mesamis {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Info, DescribesAVolumeInOneLine) {
+  const TempFolder folder;
+  write_bytes(folder / "v.nrrd",
+              "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 3 4\nencoding: raw\n"
+              "space: left-posterior-superior\nspace directions: (0.5,0,0) (0,1,0) (0,0,2)\n"
+              "space origin: (0,0,0)\n\nABCDEFGHIJKLMNOPQRSTUVWX");
+  const ProgramRun run = run_program(folder, {"info", folder / "v.nrrd"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1);
+  EXPECT_THAT(run.out, HasSubstr("NRRD"));
+  EXPECT_THAT(run.out, HasSubstr("2 x 3 x 4 voxels of 0.5 x 1 x 2 mm"));
+}
+
+TEST(Info, DescribesAMeshAndItsArrays) {
+  const TempFolder folder;
+  const TetMesh mesh = box_mesh({{0, 0, 0}, {2, 3, 4}}, {1, 1, 1});
+  const std::vector<MeshArray> arrays{{"u", 1, std::vector<double>(8, 1)}};
+  write_vtu(folder / "m.vtu", mesh, arrays, {});
+  const ProgramRun run = run_program(folder, {"info", folder / "m.vtu"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("6 tetrahedra, 8 vertices, 2 x 3 x 4 mm, arrays u"));
+}
+
+TEST(Info, RefusesWhatIsNotThereOrNothingKnown) {
+  const TempFolder folder;
+  write_bytes(folder / "a.txt", "just text");
+  EXPECT_FAILS(run_program(folder, {"info", folder / "none"}), 3, "none");
+  EXPECT_FAILS(run_program(folder, {"info", folder / "a.txt"}), 3, "a.txt");
+  EXPECT_FAILS(run_program(folder, {"info", folder / "none.stl"}), 3, "none.stl");
+  EXPECT_FAILS(run_program(folder, {"info", folder / "none.vtu"}), 3, "none.vtu");
+}
+
+TEST(Info, ListsEachSeriesOfADirectory) {
+  const auto data = test_data("data/dicom_ct_j2k");
+  MESAMIS_REQUIRE_DATA(data);
+  const TempFolder folder;
+  const ProgramRun run = run_program(folder, {"info", data});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("CT  512 x 512 x 20 voxels"));
+}
+
+}  // namespace
+}  // namespace mesamis
