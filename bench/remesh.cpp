@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+// How fast and how well the remesher fits a mesh to known metrics.
+//
+//   bench_remesh [--cells N] [--threads N] [--case NAME] [--again] [--json] [--write PREFIX]
+//
+// Cases: linear, polar1, polar2 (UGAWG cubes), voxel (thin layers on a 102 x 122 x 304 grid).
+// --again adapts once more to the metric given at the nodes of the first result.
+// --write leaves each mesh as PREFIX-NAME.mesh (Medit).
+#include "mesamis/remesh/remesh.h"
+
+#include <sys/resource.h>
+
+#include <cinttypes>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesamis/base/parallel.h"
+#include "mesamis/mesh/metric.h"
+#include "support/metric_fields.h"
+
+namespace {
+
+using namespace mesamis;
+
+struct Arguments {
+  double cells = 100'000;
+  int threads = 1;
+  bool json = false, again = false;
+  std::string only, write;
+};
+
+struct Case {
+  std::string name;
+  std::unique_ptr<MetricField> metric;
+  TetMesh start;
+  double scale = 1;
+};
+
+double user_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec) +
+         1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+}
+
+/// Thin layers around a wavy surface, 1.5 x 1.5 x 1 mm voxels, with noise, smoothed as the
+/// caller of the remesher should.
+class VoxelMetric {
+ public:
+  static constexpr std::array<Index, 3> kSize{102, 122, 304};
+  static constexpr Vec3 kSpacing{1.5, 1.5, 1};
+
+  explicit VoxelMetric(double cells) {
+    for (Index k = 0; k < kSize[2]; ++k) {
+      for (Index j = 0; j < kSize[1]; ++j) {
+        for (Index i = 0; i < kSize[0]; ++i)
+          logs_.push_back(log_metric({i * 1.5, j * 1.5, 1.0 * k}));
+      }
+    }
+    for (int sweep = 0; sweep < 3; ++sweep) smooth();
+    constexpr double kCellsPerUnit = 9.6;
+    const double shift = 2.0 / 3 * std::log(cells / kCellsPerUnit / complexity());
+    for (auto& l : logs_) {
+      for (const std::size_t entry : {0, 3, 5}) l[entry] += static_cast<float>(shift);
+    }
+  }
+
+  static Box box() { return {{0, 0, 0}, extent()}; }
+  GridMetricField field() const { return {box(), kSize, logs_}; }
+
+ private:
+  static Vec3 extent() {
+    return {1.5 * (kSize[0] - 1), 1.5 * (kSize[1] - 1), 1.0 * (kSize[2] - 1)};
+  }
+
+  static double level(const Vec3& p) {
+    const Vec3 d = extent();
+    const double x = p.x / d.x * 6.28, y = p.y / d.y * 6.28, z = p.z / d.z * 12.56;
+    const double gyroid =
+        std::sin(x) * std::cos(y) + std::sin(y) * std::cos(z) + std::sin(z) * std::cos(x);
+    const double s = std::hypot(p.x / d.x - 0.5, p.y / d.y - 0.5, p.z / d.z - 0.5);
+    return 20 * std::max(0.35 - 0.35 * std::abs(gyroid), -1.0) - 80 * std::max(0.0, s - 0.38);
+  }
+
+  static Vec3 gradient(const Vec3& p) {
+    constexpr double e = 0.3;
+    return 1 / (2 * e) *
+           Vec3{level(p + Vec3{e, 0, 0}) - level(p - Vec3{e, 0, 0}),
+                level(p + Vec3{0, e, 0}) - level(p - Vec3{0, e, 0}),
+                level(p + Vec3{0, 0, e}) - level(p - Vec3{0, 0, e})};
+  }
+
+  std::array<float, 6> log_metric(const Vec3& p) {
+    Vec3 g = gradient(p);
+    const double slope = norm(g);
+    g = slope > 1e-12 ? 1 / slope * g : Vec3{1, 0, 0};
+    const double distance = std::min(std::abs(level(p)) / std::max(slope, 0.2), 40.0);
+    const double along = std::min(4 + 0.25 * distance, 14.0);
+    const double across = std::min(0.35 + 0.3 * distance, along);
+    const Sym3 l =
+        -2 * std::log(along) * kIdentity3 + 2 * (std::log(along) - std::log(across)) * outer(g);
+    std::array<float, 6> result{};
+    const std::array<double, 6> entries{l.xx, l.xy, l.xz, l.yy, l.yz, l.zz};
+    for (std::size_t c = 0; c < 6; ++c) result[c] = static_cast<float>(entries[c] + 0.2 * noise());
+    return result;
+  }
+
+  double noise() {
+    random_ = random_ * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(random_ >> 33) / static_cast<double>(1u << 31) - 0.5;
+  }
+
+  void smooth() {
+    const auto old = logs_;
+    const std::array<std::ptrdiff_t, 3> stride{1, kSize[0], std::ptrdiff_t{kSize[0]} * kSize[1]};
+    for (std::ptrdiff_t n = 0; n < std::ssize(logs_); ++n) {
+      std::array<float, 6> sum{};
+      float weights = 0;
+      auto add = [&](std::ptrdiff_t m, float w) {
+        for (std::size_t c = 0; c < 6; ++c) sum[c] += w * old[static_cast<std::size_t>(m)][c];
+        weights += w;
+      };
+      add(n, 2);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::ptrdiff_t i = n / stride[axis] % kSize[axis];
+        if (i > 0) add(n - stride[axis], 1);
+        if (i + 1 < kSize[axis]) add(n + stride[axis], 1);
+      }
+      for (std::size_t c = 0; c < 6; ++c) logs_[static_cast<std::size_t>(n)][c] = sum[c] / weights;
+    }
+  }
+
+  double complexity() const {
+    double sum = 0;
+    for (const auto& l : logs_) sum += std::exp(0.5 * (l[0] + l[3] + l[5]));
+    return sum * kSpacing.x * kSpacing.y * kSpacing.z;
+  }
+
+  std::vector<std::array<float, 6>> logs_;
+  std::uint64_t random_ = 12345;
+};
+
+Case make_case(const std::string& name, double cells) {
+  if (name == "voxel") {
+    return {name, std::make_unique<GridMetricField>(VoxelMetric(cells).field()),
+            box_mesh(VoxelMetric::box(), {4, 5, 8})};
+  }
+  const Ugawg which = name == "linear"   ? Ugawg::kLinear
+                      : name == "polar1" ? Ugawg::kPolar1
+                                         : Ugawg::kPolar2;
+  const double scale = ugawg_scale(which, cells);
+  return {name, std::make_unique<FormulaMetric>(ugawg_metric(which, scale)),
+          box_mesh(kUnitBox, {3, 3, 3}), scale};
+}
+
+void write_medit(const TetMesh& mesh, const std::string& path) {
+  FILE* out = std::fopen(path.c_str(), "w");
+  if (out == nullptr) throw std::runtime_error("cannot write " + path);
+  std::fprintf(out, "MeshVersionFormatted 2\nDimension 3\nVertices\n%zu\n", mesh.points.size());
+  for (const Vec3& p : mesh.points) std::fprintf(out, "%.17g %.17g %.17g 0\n", p.x, p.y, p.z);
+  std::fprintf(out, "Tetrahedra\n%zu\n", mesh.cells.size());
+  for (const Cell& c : mesh.cells) {
+    std::fprintf(out, "%d %d %d %d 0\n", c[0] + 1, c[1] + 1, c[2] + 1, c[3] + 1);
+  }
+  std::fprintf(out, "End\n");
+  std::fclose(out);
+}
+
+void print_row(const Case& c, const Arguments& arguments, double seconds, const TetMesh& mesh,
+               const RemeshReport& report) {
+  const MeshFit fit = measure_fit(mesh, metrics_at_nodes(mesh, *c.metric));
+  const char* format =
+      arguments.json
+          ? "{\"case\": \"%s\", \"scale\": %.6f, \"target\": %.0f, \"tets\": %zu, \"seconds\": "
+            "%.2f, \"tets_per_second\": %.0f, \"unit_edge_percent\": %.2f, \"quality_min\": %.3f, "
+            "\"quality_mean\": %.4f, \"rounds\": %d, \"threads\": %d, \"hash\": \"%016" PRIx64
+            "\"}\n"
+          : "%-12s %7.4f %9.0f %9zu %8.2f %9.0f %7.2f %7.3f %8.4f %6d %4d  %016" PRIx64 "\n";
+  std::printf(format, c.name.c_str(), c.scale, arguments.cells, mesh.cells.size(), seconds,
+              static_cast<double>(mesh.cells.size()) / seconds, 100 * fit.unit_edge_fraction,
+              fit.quality_min, fit.quality_mean, report.rounds, arguments.threads, mesh_hash(mesh));
+  std::fflush(stdout);
+}
+
+TetMesh run(const Case& c, const MetricField& metric, const Arguments& arguments) {
+  RemeshReport report;
+  const double before = user_seconds();
+  TetMesh mesh = remesh(c.start, metric, {}, &report);
+  print_row(c, arguments, user_seconds() - before, mesh, report);
+  validate(mesh, bounding_box(c.start.points));
+  return mesh;
+}
+
+Arguments parse(int argc, char** argv) {
+  Arguments arguments;
+  auto value = [&](int& i) {
+    if (i + 1 == argc) throw std::runtime_error(std::string(argv[i]) + " needs a value");
+    return argv[++i];
+  };
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view option = argv[i];
+    if (option == "--cells") {
+      arguments.cells = std::atof(value(i));
+    } else if (option == "--threads") {
+      arguments.threads = std::atoi(value(i));
+    } else if (option == "--case") {
+      arguments.only = value(i);
+    } else if (option == "--write") {
+      arguments.write = value(i);
+    } else if (option == "--json") {
+      arguments.json = true;
+    } else if (option == "--again") {
+      arguments.again = true;
+    } else {
+      throw std::runtime_error("unknown option " + std::string(option));
+    }
+  }
+  return arguments;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Arguments arguments = parse(argc, argv);
+  set_thread_count(arguments.threads);
+  if (!arguments.json) {
+    std::printf("%-12s %7s %9s %9s %8s %9s %7s %7s %8s %6s %4s  %s\n", "case", "scale", "target",
+                "tets", "user s", "tets/s", "unit %", "q min", "q mean", "rounds", "thr", "hash");
+  }
+  for (const std::string name : {"linear", "polar1", "polar2", "voxel"}) {
+    if (!arguments.only.empty() && arguments.only != name) continue;
+    Case c = make_case(name, arguments.cells);
+    const TetMesh mesh = run(c, *c.metric, arguments);
+    if (!arguments.write.empty()) write_medit(mesh, arguments.write + "-" + name + ".mesh");
+    if (!arguments.again) continue;
+    const MeshMetricField background(mesh, metrics_at_nodes(mesh, *c.metric));
+    c.name += " again";
+    c.start = mesh;
+    run(c, background, arguments);
+  }
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "bench_remesh: %s\n", error.what());
+  return 1;
+}
