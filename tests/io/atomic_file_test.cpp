@@ -16,7 +16,7 @@ namespace mesamis {
 namespace {
 
 TEST(AtomicFile, AppearsWithCommit) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   AtomicFile file(folder / "a.stl");
   write_bytes(file.temporary_path(), "whole");
   EXPECT_FALSE(std::filesystem::exists(folder / "a.stl"));
@@ -26,7 +26,7 @@ TEST(AtomicFile, AppearsWithCommit) {
 }
 
 TEST(AtomicFile, LeavesNothingAndTouchesNothingWithoutCommit) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   write_bytes(folder / "a.stl", "old");
   {
     const AtomicFile file(folder / "a.stl");
@@ -38,7 +38,7 @@ TEST(AtomicFile, LeavesNothingAndTouchesNothingWithoutCommit) {
 }
 
 TEST(AtomicFile, ReplacesAFile) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   write_bytes(folder / "a.stl", "old");
   AtomicFile file(folder / "a.stl");
   write_bytes(file.temporary_path(), "new");
@@ -47,7 +47,7 @@ TEST(AtomicFile, ReplacesAFile) {
 }
 
 TEST(AtomicFile, TemporaryLiesBesideAndKeepsTheExtension) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const AtomicFile one(folder / "a.b.vtp"), two(folder / "a.b.vtp");
   EXPECT_EQ(one.temporary_path().extension(), ".vtp");
   EXPECT_EQ(one.temporary_path().parent_path(), (folder / "a").parent_path());
@@ -55,7 +55,7 @@ TEST(AtomicFile, TemporaryLiesBesideAndKeepsTheExtension) {
 }
 
 TEST(AtomicFile, WorksInTheCurrentDirectory) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder / "");
   AtomicFile file("plain.obj");
@@ -67,7 +67,7 @@ TEST(AtomicFile, WorksInTheCurrentDirectory) {
 }
 
 TEST(AtomicFile, RefusesWhereNoFileCanBe) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   using testing::HasSubstr;
   EXPECT_REFUSED(AtomicFile(folder / "missing/a.stl"),
                  HasSubstr("missing/a.stl: cannot be written"));
@@ -78,14 +78,14 @@ TEST(AtomicFile, RefusesWhereNoFileCanBe) {
 }
 
 TEST(AtomicFile, CommitSaysWhenTheTargetBecameADirectory) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   AtomicFile file(folder / "a.stl");
   std::filesystem::create_directory(folder / "a.stl");
   EXPECT_REFUSED(file.commit(), testing::HasSubstr("a.stl: cannot be written"));
 }
 
 TEST(AtomicFile, MoreAtOnceThanAHandlerCanKnowStillVanish) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   {
     std::vector<std::unique_ptr<AtomicFile>> files;
     for (int i = 0; i < 100; ++i) {
@@ -97,7 +97,7 @@ TEST(AtomicFile, MoreAtOnceThanAHandlerCanKnowStillVanish) {
 }
 
 TEST(RemoveUnfinishedFiles, LeavesCommittedOnesAlone) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   AtomicFile done(folder / "done.stl");
   done.commit();
   const AtomicFile open(folder / "open.stl");
@@ -112,7 +112,7 @@ void clean_up(int) {
 }
 
 TEST(RemoveUnfinishedFiles, WorksInASignalHandler) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const pid_t child = fork();
   if (child == 0) {
     signal(SIGTERM, clean_up);
@@ -127,7 +127,7 @@ TEST(RemoveUnfinishedFiles, WorksInASignalHandler) {
 }
 
 TEST(RemoveUnfinishedFiles, ManyTimesOverSlotsAreUsedAgain) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   for (int i = 0; i < 300; ++i) {
     const AtomicFile file(folder / "a.stl");
     remove_unfinished_files();

@@ -53,7 +53,7 @@ class EachFormat : public testing::TestWithParam<const char*> {
   }
   /// Single precision at 100 mm, or nothing at all.
   double tolerance() const { return std::strcmp(GetParam(), ".stl") == 0 ? 1e-5 : 0; }
-  TemporaryFolder folder_;
+  TempFolder folder_;
 };
 INSTANTIATE_TEST_SUITE_P(Surface, EachFormat, testing::Values(".stl", ".ply", ".obj", ".vtp"),
                          [](const auto& tested) { return std::string(tested.param + 1); });
@@ -188,7 +188,7 @@ TEST_P(EachFormat, AMissingFileOrADirectoryIsRefused) {
 }
 
 TEST(SurfaceFiles, OtherExtensionsAreRefusedByName) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   EXPECT_REFUSED(write_surface(folder / "a.3mf", cube()),
                  testing::AllOf(HasSubstr("3mf"), HasSubstr(".stl .ply .obj .vtp")));
   EXPECT_REFUSED(write_surface(folder / "a.vtk", cube()), HasSubstr(".stl .ply .obj .vtp"));
@@ -200,7 +200,7 @@ TEST(SurfaceFiles, OtherExtensionsAreRefusedByName) {
 }
 
 TEST(Stl, HeaderIsNeverTakenForText) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   write_surface(folder / "a.stl", cube(), {.name = std::string(200, 'n')});
   const std::string bytes = read_bytes(folder / "a.stl");
   EXPECT_EQ(bytes.size(), 84u + 12 * 50);
@@ -208,7 +208,7 @@ TEST(Stl, HeaderIsNeverTakenForText) {
 }
 
 TEST(Stl, BinaryThatBeginsWithSolidIsReadBySize) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   write_surface(folder / "a.stl", cube());
   std::string bytes = read_bytes(folder / "a.stl");
   bytes.replace(0, 9, "solid bad");
@@ -217,7 +217,7 @@ TEST(Stl, BinaryThatBeginsWithSolidIsReadBySize) {
 }
 
 TEST(Stl, ReadsText) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string text =
       "solid two\r\n facet normal 0 0 1\r\n  outer loop\r\n   vertex 0 0 -0\r\n"
       "   vertex 1.5e1 0 0\r\n   VERTEX 0 +2 0\r\n  endloop\r\n endfacet\r\n"
@@ -235,7 +235,7 @@ TEST(Stl, ReadsText) {
 }
 
 TEST(Stl, LeavesOutWhatSinglePrecisionCollapses) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   TriMesh surface = cube({1000, 0, 0});
   // Triangle 0 is cut into three by two points on its side, 1e-9 mm apart.
   const Triangle t = surface.triangles[0];
@@ -252,7 +252,7 @@ TEST(Stl, LeavesOutWhatSinglePrecisionCollapses) {
 }
 
 TEST(Stl, PromisingMoreThanTheFileHoldsIsRefused) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   write_surface(folder / "a.stl", cube());
   std::string bytes = read_bytes(folder / "a.stl");
   bytes.replace(80, 4, "\xff\xff\xff\xff");
@@ -262,7 +262,7 @@ TEST(Stl, PromisingMoreThanTheFileHoldsIsRefused) {
 }
 
 TEST(Stl, NotANumberIsRefused) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   write_bytes(folder / "a.stl",
               "solid\nvertex nan 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendsolid\n");
   EXPECT_REFUSED(read_surface(folder / "a.stl"), HasSubstr("finite"));
@@ -277,7 +277,7 @@ constexpr const char* kTextPly =
     "2 0.5 0.25 4 0 1 2 3\n0 3 0 1 4\n";
 
 TEST(Ply, ReadsTextWithMoreThanItNeeds) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   write_bytes(folder / "a.ply", kTextPly);
   const TriMesh surface = read_surface(folder / "a.ply");
   EXPECT_EQ(surface.points.size(), 5u);
@@ -286,7 +286,7 @@ TEST(Ply, ReadsTextWithMoreThanItNeeds) {
 }
 
 TEST(Ply, ReadsBigEndian) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   std::string bytes =
       "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty short x\nproperty int8 y\n"
       "property ushort z\nelement face 1\nproperty list ushort short vertex_indices\nend_header\n";
@@ -302,7 +302,7 @@ TEST(Ply, ReadsBigEndian) {
 }
 
 TEST(Ply, RefusesWhatContradictsItself) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::vector<std::array<std::string, 3>> cases{
       {"vertex 5", "vertex 5000000000000", "ends before"},
       {"vertex 5", "vertex -5", "expected a count"},
@@ -327,7 +327,7 @@ TEST(Ply, RefusesWhatContradictsItself) {
 }
 
 TEST(Obj, ReadsAllWaysToNamePoints) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   write_bytes(
       folder / "a.obj",
       "# by hand\r\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 1.0\nv 1 1 0 .5 .5 .5\nvt 0 0\nvn 0 0 1\n"
@@ -337,7 +337,7 @@ TEST(Obj, ReadsAllWaysToNamePoints) {
 }
 
 TEST(Obj, SaysInWhichLineItIsWrong) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   for (const auto& [text, message] :
        std::vector<std::pair<std::string, std::string>>{{"v 1 2\n", "line 1"},
                                                         {"v 0 0 0\nf 1 1 0\n", "line 2"},
@@ -357,7 +357,7 @@ constexpr const char* kTextVtk =
     "TRIANGLE_STRIPS 1 5\n4 0 1 3 2\n";
 
 TEST(Vtk, ReadsPolygonsAndStrips) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   write_bytes(folder / "a.vtk", kTextVtk);
   const TriMesh surface = read_surface(folder / "a.vtk");
   EXPECT_EQ(surface.points.size(), 5u);
@@ -368,7 +368,7 @@ TEST(Vtk, ReadsPolygonsAndStrips) {
 }
 
 TEST(Vtk, RefusesWhatContradictsItself) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::vector<std::array<std::string, 2>> cases{
       {"POINTS 5", "POINTS 5000000000"}, {"POINTS 5", "POINTS -5"},
       {"POINTS 5", "POINTS 4"},          {"POLYGONS 2 9", "POLYGONS 2000000 9000000"},
@@ -384,7 +384,7 @@ TEST(Vtk, RefusesWhatContradictsItself) {
 }
 
 TEST(Vtk, CutOffOrDamagedItIsRefusedOrStillASurface) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const std::string whole = kTextVtk;
   std::mt19937 generator(3);
   for (std::size_t round = 0; round < whole.size() + 300; ++round) {
@@ -400,7 +400,7 @@ TEST(Vtk, CutOffOrDamagedItIsRefusedOrStillASurface) {
 }
 
 TEST(Vtp, PromisingMoreThanTheFileHoldsIsRefused) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   write_surface(folder / "a.vtp", cube());
   const std::string whole = read_bytes(folder / "a.vtp");
   for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{

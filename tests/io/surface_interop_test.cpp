@@ -82,7 +82,7 @@ void expect_same(vtkPolyData& found, const TriMesh& expected, double tolerance) 
 }
 
 TEST(SurfaceInterop, VtkReadsWhatWeWrite) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const TriMesh surface = sphere();
   for (const char* extension : {"stl", "ply", "obj", "vtp"}) {
     write_surface(folder / (std::string("a.") + extension), surface, {.name = "a sphere"});
@@ -94,7 +94,7 @@ TEST(SurfaceInterop, VtkReadsWhatWeWrite) {
 }
 
 TEST(SurfaceInterop, VtpStatesFrameAndUnitInFieldData) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   for (const Frame frame : {Frame::kLps, Frame::kRas}) {
     write_surface(folder / "a.vtp", sphere(), {.frame = frame, .name = "left"});
     const auto data = read_by_vtk<vtkXMLPolyDataReader>(folder / "a.vtp");
@@ -109,7 +109,7 @@ TEST(SurfaceInterop, VtpStatesFrameAndUnitInFieldData) {
 }
 
 TEST(SurfaceInterop, WeReadEveryXmlThatVtkWrites) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const TriMesh expected = sphere();
   const auto data = vtk_sphere();
   const auto writer = vtkSmartPointer<vtkXMLPolyDataWriter>::New();
@@ -138,7 +138,7 @@ TEST(SurfaceInterop, WeReadEveryXmlThatVtkWrites) {
 }
 
 TEST(SurfaceInterop, AnUnknownCompressorIsRefusedByName) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const auto writer = vtkSmartPointer<vtkXMLPolyDataWriter>::New();
   writer->SetInputData(vtk_sphere());
   writer->SetFileName((folder / "a.vtp").c_str());
@@ -153,7 +153,7 @@ TEST(SurfaceInterop, AnUnknownCompressorIsRefusedByName) {
 }
 
 TEST(SurfaceInterop, WeReadEveryLegacyFileThatVtkWrites) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const TriMesh expected = sphere();
   const auto data = vtk_sphere();
   auto note = vtkSmartPointer<vtkTypeInt64Array>::New();
@@ -180,7 +180,7 @@ TEST(SurfaceInterop, WeReadEveryLegacyFileThatVtkWrites) {
 }
 
 TEST(SurfaceInterop, StripsKeepTheirOrientation) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const auto stripper = vtkSmartPointer<vtkStripper>::New();
   stripper->SetInputData(vtk_sphere());
   const auto writer = vtkSmartPointer<vtkXMLPolyDataWriter>::New();
@@ -193,7 +193,7 @@ TEST(SurfaceInterop, StripsKeepTheirOrientation) {
 }
 
 TEST(SurfaceInterop, WeReadStlAndPlyThatVtkWrites) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const TriMesh expected = sphere();
   const auto stl = vtkSmartPointer<vtkSTLWriter>::New();
   const auto ply = vtkSmartPointer<vtkPLYWriter>::New();
