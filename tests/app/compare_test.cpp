@@ -24,8 +24,9 @@ TEST(CompareCommand, MeasuresParallelSquares) {
   const TempFolder folder;
   write_bytes(folder / "a.obj", square(0));
   write_bytes(folder / "b.obj", square(0.25));
-  const ProgramRun run = run_program(folder, {"compare", folder / "a.obj", folder / "b.obj", "--report",
-                                       folder / "r.json", "--histogram", folder / "h.csv"});
+  const ProgramRun run =
+      run_program(folder, {"compare", folder / "a.obj", folder / "b.obj", "--report",
+                           folder / "r.json", "--histogram", folder / "h.csv"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, testing::HasSubstr("0.2500"));
   const auto report = nlohmann::json::parse(read_bytes(folder / "r.json"));

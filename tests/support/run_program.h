@@ -57,7 +57,7 @@ inline ProgramRun run_program(const TempFolder& folder, std::vector<std::string>
 /// A failure as promised: the status, one line on stderr with these words, nothing on stdout.
 #define EXPECT_FAILS(run, expected_status, words)            \
   {                                                          \
-    const mesamis::ProgramRun mesamis_run = run;                    \
+    const mesamis::ProgramRun mesamis_run = run;             \
     EXPECT_EQ(mesamis_run.status, expected_status);          \
     EXPECT_EQ(mesamis_run.out, "");                          \
     EXPECT_EQ(mesamis_run.error_lines(), 1u);                \

@@ -6,26 +6,21 @@
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
-#include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
-
-#include <fstream>
-#include <new>
 
 #include "mesamis/base/error.h"
 #include "mesamis/io/atomic_file.h"
+#include "mesamis/io/detail/byte_source.h"
 #include "mesamis/io/detail/refuse.h"
 #include "mesamis/io/detail/vtk_data.h"
 #include "mesamis/io/detail/vtk_messages.h"
+#include "mesamis/io/detail/vtu_file.h"
 
 namespace mesamis {
 
 using namespace detail;
 
 namespace {
-
-constexpr const char* kFrameName = "SPACE";
-constexpr const char* kRasName = "RAS";
 
 /// Half a turn about z, from LPS to RAS or back: vectors and tensors turn with the points.
 void turn(MeshArray& array) {
@@ -52,56 +47,12 @@ void add_text(vtkFieldData& data, const char* name, const char* value) {
   data.AddArray(text);
 }
 
-bool is_ras(vtkFieldData& data) {
-  auto* frame = vtkStringArray::SafeDownCast(data.GetAbstractArray(kFrameName));
-  return frame != nullptr && frame->GetNumberOfValues() == 1 && frame->GetValue(0) == kRasName;
-}
-
 void add_arrays(vtkFieldData& data, std::span<const MeshArray> source, std::size_t count,
                 const char* what, Frame frame) {
   for (MeshArray array : source) {
     if (frame == Frame::kRas) turn(array);
     add_array(data, array, count, what);
   }
-}
-
-/// The value of the first `name="..."` in the text, or 0.
-double attribute(const std::string& text, const std::string& name) {
-  const auto at = text.find(" " + name + "=\"");
-  return at == std::string::npos ? 0 : std::strtod(text.c_str() + at + name.size() + 3, nullptr);
-}
-
-/// VTK allocates what a header says before it reads; so the header is checked against the most
-/// that the file can hold: deflate packs at most 1032 bytes into one.
-void require_plausible(const std::filesystem::path& path, const std::string& name) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) refuse(name, "cannot be opened");
-  std::string head(1 << 16, '\0');
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(in.gcount()));
-  if (head.find("<VTKFile") == std::string::npos ||
-      head.find("UnstructuredGrid") == std::string::npos) {
-    refuse(name, "is not a VTK unstructured grid in XML (.vtu)");
-  }
-  const double most = 1032.0 * static_cast<double>(std::filesystem::file_size(path));
-  const double points = attribute(head, "NumberOfPoints");
-  const double cells = attribute(head, "NumberOfCells");
-  if (!(points >= 0 && cells >= 0 && 12 * points + 16 * cells <= most)) {
-    refuse(name, "the header promises more points or cells than the file can hold");
-  }
-}
-
-MeshWithArrays convert(vtkUnstructuredGrid& grid, const std::string& name) {
-  MeshWithArrays result;
-  result.mesh = tet_mesh(grid, name);
-  result.point_arrays = arrays(*grid.GetPointData(), result.mesh.points.size(), name);
-  result.cell_arrays = arrays(*grid.GetCellData(), result.mesh.cells.size(), name);
-  if (is_ras(*grid.GetFieldData())) {
-    turn(result.mesh.points);
-    for (MeshArray& array : result.point_arrays) turn(array);
-    for (MeshArray& array : result.cell_arrays) turn(array);
-  }
-  return result;
 }
 
 }  // namespace
@@ -137,20 +88,14 @@ void write_vtu(const std::filesystem::path& path, const TetMesh& mesh,
 }
 
 MeshWithArrays read_vtu(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  require_plausible(path, name);
-  const VtkMessages messages;
-  const auto reader = vtkSmartPointer<vtkXMLUnstructuredGridReader>::New();
-  try {
-    reader->SetFileName(path.c_str());
-    reader->Update();
-    if (reader->GetErrorCode() != 0 || !messages.first_error().empty()) {
-      refuse(name, "cannot be read: " + messages.first_error());
-    }
-    return convert(*reader->GetOutput(), name);
-  } catch (const std::bad_alloc&) {
-    refuse(name, "needs more memory than there is");
+  VtuContents contents = parse_vtu(path, read_all(path));
+  MeshWithArrays& result = contents.grid;
+  if (contents.frame == Frame::kRas) {
+    turn(result.mesh.points);
+    for (MeshArray& array : result.point_arrays) turn(array);
+    for (MeshArray& array : result.cell_arrays) turn(array);
   }
+  return std::move(result);
 }
 
 }  // namespace mesamis

@@ -33,6 +33,7 @@ set(ROOM_SOURCES
   detail/vtk_file.cpp
   detail/vtk_xml.cpp
   detail/vtp_file.cpp
+  detail/vtu_file.cpp
   medit_files.cpp
   mesh_files.cpp
   surface_files.cpp

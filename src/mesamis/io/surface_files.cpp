@@ -51,19 +51,6 @@ Parser parser_for(const fs::path& path) {
   refuse_extension(path, ".stl .ply .obj .vtp .vtk, each also with .gz");
 }
 
-std::string read_all(const fs::path& path) {
-  constexpr std::size_t kStep = std::size_t{1} << 22;
-  ByteSource source(path, Packing::kSniffed);
-  std::string bytes;
-  for (std::size_t got = kStep; got == kStep;) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + kStep);
-    got = source.read(bytes.data() + before, kStep);
-    bytes.resize(before + got);
-  }
-  return bytes;
-}
-
 void write_all(const fs::path& path, const fs::path& temporary, const std::string& bytes) {
   std::ofstream out(temporary, std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

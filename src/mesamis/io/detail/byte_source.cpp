@@ -134,4 +134,17 @@ std::uint64_t ByteSource::most_bytes() const {
   return state_->deflated ? state_->stored * kMostDeflateRatio : state_->stored;
 }
 
+std::string read_all(const std::filesystem::path& file) {
+  constexpr std::size_t kStep = std::size_t{1} << 22;
+  ByteSource source(file, Packing::kSniffed);
+  std::string bytes;
+  for (std::size_t got = kStep; got == kStep;) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + kStep);
+    got = source.read(bytes.data() + before, kStep);
+    bytes.resize(before + got);
+  }
+  return bytes;
+}
+
 }  // namespace mesamis::detail

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 namespace mesamis::detail {
 
@@ -35,5 +36,9 @@ class ByteSource {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// All bytes of a file, unpacked if it is a gzip file.
+/// @throws InputError  as ByteSource.
+std::string read_all(const std::filesystem::path& file);
 
 }  // namespace mesamis::detail

@@ -8,13 +8,11 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkTypeInt32Array.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <limits>
 
 #include "mesamis/base/error.h"
-#include "mesamis/io/detail/refuse.h"
 
 namespace mesamis::detail {
 namespace {
@@ -39,32 +37,6 @@ vtkSmartPointer<vtkCellArray> vtk_cells(const Cells& cells, int corners) {
   auto result = vtkSmartPointer<vtkCellArray>::New();
   result->SetData(offsets, connectivity);
   return result;
-}
-
-[[noreturn]] void refuse_cell(const std::string& name, vtkIdType cell, const std::string& what) {
-  refuse(name, "cell " + std::to_string(cell) + " " + what);
-}
-
-void require_tetrahedra(vtkUnstructuredGrid& grid, const std::string& name) {
-  vtkUnsignedCharArray* types = grid.GetCellTypesArray();
-  vtkDataArray* offsets = grid.GetCells()->GetOffsetsArray();
-  const vtkIdType cells = grid.GetCells()->GetNumberOfCells();
-  if (types == nullptr || types->GetNumberOfTuples() != cells) {
-    refuse(name, "expected one type per cell");
-  }
-  for (vtkIdType c = 0; c < cells; ++c) {
-    if (types->GetValue(c) != VTK_TETRA) {
-      refuse_cell(name, c,
-                  "is of VTK type " + std::to_string(types->GetValue(c)) +
-                      ", expected tetrahedra (type " + std::to_string(VTK_TETRA) + ")");
-    }
-    if (offsets->GetComponent(c + 1, 0) != 4.0 * static_cast<double>(c + 1)) {
-      refuse_cell(name, c, "has not four points");
-    }
-  }
-  if (grid.GetCells()->GetConnectivityArray()->GetNumberOfValues() < 4 * cells) {
-    refuse(name, "the list of the cells' points is too short");
-  }
 }
 
 }  // namespace
@@ -106,58 +78,6 @@ void add_array(vtkFieldData& data, const MeshArray& array, std::size_t count, co
   values->SetNumberOfTuples(static_cast<vtkIdType>(count));
   std::copy(array.values.begin(), array.values.end(), values->GetPointer(0));
   data.AddArray(values);
-}
-
-TetMesh tet_mesh(vtkUnstructuredGrid& grid, const std::string& name) {
-  TetMesh mesh;
-  if (grid.GetPoints() == nullptr || grid.GetNumberOfPoints() == 0) {
-    refuse(name, "holds no points");
-  }
-  if (grid.GetNumberOfPoints() > std::numeric_limits<Index>::max() ||
-      grid.GetCells()->GetNumberOfCells() > std::numeric_limits<Index>::max()) {
-    refuse(name, "the mesh exceeds 32-bit indices");
-  }
-  require_tetrahedra(grid, name);
-  mesh.points.resize(static_cast<std::size_t>(grid.GetNumberOfPoints()));
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    double p[3];
-    grid.GetPoint(static_cast<vtkIdType>(i), p);
-    mesh.points[i] = {p[0], p[1], p[2]};
-  }
-  vtkDataArray& corners = *grid.GetCells()->GetConnectivityArray();
-  const auto points = static_cast<double>(mesh.points.size());
-  mesh.cells.resize(static_cast<std::size_t>(grid.GetCells()->GetNumberOfCells()));
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      const double point = corners.GetComponent(static_cast<vtkIdType>(4 * c + i), 0);
-      if (!(point >= 0 && point < points)) {
-        refuse_cell(name, static_cast<vtkIdType>(c), "names a missing point");
-      }
-      mesh.cells[c][i] = static_cast<Index>(point);
-    }
-  }
-  return mesh;
-}
-
-std::vector<MeshArray> arrays(vtkFieldData& data, std::size_t count, const std::string& name) {
-  std::vector<MeshArray> result;
-  for (int a = 0; a < data.GetNumberOfArrays(); ++a) {
-    vtkDataArray* values = data.GetArray(a);
-    if (values == nullptr) continue;  // text
-    MeshArray array;
-    array.name = values->GetName() == nullptr ? "" : values->GetName();
-    array.components = values->GetNumberOfComponents();
-    if (values->GetNumberOfTuples() != static_cast<vtkIdType>(count)) {
-      refuse(name, "array '" + array.name + "' has " + std::to_string(values->GetNumberOfTuples()) +
-                       " tuples, expected " + std::to_string(count));
-    }
-    array.values.resize(count * static_cast<std::size_t>(array.components));
-    for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i) {
-      values->GetTuple(i, array.values.data() + i * array.components);
-    }
-    result.push_back(std::move(array));
-  }
-  return result;
 }
 
 }  // namespace mesamis::detail

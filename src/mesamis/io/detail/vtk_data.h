@@ -11,7 +11,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/tri_mesh.h"
 
-/// Our values as VTK's data sets, and back.
+/// Our values as VTK's data sets.
 namespace mesamis::detail {
 
 vtkSmartPointer<vtkPoints> vtk_points(std::span<const Vec3> points);
@@ -25,13 +25,5 @@ vtkSmartPointer<vtkUnstructuredGrid> vtk_grid(const TetMesh& mesh);
 /// @param what   for messages, e.g. "point"
 /// @throws InputError  if the array has not `count` tuples.
 void add_array(vtkFieldData& data, const MeshArray& array, std::size_t count, const char* what);
-
-/// @throws InputError  if anything but tetrahedra with existing points is found; the message
-///                     is prefixed with `name`.
-TetMesh tet_mesh(vtkUnstructuredGrid& grid, const std::string& name);
-
-/// The numeric arrays, as doubles.
-/// @throws InputError  if an array has not `count` tuples.
-std::vector<MeshArray> arrays(vtkFieldData& data, std::size_t count, const std::string& name);
 
 }  // namespace mesamis::detail

@@ -175,6 +175,15 @@ const XmlElement* XmlElement::child(std::string_view child_name) const {
   return nullptr;
 }
 
+std::size_t count_in(const fs::path& file, const XmlElement& element, const std::string& name) {
+  std::int64_t count = 0;
+  const std::string text = element.attribute(name);
+  if (!text.empty() && (!parse_number(std::string_view(text), count) || count < 0)) {
+    refuse(file, "expected a count in " + name + ", found " + in_quotes(text));
+  }
+  return static_cast<std::size_t>(count);
+}
+
 VtkXml::VtkXml(fs::path file, std::string_view bytes, const std::string& type)
     : file_(std::move(file)), type_(type) {
   if (bytes.substr(0, 1000).find("<VTKFile") == bytes.npos) refuse(file_, "is not a VTK XML file");
@@ -210,6 +219,18 @@ std::vector<double> VtkXml::values(const XmlElement& data_array) const {
   return numbers;
 }
 
+std::string VtkXml::text(const XmlElement& array) const {
+  std::string bytes;
+  if (array.attribute("format") == "ascii") {
+    for (const double code : numbers_in(file_, array.text)) {
+      bytes += code > 0 && code < 128 ? static_cast<char>(code) : '\0';
+    }
+  } else {
+    bytes = array_bytes(array);
+  }
+  return bytes.substr(0, bytes.find('\0'));
+}
+
 std::string VtkXml::array_bytes(const XmlElement& data_array) const {
   const std::string format = data_array.attribute("format");
   if (format == "binary") return unpack(base64_bytes(trimmed(data_array.text)));
@@ -222,10 +243,10 @@ std::string VtkXml::array_bytes(const XmlElement& data_array) const {
     refuse(file_, "an array begins beyond the end of the file");
   }
   const std::string_view stored = appended_.substr(static_cast<std::size_t>(offset));
-  return unpack(appended_is_raw_ ? std::string(stored) : base64_bytes(stored));
+  return appended_is_raw_ ? unpack(stored) : unpack(base64_bytes(stored));
 }
 
-std::uint64_t VtkXml::header_number(const std::string& stored, std::size_t index) const {
+std::uint64_t VtkXml::header_number(std::string_view stored, std::size_t index) const {
   const std::size_t size = byte_size(header_type_);
   if (stored.size() / size <= index) refuse(file_, "an array is cut off");
   const char* bytes = stored.data() + index * size;
@@ -234,12 +255,12 @@ std::uint64_t VtkXml::header_number(const std::string& stored, std::size_t index
 
 /// Plain: the number of bytes, the bytes. Packed: the number of blocks, the size of a block and of
 /// the last one if that is smaller, the packed size of each block, the blocks.
-std::string VtkXml::unpack(const std::string& stored) const {
+std::string VtkXml::unpack(std::string_view stored) const {
   const std::size_t size = byte_size(header_type_);
   const std::uint64_t first = header_number(stored, 0);
   if (!packed_) {
     if (first > stored.size() - size) refuse(file_, "an array is cut off");
-    return stored.substr(size, static_cast<std::size_t>(first));
+    return std::string(stored.substr(size, static_cast<std::size_t>(first)));
   }
   if (first == 0) return {};
   if (first > stored.size() / size) refuse(file_, "an array is cut off");

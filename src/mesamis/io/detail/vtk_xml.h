@@ -24,6 +24,11 @@ struct XmlElement {
   const XmlElement* child(std::string_view child_name) const;
 };
 
+/// An attribute that counts something; missing is 0.
+/// @throws InputError  if it is no whole number or negative.
+std::size_t count_in(const std::filesystem::path& file, const XmlElement& element,
+                     const std::string& name);
+
 class VtkXml {
  public:
   /// @param file   for messages
@@ -39,10 +44,13 @@ class VtkXml {
   /// @throws InputError  if they are cut off, broken or packed in another way.
   std::vector<double> values(const XmlElement& data_array) const;
 
+  /// The first text of an Array of type String; empty if it is none.
+  std::string text(const XmlElement& array) const;
+
  private:
   std::string array_bytes(const XmlElement& data_array) const;
-  std::string unpack(const std::string& stored) const;
-  std::uint64_t header_number(const std::string& stored, std::size_t index) const;
+  std::string unpack(std::string_view stored) const;
+  std::uint64_t header_number(std::string_view stored, std::size_t index) const;
 
   std::filesystem::path file_;
   std::string type_;

@@ -23,16 +23,6 @@ void add_text(vtkFieldData& data, const char* name, const std::string& value) {
   data.AddArray(text);
 }
 
-/// An attribute that counts something; missing is 0.
-std::size_t count_in(const fs::path& file, const XmlElement& piece, const std::string& name) {
-  std::int64_t count = 0;
-  const std::string text = piece.attribute(name);
-  if (!text.empty() && (!parse_number(std::string_view(text), count) || count < 0)) {
-    refuse(file, "expected a count in " + name + ", found " + in_quotes(text));
-  }
-  return static_cast<std::size_t>(count);
-}
-
 void add_points(const fs::path& file, const VtkXml& xml, const XmlElement& piece,
                 TriMesh& surface) {
   const std::size_t count = count_in(file, piece, "NumberOfPoints");
