@@ -239,9 +239,9 @@ class GridEstimator {
     }
     // Nearly all cells: no bounds to check, and fixed steps through three layers.
     std::array<const CellSums*, 3> own;
-    for (Index dz = -1; dz <= 1; ++dz) {
-      own[static_cast<std::size_t>(dz + 1)] =
-          ring[slot(brick[2] + dz)].data() + place(brick[0], brick[1], 0);
+    for (Index layer = 0; layer < 3; ++layer) {
+      own[static_cast<std::size_t>(layer)] =
+          ring[slot(brick[2] + layer - 1)].data() + place(brick[0], brick[1], 0);
     }
     for (std::size_t c = 0; c < patch.size(); ++c) {
       const auto& [layer, step] = steps_[path][c];

@@ -91,7 +91,7 @@ SurfacePoint crossing(const Volume& volume, double level, std::array<Index, 3> a
 /// Where the tissue around `value` ends upwards: counts right of its peak down to a tenth.
 double upper_end_of_tissue(const Volume& volume, double value, double level) {
   constexpr int kBins = 64;
-  const double width = (level - value) / (kBins / 2);  // the level lies in the last bin
+  const double width = (level - value) / (kBins / 2.0);  // the level lies in the last bin
   std::vector<double> counts(kBins, 0);
   for (const float sample : volume.samples) {
     const double bin = (sample - value) / width + kBins / 2.0;

@@ -31,7 +31,7 @@ using namespace detail;
 
 namespace {
 
-constexpr double kCreaseAngle_deg = 40;  // sharper edges stay sharp under smooth shading
+constexpr double kCreaseAngleInDegrees = 40;  // sharper edges stay sharp under smooth shading
 
 struct Paint {
   double r, g, b;
@@ -136,7 +136,7 @@ TriMesh clipped(const TriMesh& surface, const PictureOptions& options, const Sig
 vtkSmartPointer<vtkPolyData> with_normals(vtkPolyData* data) {
   const auto normals = vtkSmartPointer<vtkPolyDataNormals>::New();
   normals->SetInputData(data);
-  normals->SetFeatureAngle(kCreaseAngle_deg);
+  normals->SetFeatureAngle(kCreaseAngleInDegrees);
   normals->ConsistencyOff();
   normals->Update();
   return normals->GetOutput();

@@ -185,7 +185,7 @@ class Remesher {
     if (options_.max_cells > 0) {
       const double ratio = predicted / static_cast<double>(options_.max_cells);
       set_size_factor(std::max(1.0, std::cbrt(ratio)));
-    } else if (!(predicted < static_cast<double>(kMostCells / 2))) {
+    } else if (!(predicted < 0.5 * static_cast<double>(kMostCells))) {
       throw InputError("remesh: the metric asks for about " + std::to_string(predicted) +
                        " cells, more than fit; expected max_cells to be set");
     }

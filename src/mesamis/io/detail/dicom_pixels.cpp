@@ -137,7 +137,7 @@ std::vector<unsigned char> frame_capsule(const DicomFile& file, const DicomPixel
 bool unpack_segment(Bytes in, unsigned char* out, std::size_t count, std::size_t stride) {
   std::size_t at = 0, done = 0;
   while (done < count && at < in.size()) {
-    const int n = static_cast<signed char>(in[at++]);
+    const int n = static_cast<signed char>(in[at++]);  // NOLINT(bugprone-signed-char-misuse)
     if (n == -128) continue;
     const auto run = static_cast<std::size_t>(n >= 0 ? n + 1 : 1 - n);
     const std::size_t stored = n >= 0 ? run : 1;
