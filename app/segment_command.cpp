@@ -278,9 +278,14 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   command->add_option("--report", options->report, "Report: .json");
   command->add_option("--series", options->series, "DICOM series UID");
   command->add_option("--settings", options->settings_file, "Settings or a report: .json");
-  const std::map<std::string, Frame> frames{{"lps", Frame::kLps}, {"ras", Frame::kRas}};
-  command->add_option("--frame", options->frame, "Frame of the files: lps (default) or ras")
-      ->transform(CLI::CheckedTransformer(frames, CLI::ignore_case));
+  command
+      ->add_option_function<std::string>(
+          "--frame",
+          [options](const std::string& name) {
+            options->frame = name == "ras" ? Frame::kRas : Frame::kLps;
+          },
+          "Frame of the files written (default lps)")
+      ->check(CLI::IsMember({"lps", "ras"}));
   add_image_settings(*command, options);
   add_method_settings(*command, options);
   command->callback([options, &common, &action] {

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Example 3: the whole method on a ball made on the spot; its surface, its mesh and its energies.
+//
+//   ex3_segment [SURFACE.stl [MESH.vtu]]
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <random>
+
+#include "mesamis/io/mesh_files.h"
+#include "mesamis/io/surface_files.h"
+#include "mesamis/mes_amis.h"
+#include "mesamis/surface/tri_mesh.h"
+
+using namespace mesamis;
+
+int main(int count, char** arguments) try {
+  // 1. A scan: a bright ball of 9 mm on a dark ground, 1 mm voxels, with noise.
+  Volume volume;
+  volume.size = {32, 32, 32};
+  volume.spacing = {1, 1, 1};
+  volume.samples.resize(32 * 32 * 32);
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 20);
+  for (std::size_t i = 0; i < volume.samples.size(); ++i) {
+    const Vec3 from_centre{static_cast<double>(i % 32) - 15.5,
+                           static_cast<double>(i / 32 % 32) - 15.5,
+                           static_cast<double>(i / 1024) - 15.5};
+    volume.samples[i] = static_cast<float>((norm(from_centre) < 9 ? 1000 : 0) + noise(random));
+  }
+
+  // 2. The run. Everything it depends on is in the settings; the progress may stop it.
+  Settings settings;
+  settings.max_tets = 20000;
+  const Result result = mes_amis(volume, settings, [](std::string_view stage, double done) {
+    if (done == 0) std::printf("%.*s\n", static_cast<int>(stage.size()), stage.data());
+    return true;
+  });
+
+  // 3. What happened: cells and energy of each pass.
+  for (const Iteration& pass : result.iterations) {
+    std::printf("%9lld cells, energy %.4g\n", static_cast<long long>(pass.tets),
+                pass.energy.total());
+  }
+  const SurfaceCheck check = check_surface(result.surface);
+  std::printf("%zu triangles, closed: %s, volume %.0f mm3 (the ball: %.0f)\n",
+              result.surface.triangles.size(), check.closed() ? "yes" : "no", check.volume,
+              4.0 / 3 * 3.141592653589793 * 9 * 9 * 9);
+
+  // 4. Files, written whole or not at all, in LPS mm.
+  if (count > 1) write_surface(arguments[1], result.surface, {});
+  if (count > 2)
+    write_vtu(arguments[2], result.mesh, std::vector<MeshArray>{{"u", 1, result.u}}, {});
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "ex3_segment: %s\n", error.what());
+  return 1;
+}
