@@ -155,9 +155,14 @@ Settings settings_of(const SegmentOptions& options) {
     // A whole report serves as well: its settings are those of the run.
     if (file.is_object() && file.contains("settings")) file = file["settings"];
     from_json(file, settings);
+    require_valid(settings);
   }
-  from_json(options.overrides, settings);
-  require_valid(settings);
+  try {
+    from_json(options.overrides, settings);
+    require_valid(settings);
+  } catch (const InputError& error) {  // of an option, not of a file
+    throw CLI::ValidationError(error.what());
+  }
   return settings;
 }
 
