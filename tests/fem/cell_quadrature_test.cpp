@@ -7,30 +7,15 @@
 #include <random>
 
 #include "mesamis/mesh/tet_mesh.h"
+#include "support/sampled_volume.h"
 
 namespace mesamis {
 namespace {
 
-template <class Function>
-Volume sampled(const std::array<Index, 3>& size, const Vec3& spacing, Function&& function) {
-  Volume volume;
-  volume.size = size;
-  volume.spacing = spacing;
-  for (Index k = 0; k < size[2]; ++k) {
-    for (Index j = 0; j < size[1]; ++j) {
-      for (Index i = 0; i < size[0]; ++i) {
-        volume.samples.push_back(
-            static_cast<float>(function(Vec3{i * spacing.x, j * spacing.y, k * spacing.z})));
-      }
-    }
-  }
-  return volume;
-}
-
 double linear(const Vec3& p) { return 10 + 3 * p.x - 2 * p.y + 0.5 * p.z; }
 
 TEST(CellQuadrature, LinearImagesAreExactForCellsOfAnyShape) {
-  const Volume image = sampled({21, 19, 17}, {1, 0.5, 2}, linear);
+  const Volume image = sampled_volume({21, 19, 17}, {1, 0.5, 2}, linear);
   const Vec3 extent = image.box().extent();
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -62,7 +47,7 @@ TEST(CellQuadrature, ALargeCellAveragesAllItsVoxels) {
   std::mt19937 generator(4);
   std::normal_distribution<double> noise(100, 10);
   const Volume image =
-      sampled({41, 41, 41}, {1, 1, 1}, [&](const Vec3&) { return noise(generator); });
+      sampled_volume({41, 41, 41}, {1, 1, 1}, [&](const Vec3&) { return noise(generator); });
   const auto fit =
       fit_image_on_cell(image, {Vec3{0, 0, 0}, Vec3{40, 0, 0}, Vec3{0, 40, 0}, Vec3{0, 0, 40}});
   for (const double value : fit) EXPECT_NEAR(value, 100, 1.5);
@@ -71,7 +56,7 @@ TEST(CellQuadrature, ALargeCellAveragesAllItsVoxels) {
 TEST(CellQuadrature, EveryVoxelIsSeen) {
   // One bright voxel anywhere inside a large cell moves the cell's mean by 1/voxels.
   const std::array<Vec3, 4> cell{Vec3{0, 0, 0}, Vec3{12, 0, 0}, Vec3{0, 12, 0}, Vec3{0, 0, 12}};
-  Volume image = sampled({13, 13, 13}, {1, 1, 1}, [](const Vec3&) { return 0.0; });
+  Volume image = sampled_volume({13, 13, 13}, {1, 1, 1}, [](const Vec3&) { return 0.0; });
   for (Index k = 1; k < 9; ++k) {
     for (Index j = 1; j + k < 10; ++j) {
       for (Index i = 1; i + j + k < 11; ++i) {

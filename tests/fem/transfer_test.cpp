@@ -7,6 +7,7 @@
 
 #include "mesamis/base/parallel.h"
 #include "support/perturbed_box.h"
+#include "support/sampled_volume.h"
 
 namespace mesamis {
 namespace {
@@ -14,18 +15,7 @@ namespace {
 double linear(const Vec3& p) { return 10 + 3 * p.x - 2 * p.y + 0.5 * p.z; }
 
 Volume linear_image(const std::array<Index, 3>& size, const Vec3& spacing) {
-  Volume volume;
-  volume.size = size;
-  volume.spacing = spacing;
-  for (Index k = 0; k < size[2]; ++k) {
-    for (Index j = 0; j < size[1]; ++j) {
-      for (Index i = 0; i < size[0]; ++i) {
-        volume.samples.push_back(
-            static_cast<float>(linear({i * spacing.x, j * spacing.y, k * spacing.z})));
-      }
-    }
-  }
-  return volume;
+  return sampled_volume(size, spacing, linear);
 }
 
 TEST(ProjectImage, ReproducesLinearImagesOnAnyMesh) {

@@ -5,7 +5,6 @@
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
-#include <vtkStringArray.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include "mesamis/base/error.h"
@@ -40,13 +39,6 @@ void turn(std::vector<Vec3>& points) {
   for (Vec3& p : points) p = {-p.x, -p.y, p.z};
 }
 
-void add_text(vtkFieldData& data, const char* name, const char* value) {
-  auto text = vtkSmartPointer<vtkStringArray>::New();
-  text->SetName(name);
-  text->InsertNextValue(value);
-  data.AddArray(text);
-}
-
 void add_arrays(vtkFieldData& data, std::span<const MeshArray> source, std::size_t count,
                 const char* what, Frame frame) {
   for (MeshArray array : source) {
@@ -76,11 +68,7 @@ void write_vtu(const std::filesystem::path& path, const TetMesh& mesh,
   const auto writer = vtkSmartPointer<vtkXMLUnstructuredGridWriter>::New();
   writer->SetFileName(file.temporary_path().c_str());
   writer->SetInputData(grid);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetHeaderTypeToUInt64();
-  writer->SetCompressorTypeToZLib();
-  writer->SetCompressionLevel(1);  // doubles pack badly; more effort gains little
+  set_form(*writer);
   if (writer->Write() == 0 || writer->GetErrorCode() != 0) {
     refuse(path.string(), "cannot be written: " + messages.first_error());
   }

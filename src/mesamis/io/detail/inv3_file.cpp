@@ -148,12 +148,12 @@ std::array<Number, 3> three(const std::filesystem::path& file, const Plist& plis
   return numbers;
 }
 
-SampleType sample_type(const std::filesystem::path& file, const std::string& dtype) {
-  static const std::map<std::string, SampleType> kTypes{
-      {"int8", SampleType::kInt8},       {"uint8", SampleType::kUint8},
-      {"int16", SampleType::kInt16},     {"uint16", SampleType::kUint16},
-      {"int32", SampleType::kInt32},     {"uint32", SampleType::kUint32},
-      {"float32", SampleType::kFloat32}, {"float64", SampleType::kFloat64}};
+NumberType sample_type(const std::filesystem::path& file, const std::string& dtype) {
+  static const std::map<std::string, NumberType> kTypes{
+      {"int8", NumberType::kInt8},       {"uint8", NumberType::kUint8},
+      {"int16", NumberType::kInt16},     {"uint16", NumberType::kUint16},
+      {"int32", NumberType::kInt32},     {"uint32", NumberType::kUint32},
+      {"float32", NumberType::kFloat32}, {"float64", NumberType::kFloat64}};
   const auto type = kTypes.find(dtype);
   if (type == kTypes.end()) {
     refuse(file, say("main.plist: expected a dtype of one number, found ", in_quotes(dtype)));
@@ -202,8 +202,7 @@ ScanFile open_inv3(const std::filesystem::path& file) {
   scan.source.type = sample_type(file, need(file, *plist, "matrix/dtype", 1)[0]);
   scan.source.packing = Packing::kSniffed;
   scan.source.skip = entry->begin;
-  const std::uint64_t needed =
-      scan.grid.voxel_count() * static_cast<std::uint64_t>(size_in_bytes(scan.source.type));
+  const std::uint64_t needed = scan.grid.voxel_count() * byte_size(scan.source.type);
   if (entry->size != needed) {
     refuse(file, say(matrix, ": expected ", needed, " bytes, found ", entry->size));
   }

@@ -55,15 +55,15 @@ MetaHeader read_header(const std::filesystem::path& file) {
   return header;
 }
 
-SampleType sample_type(const MetaHeader& header) {
+NumberType sample_type(const MetaHeader& header) {
   // MET_LONG has 4 bytes in every file: MetaIO's own rule.
-  static const std::map<std::string, SampleType> kTypes{
-      {"met_char", SampleType::kInt8},       {"met_uchar", SampleType::kUint8},
-      {"met_short", SampleType::kInt16},     {"met_ushort", SampleType::kUint16},
-      {"met_int", SampleType::kInt32},       {"met_uint", SampleType::kUint32},
-      {"met_long", SampleType::kInt32},      {"met_ulong", SampleType::kUint32},
-      {"met_long_long", SampleType::kInt64}, {"met_ulong_long", SampleType::kUint64},
-      {"met_float", SampleType::kFloat32},   {"met_double", SampleType::kFloat64}};
+  static const std::map<std::string, NumberType> kTypes{
+      {"met_char", NumberType::kInt8},       {"met_uchar", NumberType::kUint8},
+      {"met_short", NumberType::kInt16},     {"met_ushort", NumberType::kUint16},
+      {"met_int", NumberType::kInt32},       {"met_uint", NumberType::kUint32},
+      {"met_long", NumberType::kInt32},      {"met_ulong", NumberType::kUint32},
+      {"met_long_long", NumberType::kInt64}, {"met_ulong_long", NumberType::kUint64},
+      {"met_float", NumberType::kFloat32},   {"met_double", NumberType::kFloat64}};
   const std::string name = header.need("elementtype");
   const auto type = kTypes.find(lower(name));
   if (type == kTypes.end()) {

@@ -108,12 +108,12 @@ NiftiHeader read_header(const std::filesystem::path& file) {
   refuse(file, "expected a NIfTI header (first field 348 or 540), found neither");
 }
 
-SampleType sample_type(const std::filesystem::path& file, std::int64_t code) {
-  static const std::map<std::int64_t, SampleType> kTypes{
-      {2, SampleType::kUint8},    {4, SampleType::kInt16},    {8, SampleType::kInt32},
-      {16, SampleType::kFloat32}, {64, SampleType::kFloat64}, {256, SampleType::kInt8},
-      {512, SampleType::kUint16}, {768, SampleType::kUint32}, {1024, SampleType::kInt64},
-      {1280, SampleType::kUint64}};
+NumberType sample_type(const std::filesystem::path& file, std::int64_t code) {
+  static const std::map<std::int64_t, NumberType> kTypes{
+      {2, NumberType::kUint8},    {4, NumberType::kInt16},    {8, NumberType::kInt32},
+      {16, NumberType::kFloat32}, {64, NumberType::kFloat64}, {256, NumberType::kInt8},
+      {512, NumberType::kUint16}, {768, NumberType::kUint32}, {1024, NumberType::kInt64},
+      {1280, NumberType::kUint64}};
   static const std::map<std::int64_t, const char*> kRefused{
       {1, "1-bit"},      {32, "complex"},   {128, "RGB"},  {1536, "128-bit"},
       {1792, "complex"}, {2048, "complex"}, {2304, "RGBA"}};

@@ -60,48 +60,48 @@ NrrdHeader read_header(const std::filesystem::path& file) {
   return header;
 }
 
-SampleType sample_type(const NrrdHeader& header) {
-  static const std::map<std::string, SampleType> kTypes{
-      {"signed char", SampleType::kInt8},
-      {"int8", SampleType::kInt8},
-      {"int8_t", SampleType::kInt8},
-      {"uchar", SampleType::kUint8},
-      {"unsigned char", SampleType::kUint8},
-      {"uint8", SampleType::kUint8},
-      {"uint8_t", SampleType::kUint8},
-      {"short", SampleType::kInt16},
-      {"short int", SampleType::kInt16},
-      {"signed short", SampleType::kInt16},
-      {"signed short int", SampleType::kInt16},
-      {"int16", SampleType::kInt16},
-      {"int16_t", SampleType::kInt16},
-      {"ushort", SampleType::kUint16},
-      {"unsigned short", SampleType::kUint16},
-      {"unsigned short int", SampleType::kUint16},
-      {"uint16", SampleType::kUint16},
-      {"uint16_t", SampleType::kUint16},
-      {"int", SampleType::kInt32},
-      {"signed int", SampleType::kInt32},
-      {"int32", SampleType::kInt32},
-      {"int32_t", SampleType::kInt32},
-      {"uint", SampleType::kUint32},
-      {"unsigned int", SampleType::kUint32},
-      {"uint32", SampleType::kUint32},
-      {"uint32_t", SampleType::kUint32},
-      {"longlong", SampleType::kInt64},
-      {"long long", SampleType::kInt64},
-      {"long long int", SampleType::kInt64},
-      {"signed long long", SampleType::kInt64},
-      {"signed long long int", SampleType::kInt64},
-      {"int64", SampleType::kInt64},
-      {"int64_t", SampleType::kInt64},
-      {"ulonglong", SampleType::kUint64},
-      {"unsigned long long", SampleType::kUint64},
-      {"uint64", SampleType::kUint64},
-      {"unsigned long long int", SampleType::kUint64},
-      {"uint64_t", SampleType::kUint64},
-      {"float", SampleType::kFloat32},
-      {"double", SampleType::kFloat64}};
+NumberType sample_type(const NrrdHeader& header) {
+  static const std::map<std::string, NumberType> kTypes{
+      {"signed char", NumberType::kInt8},
+      {"int8", NumberType::kInt8},
+      {"int8_t", NumberType::kInt8},
+      {"uchar", NumberType::kUint8},
+      {"unsigned char", NumberType::kUint8},
+      {"uint8", NumberType::kUint8},
+      {"uint8_t", NumberType::kUint8},
+      {"short", NumberType::kInt16},
+      {"short int", NumberType::kInt16},
+      {"signed short", NumberType::kInt16},
+      {"signed short int", NumberType::kInt16},
+      {"int16", NumberType::kInt16},
+      {"int16_t", NumberType::kInt16},
+      {"ushort", NumberType::kUint16},
+      {"unsigned short", NumberType::kUint16},
+      {"unsigned short int", NumberType::kUint16},
+      {"uint16", NumberType::kUint16},
+      {"uint16_t", NumberType::kUint16},
+      {"int", NumberType::kInt32},
+      {"signed int", NumberType::kInt32},
+      {"int32", NumberType::kInt32},
+      {"int32_t", NumberType::kInt32},
+      {"uint", NumberType::kUint32},
+      {"unsigned int", NumberType::kUint32},
+      {"uint32", NumberType::kUint32},
+      {"uint32_t", NumberType::kUint32},
+      {"longlong", NumberType::kInt64},
+      {"long long", NumberType::kInt64},
+      {"long long int", NumberType::kInt64},
+      {"signed long long", NumberType::kInt64},
+      {"signed long long int", NumberType::kInt64},
+      {"int64", NumberType::kInt64},
+      {"int64_t", NumberType::kInt64},
+      {"ulonglong", NumberType::kUint64},
+      {"unsigned long long", NumberType::kUint64},
+      {"uint64", NumberType::kUint64},
+      {"unsigned long long int", NumberType::kUint64},
+      {"uint64_t", NumberType::kUint64},
+      {"float", NumberType::kFloat32},
+      {"double", NumberType::kFloat64}};
   const std::string& name = header.need("type");
   const auto type = kTypes.find(lower(name));
   if (type == kTypes.end()) {
@@ -203,7 +203,7 @@ void set_encoding(SampleSource& source, const NrrdHeader& header) {
            say("expected the encoding raw, gzip or ascii, found ", in_quotes(encoding)));
   }
   source.packing = gzip ? Packing::kDeflated : Packing::kPlain;
-  if (source.text || size_in_bytes(source.type) == 1) return;
+  if (source.text || byte_size(source.type) == 1) return;
   const std::string endian = lower(header.need("endian"));
   if (endian != "little" && endian != "big") {
     refuse(header.file, say("expected the endian little or big, found ", in_quotes(endian)));

@@ -25,31 +25,37 @@ constexpr std::size_t byte_size(NumberType type) {
   return kSizes[static_cast<std::size_t>(type)];
 }
 
-/// The number as a double: exact but for whole numbers beyond 2^53.
-inline double load_number(const char* bytes, NumberType type, ByteOrder order) {
+/// Calls visit with a zero of the C++ type.
+template <class Visit>
+auto with_number_type(NumberType type, Visit visit) {
   switch (type) {
     case NumberType::kInt8:
-      return load<std::int8_t>(bytes, order);
+      return visit(std::int8_t{});
     case NumberType::kUint8:
-      return load<std::uint8_t>(bytes, order);
+      return visit(std::uint8_t{});
     case NumberType::kInt16:
-      return load<std::int16_t>(bytes, order);
+      return visit(std::int16_t{});
     case NumberType::kUint16:
-      return load<std::uint16_t>(bytes, order);
+      return visit(std::uint16_t{});
     case NumberType::kInt32:
-      return load<std::int32_t>(bytes, order);
+      return visit(std::int32_t{});
     case NumberType::kUint32:
-      return load<std::uint32_t>(bytes, order);
+      return visit(std::uint32_t{});
     case NumberType::kInt64:
-      return static_cast<double>(load<std::int64_t>(bytes, order));
+      return visit(std::int64_t{});
     case NumberType::kUint64:
-      return static_cast<double>(load<std::uint64_t>(bytes, order));
+      return visit(std::uint64_t{});
     case NumberType::kFloat32:
-      return load<float>(bytes, order);
-    case NumberType::kFloat64:
-      break;
+      return visit(float{});
+    default:
+      return visit(double{});
   }
-  return load<double>(bytes, order);
+}
+
+/// The number as a double: exact but for whole numbers beyond 2^53.
+inline double load_number(const char* bytes, NumberType type, ByteOrder order) {
+  return with_number_type(
+      type, [=](auto zero) { return static_cast<double>(load<decltype(zero)>(bytes, order)); });
 }
 
 }  // namespace mesamis::detail

@@ -36,28 +36,7 @@ void convert(std::span<const unsigned char> bytes, const SampleSource& source, f
 }
 
 void convert_any(std::span<const unsigned char> bytes, const SampleSource& source, float* out) {
-  switch (source.type) {
-    case SampleType::kInt8:
-      return convert<std::int8_t>(bytes, source, out);
-    case SampleType::kUint8:
-      return convert<std::uint8_t>(bytes, source, out);
-    case SampleType::kInt16:
-      return convert<std::int16_t>(bytes, source, out);
-    case SampleType::kUint16:
-      return convert<std::uint16_t>(bytes, source, out);
-    case SampleType::kInt32:
-      return convert<std::int32_t>(bytes, source, out);
-    case SampleType::kUint32:
-      return convert<std::uint32_t>(bytes, source, out);
-    case SampleType::kInt64:
-      return convert<std::int64_t>(bytes, source, out);
-    case SampleType::kUint64:
-      return convert<std::uint64_t>(bytes, source, out);
-    case SampleType::kFloat32:
-      return convert<float>(bytes, source, out);
-    case SampleType::kFloat64:
-      return convert<double>(bytes, source, out);
-  }
+  with_number_type(source.type, [&](auto zero) { convert<decltype(zero)>(bytes, source, out); });
 }
 
 [[noreturn]] void refuse_short(const ScanFile& scan, std::uint64_t expected, std::uint64_t found,
@@ -67,7 +46,7 @@ void convert_any(std::span<const unsigned char> bytes, const SampleSource& sourc
 }
 
 void read_binary(const ScanFile& scan, ByteSource& bytes, std::vector<float>& out) {
-  const auto width = static_cast<std::size_t>(size_in_bytes(scan.source.type));
+  const auto width = byte_size(scan.source.type);
   const std::size_t count = scan.grid.voxel_count();
   std::vector<unsigned char> block(kSamplesAtOnce * width);
   while (out.size() < count) {
@@ -112,8 +91,7 @@ void read_text(const ScanFile& scan, ByteSource& bytes, std::vector<float>& out)
 /// Fewest bytes (unpacked) that the samples take; a number in text needs one and a blank.
 std::uint64_t fewest_bytes(const ScanFile& scan) {
   const std::uint64_t count = scan.grid.voxel_count();
-  return scan.source.text ? 2 * count - 1
-                          : count * static_cast<std::uint64_t>(size_in_bytes(scan.source.type));
+  return scan.source.text ? 2 * count - 1 : count * byte_size(scan.source.type);
 }
 
 std::uint64_t bytes_before_last_samples(const ScanFile& scan) {
@@ -141,26 +119,6 @@ std::array<Vec3, 3> nearest_orthonormal(std::array<Vec3, 3> q) {
 }
 
 }  // namespace
-
-int size_in_bytes(SampleType type) {
-  switch (type) {
-    case SampleType::kInt8:
-    case SampleType::kUint8:
-      return 1;
-    case SampleType::kInt16:
-    case SampleType::kUint16:
-      return 2;
-    case SampleType::kInt32:
-    case SampleType::kUint32:
-    case SampleType::kFloat32:
-      return 4;
-    case SampleType::kInt64:
-    case SampleType::kUint64:
-    case SampleType::kFloat64:
-      break;
-  }
-  return 8;
-}
 
 void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts) {
   constexpr std::int64_t kMostVoxels = std::int64_t{1} << 40;
@@ -212,7 +170,7 @@ void set_origin(ScanFile& scan, const Vec3& origin) {
 void append_samples(std::span<const unsigned char> bytes, const SampleSource& source,
                     std::vector<float>& out) {
   const std::size_t begin = out.size();
-  out.resize(begin + bytes.size() / static_cast<std::size_t>(size_in_bytes(source.type)));
+  out.resize(begin + bytes.size() / byte_size(source.type));
   convert_any(bytes, source, out.data() + begin);
 }
 

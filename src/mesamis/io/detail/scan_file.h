@@ -10,29 +10,16 @@
 
 #include "mesamis/image/volume.h"
 #include "mesamis/io/detail/byte_source.h"
+#include "mesamis/io/detail/number_type.h"
 
 /// What the readers of plain arrays (NIfTI, NRRD, MetaImage, InVesalius) share: a header becomes
 /// a grid and a place where the samples lie, and one function brings the samples in.
 namespace mesamis::detail {
 
-enum class SampleType {
-  kInt8,
-  kUint8,
-  kInt16,
-  kUint16,
-  kInt32,
-  kUint32,
-  kInt64,
-  kUint64,
-  kFloat32,
-  kFloat64
-};
-int size_in_bytes(SampleType type);
-
 /// Where a file's samples lie and how they are coded. i runs fastest, then j, k.
 struct SampleSource {
   std::filesystem::path file;
-  SampleType type = SampleType::kInt16;
+  NumberType type = NumberType::kInt16;
   bool big_endian = false;
   bool text = false;  ///< decimal numbers between white space
   Packing packing = Packing::kPlain;

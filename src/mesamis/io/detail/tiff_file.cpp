@@ -62,26 +62,26 @@ bool is_thumbnail(TIFF* tiff) {
   return (kind & FILETYPE_REDUCEDIMAGE) != 0;
 }
 
-std::optional<SampleType> sample_type(const Page& page) {
+std::optional<NumberType> sample_type(const Page& page) {
   const bool real = page.format == SAMPLEFORMAT_IEEEFP, sign = page.format == SAMPLEFORMAT_INT;
   if (!real && !sign && page.format != SAMPLEFORMAT_UINT) return std::nullopt;
   switch (page.bits) {
     case 8:
       if (real) return std::nullopt;
-      return sign ? SampleType::kInt8 : SampleType::kUint8;
+      return sign ? NumberType::kInt8 : NumberType::kUint8;
     case 16:
       if (real) return std::nullopt;
-      return sign ? SampleType::kInt16 : SampleType::kUint16;
+      return sign ? NumberType::kInt16 : NumberType::kUint16;
     case 32:
-      return real ? SampleType::kFloat32 : sign ? SampleType::kInt32 : SampleType::kUint32;
+      return real ? NumberType::kFloat32 : sign ? NumberType::kInt32 : NumberType::kUint32;
     case 64:
-      return real ? SampleType::kFloat64 : sign ? SampleType::kInt64 : SampleType::kUint64;
+      return real ? NumberType::kFloat64 : sign ? NumberType::kInt64 : NumberType::kUint64;
     default:
       return std::nullopt;
   }
 }
 
-SampleType require_grey(const std::filesystem::path& file, const Page& page) {
+NumberType require_grey(const std::filesystem::path& file, const Page& page) {
   const bool grey = page.channels == 1 && (page.photometric == PHOTOMETRIC_MINISBLACK ||
                                            page.photometric == PHOTOMETRIC_MINISWHITE);
   const auto type = sample_type(page);
@@ -241,8 +241,7 @@ OpenTiff open_tiff(const std::filesystem::path& file) {
   if (page.photometric == PHOTOMETRIC_MINISWHITE) {
     scan.warnings.push_back("small values are meant to be shown white; they are kept as stored");
   }
-  const std::uint64_t needed =
-      scan.grid.voxel_count() * static_cast<std::uint64_t>(size_in_bytes(scan.source.type));
+  const std::uint64_t needed = scan.grid.voxel_count() * byte_size(scan.source.type);
   if (static_cast<double>(needed) > allocation_bound(file)) {
     refuse(file, say("expected ", needed, " bytes of samples, found a file of ", size_of(file)));
   }

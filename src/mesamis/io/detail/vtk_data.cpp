@@ -7,7 +7,9 @@
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkStringArray.h>
 #include <vtkTypeInt32Array.h>
+#include <vtkXMLWriter.h>
 
 #include <algorithm>
 #include <limits>
@@ -78,6 +80,21 @@ void add_array(vtkFieldData& data, const MeshArray& array, std::size_t count, co
   values->SetNumberOfTuples(static_cast<vtkIdType>(count));
   std::copy(array.values.begin(), array.values.end(), values->GetPointer(0));
   data.AddArray(values);
+}
+
+void add_text(vtkFieldData& data, const char* name, const std::string& value) {
+  auto text = vtkSmartPointer<vtkStringArray>::New();
+  text->SetName(name);
+  text->InsertNextValue(value);
+  data.AddArray(text);
+}
+
+void set_form(vtkXMLWriter& writer) {
+  writer.SetDataModeToAppended();
+  writer.EncodeAppendedDataOff();
+  writer.SetHeaderTypeToUInt64();
+  writer.SetCompressorTypeToZLib();
+  writer.SetCompressionLevel(1);  // doubles pack badly; more effort gains little
 }
 
 }  // namespace mesamis::detail

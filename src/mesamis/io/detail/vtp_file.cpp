@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vtkFieldData.h>
-#include <vtkStringArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include "mesamis/base/error.h"
@@ -15,13 +14,6 @@ namespace mesamis::detail {
 namespace {
 
 namespace fs = std::filesystem;
-
-void add_text(vtkFieldData& data, const char* name, const std::string& value) {
-  auto text = vtkSmartPointer<vtkStringArray>::New();
-  text->SetName(name);
-  text->InsertNextValue(value);
-  data.AddArray(text);
-}
 
 void add_points(const fs::path& file, const VtkXml& xml, const XmlElement& piece,
                 TriMesh& surface) {
@@ -69,11 +61,7 @@ std::string vtp_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
   const auto writer = vtkSmartPointer<vtkXMLPolyDataWriter>::New();
   writer->WriteToOutputStringOn();
   writer->SetInputData(data);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetHeaderTypeToUInt64();
-  writer->SetCompressorTypeToZLib();
-  writer->SetCompressionLevel(1);  // doubles pack badly; more effort gains little
+  set_form(*writer);
   if (writer->Write() == 0 || writer->GetErrorCode() != 0) {
     throw InputError("surface: VTK could not format it: " + messages.first_error());
   }
