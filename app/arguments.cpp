@@ -32,6 +32,13 @@ std::vector<Number> parse_list(const std::string& text, std::size_t count,
 
 }  // namespace
 
+bool parse_number(const std::string& text, double& value) {
+  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  return error == std::errc() && stop == end && std::isfinite(value);
+}
+
 std::vector<double> parse_numbers(const std::string& text, std::size_t count,
                                   const std::string& option) {
   return parse_list<double>(text, count, option);

@@ -11,6 +11,10 @@ namespace mesamis {
 std::vector<double> parse_numbers(const std::string& text, std::size_t count,
                                   const std::string& option);
 
+/// One number, in any of the usual spellings: 5, +5, .5, 05, 5e3.
+/// @return false  if the text is none, or not finite.
+bool parse_number(const std::string& text, double& value);
+
 /// The same for whole numbers.
 std::vector<int> parse_integers(const std::string& text, std::size_t count,
                                 const std::string& option);

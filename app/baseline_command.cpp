@@ -6,12 +6,12 @@
 
 #include "commands.h"
 #include "json_file.h"
-#include "log.h"
 #include "mesamis/image/edge_sides.h"
 #include "mesamis/io/isosurface.h"
-#include "mesamis/io/read_volume.h"
 #include "mesamis/io/surface_files.h"
+#include "outputs.h"
 #include "process.h"
+#include "scan.h"
 
 namespace mesamis {
 namespace {
@@ -26,9 +26,8 @@ struct BaselineCommand {
 };
 
 int run_baseline(const BaselineCommand& command) {
-  const VolumeFile file = read_volume(command.input, {command.series});
-  for (const std::string& warning : file.warnings) log_warning(warning);
-  require_usable(file.volume);
+  require_output(command.output, {".stl", ".ply", ".obj", ".vtp"}, "--output");
+  const VolumeFile file = read_scan(command.input, command.series);
   const double level = command.level ? *command.level : find_object(file.volume).level;
   const TriMesh surface = isosurface(file.volume, level, command.options);
   write_surface(command.output, surface, {.name = command.input.stem().string()});

@@ -5,18 +5,9 @@
 #include <array>
 #include <string>
 
+#include "outputs.h"
+
 namespace mesamis {
-namespace {
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return extension;
-}
-
-}  // namespace
-
 FileKind kind_of(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return FileKind::kVolume;
   std::string extension = lower_extension(path);

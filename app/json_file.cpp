@@ -25,8 +25,9 @@ nlohmann::json read_json(const std::filesystem::path& path) {
   }
   try {
     return nlohmann::json::parse(in);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(path.string() + ": not JSON: " + error.what());
+  } catch (const nlohmann::json::parse_error& error) {
+    throw InputError(path.string() + ": expected JSON, found something else at byte " +
+                     std::to_string(error.byte));
   }
 }
 

@@ -87,6 +87,9 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int
   if (chosen.empty() && count > 1 && arguments[1][0] != '-') {
     return "no command '" + std::string(arguments[1]) + "' (mesamis --help lists them)";
   }
+  if (chosen.empty() && error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {
+    return one_line(error.what()) + " (mesamis --help lists what there is)";
+  }
   if (chosen.empty()) return "a command is required (mesamis --help lists them)";
   return one_line(error.what()) + " (mesamis " + chosen[0]->get_name() + " --help tells more)";
 }

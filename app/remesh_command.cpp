@@ -12,6 +12,7 @@
 #include "mesamis/mesh/metric.h"
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/remesh/remesh.h"
+#include "outputs.h"
 #include "process.h"
 #include "progress.h"
 
@@ -19,6 +20,7 @@ namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
 // A start mesh whose edges already fit the metric this well is worth keeping; otherwise it is
 // faster to refine a coarse box than to coarsen or rebuild what is there.
@@ -94,7 +96,7 @@ void write_report(const RemeshCommand& command, const Background& background,
                      {"tets", background.mesh.cells.size()},
                      {"nodes", background.mesh.points.size()},
                      {"complexity", complexity(background.mesh, background.metrics)}};
-  report["settings"] = {{"max_tets", command.max_tets},
+  report["settings"] = {{"max_tets", command.max_tets > 0 ? json(command.max_tets) : json()},
                         {"start", outcome.kept_start ? "mesh" : "box"}};
   report["mesh"] = {{"tets", outcome.mesh.cells.size()},
                     {"nodes", outcome.mesh.points.size()},
@@ -113,6 +115,8 @@ void write_report(const RemeshCommand& command, const Background& background,
 }
 
 int run_remesh(const RemeshCommand& command, const CommonOptions& common) {
+  require_output(command.output, {".mesh"}, "--output");
+  if (!command.report.empty()) require_output(command.report, {".json"}, "--report");
   const Background background = read_background(command);
   const Outcome outcome = build(background, command, common.quiet);
   write_medit_mesh(command.output, outcome.mesh);
@@ -136,10 +140,15 @@ void add_remesh_command(CLI::App& app, CommonOptions& common, Action& action) {
   command->add_option("--metric", options->metric, "Metric at its vertices: Medit .sol")
       ->required();
   command->add_option("-o,--output", options->output, "The new mesh: Medit .mesh")->required();
-  command
-      ->add_option("--max-tets", options->max_tets,
-                   "Coarsen the metric until the mesh has about this many cells")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 31));
+  command->add_option_function<double>(
+      "--max-tets",
+      [options](double count) {
+        if (!(count >= 1 && count <= 2e8 && count == std::floor(count))) {
+          throw CLI::ValidationError("--max-tets", "expected a whole number from 1 to 2e8");
+        }
+        options->max_tets = static_cast<std::int64_t>(count);
+      },
+      "Coarsen the metric until the mesh has about this many cells");
   command->add_option("--report", options->report, "Report: .json");
   command->callback([options, &common, &action] {
     action = [options, &common] { return run_remesh(*options, common); };

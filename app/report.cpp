@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mesamis/base/parallel.h"
 #include "process.h"
 #include "settings_json.h"
 #include "version.h"
@@ -10,6 +11,7 @@
 namespace mesamis {
 namespace {
 
+using nlohmann::json;
 using nlohmann::ordered_json;
 
 ordered_json vec(const Vec3& v) { return {v.x, v.y, v.z}; }
@@ -26,13 +28,16 @@ ordered_json input_json(const InputFacts& input) {
           {"modality", input.modality},       {"warnings", input.warnings}};
 }
 
-ordered_json iteration_json(const Iteration& i) {
+/// What a pass has not measured is null: the first has no energy before it, the last leads to no
+/// other mesh.
+ordered_json iteration_json(const Iteration& i, bool is_first, bool is_last) {
+  auto known = [](bool is_known, double value) { return is_known ? json(value) : json(); };
   return {{"tets", i.tets},
           {"nodes", i.nodes},
           {"energy", i.energy.total()},
           {"energy_parts", energy_json(i.energy)},
-          {"energy_change", i.energy_change},
-          {"mesh_change", i.mesh_change},
+          {"energy_change", known(!is_first, i.energy_change)},
+          {"mesh_change", known(!is_first && !is_last, i.mesh_change)},
           {"amis_iterations", i.amis.iterations},
           {"v_change", i.amis.v_change},
           {"v_clamped", i.amis.clamped},
@@ -40,8 +45,8 @@ ordered_json iteration_json(const Iteration& i) {
            {{"iterations", i.amis.solver_iterations},
             {"residual", i.amis.solver_residual},
             {"converged", i.amis.solver_converged}}},
-          {"estimator", i.estimator},
-          {"predicted_tets", i.predicted_tets},
+          {"estimator", known(!is_last, i.estimator)},
+          {"predicted_tets", known(!is_last, i.predicted_tets)},
           {"aspect_max", i.aspect_max},
           {"aspect_mean", i.aspect_mean},
           {"seconds",
@@ -98,10 +103,11 @@ ordered_json chosen(const Settings& asked) {
 
 }  // namespace
 
-InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file) {
+InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file, Frame frame) {
   const Volume& volume = file.volume;
-  InputFacts facts{path, file.format, sha256(path), volume.modality, volume.size, volume.spacing,
-                   0,    0,           file.warnings};
+  InputFacts facts{
+      path, file.format,   sha256(path), volume.modality, volume.size, volume.spacing, 0,
+      0,    file.warnings, frame};
   if (!volume.samples.empty()) {
     const auto [low, high] = std::minmax_element(volume.samples.begin(), volume.samples.end());
     facts.lowest = *low;
@@ -115,6 +121,8 @@ ordered_json segment_report(const InputFacts& input, const Settings& settings, c
   ordered_json report;
   report["program"] = {{"name", "mesamis"}, {"version", kVersion}, {"commit", kCommit}};
   report["input"] = input_json(input);
+  report["output"] = {{"frame", input.frame == Frame::kRas ? "ras" : "lps"},
+                      {"threads", thread_count()}};
   report["settings"] = to_json(settings_used(result));
   report["chosen"] = chosen(settings);
   report["grey"] = {
@@ -124,7 +132,10 @@ ordered_json segment_report(const InputFacts& input, const Settings& settings, c
                              ? ordered_json(result.grey.to_grey(result.grey.threshold))
                              : ordered_json(nullptr)}};
   report["iterations"] = ordered_json::array();
-  for (const Iteration& i : result.iterations) report["iterations"].push_back(iteration_json(i));
+  const std::size_t passes = result.iterations.size();
+  for (std::size_t i = 0; i < passes; ++i) {
+    report["iterations"].push_back(iteration_json(result.iterations[i], i == 0, i + 1 == passes));
+  }
   report["mesh"] = mesh_json(result);
   report["surface"] = surface_json(result, surface);
   report["converged"] = result.converged;

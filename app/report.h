@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesamis/io/read_volume.h"
+#include "mesamis/io/surface_files.h"
 #include "mesamis/mes_amis.h"
 #include "mesamis/surface/tri_mesh.h"
 
@@ -19,8 +20,9 @@ struct InputFacts {
   Vec3 spacing;
   double lowest = 0, highest = 0;  ///< native units
   std::vector<std::string> warnings;
+  Frame frame = Frame::kLps;  ///< of the files written
 };
-InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file);
+InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file, Frame frame);
 
 /// The report of a run, as docs/formats.md describes it.
 /// @param settings  those asked for, to tell what was chosen automatically.

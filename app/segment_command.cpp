@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "arguments.h"
 #include "commands.h"
 #include "json_file.h"
 #include "log.h"
@@ -17,8 +18,10 @@
 #include "mesamis/io/surface_files.h"
 #include "mesamis/mes_amis.h"
 #include "mesamis/surface/extract.h"
+#include "outputs.h"
 #include "progress.h"
 #include "report.h"
+#include "scan.h"
 #include "settings_json.h"
 
 namespace mesamis {
@@ -35,22 +38,6 @@ struct SegmentOptions {
   json overrides = json::object();  // settings given as options, on top of the file's
 };
 
-/// "3,2.5,4" as numbers; a single number stands for all `count` when `repeat`.
-json numbers(const std::string& text, std::size_t count, const std::string& option) {
-  json values = json::array();
-  std::stringstream in(text);
-  for (std::string part; std::getline(in, part, ',');) {
-    const json value = json::parse(part, nullptr, false);
-    if (!value.is_number()) throw CLI::ValidationError(option, "'" + part + "' is not a number");
-    values.push_back(value);
-  }
-  if (values.size() != count) {
-    throw CLI::ValidationError(option, "expected " + std::to_string(count) +
-                                           " numbers with commas between, found " + text);
-  }
-  return values;
-}
-
 /// "I0:I1,J0:J1,K0:K1"; an empty bound is the volume's own.
 json crop_ranges(const std::string& text) {
   json ranges = json::array();
@@ -60,13 +47,8 @@ json crop_ranges(const std::string& text) {
     if (colon == std::string::npos) {
       throw CLI::ValidationError("--crop", "expected I0:I1,J0:J1,K0:K1, found " + text);
     }
-    auto bound = [&](const std::string& number, int otherwise) {
-      if (number.empty()) return json(otherwise);
-      const json value = json::parse(number, nullptr, false);
-      if (!value.is_number_integer()) {
-        throw CLI::ValidationError("--crop", "'" + number + "' is not a whole number");
-      }
-      return value;
+    auto bound = [](const std::string& number, int otherwise) {
+      return number.empty() ? otherwise : parse_integers(number, 1, "--crop")[0];
     };
     ranges.push_back({bound(part.substr(0, colon), 0), bound(part.substr(colon + 1), -1)});
   }
@@ -80,8 +62,8 @@ json number_or_word(const std::string& text, const std::vector<std::string>& wor
   for (const std::string& word : words) {
     if (text == word) return word;
   }
-  const json value = json::parse(text, nullptr, false);
-  if (value.is_number()) return value;
+  double value = 0;
+  if (parse_number(text, value)) return value;
   throw CLI::ValidationError(option, "'" + text + "' is neither a number nor a word it knows");
 }
 
@@ -113,10 +95,10 @@ void add_image_settings(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
   add_setting(c, o, "--crop", "Voxels to use, I0:I1,J0:J1,K0:K1 (ends excluded, may be empty)",
               crop_ranges);
   add_setting(c, o, "--stride", "Voxels per node of the first grid, X,Y,Z (default 1,1,1)",
-              [](const std::string& text) { return numbers(text, 3, "--stride"); });
+              [](const std::string& text) { return json(parse_integers(text, 3, "--stride")); });
   add_setting(c, o, "--window", "Native values mapped to 0 and 255, LO,HI or auto (default auto)",
               [](const std::string& text) {
-                return text == "auto" ? json(text) : numbers(text, 2, "--window");
+                return text == "auto" ? json(text) : json(parse_numbers(text, 2, "--window"));
               });
   add_number(c, o, "--threshold", "Native value below which all is one tissue, auto or none",
              {"auto", "none"});
@@ -154,8 +136,12 @@ Settings settings_of(const SegmentOptions& options) {
     json file = read_json(options.settings_file);
     // A whole report serves as well: its settings are those of the run.
     if (file.is_object() && file.contains("settings")) file = file["settings"];
-    from_json(file, settings);
-    require_valid(settings);
+    try {
+      from_json(file, settings);
+      require_valid(settings);
+    } catch (const InputError& error) {
+      throw InputError(options.settings_file.string() + ": " + error.what());
+    }
   }
   try {
     from_json(options.overrides, settings);
@@ -191,8 +177,8 @@ std::vector<MeshArray> cell_arrays(const Result& result) {
 }
 
 void write_mesh(const fs::path& path, const Result& result, Frame frame) {
-  if (path.extension() == ".mesh") {
-    write_medit_mesh(path, result.mesh);
+  if (lower_extension(path) == ".mesh") {
+    write_medit_mesh(path, result.mesh, frame);
     fs::path fields = path;
     const std::vector<std::vector<double>> values{result.u, result.v, result.f};
     write_medit_scalars(fields.replace_extension(".sol"), values);
@@ -242,11 +228,19 @@ std::string why_not_converged(const Result& result) {
          std::to_string(result.settings.tol_energy);
 }
 
+void require_outputs(const SegmentOptions& options) {
+  for (const fs::path& path : options.surfaces) {
+    require_output(path, {".stl", ".ply", ".obj", ".vtp"}, "--output");
+  }
+  for (const fs::path& path : options.meshes) require_output(path, {".vtu", ".mesh"}, "--mesh");
+  for (const fs::path& path : options.band_meshes) require_output(path, {".vtu"}, "--band-mesh");
+  if (!options.report.empty()) require_output(options.report, {".json"}, "--report");
+}
+
 int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   const Settings settings = settings_of(options);
-  const VolumeFile file = read_volume(options.input, {options.series});
-  for (const std::string& warning : file.warnings) log_warning(warning);
-  require_usable(file.volume);
+  require_outputs(options);
+  const VolumeFile file = read_scan(options.input, options.series);
   ProgressDisplay display(common.quiet);
   const Result result = mes_amis(file.volume, settings, display.callback());
   display.finish();
@@ -258,8 +252,8 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   for (const fs::path& path : options.meshes) write_mesh(path, result, options.frame);
   for (const fs::path& path : options.band_meshes) write_band_mesh(path, result, options.frame);
   if (!options.report.empty()) {
-    write_json(options.report,
-               segment_report(facts_of(options.input, file), settings, result, check));
+    write_json(options.report, segment_report(facts_of(options.input, file, options.frame),
+                                              settings, result, check));
   }
   if (!check.closed() || !check.manifold()) {
     log_error("the surface is not closed and 2-manifold: " + std::to_string(check.open_edges) +

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "settings_json.h"
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
+#include <type_traits>
 
 #include "mesamis/base/error.h"
 
@@ -13,6 +16,24 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+/// Whole numbers may be spelt as reals (1e6), but nothing is cut off.
+template <class T>
+T number(const json& value) {
+  if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+    const auto real = value.get<double>();
+    if (!(std::abs(real) < 1e15 && real == std::floor(real))) {
+      throw InputError("expected a whole number, found " + value.dump());
+    }
+    if (real < static_cast<double>(std::numeric_limits<T>::min()) ||
+        real > static_cast<double>(std::numeric_limits<T>::max())) {
+      throw InputError("expected a smaller number, found " + value.dump());
+    }
+    return static_cast<T>(real);
+  } else {
+    return value.get<T>();
+  }
+}
+
 template <class T>
 ordered_json or_auto(const std::optional<T>& value) {
   return value ? ordered_json(*value) : ordered_json("auto");
@@ -21,7 +42,7 @@ ordered_json or_auto(const std::optional<T>& value) {
 template <class T>
 std::optional<T> read_or_auto(const json& value) {
   if (value == "auto") return std::nullopt;
-  return value.get<T>();
+  return number<T>(value);
 }
 
 ordered_json threshold_to_json(const Settings& s) {
@@ -59,7 +80,7 @@ using Reader = std::function<void(const json&, Settings&)>;
 
 template <class T>
 Reader reads(T Settings::*member) {
-  return [member](const json& value, Settings& s) { s.*member = value.get<T>(); };
+  return [member](const json& value, Settings& s) { s.*member = number<T>(value); };
 }
 template <class T>
 Reader reads(std::optional<T> Settings::*member) {
@@ -143,16 +164,16 @@ ordered_json to_json(const Settings& s) {
 }
 
 void from_json(const json& object, Settings& settings) {
-  if (!object.is_object()) throw InputError("settings: expected a JSON object");
+  if (!object.is_object()) throw InputError("expected a JSON object");
   for (const auto& [name, value] : object.items()) {
     const auto reader = readers().find(name);
-    if (reader == readers().end()) throw InputError("settings: there is no setting '" + name + "'");
+    if (reader == readers().end()) throw InputError("there is no setting '" + name + "'");
     try {
       reader->second(value, settings);
     } catch (const json::exception&) {
-      throw InputError("settings: " + name + " cannot be " + value.dump());
+      throw InputError(name + " cannot be " + value.dump());
     } catch (const InputError& error) {
-      throw InputError("settings: " + name + ": " + error.what());
+      throw InputError(name + ": " + error.what());
     }
   }
 }

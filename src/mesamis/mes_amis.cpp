@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "mesamis/adapt/estimator.h"
@@ -133,18 +134,46 @@ class Run {
                                   std::max({extent.x, extent.y, extent.z}) / 4 / result_.unit_mm);
     }
     const ObjectEdges object = find_object(volume_);
-    if (!settings().max_tets) settings().max_tets = default_max_tets(object.crossings);
-    if (!settings().window) {
-      settings().window = default_window(volume_, object.sides.outside);
-    }
     result_.level_native = settings().level.value_or(object.level);
+    if (!settings().max_tets) {
+      settings().max_tets =
+          default_max_tets(settings().level ? count_crossings(smoothed(volume_), *settings().level)
+                                            : object.crossings);
+    }
+    if (!settings().window) settings().window = choose_window(object);
     choose_threshold(object);
+    require_contrast();
     grey_ = apply(result_.grey, volume_);
     amis_.parameters = {settings().epsilon, *settings().eta, settings().beta, settings().gamma};
     amis_.max_iterations = settings().amis_iterations;
     amis_.v_tolerance = settings().tol_v;
     amis_.solver.tolerance = settings().solver_tolerance;
     result_.seconds.prepare = watch.lap();
+  }
+
+  /// The default, widened where the level has not room for an edge on both its sides.
+  Window choose_window(const ObjectEdges& object) const {
+    const Window window = default_window(volume_, object.sides.outside);
+    const double room = std::abs(object.sides.inside - object.sides.outside) / 2;
+    return {std::min(window.low, result_.level_native - room),
+            std::max(window.high, result_.level_native + room)};
+  }
+
+  /// Settings that leave nothing to see, or nothing at the level, are refused.
+  void require_contrast() const {
+    const double low =
+        result_.threshold_used ? result_.grey.threshold : result_.settings.window->low;
+    const double high = result_.settings.window->high, level = result_.level_native;
+    const auto [least, most] = std::minmax_element(volume_.samples.begin(), volume_.samples.end());
+    std::ostringstream message;
+    if (!(*least<high&& * most> low)) {
+      message << "window: expected one that holds some of the samples, which go from " << *least
+              << " to " << *most << ", found " << low << "," << high;
+    } else if (result_.settings.surface == SurfaceKind::kSolid && !(low < level && level < high)) {
+      message << "level: expected a value between the window's ends and above the threshold, "
+              << low << " to " << high << ", found " << level;
+    }
+    if (!message.str().empty()) throw InputError(message.str());
   }
 
   void choose_threshold(const ObjectEdges& object) {
@@ -154,8 +183,9 @@ class Run {
     // A level below T would be everywhere: what the user asks to see comes first.
     result_.threshold_used = rule != ThresholdRule::kNone && t > settings().window->low &&
                              !(rule == ThresholdRule::kAuto && t >= result_.level_native);
-    if (result_.threshold_used) result_.grey.threshold = t;
-    if (rule == ThresholdRule::kAuto) settings().threshold = t;
+    if (!result_.threshold_used) return;
+    result_.grey.threshold = t;
+    settings().threshold = t;
   }
 
   /// The first pass, on the voxel grid; the mesh it leads to is refined from a coarse box.
@@ -192,10 +222,8 @@ class Run {
     carry(interpolate_fields(grid, std::vector<std::span<const double>>{fields.u, fields.v},
                              mesh_.points));
     iteration().seconds.transfer = watch.lap();
-    const auto s =
-        aspect_ratios(cell_shape({Vec3{0, 0, 0}, Vec3{grid.spacing.x, 0, 0},
-                                  Vec3{grid.spacing.x, grid.spacing.y, 0}, grid.spacing}));
-    iteration().aspect_max = iteration().aspect_mean = s;
+    // One brick's cells are those of all the others.
+    measure_aspects(box_mesh({{0, 0, 0}, grid.spacing}, {1, 1, 1}), iteration());
   }
 
   void run_amis_on(const P1Space& space, Fields& fields) {
@@ -214,10 +242,12 @@ class Run {
     const MeshSpace space(mesh_);
     iteration().tets = static_cast<std::int64_t>(mesh_.cells.size());
     iteration().nodes = static_cast<std::int64_t>(mesh_.points.size());
-    fields_.f = project_image(grey_, space, result_.unit_mm, amis_.solver);
+    SolveReport projection;
+    fields_.f = project_image(grey_, space, result_.unit_mm, amis_.solver, &projection);
     advance(0.1);
     iteration().seconds.project = watch.lap();
     run_amis_on(space, fields_);
+    iteration().amis.solver_converged &= projection.converged;
     advance(0.3);
     iteration().seconds.amis = watch.lap();
     measure_aspects(mesh_, iteration());
@@ -231,7 +261,7 @@ class Run {
     Stopwatch watch;
     set_metric(estimate_metric());
     iteration().seconds.estimate = watch.lap();
-    const TetMesh old = mesh_;
+    const TetMesh old = std::move(mesh_);
     const MeshMetricField field(old, metric_);
     replace_mesh(old, field);
     iteration().seconds.remesh = watch.lap();
@@ -315,6 +345,7 @@ class Run {
       result_.surface = extract_band(mesh_, fields_.v, settings().band_threshold);
     } else {
       if (!settings().level) refine_level();
+      settings().level = result_.level_native;
       result_.surface = extract_solid(mesh_, fields_.u, to_grey_level(result_.level_native));
     }
     result_.seconds.surface = watch.lap();
@@ -322,7 +353,9 @@ class Run {
 
   /// Midway between the two sides of the surface itself, measured in the unclamped image.
   void refine_level() {
-    const TriMesh surface = extract_solid(mesh_, fields_.u, to_grey_level(result_.level_native));
+    // Caps at the box are no edges of the image.
+    const TriMesh surface = extract_solid(mesh_, fields_.u, to_grey_level(result_.level_native),
+                                          {.close_at_box = false});
     std::vector<SurfacePoint> points;
     const double unit = result_.unit_mm;
     for (const Triangle& t : surface.triangles) {

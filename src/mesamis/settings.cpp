@@ -19,6 +19,8 @@ void require_range(const char* name, double value, double low, double high) {
 
 /// Smallest and largest positive values that make sense of a weight or a length.
 constexpr double kTiny = 1e-12, kHuge = 1e12;
+/// Native values are single precision.
+constexpr double kLargestValue = 1e38;
 
 }  // namespace
 
@@ -40,6 +42,12 @@ void require_valid(const Settings& s) {
   require_range("h-min", s.h_min, kTiny, kHuge);
   if (s.h_max) require_range("h-max", *s.h_max, s.h_min, kHuge);
   require_range("band-threshold", s.band_threshold, 0, 1);
+  require_range("threshold", s.threshold, -kLargestValue, kLargestValue);
+  if (s.level) require_range("level", *s.level, -kLargestValue, kLargestValue);
+  if (s.window) {
+    require_range("window", s.window->low, -kLargestValue, kLargestValue);
+    require_range("window", s.window->high, -kLargestValue, kLargestValue);
+  }
   if (s.window && !(s.window->low < s.window->high)) {
     std::ostringstream message;
     message << "window: expected low below high, found " << s.window->low << "," << s.window->high;

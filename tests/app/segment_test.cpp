@@ -113,6 +113,21 @@ TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
   EXPECT_FAILS(
       run_program(folder, segment_arguments(folder, "a", {"--settings", folder / "s.json"})), 3,
       "gamma: expected");
+  auto outputs = [&folder](const std::string& surface, const std::string& mesh) {
+    return run_program(
+        folder, {"segment", folder / "ball.nrrd", "-o", folder / surface, "--mesh", folder / mesh});
+  };
+  EXPECT_FAILS(outputs("a.xyz", "a.vtu"), 2, "ends with one of .stl .ply .obj .vtp, found");
+  EXPECT_FAILS(outputs("a.stl", "a.foo"), 2, "ends with one of .vtu .mesh, found");
+  EXPECT_FAILS(outputs("none/a.stl", "a.vtu"), 3, "there is no folder");
+  for (const auto* option : {"--max-tets", "--adaptations", "--amis-iterations"}) {
+    EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {option, "300.5"})), 2,
+                 "expected a whole number, found 300.5");
+  }
+  EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--stride", "1,1,1,"})), 2,
+               "--stride");
+  EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--window", "900,990"})), 2,
+               "window: expected");
   write_bytes(folder / "ball.nrrd", "no scan");
   EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--quiet"})), 3, "ball.nrrd");
   EXPECT_EQ(folder.file_count(), 4) << "the scan, the settings, stdout and stderr";

@@ -67,20 +67,32 @@ std::array<PathGeometry, kPaths> path_geometries(const Vec3& h) {
   return result;
 }
 
-/// grad u, its outer product, grad v, its outer product: what patches add up.
-using CellSums = std::array<double, 18>;
+struct CellGradients {
+  Vec3 u, v;
+};
 
-CellSums sums_of(const Vec3& u, const Vec3& v) {
-  const Sym3 uu = outer(u), vv = outer(v);
-  return {u.x, u.y, u.z, uu.xx, uu.xy, uu.xz, uu.yy, uu.yz, uu.zz,
-          v.x, v.y, v.z, vv.xx, vv.xy, vv.xz, vv.yy, vv.yz, vv.zz};
-}
-Vec3 u_gradient(const CellSums& s) { return {s[0], s[1], s[2]}; }
-Vec3 v_gradient(const CellSums& s) { return {s[9], s[10], s[11]}; }
+/// What a patch adds up of one field: gradients and their outer products.
+struct GradientSums {
+  Vec3 gradient;
+  Sym3 outer_product;
+  void add(const Vec3& g) {
+    gradient += g;
+    outer_product += outer(g);
+  }
+};
 
-PatchSums patch_of(const double* s, double count, double cell_volume) {
-  return {count * cell_volume, cell_volume * Vec3{s[0], s[1], s[2]},
-          cell_volume * Sym3{s[3], s[4], s[5], s[6], s[7], s[8]}};
+struct PatchGradients {
+  GradientSums u, v;
+  double count = 0;
+  void add(const CellGradients& cell) {
+    u.add(cell.u);
+    v.add(cell.v);
+    ++count;
+  }
+};
+
+PatchSums patch_of(const GradientSums& sums, double count, double cell_volume) {
+  return {count * cell_volume, cell_volume * sums.gradient, cell_volume * sums.outer_product};
 }
 
 struct Totals {
@@ -133,7 +145,7 @@ class GridEstimator {
 
  private:
   /// Three consecutive layers of cells; layer k is kept at k modulo 3.
-  using Ring = std::array<std::vector<CellSums>, 3>;
+  using Ring = std::array<std::vector<CellGradients>, 3>;
 
   static std::size_t slot(Index k) { return static_cast<std::size_t>((k + 3) % 3); }
 
@@ -171,20 +183,20 @@ class GridEstimator {
 
   void fill_layer(Index k, Ring& ring) const {
     if (k < 0 || k >= bricks_[2]) return;
-    std::vector<CellSums>& layer = ring[slot(k)];
+    std::vector<CellGradients>& layer = ring[slot(k)];
     layer.resize(place(0, bricks_[1], 0));
     for (Index j = 0; j < bricks_[1]; ++j) {
       for (Index i = 0; i < bricks_[0]; ++i) {
         for (std::size_t path = 0; path < kPaths; ++path) {
           const auto nodes = nodes_of({i, j, k}, path);
-          layer[place(i, j, path)] = sums_of(gradient(u_, nodes, path), gradient(v_, nodes, path));
+          layer[place(i, j, path)] = {gradient(u_, nodes, path), gradient(v_, nodes, path)};
         }
       }
     }
   }
 
-  const CellSums* find(const std::array<Index, 3>& brick, const RelativeCell& cell,
-                       const Ring& ring) const {
+  const CellGradients* find(const std::array<Index, 3>& brick, const RelativeCell& cell,
+                            const Ring& ring) const {
     const std::array<Index, 3> at{brick[0] + cell.brick[0], brick[1] + cell.brick[1],
                                   brick[2] + cell.brick[2]};
     if (!is_inside(at)) return nullptr;
@@ -193,13 +205,13 @@ class GridEstimator {
 
   CellData data_of(const std::array<Index, 3>& brick, std::size_t path, const Ring& ring) const {
     const PathGeometry& g = paths_[path];
-    const CellSums& own = ring[slot(brick[2])][place(brick[0], brick[1], path)];
+    const CellGradients& own = ring[slot(brick[2])][place(brick[0], brick[1], path)];
     std::array<std::size_t, 4> nodes = nodes_of(brick, path);
     CellData data;
     data.volume = cell_volume_;
     data.shape = g.shape;
-    data.grad_u = u_gradient(own);
-    data.grad_v = v_gradient(own);
+    data.grad_u = own.u;
+    data.grad_v = own.v;
     data.grad_f = gradient(f_, nodes, path);
     if (kuhn_path_is_odd(kKuhnPaths[path])) std::swap(nodes[2], nodes[3]);
     data.face_area = g.face_area;
@@ -207,9 +219,9 @@ class GridEstimator {
       data.u[i] = u_[nodes[i]];
       data.v[i] = v_[nodes[i]];
       data.f[i] = f_[nodes[i]];
-      const CellSums* beyond = find(brick, g.neighbor[i], ring);
-      const Vec3 jump_u = beyond ? data.grad_u - u_gradient(*beyond) : 2.0 * data.grad_u;
-      const Vec3 jump_v = beyond ? data.grad_v - v_gradient(*beyond) : 2.0 * data.grad_v;
+      const CellGradients* beyond = find(brick, g.neighbor[i], ring);
+      const Vec3 jump_u = beyond ? data.grad_u - beyond->u : 2.0 * data.grad_u;
+      const Vec3 jump_v = beyond ? data.grad_v - beyond->v : 2.0 * data.grad_v;
       data.jump_u[i] = std::abs(dot(jump_u, g.normal[i]));
       data.jump_v[i] = std::abs(dot(jump_v, g.normal[i]));
     }
@@ -223,42 +235,33 @@ class GridEstimator {
     return true;
   }
 
-  /// Adds up the patch of a cell; returns how many cells it has.
-  double sum_patch(const std::array<Index, 3>& brick, std::size_t path, const Ring& ring,
-                   CellSums& sums) const {
+  PatchGradients sum_patch(const std::array<Index, 3>& brick, std::size_t path,
+                           const Ring& ring) const {
+    PatchGradients sums;
     const std::vector<RelativeCell>& patch = paths_[path].patch;
     if (!is_surrounded(brick)) {
-      double count = 0;
       for (const RelativeCell& cell : patch) {
-        const CellSums* found = find(brick, cell, ring);
-        if (!found) continue;
-        for (std::size_t s = 0; s < sums.size(); ++s) sums[s] += (*found)[s];
-        ++count;
+        if (const CellGradients* found = find(brick, cell, ring)) sums.add(*found);
       }
-      return count;
+      return sums;
     }
     // Nearly all cells: no bounds to check, and fixed steps through three layers.
-    std::array<const CellSums*, 3> own;
+    std::array<const CellGradients*, 3> own;
     for (Index layer = 0; layer < 3; ++layer) {
       own[static_cast<std::size_t>(layer)] =
           ring[slot(brick[2] + layer - 1)].data() + place(brick[0], brick[1], 0);
     }
-    for (std::size_t c = 0; c < patch.size(); ++c) {
-      const auto& [layer, step] = steps_[path][c];
-      const CellSums& cell = own[layer][step];
-      for (std::size_t s = 0; s < sums.size(); ++s) sums[s] += cell[s];
-    }
-    return static_cast<double>(patch.size());
+    for (const auto& [layer, step] : steps_[path]) sums.add(own[layer][step]);
+    return sums;
   }
 
   void add_cell(const std::array<Index, 3>& brick, std::size_t path, const Ring& ring,
                 std::vector<PackedSym3>& metrics, Totals& totals) const {
-    CellSums sums{};
-    const double count = sum_patch(brick, path, ring, sums);
+    const PatchGradients sums = sum_patch(brick, path, ring);
     const CellEstimate e =
         estimate_cell(data_of(brick, path, ring), parameters_,
-                      recovered_error(patch_of(sums.data(), count, cell_volume_)),
-                      recovered_error(patch_of(sums.data() + 9, count, cell_volume_)));
+                      recovered_error(patch_of(sums.u, sums.count, cell_volume_)),
+                      recovered_error(patch_of(sums.v, sums.count, cell_volume_)));
     const Sym3 m = cell_metric(e.gamma, metric_);
     for (std::size_t t = 0; t < 5; ++t) totals.residuals.a[t] += e.residuals.a[t];
     for (std::size_t t = 0; t < 3; ++t) totals.residuals.b[t] += e.residuals.b[t];

@@ -8,7 +8,7 @@
 namespace mesamis {
 
 struct SolveOptions {
-  double tolerance = 1e-8;     ///< on |b - A x| / |b|, Euclidean norms
+  double tolerance = 1e-8;     ///< on |b - A x| / |b|, with |r|^2 = sum r_i^2 / A_ii
   int max_iterations = 2000;   ///< of conjugate gradients, in all
   int jacobi_iterations = 60;  ///< tried first; what is not solved by then goes to multigrid
 };
@@ -16,7 +16,7 @@ struct SolveOptions {
 struct SolveReport {
   int iterations = 0;
   bool used_multigrid = false;
-  double residual = 0;  ///< |b - A x| / |b| at the end
+  double residual = 0;  ///< |b - A x| / |b| at the end, in that norm
   bool converged = false;
 };
 

@@ -26,12 +26,14 @@ AxisFilter hat_filter(Index voxels, Index nodes) {
   const double step = static_cast<double>(voxels - 1) / (nodes - 1);  // voxels per node
   for (Index n = 0; n < nodes; ++n) {
     const double center = n * step;
-    const auto first = std::max<Index>(0, static_cast<Index>(std::floor(center - step)) + 1);
-    const auto last = std::min<Index>(voxels - 1, static_cast<Index>(std::ceil(center + step)) - 1);
+    // Narrower towards the ends, where a hat cut off would shift linear images.
+    const double reach = std::min({step, center + 1, voxels - center});
+    const auto first = static_cast<Index>(std::floor(center - reach)) + 1;
+    const auto last = static_cast<Index>(std::ceil(center + reach)) - 1;
     AxisFilter::Tap tap{first, {}};
     double sum = 0;
     for (Index i = first; i <= last; ++i) {
-      tap.weights.push_back(1 - std::abs(i - center) / step);
+      tap.weights.push_back(1 - std::abs(i - center) / reach);
       sum += tap.weights.back();
     }
     for (double& weight : tap.weights) weight /= sum;

@@ -73,9 +73,10 @@ struct Selection {
 };
 
 Volume select(const Volume& volume, const Selection& kept) {
-  Volume out = volume;
-  out.samples = {};
+  Volume out;
   out.size = kept.count;
+  out.direction = volume.direction;
+  out.modality = volume.modality;
   Vec3 corner;
   for (int a = 0; a < 3; ++a) {
     const auto s = static_cast<std::size_t>(a);

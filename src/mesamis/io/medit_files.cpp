@@ -242,12 +242,13 @@ std::vector<Sym3> read_solution(Words& words) {
 
 }  // namespace
 
-void write_medit_mesh(const std::filesystem::path& path, const TetMesh& mesh) {
+void write_medit_mesh(const std::filesystem::path& path, const TetMesh& mesh, Frame frame) {
   TextWriter out(path);
   out << "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n" << mesh.points.size() << "\n";
+  const double turn = frame == Frame::kRas ? -1 : 1;
   for (const Vec3& p : mesh.points) {
     for (int axis = 0; axis < 3; ++axis) {
-      out.number(p[axis]);
+      out.number(axis == 2 ? p.z : turn * p[axis]);
       out << " ";
     }
     out << "0\n";

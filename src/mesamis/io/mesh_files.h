@@ -38,7 +38,8 @@ MeshWithArrays read_vtu(const std::filesystem::path& path);
 
 /// Medit ASCII .mesh, decimals that read back to the same bits. Whole or not at all.
 /// @throws InputError  if a value is not finite or the file cannot be written.
-void write_medit_mesh(const std::filesystem::path& path, const TetMesh& mesh);
+void write_medit_mesh(const std::filesystem::path& path, const TetMesh& mesh,
+                      Frame frame = Frame::kLps);
 /// Takes Vertices and Tetrahedra, skips every other section and all references.
 /// @throws InputError  naming file, line and section; nothing is allocated beyond what a file of
 ///                     that size can hold.

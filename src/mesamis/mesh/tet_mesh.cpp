@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "mesamis/base/error.h"
 #include "mesamis/mesh/kuhn.h"
@@ -101,7 +102,9 @@ std::string find_bad_volume(const TetMesh& mesh, const Box& box) {
   }
   const double error = static_cast<double>(sum) / box.volume() - 1;
   if (std::abs(error) <= 1e-12) return {};
-  return "the cells' volume differs from the box's by " + std::to_string(error) + " relative";
+  std::ostringstream shown;
+  shown << error;
+  return "the cells' volume differs from the box's by " + shown.str() + " relative";
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ void convert_any(std::span<const unsigned char> bytes, const SampleSource& sourc
   with_number_type(source.type, [&](auto zero) { convert<decltype(zero)>(bytes, source, out); });
 }
 
-[[noreturn]] void refuse_short(const ScanFile& scan, std::uint64_t expected, std::uint64_t found,
+template <class Found>
+[[noreturn]] void refuse_short(const ScanFile& scan, std::uint64_t expected, const Found& found,
                                const char* unit) {
   refuse(scan.source.file, say("expected ", expected, " ", unit, " for ", size_text(scan.grid),
                                " samples, found ", found));
@@ -125,7 +126,8 @@ void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts) {
   std::int64_t left = kMostVoxels;
   for (std::size_t a = 0; a < 3; ++a) {
     if (counts[a] < 1 || counts[a] > std::numeric_limits<Index>::max()) {
-      refuse(scan.file, say("expected at least 1 voxel along axis ", a, ", found ", counts[a]));
+      refuse(scan.file,
+             say("expected 1 to 2147483647 voxels along axis ", a, ", found ", counts[a]));
     }
     left /= counts[a];
     scan.grid.size[a] = static_cast<Index>(counts[a]);
@@ -179,7 +181,9 @@ std::vector<float> read_samples(const ScanFile& scan) {
   const std::uint64_t skip = source.at_end ? bytes_before_last_samples(scan) : source.skip;
   ByteSource bytes(source.file, source.packing, source.offset);
   const std::uint64_t needed = fewest_bytes(scan);
-  if (needed > bytes.most_bytes()) refuse_short(scan, needed, bytes.most_bytes(), "bytes at most");
+  if (needed > bytes.most_bytes()) {
+    refuse_short(scan, needed, say("at most ", bytes.most_bytes()), "bytes");
+  }
   bytes.skip(skip);
   // Only the address range is taken here; pages are filled as the data come in.
   std::vector<float> samples;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "outputs.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "mesamis/base/error.h"
+
+namespace mesamis {
+
+void require_output(const std::filesystem::path& path, const std::vector<std::string>& extensions,
+                    const std::string& option) {
+  const std::string found = lower_extension(path);
+  if (std::find(extensions.begin(), extensions.end(), found) == extensions.end()) {
+    std::string known;
+    for (const std::string& extension : extensions) known += " " + extension;
+    throw CLI::ValidationError(option, "expected a name that ends with one of" + known +
+                                           ", found '" + path.string() + "'");
+  }
+  const auto folder = path.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    throw InputError(path.string() + ": there is no folder " + folder.string());
+  }
+}
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return extension;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mesamis {
+
+/// Checks an output file before any work is done for it.
+/// @param extensions  those the option can write, lower case; the file's may be in either case.
+/// @throws CLI::ValidationError  naming the option, for another extension.
+/// @throws InputError            if the folder does not exist.
+void require_output(const std::filesystem::path& path, const std::vector<std::string>& extensions,
+                    const std::string& option);
+
+/// The extension in lower case, with its dot.
+std::string lower_extension(const std::filesystem::path& path);
+
+}  // namespace mesamis
