@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How fast and how well the remesher fits a mesh to known metrics.
 //
-//   bench_remesh [--cells N] [--threads N] [--case NAME] [--again] [--json] [--write PREFIX]
+//   bench_remesh [--cells N] [--threads N] [--part-cells N] [--case NAME] [--again] [--json]
+//                [--write PREFIX]
 //
 // Cases: linear, polar1, polar2 (UGAWG cubes), voxel (thin layers on a 102 x 122 x 304 grid).
 // --again adapts once more to the metric given at the nodes of the first result.
@@ -10,6 +11,7 @@
 
 #include <sys/resource.h>
 
+#include <chrono>
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
@@ -30,6 +32,7 @@ using namespace mesamis;
 struct Arguments {
   double cells = 100'000;
   int threads = 1;
+  Index part_cells = RemeshOptions{}.part_cells;
   bool json = false, again = false;
   std::string only, write;
 };
@@ -41,11 +44,23 @@ struct Case {
   double scale = 1;
 };
 
-double user_seconds() {
+struct Seconds {
+  double user = 0, wall = 0;
+};
+
+Seconds seconds_so_far() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec) +
-         1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+  const auto wall = std::chrono::steady_clock::now().time_since_epoch();
+  return {static_cast<double>(usage.ru_utime.tv_sec) +
+              1e-6 * static_cast<double>(usage.ru_utime.tv_usec),
+          std::chrono::duration<double>(wall).count()};
+}
+
+double peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
 /// Thin layers around a wavy surface, 1.5 x 1.5 x 1 mm voxels, with noise, smoothed as the
@@ -171,27 +186,34 @@ void write_medit(const TetMesh& mesh, const std::string& path) {
   std::fclose(out);
 }
 
-void print_row(const Case& c, const Arguments& arguments, double seconds, const TetMesh& mesh,
+void print_row(const Case& c, const Arguments& arguments, const Seconds& spent, const TetMesh& mesh,
                const RemeshReport& report) {
   const MeshFit fit = measure_fit(mesh, metrics_at_nodes(mesh, *c.metric));
   const char* format =
       arguments.json
-          ? "{\"case\": \"%s\", \"scale\": %.6f, \"target\": %.0f, \"tets\": %zu, \"seconds\": "
-            "%.2f, \"tets_per_second\": %.0f, \"unit_edge_percent\": %.2f, \"quality_min\": %.3f, "
+          ? "{\"case\": \"%s\", \"scale\": %.6f, \"target\": %.0f, \"tets\": %zu, "
+            "\"user_seconds\": "
+            "%.2f, \"wall_seconds\": %.2f, \"peak_bytes_per_tet\": %.0f, \"tets_per_second\": "
+            "%.0f, \"unit_edge_percent\": %.2f, \"quality_min\": %.3f, "
             "\"quality_mean\": %.4f, \"rounds\": %d, \"threads\": %d, \"hash\": \"%016" PRIx64
             "\"}\n"
-          : "%-12s %7.4f %9.0f %9zu %8.2f %9.0f %7.2f %7.3f %8.4f %6d %4d  %016" PRIx64 "\n";
-  std::printf(format, c.name.c_str(), c.scale, arguments.cells, mesh.cells.size(), seconds,
-              static_cast<double>(mesh.cells.size()) / seconds, 100 * fit.unit_edge_fraction,
+          : "%-12s %7.4f %9.0f %9zu %8.2f %8.2f %7.0f %9.0f %7.2f %7.3f %8.4f %6d %4d  %016" PRIx64
+            "\n";
+  const auto cells = static_cast<double>(mesh.cells.size());
+  std::printf(format, c.name.c_str(), c.scale, arguments.cells, mesh.cells.size(), spent.user,
+              spent.wall, peak_bytes() / cells, cells / spent.user, 100 * fit.unit_edge_fraction,
               fit.quality_min, fit.quality_mean, report.rounds, arguments.threads, mesh_hash(mesh));
   std::fflush(stdout);
 }
 
 TetMesh run(const Case& c, const MetricField& metric, const Arguments& arguments) {
   RemeshReport report;
-  const double before = user_seconds();
-  TetMesh mesh = remesh(c.start, metric, {}, &report);
-  print_row(c, arguments, user_seconds() - before, mesh, report);
+  const Seconds before = seconds_so_far();
+  RemeshOptions options;
+  options.part_cells = arguments.part_cells;
+  TetMesh mesh = remesh(c.start, metric, options, &report);
+  const Seconds after = seconds_so_far();
+  print_row(c, arguments, {after.user - before.user, after.wall - before.wall}, mesh, report);
   validate(mesh, bounding_box(c.start.points));
   return mesh;
 }
@@ -208,6 +230,8 @@ Arguments parse(int argc, char** argv) {
       arguments.cells = std::atof(value(i));
     } else if (option == "--threads") {
       arguments.threads = std::atoi(value(i));
+    } else if (option == "--part-cells") {
+      arguments.part_cells = std::atoi(value(i));
     } else if (option == "--case") {
       arguments.only = value(i);
     } else if (option == "--write") {
@@ -229,8 +253,9 @@ int main(int argc, char** argv) try {
   const Arguments arguments = parse(argc, argv);
   set_thread_count(arguments.threads);
   if (!arguments.json) {
-    std::printf("%-12s %7s %9s %9s %8s %9s %7s %7s %8s %6s %4s  %s\n", "case", "scale", "target",
-                "tets", "user s", "tets/s", "unit %", "q min", "q mean", "rounds", "thr", "hash");
+    std::printf("%-12s %7s %9s %9s %8s %8s %7s %9s %7s %7s %8s %6s %4s  %s\n", "case", "scale",
+                "target", "tets", "user s", "wall s", "B/tet", "tets/s", "unit %", "q min",
+                "q mean", "rounds", "thr", "hash");
   }
   for (const std::string name : {"linear", "polar1", "polar2", "voxel"}) {
     if (!arguments.only.empty() && arguments.only != name) continue;

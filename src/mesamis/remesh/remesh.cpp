@@ -164,7 +164,8 @@ class Remesher {
       return work(bench);
     };
     if (parts >= 2) {
-      compact(mesh_);
+      // Parts put themselves in order; only unused slots are in their way.
+      if (!mesh_.free_cells.empty() || !mesh_.free_vertices.empty()) compact(mesh_);
       return work_on_parts(mesh_, round, static_cast<Index>(parts), work_on_mesh);
     }
     const Counters done = work_on_mesh(mesh_);

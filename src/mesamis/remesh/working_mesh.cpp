@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/remesh/geometry.h"
@@ -68,15 +69,29 @@ void compact_vertices(WorkingMesh& mesh) {
   }
 }
 
-void compact_cells(WorkingMesh& mesh) {
-  std::vector<std::pair<std::uint64_t, Index>> keys;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const WorkCell& cell = mesh.cells[c];
-    if (!cell.alive()) continue;
-    const auto first = *std::min_element(cell.points.begin(), cell.points.end());
-    keys.emplace_back(static_cast<std::uint64_t>(first), static_cast<Index>(c));
+/// Cells in the order of their lowest vertex; counted, not compared.
+Renumbering renumber_by_first_vertex(const WorkingMesh& mesh) {
+  auto first_vertex = [](const WorkCell& cell) {
+    return static_cast<std::size_t>(*std::min_element(cell.points.begin(), cell.points.end()));
+  };
+  std::vector<Index> next(mesh.vertices.size() + 1, 0);
+  for (const WorkCell& cell : mesh.cells) {
+    if (cell.alive()) ++next[first_vertex(cell) + 1];
   }
-  const Renumbering numbers = renumber(keys, mesh.cells.size());
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  Renumbering result{std::vector<Index>(static_cast<std::size_t>(next.back())),
+                     std::vector<Index>(mesh.cells.size(), kNoIndex)};
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    if (!mesh.cells[c].alive()) continue;
+    const Index number = next[first_vertex(mesh.cells[c])]++;
+    result.new_number[c] = number;
+    result.order[number] = static_cast<Index>(c);
+  }
+  return result;
+}
+
+void compact_cells(WorkingMesh& mesh) {
+  const Renumbering numbers = renumber_by_first_vertex(mesh);
   std::vector<WorkCell> cells;
   cells.reserve(numbers.order.size());
   for (const Index old_number : numbers.order) {
