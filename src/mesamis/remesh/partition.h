@@ -15,7 +15,7 @@ namespace mesamis::remeshing {
 /// The cut depends on the mesh alone and each part is worked on by one thread: the result has the
 /// same bits for any number of threads.
 ///
-/// @param mesh  compact; compact again afterwards.
+/// @param mesh  without unused slots, before and afterwards.
 /// @param work  is called once per part, concurrently.
 /// @return the sum of what the parts return, in their order.
 Counters work_on_parts(WorkingMesh& mesh, int round, Index parts,
