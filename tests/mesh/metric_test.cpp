@@ -54,6 +54,41 @@ TEST(MetricLength, IntegratesSizesThatGrowGeometrically) {
   }
 }
 
+double largest_entry(const Sym3& m) {
+  return std::max({std::abs(m.xx), std::abs(m.xy), std::abs(m.xz), std::abs(m.yy), std::abs(m.yz),
+                   std::abs(m.zz)});
+}
+
+TEST(Intersect, OfMetricsWithCommonAxesTakesTheSmallerSizes) {
+  std::mt19937 generator(5);
+  for (int i = 0; i < 100; ++i) {
+    const SymEigen e = eigen_decompose(random_metric(generator, 10));
+    const Sym3 a = compose({4, 100, 0.01}, e.vectors), b = compose({9, 1, 0.01}, e.vectors);
+    EXPECT_LT(largest_entry(intersect(a, b) - compose({9, 100, 0.01}, e.vectors)), 1e-10);
+    EXPECT_LT(largest_entry(intersect(a, 0.5 * a) - a), 1e-10);
+  }
+}
+
+TEST(Intersect, IsNowhereCoarserThanEitherAndTouchesOneOfThem) {
+  std::mt19937 generator(6);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 200; ++i) {
+    const Sym3 a = random_metric(generator, 100), b = random_metric(generator, 100);
+    const Sym3 both = intersect(a, b);
+    EXPECT_LT(largest_entry(both - intersect(b, a)), 1e-8 * largest_entry(both));
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 v{normal(generator), normal(generator), normal(generator)};
+      const double needed = std::max(quadratic_form(a, v), quadratic_form(b, v));
+      EXPECT_GE(quadratic_form(both, v), needed * (1 - 1e-9));
+    }
+    // No finer than needed: along each common axis it touches a or b, so one difference is
+    // singular.
+    const double scale = std::pow(largest_entry(both), 3);
+    const double to_a = std::abs(determinant(both - a)), to_b = std::abs(determinant(both - b));
+    EXPECT_LT(std::min(to_a, to_b), 1e-9 * scale);
+  }
+}
+
 const std::array<Vec3, 4> kRegular{Vec3{1, 1, 1}, Vec3{1, -1, -1}, Vec3{-1, 1, -1},
                                    Vec3{-1, -1, 1}};
 

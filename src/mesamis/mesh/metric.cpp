@@ -10,6 +10,16 @@
 #include "mesamis/mesh/edges.h"
 
 namespace mesamis {
+namespace {
+
+/// s m s
+Sym3 congruent(const Sym3& s, const Sym3& m) {
+  const Vec3 x = s * (m * (s * Vec3{1, 0, 0})), y = s * (m * (s * Vec3{0, 1, 0})),
+             z = s * (m * (s * Vec3{0, 0, 1}));
+  return {x.x, (x.y + y.x) / 2, (x.z + z.x) / 2, y.y, (y.z + z.y) / 2, z.z};
+}
+
+}  // namespace
 
 double metric_length(const Sym3& ma, const Sym3& mb, const Vec3& e) {
   const double la = std::sqrt(quadratic_form(ma, e));
@@ -41,6 +51,18 @@ Sym3 clamp_sizes(const Sym3& m, double h_min, double h_max) {
     value = std::clamp(value, 1 / (h_max * h_max), 1 / (h_min * h_min));
   }
   return compose(e.values, e.vectors);
+}
+
+Sym3 intersect(const Sym3& a, const Sym3& b) {
+  const SymEigen e = eigen_decompose(a);
+  std::array<double, 3> roots{}, inverse_roots{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    roots[i] = std::sqrt(e.values[i]);
+    inverse_roots[i] = 1 / roots[i];
+  }
+  SymEigen relative = eigen_decompose(congruent(compose(inverse_roots, e.vectors), b));
+  for (double& value : relative.values) value = std::max(value, 1.0);
+  return congruent(compose(roots, e.vectors), compose(relative.values, relative.vectors));
 }
 
 double complexity(const TetMesh& mesh, std::span<const Sym3> node_metrics) {

@@ -25,6 +25,12 @@ Sym3 log_euclidean_mean(std::span<const Sym3> metrics, std::span<const double> w
 /// A singular or zero matrix is welcome: its flat directions get h_max.
 Sym3 clamp_sizes(const Sym3& m, double h_min, double h_max);
 
+/// The coarsest metric along the axes of both that is nowhere coarser than either: in the basis
+/// that makes a the identity and b diagonal, the larger of each pair. Symmetric in a and b.
+/// Source: F. Alauzet, P. Frey, Estimateur d'erreur geometrique et metriques anisotropes, 2003.
+/// @param a, b  positive definite; aspects up to about 1e5, beyond it digits are lost.
+Sym3 intersect(const Sym3& a, const Sym3& b);
+
 /// Integral of sqrt(det M) over the mesh, the metric's determinant root taken linear per cell.
 double complexity(const TetMesh& mesh, std::span<const Sym3> node_metrics);
 
