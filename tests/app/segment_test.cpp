@@ -126,8 +126,9 @@ TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
   }
   EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--stride", "1,1,1,"})), 2,
                "--stride");
-  EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--window", "900,990"})), 2,
-               "window: expected");
+  EXPECT_FAILS(
+      run_program(folder, segment_arguments(folder, "a", {"--window", "900,990", "--quiet"})), 3,
+      "window: expected one that holds some of the samples");
   write_bytes(folder / "ball.nrrd", "no scan");
   EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--quiet"})), 3, "ball.nrrd");
   EXPECT_EQ(folder.file_count(), 4) << "the scan, the settings, stdout and stderr";

@@ -96,6 +96,25 @@ TEST(Remesh, AUnitMeshBarelyChanges) {
   EXPECT_LT(second.splits + second.collapses, vertices / 20);
 }
 
+/// From a mesh with all sizes twice or half as large, the result is as good as from a coarse box.
+TEST(Remesh, RefinesAndCoarsensByTwoAsWellAsFromACoarseBox) {
+  const double scale = ugawg_scale(Ugawg::kPolar2, 2'000);
+  const FormulaMetric metric = ugawg_metric(Ugawg::kPolar2, scale);
+  const TetMesh fresh = remesh(coarse_box_mesh(kUnitBox), metric);
+  const MeshFit fresh_fit = fit_of(fresh, metric);
+  for (const double factor : {0.5, 2.0}) {
+    const FormulaMetric other = ugawg_metric(Ugawg::kPolar2, factor * scale);
+    const TetMesh mesh = remesh(remesh(coarse_box_mesh(kUnitBox), other), metric);
+    EXPECT_EQ(find_flaw(mesh, kUnitBox), "");
+    const MeshFit fit = fit_of(mesh, metric);
+    EXPECT_GT(fit.unit_edge_fraction, fresh_fit.unit_edge_fraction - 0.02) << factor;
+    EXPECT_GT(fit.quality_mean, fresh_fit.quality_mean - 0.02) << factor;
+    EXPECT_NEAR(static_cast<double>(mesh.cells.size()), static_cast<double>(fresh.cells.size()),
+                0.1 * static_cast<double>(fresh.cells.size()))
+        << factor;
+  }
+}
+
 TEST(Remesh, MeshMetricIsFollowed) {
   const FormulaMetric metric([](const Vec3& p) {
     const double h = 0.04 + 0.3 * std::abs(p.x - 0.5);

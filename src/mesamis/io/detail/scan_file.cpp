@@ -182,7 +182,9 @@ std::vector<float> read_samples(const ScanFile& scan) {
   ByteSource bytes(source.file, source.packing, source.offset);
   const std::uint64_t needed = fewest_bytes(scan);
   if (needed > bytes.most_bytes()) {
-    refuse_short(scan, needed, say("at most ", bytes.most_bytes()), "bytes");
+    refuse_short(scan, needed,
+                 say(source.packing == Packing::kPlain ? "" : "at most ", bytes.most_bytes()),
+                 "bytes");
   }
   bytes.skip(skip);
   // Only the address range is taken here; pages are filled as the data come in.
