@@ -165,8 +165,7 @@ std::vector<double> metric_values(std::span<const Sym3> metrics) {
 std::vector<MeshArray> cell_arrays(const Result& result) {
   std::vector<MeshArray> arrays{{"s1", 1, {}}, {"s2", 1, {}}, {"s3", 1, {}}, {"edge", 1, {}}};
   for (const Cell& k : result.mesh.cells) {
-    const auto& p = result.mesh.points;
-    const auto s = aspect_ratios(cell_shape({p[k[0]], p[k[1]], p[k[2]], p[k[3]]}));
+    const auto s = aspect_ratios(cell_shape(cell_corners(result.mesh, k)));
     for (std::size_t i = 0; i < 3; ++i) arrays[i].values.push_back(s[i]);
   }
   arrays[3].values.assign(result.mesh.cells.size(), 0);

@@ -65,14 +65,10 @@ KuhnGrid first_grid(const Volume& volume, const std::array<Index, 3>& stride, do
   return grid;
 }
 
-std::array<Vec3, 4> corners(const TetMesh& mesh, const Cell& k) {
-  return {mesh.points[k[0]], mesh.points[k[1]], mesh.points[k[2]], mesh.points[k[3]]};
-}
-
 void measure_aspects(const TetMesh& mesh, Iteration& iteration) {
   iteration.aspect_max = iteration.aspect_mean = {};
   for (const Cell& cell : mesh.cells) {
-    const auto s = aspect_ratios(cell_shape(corners(mesh, cell)));
+    const auto s = aspect_ratios(cell_shape(cell_corners(mesh, cell)));
     for (std::size_t i = 0; i < 3; ++i) {
       iteration.aspect_max[i] = std::max(iteration.aspect_max[i], s[i]);
       iteration.aspect_mean[i] += s[i] / static_cast<double>(mesh.cells.size());

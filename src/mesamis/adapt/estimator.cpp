@@ -69,8 +69,7 @@ class MeshEstimator {
  private:
   CellData data_of(Index c) const {
     const Cell& k = mesh_.cells[c];
-    const std::array<Vec3, 4> p{mesh_.points[k[0]], mesh_.points[k[1]], mesh_.points[k[2]],
-                                mesh_.points[k[3]]};
+    const std::array<Vec3, 4> p = cell_corners(mesh_, k);
     CellData data;
     data.volume = gradients_[c].volume;
     data.shape = cell_shape(p);

@@ -48,8 +48,7 @@ std::array<PathGeometry, kPaths> path_geometries(const Vec3& h) {
   for (std::size_t path = 0; path < kPaths; ++path) {
     const std::size_t c = 13 * kPaths + path;
     PathGeometry& g = result[path];
-    std::array<Vec3, 4> p;
-    for (std::size_t i = 0; i < 4; ++i) p[i] = mesh.points[mesh.cells[c][i]];
+    const std::array<Vec3, 4> p = cell_corners(mesh, mesh.cells[c]);
     g.shape = cell_shape(p);
     for (std::size_t i = 0; i < 4; ++i) {
       const auto& [a, b, d] = kCellFaces[i];

@@ -11,9 +11,7 @@ namespace {
 constexpr double kTolerance = 1e-12;
 
 std::array<double, 4> barycentric(const TetMesh& mesh, Index cell, const Vec3& p) {
-  const Cell& k = mesh.cells[static_cast<std::size_t>(cell)];
-  const std::array<Vec3, 4> x{mesh.points[k[0]], mesh.points[k[1]], mesh.points[k[2]],
-                              mesh.points[k[3]]};
+  const std::array<Vec3, 4> x = cell_corners(mesh, mesh.cells[static_cast<std::size_t>(cell)]);
   std::array<double, 4> w{six_volume(p, x[1], x[2], x[3]), six_volume(x[0], p, x[2], x[3]),
                           six_volume(x[0], x[1], p, x[3]), six_volume(x[0], x[1], x[2], p)};
   const double sum = w[0] + w[1] + w[2] + w[3];

@@ -106,9 +106,7 @@ MeshFit measure_fit(const TetMesh& mesh, std::span<const Sym3> node_metrics) {
     for (const Index n : cell) {
       if (determinant(node_metrics[n]) > determinant(node_metrics[finest])) finest = n;
     }
-    const double quality = metric_quality(
-        node_metrics[finest],
-        {mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]], mesh.points[cell[3]]});
+    const double quality = metric_quality(node_metrics[finest], cell_corners(mesh, cell));
     fit.quality_min = std::min(fit.quality_min, quality);
     fit.quality_mean += quality / static_cast<double>(mesh.cells.size());
   }

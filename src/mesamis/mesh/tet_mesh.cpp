@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
+#include <tuple>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
 #include "mesamis/mesh/kuhn.h"
 #include "mesamis/mesh/predicates.h"
 
@@ -19,20 +22,40 @@ struct FaceSlot {
   std::int8_t face;
 };
 
+std::array<Index, 3> sorted_face(const Cell& cell, int face) {
+  const auto& local = kCellFaces[face];
+  std::array<Index, 3> points{cell[local[0]], cell[local[1]], cell[local[2]]};
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
+/// The faces of all cells by their points, then by cell. Put into one bucket per lowest point
+/// first: what is left to sort is short.
 std::vector<FaceSlot> sorted_faces(const TetMesh& mesh) {
-  std::vector<FaceSlot> faces;
-  faces.reserve(4 * mesh.cells.size());
+  Index highest = kNoIndex;
+  for (const Cell& cell : mesh.cells) {
+    highest = std::max(highest, *std::max_element(cell.begin(), cell.end()));
+  }
+  std::vector<std::size_t> start(static_cast<std::size_t>(highest) + 2, 0);
+  for (const Cell& cell : mesh.cells) {
+    for (int f = 0; f < 4; ++f) ++start[sorted_face(cell, f)[0] + 1];
+  }
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<std::size_t> next(start.begin(), start.end() - 1);
+  std::vector<FaceSlot> faces(4 * mesh.cells.size());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     for (int f = 0; f < 4; ++f) {
-      const auto& local = kCellFaces[f];
-      const Cell& cell = mesh.cells[c];
-      std::array<Index, 3> points{cell[local[0]], cell[local[1]], cell[local[2]]};
-      std::sort(points.begin(), points.end());
-      faces.push_back({points, static_cast<Index>(c), static_cast<std::int8_t>(f)});
+      const std::array<Index, 3> points = sorted_face(mesh.cells[c], f);
+      faces[next[points[0]]++] = {points, static_cast<Index>(c), static_cast<std::int8_t>(f)};
     }
   }
-  std::sort(faces.begin(), faces.end(), [](const FaceSlot& a, const FaceSlot& b) {
-    return a.points != b.points ? a.points < b.points : a.cell < b.cell;
+  parallel_for(next.size(), [&](std::size_t p) {
+    std::sort(faces.begin() + static_cast<std::ptrdiff_t>(start[p]),
+              faces.begin() + static_cast<std::ptrdiff_t>(start[p + 1]),
+              [](const FaceSlot& a, const FaceSlot& b) {
+                return std::tie(a.points[1], a.points[2], a.cell) <
+                       std::tie(b.points[1], b.points[2], b.cell);
+              });
   });
   return faces;
 }
@@ -67,8 +90,8 @@ std::string find_bad_cell(const TetMesh& mesh) {
       if (i < 0 || i >= points) return "cell " + std::to_string(c) + " names a missing point";
       used[static_cast<std::size_t>(i)] = 1;
     }
-    if (!certified_positive(mesh.points[k[0]], mesh.points[k[1]], mesh.points[k[2]],
-                            mesh.points[k[3]])) {
+    const auto [p, q, r, s] = cell_corners(mesh, k);
+    if (!certified_positive(p, q, r, s)) {
       return "cell " + std::to_string(c) + " has no certified positive volume";
     }
   }
@@ -86,10 +109,10 @@ std::string find_bad_face(const TetMesh& mesh, const Box& box) {
     while (j < faces.size() && faces[j].points == faces[i].points) ++j;
     const auto& p = faces[i].points;
     const bool outer = on_one_plane({mesh.points[p[0]], mesh.points[p[1]], mesh.points[p[2]]}, box);
-    const std::string name = "a face of cell " + std::to_string(faces[i].cell);
-    if (j - i > 2) return name + " is shared by " + std::to_string(j - i) + " cells";
-    if (j - i == 2 && outer) return name + " lies on the box and has two cells";
-    if (j - i == 1 && !outer) return name + " has one cell and does not lie on the box";
+    auto face = [&] { return "a face of cell " + std::to_string(faces[i].cell); };
+    if (j - i > 2) return face() + " is shared by " + std::to_string(j - i) + " cells";
+    if (j - i == 2 && outer) return face() + " lies on the box and has two cells";
+    if (j - i == 1 && !outer) return face() + " has one cell and does not lie on the box";
     i = j;
   }
   return {};
@@ -110,8 +133,8 @@ std::string find_bad_volume(const TetMesh& mesh, const Box& box) {
 }  // namespace
 
 double cell_volume(const TetMesh& mesh, Index cell) {
-  const Cell& k = mesh.cells[static_cast<std::size_t>(cell)];
-  return six_volume(mesh.points[k[0]], mesh.points[k[1]], mesh.points[k[2]], mesh.points[k[3]]) / 6;
+  const auto [a, b, c, d] = cell_corners(mesh, mesh.cells[static_cast<std::size_t>(cell)]);
+  return six_volume(a, b, c, d) / 6;
 }
 
 Box bounding_box(std::span<const Vec3> points) {

@@ -29,6 +29,9 @@ inline constexpr std::array<std::array<int, 2>, 6> kCellEdges{
 inline double six_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return dot(cross(b - a, c - a), d - a);
 }
+inline std::array<Vec3, 4> cell_corners(const TetMesh& mesh, const Cell& cell) {
+  return {mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]], mesh.points[cell[3]]};
+}
 double cell_volume(const TetMesh& mesh, Index cell);
 
 /// The smallest box around the points.
@@ -42,8 +45,9 @@ TetMesh box_mesh(const Box& box, const std::array<Index, 3>& n);
 /// A box mesh of a few bricks, none much longer than another: what a remesher can start from.
 TetMesh coarse_box_mesh(const Box& box);
 
-/// For each cell the cell across the face opposite vertex i, or kNoIndex on the boundary.
-/// @throws InputError  if a face is shared by more than two cells. O(m log m).
+/// For each cell the cell across the face opposite vertex i, or kNoIndex on the boundary. Only the
+/// cells are looked at; their indices are from 0. O(m).
+/// @throws InputError  if a face is shared by more than two cells.
 std::vector<std::array<Index, 4>> cell_neighbors(const TetMesh& mesh);
 
 /// Cells around each point, in increasing order: those of point n are
