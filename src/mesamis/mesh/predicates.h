@@ -25,6 +25,22 @@ inline double certified_six_volume(const Vec3& a, const Vec3& b, const Vec3& c, 
   return det > kErrorFactor * permanent ? det : 0;
 }
 
+/// Six times the volume of (x, x + p, x + q, x + r) if certified_six_volume() is positive in
+/// whatever order the four points are given, else 0.
+///
+/// Any coordinate of any edge is at most the sum of those of p, q and r, so six times the product
+/// of the three sums bounds every order's permanent; three times that covers the errors of both
+/// determinants and the bound.
+inline double certified_in_any_order(const Vec3& p, const Vec3& q, const Vec3& r) {
+  constexpr double kErrorFactor = 18 * 8e-16;
+  const double det =
+      p.x * (q.y * r.z - q.z * r.y) - p.y * (q.x * r.z - q.z * r.x) + p.z * (q.x * r.y - q.y * r.x);
+  const double bound = (std::abs(p.x) + std::abs(q.x) + std::abs(r.x)) *
+                       (std::abs(p.y) + std::abs(q.y) + std::abs(r.y)) *
+                       (std::abs(p.z) + std::abs(q.z) + std::abs(r.z));
+  return det > kErrorFactor * bound ? det : 0;
+}
+
 inline bool certified_positive(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return certified_six_volume(a, b, c, d) > 0;
 }

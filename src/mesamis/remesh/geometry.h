@@ -11,14 +11,35 @@
 /// Lengths and qualities in the metric, as every operation measures them.
 namespace mesamis::remeshing {
 
+/// A metric's factor in double precision, converted once for many uses.
+struct Factor {
+  double xx, yx, zx, yy, zy, zz;
+};
+inline Factor widen(const MetricFactor& l) { return {l.xx, l.yx, l.zx, l.yy, l.zy, l.zz}; }
+
 /// L^T v: the vector as the metric sees it.
-inline Vec3 in_metric(const MetricFactor& l, const Vec3& v) {
+template <class AnyFactor>
+Vec3 in_metric(const AnyFactor& l, const Vec3& v) {
   return {l.xx * v.x + l.yx * v.y + l.zx * v.z, l.yy * v.y + l.zy * v.z, l.zz * v.z};
 }
 
 /// L v: with in_metric(L, u) for v it is M u.
 inline Vec3 from_metric(const MetricFactor& l, const Vec3& v) {
   return {l.xx * v.x, l.yx * v.x + l.yy * v.y, l.zx * v.x + l.zy * v.y + l.zz * v.z};
+}
+
+/// L^-T v: the way back from in_metric.
+inline Vec3 out_of_metric(const MetricFactor& l, const Vec3& v) {
+  const double z = v.z / l.zz;
+  const double y = (v.y - l.zy * z) / l.yy;
+  return {(v.x - l.yx * y - l.zx * z) / l.xx, y, z};
+}
+
+/// M^-1 v
+inline Vec3 solve_metric(const MetricFactor& l, const Vec3& v) {
+  const double x = v.x / l.xx;
+  const double y = (v.y - l.yx * x) / l.yy;
+  return out_of_metric(l, {x, y, (v.z - l.zx * x - l.zy * y) / l.zz});
 }
 
 inline double squared_length(const MetricFactor& l, const Vec3& e) {
@@ -35,9 +56,19 @@ inline double length(const Vertex& a, const Vertex& b) {
   return (2 * std::sqrt(std::sqrt(la2 * lb2)) + arithmetic) / 3;
 }
 
-/// Cube of the mean ratio in the metric of the finest vertex, 432 d^2 det M / S^3 with d six
-/// times the volume and S the sum of the squared edge lengths: no roots are needed. 1 for a
-/// regular cell; 0 for one that is not certified positive.
+/// Cube of the mean ratio of a cell with edges p, q, r from one corner in the metric with factor
+/// L: 432 d^2 det M / S^3 with d six times the volume and S the sum of the squared edge lengths; no
+/// roots are needed. 1 for a regular cell.
+inline double quality3(const Factor& l, const Vec3& p, const Vec3& q, const Vec3& r,
+                       double six_volume) {
+  const Vec3 mp = in_metric(l, p), mq = in_metric(l, q), mr = in_metric(l, r);
+  const Vec3 sum = mp + mq + mr;
+  const double squares = 4 * (dot(mp, mp) + dot(mq, mq) + dot(mr, mr)) - dot(sum, sum);
+  const double metric_volume = six_volume * (l.xx * l.yy * l.zz);
+  return 432 * metric_volume * metric_volume / (squares * squares * squares);
+}
+
+/// The same in the metric of the finest corner; 0 for a cell that is not certified positive.
 inline double quality3(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) {
   const double six_volume = certified_six_volume(a.position, b.position, c.position, d.position);
   if (six_volume <= 0) return 0;
@@ -45,14 +76,8 @@ inline double quality3(const Vertex& a, const Vertex& b, const Vertex& c, const 
   for (const Vertex* other : {&b, &c, &d}) {
     if (other->density > finest->density) finest = other;
   }
-  const MetricFactor& l = finest->metric;
-  const Vec3 p = in_metric(l, b.position - a.position);
-  const Vec3 q = in_metric(l, c.position - a.position);
-  const Vec3 r = in_metric(l, d.position - a.position);
-  const Vec3 sum = p + q + r;
-  const double squares = 4 * (dot(p, p) + dot(q, q) + dot(r, r)) - dot(sum, sum);
-  const double metric_volume = six_volume * density(l);
-  return 432 * metric_volume * metric_volume / (squares * squares * squares);
+  return quality3(widen(finest->metric), b.position - a.position, c.position - a.position,
+                  d.position - a.position, six_volume);
 }
 
 inline double quality3(const WorkingMesh& mesh, const Cell& cell) {

@@ -23,9 +23,10 @@ using namespace remeshing;
 constexpr double kCellsPerComplexity = 9;
 
 /// Shares of the vertices that a round makes or removes.
-constexpr double kMany = 0.2, kFew = 0.02, kHardlyAny = 0.004;
-/// So many rounds accept new edges a little outside the goal.
-constexpr int kWideRounds = 10;
+constexpr double kMany = 0.2, kSome = 0.05, kFew = 0.02, kHardlyAny = 0.004;
+/// So many rounds accept new edges a little outside the goal: more where the metric turns within
+/// an edge's length and the mesh settles slowly.
+constexpr int kWideRoundsMin = 10, kWideRoundsMax = 14;
 
 struct Rules {
   SplitRule split;
@@ -89,8 +90,7 @@ class Remesher {
       const bool circling = change < kFew && change > 0.8 * last_change;
       const bool resized = control_count(change);
       report_.converged = strict_ && !resized && (change < kHardlyAny || circling);
-      // A start that fits already needs no freedom to get there.
-      strict_ |= round + 1 == kWideRounds || change < (round == 0 ? kMany : kHardlyAny);
+      strict_ |= is_settled(round, change);
       last_change = change;
     }
   }
@@ -116,6 +116,14 @@ class Remesher {
   double share_of_vertices(const Counters& done) const {
     return static_cast<double>(done.splits + done.collapses) /
            static_cast<double>(mesh_.vertex_count());
+  }
+
+  /// Is the mesh so near its goal that new edges can be held to it?
+  static bool is_settled(int round, double change) {
+    // A start that fits already needs no freedom to get there.
+    if (round == 0) return change < kMany;
+    if (round + 1 < kWideRoundsMin) return change < kHardlyAny;
+    return change < kSome || round + 1 >= kWideRoundsMax;
   }
 
   void tell_progress(double fraction) const {

@@ -2,73 +2,15 @@
 #include "mesamis/remesh/smooth.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "mesamis/remesh/geometry.h"
 
 namespace mesamis::remeshing {
 namespace {
-
-/// Inverse of a metric's factor, lower triangular too.
-class InverseFactor {
- public:
-  explicit InverseFactor(const MetricFactor& l)
-      : xx_(1 / double{l.xx}), yy_(1 / double{l.yy}), zz_(1 / double{l.zz}) {
-    yx_ = -yy_ * l.yx * xx_;
-    zy_ = -zz_ * l.zy * yy_;
-    zx_ = -zz_ * (l.zx * xx_ + l.zy * yx_);
-  }
-  /// L^-1 n
-  Vec3 apply(const Vec3& n) const {
-    return {xx_ * n.x, yx_ * n.x + yy_ * n.y, zx_ * n.x + zy_ * n.y + zz_ * n.z};
-  }
-  /// L^-T n
-  Vec3 apply_transposed(const Vec3& n) const {
-    return {xx_ * n.x + yx_ * n.y + zx_ * n.z, yy_ * n.y + zy_ * n.z, zz_ * n.z};
-  }
-
- private:
-  double xx_, yx_, zx_, yy_, zy_, zz_;
-};
-
-/// The face of a cell opposite the vertex.
-struct OppositeFace {
-  Vec3 a, b, c;
-  /// Towards the vertex; also the derivative of six times the volume by the vertex's position.
-  Vec3 normal() const { return cross(c - a, b - a); }
-  Vec3 middle() const { return (1.0 / 3) * (a + b + c); }
-};
-
-OppositeFace opposite_face(const WorkingMesh& mesh, const WorkCell& cell, Index vertex) {
-  const auto& face = kCellFaces[local_index(cell.points, vertex)];
-  return {mesh.vertices[cell.points[face[0]]].position,
-          mesh.vertices[cell.points[face[1]]].position,
-          mesh.vertices[cell.points[face[2]]].position};
-}
-
-/// Where the vertex would have to be for a cell to be regular: above the middle of the opposite
-/// face, at the height of a unit regular cell, in the direction normal to it in the metric.
-Vec3 ideal_position(const OppositeFace& face, const InverseFactor& inverse) {
-  constexpr double kHeight = 0.81649658092772603;  // sqrt(2 / 3)
-  const Vec3 normal = inverse.apply(face.normal());
-  return face.middle() + kHeight / norm(normal) * inverse.apply_transposed(normal);
-}
-
-/// Derivative of a cell's energy by the vertex's position, in the metric of the vertex.
-Vec3 energy_gradient(const OppositeFace& face, const Vertex& vertex, double quality3) {
-  const Vec3& x = vertex.position;
-  const Vec3 a = in_metric(vertex.metric, face.a - x), b = in_metric(vertex.metric, face.b - x),
-             c = in_metric(vertex.metric, face.c - x);
-  const Vec3 sum = a + b + c;
-  const double squares = 4 * (dot(a, a) + dot(b, b) + dot(c, c)) - dot(sum, sum);
-  const Vec3 normal = face.normal();
-  const Vec3 by_squares = -6 / squares * from_metric(vertex.metric, sum);
-  const Vec3 by_volume = -2 / dot(normal, x - face.a) * normal;
-  return 1 / std::max(quality3, kTinyQuality3) * (by_squares + by_volume);
-}
 
 bool is_inside(const Box& box, const Vec3& p) {
   return p.x >= box.lo.x && p.x <= box.hi.x && p.y >= box.lo.y && p.y <= box.hi.y &&
@@ -81,6 +23,7 @@ class Mover {
   Mover(Workbench& bench, Index v, std::span<const Index> ball, const SmoothRule& rule)
       : mesh_(bench.mesh),
         sampler_(bench.sampler),
+        shape_(bench.shape),
         rule_(rule),
         vertex_(mesh_.vertices[v]),
         ball_(ball) {
@@ -89,38 +32,24 @@ class Mover {
       worst_ = std::min(worst_, q);
       energy_ += energy(q);
     }
-    find_directions(v);
+    shape_.gather(mesh_, ball_, v);
   }
 
-  bool run() { return descend(to_ideal_) || descend(along_gradient()); }
+  bool run() {
+    const BallShape::Directions directions = shape_.directions(vertex_);
+    gradient_ = directions.gradient;
+    return descend(directions.to_ideal) || descend(along_gradient());
+  }
 
  private:
   static constexpr int kMostTrials = 4;
 
   double least_gain() const { return (1 - rule_.energy_ratio) * energy_; }
 
-  /// Towards the mean of the ideal positions, bad cells weighing more; and the gradient.
-  void find_directions(Index v) {
-    const InverseFactor inverse(vertex_.metric);
-    Vec3 sum;
-    double weights = 0;
-    for (const Index c : ball_) {
-      const double q = mesh_.cells[c].quality3;
-      const OppositeFace face = opposite_face(mesh_, mesh_.cells[c], v);
-      const double weight = 1 / std::max(std::sqrt(q), 1e-4);
-      sum += weight * ideal_position(face, inverse);
-      weights += weight;
-      gradient_ += energy_gradient(face, vertex_, q);
-    }
-    to_ideal_ = 1 / weights * sum - vertex_.position;
-  }
-
   /// Down the gradient in the metric, by a fifth of an edge at first.
   Vec3 along_gradient() const {
     constexpr double kFirstStep = 0.2;
-    const InverseFactor inverse(vertex_.metric);
-    const Vec3 direction =
-        on_planes(-inverse.apply_transposed(inverse.apply(on_planes(gradient_))));
+    const Vec3 direction = on_planes(-solve_metric(vertex_.metric, on_planes(gradient_)));
     const double length = std::sqrt(squared_length(vertex_.metric, direction));
     return length > 0 ? kFirstStep / length * direction : Vec3{};
   }
@@ -163,13 +92,10 @@ class Mover {
       return kTooBad;
     }
     measure(vertex_, sampler_, old.hint);
+    qualities_ = shape_.qualities(vertex_);
+    if (std::ranges::min(qualities_) <= rule_.quality3_loss * worst_) return kTooBad;
     double sum = 0;
-    for (std::size_t i = 0; i < ball_.size(); ++i) {
-      const double q = quality3(mesh_, mesh_.cells[ball_[i]].points);
-      if (q <= rule_.quality3_loss * worst_) return kTooBad;
-      sum += energy(q);
-      qualities_[i] = q;
-    }
+    for (const double q : qualities_) sum += energy(q);
     return sum;
   }
 
@@ -186,12 +112,13 @@ class Mover {
 
   WorkingMesh& mesh_;
   const MetricSampler& sampler_;
+  BallShape& shape_;
   const SmoothRule& rule_;
   Vertex& vertex_;
   std::span<const Index> ball_;
   double worst_ = 1, energy_ = 0;
-  Vec3 to_ideal_, gradient_;
-  std::array<double, Cavity::kMostBall> qualities_;
+  Vec3 gradient_;
+  std::span<const double> qualities_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS remesh.h)
 set(ROOM_SOURCES
+  ball_shape.cpp
   cavity.cpp
   collapse.cpp
   edge_candidates.cpp

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesamis/remesh/ball_shape.h"
 #include "mesamis/remesh/cavity.h"
 #include "mesamis/remesh/metric_sampler.h"
 #include "mesamis/remesh/working_mesh.h"
@@ -35,6 +36,7 @@ struct Workbench {
   const MetricSampler& sampler;
   Cavity cavity;
   VertexSet seen;
+  BallShape shape;
 };
 
 }  // namespace mesamis::remeshing
