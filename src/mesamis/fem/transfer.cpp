@@ -42,29 +42,6 @@ AxisFilter hat_filter(Index voxels, Index nodes) {
   return filter;
 }
 
-/// Kuhn interpolation of nodal values: from the lowest corner along the axes, the largest
-/// fraction first.
-double interpolate_on_grid(const KuhnGrid& grid, std::span<const double> values, const Vec3& p) {
-  const auto stride = grid.stride();
-  std::array<double, 3> t{};
-  std::array<int, 3> order{0, 1, 2};
-  std::size_t node = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double x = p[axis] / grid.spacing[axis];
-    const double cell = std::clamp(std::floor(x), 0.0, static_cast<double>(grid.size[axis] - 2));
-    t[axis] = std::clamp(x - cell, 0.0, 1.0);
-    node += static_cast<std::size_t>(cell) * stride[axis];
-  }
-  std::sort(order.begin(), order.end(), [&t](int a, int b) { return t[a] > t[b]; });
-  double value = values[node];
-  for (const int axis : order) {
-    const std::size_t next = node + stride[axis];
-    value += t[axis] * (values[next] - values[node]);
-    node = next;
-  }
-  return value;
-}
-
 }  // namespace
 
 std::vector<double> project_image(const Volume& image, const MeshSpace& space, double point_scale,
@@ -148,7 +125,7 @@ std::vector<std::vector<double>> interpolate_fields(const KuhnGrid& from,
   std::vector<std::vector<double>> result(fields.size(), std::vector<double>(points.size()));
   for (std::size_t f = 0; f < fields.size(); ++f) {
     parallel_for(points.size(), [&](std::size_t n) {
-      result[f][n] = interpolate_on_grid(from, fields[f], points[n]);
+      result[f][n] = interpolate(fields[f], from.size, from.spacing, points[n]);
     });
   }
   return result;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -67,21 +68,25 @@ Volume crop(const Volume& volume, const CropRange& range);
 /// @throws InputError  if a stride is below 1 or leaves fewer than 2 voxels in a direction.
 Volume subsample(const Volume& volume, const std::array<Index, 3>& stride);
 
-/// The image as a continuous function: linear on each of the six Kuhn tetrahedra of a voxel cell,
-/// equal to the samples at the voxel centres. It is the piecewise linear function of a mesh made
-/// by kuhn_cell on the voxel grid, found without the mesh: from the cell's lowest corner walk
-/// along the axes, the largest fraction first, and weigh the four corners met.
-/// @param volume  at least 2 voxels in each direction.
-/// @param p       in the grid's own axes, mm; clamped to the box.
-inline double interpolate(const Volume& volume, const Vec3& p) {
-  assert(std::min({volume.size[0], volume.size[1], volume.size[2]}) >= 2);
-  const auto stride_j = static_cast<std::ptrdiff_t>(volume.size[0]);
-  std::array<std::ptrdiff_t, 3> stride{1, stride_j, stride_j * volume.size[1]};
+/// Values on a regular grid as a continuous function: linear on each of the six Kuhn tetrahedra of
+/// a grid cell, equal to the values at the nodes. It is the piecewise linear function of a mesh
+/// made by kuhn_cell on the grid, found without the mesh: from the cell's lowest corner walk along
+/// the axes, the largest fraction first, and weigh the four corners met.
+/// @param values   one per node; i runs fastest, then j, k.
+/// @param size     nodes along i, j, k; at least 2 each.
+/// @param spacing  between nodes.
+/// @param p        in the grid's own axes, in the spacing's unit; clamped to the box.
+template <class Number>
+double interpolate(std::span<const Number> values, const std::array<Index, 3>& size,
+                   const Vec3& spacing, const Vec3& p) {
+  assert(std::min({size[0], size[1], size[2]}) >= 2);
+  const auto stride_j = static_cast<std::ptrdiff_t>(size[0]);
+  std::array<std::ptrdiff_t, 3> stride{1, stride_j, stride_j * size[1]};
   std::array<double, 3> fraction;
   std::ptrdiff_t corner = 0;
   for (int a = 0; a < 3; ++a) {
-    const Index last = volume.size[static_cast<std::size_t>(a)] - 1;
-    double t = p[a] / volume.spacing[a];
+    const Index last = size[static_cast<std::size_t>(a)] - 1;
+    double t = p[a] / spacing[a];
     t = t > 0 ? std::min<double>(t, last) : 0;  // NaN goes to 0
     const Index cell = std::min(static_cast<Index>(t), last - 1);
     fraction[static_cast<std::size_t>(a)] = t - cell;
@@ -97,12 +102,18 @@ inline double interpolate(const Volume& volume, const Vec3& p) {
   order(0, 1);
   order(1, 2);
   order(0, 1);
-  const float* f = volume.samples.data() + corner;
+  const Number* f = values.data() + corner;
   const double f0 = f[0];
   const double f1 = f[stride[0]];
   const double f2 = f[stride[0] + stride[1]];
   const double f3 = f[stride[0] + stride[1] + stride[2]];
   return f0 + fraction[0] * (f1 - f0) + fraction[1] * (f2 - f1) + fraction[2] * (f3 - f2);
+}
+
+/// The image as a continuous function.
+/// @param p  in the grid's own axes, mm; clamped to the box.
+inline double interpolate(const Volume& volume, const Vec3& p) {
+  return interpolate(std::span<const float>(volume.samples), volume.size, volume.spacing, p);
 }
 
 }  // namespace mesamis
