@@ -5,8 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <sstream>
 #include <string>
 
 #include "mesamis/adapt/estimator.h"
@@ -20,6 +18,7 @@
 #include "mesamis/fem/transfer.h"
 #include "mesamis/image/edge_sides.h"
 #include "mesamis/mesh/metric_field.h"
+#include "mesamis/prepare.h"
 #include "mesamis/remesh/remesh.h"
 #include "mesamis/surface/extract.h"
 
@@ -48,11 +47,6 @@ class Stopwatch {
 struct Fields {
   std::vector<double> f, u, v;
 };
-
-double length_unit_mm(const Settings& settings, const Volume& volume) {
-  if (settings.length_unit == LengthUnit::kMm) return 1;
-  return std::cbrt(volume.spacing.x * volume.spacing.y * volume.spacing.z);
-}
 
 /// The first grid: every stride-th voxel, spread so that it fills the whole box.
 KuhnGrid first_grid(const Volume& volume, const std::array<Index, 3>& stride, double unit) {
@@ -122,66 +116,18 @@ class Run {
   void prepare() {
     Stopwatch watch;
     announce("preparation");
-    result_.unit_mm = length_unit_mm(settings(), volume_);
-    if (!settings().eta) settings().eta = settings().epsilon * settings().epsilon;
-    const Vec3 extent = volume_.box().extent();
-    if (!settings().h_max) {
-      settings().h_max = std::max(settings().h_min,
-                                  std::max({extent.x, extent.y, extent.z}) / 4 / result_.unit_mm);
-    }
-    const ObjectEdges object = find_object(volume_);
-    result_.level_native = settings().level.value_or(object.level);
-    if (!settings().max_tets) {
-      settings().max_tets =
-          default_max_tets(settings().level ? count_crossings(smoothed(volume_), *settings().level)
-                                            : object.crossings);
-    }
-    if (!settings().window) settings().window = choose_window(object);
-    choose_threshold(object);
-    require_contrast();
-    grey_ = apply(result_.grey, volume_);
+    Prepared prepared = prepare_image(volume_, settings());
+    settings() = prepared.settings;
+    result_.unit_mm = prepared.unit_mm;
+    result_.grey = prepared.map;
+    result_.threshold_used = prepared.threshold_used;
+    result_.level_native = prepared.level_native;
+    grey_ = std::move(prepared.grey);
     amis_.parameters = {settings().epsilon, *settings().eta, settings().beta, settings().gamma};
     amis_.max_iterations = settings().amis_iterations;
     amis_.v_tolerance = settings().tol_v;
     amis_.solver.tolerance = settings().solver_tolerance;
     result_.seconds.prepare = watch.lap();
-  }
-
-  /// The default, widened where the level has not room for an edge on both its sides.
-  Window choose_window(const ObjectEdges& object) const {
-    const Window window = default_window(volume_, object.sides.outside);
-    const double room = std::abs(object.sides.inside - object.sides.outside) / 2;
-    return {std::min(window.low, result_.level_native - room),
-            std::max(window.high, result_.level_native + room)};
-  }
-
-  /// Settings that leave nothing to see, or nothing at the level, are refused.
-  void require_contrast() const {
-    const double low =
-        result_.threshold_used ? result_.grey.threshold : result_.settings.window->low;
-    const double high = result_.settings.window->high, level = result_.level_native;
-    const auto [least, most] = std::minmax_element(volume_.samples.begin(), volume_.samples.end());
-    std::ostringstream message;
-    if (!(*least<high&& * most> low)) {
-      message << "window: expected one that holds some of the samples, which go from " << *least
-              << " to " << *most << ", found " << low << "," << high;
-    } else if (result_.settings.surface == SurfaceKind::kSolid && !(low < level && level < high)) {
-      message << "level: expected a value between the window's ends and above the threshold, "
-              << low << " to " << high << ", found " << level;
-    }
-    if (!message.str().empty()) throw InputError(message.str());
-  }
-
-  void choose_threshold(const ObjectEdges& object) {
-    const ThresholdRule rule = settings().threshold_rule;
-    const double t = rule == ThresholdRule::kAuto ? object.threshold : settings().threshold;
-    result_.grey = {settings().window->low, settings().window->high, settings().window->low};
-    // A level below T would be everywhere: what the user asks to see comes first.
-    result_.threshold_used = rule != ThresholdRule::kNone && t > settings().window->low &&
-                             !(rule == ThresholdRule::kAuto && t >= result_.level_native);
-    if (!result_.threshold_used) return;
-    result_.grey.threshold = t;
-    settings().threshold = t;
   }
 
   /// The first pass, on the voxel grid; the mesh it leads to is refined from a coarse box.

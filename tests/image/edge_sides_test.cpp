@@ -25,7 +25,8 @@ class FindObject : public ::testing::TestWithParam<Case> {};
 
 TEST_P(FindObject, LevelLiesMidwayBetweenTheSides) {
   const Case& c = GetParam();
-  const ObjectEdges object = find_object(make_ball(c.ball));
+  const Volume volume = make_ball(c.ball);
+  const ObjectEdges object = find_object(volume);
   const double contrast = c.ball.object - c.ball.background;
   EXPECT_NEAR(object.level, c.middle, 0.05 * contrast);
   // Medians a step away from a blurred edge: what blur is left pulls both alike.
@@ -37,6 +38,12 @@ TEST_P(FindObject, LevelLiesMidwayBetweenTheSides) {
   } else {
     EXPECT_LT(object.threshold, -1e30);
   }
+  // Another level to count at changes the count alone.
+  const ObjectEdges elsewhere = find_object(volume, c.ball.object + 1000);
+  EXPECT_GT(object.crossings, 0u);
+  EXPECT_EQ(elsewhere.crossings, 0u);
+  EXPECT_EQ(elsewhere.level, object.level);
+  EXPECT_EQ(elsewhere.threshold, object.threshold);
 }
 
 INSTANTIATE_TEST_SUITE_P(

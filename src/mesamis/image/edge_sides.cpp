@@ -73,6 +73,13 @@ void for_each_crossing(const Volume& volume, double level, Visit&& visit) {
   }
 }
 
+/// How often the grid lines cross the level; marching cubes makes about two triangles each.
+std::size_t count_crossings(const Volume& volume, double level) {
+  std::size_t count = 0;
+  for_each_crossing(volume, level, [&count](Index, Index, Index, int) { ++count; });
+  return count;
+}
+
 SurfacePoint crossing(const Volume& volume, double level, std::array<Index, 3> at, int axis) {
   auto next = at;
   ++next[axis];
@@ -135,12 +142,6 @@ std::optional<EdgeSides> measure_sides(const Volume& volume, const Volume& guide
   return sides;
 }
 
-std::size_t count_crossings(const Volume& volume, double level) {
-  std::size_t count = 0;
-  for_each_crossing(volume, level, [&count](Index, Index, Index, int) { ++count; });
-  return count;
-}
-
 std::vector<SurfacePoint> crossing_points(const Volume& volume, double level, std::size_t most) {
   const std::size_t every =
       std::max<std::size_t>(1, count_crossings(volume, level) / std::max<std::size_t>(1, most));
@@ -152,7 +153,7 @@ std::vector<SurfacePoint> crossing_points(const Volume& volume, double level, st
   return points;
 }
 
-ObjectEdges find_object(const Volume& volume) {
+ObjectEdges find_object(const Volume& volume, std::optional<double> level) {
   const Volume calm = smoothed(volume);
   ObjectEdges object;
   object.level = otsu_split(volume).threshold;
@@ -167,7 +168,7 @@ ObjectEdges find_object(const Volume& volume) {
     object.level = sides->middle();
     if (change < kSettled * (sides->inside - sides->outside)) break;
   }
-  object.crossings = count_crossings(calm, object.level);
+  object.crossings = count_crossings(calm, level.value_or(object.level));
   if (object.sides.samples > 0) {
     object.threshold = choose_threshold(volume, object.sides, object.level);
   }

@@ -32,9 +32,6 @@ struct EdgeSides {
 std::optional<EdgeSides> measure_sides(const Volume& volume, const Volume& guide,
                                        const std::vector<SurfacePoint>& points, double level);
 
-/// How often a volume's grid lines cross a level; marching cubes makes about two triangles each.
-std::size_t count_crossings(const Volume& volume, double level);
-
 /// Where a volume's grid lines cross a level, with normals from its gradient; evenly thinned out
 /// to about `most` points.
 std::vector<SurfacePoint> crossing_points(const Volume& volume, double level, std::size_t most);
@@ -44,7 +41,8 @@ struct ObjectEdges {
   EdgeSides sides;
   double level = 0;           ///< midway between the two sides
   double threshold = 0;       ///< T for (13); below the image's minimum if none is needed
-  std::size_t crossings = 0;  ///< of grid lines with the level: the extent of the edges
+  std::size_t crossings = 0;  ///< of the smoothed image's grid lines with the level: the extent of
+                              ///< the edges; marching cubes makes about two triangles each
 };
 
 /// Finds the bright object: CT from its crossings of 200 HU (bone), other images from Otsu's
@@ -55,6 +53,7 @@ struct ObjectEdges {
 /// it, but no more than half way up to the level, so that no edge profile is cut in its middle.
 /// Two-class ones, where what is darker than the level does not fall into two classes half the
 /// object's contrast apart, need none.
-ObjectEdges find_object(const Volume& volume);
+/// @param level  where crossings are counted instead of the level found, and nothing else.
+ObjectEdges find_object(const Volume& volume, std::optional<double> level = std::nullopt);
 
 }  // namespace mesamis

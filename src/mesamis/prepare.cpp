@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/prepare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+#include "mesamis/base/error.h"
+#include "mesamis/image/edge_sides.h"
+
+namespace mesamis {
+namespace {
+
+double length_unit_mm(const Settings& settings, const Volume& volume) {
+  if (settings.length_unit == LengthUnit::kMm) return 1;
+  return std::cbrt(volume.spacing.x * volume.spacing.y * volume.spacing.z);
+}
+
+/// A quarter of the box's longest side, in length units.
+double default_h_max(const Volume& volume, double unit_mm) {
+  const Vec3 extent = volume.box().extent();
+  return std::max({extent.x, extent.y, extent.z}) / 4 / unit_mm;
+}
+
+/// The default, widened where the level has not room for an edge on both its sides.
+Window choose_window(const Volume& volume, const EdgeSides& sides, double level) {
+  const Window window = default_window(volume, sides.outside);
+  const double room = std::abs(sides.inside - sides.outside) / 2;
+  return {std::min(window.low, level - room), std::max(window.high, level + room)};
+}
+
+/// T of (13), in native units; nothing if it would not act.
+std::optional<double> choose_threshold(const Settings& settings, double found, double level) {
+  const ThresholdRule rule = settings.threshold_rule;
+  const double t = rule == ThresholdRule::kAuto ? found : settings.threshold;
+  if (rule == ThresholdRule::kNone || !(t > settings.window->low)) return std::nullopt;
+  // A level below T would be everywhere: what the user asks to see comes first.
+  if (rule == ThresholdRule::kAuto && t >= level) return std::nullopt;
+  return t;
+}
+
+/// Settings that leave nothing to see, or nothing at the level, are refused.
+void require_contrast(const Volume& volume, const Prepared& prepared) {
+  const Settings& settings = prepared.settings;
+  const double low = prepared.threshold_used ? prepared.map.threshold : settings.window->low;
+  const double high = settings.window->high, level = prepared.level_native;
+  const auto [least, most] = std::minmax_element(volume.samples.begin(), volume.samples.end());
+  const bool sees_samples = *least<high&& * most> low;
+  const bool sees_level = low < level && level < high;
+  std::ostringstream message;
+  if (!sees_samples) {
+    message << "window: expected one that holds some of the samples, which go from " << *least
+            << " to " << *most << ", found " << low << "," << high;
+  } else if (settings.surface == SurfaceKind::kSolid && !sees_level) {
+    message << "level: expected a value between the window's ends and above the threshold, " << low
+            << " to " << high << ", found " << level;
+  }
+  if (!message.str().empty()) throw InputError(message.str());
+}
+
+}  // namespace
+
+Prepared prepare_image(const Volume& volume, const Settings& settings) {
+  Prepared prepared;
+  prepared.settings = settings;
+  prepared.unit_mm = length_unit_mm(settings, volume);
+  Settings& chosen = prepared.settings;
+  if (!chosen.eta) chosen.eta = chosen.epsilon * chosen.epsilon;
+  if (!chosen.h_max) {
+    chosen.h_max = std::max(chosen.h_min, default_h_max(volume, prepared.unit_mm));
+  }
+  const ObjectEdges object = find_object(volume, chosen.level);
+  prepared.level_native = chosen.level.value_or(object.level);
+  if (!chosen.max_tets) chosen.max_tets = default_max_tets(object.crossings);
+  if (!chosen.window) chosen.window = choose_window(volume, object.sides, prepared.level_native);
+  prepared.map = {chosen.window->low, chosen.window->high, chosen.window->low};
+  if (const auto t = choose_threshold(chosen, object.threshold, prepared.level_native)) {
+    prepared.threshold_used = true;
+    prepared.map.threshold = chosen.threshold = *t;
+  }
+  require_contrast(volume, prepared);
+  prepared.grey = apply(prepared.map, volume);
+  return prepared;
+}
+
+}  // namespace mesamis
