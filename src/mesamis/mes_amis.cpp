@@ -193,10 +193,9 @@ class Run {
     advance(0.3);
     iteration().seconds.amis = watch.lap();
     measure_aspects(mesh_, iteration());
-    if (result_.iterations.size() > 1) {
-      const double before = result_.iterations.rbegin()[1].energy.total();
-      iteration().energy_change = std::abs(iteration().energy.total() - before) / before;
-    }
+    const double before = result_.iterations.rbegin()[1].energy.total();
+    iteration().energy_change = std::abs(iteration().energy.total() - before) / before;
+    lumped_mass_ = space.lumped_mass();
   }
 
   void adapt() {
@@ -237,13 +236,7 @@ class Run {
 
   void set_metric(std::vector<Sym3> metric) {
     metric_ = std::move(metric);
-    std::vector<double> weights(mesh_.points.size(), 0);
-    for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
-      for (const Index n : mesh_.cells[c]) {
-        weights[n] += cell_volume(mesh_, static_cast<Index>(c)) / 4;
-      }
-    }
-    bounded_ = control_sizes(metric_, weights, size_control()) > 1;
+    bounded_ = control_sizes(metric_, lumped_mass_, size_control()) > 1;
   }
 
   CellMetricOptions metric_options(std::int64_t cells) {
@@ -366,6 +359,7 @@ class Run {
   Box box_;
   TetMesh mesh_;
   Fields fields_;
+  std::vector<double> lumped_mass_;   // of the mesh last minimised on
   std::vector<Sym3> metric_, asked_;  // of the mesh estimated, and of the mesh it led to
   double cells_per_complexity_ = kCellsPerComplexity;
   bool bounded_ = false;  // max_tets acted on the last metric
