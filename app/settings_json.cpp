@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "settings_json.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "mesamis/base/error.h"
 
@@ -34,21 +38,76 @@ T number(const json& value) {
   }
 }
 
-template <class T>
-ordered_json or_auto(const std::optional<T>& value) {
-  return value ? ordered_json(*value) : ordered_json("auto");
-}
+/// A setting's name and its way from and to JSON.
+struct Entry {
+  std::string name;
+  std::function<void(const json&, Settings&)> read;
+  std::function<ordered_json(const Settings&)> write;
+};
 
 template <class T>
-std::optional<T> read_or_auto(const json& value) {
-  if (value == "auto") return std::nullopt;
-  return number<T>(value);
+Entry setting(const char* name, T Settings::*member) {
+  return {name, [member](const json& value, Settings& s) { s.*member = number<T>(value); },
+          [member](const Settings& s) { return ordered_json(s.*member); }};
 }
 
-ordered_json threshold_to_json(const Settings& s) {
-  if (s.threshold_rule == ThresholdRule::kAuto) return "auto";
-  if (s.threshold_rule == ThresholdRule::kNone) return "none";
-  return s.threshold;
+/// Without a value it is "auto".
+template <class T>
+Entry setting(const char* name, std::optional<T> Settings::*member) {
+  return {name,
+          [member](const json& value, Settings& s) {
+            s.*member = value == "auto" ? std::nullopt : std::optional<T>(number<T>(value));
+          },
+          [member](const Settings& s) {
+            return s.*member ? ordered_json(*(s.*member)) : ordered_json("auto");
+          }};
+}
+
+template <class Enum>
+Enum value_of(const json& name, const std::map<std::string, Enum>& names) {
+  const auto found = names.find(name.get<std::string>());
+  if (found != names.end()) return found->second;
+  std::string known;
+  for (const auto& [other, unused] : names) known += (known.empty() ? "" : ", ") + other;
+  throw InputError("expected one of " + known + ", found " + name.dump());
+}
+
+template <class Enum>
+std::string name_of(Enum value, const std::map<std::string, Enum>& names) {
+  const auto is_it = [value](const auto& name) { return name.second == value; };
+  return std::find_if(names.begin(), names.end(), is_it)->first;
+}
+
+/// @param names  of every value.
+template <class Enum>
+Entry setting(const char* name, Enum Settings::*member, const std::map<std::string, Enum>& names) {
+  return {name, [=](const json& value, Settings& s) { s.*member = value_of<Enum>(value, names); },
+          [=](const Settings& s) { return ordered_json(name_of<Enum>(s.*member, names)); }};
+}
+
+void read_crop(const json& value, Settings& s) {
+  const auto ranges = value.get<std::array<std::array<Index, 2>, 3>>();
+  for (std::size_t a = 0; a < 3; ++a) {
+    s.crop.begin[a] = ranges[a][0];
+    s.crop.end[a] = ranges[a][1];
+  }
+}
+
+ordered_json write_crop(const Settings& s) {
+  ordered_json ranges;
+  for (std::size_t a = 0; a < 3; ++a) ranges.push_back({s.crop.begin[a], s.crop.end[a]});
+  return ranges;
+}
+
+void read_window(const json& value, Settings& s) {
+  s.window.reset();
+  if (value == "auto") return;
+  const auto bounds = value.get<std::array<double, 2>>();
+  s.window = Window{bounds[0], bounds[1]};
+}
+
+ordered_json write_window(const Settings& s) {
+  return s.window ? ordered_json{s.window->low, s.window->high} : ordered_json("auto");
 }
 
 void read_threshold(const json& value, Settings& s) {
@@ -60,116 +119,66 @@ void read_threshold(const json& value, Settings& s) {
   s.threshold = value.get<double>();
 }
 
-void read_window(const json& value, Settings& s) {
-  s.window.reset();
-  if (value == "auto") return;
-  const auto bounds = value.get<std::array<double, 2>>();
-  s.window = Window{bounds[0], bounds[1]};
+ordered_json write_threshold(const Settings& s) {
+  if (s.threshold_rule == ThresholdRule::kAuto) return "auto";
+  if (s.threshold_rule == ThresholdRule::kNone) return "none";
+  return s.threshold;
 }
 
-template <class Enum>
-Enum read_name(const json& value, const std::map<std::string, Enum>& names) {
-  const auto found = names.find(value.get<std::string>());
-  if (found != names.end()) return found->second;
-  std::string known;
-  for (const auto& [name, unused] : names) known += (known.empty() ? "" : ", ") + name;
-  throw InputError("expected one of " + known + ", found " + value.dump());
-}
-
-using Reader = std::function<void(const json&, Settings&)>;
-
-template <class T>
-Reader reads(T Settings::*member) {
-  return [member](const json& value, Settings& s) { s.*member = number<T>(value); };
-}
-template <class T>
-Reader reads(std::optional<T> Settings::*member) {
-  return [member](const json& value, Settings& s) { s.*member = read_or_auto<T>(value); };
-}
-
-const std::map<std::string, Reader>& readers() {
-  static const std::map<std::string, Reader> table{
-      {"crop",
-       [](const json& value, Settings& s) {
-         const auto ranges = value.get<std::array<std::array<Index, 2>, 3>>();
-         for (std::size_t a = 0; a < 3; ++a) {
-           s.crop.begin[a] = ranges[a][0];
-           s.crop.end[a] = ranges[a][1];
-         }
-       }},
-      {"stride", reads(&Settings::stride)},
-      {"window", read_window},
-      {"threshold", read_threshold},
-      {"length_unit",
-       [](const json& value, Settings& s) {
-         s.length_unit =
-             read_name<LengthUnit>(value, {{"voxel", LengthUnit::kVoxel}, {"mm", LengthUnit::kMm}});
-       }},
-      {"epsilon", reads(&Settings::epsilon)},
-      {"eta", reads(&Settings::eta)},
-      {"beta", reads(&Settings::beta)},
-      {"gamma", reads(&Settings::gamma)},
-      {"amis_iterations", reads(&Settings::amis_iterations)},
-      {"tol_v", reads(&Settings::tol_v)},
-      {"solver_tolerance", reads(&Settings::solver_tolerance)},
-      {"max_tets", reads(&Settings::max_tets)},
-      {"tau", reads(&Settings::tau)},
-      {"adaptations", reads(&Settings::adaptations)},
-      {"tol_mesh", reads(&Settings::tol_mesh)},
-      {"tol_energy", reads(&Settings::tol_energy)},
-      {"stop_at_first", reads(&Settings::stop_at_first)},
-      {"max_stretch", reads(&Settings::max_stretch)},
-      {"h_min", reads(&Settings::h_min)},
-      {"h_max", reads(&Settings::h_max)},
-      {"surface",
-       [](const json& value, Settings& s) {
-         s.surface = read_name<SurfaceKind>(
-             value, {{"solid", SurfaceKind::kSolid}, {"band", SurfaceKind::kBand}});
-       }},
-      {"level", reads(&Settings::level)},
-      {"band_threshold", reads(&Settings::band_threshold)},
+/// Every setting, in the order in which they are written.
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> table{
+      {"crop", read_crop, write_crop},
+      setting("stride", &Settings::stride),
+      {"window", read_window, write_window},
+      {"threshold", read_threshold, write_threshold},
+      setting("length_unit", &Settings::length_unit,
+              {{"voxel", LengthUnit::kVoxel}, {"mm", LengthUnit::kMm}}),
+      setting("epsilon", &Settings::epsilon),
+      setting("eta", &Settings::eta),
+      setting("beta", &Settings::beta),
+      setting("gamma", &Settings::gamma),
+      setting("amis_iterations", &Settings::amis_iterations),
+      setting("tol_v", &Settings::tol_v),
+      setting("solver_tolerance", &Settings::solver_tolerance),
+      setting("max_tets", &Settings::max_tets),
+      setting("tau", &Settings::tau),
+      setting("adaptations", &Settings::adaptations),
+      setting("tol_mesh", &Settings::tol_mesh),
+      setting("tol_energy", &Settings::tol_energy),
+      setting("stop_at_first", &Settings::stop_at_first),
+      setting("max_stretch", &Settings::max_stretch),
+      setting("h_min", &Settings::h_min),
+      setting("h_max", &Settings::h_max),
+      setting("surface", &Settings::surface,
+              {{"solid", SurfaceKind::kSolid}, {"band", SurfaceKind::kBand}}),
+      setting("level", &Settings::level),
+      setting("band_threshold", &Settings::band_threshold),
   };
   return table;
 }
 
+const Entry& entry_of(const std::string& name) {
+  for (const Entry& entry : entries()) {
+    if (entry.name == name) return entry;
+  }
+  throw InputError("there is no setting '" + name + "'");
+}
+
 }  // namespace
 
-ordered_json to_json(const Settings& s) {
-  ordered_json j;
-  for (std::size_t a = 0; a < 3; ++a) j["crop"].push_back({s.crop.begin[a], s.crop.end[a]});
-  j["stride"] = s.stride;
-  j["window"] = s.window ? ordered_json{s.window->low, s.window->high} : ordered_json("auto");
-  j["threshold"] = threshold_to_json(s);
-  j["length_unit"] = s.length_unit == LengthUnit::kVoxel ? "voxel" : "mm";
-  j["epsilon"] = s.epsilon;
-  j["eta"] = or_auto(s.eta);
-  j["beta"] = s.beta;
-  j["gamma"] = s.gamma;
-  j["amis_iterations"] = s.amis_iterations;
-  j["tol_v"] = s.tol_v;
-  j["solver_tolerance"] = s.solver_tolerance;
-  j["max_tets"] = or_auto(s.max_tets);
-  j["tau"] = s.tau;
-  j["adaptations"] = s.adaptations;
-  j["tol_mesh"] = s.tol_mesh;
-  j["tol_energy"] = s.tol_energy;
-  j["stop_at_first"] = s.stop_at_first;
-  j["max_stretch"] = s.max_stretch;
-  j["h_min"] = s.h_min;
-  j["h_max"] = or_auto(s.h_max);
-  j["surface"] = s.surface == SurfaceKind::kSolid ? "solid" : "band";
-  j["level"] = or_auto(s.level);
-  j["band_threshold"] = s.band_threshold;
-  return j;
+ordered_json to_json(const Settings& settings) {
+  ordered_json object;
+  for (const Entry& entry : entries()) object[entry.name] = entry.write(settings);
+  return object;
 }
 
 void from_json(const json& object, Settings& settings) {
   if (!object.is_object()) throw InputError("expected a JSON object");
   for (const auto& [name, value] : object.items()) {
-    const auto reader = readers().find(name);
-    if (reader == readers().end()) throw InputError("there is no setting '" + name + "'");
+    const Entry& entry = entry_of(name);
     try {
-      reader->second(value, settings);
+      entry.read(value, settings);
     } catch (const json::exception&) {
       throw InputError(name + " cannot be " + value.dump());
     } catch (const InputError& error) {
