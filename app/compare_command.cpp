@@ -2,14 +2,12 @@
 // mesamis compare: distances (14)-(16) between two surfaces, both directions.
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <sstream>
 
 #include "commands.h"
 #include "json_file.h"
-#include "mesamis/base/error.h"
 #include "mesamis/io/atomic_file.h"
 #include "mesamis/io/surface_files.h"
 #include "mesamis/surface/distance.h"
@@ -89,12 +87,8 @@ void write_histogram(const fs::path& path, const std::vector<Direction>& directi
     text << "\n" << static_cast<double>(bin) * width << "," << static_cast<double>(bin + 1) * width;
     for (const auto& column : columns) text << "," << column[bin];
   }
-  AtomicFile file(path);
-  std::ofstream out(file.temporary_path(), std::ios::binary);
-  out << text.str() << "\n";
-  out.close();
-  if (!out) throw InputError(path.string() + ": cannot be written");
-  file.commit();
+  text << "\n";
+  write_file(path, text.str());
 }
 
 void print_line(const std::string& name, const char* how, const std::vector<double>& distances) {

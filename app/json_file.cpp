@@ -10,12 +10,8 @@
 namespace mesamis {
 
 void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& value) {
-  AtomicFile file(path);
-  std::ofstream out(file.temporary_path(), std::ios::binary);
-  out << value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
-  out.close();
-  if (!out) throw InputError(path.string() + ": cannot be written");
-  file.commit();
+  write_file(path,
+             value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 nlohmann::json read_json(const std::filesystem::path& path) {

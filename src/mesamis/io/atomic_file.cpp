@@ -8,9 +8,11 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <system_error>
 
 #include "mesamis/base/error.h"
+#include "mesamis/io/detail/refuse.h"
 
 namespace mesamis {
 namespace {
@@ -94,6 +96,15 @@ void AtomicFile::commit() {
     throw InputError(target_.string() + ": cannot be written: " + reason(errno));
   }
   committed_ = true;
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+  AtomicFile file(path);
+  std::ofstream out(file.temporary_path(), std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out) detail::refuse(path, "cannot be written; is the disk full?");
+  file.commit();
 }
 
 void remove_unfinished_files() noexcept {

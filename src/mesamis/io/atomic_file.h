@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 namespace mesamis {
 
@@ -26,6 +27,10 @@ class AtomicFile {
   int slot_;
   bool committed_ = false;
 };
+
+/// Writes a whole file at once, through an AtomicFile.
+/// @throws InputError  if it cannot be written.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Removes every temporary file that was not committed. Safe to call in a signal handler.
 void remove_unfinished_files() noexcept;

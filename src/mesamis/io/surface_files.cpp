@@ -2,7 +2,6 @@
 #include "mesamis/io/surface_files.h"
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 
 #include "mesamis/base/error.h"
@@ -51,13 +50,6 @@ Parser parser_for(const fs::path& path) {
   refuse_extension(path, ".stl .ply .obj .vtp .vtk, each also with .gz");
 }
 
-void write_all(const fs::path& path, const fs::path& temporary, const std::string& bytes) {
-  std::ofstream out(temporary, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) refuse(path, "cannot be written; is the disk full?");
-}
-
 /// Half a turn about z: a rotation, so that triangles keep facing outward.
 void turn(std::vector<Vec3>& points) {
   for (Vec3& p : points) p = {-p.x, -p.y, p.z};
@@ -84,9 +76,7 @@ void write_surface(const fs::path& path, const TriMesh& surface,
   TriMesh turned = surface;
   if (options.frame == Frame::kRas) turn(turned.points);
   const SurfaceWriteOptions clean{options.frame, one_line(options.name)};
-  AtomicFile file(path);
-  write_all(path, file.temporary_path(), format->bytes(turned, clean));
-  file.commit();
+  write_file(path, format->bytes(turned, clean));
 }
 
 TriMesh read_surface(const fs::path& path) {
