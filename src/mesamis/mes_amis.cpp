@@ -148,7 +148,7 @@ class Run {
     iteration().seconds.amis = watch.lap();
     GridEstimate estimated = estimate_on_grid(grid, amis_.parameters, fields.u, fields.v, fields.f,
                                               metric_options(grid.cell_count()));
-    iteration().estimator = estimated.zeta_a + estimated.zeta_b;
+    iteration().estimator = estimated.sums.zeta();
     iteration().predicted_tets = estimated.predicted_cells;
     const double factor =
         control_sizes_to_log(estimated.node_metrics, space.lumped_mass(), size_control());
@@ -225,7 +225,7 @@ class Run {
 
   std::vector<Sym3> estimate_metric() {
     const Estimate estimated = estimate(mesh_, amis_.parameters, fields_.u, fields_.v, fields_.f);
-    iteration().estimator = estimated.zeta_a + estimated.zeta_b;
+    iteration().estimator = estimated.sums.zeta();
     std::vector<Sym3> cells(mesh_.cells.size());
     const auto options = metric_options(static_cast<std::int64_t>(cells.size()));
     parallel_for(cells.size(),

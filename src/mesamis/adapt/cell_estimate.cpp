@@ -40,6 +40,11 @@ double boundary_norm_of_jump(const CellData& k) {
   return std::sqrt(square);
 }
 
+void add_terms(const ResidualTerms& terms, ResidualTerms& sums) {
+  for (std::size_t i = 0; i < terms.a.size(); ++i) sums.a[i] += terms.a[i];
+  for (std::size_t i = 0; i < terms.b.size(); ++i) sums.b[i] += terms.b[i];
+}
+
 /// omega(z) of (8) with the recovered error: sqrt(sum lambda_i^2 r_i' G r_i) = sqrt(MM' : G).
 double weight(const Sym3& stretch_squared, const Sym3& error) {
   const Sym3 &m = stretch_squared, &g = error;
@@ -117,6 +122,18 @@ CellEstimate estimate_cell(const CellData& cell, const AtParameters& parameters,
   const double per_volume_squared = 1 / (cell.volume * cell.volume);
   e.gamma = per_volume_squared * (rho_a * rho_a * error_u + rho_b * rho_b * error_v);
   return e;
+}
+
+void EstimateSums::add(const CellEstimate& cell) {
+  add_terms(cell.residuals, residuals);
+  zeta_a += cell.zeta_a;
+  zeta_b += cell.zeta_b;
+}
+
+void EstimateSums::add(const EstimateSums& block) {
+  add_terms(block.residuals, residuals);
+  zeta_a += block.zeta_a;
+  zeta_b += block.zeta_b;
 }
 
 }  // namespace mesamis

@@ -113,18 +113,6 @@ void require_size(const char* name, std::size_t found, std::size_t expected) {
   }
 }
 
-/// Sums in blocks, so that the order never depends on threads.
-struct BlockSums {
-  ResidualTerms residuals;
-  double zeta_a = 0, zeta_b = 0;
-  void add(const CellEstimate& e) {
-    for (std::size_t i = 0; i < 5; ++i) residuals.a[i] += e.residuals.a[i];
-    for (std::size_t i = 0; i < 3; ++i) residuals.b[i] += e.residuals.b[i];
-    zeta_a += e.zeta_a;
-    zeta_b += e.zeta_b;
-  }
-};
-
 }  // namespace
 
 Estimate estimate(const TetMesh& mesh, const AtParameters& parameters, std::span<const double> u,
@@ -137,7 +125,8 @@ Estimate estimate(const TetMesh& mesh, const AtParameters& parameters, std::span
   Estimate result;
   result.gamma.resize(n);
   result.zeta.resize(n);
-  std::vector<BlockSums> blocks((n + kBlock - 1) / kBlock);
+  // Sums in blocks, so that the order never depends on threads.
+  std::vector<EstimateSums> blocks((n + kBlock - 1) / kBlock);
   parallel_blocks(n, kBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       const CellEstimate e = estimator.at(static_cast<Index>(c));
@@ -146,12 +135,7 @@ Estimate estimate(const TetMesh& mesh, const AtParameters& parameters, std::span
       blocks[begin / kBlock].add(e);
     }
   });
-  for (const BlockSums& block : blocks) {
-    for (std::size_t i = 0; i < 5; ++i) result.residual_sums.a[i] += block.residuals.a[i];
-    for (std::size_t i = 0; i < 3; ++i) result.residual_sums.b[i] += block.residuals.b[i];
-    result.zeta_a += block.zeta_a;
-    result.zeta_b += block.zeta_b;
-  }
+  for (const EstimateSums& block : blocks) result.sums.add(block);
   return result;
 }
 

@@ -63,12 +63,21 @@ struct CellEstimate {
 CellEstimate estimate_cell(const CellData& cell, const AtParameters& parameters,
                            const Sym3& error_u, const Sym3& error_v);
 
+/// What many cells add up to.
+struct EstimateSums {
+  ResidualTerms residuals;        ///< each term
+  double zeta_a = 0, zeta_b = 0;  ///< the two halves of the estimator
+
+  double zeta() const { return zeta_a + zeta_b; }
+  void add(const CellEstimate& cell);
+  void add(const EstimateSums& block);
+};
+
 /// What it says about a mesh.
 struct Estimate {
-  std::vector<Sym3> gamma;        ///< Gamma_K, one per cell
-  std::vector<double> zeta;       ///< zeta_K (10), one per cell
-  ResidualTerms residual_sums;    ///< each term summed over the cells
-  double zeta_a = 0, zeta_b = 0;  ///< the two halves of the estimator, summed over the cells
+  std::vector<Sym3> gamma;   ///< Gamma_K, one per cell
+  std::vector<double> zeta;  ///< zeta_K (10), one per cell
+  EstimateSums sums;         ///< over the cells
 };
 
 /// Estimates every cell of a mesh.

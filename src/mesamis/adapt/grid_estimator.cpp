@@ -95,8 +95,8 @@ PatchSums patch_of(const GradientSums& sums, double count, double cell_volume) {
 }
 
 struct Totals {
-  ResidualTerms residuals;
-  double zeta_a = 0, zeta_b = 0, predicted = 0;
+  EstimateSums sums;
+  double predicted_cells = 0;
 };
 
 class GridEstimator {
@@ -262,11 +262,9 @@ class GridEstimator {
                       recovered_error(patch_of(sums.u, sums.count, cell_volume_)),
                       recovered_error(patch_of(sums.v, sums.count, cell_volume_)));
     const Sym3 m = cell_metric(e.gamma, metric_);
-    for (std::size_t t = 0; t < 5; ++t) totals.residuals.a[t] += e.residuals.a[t];
-    for (std::size_t t = 0; t < 3; ++t) totals.residuals.b[t] += e.residuals.b[t];
-    totals.zeta_a += e.zeta_a;
-    totals.zeta_b += e.zeta_b;
-    totals.predicted += cell_volume_ * std::sqrt(std::max(determinant(m), 0.0)) / kReferenceVolume;
+    totals.sums.add(e);
+    totals.predicted_cells +=
+        cell_volume_ * std::sqrt(std::max(determinant(m), 0.0)) / kReferenceVolume;
     const Sym3 share = cell_volume_ * m;
     const PackedSym3 packed = pack(share);
     for (const std::size_t n : nodes_of(brick, path)) {
@@ -288,14 +286,6 @@ class GridEstimator {
   };
   std::array<std::vector<Step>, kPaths> steps_;
 };
-
-void add(const Totals& totals, GridEstimate& result) {
-  for (std::size_t t = 0; t < 5; ++t) result.residual_sums.a[t] += totals.residuals.a[t];
-  for (std::size_t t = 0; t < 3; ++t) result.residual_sums.b[t] += totals.residuals.b[t];
-  result.zeta_a += totals.zeta_a;
-  result.zeta_b += totals.zeta_b;
-  result.predicted_cells += totals.predicted;
-}
 
 void require_sizes(const KuhnGrid& grid, std::span<const double> u, std::span<const double> v,
                    std::span<const double> f) {
@@ -331,7 +321,10 @@ GridEstimate estimate_on_grid(const KuhnGrid& grid, const AtParameters& paramete
           slab * kSlab, std::min(layers, (slab + 1) * kSlab), result.node_metrics);
     });
   }
-  for (const Totals& t : totals) add(t, result);
+  for (const Totals& slab : totals) {
+    result.sums.add(slab.sums);
+    result.predicted_cells += slab.predicted_cells;
+  }
   const GridSpace space(grid);
   parallel_for(result.node_metrics.size(), [&](std::size_t n) {
     // The cells around a node have four times its lumped mass.

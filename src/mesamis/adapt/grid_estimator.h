@@ -14,9 +14,8 @@ namespace mesamis {
 /// The estimator on a Kuhn grid, and the metric it leads to. Nothing is kept per cell.
 struct GridEstimate {
   std::vector<PackedSym3> node_metrics;  ///< as node_metrics(): 3/8 of the volume-weighted mean
-  ResidualTerms residual_sums;
-  double zeta_a = 0, zeta_b = 0;
-  double predicted_cells = 0;  ///< (11)
+  EstimateSums sums;                     ///< over the cells
+  double predicted_cells = 0;            ///< (11)
 };
 
 /// The same numbers as estimate(), cell_metric(), predicted_cells() and node_metrics() on the
