@@ -39,7 +39,6 @@ class GridSpace : public P1Space {
  public:
   explicit GridSpace(const KuhnGrid& grid);
 
-  const KuhnGrid& grid() const { return grid_; }
   const std::vector<double>& lumped_mass() const override { return lumped_mass_; }
   std::unique_ptr<SpdOperator> diffusion(std::span<const double> w, double scale, double offset,
                                          std::vector<double> diagonal) const override;

@@ -116,7 +116,6 @@ SolveReport solve(const SpdOperator& a, std::span<const double> b, std::span<dou
   };
   cg.run(jacobi, goal, std::min(options.jacobi_iterations, options.max_iterations), report);
   if (cg.true_residual() > goal && report.iterations < options.max_iterations) {
-    report.used_multigrid = true;
     const Multigrid multigrid(a);
     cg.run([&](auto r, auto z) { multigrid.apply(r, z); }, goal,
            options.max_iterations - report.iterations, report);

@@ -15,7 +15,6 @@ struct SolveOptions {
 
 struct SolveReport {
   int iterations = 0;
-  bool used_multigrid = false;
   double residual = 0;  ///< |b - A x| / |b| at the end, in that norm
   bool converged = false;
 };
