@@ -5,17 +5,10 @@
 
 #include <random>
 
+#include "support/expect_near.h"
+
 namespace mesamis {
 namespace {
-
-void expect_near(const Sym3& a, const Sym3& b, double tolerance) {
-  EXPECT_NEAR(a.xx, b.xx, tolerance);
-  EXPECT_NEAR(a.xy, b.xy, tolerance);
-  EXPECT_NEAR(a.xz, b.xz, tolerance);
-  EXPECT_NEAR(a.yy, b.yy, tolerance);
-  EXPECT_NEAR(a.yz, b.yz, tolerance);
-  EXPECT_NEAR(a.zz, b.zz, tolerance);
-}
 
 Sym3 random_spd(std::mt19937& generator, double largest_log) {
   std::uniform_real_distribution<double> uniform(-1, 1);

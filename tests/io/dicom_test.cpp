@@ -5,9 +5,10 @@
 
 #include <cmath>
 
-#include "mesamis/base/error.h"
 #include "mesamis/io/read_volume.h"
 #include "support/dicom_bytes.h"
+#include "support/expect_near.h"
+#include "support/read_scan.h"
 #include "support/temp_folder.h"
 
 namespace mesamis {
@@ -45,30 +46,6 @@ std::vector<SliceBytes> stack_of(int count, Change&& change) {
   auto slices = stack_of(count);
   for (SliceBytes& slice : slices) change(slice);
   return slices;
-}
-
-/// Why a path is refused; empty if it is not. The line must be one, and begin with the path.
-std::string complaint(const fs::path& path, const std::string& series = "") {
-  try {
-    read_volume(path, {series});
-  } catch (const InputError& error) {
-    const std::string line = error.what();
-    EXPECT_EQ(line.rfind(path.string(), 0), 0u) << line;
-    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
-    return line.substr(path.string().size());
-  }
-  return "";
-}
-
-void expect_ramp(const Volume& volume, int slices = 5) {
-  ASSERT_EQ(volume.size, (std::array<Index, 3>{4, 3, slices}));
-  for (std::size_t n = 0; n < volume.samples.size(); ++n) {
-    ASSERT_EQ(volume.samples[n], static_cast<float>(n) - 40);
-  }
-}
-
-void expect_near(const Vec3& a, const Vec3& b, double tolerance = 1e-9) {
-  EXPECT_LT(norm(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z;
 }
 
 TEST(Dicom, ReadsASeriesInEveryPlainCoding) {

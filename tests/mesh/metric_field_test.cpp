@@ -8,6 +8,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/sym3.h"
+#include "support/expect_near.h"
 #include "support/perturbed_box.h"
 
 namespace mesamis {
@@ -21,13 +22,7 @@ Sym3 linear_log(const Vec3& p) {
 }
 
 void expect_close(const Sym3& a, const Sym3& b, double relative) {
-  const double tolerance = relative * trace(b);
-  EXPECT_NEAR(a.xx, b.xx, tolerance);
-  EXPECT_NEAR(a.xy, b.xy, tolerance);
-  EXPECT_NEAR(a.xz, b.xz, tolerance);
-  EXPECT_NEAR(a.yy, b.yy, tolerance);
-  EXPECT_NEAR(a.yz, b.yz, tolerance);
-  EXPECT_NEAR(a.zz, b.zz, tolerance);
+  expect_near(a, b, relative * trace(b));
 }
 
 GridMetricField linear_grid(const std::array<Index, 3>& size) {

@@ -85,6 +85,21 @@ struct NiftiBytes {
   }
 };
 
+/// A NRRD of 4 x 3 x 5 short integers: the header with more fields, then the data.
+inline std::string nrrd_bytes(const std::string& fields, const std::string& data) {
+  return "NRRD0004\n# made here\ntype: short\ndimension: 3\nsizes: 4 3 5\n"
+         "space: left-posterior-superior\n"
+         "space directions: (0.5,0,0) (0,1.25,0) (0,0,2)\nspace origin: (1,2,3)\n" +
+         fields + "\n" + data;
+}
+
+/// A MetaImage header of as many; what is LOCAL follows it.
+inline std::string meta_bytes(const std::string& fields, const std::string& data_file = "LOCAL") {
+  return "ObjectType = Image\nNDims = 3\nDimSize = 4 3 5\nElementType = MET_SHORT\n"
+         "ElementSpacing = 0.5 1.25 2\nOffset = 1 2 3\nModality = MET_MOD_CT\n" +
+         fields + "ElementDataFile = " + data_file + "\n";
+}
+
 /// One regular file of a tar.
 inline std::string tar_entry(const std::string& name, const std::string& content) {
   std::string block(512, '\0');
