@@ -120,6 +120,8 @@ void add_method_settings(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) 
   add_number(c, o, "--tol-mesh", "Settled: relative change of the cell count (default 1e-2)");
   add_number(c, o, "--tol-energy", "Settled: relative change of the energy (default 1e-2)");
   add_number(c, o, "--max-stretch", "Longest to shortest size of a cell (default 10)");
+  add_number(c, o, "--gradation",
+             "Growth of sizes from edge to edge at most, above 1 (default 0: any)");
   add_number(c, o, "--h-min", "Smallest edge, in length units (default 0.5)");
   add_number(c, o, "--h-max", "Largest edge, in length units, or auto", {"auto"});
   add_word(c, o, "--surface", "solid: closed level set of u (default); band: the paper's surface");

@@ -148,6 +148,7 @@ const std::vector<Entry>& entries() {
       setting("tol_energy", &Settings::tol_energy),
       setting("stop_at_first", &Settings::stop_at_first),
       setting("max_stretch", &Settings::max_stretch),
+      setting("gradation", &Settings::gradation),
       setting("h_min", &Settings::h_min),
       setting("h_max", &Settings::h_max),
       setting("surface", &Settings::surface,

@@ -17,6 +17,7 @@
 #include "mesamis/fem/mesh_space.h"
 #include "mesamis/fem/transfer.h"
 #include "mesamis/image/edge_sides.h"
+#include "mesamis/mesh/gradation.h"
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/prepare.h"
 #include "mesamis/remesh/remesh.h"
@@ -237,6 +238,9 @@ class Run {
   void set_metric(std::vector<Sym3> metric) {
     metric_ = std::move(metric);
     bounded_ = control_sizes(metric_, lumped_mass_, size_control()) > 1;
+    if (settings().gradation == 0) return;
+    limit_gradation(mesh_, metric_, settings().gradation);
+    bounded_ |= control_sizes(metric_, lumped_mass_, size_control()) > 1;
   }
 
   CellMetricOptions metric_options(std::int64_t cells) {

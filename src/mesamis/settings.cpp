@@ -39,6 +39,7 @@ void require_valid(const Settings& s) {
   require_range("tol-mesh", s.tol_mesh, 0, kHuge);
   require_range("tol-energy", s.tol_energy, 0, kHuge);
   require_range("max-stretch", s.max_stretch, 1.1, 1e6);
+  if (s.gradation != 0) require_range("gradation (other than 0)", s.gradation, 1.01, 1000);
   require_range("h-min", s.h_min, kTiny, kHuge);
   if (s.h_max) require_range("h-max", *s.h_max, s.h_min, kHuge);
   require_range("band-threshold", s.band_threshold, 0, 1);

@@ -49,9 +49,11 @@ struct Settings {
   double tol_energy = 1e-2;              ///< relative change of the energy, >= 0
   bool stop_at_first = false;            ///< true: the printed rule, stop when one stagnates
   double max_stretch = 10;               ///< longest to shortest size of a cell, 1.1 to 1e6
-  double h_min = 0.5;                    ///< smallest edge, length units, > 0
-  std::optional<double> h_max;           ///< largest edge, length units; default: a quarter
-                                         ///< of the box's longest side
+  double gradation = 0;  ///< growth of sizes from edge to edge, see limit_gradation(), 1.01 to
+                         ///< 1000; 0: any
+  double h_min = 0.5;    ///< smallest edge, length units, > 0
+  std::optional<double> h_max;  ///< largest edge, length units; default: a quarter
+                                ///< of the box's longest side
 
   // The surface.
   SurfaceKind surface = SurfaceKind::kSolid;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   edges.h
+  gradation.h
   kuhn.h
   locate.h
   metric.h
@@ -9,6 +10,7 @@ set(ROOM_HEADERS
   tet_mesh.h)
 set(ROOM_SOURCES
   edges.cpp
+  gradation.cpp
   locate.cpp
   metric.cpp
   metric_field.cpp
