@@ -86,6 +86,22 @@ Outcome build(const Background& background, const RemeshCommand& command, bool q
   return outcome;
 }
 
+nlohmann::ordered_json to_json(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+/// An edge by its vertices as Medit counts them, from 1, and where it is.
+nlohmann::ordered_json edge_json(const TetMesh& mesh, const Edge& edge, double length) {
+  return {{"length", length},
+          {"vertices", {edge[0] + 1, edge[1] + 1}},
+          {"middle", to_json(0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]))}};
+}
+
+nlohmann::ordered_json worst_cell_json(const TetMesh& mesh, const MeshFit& fit) {
+  const auto [a, b, c, d] = cell_corners(mesh, mesh.cells[fit.worst_cell]);
+  return {{"quality", fit.quality_min},
+          {"tetrahedron", fit.worst_cell + 1},
+          {"middle", to_json(0.25 * (a + b + c + d))}};
+}
+
 void write_report(const RemeshCommand& command, const Background& background,
                   const Outcome& outcome) {
   const RemeshReport& r = outcome.remesh;
@@ -98,14 +114,18 @@ void write_report(const RemeshCommand& command, const Background& background,
                      {"complexity", complexity(background.mesh, background.metrics)}};
   report["settings"] = {{"max_tets", command.max_tets > 0 ? json(command.max_tets) : json()},
                         {"start", outcome.kept_start ? "mesh" : "box"}};
-  report["mesh"] = {{"tets", outcome.mesh.cells.size()},
-                    {"nodes", outcome.mesh.points.size()},
-                    {"edges", outcome.fit.edges},
-                    {"edge_unit_fraction", outcome.fit.unit_edge_fraction},
-                    {"edge_length_min", outcome.fit.length_min},
-                    {"edge_length_max", outcome.fit.length_max},
-                    {"quality_min", outcome.fit.quality_min},
-                    {"quality_mean", outcome.fit.quality_mean}};
+  report["mesh"] = {
+      {"tets", outcome.mesh.cells.size()},
+      {"nodes", outcome.mesh.points.size()},
+      {"edges", outcome.fit.edges},
+      {"edge_unit_fraction", outcome.fit.unit_edge_fraction},
+      {"edge_length_min", outcome.fit.length_min},
+      {"edge_length_max", outcome.fit.length_max},
+      {"quality_min", outcome.fit.quality_min},
+      {"quality_mean", outcome.fit.quality_mean},
+      {"worst_cell", worst_cell_json(outcome.mesh, outcome.fit)},
+      {"shortest_edge", edge_json(outcome.mesh, outcome.fit.shortest, outcome.fit.length_min)},
+      {"longest_edge", edge_json(outcome.mesh, outcome.fit.longest, outcome.fit.length_max)}};
   report["remesh"] = {{"rounds", r.rounds}, {"splits", r.splits}, {"collapses", r.collapses},
                       {"swaps", r.swaps},   {"moves", r.moves},   {"size_factor", r.size_factor}};
   report["converged"] = r.converged;

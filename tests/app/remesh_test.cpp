@@ -30,6 +30,22 @@ std::vector<std::string> remesh_arguments(const TempFolder& folder) {
   return {"remesh", folder / "a.mesh", "--metric", folder / "a.sol", "-o", folder / "b.mesh"};
 }
 
+/// The report's worst cell and edges are where it says, counted from 1.
+void expect_worst_named(const nlohmann::json& report, const TetMesh& mesh) {
+  EXPECT_EQ(report["worst_cell"]["quality"], report["quality_min"]);
+  const Cell& worst = mesh.cells.at(report["worst_cell"]["tetrahedron"].get<std::size_t>() - 1);
+  const auto [a, b, c, d] = cell_corners(mesh, worst);
+  EXPECT_NEAR(report["worst_cell"]["middle"][0], (a.x + b.x + c.x + d.x) / 4, 1e-12);
+  for (const char* name : {"shortest", "longest"}) {
+    const auto& edge = report[name + std::string("_edge")];
+    const Vec3 p = mesh.points.at(edge["vertices"][0].get<std::size_t>() - 1);
+    const Vec3 q = mesh.points.at(edge["vertices"][1].get<std::size_t>() - 1);
+    EXPECT_NEAR(edge["middle"][2], (p.z + q.z) / 2, 1e-12);
+  }
+  EXPECT_EQ(report["shortest_edge"]["length"], report["edge_length_min"]);
+  EXPECT_EQ(report["longest_edge"]["length"], report["edge_length_max"]);
+}
+
 TEST(RemeshCommand, AdaptsACubeAndReports) {
   const TempFolder folder;
   write_cube(folder, 0.15, 0.4);
@@ -49,6 +65,7 @@ TEST(RemeshCommand, AdaptsACubeAndReports) {
   EXPECT_EQ(report["mesh"]["nodes"], mesh.points.size());
   EXPECT_EQ(report["converged"], true);
   EXPECT_GT(report["mesh"]["edge_unit_fraction"], 0.8);
+  expect_worst_named(report["mesh"], mesh);
   EXPECT_GT(report["peak_memory_mb"], 1);
   EXPECT_THAT(run.out, HasSubstr(std::to_string(mesh.cells.size()) + " tetrahedra"));
 }

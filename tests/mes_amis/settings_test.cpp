@@ -31,6 +31,11 @@ TEST(Settings, ARefusedValueNamesItsRange) {
   settings.adaptations = -1;
   EXPECT_THAT(refusal(settings), ::testing::HasSubstr("adaptations"));
   settings = {};
+  settings.gradation = 1;
+  EXPECT_EQ(refusal(settings), "gradation (other than 0): expected 1.01 to 1000, found 1");
+  settings.gradation = 1.5;
+  EXPECT_EQ(refusal(settings), "");
+  settings = {};
   settings.window = Window{3, 3};
   EXPECT_EQ(refusal(settings), "window: expected low below high, found 3,3");
 }

@@ -62,9 +62,11 @@ inline FormulaMetric ugawg_metric(Ugawg which, double scale) {
 
 /// The scale that makes about this many cells.
 inline double ugawg_scale(Ugawg which, double cells) {
-  constexpr double kComplexity[]{4668, 3837, 7620}, kCellsPerUnit[]{8.5, 12, 8.9};
+  // Where the metric turns within an edge, more cells are needed.
+  const double polar1 = cells < 500'000 ? 12 : 10;
+  const double complexity[]{4668, 3837, 7620}, cells_per_unit[]{8.5, polar1, 8.9};
   const auto i = static_cast<std::size_t>(which);
-  return std::cbrt(cells / (kComplexity[i] * kCellsPerUnit[i]));
+  return std::cbrt(cells / (complexity[i] * cells_per_unit[i]));
 }
 
 inline const Box kUnitBox{{0, 0, 0}, {1, 1, 1}};

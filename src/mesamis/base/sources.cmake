@@ -3,6 +3,7 @@ set(ROOM_HEADERS
   error.h
   parallel.h
   progress.h
+  stopwatch.h
   sym3.h
   types.h)
 set(ROOM_SOURCES

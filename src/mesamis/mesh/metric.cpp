@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/sym3.h"
-#include "mesamis/mesh/edges.h"
 
 namespace mesamis {
 namespace {
@@ -17,6 +17,46 @@ Sym3 congruent(const Sym3& s, const Sym3& m) {
   const Vec3 x = s * (m * (s * Vec3{1, 0, 0})), y = s * (m * (s * Vec3{0, 1, 0})),
              z = s * (m * (s * Vec3{0, 0, 1}));
   return {x.x, (x.y + y.x) / 2, (x.z + z.x) / 2, y.y, (y.z + z.y) / 2, z.z};
+}
+
+void measure_edges(const TetMesh& mesh, std::span<const Sym3> node_metrics, MeshFit& fit) {
+  const std::vector<Edge> edges = unique_edges(mesh);
+  if (edges.empty()) return;
+  fit.edges = static_cast<std::int64_t>(edges.size());
+  fit.length_min = std::numeric_limits<double>::infinity();
+  std::int64_t unit = 0;
+  for (const Edge& edge : edges) {
+    const auto [a, b] = edge;
+    const double length =
+        metric_length(node_metrics[a], node_metrics[b], mesh.points[b] - mesh.points[a]);
+    unit += length >= std::sqrt(0.5) && length <= std::sqrt(2.0);
+    if (length < fit.length_min) {
+      fit.length_min = length;
+      fit.shortest = edge;
+    }
+    if (length > fit.length_max) {
+      fit.length_max = length;
+      fit.longest = edge;
+    }
+  }
+  fit.unit_edge_fraction = static_cast<double>(unit) / static_cast<double>(edges.size());
+}
+
+void measure_cells(const TetMesh& mesh, std::span<const Sym3> node_metrics, MeshFit& fit) {
+  if (mesh.cells.empty()) return;
+  fit.quality_min = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const Cell& cell = mesh.cells[c];
+    Index finest = cell[0];
+    for (const Index n : cell) {
+      if (determinant(node_metrics[n]) > determinant(node_metrics[finest])) finest = n;
+    }
+    const double quality = metric_quality(node_metrics[finest], cell_corners(mesh, cell));
+    fit.quality_mean += quality / static_cast<double>(mesh.cells.size());
+    if (quality >= fit.quality_min) continue;
+    fit.quality_min = quality;
+    fit.worst_cell = static_cast<Index>(c);
+  }
 }
 
 }  // namespace
@@ -87,29 +127,8 @@ MeshFit measure_fit(const TetMesh& mesh, std::span<const Sym3> node_metrics) {
                      std::to_string(mesh.points.size()) + " nodes");
   }
   MeshFit fit;
-  const std::vector<Edge> edges = unique_edges(mesh);
-  fit.edges = static_cast<std::int64_t>(edges.size());
-  fit.length_min = edges.empty() ? 0 : 1e300;
-  std::int64_t unit = 0;
-  for (const auto& [a, b] : edges) {
-    const double length =
-        metric_length(node_metrics[a], node_metrics[b], mesh.points[b] - mesh.points[a]);
-    unit += length >= std::sqrt(0.5) && length <= std::sqrt(2.0);
-    fit.length_min = std::min(fit.length_min, length);
-    fit.length_max = std::max(fit.length_max, length);
-  }
-  fit.unit_edge_fraction =
-      edges.empty() ? 0 : static_cast<double>(unit) / static_cast<double>(edges.size());
-  fit.quality_min = mesh.cells.empty() ? 0 : 1e300;
-  for (const Cell& cell : mesh.cells) {
-    Index finest = cell[0];
-    for (const Index n : cell) {
-      if (determinant(node_metrics[n]) > determinant(node_metrics[finest])) finest = n;
-    }
-    const double quality = metric_quality(node_metrics[finest], cell_corners(mesh, cell));
-    fit.quality_min = std::min(fit.quality_min, quality);
-    fit.quality_mean += quality / static_cast<double>(mesh.cells.size());
-  }
+  measure_edges(mesh, node_metrics, fit);
+  measure_cells(mesh, node_metrics, fit);
   return fit;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/mesh/edges.h"
 #include "mesamis/mesh/tet_mesh.h"
 
 /// Metric tensors: symmetric positive definite, in 1/mm^2; edge e is ideal when e'Me = 1.
@@ -40,7 +41,9 @@ struct MeshFit {
   std::int64_t edges = 0;
   double unit_edge_fraction = 0;  ///< share of edges with length in [1/sqrt 2, sqrt 2]
   double length_min = 0, length_max = 0;
+  Edge shortest{kNoIndex, kNoIndex}, longest{kNoIndex, kNoIndex};
   double quality_min = 0, quality_mean = 0;
+  Index worst_cell = kNoIndex;
 };
 MeshFit measure_fit(const TetMesh& mesh, std::span<const Sym3> node_metrics);
 

@@ -25,6 +25,10 @@ void require_count(std::size_t nodes, std::size_t metrics) {
   }
 }
 
+[[noreturn]] void refuse_node(std::size_t node, const std::string& flaw) {
+  throw InputError("metric: node " + std::to_string(node) + " (the first is 0) is " + flaw);
+}
+
 }  // namespace
 
 GridMetricField::GridMetricField(const Box& box, const std::array<Index, 3>& size,
@@ -38,9 +42,7 @@ GridMetricField::GridMetricField(const Box& box, const std::array<Index, 3>& siz
                 log_metrics_.size());
   for (std::size_t n = 0; n < log_metrics_.size(); ++n) {
     for (const float entry : log_metrics_[n]) {
-      if (!std::isfinite(entry)) {
-        throw InputError("metric: node " + std::to_string(n) + " is not finite");
-      }
+      if (!std::isfinite(entry)) refuse_node(n, "not finite");
     }
   }
 }
@@ -72,10 +74,8 @@ MeshMetricField::MeshMetricField(TetMesh mesh, std::span<const Sym3> node_metric
   require_count(mesh_.points.size(), node_metrics.size());
   for (std::size_t n = 0; n < node_metrics.size(); ++n) {
     const Sym3& m = node_metrics[n];
-    if (!is_finite(m)) throw InputError("metric: node " + std::to_string(n) + " is not finite");
-    if (!(eigen_decompose(m).values[2] > 0)) {
-      throw InputError("metric: node " + std::to_string(n) + " is not positive definite");
-    }
+    if (!is_finite(m)) refuse_node(n, "not finite");
+    if (!(eigen_decompose(m).values[2] > 0)) refuse_node(n, "not positive definite");
   }
   log_metrics_.resize(node_metrics.size());
   parallel_for(node_metrics.size(),

@@ -9,6 +9,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/base/stopwatch.h"
 
 namespace mesamis::remeshing {
 namespace {
@@ -293,15 +294,20 @@ WorkingMesh join(const WorkingMesh& mesh, const Cut& cut, std::vector<Part>& par
 }  // namespace
 
 Counters work_on_parts(WorkingMesh& mesh, int round, Index parts,
-                       const std::function<Counters(WorkingMesh&)>& work) {
+                       const std::function<Counters(WorkingMesh&)>& work,
+                       std::vector<double>* seconds) {
   const Cut cut = make_cut(mesh, round, parts);
   std::vector<Part> pieces(static_cast<std::size_t>(parts));
+  std::vector<double> spent(pieces.size());
   parallel_for_each(pieces.size(), [&](std::size_t p) {
+    Stopwatch watch;
     pieces[p] = extract(mesh, cut, static_cast<Index>(p));
     pieces[p].counters = work(pieces[p].mesh);
     compact(pieces[p].mesh);
+    spent[p] = watch.lap();
   });
   mesh = join(mesh, cut, pieces);
+  if (seconds != nullptr) *seconds = std::move(spent);
   Counters sum;
   for (const Part& part : pieces) sum += part.counters;
   return sum;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "mesamis/remesh/counters.h"
 #include "mesamis/remesh/working_mesh.h"
@@ -17,8 +18,10 @@ namespace mesamis::remeshing {
 ///
 /// @param mesh  without unused slots, before and afterwards.
 /// @param work  is called once per part, concurrently.
+/// @param seconds  optional; becomes the time spent on each part.
 /// @return the sum of what the parts return, in their order.
 Counters work_on_parts(WorkingMesh& mesh, int round, Index parts,
-                       const std::function<Counters(WorkingMesh&)>& work);
+                       const std::function<Counters(WorkingMesh&)>& work,
+                       std::vector<double>* seconds = nullptr);
 
 }  // namespace mesamis::remeshing

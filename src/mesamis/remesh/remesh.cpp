@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/stopwatch.h"
 #include "mesamis/remesh/collapse.h"
 #include "mesamis/remesh/explore.h"
 #include "mesamis/remesh/partition.h"
@@ -90,7 +91,9 @@ class Remesher {
       const bool circling = change < kFew && change > 0.8 * last_change;
       const bool resized = control_count(change);
       report_.converged = strict_ && !resized && (change < kHardlyAny || circling);
-      strict_ |= is_settled(round, change);
+      // A mesh that must change its count needs freedom to do so.
+      if (resized) strict_ = false;
+      strict_ |= is_settled(round, change, last_change);
       last_change = change;
     }
   }
@@ -118,10 +121,11 @@ class Remesher {
            static_cast<double>(mesh_.vertex_count());
   }
 
-  /// Is the mesh so near its goal that new edges can be held to it?
-  static bool is_settled(int round, double change) {
+  /// Is the mesh so near its goal that new edges can be held to it? Or going round in circles?
+  static bool is_settled(int round, double change, double last_change) {
     // A start that fits already needs no freedom to get there.
     if (round == 0) return change < kMany;
+    if (change < kMany && change > 0.95 * last_change) return true;
     if (round + 1 < kWideRoundsMin) return change < kHardlyAny;
     return change < kSome || round + 1 >= kWideRoundsMax;
   }
@@ -174,7 +178,8 @@ class Remesher {
     if (parts >= 2) {
       // Parts put themselves in order; only unused slots are in their way.
       if (!mesh_.free_cells.empty() || !mesh_.free_vertices.empty()) compact(mesh_);
-      return work_on_parts(mesh_, round, static_cast<Index>(parts), work_on_mesh);
+      return work_on_parts(mesh_, round, static_cast<Index>(parts), work_on_mesh,
+                           &report_.part_seconds.emplace_back());
     }
     const Counters done = work_on_mesh(mesh_);
     keep_compact();
@@ -211,7 +216,7 @@ class Remesher {
     if (options_.max_cells <= 0) return false;
     const double ratio =
         static_cast<double>(mesh_.cell_count()) / static_cast<double>(options_.max_cells);
-    const double tolerance = change < kFew ? 0.02 : change < kMany ? 0.08 : 0.3;
+    const double tolerance = strict_ ? 0.06 : change < kMany ? 0.02 : 0.3;
     const bool above = ratio > 1 + tolerance;
     const bool below = ratio < 1 - tolerance && change < kMany && report_.size_factor > 1;
     if (!above && !below) return false;
@@ -242,13 +247,17 @@ class Remesher {
 
 TetMesh remesh(const TetMesh& start, const MetricField& metric, const RemeshOptions& options,
                RemeshReport* report) {
+  Stopwatch watch;
   const std::string flaw = find_flaw(start, bounding_box(start.points));
   if (!flaw.empty()) throw InputError("remesh: the start mesh is not valid: " + flaw);
   Remesher remesher(start, metric, options);
   remesher.adapt();
   remesher.polish();
   TetMesh result = remesher.result();
-  if (report != nullptr) *report = remesher.report();
+  if (report != nullptr) {
+    *report = remesher.report();
+    report->seconds = watch.lap();
+  }
   return result;
 }
 

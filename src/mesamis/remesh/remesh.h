@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "mesamis/base/progress.h"
 #include "mesamis/mesh/metric_field.h"
@@ -22,6 +23,10 @@ struct RemeshReport {
   std::int64_t splits = 0, collapses = 0, swaps = 0, moves = 0;
   double size_factor = 1;  ///< by how much max_cells made the metric's sizes larger
   bool converged = false;  ///< false: max_rounds ended the work
+
+  // What threads share: the rest of the time is spent between the rounds, mostly by one thread.
+  double seconds = 0;                             ///< of the whole call
+  std::vector<std::vector<double>> part_seconds;  ///< of each part, by round worked on in parts
 };
 
 /// Builds a mesh of the start mesh's box whose edges have length one in the metric.
