@@ -84,8 +84,10 @@ class Remesher {
     double last_change = 1;
     for (int round = 0; round < options_.max_rounds && !report_.converged; ++round) {
       tell_progress(0.8 * (1 - std::pow(0.85, round)));
+      const auto cells_before = static_cast<double>(mesh_.cell_count());
       Counters done = explore();
       done += run_round(round);
+      growth_ = static_cast<double>(mesh_.cell_count()) / cells_before;
       count(done);
       const double change = share_of_vertices(done);
       const bool circling = change < kFew && change > 0.8 * last_change;
@@ -168,9 +170,18 @@ class Remesher {
     });
   }
 
+  /// Parts are cut so that they have the size wanted when the work is done, as far as the last
+  /// round's growth tells.
+  Index part_count() const {
+    constexpr double kMostGrowth = 8;
+    const double cells =
+        static_cast<double>(mesh_.cell_count()) * std::clamp(growth_, 1.0, kMostGrowth);
+    return static_cast<Index>(cells / std::max(Index{1000}, options_.part_cells));
+  }
+
   /// Small meshes are worked on as a whole.
   Counters on_parts(int round, const std::function<Counters(Workbench&)>& work) {
-    const std::int64_t parts = mesh_.cell_count() / std::max(Index{1000}, options_.part_cells);
+    const Index parts = part_count();
     auto work_on_mesh = [&](WorkingMesh& mesh) {
       Workbench bench(mesh, sampler_);
       return work(bench);
@@ -178,8 +189,7 @@ class Remesher {
     if (parts >= 2) {
       // Parts put themselves in order; only unused slots are in their way.
       if (!mesh_.free_cells.empty() || !mesh_.free_vertices.empty()) compact(mesh_);
-      return work_on_parts(mesh_, round, static_cast<Index>(parts), work_on_mesh,
-                           &report_.part_seconds.emplace_back());
+      return work_on_parts(mesh_, round, parts, work_on_mesh, &report_.part_seconds.emplace_back());
     }
     const Counters done = work_on_mesh(mesh_);
     keep_compact();
@@ -239,6 +249,7 @@ class Remesher {
   MetricSampler sampler_;
   WorkingMesh mesh_;
   std::int64_t compact_count_ = 0;
+  double growth_ = 1;    ///< of the number of cells in the last round
   bool strict_ = false;  ///< new edges must be within the goal
   RemeshReport report_;
 };
