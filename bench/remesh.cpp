@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // How fast and how well the remesher fits a mesh to known metrics.
 //
-//   bench_remesh [--cells N] [--threads N] [--part-cells N] [--case NAME] [--again] [--json]
-//                [--write PREFIX]
+//   bench_remesh [--cells N] [--threads N] [--part-cells N] [--case NAME] [--again] [--passes N]
+//                [--json] [--write PREFIX]
 //
 // Cases: linear, polar1, polar2 (UGAWG cubes), voxel (thin layers on a 102 x 122 x 304 grid).
 // Complexity captured: that of the mesh over that of the metric itself, integrated finely. Below
 // each row stands what the parts took, and what more cores would make of it: parts are given to
 // cores as they come, all else is taken to be serial.
 // --again adapts once more to the metric given at the nodes of the first result.
+// --passes N knows the metric at nodes only: of a uniform mesh first, then of each result.
 // --write leaves each mesh as PREFIX-NAME.mesh (Medit).
 #include "mesamis/remesh/remesh.h"
 
@@ -40,6 +41,7 @@ struct Arguments {
   double cells = 100'000;
   int threads = 1;
   Index part_cells = RemeshOptions{}.part_cells;
+  int passes = 0;
   bool json = false, again = false;
   std::string only, write;
 };
@@ -304,6 +306,26 @@ TetMesh run(const Case& c, const MetricField& metric, const Arguments& arguments
   return mesh;
 }
 
+/// Adapts a mesh once more to the metric at its own nodes.
+TetMesh run_again(Case& c, const TetMesh& mesh, const Arguments& arguments) {
+  const MeshMetricField background(mesh, metrics_at_nodes(mesh, *c.metric));
+  c.name += "+";
+  c.start = mesh;
+  return run(c, background, arguments);
+}
+
+/// What those do who know the metric at the nodes of a mesh only: a uniform mesh gives the first
+/// metric, each result the next.
+void run_passes(Case& c, const Arguments& arguments) {
+  constexpr int kUniform = 30;
+  const Box box = bounding_box(c.start.points);
+  const TetMesh uniform = box_mesh(box, {kUniform, kUniform, kUniform});
+  const MeshMetricField background(uniform, metrics_at_nodes(uniform, *c.metric));
+  c.start = coarse_box_mesh(box);
+  TetMesh mesh = run(c, background, arguments);
+  for (int pass = 1; pass < arguments.passes; ++pass) mesh = run_again(c, mesh, arguments);
+}
+
 Arguments parse(int argc, char** argv) {
   Arguments arguments;
   auto value = [&](int& i) {
@@ -322,6 +344,8 @@ Arguments parse(int argc, char** argv) {
       arguments.only = value(i);
     } else if (option == "--write") {
       arguments.write = value(i);
+    } else if (option == "--passes") {
+      arguments.passes = std::atoi(value(i));
     } else if (option == "--json") {
       arguments.json = true;
     } else if (option == "--again") {
@@ -346,13 +370,13 @@ int main(int argc, char** argv) try {
   for (const std::string name : {"linear", "polar1", "polar2", "voxel"}) {
     if (!arguments.only.empty() && arguments.only != name) continue;
     Case c = make_case(name, arguments.cells);
+    if (arguments.passes > 0) {
+      run_passes(c, arguments);
+      continue;
+    }
     const TetMesh mesh = run(c, *c.metric, arguments);
     if (!arguments.write.empty()) write_medit(mesh, arguments.write + "-" + name + ".mesh");
-    if (!arguments.again) continue;
-    const MeshMetricField background(mesh, metrics_at_nodes(mesh, *c.metric));
-    c.name += " again";
-    c.start = mesh;
-    run(c, background, arguments);
+    if (arguments.again) run_again(c, mesh, arguments);
   }
   return 0;
 } catch (const std::exception& error) {

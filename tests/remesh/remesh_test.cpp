@@ -84,16 +84,50 @@ TEST(Remesh, PartsCostLittleQuality) {
   EXPECT_GT(fit.quality_mean, 0.87);
 }
 
-TEST(Remesh, AUnitMeshBarelyChanges) {
-  const FormulaMetric metric = uniform_metric(0.12);
-  RemeshReport first, second;
-  const TetMesh mesh = remesh(box_mesh(kUnitBox, {2, 2, 2}), metric, {}, &first);
-  const MeshMetricField same(mesh, metrics_at_nodes(mesh, metric));
-  const TetMesh again = remesh(mesh, same, {}, &second);
-  EXPECT_EQ(find_flaw(again, kUnitBox), "");
-  EXPECT_LT(second.rounds, first.rounds / 2 + 1);
-  const auto vertices = static_cast<std::int64_t>(mesh.points.size());
-  EXPECT_LT(second.splits + second.collapses, vertices / 20);
+std::int64_t operations(const RemeshReport& report) {
+  return report.splits + report.collapses + report.swaps + report.moves;
+}
+
+/// Cells that both meshes have, by the bits of their corners.
+std::size_t common_cells(const TetMesh& one, const TetMesh& other) {
+  using Corners = std::array<std::array<double, 3>, 4>;
+  auto sorted_corners = [](const TetMesh& mesh) {
+    std::vector<Corners> cells;
+    for (const Cell& k : mesh.cells) {
+      Corners corners;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3& p = mesh.points[k[i]];
+        corners[i] = {p.x, p.y, p.z};
+      }
+      std::sort(corners.begin(), corners.end());
+      cells.push_back(corners);
+    }
+    std::sort(cells.begin(), cells.end());
+    return cells;
+  };
+  const auto a = sorted_corners(one), b = sorted_corners(other);
+  std::vector<Corners> common;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+  return common.size();
+}
+
+TEST(Remesh, ReadaptingToTheSameMetricIsCheapAndChangesLittle) {
+  const FormulaMetric uniform = uniform_metric(0.08);
+  const FormulaMetric layer = ugawg_metric(Ugawg::kLinear, ugawg_scale(Ugawg::kLinear, 10'000));
+  for (const auto& [metric, most_changes] : {std::pair{&uniform, 0.05}, std::pair{&layer, 0.08}}) {
+    RemeshReport first, second;
+    const TetMesh mesh = remesh(box_mesh(kUnitBox, {2, 2, 2}), *metric, {}, &first);
+    const MeshMetricField same(mesh, metrics_at_nodes(mesh, *metric));
+    const TetMesh again = remesh(mesh, same, {}, &second);
+    EXPECT_EQ(find_flaw(again, kUnitBox), "");
+    EXPECT_LT(second.rounds, first.rounds / 2 + 1);
+    EXPECT_LT(2 * operations(second), operations(first));
+    EXPECT_LT(static_cast<double>(second.splits + second.collapses),
+              most_changes * static_cast<double>(mesh.points.size()));
+    EXPECT_GT(2 * common_cells(mesh, again), mesh.cells.size());
+    EXPECT_GE(fit_of(again, same).unit_edge_fraction,
+              fit_of(mesh, same).unit_edge_fraction - 0.005);
+  }
 }
 
 /// From a mesh with all sizes twice or half as large, the result is as good as from a coarse box.
