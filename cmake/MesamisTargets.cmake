@@ -32,9 +32,11 @@ endfunction()
 # would double the build and find nothing in the library.
 function(mesamis_instrument target)
   if(MESAMIS_SANITIZE)
+    # Whatever is found ends the program: undefined behaviour would only be printed otherwise.
     # In instrumented code gcc takes members of the standard library for uninitialised.
     target_compile_options(${target} PRIVATE -fsanitize=${MESAMIS_SANITIZE}
-                                             -fno-omit-frame-pointer -Wno-maybe-uninitialized)
+                                             -fno-sanitize-recover=all -fno-omit-frame-pointer
+                                             -Wno-maybe-uninitialized)
   endif()
 endfunction()
 
