@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/metric.h"
@@ -37,6 +39,12 @@ struct UgawgBound {
   Ugawg which;
   double unit_edges, quality_mean, quality_min;
 };
+
+/// What the test is called.
+void PrintTo(const UgawgBound& bound, std::ostream* out) {
+  constexpr const char* kNames[]{"linear", "polar-1", "polar-2"};
+  *out << kNames[static_cast<int>(bound.which)];
+}
 
 class RemeshUgawg : public testing::TestWithParam<UgawgBound> {};
 
