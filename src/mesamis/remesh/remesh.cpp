@@ -58,13 +58,14 @@ Counters adapt_once(Workbench& bench, const Rules& rules) {
   return done;
 }
 
-Counters polish_once(Workbench& bench) {
+Counters polish_once(Workbench& bench, bool is_last) {
   constexpr SwapRule kSwap{.quality3_max = 0.512, .gain = 0.03};
   constexpr SmoothRule kSmooth{.quality3_max = 1};
   Counters done;
   done.swaps = swap_bad_cells(bench, kSwap);
   done.moves = smooth_bad_cells(bench, kSmooth);
   done.swaps += swap_bad_cells(bench, kSwap);
+  if (is_last) done += repair_worst_cells(bench, {});
   return done;
 }
 
@@ -101,11 +102,14 @@ class Remesher {
   }
 
   void polish() {
-    set_pending(mesh_, kToSwap | kToSmooth);
+    set_pending(mesh_, kToSwap | kToSmooth | kToRepair);
     for (int round = 0; round < options_.polish_rounds; ++round) {
       tell_progress(0.8 + 0.2 * round / options_.polish_rounds);
-      count(on_parts(options_.max_rounds + round, polish_once));
+      const bool is_last = round + 1 == options_.polish_rounds;
+      count(on_parts(options_.max_rounds + round,
+                     [is_last](Workbench& bench) { return polish_once(bench, is_last); }));
     }
+    // What the parts could not repair: cells at their borders.
     Workbench bench(mesh_, sampler_);
     count(repair_worst_cells(bench, {}));
   }

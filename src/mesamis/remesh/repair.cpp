@@ -41,7 +41,8 @@ Counters repair_worst_cells(Workbench& bench, const RepairRule& rule) {
     std::int64_t repaired = 0;
     const auto cells = static_cast<Index>(mesh.cells.size());
     for (Index c = 0; c < cells; ++c) {
-      if (!mesh.cells[c].alive() || mesh.cells[c].quality3 > rule.quality3_max) continue;
+      if (mesh.cells[c].quality3 > rule.quality3_max) continue;
+      if (!take_pending(bench.mesh, c, kToRepair)) continue;
       const bool collapsed = collapse_an_edge(bench, c, collapse);
       const bool swapped = !collapsed && swap_around_cell(bench, c, kGain);
       const bool moved = !collapsed && !swapped && move_a_vertex(bench, c);

@@ -19,7 +19,7 @@ inline constexpr std::uint8_t kFrozen = 0x80;
 
 /// Bits of WorkCell::pending: the operations that have not looked at the cell since it was made.
 inline constexpr std::uint8_t kToSplit = 1, kToCollapse = 2, kToSwap = 4, kToSmooth = 8,
-                              kToExplore = 16, kToAll = 31;
+                              kToExplore = 16, kToRepair = 32, kToAll = 63;
 
 struct alignas(64) Vertex {
   Vec3 position;
