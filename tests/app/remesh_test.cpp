@@ -7,6 +7,9 @@
 #include <thread>
 
 #include "mesamis/io/mesh_files.h"
+#include "mesamis/mesh/metric.h"
+#include "mesamis/remesh/remesh.h"
+#include "support/metric_fields.h"
 #include "support/run_program.h"
 
 namespace mesamis {
@@ -68,6 +71,27 @@ TEST(RemeshCommand, AdaptsACubeAndReports) {
   expect_worst_named(report["mesh"], mesh);
   EXPECT_GT(report["peak_memory_mb"], 1);
   EXPECT_THAT(run.out, HasSubstr(std::to_string(mesh.cells.size()) + " tetrahedra"));
+}
+
+/// Known at nodes only and sampled anew between passes, a metric is met as well as when it is
+/// known everywhere.
+TEST(RemeshCommand, ThreePassesWithANodalMetricFitAsWellAsTheMetricItself) {
+  const FormulaMetric metric = ugawg_metric(Ugawg::kPolar2, ugawg_scale(Ugawg::kPolar2, 8'000));
+  const TetMesh direct = remesh(box_mesh(kUnitBox, {3, 3, 3}), metric);
+  const TempFolder folder;
+  TetMesh mesh = box_mesh(kUnitBox, {12, 12, 12});
+  for (int pass = 0; pass < 3; ++pass) {
+    write_medit_mesh(folder / "a.mesh", mesh);
+    write_medit_metric(folder / "a.sol", metrics_at_nodes(mesh, metric));
+    const ProgramRun run = run_program(folder, remesh_arguments(folder));
+    ASSERT_EQ(run.status, 0) << run.err;
+    mesh = read_medit_mesh(folder / "b.mesh");
+  }
+  EXPECT_EQ(find_flaw(mesh, kUnitBox), "");
+  const MeshFit fit = measure_fit(mesh, metrics_at_nodes(mesh, metric));
+  const MeshFit direct_fit = measure_fit(direct, metrics_at_nodes(direct, metric));
+  EXPECT_GT(fit.unit_edge_fraction, direct_fit.unit_edge_fraction - 0.02);
+  EXPECT_GT(fit.quality_mean, direct_fit.quality_mean - 0.02);
 }
 
 TEST(RemeshCommand, RefusesWhatDoesNotFit) {
