@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "mesamis/remesh/remesh.h"
+
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -8,7 +10,6 @@
 
 #include "mesamis/io/mesh_files.h"
 #include "mesamis/mesh/metric.h"
-#include "mesamis/remesh/remesh.h"
 #include "support/metric_fields.h"
 #include "support/run_program.h"
 
