@@ -26,7 +26,7 @@ struct BaselineCommand {
 };
 
 int run_baseline(const BaselineCommand& command) {
-  require_output(command.output, {".stl", ".ply", ".obj", ".vtp"}, "--output");
+  require_output(command.output, {".stl", ".ply", ".obj", ".vtp", ".amf"}, "--output");
   const VolumeFile file = read_scan(command.input, command.series);
   const double level = command.level ? *command.level : find_object(file.volume).level;
   const TriMesh surface = isosurface(file.volume, level, command.options);
@@ -59,7 +59,7 @@ void add_baseline_command(CLI::App& app, CommonOptions&, Action& action) {
   auto command = std::make_shared<BaselineCommand>();
   CLI::App* sub = app.add_subcommand("baseline", "What is used today: an isosurface of the voxels");
   sub->add_option("input", command->input, "Volume file, DICOM directory or file")->required();
-  sub->add_option("-o,--output", command->output, "Surface: .stl .ply .obj .vtp")->required();
+  sub->add_option("-o,--output", command->output, "Surface: .stl .ply .obj .vtp .amf")->required();
   sub->add_option("--method", command->method, "isosurface")
       ->check(CLI::IsMember({"isosurface"}))
       ->capture_default_str();

@@ -231,7 +231,7 @@ std::string why_not_converged(const Result& result) {
 
 void require_outputs(const SegmentOptions& options) {
   for (const fs::path& path : options.surfaces) {
-    require_output(path, {".stl", ".ply", ".obj", ".vtp"}, "--output");
+    require_output(path, {".stl", ".ply", ".obj", ".vtp", ".amf"}, "--output");
   }
   for (const fs::path& path : options.meshes) require_output(path, {".vtu", ".mesh"}, "--mesh");
   for (const fs::path& path : options.band_meshes) require_output(path, {".vtu"}, "--band-mesh");
@@ -272,7 +272,7 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<SegmentOptions>();
   CLI::App* command = app.add_subcommand("segment", "Segment a scan: surface, mesh, report");
   command->add_option("input", options->input, "Volume file, DICOM directory or file")->required();
-  command->add_option("-o,--output", options->surfaces, "Surface: .stl .ply .obj .vtp");
+  command->add_option("-o,--output", options->surfaces, "Surface: .stl .ply .obj .vtp .amf");
   command->add_option("--mesh", options->meshes, "Adapted mesh: .vtu, or Medit .mesh and .sol");
   command->add_option("--band-mesh", options->band_meshes, "The band's cells with v: .vtu");
   command->add_option("--report", options->report, "Report: .json");

@@ -117,7 +117,7 @@ TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
     return run_program(
         folder, {"segment", folder / "ball.nrrd", "-o", folder / surface, "--mesh", folder / mesh});
   };
-  EXPECT_FAILS(outputs("a.xyz", "a.vtu"), 2, "ends with one of .stl .ply .obj .vtp, found");
+  EXPECT_FAILS(outputs("a.xyz", "a.vtu"), 2, "ends with one of .stl .ply .obj .vtp .amf, found");
   EXPECT_FAILS(outputs("a.stl", "a.foo"), 2, "ends with one of .vtu .mesh, found");
   EXPECT_FAILS(outputs("none/a.stl", "a.vtu"), 3, "there is no folder");
   for (const auto* option : {"--max-tets", "--adaptations", "--amis-iterations"}) {

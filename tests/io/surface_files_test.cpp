@@ -190,9 +190,9 @@ TEST_P(EachFormat, AMissingFileOrADirectoryIsRefused) {
 TEST(SurfaceFiles, OtherExtensionsAreRefusedByName) {
   const TempFolder folder;
   EXPECT_REFUSED(write_surface(folder / "a.3mf", cube()),
-                 testing::AllOf(HasSubstr("3mf"), HasSubstr(".stl .ply .obj .vtp")));
-  EXPECT_REFUSED(write_surface(folder / "a.vtk", cube()), HasSubstr(".stl .ply .obj .vtp"));
-  EXPECT_REFUSED(write_surface(folder / "a.stl.gz", cube()), HasSubstr(".stl .ply .obj .vtp"));
+                 testing::AllOf(HasSubstr("3mf"), HasSubstr(".stl .ply .obj .vtp .amf")));
+  EXPECT_REFUSED(write_surface(folder / "a.vtk", cube()), HasSubstr(".stl .ply .obj .vtp .amf"));
+  EXPECT_REFUSED(write_surface(folder / "a.stl.gz", cube()), HasSubstr(".stl .ply .obj .vtp .amf"));
   EXPECT_REFUSED(write_surface(folder / "a", cube()), HasSubstr("no extension"));
   EXPECT_REFUSED(read_surface(folder / "a.off"), HasSubstr(".stl .ply .obj .vtp .vtk"));
   EXPECT_REFUSED(read_surface(folder / "a.gz"), HasSubstr(".stl .ply .obj .vtp .vtk"));

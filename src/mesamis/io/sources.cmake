@@ -27,6 +27,7 @@ set(ROOM_SOURCES
   # Surfaces and meshes in and out, files that appear whole.
   atomic_file.cpp
   isosurface.cpp
+  detail/amf_file.cpp
   detail/obj_file.cpp
   detail/ply_file.cpp
   detail/stl_file.cpp

@@ -25,15 +25,13 @@ constexpr auto kMostPoints = static_cast<std::size_t>(std::numeric_limits<Index>
 
 struct Format {
   const char* extension;
-  Parser parse;
-  Formatter bytes;  // null: not written this way
+  Parser parse;     // null: not read
+  Formatter bytes;  // null: not written
 };
 
-constexpr Format kFormats[] = {{".stl", parse_stl, stl_bytes},
-                               {".ply", parse_ply, ply_bytes},
-                               {".obj", parse_obj, obj_bytes},
-                               {".vtp", parse_vtp, vtp_bytes},
-                               {".vtk", parse_vtk, nullptr}};
+constexpr Format kFormats[] = {{".stl", parse_stl, stl_bytes}, {".ply", parse_ply, ply_bytes},
+                               {".obj", parse_obj, obj_bytes}, {".vtp", parse_vtp, vtp_bytes},
+                               {".vtk", parse_vtk, nullptr},   {".amf", nullptr, amf_bytes}};
 
 [[noreturn]] void refuse_extension(const fs::path& path, const std::string& known) {
   const std::string found = path.extension().string();
@@ -45,7 +43,7 @@ Parser parser_for(const fs::path& path) {
   const bool packed = lower(path.extension().string()) == ".gz";
   const std::string extension = lower((packed ? path.stem() : path).extension().string());
   for (const Format& format : kFormats) {
-    if (extension == format.extension) return format.parse;
+    if (extension == format.extension && format.parse != nullptr) return format.parse;
   }
   refuse_extension(path, ".stl .ply .obj .vtp .vtk, each also with .gz");
 }
@@ -72,10 +70,15 @@ void write_surface(const fs::path& path, const TriMesh& surface,
   const auto* format = std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) {
     return extension == f.extension && f.bytes != nullptr;
   });
-  if (format == std::end(kFormats)) refuse_extension(path, ".stl .ply .obj .vtp");
+  if (format == std::end(kFormats)) refuse_extension(path, ".stl .ply .obj .vtp .amf");
+  if (!options.grey.empty() && options.grey.size() != surface.points.size()) {
+    refuse(path, say("expected a grey value per point (", surface.points.size(), "), found ",
+                     options.grey.size()));
+  }
   TriMesh turned = surface;
   if (options.frame == Frame::kRas) turn(turned.points);
-  const SurfaceWriteOptions clean{options.frame, one_line(options.name)};
+  SurfaceWriteOptions clean = options;
+  clean.name = one_line(options.name);
   write_file(path, format->bytes(turned, clean));
 }
 

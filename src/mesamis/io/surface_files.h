@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesamis/surface/tri_mesh.h"
@@ -15,6 +16,9 @@ enum class Frame { kLps, kRas };
 struct SurfaceWriteOptions {
   Frame frame = Frame::kLps;  ///< stated in the file: "SPACE=LPS", as 3D Slicer writes and reads it
   std::string name{};         ///< what the object is called
+  std::vector<double> grey{};  ///< .amf: a grey value per point, 0 (black) to 255; empty: none
+  /// .amf: further facts as type and text. Nothing about the patient belongs here.
+  std::vector<std::pair<std::string, std::string>> metadata{};
 };
 
 /// Writes a surface by extension. The file appears whole or not at all (written beside, then
@@ -24,12 +28,14 @@ struct SurfaceWriteOptions {
 ///   .ply  binary, double precision (what reads PLY in this field takes it)
 ///   .obj  text, double precision
 ///   .vtp  VTK XML, appended binary, double precision
+///   .amf  AMF 1.1 (ISO/ASTM 52915), text, double precision, millimetres, with grey values as
+///         colours of the points
 ///
-/// Frame and name stand in the header (.stl, cut at 80 bytes), in comments (.ply, .obj) or in
-/// field data (.vtp).
+/// Frame and name stand in the header (.stl, cut at 80 bytes), in comments (.ply, .obj), in
+/// field data (.vtp) or in metadata (.amf).
 /// @param surface  points in LPS mm.
-/// @throws InputError  for another extension, an empty or unsound surface or a file that cannot be
-///                     written.
+/// @throws InputError  for another extension, an empty or unsound surface, a number of grey values
+///                     that is not that of the points, or a file that cannot be written.
 void write_surface(const std::filesystem::path& path, const TriMesh& surface,
                    const SurfaceWriteOptions& options = {});
 

@@ -4,6 +4,7 @@ set(ROOM_HEADERS
   distance.h
   extract.h
   normals.h
+  select_parts.h
   tri_mesh.h)
 set(ROOM_SOURCES
   components.cpp
@@ -11,7 +12,9 @@ set(ROOM_SOURCES
   edge_sides.cpp
   extract_band.cpp
   extract_solid.cpp
+  nesting.cpp
   normals.cpp
   sampling.cpp
+  select_parts.cpp
   tri_mesh.cpp
   triangle_tree.cpp)

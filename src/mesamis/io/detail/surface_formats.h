@@ -37,4 +37,7 @@ TriMesh parse_vtp(const std::filesystem::path& file, std::string_view bytes);
 /// Legacy VTK, DATASET POLYDATA.
 TriMesh parse_vtk(const std::filesystem::path& file, std::string_view bytes);
 
+/// AMF 1.1, text; shortest decimals that give the same doubles back.
+std::string amf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+
 }  // namespace mesamis::detail

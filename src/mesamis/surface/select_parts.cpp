@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/select_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "mesamis/base/error.h"
+#include "mesamis/surface/components.h"
+#include "mesamis/surface/nesting.h"
+
+namespace mesamis {
+namespace {
+
+bool is_cavity(const Nesting& nesting, std::size_t part) { return nesting.depth[part] % 2 != 0; }
+
+/// Whether each part goes by itself. Parts come largest first.
+std::vector<char> find_unwanted(const SurfaceComponents& parts, const Nesting& nesting,
+                                const PartSelection& selection) {
+  std::vector<char> goes(parts.sizes.size(), 0);
+  std::int64_t islands = 0;
+  for (std::size_t p = 0; p < goes.size(); ++p) {
+    const bool cavity = is_cavity(nesting, p);
+    islands += !cavity;
+    const bool small = std::abs(parts.sizes[p].volume) < selection.volume_min;
+    const bool filled = cavity && selection.fill_cavities;
+    const bool surplus = !cavity && selection.keep_largest > 0 && islands > selection.keep_largest;
+    goes[p] = small || filled || surplus;
+  }
+  return goes;
+}
+
+/// What lies within a part that goes, goes too: outer parts first.
+void spread_inwards(const Nesting& nesting, std::vector<char>& goes) {
+  std::vector<std::size_t> order(goes.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&nesting](std::size_t a, std::size_t b) {
+    return nesting.depth[a] < nesting.depth[b];
+  });
+  for (const std::size_t p : order) {
+    if (nesting.parent[p] != kNoIndex && goes[nesting.parent[p]]) goes[p] = 1;
+  }
+}
+
+SelectionReport tell(const SurfaceComponents& parts, const Nesting& nesting,
+                     const std::vector<char>& goes) {
+  SelectionReport report;
+  for (std::size_t p = 0; p < goes.size(); ++p) {
+    const double volume = std::abs(parts.sizes[p].volume);
+    if (is_cavity(nesting, p)) {
+      ++report.cavities;
+      report.cavities_filled += goes[p];
+      report.volume_filled += goes[p] * volume;
+    } else {
+      ++report.islands;
+      report.islands_dropped += goes[p];
+      report.volume_dropped += goes[p] * volume;
+    }
+  }
+  return report;
+}
+
+TriMesh without(const TriMesh& surface, const SurfaceComponents& parts,
+                const std::vector<char>& goes) {
+  TriMesh kept;
+  std::vector<char> used(surface.points.size(), 0);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Index part = parts.of_triangle[t];
+    if (part == kNoIndex || goes[part]) continue;
+    kept.triangles.push_back(surface.triangles[t]);
+    for (const Index p : surface.triangles[t]) used[p] = 1;
+  }
+  std::vector<Index> place(surface.points.size(), kNoIndex);
+  for (std::size_t p = 0; p < used.size(); ++p) {
+    if (!used[p]) continue;
+    place[p] = static_cast<Index>(kept.points.size());
+    kept.points.push_back(surface.points[p]);
+  }
+  for (Triangle& t : kept.triangles) t = {place[t[0]], place[t[1]], place[t[2]]};
+  return kept;
+}
+
+}  // namespace
+
+TriMesh select_parts(const TriMesh& surface, const PartSelection& selection,
+                     SelectionReport* report) {
+  const SurfaceCheck check = check_surface(surface);
+  if (!check.closed() || !check.manifold()) {
+    throw InputError("parts of a surface: expected a closed, manifold surface, found " +
+                     std::to_string(check.open_edges) + " open edges and " +
+                     std::to_string(check.nonmanifold_edges) + " edges of more than two triangles");
+  }
+  const SurfaceComponents parts = find_components(surface);
+  const Nesting nesting = find_nesting(surface, parts);
+  std::vector<char> goes = find_unwanted(parts, nesting, selection);
+  spread_inwards(nesting, goes);
+  if (report != nullptr) *report = tell(parts, nesting, goes);
+  return without(surface, parts, goes);
+}
+
+}  // namespace mesamis

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "mesamis/io/surface_files.h"
+#include "support/shapes.h"
+#include "support/temp_folder.h"
+#include "support/throws.h"
+
+namespace mesamis {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::vector<double> numbers_in(const std::string& text, const std::string& tag) {
+  const std::regex pattern("<" + tag + ">([^<]*)</" + tag + ">");
+  std::vector<double> numbers;
+  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
+    numbers.push_back(std::stod((*match)[1]));
+  }
+  return numbers;
+}
+
+TEST(Amf, HoldsTheSameDoublesAndTriangles) {
+  const TempFolder folder;
+  const TriMesh surface = cube({0.1, -1e5 / 3, 1e-7}, 1.0 / 3);
+  write_surface(folder / "a.amf", surface);
+  const std::string text = read_bytes(folder / "a.amf");
+  EXPECT_THAT(text, HasSubstr("<amf unit=\"millimeter\" version=\"1.1\">"));
+  const auto x = numbers_in(text, "x"), y = numbers_in(text, "y"), z = numbers_in(text, "z");
+  ASSERT_EQ(x.size(), surface.points.size());
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    EXPECT_EQ((Vec3{x[n], y[n], z[n]}), surface.points[n]);
+  }
+  const auto a = numbers_in(text, "v1"), b = numbers_in(text, "v2"), c = numbers_in(text, "v3");
+  ASSERT_EQ(a.size(), surface.triangles.size());
+  for (std::size_t t = 0; t < a.size(); ++t) {
+    EXPECT_EQ(
+        (Triangle{static_cast<Index>(a[t]), static_cast<Index>(b[t]), static_cast<Index>(c[t])}),
+        surface.triangles[t]);
+  }
+  EXPECT_EQ(text.find("<color>"), std::string::npos);
+}
+
+TEST(Amf, GreyValuesBecomeColoursOfThePoints) {
+  const TempFolder folder;
+  SurfaceWriteOptions options;
+  options.grey = {0, 51, 102, 153, 204, 255, 300, -7};
+  write_surface(folder / "a.amf", cube(), options);
+  const std::string text = read_bytes(folder / "a.amf");
+  const std::vector<double> expected{0, 0.2, 0.4, 0.6, 0.8, 1, 1, 0};
+  for (const char* channel : {"r", "g", "b"}) EXPECT_EQ(numbers_in(text, channel), expected);
+  options.grey.pop_back();
+  EXPECT_REFUSED(write_surface(folder / "b.amf", cube(), options),
+                 HasSubstr("expected a grey value per point (8), found 7"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "b.amf"));
+}
+
+TEST(Amf, NamesFactsAndFrameWithoutBreakingTheMarkup) {
+  const TempFolder folder;
+  SurfaceWriteOptions options{.frame = Frame::kRas, .name = "a <b> & \"c\""};
+  options.metadata = {{"settings", "{\"beta\": 2}"}};
+  write_surface(folder / "a.amf", cube(), options);
+  const std::string text = read_bytes(folder / "a.amf");
+  EXPECT_THAT(text,
+              HasSubstr("<metadata type=\"name\">a &lt;b&gt; &amp; &quot;c&quot;</metadata>"));
+  EXPECT_THAT(text, HasSubstr("<metadata type=\"settings\">{&quot;beta&quot;: 2}</metadata>"));
+  EXPECT_THAT(text, HasSubstr("SPACE=RAS"));
+}
+
+}  // namespace
+}  // namespace mesamis
