@@ -77,6 +77,15 @@ ordered_json surface_json(const Result& result, const SurfaceCheck& check) {
   j["closed"] = check.closed();
   j["manifold"] = check.manifold();
   j["components"] = check.components;
+  if (solid) {
+    const SelectionReport& parts = result.parts;
+    j["parts"] = {{"islands", parts.islands},
+                  {"cavities", parts.cavities},
+                  {"islands_dropped", parts.islands_dropped},
+                  {"volume_dropped_mm3", parts.volume_dropped},
+                  {"cavities_filled", parts.cavities_filled},
+                  {"volume_filled_mm3", parts.volume_filled}};
+  }
   j["volume_mm3"] = check.volume;
   j["area_mm2"] = check.area;
   return j;

@@ -126,6 +126,13 @@ void add_method_settings(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) 
   add_number(c, o, "--h-max", "Largest edge, in length units, or auto", {"auto"});
   add_word(c, o, "--surface", "solid: closed level set of u (default); band: the paper's surface");
   add_number(c, o, "--band-threshold", "The band's cells have v below this (default 0.1)");
+  add_number(c, o, "--min-volume",
+             "Drop islands and fill cavities of the solid below so many mm^3 (default 0)");
+  add_number(c, o, "--keep-largest", "Islands of the solid to keep (default 0: all)");
+  c.add_flag_callback(
+       "--fill-cavities", [o] { o->overrides["fill_cavities"] = true; },
+       "Fill the cavities of the solid")
+      ->group("Settings");
   c.add_flag_callback(
        "--stop-at-first", [o] { o->overrides["stop_at_first"] = true; },
        "Stop when mesh or energy has settled, as printed in the paper (default: both)")

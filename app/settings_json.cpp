@@ -155,6 +155,9 @@ const std::vector<Entry>& entries() {
               {{"solid", SurfaceKind::kSolid}, {"band", SurfaceKind::kBand}}),
       setting("level", &Settings::level),
       setting("band_threshold", &Settings::band_threshold),
+      setting("min_volume", &Settings::min_volume),
+      setting("keep_largest", &Settings::keep_largest),
+      setting("fill_cavities", &Settings::fill_cavities),
   };
   return table;
 }

@@ -22,6 +22,7 @@
 #include "mesamis/prepare.h"
 #include "mesamis/remesh/remesh.h"
 #include "mesamis/surface/extract.h"
+#include "mesamis/surface/select_parts.h"
 
 namespace mesamis {
 namespace {
@@ -316,6 +317,7 @@ class Run {
     to_world(mesh_.points);
     to_world(result_.surface.points);
     if (determinant(volume_.direction) < 0) mirror();
+    if (settings().surface == SurfaceKind::kSolid) keep_parts_wanted();
     for (const Iteration& pass : result_.iterations) {
       solved_ &= pass.amis.solver_converged;
     }
@@ -325,6 +327,15 @@ class Run {
     result_.u = std::move(fields_.u);
     result_.v = std::move(fields_.v);
     result_.f = std::move(fields_.f);
+  }
+
+  /// In mm, as the volumes asked for are.
+  void keep_parts_wanted() {
+    const SurfaceCheck check = check_surface(result_.surface);
+    if (!check.closed() || !check.manifold()) return;  // for the caller to find
+    const PartSelection wanted{settings().min_volume, settings().keep_largest,
+                               settings().fill_cavities};
+    result_.surface = select_parts(result_.surface, wanted, &result_.parts);
   }
 
   /// A left-handed grid turns every orientation round.

@@ -11,6 +11,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/segment/amis.h"
 #include "mesamis/settings.h"
+#include "mesamis/surface/select_parts.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// The whole method: a scan walks in, a surface and an adapted mesh walk out.
@@ -43,6 +44,7 @@ struct Result {
   std::vector<Sym3> metric;     ///< the last one asked for, at the nodes, world frame
   MeshFit fit;                  ///< how well the mesh fits it
   TriMesh surface;              ///< world frame LPS, mm
+  SelectionReport parts;        ///< what the solid consisted of, and what went
 
   std::vector<Iteration> iterations;  ///< the last one is the final minimisation
   bool converged = false;             ///< mesh and energy settled, every solve converged

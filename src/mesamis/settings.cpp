@@ -43,6 +43,8 @@ void require_valid(const Settings& s) {
   require_range("h-min", s.h_min, kTiny, kHuge);
   if (s.h_max) require_range("h-max", *s.h_max, s.h_min, kHuge);
   require_range("band-threshold", s.band_threshold, 0, 1);
+  require_range("min-volume", s.min_volume, 0, 1e12);
+  require_range("keep-largest", static_cast<double>(s.keep_largest), 0, 1e9);
   require_range("threshold", s.threshold, -kLargestValue, kLargestValue);
   if (s.level) require_range("level", *s.level, -kLargestValue, kLargestValue);
   if (s.window) {

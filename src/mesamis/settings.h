@@ -59,6 +59,10 @@ struct Settings {
   SurfaceKind surface = SurfaceKind::kSolid;
   std::optional<double> level;  ///< native units; default: midway, see find_object()
   double band_threshold = 0.1;  ///< TOLth, 0 to 1
+  // The solid's parts, see PartSelection.
+  double min_volume = 0;          ///< mm^3, >= 0: smaller islands go, smaller cavities are filled
+  std::int64_t keep_largest = 0;  ///< islands to keep; 0: all
+  bool fill_cavities = false;     ///< every cavity
 };
 
 /// @throws InputError  for the first value out of range, naming the setting, range and value.

@@ -63,6 +63,8 @@ TEST(SegmentCommand, TurnsAScanIntoASurfaceAMeshAndAReportThatRepeatsIt) {
   EXPECT_EQ(report["surface"]["closed"], true);
   EXPECT_EQ(report["surface"]["manifold"], true);
   EXPECT_EQ(report["surface"]["components"], 1);
+  EXPECT_EQ(report["surface"]["parts"]["islands"], 1);
+  EXPECT_EQ(report["surface"]["parts"]["cavities"], 0);
   EXPECT_NEAR(report["surface"]["volume_mm3"], 4.0 / 3 * M_PI * std::pow(kRadius, 3), 100);
   const TriMesh surface = read_surface(folder / "one.stl");
   EXPECT_EQ(report["surface"]["triangles"], surface.triangles.size());
