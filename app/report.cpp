@@ -65,6 +65,16 @@ ordered_json mesh_json(const Result& result) {
           {"quality_mean", result.fit.quality_mean}};
 }
 
+ordered_json parts_json(const std::optional<SelectionReport>& parts) {
+  if (!parts) return nullptr;
+  return {{"islands", parts->islands},
+          {"cavities", parts->cavities},
+          {"islands_dropped", parts->islands_dropped},
+          {"volume_dropped_mm3", parts->volume_dropped},
+          {"cavities_filled", parts->cavities_filled},
+          {"volume_filled_mm3", parts->volume_filled}};
+}
+
 ordered_json surface_json(const Result& result, const SurfaceCheck& check) {
   const bool solid = result.settings.surface == SurfaceKind::kSolid;
   ordered_json j{{"kind", solid ? "solid" : "band"}};
@@ -77,15 +87,7 @@ ordered_json surface_json(const Result& result, const SurfaceCheck& check) {
   j["closed"] = check.closed();
   j["manifold"] = check.manifold();
   j["components"] = check.components;
-  if (solid) {
-    const SelectionReport& parts = result.parts;
-    j["parts"] = {{"islands", parts.islands},
-                  {"cavities", parts.cavities},
-                  {"islands_dropped", parts.islands_dropped},
-                  {"volume_dropped_mm3", parts.volume_dropped},
-                  {"cavities_filled", parts.cavities_filled},
-                  {"volume_filled_mm3", parts.volume_filled}};
-  }
+  if (solid) j["parts"] = parts_json(result.parts);
   j["volume_mm3"] = check.volume;
   j["area_mm2"] = check.area;
   return j;

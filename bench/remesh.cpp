@@ -255,17 +255,21 @@ double part_seconds(const RemeshReport& report) {
 
 void print_json(const Row& row, const Arguments& arguments) {
   const auto cells = static_cast<double>(row.mesh.cells.size());
+  // Seconds of parts that ran at once do not add up to what one thread would take.
+  const std::string speed_up =
+      arguments.threads > 1
+          ? "null"
+          : std::to_string(row.report.seconds / scheduled_seconds(row.report, 16));
   std::printf(
       "{\"case\": \"%s\", \"scale\": %.6f, \"tets\": %.0f, \"unit_edge_percent\": %.2f, "
       "\"quality_min\": %.3f, \"quality_mean\": %.4f, \"complexity_captured_percent\": %.2f, "
       "\"user_seconds\": %.2f, \"wall_seconds\": %.2f, \"tets_per_second\": %.0f, "
       "\"peak_bytes_per_tet\": %.0f, \"rounds\": %d, \"threads\": %d, \"part_seconds\": %.2f, "
-      "\"speed_up_on_16\": %.2f, \"hash\": \"%016" PRIx64 "\"}\n",
+      "\"speed_up_on_16\": %s, \"hash\": \"%016" PRIx64 "\"}\n",
       row.c.name.c_str(), row.c.scale, cells, 100 * row.fit.unit_edge_fraction, row.fit.quality_min,
       row.fit.quality_mean, 100 * row.captured, row.spent.user, row.spent.wall,
       cells / row.spent.user, peak_bytes() / cells, row.report.rounds, arguments.threads,
-      part_seconds(row.report), row.report.seconds / scheduled_seconds(row.report, 16),
-      mesh_hash(row.mesh));
+      part_seconds(row.report), speed_up.c_str(), mesh_hash(row.mesh));
 }
 
 void print_text(const Row& row, const Arguments& arguments) {

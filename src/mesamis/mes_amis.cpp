@@ -335,7 +335,7 @@ class Run {
     if (!check.closed() || !check.manifold()) return;  // for the caller to find
     const PartSelection wanted{settings().min_volume, settings().keep_largest,
                                settings().fill_cavities};
-    result_.surface = select_parts(result_.surface, wanted, &result_.parts);
+    result_.surface = select_parts(result_.surface, wanted, &result_.parts.emplace());
   }
 
   /// A left-handed grid turns every orientation round.

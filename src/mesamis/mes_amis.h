@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "mesamis/base/progress.h"
@@ -44,7 +45,8 @@ struct Result {
   std::vector<Sym3> metric;     ///< the last one asked for, at the nodes, world frame
   MeshFit fit;                  ///< how well the mesh fits it
   TriMesh surface;              ///< world frame LPS, mm
-  SelectionReport parts;        ///< what the solid consisted of, and what went
+  /// What the solid consisted of, and what went; none for a band or a flawed surface.
+  std::optional<SelectionReport> parts;
 
   std::vector<Iteration> iterations;  ///< the last one is the final minimisation
   bool converged = false;             ///< mesh and energy settled, every solve converged

@@ -51,6 +51,8 @@ TEST(Amf, GreyValuesBecomeColoursOfThePoints) {
   const std::string text = read_bytes(folder / "a.amf");
   const std::vector<double> expected{0, 0.2, 0.4, 0.6, 0.8, 1, 1, 0};
   for (const char* channel : {"r", "g", "b"}) EXPECT_EQ(numbers_in(text, channel), expected);
+  options.grey[3] = std::nan("");
+  EXPECT_REFUSED(write_surface(folder / "b.amf", cube(), options), HasSubstr("not finite"));
   options.grey.pop_back();
   EXPECT_REFUSED(write_surface(folder / "b.amf", cube(), options),
                  HasSubstr("expected a grey value per point (8), found 7"));

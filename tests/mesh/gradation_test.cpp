@@ -108,6 +108,10 @@ TEST(Gradation, RefusesWhatMakesNoSense) {
   std::vector<Sym3> metrics(8, kIdentity3);
   EXPECT_REFUSED(limit_gradation(mesh, metrics, 1.0), HasSubstr("more than 1"));
   EXPECT_REFUSED(limit_gradation(mesh, metrics, NAN), HasSubstr("more than 1"));
+  for (const Sym3& bad : {Sym3{}, -1 * kIdentity3, Sym3{1, 2, 0, 1, 0, 1}, NAN * kIdentity3}) {
+    metrics[5] = bad;
+    EXPECT_REFUSED(limit_gradation(mesh, metrics, 1.5), HasSubstr("node 5"));
+  }
   metrics.pop_back();
   EXPECT_REFUSED(limit_gradation(mesh, metrics, 1.5), HasSubstr("7 metrics for 8 nodes"));
 }

@@ -160,6 +160,33 @@ TEST(Complexity, IsExactForALinearRootOfTheDeterminant) {
   EXPECT_THROW(complexity(mesh, metrics), InputError);
 }
 
+TEST(MeasureFit, NamesTheWorstCellAndTheEdgesOfExtremeLength) {
+  const TetMesh mesh = perturbed_box(kBox, {4, 3, 5}, 0.2);
+  std::mt19937 generator(5);
+  std::vector<Sym3> metrics;
+  for (std::size_t n = 0; n < mesh.points.size(); ++n)
+    metrics.push_back(random_metric(generator, 3));
+  const MeshFit fit = measure_fit(mesh, metrics);
+  auto length_of = [&](const Edge& e) {
+    return metric_length(metrics[e[0]], metrics[e[1]], mesh.points[e[1]] - mesh.points[e[0]]);
+  };
+  EXPECT_EQ(length_of(fit.shortest), fit.length_min);
+  EXPECT_EQ(length_of(fit.longest), fit.length_max);
+  for (const Edge& e : unique_edges(mesh)) {
+    EXPECT_GE(length_of(e), fit.length_min);
+    EXPECT_LE(length_of(e), fit.length_max);
+  }
+  const Cell& worst = mesh.cells[fit.worst_cell];
+  double quality = 0;  // in the metric of largest determinant
+  double largest = 0;
+  for (const Index n : worst) {
+    if (determinant(metrics[n]) <= largest) continue;
+    largest = determinant(metrics[n]);
+    quality = metric_quality(metrics[n], cell_corners(mesh, worst));
+  }
+  EXPECT_EQ(quality, fit.quality_min);
+}
+
 TEST(MeasureFit, OfTheUnitKuhnBox) {
   // Edges 1, sqrt 2 (both unit) and sqrt 3, one of the last per brick; all cells are alike.
   const TetMesh mesh = box_mesh(kBox, {2, 3, 4});

@@ -15,7 +15,8 @@ std::array<Vec3, 4> nearly_flat(std::mt19937& generator) {
   auto point = [&] { return Vec3{uniform(generator), uniform(generator), uniform(generator)}; };
   const Vec3 a = point(), b = point(), c = point();
   const Vec3 on_plane = a + uniform(generator) * (b - a) + uniform(generator) * (c - a);
-  return {a, b, c, on_plane + std::pow(10.0, power(generator)) * cross(b - a, c - a)};
+  const double side = uniform(generator) < 0 ? -1 : 1;
+  return {a, b, c, on_plane + side * std::pow(10.0, power(generator)) * cross(b - a, c - a)};
 }
 
 bool is_even(const std::array<int, 4>& order) {

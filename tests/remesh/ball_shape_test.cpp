@@ -66,17 +66,28 @@ TEST(BallShape, GradientIsTheEnergysDerivative) {
   }
 }
 
-/// Around a vertex of a regular tetrahedral star, that is where it is.
-TEST(BallShape, IdealPositionOfOneRegularCellIsItsCorner) {
+/// A cell that is regular in a metric of any axes has each corner where it should be.
+TEST(BallShape, IdealPositionOfARegularCellIsItsCorner) {
+  const FormulaMetric metric([](const Vec3&) { return Sym3{9, 1, -2, 30, 0.5, 4}; });
   const double s = std::sqrt(0.5);
-  const TetMesh regular{{{0, 0, 0}, {s, s, 0}, {s, 0, s}, {0, s, s}}, {{0, 1, 3, 2}}};
+  TetMesh regular{{{0, 0, 0}, {s, s, 0}, {s, 0, s}, {0, s, s}}, {{0, 1, 3, 2}}};
+  Index hint = 0;
+  const MetricFactor factor = MetricSampler(metric, kUnitBox).at({}, hint);
+  for (Vec3& p : regular.points) p = out_of_metric(factor, p);
   ASSERT_GT(cell_volume(regular, 0), 0);
-  const FormulaMetric metric = uniform_metric(1);
   SmallMesh small(regular, metric);
+  EXPECT_NEAR(small.mesh.cells[0].quality3, 1, 1e-5);
   for (Index v = 0; v < 4; ++v) {
     small.bench.shape.gather(small.mesh, small.bench.cavity.ball(v), v);
-    EXPECT_LT(norm(small.bench.shape.directions(small.mesh.vertices[v]).to_ideal), 1e-7);
+    EXPECT_LT(norm(small.bench.shape.directions(small.mesh.vertices[v]).to_ideal), 1e-6);
   }
+}
+
+TEST(BallShape, SolvingUndoesTheMetric) {
+  const MetricFactor l{3, 0.5F, -1, 2, 0.25F, 1.5F};
+  const Vec3 v{0.3, -2, 1.1};
+  EXPECT_LT(norm(out_of_metric(l, in_metric(l, v)) - v), 1e-12);
+  EXPECT_LT(norm(solve_metric(l, from_metric(l, in_metric(l, v))) - v), 1e-12);
 }
 
 }  // namespace

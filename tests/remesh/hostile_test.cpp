@@ -227,7 +227,7 @@ TEST(Hostile, AMeshMetricThatIsNoneIsRefusedWithItsNode) {
     return MeshMetricField(mesh, metrics);
   };
   for (const std::size_t node : {0u, 13u, 26u}) {
-    const std::string name = "node " + std::to_string(node) + " ";
+    const std::string name = "node " + std::to_string(node) + " (the first is 0) ";
     for (const Sym3& bad : not_finite) {
       EXPECT_REFUSED(field_with(bad, node), HasSubstr(name + "is not finite"));
     }
@@ -244,8 +244,9 @@ TEST(Hostile, AGridMetricThatIsNotFiniteIsRefusedWithItsNode) {
     for (std::size_t entry = 0; entry < 6; ++entry) {
       std::vector<PackedSym3> logs(27);
       logs[5 + entry][entry] = static_cast<float>(bad);
-      EXPECT_REFUSED(GridMetricField(kUnitBox, {3, 3, 3}, logs),
-                     HasSubstr("node " + std::to_string(5 + entry) + " is not finite"));
+      EXPECT_REFUSED(
+          GridMetricField(kUnitBox, {3, 3, 3}, logs),
+          HasSubstr("node " + std::to_string(5 + entry) + " (the first is 0) is not finite"));
     }
   }
   std::vector<PackedSym3> logs(27);

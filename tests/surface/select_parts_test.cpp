@@ -88,10 +88,18 @@ TEST(SelectParts, AFilledCavityTakesAlongWhatItHolds) {
 }
 
 TEST(SelectParts, KeepsTheLargestIslandsWithTheirCavities) {
-  const TriMesh kept = select_parts(nested(), {.keep_largest = 1});
+  SelectionReport report;
+  const TriMesh kept = select_parts(nested(), {.keep_largest = 1}, &report);
   EXPECT_NEAR(volume_of(kept), 1000 - 216, 1e-9);
+  EXPECT_EQ(report.islands_dropped, 3);
+  EXPECT_EQ(report.cavities_filled, 0) << "the one that leaves is not filled";
   EXPECT_NEAR(volume_of(select_parts(nested(), {.keep_largest = 2})), 1000 - 216 + 27, 1e-9);
   EXPECT_NEAR(volume_of(select_parts(nested(), {.keep_largest = 99})), volume_of(nested()), 1e-9);
+}
+
+TEST(SelectParts, IslandsThatGoWithACavityAreNotAmongTheLargest) {
+  const TriMesh kept = select_parts(nested(), {.keep_largest = 3, .fill_cavities = true});
+  EXPECT_NEAR(volume_of(kept), 1000 + 27 + 0.125, 1e-9);
 }
 
 TEST(SelectParts, WhatIsLeftIsClosedAndItsPointsAreUsed) {

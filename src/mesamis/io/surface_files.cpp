@@ -2,6 +2,7 @@
 #include "mesamis/io/surface_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "mesamis/base/error.h"
@@ -75,10 +76,18 @@ void write_surface(const fs::path& path, const TriMesh& surface,
     refuse(path, say("expected a grey value per point (", surface.points.size(), "), found ",
                      options.grey.size()));
   }
+  if (std::any_of(options.grey.begin(), options.grey.end(),
+                  [](double grey) { return !std::isfinite(grey); })) {
+    refuse(path, "a grey value is not finite");
+  }
   TriMesh turned = surface;
   if (options.frame == Frame::kRas) turn(turned.points);
   SurfaceWriteOptions clean = options;
   clean.name = one_line(options.name);
+  for (auto& [type, text] : clean.metadata) {
+    type = one_line(type);
+    text = one_line(text);
+  }
   write_file(path, format->bytes(turned, clean));
 }
 

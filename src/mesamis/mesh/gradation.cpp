@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "mesamis/base/error.h"
@@ -14,8 +15,6 @@
 
 namespace mesamis {
 namespace {
-
-constexpr int kMostSweeps = 1000;
 
 /// The neighbours of node n are nodes[start[n]] ... nodes[start[n + 1] - 1].
 struct Neighbors {
@@ -62,13 +61,23 @@ bool exceeds(const Sym3& a, const Sym3& b) {
 Sym3 limited(const TetMesh& mesh, std::span<const Sym3> metrics, std::size_t n,
              std::span<const Index> neighbors, double log_gradation) {
   constexpr double kSlack = 1.002;  // of a squared size: less is not worth a change
+  constexpr double kLeastGrowth = 1.001;
   Sym3 m = metrics[n];
   for (const Index other : neighbors) {
     const Vec3 e = mesh.points[n] - mesh.points[other];
     const Sym3 bound = grown(metrics[other], e, log_gradation);
-    if (!exceeds(kSlack * m, bound)) m = intersect(m, bound);
+    if (exceeds(kSlack * m, bound)) continue;
+    const Sym3 finer = intersect(m, bound);
+    // What round-off makes of flat metrics is no change.
+    if (determinant(finer) > kLeastGrowth * determinant(m)) m = finer;
   }
   return m;
+}
+
+void require_metric(const Sym3& m, std::size_t node) {
+  if (std::isfinite(trace(m) + m.xy + m.xz + m.yz) && eigen_decompose(m).values[2] > 0) return;
+  throw InputError("gradation: expected a positive definite metric at node " +
+                   std::to_string(node) + " (the first is 0)");
 }
 
 }  // namespace
@@ -82,15 +91,14 @@ std::int64_t limit_gradation(const TetMesh& mesh, std::span<Sym3> node_metrics, 
   if (!(gradation > 1)) {
     throw InputError("gradation: expected more than 1, found " + std::to_string(gradation));
   }
+  for (std::size_t i = 0; i < n; ++i) require_metric(node_metrics[i], i);
   const Neighbors neighbors = find_neighbors(mesh);
   const double log_gradation = std::log(gradation);
   // Sweep over the nodes with a neighbour that changed in the last sweep, all from the old values,
-  // until none changes: every change makes a node finer by more than the slack, and none gets
-  // finer than the finest there is. (Round-off could go round in circles; so there is an end.)
+  // until none changes: every change makes a node's determinant grow.
   std::vector<Sym3> next(node_metrics.begin(), node_metrics.end());
   std::vector<char> active(n, 1), changed(n), ever_changed(n, 0);
-  bool any = true;
-  for (int sweep = 0; any && sweep < kMostSweeps; ++sweep) {
+  for (bool any = true; any;) {
     parallel_for(n, [&](std::size_t i) {
       changed[i] = 0;
       if (!active[i]) return;

@@ -19,10 +19,12 @@ namespace mesamis {
 /// Source: F. Alauzet, Size gradation control of anisotropic meshes, 2010, growth homogeneous in
 /// metric space.
 ///
-/// @param node_metrics  positive definite, one per node; changed in place, by more than 0.1 %
-///                      of a size or not at all. The same bits for any number of threads.
+/// @param node_metrics  positive definite with aspects up to about 1e5, one per node; changed in
+///                      place, by more than 0.1 % of a size or not at all. The same bits for any
+///                      number of threads.
 /// @param gradation     > 1.
-/// @throws InputError   if the sizes differ or the gradation is not above 1.
+/// @throws InputError   if the sizes differ, a metric is not finite or not positive definite, or
+///                      the gradation is not above 1.
 /// @return the number of nodes that changed.
 std::int64_t limit_gradation(const TetMesh& mesh, std::span<Sym3> node_metrics, double gradation);
 

@@ -24,6 +24,7 @@ void measure_edges(const TetMesh& mesh, std::span<const Sym3> node_metrics, Mesh
   if (edges.empty()) return;
   fit.edges = static_cast<std::int64_t>(edges.size());
   fit.length_min = std::numeric_limits<double>::infinity();
+  fit.shortest = fit.longest = edges.front();
   std::int64_t unit = 0;
   for (const Edge& edge : edges) {
     const auto [a, b] = edge;
@@ -45,6 +46,7 @@ void measure_edges(const TetMesh& mesh, std::span<const Sym3> node_metrics, Mesh
 void measure_cells(const TetMesh& mesh, std::span<const Sym3> node_metrics, MeshFit& fit) {
   if (mesh.cells.empty()) return;
   fit.quality_min = std::numeric_limits<double>::infinity();
+  fit.worst_cell = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const Cell& cell = mesh.cells[c];
     Index finest = cell[0];
@@ -53,7 +55,7 @@ void measure_cells(const TetMesh& mesh, std::span<const Sym3> node_metrics, Mesh
     }
     const double quality = metric_quality(node_metrics[finest], cell_corners(mesh, cell));
     fit.quality_mean += quality / static_cast<double>(mesh.cells.size());
-    if (quality >= fit.quality_min) continue;
+    if (!(quality < fit.quality_min)) continue;
     fit.quality_min = quality;
     fit.worst_cell = static_cast<Index>(c);
   }

@@ -34,7 +34,12 @@ std::array<Index, 3> sorted_face(const Cell& cell, int face) {
 std::vector<FaceSlot> sorted_faces(const TetMesh& mesh) {
   Index highest = kNoIndex;
   for (const Cell& cell : mesh.cells) {
-    highest = std::max(highest, *std::max_element(cell.begin(), cell.end()));
+    const auto [low, high] = std::minmax_element(cell.begin(), cell.end());
+    if (*low < 0) throw InputError("mesh: a cell names a missing point");
+    highest = std::max(highest, *high);
+  }
+  if (!mesh.points.empty() && highest >= std::ssize(mesh.points)) {
+    throw InputError("mesh: a cell names a missing point");
   }
   std::vector<std::size_t> start(static_cast<std::size_t>(highest) + 2, 0);
   for (const Cell& cell : mesh.cells) {

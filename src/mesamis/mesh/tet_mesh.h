@@ -47,7 +47,8 @@ TetMesh coarse_box_mesh(const Box& box);
 
 /// For each cell the cell across the face opposite vertex i, or kNoIndex on the boundary. Only the
 /// cells are looked at; their indices are from 0. O(m).
-/// @throws InputError  if a face is shared by more than two cells.
+/// @throws InputError  if a face is shared by more than two cells, or a cell names a point that is
+///                     not there (where there are any).
 std::vector<std::array<Index, 4>> cell_neighbors(const TetMesh& mesh);
 
 /// Cells around each point, in increasing order: those of point n are

@@ -40,6 +40,7 @@ class BallShape {
   struct alignas(64) Block {
     LaneVec3 a, b, c;
     Lanes xx, yx, zx, yy, zy, zz, density;
+    Lanes first;  ///< 1 if the vertex comes before the finest in the cell: it wins a tie
     Lanes quality3;
     Lanes used;  ///< 1, or 0 for a lane that only fills the block up
   };

@@ -94,7 +94,7 @@ class Remesher {
       const bool circling = change < kFew && change > 0.8 * last_change;
       const bool resized = control_count(change);
       report_.converged = strict_ && !resized && (change < kHardlyAny || circling);
-      // A mesh that must change its count needs freedom to do so.
+      // A mesh that must change its count gets freedom to do so, unless it has settled.
       if (resized) strict_ = false;
       strict_ |= is_settled(round, change, last_change);
       last_change = change;

@@ -40,7 +40,8 @@ struct RemeshReport {
 /// @param report  optional.
 /// @return a mesh for which validate() holds; about 9 cells per unit of the metric's complexity.
 ///         The same bits for any number of threads.
-/// @throws InputError  if start is not a valid mesh of its bounding box.
+/// @throws InputError  if start is not a valid mesh of its bounding box, or the metric asks for
+///                     more cells than fit and max_cells is not set.
 /// @throws Cancelled   if progress says stop.
 TetMesh remesh(const TetMesh& start, const MetricField& metric, const RemeshOptions& options = {},
                RemeshReport* report = nullptr);

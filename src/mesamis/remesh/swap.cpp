@@ -116,8 +116,8 @@ int local_edge(const Cell& cell, const std::array<Index, 2>& edge) {
   return kEdge[local_index(cell, edge[0])][local_index(cell, edge[1])];
 }
 
-/// Cells around an edge with no more energy than this have never been seen to gain by removing
-/// it: the longer the ring, the flatter the cells that take their place.
+/// Cells around an edge with no more energy than this have hardly ever been seen to gain by
+/// removing it: the longer the ring, the flatter the cells that take their place.
 double hopeless_energy(std::size_t cells) {
   constexpr std::array<double, 4> kPerCell{0, 0.75, 1.25, 2};  // 4 cells or fewer, 5, 6, more
   return kPerCell[std::clamp<std::size_t>(cells, 4, 7) - 4] * static_cast<double>(cells);

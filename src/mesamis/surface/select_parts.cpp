@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/surface/select_parts.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -16,32 +14,22 @@ namespace {
 
 bool is_cavity(const Nesting& nesting, std::size_t part) { return nesting.depth[part] % 2 != 0; }
 
-/// Whether each part goes by itself. Parts come largest first.
+/// Which parts go. They come largest first, so that what is around a part is decided before it.
 std::vector<char> find_unwanted(const SurfaceComponents& parts, const Nesting& nesting,
                                 const PartSelection& selection) {
   std::vector<char> goes(parts.sizes.size(), 0);
   std::int64_t islands = 0;
   for (std::size_t p = 0; p < goes.size(); ++p) {
     const bool cavity = is_cavity(nesting, p);
-    islands += !cavity;
+    const bool inside = nesting.parent[p] != kNoIndex && goes[nesting.parent[p]];
     const bool small = std::abs(parts.sizes[p].volume) < selection.volume_min;
     const bool filled = cavity && selection.fill_cavities;
-    const bool surplus = !cavity && selection.keep_largest > 0 && islands > selection.keep_largest;
-    goes[p] = small || filled || surplus;
+    goes[p] = inside || small || filled;
+    if (cavity || goes[p]) continue;
+    ++islands;
+    goes[p] = selection.keep_largest > 0 && islands > selection.keep_largest;
   }
   return goes;
-}
-
-/// What lies within a part that goes, goes too: outer parts first.
-void spread_inwards(const Nesting& nesting, std::vector<char>& goes) {
-  std::vector<std::size_t> order(goes.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&nesting](std::size_t a, std::size_t b) {
-    return nesting.depth[a] < nesting.depth[b];
-  });
-  for (const std::size_t p : order) {
-    if (nesting.parent[p] != kNoIndex && goes[nesting.parent[p]]) goes[p] = 1;
-  }
 }
 
 SelectionReport tell(const SurfaceComponents& parts, const Nesting& nesting,
@@ -50,9 +38,11 @@ SelectionReport tell(const SurfaceComponents& parts, const Nesting& nesting,
   for (std::size_t p = 0; p < goes.size(); ++p) {
     const double volume = std::abs(parts.sizes[p].volume);
     if (is_cavity(nesting, p)) {
+      // A cavity that leaves with its island is not filled.
+      const bool filled = goes[p] && !goes[nesting.parent[p]];
       ++report.cavities;
-      report.cavities_filled += goes[p];
-      report.volume_filled += goes[p] * volume;
+      report.cavities_filled += filled;
+      report.volume_filled += filled ? volume : 0;
     } else {
       ++report.islands;
       report.islands_dropped += goes[p];
@@ -90,12 +80,13 @@ TriMesh select_parts(const TriMesh& surface, const PartSelection& selection,
   if (!check.closed() || !check.manifold()) {
     throw InputError("parts of a surface: expected a closed, manifold surface, found " +
                      std::to_string(check.open_edges) + " open edges and " +
-                     std::to_string(check.nonmanifold_edges) + " edges of more than two triangles");
+                     std::to_string(check.nonmanifold_edges + check.nonmanifold_points +
+                                    check.misoriented_edges + check.degenerate_triangles) +
+                     " flaws else");
   }
   const SurfaceComponents parts = find_components(surface);
   const Nesting nesting = find_nesting(surface, parts);
-  std::vector<char> goes = find_unwanted(parts, nesting, selection);
-  spread_inwards(nesting, goes);
+  const std::vector<char> goes = find_unwanted(parts, nesting, selection);
   if (report != nullptr) *report = tell(parts, nesting, goes);
   return without(surface, parts, goes);
 }
