@@ -21,16 +21,6 @@ double total(const auto& lanes) {
   return sum;
 }
 
-/// The finest corner but the vertex; the first of equals, as in quality3().
-Index finest_other(const WorkingMesh& mesh, const Cell& points, Index vertex) {
-  Index finest = kNoIndex;
-  for (const Index p : points) {
-    if (p == vertex) continue;
-    if (finest == kNoIndex || mesh.vertices[p].density > mesh.vertices[finest].density) finest = p;
-  }
-  return finest;
-}
-
 }  // namespace
 
 void BallShape::LaneVec3::set(std::size_t lane, const Vec3& p) {
@@ -50,8 +40,8 @@ void BallShape::set_lane(std::size_t cell, const WorkingMesh& mesh, Index cell_i
   block.a.set(lane, a.position);
   block.b.set(lane, b.position);
   block.c.set(lane, c.position);
-  const Index finest_point = finest_other(mesh, k.points, vertex);
-  const Vertex& finest = mesh.vertices[finest_point];
+  const Vertex& finer = a.density >= b.density ? a : b;
+  const Vertex& finest = finer.density >= c.density ? finer : c;
   const MetricFactor& l = finest.metric;
   block.xx[lane] = l.xx;
   block.yx[lane] = l.yx;
@@ -60,7 +50,6 @@ void BallShape::set_lane(std::size_t cell, const WorkingMesh& mesh, Index cell_i
   block.zy[lane] = l.zy;
   block.zz[lane] = l.zz;
   block.density[lane] = finest.density;
-  block.first[lane] = local_index(k.points, vertex) < local_index(k.points, finest_point) ? 1 : 0;
   block.quality3[lane] = k.quality3;
   block.used[lane] = 1;
 }
@@ -120,8 +109,7 @@ std::span<const double> BallShape::qualities(const Vertex& vertex) {
     Lanes result;
     for (std::size_t i = 0; i < kLanes; ++i) {
       // Chosen by weights: with a branch the compiler would not compute lanes together.
-      const double tie = own_density == k.density[i] ? k.first[i] : 0;
-      const double own = own_density > k.density[i] ? 1 : tie, other = 1 - own;
+      const double own = own_density >= k.density[i] ? 1 : 0, other = 1 - own;
       const Factor l{own * m.xx + other * k.xx[i], own * m.yx + other * k.yx[i],
                      own * m.zx + other * k.zx[i], own * m.yy + other * k.yy[i],
                      own * m.zy + other * k.zy[i], own * m.zz + other * k.zz[i]};

@@ -36,11 +36,11 @@ class BallShape {
     void set(std::size_t lane, const Vec3& p);
     Vec3 operator[](std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
   };
-  /// (vertex, a, b, c) is positive; the metric is that of the finest of a, b and c.
+  /// (vertex, a, b, c) is positive; the metric is that of the finest of a, b and c. Where the vertex
+  /// is as fine, its own metric counts: on such a tie quality3() takes the cell's first corner.
   struct alignas(64) Block {
     LaneVec3 a, b, c;
     Lanes xx, yx, zx, yy, zy, zz, density;
-    Lanes first;  ///< 1 if the vertex comes before the finest in the cell: it wins a tie
     Lanes quality3;
     Lanes used;  ///< 1, or 0 for a lane that only fills the block up
   };
