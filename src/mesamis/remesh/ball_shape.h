@@ -36,8 +36,9 @@ class BallShape {
     void set(std::size_t lane, const Vec3& p);
     Vec3 operator[](std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
   };
-  /// (vertex, a, b, c) is positive; the metric is that of the finest of a, b and c. Where the vertex
-  /// is as fine, its own metric counts: on such a tie quality3() takes the cell's first corner.
+  /// (vertex, a, b, c) is positive; the metric is that of the finest of a, b and c. Where the
+  /// vertex is as fine, its own metric counts: on such a tie quality3() takes the cell's first
+  /// corner.
   struct alignas(64) Block {
     LaneVec3 a, b, c;
     Lanes xx, yx, zx, yy, zy, zz, density;
