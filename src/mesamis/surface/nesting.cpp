@@ -77,7 +77,10 @@ class Feet {
     return std::clamp<Index>(static_cast<Index>((x - box_.lo[axis]) / extent * side_), 0,
                              side_ - 1);
   }
-  std::size_t bin(Index j, Index k) const { return static_cast<std::size_t>(k * side_ + j); }
+  std::size_t bin(Index j, Index k) const {
+    return static_cast<std::size_t>(k) * static_cast<std::size_t>(side_) +
+           static_cast<std::size_t>(j);
+  }
 
   Box box_;
   Index side_;
