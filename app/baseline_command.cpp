@@ -26,7 +26,7 @@ struct BaselineCommand {
 };
 
 int run_baseline(const BaselineCommand& command) {
-  require_output(command.output, {".stl", ".ply", ".obj", ".vtp", ".amf"}, "--output");
+  require_output(command.output, written_surface_formats(), "--output");
   const VolumeFile file = read_scan(command.input, command.series);
   const double level = command.level ? *command.level : find_object(file.volume).level;
   const TriMesh surface = isosurface(file.volume, level, command.options);

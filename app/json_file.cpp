@@ -27,6 +27,8 @@ nlohmann::json read_json(const std::filesystem::path& path) {
   }
 }
 
+nlohmann::ordered_json vec_json(const Vec3& v) { return {v.x, v.y, v.z}; }
+
 nlohmann::ordered_json program_json() {
   return {{"name", "mesamis"}, {"version", kVersion}, {"commit", kCommit}};
 }

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "mesamis/base/types.h"
+
 namespace mesamis {
 
 /// Writes an indented JSON file that appears whole or not at all. Numbers that are not finite
@@ -13,6 +15,9 @@ void write_json(const std::filesystem::path& path, const nlohmann::ordered_json&
 
 /// @throws InputError  if the file cannot be read or is not JSON; the message says where.
 nlohmann::json read_json(const std::filesystem::path& path);
+
+/// A point or vector as [x, y, z].
+nlohmann::ordered_json vec_json(const Vec3& v);
 
 /// The entry "program" of every report: name, version, commit.
 nlohmann::ordered_json program_json();

@@ -86,20 +86,18 @@ Outcome build(const Background& background, const RemeshCommand& command, bool q
   return outcome;
 }
 
-nlohmann::ordered_json to_json(const Vec3& p) { return {p.x, p.y, p.z}; }
-
 /// An edge by its vertices as Medit counts them, from 1, and where it is.
 nlohmann::ordered_json edge_json(const TetMesh& mesh, const Edge& edge, double length) {
   return {{"length", length},
           {"vertices", {edge[0] + 1, edge[1] + 1}},
-          {"middle", to_json(0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]))}};
+          {"middle", vec_json(0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]))}};
 }
 
 nlohmann::ordered_json worst_cell_json(const TetMesh& mesh, const MeshFit& fit) {
   const auto [a, b, c, d] = cell_corners(mesh, mesh.cells[fit.worst_cell]);
   return {{"quality", fit.quality_min},
           {"tetrahedron", fit.worst_cell + 1},
-          {"middle", to_json(0.25 * (a + b + c + d))}};
+          {"middle", vec_json(0.25 * (a + b + c + d))}};
 }
 
 void write_report(const RemeshCommand& command, const Background& background,

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "json_file.h"
 #include "mesamis/base/parallel.h"
 #include "process.h"
 #include "settings_json.h"
-#include "version.h"
 
 namespace mesamis {
 namespace {
@@ -14,18 +14,20 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-ordered_json vec(const Vec3& v) { return {v.x, v.y, v.z}; }
-
 ordered_json energy_json(const Energy& e) {
   return {
       {"total", e.total()}, {"fidelity", e.fidelity}, {"smoothing", e.smoothing}, {"edge", e.edge}};
 }
 
 ordered_json input_json(const InputFacts& input) {
-  return {{"path", input.path.string()},      {"format", input.format},
-          {"sha256", input.sha256},           {"size", input.size},
-          {"spacing_mm", vec(input.spacing)}, {"range", {input.lowest, input.highest}},
-          {"modality", input.modality},       {"warnings", input.warnings}};
+  return {{"path", input.path.string()},
+          {"format", input.format},
+          {"sha256", input.sha256},
+          {"size", input.size},
+          {"spacing_mm", vec_json(input.spacing)},
+          {"range", {input.lowest, input.highest}},
+          {"modality", input.modality},
+          {"warnings", input.warnings}};
 }
 
 /// What a pass has not measured is null: the first has no energy before it, the last leads to no
@@ -130,7 +132,7 @@ InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file, F
 ordered_json segment_report(const InputFacts& input, const Settings& settings, const Result& result,
                             const SurfaceCheck& surface) {
   ordered_json report;
-  report["program"] = {{"name", "mesamis"}, {"version", kVersion}, {"commit", kCommit}};
+  report["program"] = program_json();
   report["input"] = input_json(input);
   report["output"] = {{"frame", input.frame == Frame::kRas ? "ras" : "lps"},
                       {"threads", thread_count()}};

@@ -238,7 +238,7 @@ std::string why_not_converged(const Result& result) {
 
 void require_outputs(const SegmentOptions& options) {
   for (const fs::path& path : options.surfaces) {
-    require_output(path, {".stl", ".ply", ".obj", ".vtp", ".amf"}, "--output");
+    require_output(path, written_surface_formats(), "--output");
   }
   for (const fs::path& path : options.meshes) require_output(path, {".vtu", ".mesh"}, "--mesh");
   for (const fs::path& path : options.band_meshes) require_output(path, {".vtu"}, "--band-mesh");

@@ -6,8 +6,8 @@
 //
 // Cases: linear, polar1, polar2 (UGAWG cubes), voxel (thin layers on a 102 x 122 x 304 grid).
 // Complexity captured: that of the mesh over that of the metric itself, integrated finely. Below
-// each row stands what the parts took, and what more cores would make of it: parts are given to
-// cores as they come, all else is taken to be serial.
+// a row of one thread stands what the parts took, and what more cores would make of it: parts are
+// given to cores as they come, all else is taken to be serial.
 // --again adapts once more to the metric given at the nodes of the first result.
 // --passes N knows the metric at nodes only: of a uniform mesh first, then of each result.
 // --write leaves each mesh as PREFIX-NAME.mesh (Medit).
@@ -51,7 +51,7 @@ struct Case {
   std::unique_ptr<MetricField> metric;
   TetMesh start;
   double scale = 1;
-  std::array<int, 3> lattice{};  ///< points that integrate the metric's complexity well
+  double complexity = 0;  ///< of the metric itself
 };
 
 struct Seconds {
@@ -171,43 +171,23 @@ class VoxelMetric {
 };
 
 Case make_case(const std::string& name, double cells) {
+  Case c{name, nullptr, {}};
+  std::array<Index, 3> lattice{203, 243, 607};  // points that integrate the complexity well
   if (name == "voxel") {
-    return {name,
-            std::make_unique<GridMetricField>(VoxelMetric(cells).field()),
-            box_mesh(VoxelMetric::box(), {4, 5, 8}),
-            1,
-            {203, 243, 607}};
+    c.metric = std::make_unique<GridMetricField>(VoxelMetric(cells).field());
+    c.start = box_mesh(VoxelMetric::box(), {4, 5, 8});
+  } else {
+    const Ugawg which = name == "linear"   ? Ugawg::kLinear
+                        : name == "polar1" ? Ugawg::kPolar1
+                                           : Ugawg::kPolar2;
+    c.scale = ugawg_scale(which, cells);
+    c.metric = std::make_unique<FormulaMetric>(ugawg_metric(which, c.scale));
+    c.start = box_mesh(kUnitBox, {3, 3, 3});
+    lattice = {3000, 3000, 1};
+    if (which == Ugawg::kLinear) lattice = {1, 1, 100'000};
   }
-  const Ugawg which = name == "linear"   ? Ugawg::kLinear
-                      : name == "polar1" ? Ugawg::kPolar1
-                                         : Ugawg::kPolar2;
-  const double scale = ugawg_scale(which, cells);
-  const std::array<int, 3> across{1, 1, 100'000}, around{3000, 3000, 1};
-  return {name, std::make_unique<FormulaMetric>(ugawg_metric(which, scale)),
-          box_mesh(kUnitBox, {3, 3, 3}), scale, which == Ugawg::kLinear ? across : around};
-}
-
-/// Integral of sqrt(det M) over the box by the midpoint rule.
-double integrated_complexity(const Case& c) {
-  const Box box = bounding_box(c.start.points);
-  const Vec3 extent = box.extent();
-  const std::array<int, 3>& n = c.lattice;
-  const auto slabs = static_cast<std::size_t>(n[1]) * static_cast<std::size_t>(n[2]);
-  const double sum = parallel_sum(slabs, [&](std::size_t begin, std::size_t end) {
-    double roots = 0;
-    Index hint = 0;
-    for (std::size_t s = begin; s < end; ++s) {
-      const auto j = static_cast<double>(s % static_cast<std::size_t>(n[1]));
-      const auto k = static_cast<double>(s / static_cast<std::size_t>(n[1]));
-      for (int i = 0; i < n[0]; ++i) {
-        const Vec3 p{box.lo.x + extent.x * (i + 0.5) / n[0], box.lo.y + extent.y * (j + 0.5) / n[1],
-                     box.lo.z + extent.z * (k + 0.5) / n[2]};
-        roots += std::sqrt(determinant(c.metric->at(p, hint)));
-      }
-    }
-    return roots;
-  });
-  return sum * box.volume() / (1.0 * n[0] * static_cast<double>(slabs));
+  c.complexity = integrated_complexity(*c.metric, bounding_box(c.start.points), lattice);
+  return c;
 }
 
 /// How long the rounds' parts take on so many cores, each part going to the core that is free
@@ -303,7 +283,7 @@ TetMesh run(const Case& c, const MetricField& metric, const Arguments& arguments
                 report,
                 {after.user - before.user, after.wall - before.wall},
                 measure_fit(mesh, metrics),
-                complexity(mesh, metrics) / integrated_complexity(c)};
+                complexity(mesh, metrics) / c.complexity};
   arguments.json ? print_json(row, arguments) : print_text(row, arguments);
   std::fflush(stdout);
   validate(mesh, bounding_box(c.start.points));

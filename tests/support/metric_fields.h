@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "mesamis/base/parallel.h"
 #include "mesamis/base/sym3.h"
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/mesh/tet_mesh.h"
@@ -70,6 +72,28 @@ inline double ugawg_scale(Ugawg which, double cells) {
 }
 
 inline const Box kUnitBox{{0, 0, 0}, {1, 1, 1}};
+
+/// Integral of sqrt(det M) over a box by the midpoint rule, n[axis] points along each axis.
+inline double integrated_complexity(const MetricField& field, const Box& box,
+                                    const std::array<Index, 3>& n) {
+  const Vec3 extent = box.extent();
+  const auto rows = static_cast<std::size_t>(n[1]) * static_cast<std::size_t>(n[2]);
+  const double sum = parallel_sum(rows, [&](std::size_t begin, std::size_t end) {
+    double roots = 0;
+    Index hint = 0;
+    for (std::size_t row = begin; row < end; ++row) {
+      const auto j = static_cast<double>(row % static_cast<std::size_t>(n[1]));
+      const auto k = static_cast<double>(row / static_cast<std::size_t>(n[1]));
+      for (Index i = 0; i < n[0]; ++i) {
+        const Vec3 p{box.lo.x + extent.x * (i + 0.5) / n[0], box.lo.y + extent.y * (j + 0.5) / n[1],
+                     box.lo.z + extent.z * (k + 0.5) / n[2]};
+        roots += std::sqrt(determinant(field.at(p, hint)));
+      }
+    }
+    return roots;
+  });
+  return sum * box.volume() / (static_cast<double>(n[0]) * static_cast<double>(rows));
+}
 
 inline std::vector<Sym3> metrics_at_nodes(const TetMesh& mesh, const MetricField& field) {
   std::vector<Sym3> metrics;

@@ -61,7 +61,21 @@ std::string one_line(std::string text) {
   return text;
 }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
 }  // namespace
+
+std::vector<std::string> written_surface_formats() {
+  std::vector<std::string> extensions;
+  for (const Format& format : kFormats) {
+    if (format.bytes != nullptr) extensions.emplace_back(format.extension);
+  }
+  return extensions;
+}
 
 void write_surface(const fs::path& path, const TriMesh& surface,
                    const SurfaceWriteOptions& options) {
@@ -71,7 +85,7 @@ void write_surface(const fs::path& path, const TriMesh& surface,
   const auto* format = std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) {
     return extension == f.extension && f.bytes != nullptr;
   });
-  if (format == std::end(kFormats)) refuse_extension(path, ".stl .ply .obj .vtp .amf");
+  if (format == std::end(kFormats)) refuse_extension(path, joined(written_surface_formats()));
   if (!options.grey.empty() && options.grey.size() != surface.points.size()) {
     refuse(path, say("expected a grey value per point (", surface.points.size(), "), found ",
                      options.grey.size()));

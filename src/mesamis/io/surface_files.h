@@ -39,6 +39,9 @@ struct SurfaceWriteOptions {
 void write_surface(const std::filesystem::path& path, const TriMesh& surface,
                    const SurfaceWriteOptions& options = {});
 
+/// The extensions above, with their dots.
+std::vector<std::string> written_surface_formats();
+
 /// Reads .stl .ply .obj (text or binary where there are both), .vtp, legacy .vtk, also gzip'd
 /// (.gz). Equal points of an STL are welded; polygons are cut into fans. Coordinates are returned
 /// as the file has them: no frame is assumed or changed.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
@@ -63,6 +64,24 @@ void measure_cells(const TetMesh& mesh, std::span<const Sym3> node_metrics, Mesh
 
 }  // namespace
 
+void require_one_per_node(const char* caller, const TetMesh& mesh,
+                          std::span<const Sym3> node_metrics) {
+  if (node_metrics.size() == mesh.points.size()) return;
+  throw InputError(std::string(caller) + ": " + std::to_string(node_metrics.size()) +
+                   " metrics for " + std::to_string(mesh.points.size()) + " nodes");
+}
+
+void require_positive_definite(std::span<const Sym3> node_metrics) {
+  for (std::size_t n = 0; n < node_metrics.size(); ++n) {
+    const Sym3& m = node_metrics[n];
+    const bool finite = std::isfinite(m.xx) && std::isfinite(m.xy) && std::isfinite(m.xz) &&
+                        std::isfinite(m.yy) && std::isfinite(m.yz) && std::isfinite(m.zz);
+    if (finite && eigen_decompose(m).values[2] > 0) continue;
+    throw InputError("metric: node " + std::to_string(n) + " (the first is 0) is not " +
+                     (finite ? "positive definite" : "finite"));
+  }
+}
+
 double metric_length(const Sym3& ma, const Sym3& mb, const Vec3& e) {
   const double la = std::sqrt(quadratic_form(ma, e));
   const double lb = std::sqrt(quadratic_form(mb, e));
@@ -108,10 +127,7 @@ Sym3 intersect(const Sym3& a, const Sym3& b) {
 }
 
 double complexity(const TetMesh& mesh, std::span<const Sym3> node_metrics) {
-  if (node_metrics.size() != mesh.points.size()) {
-    throw InputError("complexity: " + std::to_string(node_metrics.size()) + " metrics for " +
-                     std::to_string(mesh.points.size()) + " nodes");
-  }
+  require_one_per_node("complexity", mesh, node_metrics);
   return parallel_sum(mesh.cells.size(), [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t c = begin; c < end; ++c) {
@@ -124,10 +140,7 @@ double complexity(const TetMesh& mesh, std::span<const Sym3> node_metrics) {
 }
 
 MeshFit measure_fit(const TetMesh& mesh, std::span<const Sym3> node_metrics) {
-  if (node_metrics.size() != mesh.points.size()) {
-    throw InputError("mesh fit: " + std::to_string(node_metrics.size()) + " metrics for " +
-                     std::to_string(mesh.points.size()) + " nodes");
-  }
+  require_one_per_node("mesh fit", mesh, node_metrics);
   MeshFit fit;
   measure_edges(mesh, node_metrics, fit);
   measure_cells(mesh, node_metrics, fit);

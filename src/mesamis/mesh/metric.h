@@ -12,6 +12,13 @@
 /// Metric tensors: symmetric positive definite, in 1/mm^2; edge e is ideal when e'Me = 1.
 namespace mesamis {
 
+/// @throws InputError  naming the caller, if there is not one metric per node.
+void require_one_per_node(const char* caller, const TetMesh& mesh,
+                          std::span<const Sym3> node_metrics);
+
+/// @throws InputError  naming the first node whose metric is not finite or not positive definite.
+void require_positive_definite(std::span<const Sym3> node_metrics);
+
 /// Length of edge e (mm) between nodes with metrics ma and mb, for sizes that vary
 /// geometrically along it: (la - lb) / log(la / lb). Source: UGAWG adaptation benchmarks.
 double metric_length(const Sym3& ma, const Sym3& mb, const Vec3& e);

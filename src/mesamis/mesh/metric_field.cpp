@@ -9,24 +9,16 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/sym3.h"
 #include "mesamis/mesh/locate.h"
+#include "mesamis/mesh/metric.h"
 
 namespace mesamis {
 namespace {
-
-bool is_finite(const Sym3& m) {
-  return std::isfinite(m.xx) && std::isfinite(m.xy) && std::isfinite(m.xz) && std::isfinite(m.yy) &&
-         std::isfinite(m.yz) && std::isfinite(m.zz);
-}
 
 void require_count(std::size_t nodes, std::size_t metrics) {
   if (nodes != metrics) {
     throw InputError("metric: expected one per node (" + std::to_string(nodes) + "), found " +
                      std::to_string(metrics));
   }
-}
-
-[[noreturn]] void refuse_node(std::size_t node, const std::string& flaw) {
-  throw InputError("metric: node " + std::to_string(node) + " (the first is 0) is " + flaw);
 }
 
 }  // namespace
@@ -42,7 +34,8 @@ GridMetricField::GridMetricField(const Box& box, const std::array<Index, 3>& siz
                 log_metrics_.size());
   for (std::size_t n = 0; n < log_metrics_.size(); ++n) {
     for (const float entry : log_metrics_[n]) {
-      if (!std::isfinite(entry)) refuse_node(n, "not finite");
+      if (std::isfinite(entry)) continue;
+      throw InputError("metric: node " + std::to_string(n) + " (the first is 0) is not finite");
     }
   }
 }
@@ -72,11 +65,7 @@ Sym3 GridMetricField::at(const Vec3& p, Index&) const {
 MeshMetricField::MeshMetricField(TetMesh mesh, std::span<const Sym3> node_metrics)
     : mesh_(std::move(mesh)), box_(bounding_box(mesh_.points)), neighbors_(cell_neighbors(mesh_)) {
   require_count(mesh_.points.size(), node_metrics.size());
-  for (std::size_t n = 0; n < node_metrics.size(); ++n) {
-    const Sym3& m = node_metrics[n];
-    if (!is_finite(m)) refuse_node(n, "not finite");
-    if (!(eigen_decompose(m).values[2] > 0)) refuse_node(n, "not positive definite");
-  }
+  require_positive_definite(node_metrics);
   log_metrics_.resize(node_metrics.size());
   parallel_for(node_metrics.size(),
                [&](std::size_t n) { log_metrics_[n] = log_spd(node_metrics[n]); });

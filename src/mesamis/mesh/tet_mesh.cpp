@@ -22,13 +22,6 @@ struct FaceSlot {
   std::int8_t face;
 };
 
-std::array<Index, 3> sorted_face(const Cell& cell, int face) {
-  const auto& local = kCellFaces[face];
-  std::array<Index, 3> points{cell[local[0]], cell[local[1]], cell[local[2]]};
-  std::sort(points.begin(), points.end());
-  return points;
-}
-
 /// The faces of all cells by their points, then by cell. Put into one bucket per lowest point
 /// first: what is left to sort is short.
 std::vector<FaceSlot> sorted_faces(const TetMesh& mesh) {
@@ -136,6 +129,13 @@ std::string find_bad_volume(const TetMesh& mesh, const Box& box) {
 }
 
 }  // namespace
+
+std::array<Index, 3> sorted_face(const Cell& cell, int face) {
+  const auto& local = kCellFaces[static_cast<std::size_t>(face)];
+  std::array<Index, 3> points{cell[local[0]], cell[local[1]], cell[local[2]]};
+  std::sort(points.begin(), points.end());
+  return points;
+}
 
 double cell_volume(const TetMesh& mesh, Index cell) {
   const auto [a, b, c, d] = cell_corners(mesh, mesh.cells[static_cast<std::size_t>(cell)]);

@@ -34,6 +34,10 @@ inline std::array<Vec3, 4> cell_corners(const TetMesh& mesh, const Cell& cell) {
 }
 double cell_volume(const TetMesh& mesh, Index cell);
 
+/// The points of the face opposite local point `face`, in increasing order: the same from both its
+/// cells.
+std::array<Index, 3> sorted_face(const Cell& cell, int face);
+
 /// The smallest box around the points.
 Box bounding_box(std::span<const Vec3> points);
 

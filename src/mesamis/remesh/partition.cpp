@@ -213,12 +213,8 @@ std::vector<BorderFace> border_faces(const WorkingMesh& mesh, Index first, Index
     const WorkCell& cell = mesh.cells[c];
     for (int f = 0; f < 4; ++f) {
       if (cell.neighbors[f] != kNoIndex) continue;
-      const auto& local = kCellFaces[f];
-      std::array<Index, 3> points{cell.points[local[0]], cell.points[local[1]],
-                                  cell.points[local[2]]};
-      if (is_on_box(mesh, points)) continue;
-      std::sort(points.begin(), points.end());
-      faces.push_back({points, face_ref(c, f)});
+      const std::array<Index, 3> points = sorted_face(cell.points, f);
+      if (!is_on_box(mesh, points)) faces.push_back({points, face_ref(c, f)});
     }
   }
   return faces;

@@ -14,6 +14,11 @@ namespace {
 
 bool is_cavity(const Nesting& nesting, std::size_t part) { return nesting.depth[part] % 2 != 0; }
 
+/// Does what is around the part go?
+bool leaves_along(const Nesting& nesting, const std::vector<char>& goes, std::size_t part) {
+  return nesting.parent[part] != kNoIndex && goes[nesting.parent[part]];
+}
+
 /// Which parts go. They come largest first, so that what is around a part is decided before it.
 std::vector<char> find_unwanted(const SurfaceComponents& parts, const Nesting& nesting,
                                 const PartSelection& selection) {
@@ -21,10 +26,9 @@ std::vector<char> find_unwanted(const SurfaceComponents& parts, const Nesting& n
   std::int64_t islands = 0;
   for (std::size_t p = 0; p < goes.size(); ++p) {
     const bool cavity = is_cavity(nesting, p);
-    const bool inside = nesting.parent[p] != kNoIndex && goes[nesting.parent[p]];
     const bool small = std::abs(parts.sizes[p].volume) < selection.volume_min;
     const bool filled = cavity && selection.fill_cavities;
-    goes[p] = inside || small || filled;
+    goes[p] = leaves_along(nesting, goes, p) || small || filled;
     if (cavity || goes[p]) continue;
     ++islands;
     goes[p] = selection.keep_largest > 0 && islands > selection.keep_largest;
@@ -39,7 +43,7 @@ SelectionReport tell(const SurfaceComponents& parts, const Nesting& nesting,
     const double volume = std::abs(parts.sizes[p].volume);
     if (is_cavity(nesting, p)) {
       // A cavity that leaves with its island is not filled.
-      const bool filled = goes[p] && !goes[nesting.parent[p]];
+      const bool filled = goes[p] && !leaves_along(nesting, goes, p);
       ++report.cavities;
       report.cavities_filled += filled;
       report.volume_filled += filled ? volume : 0;

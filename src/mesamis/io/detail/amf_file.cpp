@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <charconv>
 
 #include "mesamis/io/detail/surface_formats.h"
 
@@ -31,10 +30,8 @@ std::string escaped(std::string_view text) {
 }
 
 void append_number(std::string& out, const char* tag, double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value + 0.0).ptr;  // no "-0"
   ((out += '<') += tag) += '>';
-  out.append(text, end);
+  append_shortest(out, value);
   ((out += "</") += tag) += '>';
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
 #include <limits>
 
 #include "mesamis/io/detail/refuse.h"
@@ -10,12 +9,6 @@ namespace mesamis::detail {
 namespace {
 
 namespace fs = std::filesystem;
-
-void append_text(std::string& out, double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value + 0.0).ptr;  // no "-0"
-  out.append(text, end);
-}
 
 class ObjParser {
  public:
@@ -83,7 +76,7 @@ std::string obj_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
   if (!options.name.empty()) out += "o " + options.name + "\n";
   for (const Vec3& p : surface.points) {
     out += 'v';
-    for (int axis = 0; axis < 3; ++axis) append_text(out += ' ', p[axis]);
+    for (int axis = 0; axis < 3; ++axis) append_shortest(out += ' ', p[axis]);
     out += '\n';
   }
   for (const Triangle& t : surface.triangles) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <charconv>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -14,6 +15,12 @@ namespace mesamis::detail {
 
 /// "mesamis, millimetre, SPACE=LPS": 3D Slicer looks for the last part in all four formats.
 std::string frame_note(Frame frame);
+
+/// The shortest decimals that read back as the same double; never "-0".
+inline void append_shortest(std::string& out, double value) {
+  char text[32];
+  out.append(text, std::to_chars(text, text + sizeof text, value + 0.0).ptr);
+}
 
 /// Single precision, as the format has it; triangles with two equal corners there are left out.
 std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
