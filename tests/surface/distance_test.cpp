@@ -144,6 +144,35 @@ TEST(Distance, RefusesWhatHasNoAnswer) {
   EXPECT_TRUE(distances_to_surface({}, cube()).empty());
 }
 
+TEST(MaxDistance, IsThatOfTheFarthestPointNotOfTheFarthestCorner) {
+  // A roof over a square: all corners lie on the flat one, the ridge does not.
+  const TriMesh flat{{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  const TriMesh roof{{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 1, 0.5}, {2, 1, 0.5}},
+                     {{0, 1, 5}, {0, 5, 4}, {4, 5, 2}, {4, 2, 3}}};
+  EXPECT_NEAR(max_distance(roof, flat, 1e-3), 0.5, 0.005);
+  // The middle of the square is nearest to the slopes, at a right angle.
+  EXPECT_NEAR(max_distance(flat, roof, 1e-3), 1 * std::sin(std::atan(0.5)), 0.005);
+  EXPECT_EQ(max_distance(flat, flat, 1e-3), 1e-3);
+}
+
+TEST(MaxDistance, BoundsSamplesClosely) {
+  const TriMesh a = random_triangles(60, {1, 1, 1}, 1), b = random_triangles(60, {1, 1, 1}, 2);
+  const double bound = max_distance(a, b, 1e-3);
+  const auto samples = distances_to_surface(sample_by_area(a, 200'000), b);
+  const double sampled = *std::max_element(samples.begin(), samples.end());
+  EXPECT_GE(bound, sampled);
+  EXPECT_LE(bound, 1.03 * sampled);
+}
+
+TEST(MaxDistance, HasTheSameBitsForAnyNumberOfThreads) {
+  const TriMesh a = random_triangles(5000, {9, 9, 9}, 1), b = random_triangles(500, {9, 9, 9}, 2);
+  set_thread_count(1);
+  const double one = max_distance(a, b, 1e-2);
+  set_thread_count(3);
+  EXPECT_EQ(max_distance(a, b, 1e-2), one);
+  set_thread_count(0);
+}
+
 TEST(Summarize, KnowsOneToAHundred) {
   std::vector<double> values;
   for (int i = 100; i >= 1; --i) values.push_back(i);

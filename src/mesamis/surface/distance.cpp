@@ -7,6 +7,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/surface/farthest.h"
 #include "mesamis/surface/triangle_tree.h"
 
 namespace mesamis {
@@ -45,6 +46,23 @@ std::vector<double> distances_to_surface(std::span<const Vec3> points, const Tri
     }
   });
   return distances;
+}
+
+double max_distance(const TriMesh& from, const TriMesh& to, double fine) {
+  require_sound(from);
+  require_sound(to);
+  if (from.triangles.empty() || to.triangles.empty()) {
+    throw InputError("distance: a surface has no triangle");
+  }
+  const TriangleTree tree(to);
+  return parallel_max(from.triangles.size(), fine, [&](std::size_t begin, std::size_t end) {
+    std::size_t hint = 0;
+    double farthest = fine;
+    for (std::size_t t = begin; t < end; ++t) {
+      farthest = farthest_distance(corners_of(from, from.triangles[t]), tree, {farthest}, hint);
+    }
+    return farthest;
+  });
 }
 
 DistanceSummary summarize(std::vector<double> distances) {

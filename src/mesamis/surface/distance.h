@@ -19,6 +19,15 @@ namespace mesamis {
 /// O((m + n) log m) for n points near a surface of m triangles.
 std::vector<double> distances_to_surface(std::span<const Vec3> points, const TriMesh& surface);
 
+/// The greatest distance of any point of `from`, insides of triangles included, to the surface
+/// `to`: an upper bound up to round-off, and at most 1 % or `fine` above the true value.
+///
+/// The triangles are cut along those of `to` until on each piece the distance to one triangle, a
+/// convex function that is greatest at a corner, says enough.
+/// @param fine  mm, > 0: what is nearer than this is not looked at any closer.
+/// @throws InputError  if a surface has no triangle or is not sound.
+double max_distance(const TriMesh& from, const TriMesh& to, double fine);
+
 /// Points spread evenly by area over the surface, the same for the same surface and count: one in
 /// each of `count` equal shares of the area, in the order of the triangles; the places within
 /// the triangles follow a sequence of low discrepancy.

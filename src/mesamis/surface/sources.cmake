@@ -5,16 +5,22 @@ set(ROOM_HEADERS
   extract.h
   normals.h
   select_parts.h
+  self_intersections.h
   tri_mesh.h)
 set(ROOM_SOURCES
+  box_tree.cpp
   components.cpp
   distance.cpp
   edge_sides.cpp
+  exact_predicates.cpp
   extract_band.cpp
   extract_solid.cpp
+  farthest.cpp
   nesting.cpp
   normals.cpp
   sampling.cpp
   select_parts.cpp
+  self_intersections.cpp
   tri_mesh.cpp
+  triangle_intersection.cpp
   triangle_tree.cpp)

@@ -24,6 +24,9 @@ class TriangleTree {
   ///              point was near, and never changes the answer beyond round-off.
   double squared_distance_to(const Vec3& p, std::size_t& hint) const;
 
+  /// The triangle a search ended at.
+  const Corners& triangle(std::size_t hint) const { return triangles_[hint]; }
+
  private:
   struct Node {
     Box box;

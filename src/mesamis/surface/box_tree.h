@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "mesamis/base/types.h"
+
+namespace mesamis {
+
+inline bool overlap(const Box& a, const Box& b) {
+  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y &&
+         a.lo.z <= b.hi.z && b.lo.z <= a.hi.z;
+}
+
+/// A box that overlaps none.
+inline constexpr double kFar = std::numeric_limits<double>::infinity();
+inline constexpr Box kNoBox{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+
+Box box_of(std::span<const Vec3> points);
+
+/// A hierarchy over boxes that may change: who overlaps a box?
+class BoxTree {
+ public:
+  explicit BoxTree(std::span<const Box> boxes);
+
+  /// Gives item i another box. O(log n); the hierarchy itself stays.
+  void update(std::size_t i, const Box& box);
+
+  /// Calls visit(i) for each item whose box overlaps the given one (touching counts), always in the
+  /// same order, until it returns false.
+  template <class Visit>
+  void for_each_overlap(const Box& box, Visit&& visit) const {
+    std::array<Index, 64> stack;  // halved at each step: depth at most 32
+    std::size_t size = 0;
+    if (!nodes_.empty()) stack[size++] = 0;
+    while (size > 0) {
+      const Index n = stack[--size];
+      const Node& node = nodes_[static_cast<std::size_t>(n)];
+      if (!overlap(node.box, box)) continue;
+      if (node.item != kNoIndex) {
+        if (!visit(static_cast<std::size_t>(node.item))) return;
+        continue;
+      }
+      stack[size++] = node.second;
+      stack[size++] = n + 1;
+    }
+  }
+
+ private:
+  struct Node {
+    Box box;
+    Index parent = kNoIndex;
+    Index second = kNoIndex;  // the first child comes next
+    Index item = kNoIndex;    // of a leaf
+  };
+
+  void build(std::span<const Box> boxes, std::span<Index> items, Index parent);
+
+  std::vector<Node> nodes_;
+  std::vector<Index> leaf_of_;
+};
+
+}  // namespace mesamis
