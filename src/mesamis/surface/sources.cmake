@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   components.h
+  decimate.h
   distance.h
   extract.h
   normals.h
@@ -10,6 +11,8 @@ set(ROOM_HEADERS
 set(ROOM_SOURCES
   box_tree.cpp
   components.cpp
+  decimate.cpp
+  decimate_pass.cpp
   distance.cpp
   edge_sides.cpp
   exact_predicates.cpp
@@ -23,4 +26,5 @@ set(ROOM_SOURCES
   self_intersections.cpp
   tri_mesh.cpp
   triangle_intersection.cpp
-  triangle_tree.cpp)
+  triangle_tree.cpp
+  unused_points.cpp)

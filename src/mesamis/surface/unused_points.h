@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mesamis/surface/tri_mesh.h"
+
+namespace mesamis {
+
+/// The surface without the points that no triangle uses; the order stays.
+TriMesh without_unused_points(const TriMesh& surface);
+
+}  // namespace mesamis
