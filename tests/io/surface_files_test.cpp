@@ -10,6 +10,7 @@
 
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/extract.h"
+#include "support/level_set.h"
 #include "support/shapes.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
@@ -205,6 +206,18 @@ TEST(Stl, HeaderIsNeverTakenForText) {
   const std::string bytes = read_bytes(folder / "a.stl");
   EXPECT_EQ(bytes.size(), 84u + 12 * 50);
   EXPECT_NE(bytes.substr(0, 5), "solid");
+}
+
+TEST(Stl, StaysClosedWhereVoxelsAreRoundingErrors) {
+  TempFolder folder;
+  TriMesh surface = level_set({{-1, -1, -1}, {1, 1, 1}}, {24, 24, 24},
+                              [](const Vec3& p) { return 0.8 - norm(p); });
+  for (Vec3& p : surface.points) p = Vec3{1e5, -1e5, 1e5} + 0.1 * p;
+  write_surface(folder / "a.stl", surface);
+  const SurfaceCheck check = check_surface(read_surface(folder / "a.stl"));
+  EXPECT_TRUE(check.closed());
+  EXPECT_TRUE(check.manifold());
+  EXPECT_EQ(check.components, 1);
 }
 
 TEST(Stl, BinaryThatBeginsWithSolidIsReadBySize) {

@@ -24,7 +24,7 @@ struct SurfaceWriteOptions {
 /// Writes a surface by extension. The file appears whole or not at all (written beside, then
 /// renamed).
 ///
-///   .stl  binary, single precision. Triangles with two corners that are equal there are left out.
+///   .stl  binary, single precision. What is closed stays closed, see round_to_single().
 ///   .ply  binary, double precision (what reads PLY in this field takes it)
 ///   .obj  text, double precision
 ///   .vtp  VTK XML, appended binary, double precision

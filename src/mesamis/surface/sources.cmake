@@ -5,6 +5,7 @@ set(ROOM_HEADERS
   distance.h
   extract.h
   normals.h
+  round_to_single.h
   select_parts.h
   self_intersections.h
   tri_mesh.h)
@@ -21,6 +22,7 @@ set(ROOM_SOURCES
   farthest.cpp
   nesting.cpp
   normals.cpp
+  round_to_single.cpp
   sampling.cpp
   select_parts.cpp
   self_intersections.cpp

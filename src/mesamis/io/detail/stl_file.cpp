@@ -9,6 +9,7 @@
 #include "mesamis/io/detail/refuse.h"
 #include "mesamis/io/detail/surface_formats.h"
 #include "mesamis/io/detail/text_scan.h"
+#include "mesamis/surface/round_to_single.h"
 
 namespace mesamis::detail {
 namespace {
@@ -122,27 +123,24 @@ std::string frame_note(Frame frame) {
 }
 
 std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options) {
+  const TriMesh single = round_to_single(surface);
   // The header must not begin with "solid", or readers take the file for text.
   std::string out = frame_note(options.frame) + (options.name.empty() ? "" : ", " + options.name);
   out.resize(kHeader, '\0');
-  out.reserve(kBegin + kRecord * surface.triangles.size());
-  append(out, std::uint32_t{0});
-  for (const Triangle& k : surface.triangles) {
+  out.reserve(kBegin + kRecord * single.triangles.size());
+  append(out, static_cast<std::uint32_t>(single.triangles.size()));
+  for (const Triangle& k : single.triangles) {
     std::array<Corner, 3> t;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3& p = surface.points[k[i]];
+      const Vec3& p = single.points[k[i]];
       t[i] = corner(p.x, p.y, p.z);
     }
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
     for (const float x : normal_of(t)) append(out, x);
     for (const Corner& c : t) {
       for (const float x : c) append(out, x);
     }
     append(out, std::uint16_t{0});
   }
-  std::string count;
-  append(count, static_cast<std::uint32_t>((out.size() - kBegin) / kRecord));
-  out.replace(kHeader, count.size(), count);
   return out;
 }
 

@@ -22,7 +22,7 @@ inline void append_shortest(std::string& out, double value) {
   out.append(text, std::to_chars(text, text + sizeof text, value + 0.0).ptr);
 }
 
-/// Single precision, as the format has it; triangles with two equal corners there are left out.
+/// Single precision, as the format has it, see round_to_single().
 std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
 /// Binary or text; equal corners become one point, in the order of their first use.
 TriMesh parse_stl(const std::filesystem::path& file, std::string_view bytes);
