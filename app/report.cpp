@@ -83,6 +83,11 @@ ordered_json surface_json(const Result& result, const SurfaceCheck& check) {
   if (solid) {
     j["level_native"] = result.level_native;
     j["level_grey"] = result.grey.to_grey(result.level_native);
+    const auto& tolerance = result.settings.tolerance;
+    j["tolerance_mm"] = tolerance ? ordered_json(*tolerance) : ordered_json(nullptr);
+    j["triangles_extracted"] = result.printable.triangles_extracted;
+    j["distance_extracted_to_result_max"] = result.printable.extracted_to_result;
+    j["distance_result_to_extracted_max"] = result.printable.result_to_extracted;
   }
   j["triangles"] = result.surface.triangles.size();
   j["vertices"] = result.surface.points.size();
@@ -154,6 +159,7 @@ ordered_json segment_report(const InputFacts& input, const Settings& settings, c
   report["converged"] = result.converged;
   report["seconds_parts"] = {{"prepare", result.seconds.prepare},
                              {"surface", result.seconds.surface},
+                             {"decimate", result.seconds.decimate},
                              {"method", result.seconds.total}};
   report["seconds"] = wall_seconds();
   report["peak_memory_mb"] = peak_memory_mb();

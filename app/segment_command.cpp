@@ -133,6 +133,10 @@ void add_method_settings(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) 
        "--fill-cavities", [o] { o->overrides["fill_cavities"] = true; },
        "Fill the cavities of the solid")
       ->group("Settings");
+  add_number(c, o, "--tolerance",
+             "Decimate the solid surface within this distance, mm (default auto: 0.1 voxel; 0: no)",
+             {"auto"});
+  add_number(c, o, "--triangles", "Decimate the solid surface to this many", {"auto"});
   c.add_flag_callback(
        "--stop-at-first", [o] { o->overrides["stop_at_first"] = true; },
        "Stop when mesh or energy has settled, as printed in the paper (default: both)")

@@ -158,6 +158,8 @@ const std::vector<Entry>& entries() {
       setting("min_volume", &Settings::min_volume),
       setting("keep_largest", &Settings::keep_largest),
       setting("fill_cavities", &Settings::fill_cavities),
+      setting("tolerance", &Settings::tolerance),
+      setting("triangles", &Settings::triangles),
   };
   return table;
 }

@@ -20,6 +20,7 @@
 #include "mesamis/mesh/gradation.h"
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/prepare.h"
+#include "mesamis/printable.h"
 #include "mesamis/remesh/remesh.h"
 #include "mesamis/surface/extract.h"
 #include "mesamis/surface/select_parts.h"
@@ -80,6 +81,7 @@ class Run {
     result_.fit = measure_fit(mesh_, asked_);
     extract();
     deliver();
+    decimate();
     return std::move(result_);
   }
 
@@ -336,6 +338,17 @@ class Run {
     const PartSelection wanted{settings().min_volume, settings().keep_largest,
                                settings().fill_cavities};
     result_.surface = select_parts(result_.surface, wanted, &result_.parts.emplace());
+  }
+
+  /// The paper's band is delivered as it is.
+  void decimate() {
+    Stopwatch watch;
+    result_.printable.triangles_extracted =
+        static_cast<std::int64_t>(result_.surface.triangles.size());
+    if (settings().surface == SurfaceKind::kSolid) {
+      result_.surface = make_printable(result_.surface, settings(), progress_, result_.printable);
+    }
+    result_.seconds.decimate = watch.lap();
   }
 
   /// A left-handed grid turns every orientation round.

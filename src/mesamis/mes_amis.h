@@ -33,6 +33,14 @@ struct Iteration {
   } seconds;
 };
 
+/// From the surface as extracted to the one delivered.
+struct PrintableReport {
+  std::int64_t triangles_extracted = 0;
+  /// The greatest distance of any point of one surface to the other, mm: upper bounds, see
+  /// max_distance(). 0 for a surface that is delivered as extracted.
+  double extracted_to_result = 0, result_to_extracted = 0;
+};
+
 struct Result {
   Settings settings;   ///< with every default filled in
   double unit_mm = 1;  ///< the length unit
@@ -47,11 +55,12 @@ struct Result {
   TriMesh surface;              ///< world frame LPS, mm
   /// What the solid consisted of, and what went; none for a band or a flawed surface.
   std::optional<SelectionReport> parts;
+  PrintableReport printable;    ///< how the surface was decimated
 
   std::vector<Iteration> iterations;  ///< the last one is the final minimisation
   bool converged = false;             ///< mesh and energy settled, every solve converged
   struct Seconds {
-    double prepare = 0, surface = 0, total = 0;
+    double prepare = 0, surface = 0, decimate = 0, total = 0;
   } seconds;
 };
 
@@ -64,7 +73,7 @@ struct Result {
 ///
 /// @param volume    native values.
 /// @param progress  optional; stages "preparation", "adaptation k of n", "final minimisation",
-///                  "surface".
+///                  "surface", "decimation".
 /// @return the same bits for any number of threads.
 /// @throws InputError  if the volume or a setting cannot be used.
 /// @throws Cancelled   if progress says stop.

@@ -12,8 +12,7 @@
 namespace mesamis {
 namespace {
 
-double length_unit_mm(const Settings& settings, const Volume& volume) {
-  if (settings.length_unit == LengthUnit::kMm) return 1;
+double voxel_mm(const Volume& volume) {
   return std::cbrt(volume.spacing.x * volume.spacing.y * volume.spacing.z);
 }
 
@@ -64,11 +63,14 @@ void require_contrast(const Volume& volume, const Prepared& prepared) {
 Prepared prepare_image(const Volume& volume, const Settings& settings) {
   Prepared prepared;
   prepared.settings = settings;
-  prepared.unit_mm = length_unit_mm(settings, volume);
+  prepared.unit_mm = settings.length_unit == LengthUnit::kMm ? 1 : voxel_mm(volume);
   Settings& chosen = prepared.settings;
   if (!chosen.eta) chosen.eta = chosen.epsilon * chosen.epsilon;
   if (!chosen.h_max) {
     chosen.h_max = std::max(chosen.h_min, default_h_max(volume, prepared.unit_mm));
+  }
+  if (!chosen.tolerance && !chosen.triangles) {
+    chosen.tolerance = kDefaultTolerance * voxel_mm(volume);
   }
   const ObjectEdges object = find_object(volume, chosen.level);
   prepared.level_native = chosen.level.value_or(object.level);

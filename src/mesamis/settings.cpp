@@ -45,6 +45,8 @@ void require_valid(const Settings& s) {
   require_range("band-threshold", s.band_threshold, 0, 1);
   require_range("min-volume", s.min_volume, 0, 1e12);
   require_range("keep-largest", static_cast<double>(s.keep_largest), 0, 1e9);
+  if (s.tolerance) require_range("tolerance", *s.tolerance, 0, kHuge);
+  if (s.triangles) require_range("triangles", static_cast<double>(*s.triangles), 4, 2e9);
   require_range("threshold", s.threshold, -kLargestValue, kLargestValue);
   if (s.level) require_range("level", *s.level, -kLargestValue, kLargestValue);
   if (s.window) {

@@ -21,6 +21,9 @@ enum class SurfaceKind {
 };
 enum class ThresholdRule { kAuto, kNone, kValue };
 
+/// Of the geometric mean of the voxels' spacing.
+inline constexpr double kDefaultTolerance = 0.1;
+
 /// Everything a run depends on, with its default, unit and range. Empty optionals are chosen from
 /// the volume; the result tells the values used.
 struct Settings {
@@ -63,6 +66,10 @@ struct Settings {
   double min_volume = 0;          ///< mm^3, >= 0: smaller islands go, smaller cavities are filled
   std::int64_t keep_largest = 0;  ///< islands to keep; 0: all
   bool fill_cavities = false;     ///< every cavity
+  /// How far decimation may take the solid surface, mm, in both directions; 0: as extracted;
+  /// default: kDefaultTolerance voxels, or no bound where `triangles` is given.
+  std::optional<double> tolerance;
+  std::optional<std::int64_t> triangles;  ///< where decimation stops, 4 to 2e9; default: nowhere
 };
 
 /// @throws InputError  for the first value out of range, naming the setting, range and value.

@@ -36,6 +36,12 @@ TEST(Settings, ARefusedValueNamesItsRange) {
   settings.gradation = 1.5;
   EXPECT_EQ(refusal(settings), "");
   settings = {};
+  settings.tolerance = -0.1;
+  EXPECT_THAT(refusal(settings), ::testing::HasSubstr("tolerance"));
+  settings = {};
+  settings.triangles = 3;
+  EXPECT_THAT(refusal(settings), ::testing::HasSubstr("triangles"));
+  settings = {};
   settings.window = Window{3, 3};
   EXPECT_EQ(refusal(settings), "window: expected low below high, found 3,3");
 }

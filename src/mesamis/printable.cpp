@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/printable.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "mesamis/surface/decimate.h"
+#include "mesamis/surface/distance.h"
+#include "mesamis/surface/round_to_single.h"
+
+namespace mesamis {
+namespace {
+
+/// Distances below this share of the tolerance, or of the box where there is none, are told as
+/// this share.
+constexpr double kFineOfTolerance = 0.01, kFineOfBox = 1e-6;
+
+double fine_distance(const TriMesh& surface, double tolerance) {
+  if (tolerance < std::numeric_limits<double>::infinity()) return kFineOfTolerance * tolerance;
+  Box box{surface.points.front(), surface.points.front()};
+  for (const Vec3& p : surface.points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lo[axis] = std::min(box.lo[axis], p[axis]);
+      box.hi[axis] = std::max(box.hi[axis], p[axis]);
+    }
+  }
+  return kFineOfBox * norm(box.extent());
+}
+
+}  // namespace
+
+TriMesh make_printable(const TriMesh& surface, const Settings& settings, const Progress& progress,
+                       PrintableReport& report) {
+  report = {};
+  report.triangles_extracted = static_cast<std::int64_t>(surface.triangles.size());
+  const double otherwise = settings.triangles ? std::numeric_limits<double>::infinity() : 0;
+  const double tolerance = settings.tolerance.value_or(otherwise);
+  if (surface.triangles.empty() || tolerance == 0) return surface;
+  // First rounded, then decimated: what is left is where it was, so that what decimation promises
+  // is true of every file.
+  RoundReport rounding;
+  const TriMesh rounded = round_to_single(surface, &rounding);
+  DecimateOptions options;
+  options.tolerance = std::max(0.0, tolerance - rounding.shift);
+  options.triangles = settings.triangles.value_or(0);
+  options.progress = progress;
+  TriMesh result = decimate(rounded, options);
+  const double fine = fine_distance(surface, tolerance);
+  report.extracted_to_result = max_distance(surface, result, fine);
+  report.result_to_extracted = max_distance(result, surface, fine);
+  return result;
+}
+
+}  // namespace mesamis

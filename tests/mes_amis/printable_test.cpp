@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/printable.h"
+
+#include <gtest/gtest.h>
+
+#include "mesamis/base/error.h"
+#include "mesamis/surface/distance.h"
+#include "mesamis/surface/self_intersections.h"
+#include "support/level_set.h"
+
+namespace mesamis {
+namespace {
+
+TriMesh ball() {
+  TriMesh surface = level_set({{-1, -1, -1}, {1, 1, 1}}, {16, 16, 16},
+                              [](const Vec3& p) { return 0.8 - norm(p); });
+  for (Vec3& p : surface.points) p = Vec3{100.1, -7.3, 950.7} + 8 * p;
+  return surface;
+}
+
+void expect_single_precision(const TriMesh& surface) {
+  for (const Vec3& p : surface.points) {
+    for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(p[axis], static_cast<float>(p[axis]));
+  }
+}
+
+TEST(Printable, StaysWithinTheToleranceOfWhatWasExtracted) {
+  const TriMesh surface = ball();
+  PrintableReport report;
+  Settings settings;
+  settings.tolerance = 0.1;
+  const TriMesh result = make_printable(surface, settings, {}, report);
+  EXPECT_LT(result.triangles.size(), surface.triangles.size() / 2);
+  EXPECT_EQ(report.triangles_extracted, static_cast<std::int64_t>(surface.triangles.size()));
+  EXPECT_GT(report.extracted_to_result, 0.02);
+  EXPECT_LE(report.extracted_to_result, 0.1);
+  EXPECT_LE(report.result_to_extracted, 0.1);
+  EXPECT_LE(max_distance(surface, result, 1e-3), 0.1);
+  expect_single_precision(result);
+  EXPECT_TRUE(find_self_intersections(result).empty());
+}
+
+TEST(Printable, ANumberOfTrianglesNeedsNoTolerance) {
+  Settings settings;
+  settings.triangles = 200;
+  PrintableReport report;
+  EXPECT_EQ(make_printable(ball(), settings, {}, report).triangles.size(), 200u);
+  EXPECT_GT(report.extracted_to_result, 0);
+  settings.tolerance = 1e-3;  // both: whichever comes first
+  EXPECT_GT(make_printable(ball(), settings, {}, report).triangles.size(), 200u);
+  EXPECT_LE(report.extracted_to_result, 1e-3);
+}
+
+TEST(Printable, NoToleranceMeansAsExtracted) {
+  const TriMesh surface = ball();
+  Settings settings;
+  settings.tolerance = 0;
+  PrintableReport report;
+  const TriMesh result = make_printable(surface, settings, {}, report);
+  EXPECT_EQ(result.points, surface.points);
+  EXPECT_EQ(result.triangles, surface.triangles);
+  EXPECT_EQ(report.triangles_extracted, static_cast<std::int64_t>(surface.triangles.size()));
+  EXPECT_EQ(report.extracted_to_result, 0);
+}
+
+TEST(Printable, NothingStaysNothing) {
+  PrintableReport report;
+  Settings settings;
+  settings.tolerance = 0.1;
+  EXPECT_TRUE(make_printable({}, settings, {}, report).triangles.empty());
+}
+
+}  // namespace
+}  // namespace mesamis
