@@ -91,6 +91,7 @@ class Decimation {
   Decimation(const TriMesh& surface, const DecimateOptions& options)
       : surface_(surface),
         options_(options),
+        tolerance_(options.tolerance / kDistanceSlack),
         stars_(surface),
         tree_(surface),
         held_(surface.points.size(), 0) {}
@@ -98,7 +99,7 @@ class Decimation {
   TriMesh run() {
     for (pass_ = 1; pass_ <= kMostPasses; ++pass_) {
       result_ = {surface_.points, decimate_pass(task(), held_)};
-      if (std::isinf(options_.tolerance) || !hold_what_is_too_far()) return std::move(result_);
+      if (std::isinf(tolerance_) || !hold_what_is_too_far()) return std::move(result_);
     }
     return surface_;
   }
@@ -112,15 +113,15 @@ class Decimation {
       const double done = (pass_ - 1 + std::clamp(share, 0.0, 1.0)) / (pass_ + 1);
       if (options_.progress && !options_.progress("decimation", done)) throw Cancelled();
     };
-    return {surface_, tree_, options_.tolerance, options_.triangles, tell};
+    return {surface_, tree_, tolerance_, options_.triangles, tell};
   }
 
   /// A triangle whose corners stay, stays; and where all triangles around a point stay, no other
   /// comes.
   bool hold_what_is_too_far() {
     const TriangleTree result_tree(result_);
-    const auto lost = triangles_beyond(surface_, result_tree, options_.tolerance);
-    const auto strayed = triangles_beyond(result_, tree_, options_.tolerance);
+    const auto lost = triangles_beyond(surface_, result_tree, tolerance_);
+    const auto strayed = triangles_beyond(result_, tree_, tolerance_);
     std::vector<Index> points;
     for (const Index t : lost) add_corners(surface_.triangles[t], points);
     for (const Index t : strayed) add_corners(result_.triangles[t], points);
@@ -145,6 +146,7 @@ class Decimation {
 
   const TriMesh& surface_;
   const DecimateOptions& options_;
+  double tolerance_;  // a little less, so that the bound told is within what was asked for
   Stars stars_;
   TriangleTree tree_;
   std::vector<char> held_;

@@ -17,7 +17,7 @@ struct DecimateOptions {
 
 struct DecimateReport {
   std::int64_t triangles_before = 0, triangles_after = 0;
-  /// Upper bounds for every point of the surfaces, within 1 % (or 1 % of the tolerance), mm.
+  /// Upper bounds for every point of the surfaces, within 0.4 % (or 1 % of the tolerance), mm.
   double original_to_result = 0, result_to_original = 0;
   int passes = 0;  ///< from the start, each with more points held than the one before
   std::int64_t points_held = 0;

@@ -72,11 +72,11 @@ class ModFlatness : public Module {
   const std::vector<Vec3>* points_ = nullptr;
 };
 
-/// Hausdorff distance in both directions, at samples: the points and the middles of the sides of
-/// the original, each kept with the triangle nearest to it; and the middles of new triangles and
-/// sides.
+/// Hausdorff distance in both directions, over whole triangles: of the new ones to the original,
+/// and of the original ones that lie near to the new. Each original triangle is listed with those
+/// that its corners and its middle are nearest to; what else it may reach is seen to afterwards.
 ///
-/// OpenMesh's own ModHausdorff knows the first direction only, at the points only, and takes any
+/// OpenMesh's own ModHausdorff knows the second direction only, at points only, and takes any
 /// distance to a triangle without area for good.
 class ModHausdorff : public Module {
  public:
@@ -84,110 +84,109 @@ class ModHausdorff : public Module {
 
   void set_task(const DecimateTask& task) {
     task_ = &task;
-    squared_ = task.tolerance * task.tolerance;
-    samples_ = task.surface.points;
-    of_face_.assign(task.surface.triangles.size(), {});
-    for (std::size_t t = 0; t < task.surface.triangles.size(); ++t) {
-      const Triangle& k = task.surface.triangles[t];
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (k[i] > k[(i + 1) % 3]) continue;  // the triangle beyond adds it
-        of_face_[t].push_back(static_cast<Index>(samples_.size()));
-        samples_.push_back(0.5 * (task.surface.points[k[i]] + task.surface.points[k[(i + 1) % 3]]));
-      }
-    }
+    if (std::isinf(task.tolerance)) return;
+    of_face_.resize(task.surface.triangles.size());
+    for (std::size_t t = 0; t < of_face_.size(); ++t) of_face_[t] = {static_cast<Index>(t)};
   }
 
   float collapse_priority(const Info& collapse) override {
-    if (std::isinf(squared_)) return LEGAL_COLLAPSE;
+    if (std::isinf(task_->tolerance)) return LEGAL_COLLAPSE;
     const Star star = star_of(mesh(), collapse);
-    return old_is_near(collapse, star) && new_is_near(collapse, star) ? LEGAL_COLLAPSE
-                                                                      : ILLEGAL_COLLAPSE;
+    return removed_is_near(collapse, star) && new_are_near(star) && old_are_near(collapse, star)
+               ? LEGAL_COLLAPSE
+               : ILLEGAL_COLLAPSE;
   }
 
   void preprocess_collapse(const Info& collapse) override {
-    if (std::isinf(squared_)) return;
-    waiting_ = gather(collapse);
+    if (std::isinf(task_->tolerance)) return;
+    waiting_ = listed_around(collapse);
+    for (auto f = mesh().cvf_iter(collapse.v0); f.is_valid(); ++f) of_face_[index(*f)].clear();
+    star_ = star_of(mesh(), collapse);
   }
 
-  void postprocess_collapse(const Info& collapse) override {
-    if (std::isinf(squared_)) return;
-    std::vector<OpenMesh::FaceHandle> faces;
-    std::vector<Corners> shapes;
-    for (auto f = mesh().cvf_iter(collapse.v1); f.is_valid(); ++f) {
-      faces.push_back(*f);
-      shapes.push_back(corners_of(task_->surface, corner_indices(mesh(), *f)));
-    }
-    for (const Index sample : waiting_) {
-      std::size_t nearest = 0;
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i < shapes.size(); ++i) {
-        const double d = squared_distance(samples_[sample], shapes[i]);
-        if (d >= least) continue;
-        least = d;
-        nearest = i;
-      }
-      of_face_[index(faces[nearest])].push_back(sample);
+  void postprocess_collapse(const Info&) override {
+    if (std::isinf(task_->tolerance)) return;
+    for (const Index t : waiting_) {
+      const Corners c = original(t);
+      for (const Vec3& p : {c[0], c[1], c[2], (1.0 / 3) * (c[0] + c[1] + c[2])}) list(t, p);
     }
   }
 
  private:
-  /// The samples around the point to be removed, and the point itself; the lists end empty.
-  std::vector<Index> gather(const Info& collapse) {
-    std::vector<Index> all{collapse.v0.idx()};
+  Corners shape(const Triangle& t) const { return corners_of(task_->surface, t); }
+  Corners original(Index t) const { return shape(task_->surface.triangles[t]); }
+  Enough enough() const { return {task_->tolerance, task_->tolerance}; }
+
+  /// The originals listed around the point to be removed, each once.
+  std::vector<Index> listed_around(const Info& collapse) {
+    std::vector<Index> all;
     for (auto f = mesh().cvf_iter(collapse.v0); f.is_valid(); ++f) {
-      std::vector<Index>& own = of_face_[index(*f)];
-      all.insert(all.end(), own.begin(), own.end());
-      own.clear();
+      all.insert(all.end(), of_face_[index(*f)].begin(), of_face_[index(*f)].end());
     }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
   }
 
-  bool near_one(Index sample, const std::vector<Corners>& shapes, std::size_t& last) const {
-    if (squared_distance(samples_[sample], shapes[last]) <= squared_) return true;
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-      if (i != last && squared_distance(samples_[sample], shapes[i]) <= squared_) {
-        last = i;
-        return true;
-      }
+  /// Lists t with the new triangle that is nearest to p.
+  void list(Index t, const Vec3& p) {
+    std::size_t nearest = 0;
+    double least = kFar;
+    for (std::size_t i = 0; i < star_.after.size(); ++i) {
+      const double d = squared_distance(p, shape(star_.after[i]));
+      if (d >= least) continue;
+      least = d;
+      nearest = i;
     }
-    return false;
+    std::vector<Index>& own = of_face_[index(star_.faces[nearest])];
+    if (own.empty() || own.back() != t) own.push_back(t);
   }
 
-  bool old_is_near(const Info& collapse, const Star& star) {
-    std::vector<Corners> shapes;
-    for (const Triangle& t : star.after) shapes.push_back(corners_of(task_->surface, t));
-    std::size_t last = 0;
-    if (!near_one(collapse.v0.idx(), shapes, last)) return false;
-    for (auto f = mesh().cvf_iter(collapse.v0); f.is_valid(); ++f) {
-      for (const Index sample : of_face_[index(*f)]) {
-        if (!near_one(sample, shapes, last)) return false;
-      }
+  /// The cheapest test, and the one that refuses most.
+  bool removed_is_near(const Info& collapse, const Star& star) const {
+    const Vec3& p = task_->surface.points[index(collapse.v0)];
+    return std::any_of(star.after.begin(), star.after.end(), [&](const Triangle& t) {
+      return squared_distance(p, shape(t)) <= task_->tolerance * task_->tolerance;
+    });
+  }
+
+  bool new_are_near(const Star& star) {
+    return std::all_of(star.after.begin(), star.after.end(), [&](const Triangle& t) {
+      return farthest_distance(shape(t), task_->tree, enough(), hint_) <= task_->tolerance;
+    });
+  }
+
+  bool old_are_near(const Info& collapse, const Star& star) {
+    const TriangleTree after(surroundings(collapse, star));
+    std::size_t hint = 0;
+    for (const Index t : listed_around(collapse)) {
+      if (farthest_distance(original(t), after, enough(), hint) > task_->tolerance) return false;
     }
     return true;
   }
 
-  bool new_is_near(const Info& collapse, const Star& star) {
-    const auto& points = task_->surface.points;
-    const Vec3& hub = points[index(collapse.v1)];
-    for (const Triangle& t : star.after) {
-      const Vec3 sum = points[t[0]] + points[t[1]] + points[t[2]];
-      if (!near_original((1.0 / 3) * sum)) return false;
-      for (const Index i : t) {
-        if (i != collapse.v1.idx() && !near_original(0.5 * (hub + points[i]))) return false;
+  /// The triangles after the collapse, those of the ring's other points included.
+  TriMesh surroundings(const Info& collapse, const Star& star) {
+    std::vector<Triangle> triangles = star.after;
+    for (auto v = mesh().cvv_iter(collapse.v0); v.is_valid(); ++v) {
+      for (auto f = mesh().cvf_iter(*v); f.is_valid(); ++f) {
+        const Triangle t = corner_indices(mesh(), *f);
+        if (std::find(t.begin(), t.end(), collapse.v0.idx()) == t.end()) triangles.push_back(t);
       }
     }
-    return true;
-  }
-
-  bool near_original(const Vec3& p) {
-    return task_->tree.squared_distance_to(p, hint_) <= squared_;
+    TriMesh local;
+    for (const Triangle& t : triangles) {
+      const auto first = static_cast<Index>(local.points.size());
+      for (const Vec3& p : shape(t)) local.points.push_back(p);
+      local.triangles.push_back({first, first + 1, first + 2});
+    }
+    return local;
   }
 
   const DecimateTask* task_ = nullptr;
-  double squared_ = 0;
-  std::vector<Vec3> samples_;                // the points of the original, then middles of sides
-  std::vector<std::vector<Index>> of_face_;  // samples nearest to each triangle
+  std::vector<std::vector<Index>> of_face_;
   std::vector<Index> waiting_;
+  Star star_;
   std::size_t hint_ = 0;
 };
 

@@ -20,7 +20,7 @@ namespace mesamis {
 std::vector<double> distances_to_surface(std::span<const Vec3> points, const TriMesh& surface);
 
 /// The greatest distance of any point of `from`, insides of triangles included, to the surface
-/// `to`: an upper bound up to round-off, and at most 1 % or `fine` above the true value.
+/// `to`: an upper bound up to round-off, and at most 0.4 % or `fine` above the true value.
 ///
 /// The triangles are cut along those of `to` until on each piece the distance to one triangle, a
 /// convex function that is greatest at a corner, says enough.

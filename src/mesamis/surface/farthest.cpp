@@ -8,9 +8,9 @@
 namespace mesamis {
 namespace {
 
-constexpr double kSlack = 1.01;
 /// Pieces smaller than this, relative to what is enough, are not cut again.
-constexpr double kSmallest = 2e-3;
+constexpr double kHalfSlack = 1.002;  // the rest is for the smallest pieces
+constexpr double kSmallest = 5e-4;
 constexpr double kThin = 0.01;  // relative to these
 
 using Polygon = std::vector<Vec3>;  // convex and flat
@@ -83,7 +83,7 @@ class Search {
   bool settles(const Polygon& piece, const Corners& near) {
     std::size_t worst = 0;
     const double upper = bound(piece, near, worst);
-    if (upper > std::max(enough_.below, kSlack * lower_)) return false;
+    if (upper > std::max(enough_.below, kHalfSlack * lower_)) return false;
     upper_ = std::max(upper_, upper);
     return true;
   }
