@@ -165,7 +165,7 @@ TEST(MaxDistance, BoundsSamplesClosely) {
 }
 
 TEST(MaxDistance, HasTheSameBitsForAnyNumberOfThreads) {
-  const TriMesh a = random_triangles(5000, {9, 9, 9}, 1), b = random_triangles(500, {9, 9, 9}, 2);
+  const TriMesh a = random_triangles(1500, {9, 9, 9}, 1), b = random_triangles(500, {9, 9, 9}, 2);
   set_thread_count(1);
   const double one = max_distance(a, b, 1e-2);
   set_thread_count(3);

@@ -18,8 +18,9 @@ struct DecimateTask {
   std::function<void(double)> progress;
 };
 
-/// One pass from the start: collapses while quadrics, samples and neighbours allow it. Distances
-/// are checked at samples only; the rest of the promises of decimate() hold.
+/// One pass from the start: collapses in the order of the quadrics while the promises of
+/// decimate() hold. What is not checked for good is that originals, listed where they are nearest,
+/// reach the result: a check afterwards may find a few that are too far.
 /// @param held  1 for each point that must stay.
 /// @return triangles over the points of the surface.
 std::vector<Triangle> decimate_pass(const DecimateTask& task, const std::vector<char>& held);

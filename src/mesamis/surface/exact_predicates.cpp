@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/surface/exact_predicates.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -13,6 +14,15 @@ namespace {
 struct Expansion {
   std::size_t size = 0;
   std::array<double, 192> terms;
+
+  Expansion() = default;
+  Expansion(const Expansion& other) { *this = other; }
+  /// Copies the terms there are, not the room for them.
+  Expansion& operator=(const Expansion& other) {
+    size = other.size;
+    std::copy_n(other.terms.begin(), size, terms.begin());
+    return *this;
+  }
 
   void append(double x) {
     if (x != 0) terms[size++] = x;
@@ -80,6 +90,7 @@ Expansion scaled(const Expansion& e, double b) {
 
 /// @param f  at most two terms.
 Expansion product(const Expansion& e, const Expansion& f) {
+  if (f.size == 1) return scaled(e, f.terms[0]);
   Expansion result;
   for (std::size_t i = 0; i < f.size; ++i) result = sum(result, scaled(e, f.terms[i]));
   return result;
