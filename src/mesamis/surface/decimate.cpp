@@ -101,6 +101,7 @@ class Decimation {
       result_ = {surface_.points, decimate_pass(task(), held_)};
       if (std::isinf(tolerance_) || !hold_what_is_too_far()) return std::move(result_);
     }
+    pass_ = kMostPasses;
     return surface_;
   }
 

@@ -35,7 +35,7 @@ struct DecimateReport {
 /// @throws InputError  if it is not, or an option is out of range.
 /// @throws Cancelled   if progress says stop.
 ///
-/// About 20 us per triangle.
+/// 30 to 130 us per triangle: most of it goes to collapses that the tolerance refuses.
 TriMesh decimate(const TriMesh& surface, const DecimateOptions& options,
                  DecimateReport* report = nullptr);
 
