@@ -94,19 +94,10 @@ ordered_json surface_json(const Result& result, const SurfaceCheck& check) {
   j["closed"] = check.closed();
   j["manifold"] = check.manifold();
   j["components"] = check.components;
-  if (solid) j["parts"] = parts_json(result.parts);
+  if (solid) j["parts"] = parts_json(result.printable.parts);
   j["volume_mm3"] = check.volume;
   j["area_mm2"] = check.area;
   return j;
-}
-
-/// Settings with the values used, so that a run can be repeated from its report.
-Settings settings_used(const Result& result) {
-  Settings used = result.settings;
-  used.threshold_rule = result.threshold_used ? ThresholdRule::kValue : ThresholdRule::kNone;
-  used.threshold = result.grey.threshold;
-  if (used.surface == SurfaceKind::kSolid) used.level = result.level_native;
-  return used;
 }
 
 /// Names of the settings that were left to the program.
@@ -134,6 +125,14 @@ InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file, F
   return facts;
 }
 
+Settings settings_used(const Result& result) {
+  Settings used = result.settings;
+  used.threshold_rule = result.threshold_used ? ThresholdRule::kValue : ThresholdRule::kNone;
+  used.threshold = result.grey.threshold;
+  if (used.surface == SurfaceKind::kSolid) used.level = result.level_native;
+  return used;
+}
+
 ordered_json segment_report(const InputFacts& input, const Settings& settings, const Result& result,
                             const SurfaceCheck& surface) {
   ordered_json report;
@@ -159,7 +158,7 @@ ordered_json segment_report(const InputFacts& input, const Settings& settings, c
   report["converged"] = result.converged;
   report["seconds_parts"] = {{"prepare", result.seconds.prepare},
                              {"surface", result.seconds.surface},
-                             {"decimate", result.seconds.decimate},
+                             {"printable", result.seconds.printable},
                              {"method", result.seconds.total}};
   report["seconds"] = wall_seconds();
   report["peak_memory_mb"] = peak_memory_mb();

@@ -24,6 +24,9 @@ struct InputFacts {
 };
 InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file, Frame frame);
 
+/// Settings with the values used, so that a run can be repeated from its report.
+Settings settings_used(const Result& result);
+
 /// The report of a run, as docs/formats.md describes it.
 /// @param settings  those asked for, to tell what was chosen automatically.
 nlohmann::ordered_json segment_report(const InputFacts& input, const Settings& settings,

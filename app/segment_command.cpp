@@ -23,6 +23,7 @@
 #include "report.h"
 #include "scan.h"
 #include "settings_json.h"
+#include "version.h"
 
 namespace mesamis {
 namespace {
@@ -34,6 +35,7 @@ struct SegmentOptions {
   fs::path input, settings_file, report;
   std::vector<fs::path> surfaces, meshes, band_meshes;
   std::string series;
+  std::string name = "mesamis surface";  // never the scan's, which may be the patient's
   Frame frame = Frame::kLps;
   json overrides = json::object();  // settings given as options, on top of the file's
 };
@@ -126,8 +128,10 @@ void add_method_settings(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) 
   add_number(c, o, "--h-max", "Largest edge, in length units, or auto", {"auto"});
   add_word(c, o, "--surface", "solid: closed level set of u (default); band: the paper's surface");
   add_number(c, o, "--band-threshold", "The band's cells have v below this (default 0.1)");
-  add_number(c, o, "--min-volume",
-             "Drop islands and fill cavities of the solid below so many mm^3 (default 0)");
+  add_number(
+      c, o, "--min-volume",
+      "Drop islands and fill cavities of the solid below so many mm^3 (default auto: 8 voxels)",
+      {"auto"});
   add_number(c, o, "--keep-largest", "Islands of the solid to keep (default 0: all)");
   c.add_flag_callback(
        "--fill-cavities", [o] { o->overrides["fill_cavities"] = true; },
@@ -223,6 +227,14 @@ void write_band_mesh(const fs::path& path, const Result& result, Frame frame) {
   write_vtu(path, band, std::vector<MeshArray>{v}, {}, frame);
 }
 
+SurfaceWriteOptions surface_options(const SegmentOptions& options, const Result& result) {
+  const std::string program = std::string("mesamis ") + kVersion + " (" + kCommit + ")";
+  return {options.frame,
+          options.name,
+          result.surface_grey,
+          {{"producer", program}, {"settings", to_json(settings_used(result)).dump()}}};
+}
+
 std::string why_not_converged(const Result& result) {
   const auto& passes = result.iterations;
   for (const Iteration& pass : passes) {
@@ -257,9 +269,8 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   const Result result = mes_amis(file.volume, settings, display.callback());
   display.finish();
   const SurfaceCheck check = check_surface(result.surface);
-  const std::string name = options.input.stem().string();
   for (const fs::path& path : options.surfaces) {
-    write_surface(path, result.surface, {options.frame, name});
+    write_surface(path, result.surface, surface_options(options, result));
   }
   for (const fs::path& path : options.meshes) write_mesh(path, result, options.frame);
   for (const fs::path& path : options.band_meshes) write_band_mesh(path, result, options.frame);
@@ -283,7 +294,7 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<SegmentOptions>();
   CLI::App* command = app.add_subcommand("segment", "Segment a scan: surface, mesh, report");
   command->add_option("input", options->input, "Volume file, DICOM directory or file")->required();
-  command->add_option("-o,--output", options->surfaces, "Surface: .stl .ply .obj .vtp .amf");
+  command->add_option("-o,--output", options->surfaces, "Surface: .stl .ply .obj .vtp .3mf .amf");
   command->add_option("--mesh", options->meshes, "Adapted mesh: .vtu, or Medit .mesh and .sol");
   command->add_option("--band-mesh", options->band_meshes, "The band's cells with v: .vtu");
   command->add_option("--report", options->report, "Report: .json");
@@ -297,6 +308,7 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
           },
           "Frame of the files written (default lps)")
       ->check(CLI::IsMember({"lps", "ras"}));
+  command->add_option("--name", options->name, "The object's name in the surfaces written");
   add_image_settings(*command, options);
   add_method_settings(*command, options);
   command->callback([options, &common, &action] {

@@ -22,8 +22,8 @@
 #include "mesamis/prepare.h"
 #include "mesamis/printable.h"
 #include "mesamis/remesh/remesh.h"
+#include "mesamis/surface/beneath.h"
 #include "mesamis/surface/extract.h"
-#include "mesamis/surface/select_parts.h"
 
 namespace mesamis {
 namespace {
@@ -81,7 +81,7 @@ class Run {
     result_.fit = measure_fit(mesh_, asked_);
     extract();
     deliver();
-    decimate();
+    finish_surface();
     return std::move(result_);
   }
 
@@ -319,7 +319,6 @@ class Run {
     to_world(mesh_.points);
     to_world(result_.surface.points);
     if (determinant(volume_.direction) < 0) mirror();
-    if (settings().surface == SurfaceKind::kSolid) keep_parts_wanted();
     for (const Iteration& pass : result_.iterations) {
       solved_ &= pass.amis.solver_converged;
     }
@@ -331,24 +330,17 @@ class Run {
     result_.f = std::move(fields_.f);
   }
 
-  /// In mm, as the volumes asked for are.
-  void keep_parts_wanted() {
-    const SurfaceCheck check = check_surface(result_.surface);
-    if (!check.closed() || !check.manifold()) return;  // for the caller to find
-    const PartSelection wanted{settings().min_volume, settings().keep_largest,
-                               settings().fill_cavities};
-    result_.surface = select_parts(result_.surface, wanted, &result_.parts.emplace());
-  }
-
   /// The paper's band is delivered as it is.
-  void decimate() {
+  void finish_surface() {
     Stopwatch watch;
-    result_.printable.triangles_extracted =
-        static_cast<std::int64_t>(result_.surface.triangles.size());
-    if (settings().surface == SurfaceKind::kSolid) {
-      result_.surface = make_printable(result_.surface, settings(), progress_, result_.printable);
-    }
-    result_.seconds.decimate = watch.lap();
+    const bool solid = settings().surface == SurfaceKind::kSolid;
+    TriMesh& surface = result_.surface;
+    result_.printable.triangles_extracted = static_cast<std::int64_t>(surface.triangles.size());
+    if (solid) surface = make_printable(surface, settings(), progress_, result_.printable);
+    constexpr int kSamples = 4;
+    const double depth = solid ? kCoverDepth * volume_.voxel_size() : 0;
+    result_.surface_grey = greatest_beneath(result_.mesh, result_.u, surface, depth, kSamples);
+    result_.seconds.printable = watch.lap();
   }
 
   /// A left-handed grid turns every orientation round.

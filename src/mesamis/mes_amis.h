@@ -35,11 +35,16 @@ struct Iteration {
 
 /// From the surface as extracted to the one delivered.
 struct PrintableReport {
-  std::int64_t triangles_extracted = 0;
+  /// What the solid consisted of, and what went; none for a band or a flawed surface.
+  std::optional<SelectionReport> parts;
+  std::int64_t triangles_extracted = 0;  ///< of the parts that stay
   /// The greatest distance of any point of one surface to the other, mm: upper bounds, see
   /// max_distance(). 0 for a surface that is delivered as extracted.
   double extracted_to_result = 0, result_to_extracted = 0;
 };
+
+/// How deep beneath a solid's surface its grey value is looked for, voxels' geometric means.
+inline constexpr double kCoverDepth = 2;
 
 struct Result {
   Settings settings;   ///< with every default filled in
@@ -53,14 +58,15 @@ struct Result {
   std::vector<Sym3> metric;     ///< the last one asked for, at the nodes, world frame
   MeshFit fit;                  ///< how well the mesh fits it
   TriMesh surface;              ///< world frame LPS, mm
-  /// What the solid consisted of, and what went; none for a band or a flawed surface.
-  std::optional<SelectionReport> parts;
-  PrintableReport printable;    ///< how the surface was decimated
+  /// Grey values at the surface's points: of a band u itself; of a solid, where u is the level
+  /// everywhere, the greatest one met within kCoverDepth voxels beneath (greatest_beneath()).
+  std::vector<double> surface_grey;
+  PrintableReport printable;  ///< which parts of the surface went, how it was decimated
 
   std::vector<Iteration> iterations;  ///< the last one is the final minimisation
   bool converged = false;             ///< mesh and energy settled, every solve converged
   struct Seconds {
-    double prepare = 0, surface = 0, decimate = 0, total = 0;
+    double prepare = 0, surface = 0, printable = 0, total = 0;
   } seconds;
 };
 

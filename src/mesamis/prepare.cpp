@@ -12,10 +12,6 @@
 namespace mesamis {
 namespace {
 
-double voxel_mm(const Volume& volume) {
-  return std::cbrt(volume.spacing.x * volume.spacing.y * volume.spacing.z);
-}
-
 /// A quarter of the box's longest side, in length units.
 double default_h_max(const Volume& volume, double unit_mm) {
   const Vec3 extent = volume.box().extent();
@@ -63,14 +59,18 @@ void require_contrast(const Volume& volume, const Prepared& prepared) {
 Prepared prepare_image(const Volume& volume, const Settings& settings) {
   Prepared prepared;
   prepared.settings = settings;
-  prepared.unit_mm = settings.length_unit == LengthUnit::kMm ? 1 : voxel_mm(volume);
+  prepared.unit_mm = settings.length_unit == LengthUnit::kMm ? 1 : volume.voxel_size();
   Settings& chosen = prepared.settings;
   if (!chosen.eta) chosen.eta = chosen.epsilon * chosen.epsilon;
   if (!chosen.h_max) {
     chosen.h_max = std::max(chosen.h_min, default_h_max(volume, prepared.unit_mm));
   }
   if (!chosen.tolerance && !chosen.triangles) {
-    chosen.tolerance = kDefaultTolerance * voxel_mm(volume);
+    chosen.tolerance = kDefaultTolerance * volume.voxel_size();
+  }
+  if (!chosen.min_volume) {
+    const Vec3& voxel = volume.spacing;
+    chosen.min_volume = kDefaultMinVolume * voxel.x * voxel.y * voxel.z;
   }
   const ObjectEdges object = find_object(volume, chosen.level);
   prepared.level_native = chosen.level.value_or(object.level);

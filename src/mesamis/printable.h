@@ -6,14 +6,15 @@
 
 namespace mesamis {
 
-/// Makes the solid surface ready to be written in any format: coordinates that single precision
-/// holds, and no more triangles than settings.tolerance and settings.triangles ask for. With
-/// neither (tolerance 0) it stays as extracted.
-/// @param surface   closed, 2-manifold or empty; world frame, mm.
-/// @param settings  its tolerance, where there is neither that nor triangles, counts as 0.
-/// @param report    what was done, distances measured against the surface given.
-/// @throws Cancelled  if progress says stop.
-TriMesh make_printable(const TriMesh& surface, const Settings& settings, const Progress& progress,
+/// Makes the solid surface ready to be written in any format: the parts asked for; coordinates
+/// that single precision holds; and no more triangles than settings.tolerance and
+/// settings.triangles ask for. With neither (tolerance 0) the parts that stay are as extracted.
+/// @param extracted  closed, 2-manifold or empty; world frame, mm. Parts of any other stay.
+/// @param settings   defaults filled in, see prepare_image(); what is still missing counts as 0.
+/// @param report     what was done, distances measured against the parts that stay.
+/// @throws InputError  if the surface is not closed or not a 2-manifold, and is to be decimated.
+/// @throws Cancelled   if progress says stop.
+TriMesh make_printable(const TriMesh& extracted, const Settings& settings, const Progress& progress,
                        PrintableReport& report);
 
 }  // namespace mesamis

@@ -43,7 +43,7 @@ void require_valid(const Settings& s) {
   require_range("h-min", s.h_min, kTiny, kHuge);
   if (s.h_max) require_range("h-max", *s.h_max, s.h_min, kHuge);
   require_range("band-threshold", s.band_threshold, 0, 1);
-  require_range("min-volume", s.min_volume, 0, 1e12);
+  if (s.min_volume) require_range("min-volume", *s.min_volume, 0, 1e12);
   require_range("keep-largest", static_cast<double>(s.keep_largest), 0, 1e9);
   if (s.tolerance) require_range("tolerance", *s.tolerance, 0, kHuge);
   if (s.triangles) require_range("triangles", static_cast<double>(*s.triangles), 4, 2e9);

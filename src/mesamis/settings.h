@@ -23,6 +23,8 @@ enum class ThresholdRule { kAuto, kNone, kValue };
 
 /// Of the geometric mean of the voxels' spacing.
 inline constexpr double kDefaultTolerance = 0.1;
+/// Voxels: what is smaller is noise.
+inline constexpr double kDefaultMinVolume = 8;
 
 /// Everything a run depends on, with its default, unit and range. Empty optionals are chosen from
 /// the volume; the result tells the values used.
@@ -63,7 +65,9 @@ struct Settings {
   std::optional<double> level;  ///< native units; default: midway, see find_object()
   double band_threshold = 0.1;  ///< TOLth, 0 to 1
   // The solid's parts, see PartSelection.
-  double min_volume = 0;          ///< mm^3, >= 0: smaller islands go, smaller cavities are filled
+  /// mm^3, >= 0: smaller islands go, smaller cavities are filled; default: kDefaultMinVolume
+  /// voxels.
+  std::optional<double> min_volume;
   std::int64_t keep_largest = 0;  ///< islands to keep; 0: all
   bool fill_cavities = false;     ///< every cavity
   /// How far decimation may take the solid surface, mm, in both directions; 0: as extracted;

@@ -71,5 +71,31 @@ TEST(Amf, NamesFactsAndFrameWithoutBreakingTheMarkup) {
   EXPECT_THAT(text, HasSubstr("SPACE=RAS"));
 }
 
+TEST(Amf, ReadsUnitsAndEveryObjectAndVolume) {
+  const TempFolder folder;
+  auto vertex = [](const char* x, const char* y, const char* z) {
+    return std::string("<vertex><coordinates><x>") + x + "</x><y>" + y + "</y><z> " + z +
+           " </z></coordinates></vertex>";
+  };
+  const std::string vertices = "<vertices>" + vertex("0", "0", "0") + vertex("1", "0", "0") +
+                               vertex("0", "1", "0") + vertex("0", "0", "1e0") + "</vertices>";
+  auto volume = [](const std::string& a, const std::string& b, const std::string& c) {
+    return "<volume><metadata type=\"name\">x</metadata><triangle><v1>" + a + "</v1><v2>" + b +
+           "</v2><v3>" + c + "</v3></triangle></volume>";
+  };
+  const std::string object = "<object id=\"1\"><mesh>" + vertices + volume("0", "2", "1") +
+                             volume("0", "1", "3") + "</mesh></object>";
+  const std::string begin = "<?xml version=\"1.0\"?>\n<!-- by hand -->\n<amf unit=\"inch\">";
+  write_bytes(folder / "a.amf", begin + object + object + "</amf>");
+  const TriMesh surface = read_surface(folder / "a.amf");
+  ASSERT_EQ(surface.points.size(), 8u);
+  EXPECT_EQ(surface.points[7], (Vec3{0, 0, 25.4}));
+  EXPECT_EQ(surface.triangles, (std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {4, 6, 5}, {4, 5, 7}}));
+  write_bytes(folder / "b.amf", "<amf unit=\"cubit\"></amf>");
+  EXPECT_REFUSED(read_surface(folder / "b.amf"), HasSubstr("expected a unit of AMF"));
+  write_bytes(folder / "c.amf", "<amf><object><mesh></mesh></object></amf>");
+  EXPECT_REFUSED(read_surface(folder / "c.amf"), HasSubstr("expected <vertices> in <mesh>"));
+}
+
 }  // namespace
 }  // namespace mesamis

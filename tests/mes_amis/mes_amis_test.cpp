@@ -55,6 +55,18 @@ TEST(MesAmis, DeliversAValidMeshWithinTheCount) {
   EXPECT_GT(result.fit.unit_edge_fraction, 0.8);
 }
 
+TEST(MesAmis, TellsTheGreyValueBeneathTheSurface) {
+  const Result result = mes_amis(make_ball(ball()), small_run());
+  ASSERT_EQ(result.surface_grey.size(), result.surface.points.size());
+  const double level = result.grey.to_grey(result.level_native);
+  const double inside = *std::max_element(result.u.begin(), result.u.end());
+  for (const double grey : result.surface_grey) {
+    EXPECT_GE(grey, level - 1e-3) << "the way begins on the level";
+    EXPECT_LE(grey, inside);
+    EXPECT_GT(grey, level + 0.3 * (inside - level)) << "the ball is far thicker than the way";
+  }
+}
+
 TEST(MesAmis, TheSameBitsForAnyNumberOfThreads) {
   const Volume volume = make_ball(ball());
   set_thread_count(1);
@@ -67,6 +79,7 @@ TEST(MesAmis, TheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(a.u, b.u);
   EXPECT_EQ(a.surface.points, b.surface.points);
   EXPECT_EQ(a.surface.triangles, b.surface.triangles);
+  EXPECT_EQ(a.surface_grey, b.surface_grey);
 }
 
 TEST(MesAmis, AnObliqueScanGivesTheSameSurfaceTurned) {

@@ -7,6 +7,7 @@
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/self_intersections.h"
 #include "support/level_set.h"
+#include "support/shapes.h"
 
 namespace mesamis {
 namespace {
@@ -61,6 +62,24 @@ TEST(Printable, NoToleranceMeansAsExtracted) {
   EXPECT_EQ(result.triangles, surface.triangles);
   EXPECT_EQ(report.triangles_extracted, static_cast<std::int64_t>(surface.triangles.size()));
   EXPECT_EQ(report.extracted_to_result, 0);
+}
+
+TEST(Printable, DropsWhatIsSmallerThanAskedAndSaysSo) {
+  const TriMesh crumb = cube({200, 0, 0}, 0.5);
+  Settings settings;
+  settings.tolerance = 0;
+  settings.min_volume = 0.2;
+  PrintableReport report;
+  const TriMesh result = make_printable(joined(ball(), crumb), settings, {}, report);
+  EXPECT_EQ(result.triangles, ball().triangles);
+  ASSERT_TRUE(report.parts);
+  EXPECT_EQ(report.parts->islands, 2);
+  EXPECT_EQ(report.parts->islands_dropped, 1);
+  EXPECT_NEAR(report.parts->volume_dropped, 0.125, 1e-9);
+  EXPECT_EQ(report.triangles_extracted, static_cast<std::int64_t>(result.triangles.size()));
+  settings.min_volume = 0.1;
+  EXPECT_EQ(check_surface(make_printable(joined(ball(), crumb), settings, {}, report)).components,
+            2);
 }
 
 TEST(Printable, NothingStaysNothing) {

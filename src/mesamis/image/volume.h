@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -43,6 +44,8 @@ struct Volume {
     return {{0, 0, 0},
             {(size[0] - 1) * spacing.x, (size[1] - 1) * spacing.y, (size[2] - 1) * spacing.z}};
   }
+  /// The geometric mean of the spacing, mm.
+  double voxel_size() const { return std::cbrt(spacing.x * spacing.y * spacing.z); }
   /// From the grid's own axes (mm) to the world (LPS, mm).
   Vec3 to_world(const Vec3& p) const { return origin + direction * p; }
 };

@@ -31,10 +31,12 @@ set(ROOM_SOURCES
   detail/obj_file.cpp
   detail/ply_file.cpp
   detail/stl_file.cpp
+  detail/threemf_file.cpp
   detail/vtk_file.cpp
   detail/vtk_xml.cpp
   detail/vtp_file.cpp
   detail/vtu_file.cpp
+  detail/xml.cpp
   medit_files.cpp
   mesh_files.cpp
   surface_files.cpp

@@ -30,9 +30,13 @@ struct Format {
   Formatter bytes;  // null: not written
 };
 
-constexpr Format kFormats[] = {{".stl", parse_stl, stl_bytes}, {".ply", parse_ply, ply_bytes},
-                               {".obj", parse_obj, obj_bytes}, {".vtp", parse_vtp, vtp_bytes},
-                               {".vtk", parse_vtk, nullptr},   {".amf", nullptr, amf_bytes}};
+constexpr Format kFormats[] = {{".stl", parse_stl, stl_bytes},
+                               {".ply", parse_ply, ply_bytes},
+                               {".obj", parse_obj, obj_bytes},
+                               {".vtp", parse_vtp, vtp_bytes},
+                               {".3mf", parse_threemf, threemf_bytes},
+                               {".amf", parse_amf, amf_bytes},
+                               {".vtk", parse_vtk, nullptr}};
 
 [[noreturn]] void refuse_extension(const fs::path& path, const std::string& known) {
   const std::string found = path.extension().string();
@@ -46,7 +50,7 @@ Parser parser_for(const fs::path& path) {
   for (const Format& format : kFormats) {
     if (extension == format.extension && format.parse != nullptr) return format.parse;
   }
-  refuse_extension(path, ".stl .ply .obj .vtp .vtk, each also with .gz");
+  refuse_extension(path, ".stl .ply .obj .vtp .3mf .amf .vtk, each also with .gz");
 }
 
 /// Half a turn about z: a rotation, so that triangles keep facing outward.
@@ -59,6 +63,20 @@ std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }, ' ');
   return text;
+}
+
+/// Names and facts in one line each, and always a producer.
+SurfaceWriteOptions as_written(const SurfaceWriteOptions& options) {
+  SurfaceWriteOptions clean = options;
+  clean.name = one_line(options.name);
+  bool produced = false;
+  for (auto& [type, text] : clean.metadata) {
+    type = one_line(type);
+    text = one_line(text);
+    produced |= type == kProducer;
+  }
+  if (!produced) clean.metadata.insert(clean.metadata.begin(), {kProducer, "mesamis"});
+  return clean;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -96,13 +114,7 @@ void write_surface(const fs::path& path, const TriMesh& surface,
   }
   TriMesh turned = surface;
   if (options.frame == Frame::kRas) turn(turned.points);
-  SurfaceWriteOptions clean = options;
-  clean.name = one_line(options.name);
-  for (auto& [type, text] : clean.metadata) {
-    type = one_line(type);
-    text = one_line(text);
-  }
-  write_file(path, format->bytes(turned, clean));
+  write_file(path, format->bytes(turned, as_written(options)));
 }
 
 TriMesh read_surface(const fs::path& path) {

@@ -16,8 +16,10 @@ enum class Frame { kLps, kRas };
 struct SurfaceWriteOptions {
   Frame frame = Frame::kLps;  ///< stated in the file: "SPACE=LPS", as 3D Slicer writes and reads it
   std::string name{};         ///< what the object is called
-  std::vector<double> grey{};  ///< .amf: a grey value per point, 0 (black) to 255; empty: none
-  /// .amf: further facts as type and text. Nothing about the patient belongs here.
+  /// .3mf, .amf, .vtp: a grey value per point, 0 (black) to 255; empty: none
+  std::vector<double> grey{};
+  /// .3mf, .amf: further facts as type and text; "producer" is the program. Nothing about the
+  /// patient belongs here.
   std::vector<std::pair<std::string, std::string>> metadata{};
 };
 
@@ -28,11 +30,13 @@ struct SurfaceWriteOptions {
 ///   .ply  binary, double precision (what reads PLY in this field takes it)
 ///   .obj  text, double precision
 ///   .vtp  VTK XML, appended binary, double precision
+///   .3mf  3MF with colours as the materials extension has them, single precision, six decimals,
+///         millimetres; grey values are colours of the triangles' corners
 ///   .amf  AMF 1.1 (ISO/ASTM 52915), text, double precision, millimetres, with grey values as
 ///         colours of the points
 ///
 /// Frame and name stand in the header (.stl, cut at 80 bytes), in comments (.ply, .obj), in
-/// field data (.vtp) or in metadata (.amf).
+/// field data (.vtp) or in metadata (.3mf, .amf).
 /// @param surface  points in LPS mm.
 /// @throws InputError  for another extension, an empty or unsound surface, a number of grey values
 ///                     that is not that of the points, or a file that cannot be written.
@@ -42,9 +46,10 @@ void write_surface(const std::filesystem::path& path, const TriMesh& surface,
 /// The extensions above, with their dots.
 std::vector<std::string> written_surface_formats();
 
-/// Reads .stl .ply .obj (text or binary where there are both), .vtp, legacy .vtk, also gzip'd
-/// (.gz). Equal points of an STL are welded; polygons are cut into fans. Coordinates are returned
-/// as the file has them: no frame is assumed or changed.
+/// Reads .stl .ply .obj (text or binary where there are both), .vtp, .3mf, .amf (not zipped),
+/// legacy .vtk, also gzip'd (.gz). Equal points of an STL are welded; polygons are cut into fans.
+/// Coordinates are returned as the file has them, in mm where it names its unit: no frame is
+/// assumed or changed.
 /// @return at least one triangle; indices in range, finite coordinates; else as the file has it.
 /// @throws InputError  one line: the file, what was expected and what was found.
 TriMesh read_surface(const std::filesystem::path& path);

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  beneath.h
   components.h
   decimate.h
   distance.h
@@ -10,6 +11,7 @@ set(ROOM_HEADERS
   self_intersections.h
   tri_mesh.h)
 set(ROOM_SOURCES
+  beneath.cpp
   box_tree.cpp
   components.cpp
   decimate.cpp

@@ -16,6 +16,9 @@ namespace mesamis::detail {
 /// "mesamis, millimetre, SPACE=LPS": 3D Slicer looks for the last part in all four formats.
 std::string frame_note(Frame frame);
 
+/// The type of the fact that names the program; among the facts of what is written, always.
+inline constexpr const char* kProducer = "producer";
+
 /// The shortest decimals that read back as the same double; never "-0".
 inline void append_shortest(std::string& out, double value) {
   char text[32];
@@ -46,5 +49,12 @@ TriMesh parse_vtk(const std::filesystem::path& file, std::string_view bytes);
 
 /// AMF 1.1, text; shortest decimals that give the same doubles back.
 std::string amf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// Every object's mesh, in mm; not packed as ZIP; constellations are passed over.
+TriMesh parse_amf(const std::filesystem::path& file, std::string_view bytes);
+
+/// 3MF through lib3mf: single precision, six decimals; the same bytes every time.
+std::string threemf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// What is to be built, where it is to be built, in mm.
+TriMesh parse_threemf(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace mesamis::detail

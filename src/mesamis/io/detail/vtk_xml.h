@@ -2,27 +2,15 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "mesamis/io/detail/number_type.h"
+#include "mesamis/io/detail/xml.h"
 
 /// VTK's XML files, read without VTK: its own reader crashes on damaged ones.
 namespace mesamis::detail {
-
-struct XmlElement {
-  std::string name;
-  std::map<std::string, std::string> attributes;
-  std::vector<XmlElement> children;
-  std::string_view text;  ///< up to the first child
-
-  /// The attribute's value or an empty text.
-  std::string attribute(const std::string& key) const;
-  /// The first child of this name, or null.
-  const XmlElement* child(std::string_view child_name) const;
-};
 
 /// An attribute that counts something; missing is 0.
 /// @throws InputError  if it is no whole number or negative.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vtkFieldData.h>
+#include <vtkPointData.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include "mesamis/base/error.h"
@@ -58,6 +59,9 @@ std::string vtp_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
   add_text(*data->GetFieldData(), "SPACE", options.frame == Frame::kRas ? "RAS" : "LPS");
   add_text(*data->GetFieldData(), "LengthUnit", "mm");
   if (!options.name.empty()) add_text(*data->GetFieldData(), "Name", options.name);
+  if (!options.grey.empty()) {
+    add_array(*data->GetPointData(), {"grey", 1, options.grey}, surface.points.size(), "point");
+  }
   const auto writer = vtkSmartPointer<vtkXMLPolyDataWriter>::New();
   writer->WriteToOutputStringOn();
   writer->SetInputData(data);
