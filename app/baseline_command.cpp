@@ -11,6 +11,7 @@
 #include "mesamis/io/surface_files.h"
 #include "outputs.h"
 #include "process.h"
+#include "report.h"
 #include "scan.h"
 
 namespace mesamis {
@@ -30,7 +31,7 @@ int run_baseline(const BaselineCommand& command) {
   const VolumeFile file = read_scan(command.input, command.series);
   const double level = command.level ? *command.level : find_object(file.volume).level;
   const TriMesh surface = isosurface(file.volume, level, command.options);
-  write_surface(command.output, surface, {.name = command.input.stem().string()});
+  write_surface(command.output, surface);
   const SurfaceCheck check = check_surface(surface);
   if (!command.report.empty()) {
     nlohmann::ordered_json report;
@@ -39,12 +40,9 @@ int run_baseline(const BaselineCommand& command) {
     report["settings"] = {{"method", command.method},
                           {"level", level},
                           {"smooth", command.options.smooth_voxels},
-                          {"triangles", command.options.triangles}};
-    report["surface"] = {{"triangles", surface.triangles.size()},
-                         {"vertices", surface.points.size()},
-                         {"closed", check.closed()},
-                         {"manifold", check.manifold()},
-                         {"components", check.components}};
+                          {"triangles", command.options.triangles},
+                          {"close", command.options.close_at_box}};
+    report["surface"] = check_json(surface, check);
     report["seconds"] = wall_seconds();
     report["peak_memory_mb"] = peak_memory_mb();
     write_json(command.report, report);
@@ -59,13 +57,16 @@ void add_baseline_command(CLI::App& app, CommonOptions&, Action& action) {
   auto command = std::make_shared<BaselineCommand>();
   CLI::App* sub = app.add_subcommand("baseline", "What is used today: an isosurface of the voxels");
   sub->add_option("input", command->input, "Volume file, DICOM directory or file")->required();
-  sub->add_option("-o,--output", command->output, "Surface: .stl .ply .obj .vtp .amf")->required();
+  sub->add_option("-o,--output", command->output, "Surface: .stl .ply .obj .vtp .3mf .amf")
+      ->required();
   sub->add_option("--method", command->method, "isosurface")
       ->check(CLI::IsMember({"isosurface"}))
       ->capture_default_str();
   sub->add_option("--level", command->level, "Native value (default: midway, as for segment)");
   sub->add_option("--smooth", command->options.smooth_voxels, "Gaussian first, sigma in voxels");
   sub->add_option("--triangles", command->options.triangles, "Decimate to this many triangles");
+  sub->add_flag("--close", command->options.close_at_box,
+                "Caps where the object leaves the volume");
   sub->add_option("--series", command->series, "DICOM series UID");
   sub->add_option("--report", command->report, "Report: .json");
   sub->callback([command, &action] { action = [command] { return run_baseline(*command); }; });

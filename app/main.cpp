@@ -52,6 +52,7 @@ void add_commands(CLI::App& app, CommonOptions& common, Action& action) {
   app.fallthrough();  // the common options may stand after the command
   add_common_options(app, common);
   add_segment_command(app, common, action);
+  add_decimate_command(app, common, action);
   add_remesh_command(app, common, action);
   add_baseline_command(app, common, action);
   add_compare_command(app, common, action);

@@ -5,6 +5,7 @@
 
 #include "json_file.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/surface/self_intersections.h"
 #include "process.h"
 #include "settings_json.h"
 
@@ -83,20 +84,10 @@ ordered_json surface_json(const Result& result, const SurfaceCheck& check) {
   if (solid) {
     j["level_native"] = result.level_native;
     j["level_grey"] = result.grey.to_grey(result.level_native);
-    const auto& tolerance = result.settings.tolerance;
-    j["tolerance_mm"] = tolerance ? ordered_json(*tolerance) : ordered_json(nullptr);
-    j["triangles_extracted"] = result.printable.triangles_extracted;
-    j["distance_extracted_to_result_max"] = result.printable.extracted_to_result;
-    j["distance_result_to_extracted_max"] = result.printable.result_to_extracted;
+    j.update(printable_json(result.printable, result.settings));
   }
-  j["triangles"] = result.surface.triangles.size();
-  j["vertices"] = result.surface.points.size();
-  j["closed"] = check.closed();
-  j["manifold"] = check.manifold();
-  j["components"] = check.components;
-  if (solid) j["parts"] = parts_json(result.printable.parts);
-  j["volume_mm3"] = check.volume;
-  j["area_mm2"] = check.area;
+  j.update(check_json(result.surface, check));
+  j["self_intersections"] = find_self_intersections(result.surface).size();
   return j;
 }
 
@@ -123,6 +114,25 @@ InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file, F
     facts.highest = *high;
   }
   return facts;
+}
+
+ordered_json printable_json(const PrintableReport& printable, const Settings& settings) {
+  const auto& tolerance = settings.tolerance;
+  return {{"tolerance_mm", tolerance ? ordered_json(*tolerance) : ordered_json(nullptr)},
+          {"triangles_extracted", printable.triangles_extracted},
+          {"distance_extracted_to_result_max", printable.extracted_to_result},
+          {"distance_result_to_extracted_max", printable.result_to_extracted},
+          {"parts", parts_json(printable.parts)}};
+}
+
+ordered_json check_json(const TriMesh& surface, const SurfaceCheck& check) {
+  return {{"triangles", surface.triangles.size()},
+          {"vertices", surface.points.size()},
+          {"closed", check.closed()},
+          {"manifold", check.manifold()},
+          {"components", check.components},
+          {"volume_mm3", check.volume},
+          {"area_mm2", check.area}};
 }
 
 Settings settings_used(const Result& result) {

@@ -24,6 +24,12 @@ struct InputFacts {
 };
 InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file, Frame frame);
 
+/// How a solid was made printable: tolerance, triangles before, distances, parts.
+nlohmann::ordered_json printable_json(const PrintableReport& printable, const Settings& settings);
+
+/// What a surface consists of, and whether it is closed.
+nlohmann::ordered_json check_json(const TriMesh& surface, const SurfaceCheck& check);
+
 /// Settings with the values used, so that a run can be repeated from its report.
 Settings settings_used(const Result& result);
 

@@ -35,6 +35,22 @@ TEST(Isosurface, SmoothsAndDecimates) {
   EXPECT_NEAR(relative_volume(few, 11), 1, 0.05);
 }
 
+TEST(Isosurface, ClosesWhatLeavesTheVolumeOnItsBox) {
+  const Volume whole = make_ball({.noise = 0});
+  const Index middle = whole.size[0] / 2;
+  const Volume half = crop(whole, {.begin = {middle, 0, 0}, .end = {-1, -1, -1}});
+  const SurfaceCheck open = check_surface(isosurface(half, 175));
+  EXPECT_FALSE(open.closed());
+  const TriMesh surface = isosurface(half, 175, {.close_at_box = true});
+  const SurfaceCheck check = check_surface(surface);
+  EXPECT_TRUE(check.closed());
+  EXPECT_TRUE(check.manifold());
+  EXPECT_GT(check.volume, 0);
+  double least = 1e300;
+  for (const Vec3& p : surface.points) least = std::min(least, p.x);
+  EXPECT_NEAR(least, half.origin.x, 0.01);
+}
+
 TEST(Isosurface, RefusesALevelNothingCrosses) {
   EXPECT_THROW(isosurface(make_ball({}), 1e6), InputError);
   EXPECT_THROW(isosurface(make_ball({}), 175, {.smooth_voxels = -1}), InputError);

@@ -3,6 +3,7 @@
 
 #include <vtkFloatArray.h>
 #include <vtkFlyingEdges3D.h>
+#include <vtkImageConstantPad.h>
 #include <vtkImageData.h>
 #include <vtkImageGaussianSmooth.h>
 #include <vtkNew.h>
@@ -36,6 +37,22 @@ vtkSmartPointer<vtkImageData> smoothed(vtkImageData* image, double voxels) {
   filter->SetDimensionality(3);
   filter->SetStandardDeviations(voxels, voxels, voxels);
   filter->SetRadiusFactors(4, 4, 4);
+  filter->Update();
+  return filter->GetOutput();
+}
+
+/// A layer around the volume that lies so far below the level that caps are on its box.
+vtkSmartPointer<vtkImageData> padded(vtkImageData* image, double level) {
+  constexpr double kSteepness = 1e4;
+  double range[2];
+  image->GetScalarRange(range);
+  int extent[6];
+  image->GetExtent(extent);
+  vtkNew<vtkImageConstantPad> filter;
+  filter->SetInputData(image);
+  filter->SetConstant(level - kSteepness * (range[1] - level));
+  filter->SetOutputWholeExtent(extent[0] - 1, extent[1] + 1, extent[2] - 1, extent[3] + 1,
+                               extent[4] - 1, extent[5] + 1);
   filter->Update();
   return filter->GetOutput();
 }
@@ -77,6 +94,7 @@ TriMesh isosurface(const Volume& volume, double level, const IsosurfaceOptions& 
   }
   vtkSmartPointer<vtkImageData> image = image_of(volume);
   if (options.smooth_voxels > 0) image = smoothed(image, options.smooth_voxels);
+  if (options.close_at_box) image = padded(image, level);
   vtkNew<vtkFlyingEdges3D> contour;
   contour->SetInputData(image);
   contour->SetValue(0, level);

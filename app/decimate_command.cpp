@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// mesamis decimate: any closed surface, with fewer triangles, within a distance.
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "json_file.h"
+#include "log.h"
+#include "mesamis/base/error.h"
+#include "mesamis/io/surface_files.h"
+#include "mesamis/printable.h"
+#include "mesamis/surface/self_intersections.h"
+#include "outputs.h"
+#include "process.h"
+#include "progress.h"
+#include "report.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DecimateCommand {
+  fs::path input, output, report;
+  std::string name = "mesamis surface";
+  Settings settings;  // only what make_printable() heeds
+};
+
+TriMesh read_closed(const fs::path& path) {
+  TriMesh surface = read_surface(path);
+  const SurfaceCheck check = check_surface(surface);
+  if (check.closed() && check.manifold()) return surface;
+  throw InputError(path.string() + ": expected a closed 2-manifold surface, found " +
+                   std::to_string(check.open_edges) + " open edges, " +
+                   std::to_string(check.nonmanifold_edges) + " non-manifold edges and " +
+                   std::to_string(check.nonmanifold_points) + " non-manifold points");
+}
+
+int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
+  require_output(command.output, written_surface_formats(), "--output");
+  if (!command.report.empty()) require_output(command.report, {".json"}, "--report");
+  if (!command.settings.tolerance && !command.settings.triangles) {
+    throw CLI::ValidationError("expected --tolerance or --triangles, found neither");
+  }
+  try {
+    require_valid(command.settings);
+  } catch (const InputError& error) {  // of an option, not of a file
+    throw CLI::ValidationError(error.what());
+  }
+  const TriMesh surface = read_closed(command.input);
+  ProgressDisplay display(common.quiet);
+  PrintableReport printable;
+  const TriMesh result = make_printable(surface, command.settings, display.callback(), printable);
+  display.finish();
+  if (result.triangles.empty()) {
+    throw InputError(command.input.string() + ": every part is smaller than --min-volume");
+  }
+  write_surface(command.output, result, {.name = command.name});
+  const SurfaceCheck check = check_surface(result);
+  if (!command.report.empty()) {
+    nlohmann::ordered_json report;
+    report["program"] = program_json();
+    report["input"] = {{"path", command.input.string()}, {"triangles", surface.triangles.size()}};
+    report["surface"] = printable_json(printable, command.settings);
+    report["surface"].update(check_json(result, check));
+    report["surface"]["self_intersections"] = find_self_intersections(result).size();
+    report["seconds"] = wall_seconds();
+    report["peak_memory_mb"] = peak_memory_mb();
+    write_json(command.report, report);
+  }
+  std::cout << result.triangles.size() << " of " << surface.triangles.size()
+            << " triangles, at most " << printable.extracted_to_result << " mm there and "
+            << printable.result_to_extracted << " mm back\n";
+  return check.closed() && check.manifold() ? kExitDone : kExitNotClosed;
+}
+
+}  // namespace
+
+void add_decimate_command(CLI::App& app, CommonOptions& common, Action& action) {
+  auto command = std::make_shared<DecimateCommand>();
+  Settings& settings = command->settings;
+  CLI::App* sub =
+      app.add_subcommand("decimate", "Fewer triangles for any closed surface, within a distance");
+  sub->add_option("input", command->input, "Surface: .stl .ply .obj .vtp .3mf .amf")->required();
+  sub->add_option("-o,--output", command->output, "Surface: .stl .ply .obj .vtp .3mf .amf")
+      ->required();
+  sub->add_option("--tolerance", settings.tolerance, "Distance in both directions, mm");
+  sub->add_option("--triangles", settings.triangles, "Stop at this many triangles");
+  sub->add_option("--min-volume", settings.min_volume,
+                  "Drop islands and fill cavities below so many mm^3 (default 0)");
+  sub->add_option("--keep-largest", settings.keep_largest, "Islands to keep (default 0: all)");
+  sub->add_flag("--fill-cavities", settings.fill_cavities, "Fill every cavity");
+  sub->add_option("--name", command->name, "The object's name in the file written");
+  sub->add_option("--report", command->report, "Report: .json");
+  sub->callback([command, &common, &action] {
+    action = [command, &common] { return run_decimate(*command, common); };
+  });
+}
+
+}  // namespace mesamis
