@@ -13,7 +13,7 @@
 
 namespace mesamis {
 
-/// The program mesamis, run as a user runs it.
+/// How a program ended.
 struct ProgramRun {
   int status = -1;  ///< exit status; minus the signal's number if one ended it
   std::string out, err;
@@ -23,11 +23,10 @@ struct ProgramRun {
   }
 };
 
-/// Starts the program with its output going to files in the folder.
-inline pid_t start_program(const TempFolder& folder, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), MESAMIS_PROGRAM);
+/// Starts a program, found as a shell finds it, with its output going to files in the folder.
+inline pid_t start_command(const TempFolder& folder, std::vector<std::string> command) {
   std::vector<char*> pointers;
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  for (std::string& word : command) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   const std::string out = folder / ".out", err = folder / ".err";
   const pid_t child = fork();
@@ -35,10 +34,16 @@ inline pid_t start_program(const TempFolder& folder, std::vector<std::string> ar
     constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC;
     dup2(open(out.c_str(), kFlags, 0600), STDOUT_FILENO);
     dup2(open(err.c_str(), kFlags, 0600), STDERR_FILENO);
-    execv(MESAMIS_PROGRAM, pointers.data());
+    execvp(pointers[0], pointers.data());
     _exit(126);
   }
   return child;
+}
+
+/// Starts mesamis.
+inline pid_t start_program(const TempFolder& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), MESAMIS_PROGRAM);
+  return start_command(folder, std::move(arguments));
 }
 
 inline ProgramRun await_program(const TempFolder& folder, pid_t child) {
@@ -48,6 +53,11 @@ inline ProgramRun await_program(const TempFolder& folder, pid_t child) {
           read_bytes(folder / ".err")};
 }
 
+inline ProgramRun run_command(const TempFolder& folder, std::vector<std::string> command) {
+  return await_program(folder, start_command(folder, std::move(command)));
+}
+
+/// Runs mesamis as a user runs it.
 inline ProgramRun run_program(const TempFolder& folder, std::vector<std::string> arguments) {
   return await_program(folder, start_program(folder, std::move(arguments)));
 }

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What comes of real scans can be printed: for us, and for programs that are not ours.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "support/run_program.h"
+#include "support/test_data.h"
+
+namespace mesamis {
+namespace {
+
+struct Scan {
+  const char* name;
+  const char* path;
+};
+
+class EachScan : public testing::TestWithParam<Scan> {
+ protected:
+  /// Fewer cells and passes than by default: what is promised does not depend on them.
+  ProgramRun segment(const std::filesystem::path& scan) const {
+    return run_program(folder_, {"segment", scan, "-o", folder_ / "a.stl", "-o", folder_ / "a.3mf",
+                                 "--report", folder_ / "r.json", "--stride", "2,2,2", "--max-tets",
+                                 "60000", "--adaptations", "2", "--quiet"});
+  }
+
+  TempFolder folder_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Real, EachScan,
+                         testing::Values(Scan{"cranium", "cranium_inv/ct.nrrd"},
+                                         Scan{"pelvis", "pelvis_ts/ct.nii.gz"},
+                                         Scan{"skull", "skull_phantom/ct_soft_1mm.nrrd"},
+                                         Scan{"mouse", "mouse_skull/ct_A_J.nii.gz"},
+                                         Scan{"mouse_template", "mouse_skull/ct_template.nii.gz"},
+                                         Scan{"spine", "thoracic_spine_ts/ct.nii.gz"},
+                                         Scan{"trabecular", "trabecular_microct/ct.nrrd"},
+                                         Scan{"head_aniso", "head_aniso/ct.nii.gz"},
+                                         Scan{"mr", "head_aniso/mr_t1.nii.gz"},
+                                         Scan{"j2k", "dicom_ct_j2k"},
+                                         Scan{"three_slices", "dicom_ct_3slice"}),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST_P(EachScan, GivesASurfaceThatPrints) {
+  const std::filesystem::path scan = test_data(std::filesystem::path("data") / GetParam().path);
+  MESAMIS_REQUIRE_DATA(scan);
+  const ProgramRun run = segment(scan);
+  ASSERT_THAT(run.status, testing::AnyOf(0, 4)) << run.err;  // few passes may leave it unsettled
+  const auto report = nlohmann::json::parse(read_bytes(folder_ / "r.json"));
+  const auto& surface = report["surface"];
+  EXPECT_EQ(surface["closed"], true);
+  EXPECT_EQ(surface["manifold"], true);
+  EXPECT_EQ(surface["self_intersections"], 0);
+  const double tolerance = report["settings"]["tolerance"];
+  EXPECT_GT(tolerance, 0);
+  EXPECT_LE(surface["distance_extracted_to_result_max"], tolerance);
+  EXPECT_LE(surface["distance_result_to_extracted_max"], tolerance);
+  EXPECT_LT(surface["triangles"], surface["triangles_extracted"]);
+
+  const ProgramRun admesh = run_command(folder_, {"admesh", "--exact", folder_ / "a.stl"});
+  if (admesh.status == 0) {
+    EXPECT_THAT(admesh.out, testing::ContainsRegex("Total disconnected facets *: +0 +0\n"));
+    EXPECT_THAT(admesh.out, testing::ContainsRegex("Degenerate facets *: +0"));
+  }
+  for (const char* file : {"a.stl", "a.3mf"}) {
+    const ProgramRun prusa = run_command(folder_, {"prusa-slicer", "--info", folder_ / file});
+    if (prusa.status != 0) continue;
+    EXPECT_THAT(prusa.out, testing::HasSubstr("manifold = yes")) << file;
+    EXPECT_THAT(prusa.out, testing::Not(testing::HasSubstr("open_edges"))) << file;
+    EXPECT_THAT(prusa.out,
+                testing::HasSubstr("number_of_facets = " + to_string(surface["triangles"])));
+  }
+}
+
+}  // namespace
+}  // namespace mesamis
