@@ -7,11 +7,15 @@ set(ROOM_HEADERS
   metric.h
   metric_field.h
   predicates.h
-  tet_mesh.h)
+  region.h
+  tet_mesh.h
+  value_bins.h)
 set(ROOM_SOURCES
   edges.cpp
   gradation.cpp
   locate.cpp
   metric.cpp
   metric_field.cpp
-  tet_mesh.cpp)
+  region.cpp
+  tet_mesh.cpp
+  value_bins.cpp)
