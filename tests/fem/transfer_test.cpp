@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mesamis/base/parallel.h"
@@ -74,6 +75,72 @@ TEST(ProjectImage, OntoACoarseGridKeepsLinearImages) {
     EXPECT_NEAR(f[static_cast<std::size_t>(n)],
                 linear({2.0 * (n % 5), 2.0 * (n / 5 % 5), 2.0 * (n / 25)}), 1e-5);
   }
+}
+
+/// The volume turned, and the mesh that fills its box in the world.
+struct Placed {
+  Volume volume;
+  TetMesh mesh;
+
+  explicit Placed(bool left_handed) : volume(linear_image({13, 11, 9}, {1, 0.8, 1.5})) {
+    const double c = 0.6, s = left_handed ? 0.8 : -0.8;
+    volume.direction.rows = {Vec3{c, s, 0}, Vec3{0.8, left_handed ? -c : c, 0}, Vec3{0, 0, 1}};
+    volume.origin = {-40, 7, 1000};
+    mesh = perturbed_box(volume.box(), {4, 5, 12}, 0.25);
+    for (Vec3& p : mesh.points) p = volume.to_world(p);
+    if (left_handed) {
+      for (Cell& cell : mesh.cells) std::swap(cell[2], cell[3]);
+    }
+  }
+  /// The linear function at a place in the world.
+  double value(const Vec3& world) const {
+    const Vec3 d = world - volume.origin;
+    const auto& r = volume.direction.rows;
+    return linear(d.x * r[0] + d.y * r[1] + d.z * r[2]);
+  }
+};
+
+TEST(AverageImage, IsExactOnCellsForLinearImagesHoweverTheGridLies) {
+  for (const bool left_handed : {false, true}) {
+    const Placed placed(left_handed);
+    ASSERT_GT(cell_volume(placed.mesh, 0), 0);
+    const ImageMeans means = average_image(placed.volume, placed.mesh);
+    ASSERT_EQ(means.cells.size(), placed.mesh.cells.size());
+    for (std::size_t k = 0; k < means.cells.size(); ++k) {
+      const auto p = cell_corners(placed.mesh, placed.mesh.cells[k]);
+      EXPECT_NEAR(means.cells[k], placed.value(0.25 * (p[0] + p[1] + p[2] + p[3])), 1e-4);
+    }
+  }
+}
+
+TEST(AverageImage, OfNodesHasTheCellsIntegralAndStaysInTheRange) {
+  Placed placed(true);
+  for (std::size_t i = 0; i < placed.volume.samples.size(); ++i) {
+    placed.volume.samples[i] = i % 13 < 6 ? -1000.0f : 3000.0f;  // far beyond any window
+  }
+  const ImageMeans means = average_image(placed.volume, placed.mesh);
+  double of_cells = 0, of_nodes = 0;
+  for (std::size_t k = 0; k < placed.mesh.cells.size(); ++k) {
+    const double volume = cell_volume(placed.mesh, static_cast<Index>(k));
+    of_cells += volume * means.cells[k];
+    for (const Index n : placed.mesh.cells[k]) of_nodes += volume / 4 * means.nodes[n];
+  }
+  EXPECT_NEAR(of_nodes / of_cells, 1, 1e-12);
+  const auto [low, high] = std::minmax_element(means.nodes.begin(), means.nodes.end());
+  EXPECT_GT(*low, -1000 - 0.02 * 4000);  // the quadrature's share
+  EXPECT_LT(*high, 3000 + 0.02 * 4000);
+  EXPECT_GT(*high, 2500);
+}
+
+TEST(AverageImage, HasTheSameBitsForAnyNumberOfThreads) {
+  const Placed placed(false);
+  set_thread_count(1);
+  const ImageMeans one = average_image(placed.volume, placed.mesh);
+  set_thread_count(2);
+  const ImageMeans two = average_image(placed.volume, placed.mesh);
+  set_thread_count(0);
+  EXPECT_EQ(one.cells, two.cells);
+  EXPECT_EQ(one.nodes, two.nodes);
 }
 
 TEST(InterpolateFields, MeshToMeshIsExactForLinearFields) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/cell_quadrature.h"
@@ -40,6 +41,17 @@ AxisFilter hat_filter(Index voxels, Index nodes) {
     filter.taps.push_back(std::move(tap));
   }
   return filter;
+}
+
+/// A cell's corners in the image's own axes, mm, in an order that makes it positive there.
+std::array<Vec3, 4> corners_in_image(const Volume& image, const TetMesh& mesh, const Cell& cell) {
+  std::array<Vec3, 4> corners = cell_corners(mesh, cell);
+  for (Vec3& p : corners) {
+    const Vec3 d = p - image.origin;
+    const auto& r = image.direction.rows;  // orthonormal: the transpose turns back
+    p = d.x * r[0] + d.y * r[1] + d.z * r[2];
+  }
+  return corners;
 }
 
 }  // namespace
@@ -95,6 +107,32 @@ std::vector<double> project_image(const Volume& image, const KuhnGrid& grid) {
     }
   });
   return f;
+}
+
+ImageMeans average_image(const Volume& image, const TetMesh& mesh) {
+  std::vector<std::array<double, 4>> fits(mesh.cells.size());
+  const bool mirrored = determinant(image.direction) < 0;
+  parallel_blocks(mesh.cells.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      std::array<Vec3, 4> corners = corners_in_image(image, mesh, mesh.cells[c]);
+      if (mirrored) std::swap(corners[2], corners[3]);
+      fits[c] = fit_image_on_cell(image, corners);
+      if (mirrored) std::swap(fits[c][2], fits[c][3]);
+    }
+  });
+  ImageMeans means{{}, std::vector<double>(mesh.points.size(), 0)};
+  std::vector<double> weights(mesh.points.size(), 0);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const double sum = fits[c][0] + fits[c][1] + fits[c][2] + fits[c][3];
+    const double volume = cell_volume(mesh, static_cast<Index>(c));
+    means.cells.push_back(sum / 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      means.nodes[mesh.cells[c][i]] += volume * (fits[c][i] + sum) / 5;
+      weights[mesh.cells[c][i]] += volume;
+    }
+  }
+  for (std::size_t n = 0; n < weights.size(); ++n) means.nodes[n] /= weights[n];
+  return means;
 }
 
 std::vector<std::vector<double>> interpolate_fields(const TetMesh& from,

@@ -10,7 +10,7 @@
 #include "mesamis/fem/solve.h"
 #include "mesamis/image/volume.h"
 
-/// Bringing fields to a mesh: the image by projection, u and v by interpolation.
+/// Bringing fields to a mesh: the image by projection or averaging, u and v by interpolation.
 namespace mesamis {
 
 /// Q_h, the L2 projection of the image onto the P1 functions of a mesh.
@@ -30,6 +30,22 @@ std::vector<double> project_image(const Volume& image, const MeshSpace& space, d
 /// The image on a (coarser) grid over the same box: each node averages the voxels under its
 /// trilinear hat, so that every voxel is seen; with the voxels' own grid it is the identity.
 std::vector<double> project_image(const Volume& image, const KuhnGrid& grid);
+
+/// Means of an image over the cells of a mesh, and over the surroundings of its nodes.
+struct ImageMeans {
+  std::vector<double> cells;  ///< over each cell
+  std::vector<double> nodes;  ///< weighted by the node's hat function, over the cells of the mesh
+};
+
+/// The image as the scan has it on a mesh: what a material is chosen from. Integrated as
+/// project_image does; the nodes' values are the L2 projection with the lumped mass, which does not
+/// overshoot at edges. A cell's value is exact for linear images.
+///
+/// @param image  native units.
+/// @param mesh   in the world frame, mm, within the image's box (values beyond are those on it);
+///               every point used.
+/// @return native units. The same bits for any number of threads.
+ImageMeans average_image(const Volume& image, const TetMesh& mesh);
 
 /// Values of a P1 function of `from` at other points.
 /// @param fields  one vector of nodal values per field.
