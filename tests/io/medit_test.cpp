@@ -51,6 +51,23 @@ TEST(Medit, MetricReadsBackBitEqualInTheFormatsOrder) {
   EXPECT_THAT(read_bytes(folder / "m.sol"), HasSubstr("\n2\n1 3\n11 12 22 13 23 33\n"));
 }
 
+TEST(Medit, ReferencesAndFieldsOfCellsAreWrittenAndSkippedOnReading) {
+  const TempFolder folder;
+  const TetMesh mesh = box_mesh({{0, 0, 0}, {1, 1, 1}}, {1, 1, 1});
+  const std::vector<Index> references{1, 2, 3, 4, 5, 17};
+  write_medit_mesh(folder / "m.mesh", mesh, Frame::kLps, references);
+  EXPECT_EQ(read_medit_mesh(folder / "m.mesh").cells, mesh.cells);
+  EXPECT_THAT(read_bytes(folder / "m.mesh"), HasSubstr(" 17\n\nEnd"));
+  const std::vector<Index> few{1};
+  EXPECT_REFUSED(write_medit_mesh(folder / "m.mesh", mesh, Frame::kLps, few),
+                 HasSubstr("a reference for each of 6 cells, found 1"));
+  const std::vector<std::vector<double>> sizes{{0.5, 2}}, of_cells{{1, 2, 3}, {4, 5, 6}};
+  write_medit_scalars(folder / "h.sol", sizes, of_cells);
+  EXPECT_EQ(read_medit_metric(folder / "h.sol").size(), 2u);
+  EXPECT_THAT(read_bytes(folder / "h.sol"),
+              HasSubstr("\nSolAtTetrahedra\n3\n2 1 1\n1 4\n2 5\n3 6\n"));
+}
+
 TEST(Medit, SizesBecomeIsotropicMetrics) {
   const TempFolder folder;
   const std::vector<std::vector<double>> sizes{{0.5, 2}};

@@ -8,58 +8,48 @@
 #include <string_view>
 
 #include "mesamis/base/error.h"
-#include "mesamis/io/atomic_file.h"
+#include "mesamis/io/detail/mesh_checks.h"
 #include "mesamis/io/detail/refuse.h"
+#include "mesamis/io/detail/text_writer.h"
 #include "mesamis/io/mesh_files.h"
 
 namespace mesamis {
+
+using detail::TextWriter;
+
 namespace {
 
 // ---------------------------------------------------------------- writing
 
-/// Text that grows in memory and goes to disk in large pieces.
-class TextWriter {
- public:
-  explicit TextWriter(const std::filesystem::path& path)
-      : name_(path.string()), file_(path), out_(file_.temporary_path(), std::ios::binary) {}
+constexpr const char* kSolutionHeader = "MeshVersionFormatted 2\n\nDimension 3\n";
 
-  TextWriter& operator<<(std::string_view text) {
-    text_ += text;
-    if (text_.size() >= kPiece) flush();
-    return *this;
-  }
-  template <class Number>
-  requires std::is_arithmetic_v<Number> TextWriter& operator<<(Number value) {
-    char digits[32];  // the shortest decimals that read back to the same bits
-    return *this << std::string_view(digits, std::to_chars(digits, digits + 32, value).ptr);
-  }
-  void number(double value) {
-    if (!std::isfinite(value)) detail::refuse(name_, "a value to write is not finite");
-    *this << value;
-  }
-  void commit() {
-    flush();
-    out_.close();
-    if (!out_) detail::refuse(name_, "cannot be written");
-    file_.commit();
-  }
-
- private:
-  static constexpr std::size_t kPiece = 1 << 20;
-  void flush() {
-    out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
-    text_.clear();
-  }
-  std::string name_;
-  AtomicFile file_;
-  std::ofstream out_;
-  std::string text_;
-};
-
-void write_solution_header(TextWriter& out, std::size_t count, std::size_t fields, int type) {
-  out << "MeshVersionFormatted 2\n\nDimension 3\n\nSolAtVertices\n" << count << "\n" << fields;
+void write_section_header(TextWriter& out, const char* section, std::size_t count,
+                          std::size_t fields, int type) {
+  out << "\n" << section << "\n" << count << "\n" << fields;
   for (std::size_t f = 0; f < fields; ++f) out << " " << type;
   out << "\n";
+}
+
+void require_equal_sizes(const std::filesystem::path& path,
+                         std::span<const std::vector<double>> fields) {
+  for (const auto& field : fields) {
+    if (field.size() == fields[0].size()) continue;
+    detail::refuse(path, "fields of " + std::to_string(fields[0].size()) + " and " +
+                             std::to_string(field.size()) + " values cannot share a file");
+  }
+}
+
+void write_scalars(TextWriter& out, const char* section,
+                   std::span<const std::vector<double>> fields) {
+  const std::size_t count = fields.empty() ? 0 : fields[0].size();
+  write_section_header(out, section, count, fields.size(), 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      if (f > 0) out << " ";
+      out.number(fields[f][i]);
+    }
+    out << "\n";
+  }
 }
 
 // ---------------------------------------------------------------- reading
@@ -242,21 +232,26 @@ std::vector<Sym3> read_solution(Words& words) {
 
 }  // namespace
 
-void write_medit_mesh(const std::filesystem::path& path, const TetMesh& mesh, Frame frame) {
+void write_medit_mesh(const std::filesystem::path& path, const TetMesh& mesh, Frame frame,
+                      std::span<const Index> references) {
+  if (!references.empty() && references.size() != mesh.cells.size()) {
+    detail::refuse(path, "expected a reference for each of " + std::to_string(mesh.cells.size()) +
+                             " cells, found " + std::to_string(references.size()));
+  }
   TextWriter out(path);
   out << "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n" << mesh.points.size() << "\n";
-  const double turn = frame == Frame::kRas ? -1 : 1;
-  for (const Vec3& p : mesh.points) {
+  for (const Vec3& point : mesh.points) {
+    const Vec3 p = detail::in_frame(point, frame);
     for (int axis = 0; axis < 3; ++axis) {
-      out.number(axis == 2 ? p.z : turn * p[axis]);
+      out.number(p[axis]);
       out << " ";
     }
     out << "0\n";
   }
   out << "\nTetrahedra\n" << mesh.cells.size() << "\n";
-  for (const Cell& cell : mesh.cells) {
-    for (const Index corner : cell) out << std::int64_t{corner} + 1 << " ";
-    out << "0\n";
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    for (const Index corner : mesh.cells[c]) out << std::int64_t{corner} + 1 << " ";
+    out << (references.empty() ? 0 : references[c]) << "\n";
   }
   out << "\nEnd\n";
   out.commit();
@@ -285,31 +280,22 @@ TetMesh read_medit_mesh(const std::filesystem::path& path) {
 }
 
 void write_medit_scalars(const std::filesystem::path& path,
-                         std::span<const std::vector<double>> fields) {
-  const std::size_t count = fields.empty() ? 0 : fields[0].size();
-  for (const auto& field : fields) {
-    if (field.size() != count) {
-      detail::refuse(path.string(), "fields of " + std::to_string(count) + " and " +
-                                        std::to_string(field.size()) +
-                                        " values cannot share a file");
-    }
-  }
+                         std::span<const std::vector<double>> fields,
+                         std::span<const std::vector<double>> cell_fields) {
+  require_equal_sizes(path, fields);
+  require_equal_sizes(path, cell_fields);
   TextWriter out(path);
-  write_solution_header(out, count, fields.size(), 1);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t f = 0; f < fields.size(); ++f) {
-      if (f > 0) out << " ";
-      out.number(fields[f][i]);
-    }
-    out << "\n";
-  }
+  out << kSolutionHeader;
+  write_scalars(out, "SolAtVertices", fields);
+  if (!cell_fields.empty()) write_scalars(out, "SolAtTetrahedra", cell_fields);
   out << "\nEnd\n";
   out.commit();
 }
 
 void write_medit_metric(const std::filesystem::path& path, std::span<const Sym3> metrics) {
   TextWriter out(path);
-  write_solution_header(out, metrics.size(), 1, 3);
+  out << kSolutionHeader;
+  write_section_header(out, "SolAtVertices", metrics.size(), 1, 3);
   for (const Sym3& m : metrics) {
     for (const double entry : {m.xx, m.xy, m.yy, m.xz, m.yz}) {
       out.number(entry);

@@ -27,7 +27,10 @@ set(ROOM_SOURCES
   # Surfaces and meshes in and out, files that appear whole.
   atomic_file.cpp
   isosurface.cpp
+  detail/abaqus_file.cpp
   detail/amf_file.cpp
+  detail/gmsh_file.cpp
+  detail/mesh_checks.cpp
   detail/obj_file.cpp
   detail/ply_file.cpp
   detail/stl_file.cpp
