@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -11,13 +12,11 @@
 #include "commands.h"
 #include "json_file.h"
 #include "log.h"
-#include "mesamis/adapt/estimator.h"
 #include "mesamis/base/error.h"
-#include "mesamis/io/mesh_files.h"
 #include "mesamis/io/read_volume.h"
 #include "mesamis/io/surface_files.h"
 #include "mesamis/mes_amis.h"
-#include "mesamis/surface/extract.h"
+#include "mesh_output.h"
 #include "outputs.h"
 #include "progress.h"
 #include "report.h"
@@ -37,6 +36,7 @@ struct SegmentOptions {
   std::string series;
   std::string name = "mesamis surface";  // never the scan's, which may be the patient's
   Frame frame = Frame::kLps;
+  MeshOptions mesh;
   json overrides = json::object();  // settings given as options, on top of the file's
 };
 
@@ -91,6 +91,24 @@ void add_number(CLI::App& command, const std::shared_ptr<SegmentOptions>& option
 void add_word(CLI::App& command, const std::shared_ptr<SegmentOptions>& options,
               const std::string& flag, const std::string& help) {
   add_setting(command, options, flag, help, [](const std::string& text) { return json(text); });
+}
+
+/// Options of the files alone, as --frame: no setting of the run depends on them.
+void add_mesh_options(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
+  c.add_option("--mesh", o->meshes,
+               "Adapted mesh: .vtu, Medit .mesh and .sol, Gmsh .msh, Abaqus and CalculiX .inp");
+  c.add_option_function<std::string>(
+       "--mesh-region",
+       [o](const std::string& name) {
+         o->mesh.region = name == "object" ? MeshRegion::kObject : MeshRegion::kBox;
+       },
+       "Cells of --mesh: box, all (default); object, those with more than half of their volume "
+       "inside the level set of u, whole")
+      ->check(CLI::IsMember({"box", "object"}));
+  c.add_option("--bins", o->mesh.bins,
+               "Sets of cells of --mesh, by equal ranges of their native value (default 10)")
+      ->check(CLI::Range(1, kMostBins));
+  c.add_option("--band-mesh", o->band_meshes, "The band's cells with v: .vtu");
 }
 
 void add_image_settings(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
@@ -169,64 +187,6 @@ Settings settings_of(const SegmentOptions& options) {
   return settings;
 }
 
-std::vector<double> metric_values(std::span<const Sym3> metrics) {
-  std::vector<double> values;
-  values.reserve(6 * metrics.size());
-  for (const Sym3& m : metrics) {
-    values.insert(values.end(), {m.xx, m.yy, m.zz, m.xy, m.yz, m.xz});
-  }
-  return values;
-}
-
-/// Cell arrays: the aspect ratios (6), and 1 where the cell belongs to an edge.
-std::vector<MeshArray> cell_arrays(const Result& result) {
-  std::vector<MeshArray> arrays{{"s1", 1, {}}, {"s2", 1, {}}, {"s3", 1, {}}, {"edge", 1, {}}};
-  for (const Cell& k : result.mesh.cells) {
-    const auto s = aspect_ratios(cell_shape(cell_corners(result.mesh, k)));
-    for (std::size_t i = 0; i < 3; ++i) arrays[i].values.push_back(s[i]);
-  }
-  arrays[3].values.assign(result.mesh.cells.size(), 0);
-  for (const Index cell : band_cells(result.mesh, result.v, result.settings.band_threshold)) {
-    arrays[3].values[static_cast<std::size_t>(cell)] = 1;
-  }
-  return arrays;
-}
-
-void write_mesh(const fs::path& path, const Result& result, Frame frame) {
-  if (lower_extension(path) == ".mesh") {
-    write_medit_mesh(path, result.mesh, frame);
-    fs::path fields = path;
-    const std::vector<std::vector<double>> values{result.u, result.v, result.f};
-    write_medit_scalars(fields.replace_extension(".sol"), values);
-    return;
-  }
-  const std::vector<MeshArray> points{{"u", 1, result.u},
-                                      {"v", 1, result.v},
-                                      {"f", 1, result.f},
-                                      {"metric", 6, metric_values(result.metric)}};
-  write_vtu(path, result.mesh, points, cell_arrays(result), frame);
-}
-
-/// T_h^th and v_h^th: the cells of the band alone, points renumbered.
-void write_band_mesh(const fs::path& path, const Result& result, Frame frame) {
-  TetMesh band;
-  std::vector<Index> new_index(result.mesh.points.size(), kNoIndex);
-  MeshArray v{"v", 1, {}};
-  for (const Index c : band_cells(result.mesh, result.v, result.settings.band_threshold)) {
-    Cell cell = result.mesh.cells[static_cast<std::size_t>(c)];
-    for (Index& n : cell) {
-      if (new_index[n] == kNoIndex) {
-        new_index[n] = static_cast<Index>(band.points.size());
-        band.points.push_back(result.mesh.points[n]);
-        v.values.push_back(result.v[n]);
-      }
-      n = new_index[n];
-    }
-    band.cells.push_back(cell);
-  }
-  write_vtu(path, band, std::vector<MeshArray>{v}, {}, frame);
-}
-
 SurfaceWriteOptions surface_options(const SegmentOptions& options, const Result& result) {
   const std::string program = std::string("mesamis ") + kVersion + " (" + kCommit + ")";
   return {options.frame,
@@ -256,7 +216,9 @@ void require_outputs(const SegmentOptions& options) {
   for (const fs::path& path : options.surfaces) {
     require_output(path, written_surface_formats(), "--output");
   }
-  for (const fs::path& path : options.meshes) require_output(path, {".vtu", ".mesh"}, "--mesh");
+  for (const fs::path& path : options.meshes) {
+    require_output(path, written_mesh_formats(), "--mesh");
+  }
   for (const fs::path& path : options.band_meshes) require_output(path, {".vtu"}, "--band-mesh");
   if (!options.report.empty()) require_output(options.report, {".json"}, "--report");
 }
@@ -269,14 +231,18 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   const Result result = mes_amis(file.volume, settings, display.callback());
   display.finish();
   const SurfaceCheck check = check_surface(result.surface);
+  std::optional<MeshOutput> mesh;  // before any file is written: it may be refused
+  if (!options.meshes.empty()) mesh = make_mesh_output(result, file.volume, options.mesh);
   for (const fs::path& path : options.surfaces) {
     write_surface(path, result.surface, surface_options(options, result));
   }
-  for (const fs::path& path : options.meshes) write_mesh(path, result, options.frame);
+  for (const fs::path& path : options.meshes) write_mesh(path, *mesh, options.frame);
   for (const fs::path& path : options.band_meshes) write_band_mesh(path, result, options.frame);
   if (!options.report.empty()) {
-    write_json(options.report, segment_report(facts_of(options.input, file, options.frame),
-                                              settings, result, check));
+    auto report =
+        segment_report(facts_of(options.input, file, options.frame), settings, result, check);
+    if (mesh) report["mesh"]["region"] = region_json(*mesh);
+    write_json(options.report, report);
   }
   if (!check.closed() || !check.manifold()) {
     log_error("the surface is not closed and 2-manifold: " + std::to_string(check.open_edges) +
@@ -295,8 +261,7 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   CLI::App* command = app.add_subcommand("segment", "Segment a scan: surface, mesh, report");
   command->add_option("input", options->input, "Volume file, DICOM directory or file")->required();
   command->add_option("-o,--output", options->surfaces, "Surface: .stl .ply .obj .vtp .3mf .amf");
-  command->add_option("--mesh", options->meshes, "Adapted mesh: .vtu, or Medit .mesh and .sol");
-  command->add_option("--band-mesh", options->band_meshes, "The band's cells with v: .vtu");
+  add_mesh_options(*command, options);
   command->add_option("--report", options->report, "Report: .json");
   command->add_option("--series", options->series, "DICOM series UID");
   command->add_option("--settings", options->settings_file, "Settings or a report: .json");

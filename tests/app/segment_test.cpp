@@ -104,6 +104,94 @@ TEST(SegmentCommand, WritesTheOtherFrameAndTheBand) {
   EXPECT_GT(edge_cells, 0);
 }
 
+const std::vector<double>& array_of(const std::vector<MeshArray>& arrays, const std::string& name) {
+  for (const MeshArray& array : arrays) {
+    if (array.name == name) return array.values;
+  }
+  throw std::runtime_error("no array " + name);
+}
+
+double volume_of(const TetMesh& mesh) {
+  double sum = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    sum += cell_volume(mesh, static_cast<Index>(c));
+  }
+  return sum;
+}
+
+TEST(SegmentCommand, WritesTheObjectAloneInBinsTheSameForAnyNumberOfThreads) {
+  const TempFolder folder;
+  write_ball(folder, 20);
+  const auto run = [&folder](const std::string& name, const std::string& threads) {
+    return run_program(
+        folder,
+        segment_arguments(folder, name,
+                          {"--mesh", folder / (name + ".msh"), "--mesh", folder / (name + ".inp"),
+                           "--mesh", folder / (name + ".mesh"), "--mesh-region", "object", "--bins",
+                           "6", "--max-tets", "4000", "--quiet", "--threads", threads}));
+  };
+  const ProgramRun first = run("one", "1");
+  EXPECT_EQ(first.status, 0) << first.err;
+  EXPECT_EQ(run("two", "2").status, 0);
+  for (const auto* extension : {".vtu", ".msh", ".inp", ".mesh", ".sol"}) {
+    EXPECT_EQ(read_bytes(folder / (std::string("one") + extension)),
+              read_bytes(folder / (std::string("two") + extension)));
+  }
+
+  const auto report = report_of(folder, "one");
+  const auto region = report["mesh"]["region"];
+  const MeshWithArrays object = read_vtu(folder / "one.vtu");
+  EXPECT_EQ(region["name"], "object");
+  EXPECT_EQ(region["cells"], object.mesh.cells.size());
+  EXPECT_EQ(region["nodes"], object.mesh.points.size());
+  EXPECT_EQ(region["components"], 1);
+  EXPECT_LT(object.mesh.cells.size(), report["mesh"]["tets"].get<std::size_t>());
+  EXPECT_EQ(read_medit_mesh(folder / "one.mesh").cells, object.mesh.cells);
+  // Cut cells count for half, so that the volume is right in the mean.
+  const double volume = volume_of(object.mesh);
+  EXPECT_NEAR(region["volume_mm3"], volume, 1e-6 * volume);
+  EXPECT_NEAR(volume / report["surface"]["volume_mm3"].get<double>(), 1, 0.02);
+  EXPECT_NEAR(volume / (4.0 / 3 * M_PI * std::pow(kRadius, 3)), 1, 0.05);
+
+  const auto& native = array_of(object.cell_arrays, "native");
+  const auto& bin = array_of(object.cell_arrays, "bin");
+  ASSERT_EQ(region["bins"].size(), 6u);
+  std::vector<std::size_t> counts(6, 0);
+  for (std::size_t c = 0; c < native.size(); ++c) {
+    const auto b = static_cast<std::size_t>(bin[c]) - 1;
+    ASSERT_LT(b, 6u);
+    ++counts[b];
+    EXPECT_GE(native[c], region["bins"][b]["native"][0].get<double>());
+    EXPECT_LE(native[c], region["bins"][b]["native"][1].get<double>());
+  }
+  for (std::size_t b = 0; b < 6; ++b) EXPECT_EQ(region["bins"][b]["cells"], counts[b]);
+}
+
+TEST(SegmentCommand, GivesTheScansOwnValuesBeyondTheWindow) {
+  const TempFolder folder;
+  write_ball(folder, 20);  // 230 inside, 120 outside
+  const ProgramRun run = run_program(
+      folder, segment_arguments(folder, "a",
+                                {"--window", "130,200", "--level", "175", "--mesh-region", "object",
+                                 "--max-tets", "3000", "--quiet"}));
+  EXPECT_THAT(run.status, testing::AnyOf(0, 4)) << run.err;
+  const MeshWithArrays object = read_vtu(folder / "a.vtu");
+  const auto& u = array_of(object.cell_arrays, "u");
+  const auto& u_native = array_of(object.cell_arrays, "u_native");
+  for (std::size_t c = 0; c < u.size(); ++c) EXPECT_NEAR(u_native[c], 130 + u[c] / 255 * 70, 1e-9);
+  double weighted = 0, volume = 0;
+  const Vec3 center{9.5, 9.5, 9.5};
+  for (std::size_t c = 0; c < u.size(); ++c) {
+    const auto p = cell_corners(object.mesh, object.mesh.cells[c]);
+    if (norm(0.25 * (p[0] + p[1] + p[2] + p[3]) - center) > kRadius - 3) continue;
+    const double v = cell_volume(object.mesh, static_cast<Index>(c));
+    EXPECT_LT(u_native[c], 205) << "the window ends at 200";
+    weighted += v * array_of(object.cell_arrays, "native")[c];
+    volume += v;
+  }
+  EXPECT_NEAR(weighted / volume, 230, 1);
+}
+
 TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
   const TempFolder folder;
   write_ball(folder, 8);
@@ -121,7 +209,17 @@ TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
   };
   EXPECT_FAILS(outputs("a.xyz", "a.vtu"), 2,
                "ends with one of .stl .ply .obj .vtp .3mf .amf, found");
-  EXPECT_FAILS(outputs("a.stl", "a.foo"), 2, "ends with one of .vtu .mesh, found");
+  EXPECT_FAILS(outputs("a.stl", "a.foo"), 2, "ends with one of .vtu .mesh .msh .inp, found");
+  for (const auto* bins : {"0", "1000", "-3", "2.5"}) {
+    EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--bins", bins})), 2,
+                 "--bins");
+  }
+  EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--mesh-region", "ball"})), 2,
+               "ball not in {box,object}");
+  EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a",
+                                                     {"--mesh-region", "object", "--min-volume",
+                                                      "1e9", "--quiet", "--max-tets", "1000"})),
+               3, "mesh region: expected cells with u above the level");
   EXPECT_FAILS(outputs("none/a.stl", "a.vtu"), 3, "there is no folder");
   for (const auto* option : {"--max-tets", "--adaptations", "--amis-iterations"}) {
     EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {option, "300.5"})), 2,
