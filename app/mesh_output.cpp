@@ -31,7 +31,7 @@ std::vector<Index> object_cells(const Result& result) {
   const auto above =
       cells_mostly_above(result.mesh, result.u, result.grey.to_grey(result.level_native));
   const auto cells =
-      select_cells(result.mesh, above, {s.min_volume, s.keep_largest, s.fill_cavities});
+      select_cells(result.mesh, above, {s.min_volume.value_or(0), s.keep_largest, s.fill_cavities});
   if (cells.empty()) {
     std::ostringstream message;
     message << "mesh region: expected cells with u above the level of " << result.level_native
