@@ -37,6 +37,9 @@ void draw_volume(const PictureCommand& command) {
   if (!command.picture.color.empty() || command.picture.edges) {
     throw InputError(command.input.string() + ": a volume has no array to colour by and no edges");
   }
+  if (command.picture.zoom != 1 || command.picture.focus) {
+    throw InputError(command.input.string() + ": a volume's slice is shown whole");
+  }
   const VolumeFile file = read_volume(command.input, {command.series});
   for (const std::string& warning : file.warnings) log_warning(warning);
   std::optional<TriMesh> outline;
@@ -82,6 +85,15 @@ void add_picture_command(CLI::App& app, CommonOptions&, Action& action) {
       ->check(CLI::Validator(check_png, "PNG"));
   command->add_option("--view", options->picture.view, "Where it is seen from (not for volumes)")
       ->check(CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "oblique"}));
+  command->add_option("--zoom", options->picture.zoom, "So many times larger (not for volumes)")
+      ->check(CLI::PositiveNumber);
+  command->add_option_function<std::string>(
+      "--focus",
+      [options](const std::string& text) {
+        const auto p = parse_numbers(text, 3, "--focus");
+        options->picture.focus = Vec3{p[0], p[1], p[2]};
+      },
+      "X,Y,Z: what is in the middle, mm (default: the object's middle)");
   command->add_flag("--edges", options->picture.edges, "Draw the edges of triangles or cells");
   command->add_option_function<std::string>(
       "--clip", [options](const std::string& text) { options->picture.clip = parse_clip(text); },

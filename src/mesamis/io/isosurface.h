@@ -18,7 +18,8 @@ struct IsosurfaceOptions {
 /// gives marching cubes' triangles), optionally after smoothing and with quadric decimation.
 ///
 /// @param level  native units.
-/// @return LPS mm; oriented outward where the object is brighter; open where it leaves the volume, unless
+/// @return LPS mm; oriented outward where the object is brighter; open where it leaves the volume,
+/// unless
 ///         that is closed.
 /// @throws InputError  if a parameter is negative or nothing crosses the level.
 TriMesh isosurface(const Volume& volume, double level, const IsosurfaceOptions& options = {});

@@ -328,6 +328,7 @@ void draw_surface(const std::filesystem::path& png, const TriMesh& surface,
   add_surface(scene, shown, options.edges);
   scene.add_lights();
   scene.fit(sight, used_points(*vtk_surface(shown)), {});
+  scene.approach(options.zoom, options.focus);
   add_scale_bar(scene);
   add_corner_label(scene, size_label(bounding_box(surface.points)));
   scene.save(png);
@@ -353,6 +354,7 @@ void draw_mesh(const std::filesystem::path& png, const MeshWithArrays& mesh,
   }
   scene.add_lights();
   scene.fit(sight, used_points(*shown), margins);
+  scene.approach(options.zoom, options.focus);
   add_scale_bar(scene);
   add_corner_label(scene, size_label(bounding_box(mesh.mesh.points)) + "   " +
                               std::to_string(mesh.mesh.cells.size()) + " cells");

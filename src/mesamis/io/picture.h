@@ -21,6 +21,9 @@ struct Clip {
 struct PictureOptions {
   std::array<int, 2> pixels{1000, 800};
   std::string view = "oblique";  ///< front back left right top bottom oblique, anatomical in LPS
+  double zoom = 1;               ///< > 0; times larger than what fills the picture
+  std::optional<Vec3> focus;     ///< what is in the middle, in the coordinates of what is drawn;
+                                 ///< default: its own middle
   bool edges = false;            ///< draw the edges of triangles or cells
   std::optional<Clip> clip;      ///< what lies on the viewer's side of it is taken away, cells
                                  ///< whole; volumes: the slice nearest to it

@@ -145,18 +145,29 @@ void Scene::fit(const Sight& sight, std::span<const Vec3> points, const Margins&
       (across[0] + across[1] - mm_per_pixel_ * (margins.left - margins.right) * width) / 2;
   const double y =
       (upward[0] + upward[1] - mm_per_pixel_ * (margins.bottom - margins.top) * height) / 2;
-  const double depth = deep[1] - deep[0] + mm_per_pixel_ * height;
+  depth_ = deep[1] - deep[0] + mm_per_pixel_ * height;
   sight_ = sight;
   center_ = x * sight.right() + y * sight.up + ((deep[0] + deep[1]) / 2) * sight.forward;
+  place_camera();
+}
 
+void Scene::approach(double zoom, const std::optional<Vec3>& focus) {
+  if (!(zoom > 0)) throw InputError("picture: expected a zoom above 0");
+  mm_per_pixel_ /= zoom;
+  // As deep as before, so that nothing is cut.
+  if (focus) center_ = *focus + dot(center_ - *focus, sight_.forward) * sight_.forward;
+  place_camera();
+}
+
+void Scene::place_camera() {
   vtkCamera& camera = *renderer_->GetActiveCamera();
-  const Vec3 eye = center_ - depth * sight.forward;
+  const Vec3 eye = center_ - depth_ * sight_.forward;
   camera.ParallelProjectionOn();
   camera.SetFocalPoint(center_.x, center_.y, center_.z);
   camera.SetPosition(eye.x, eye.y, eye.z);
-  camera.SetViewUp(sight.up.x, sight.up.y, sight.up.z);
-  camera.SetParallelScale(mm_per_pixel_ * height / 2);
-  camera.SetClippingRange(depth / 4, 2 * depth);
+  camera.SetViewUp(sight_.up.x, sight_.up.y, sight_.up.z);
+  camera.SetParallelScale(mm_per_pixel_ * rendered_size()[1] / 2);
+  camera.SetClippingRange(depth_ / 4, 2 * depth_);
 }
 
 void Scene::save(const std::filesystem::path& png) {

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -53,10 +54,14 @@ class Scene {
   void add_lights();
   /// Points the camera so that all points fill the picture inside the margins.
   void fit(const Sight& sight, std::span<const Vec3> points, const Margins& margins);
+  /// After fit(): closer, `zoom` times as large, around a point if one is given.
+  void approach(double zoom, const std::optional<Vec3>& focus);
   /// Renders and writes a PNG; the file appears whole or not at all.
   void save(const std::filesystem::path& png);
 
  private:
+  void place_camera();
+
   // In this order: the window must be gone before its display is closed.
   SilentStderr silent_;
   VtkMessages messages_;
@@ -65,7 +70,7 @@ class Scene {
   vtkSmartPointer<vtkRenderWindow> window_;
   std::array<int, 2> pixels_;
   int samples_;  // rendered pixels per pixel of the file, per direction
-  double mm_per_pixel_ = 1;
+  double mm_per_pixel_ = 1, depth_ = 1;
   Vec3 center_;
   Sight sight_;
 };
