@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   atomic_file.h
+  gcode.h
   isosurface.h
   mesh_files.h
   picture.h
@@ -43,6 +44,8 @@ set(ROOM_SOURCES
   medit_files.cpp
   mesh_files.cpp
   surface_files.cpp
+  # What slicers write.
+  gcode.cpp
   # Pictures.
   detail/annotation.cpp
   detail/color_scale.cpp
