@@ -11,6 +11,7 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "interrupt.h"
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
@@ -21,12 +22,16 @@ namespace mesamis {
 namespace {
 
 /// Leaves nothing half-written, then dies of the signal, as a shell expects.
-extern "C" void on_signal(int number) {
+void end_by_signal(int number) {
   remove_unfinished_files();
   constexpr char kMessage[] = "\nmesamis: interrupted\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
   signal(number, SIG_DFL);
   raise(number);
+}
+
+extern "C" void on_signal(int number) {
+  if (!note_interrupt(number)) end_by_signal(number);
 }
 
 void handle_signals() {
@@ -63,6 +68,8 @@ void add_commands(CLI::App& app, CommonOptions& common, Action& action) {
 int run(const Action& action) {
   try {
     return action();
+  } catch (const Interrupted&) {
+    return kExitDone;  // never seen: the program ends by the signal
   } catch (const CLI::Error& error) {
     log_error(error.what());
     return kExitUsage;
@@ -111,7 +118,9 @@ int run_program(int count, char** arguments) {
   }
   set_up_log(common);
   set_thread_count(common.threads);
-  return run(action);
+  const int status = run(action);
+  if (const int number = noted_interrupt()) end_by_signal(number);
+  return status;
 }
 
 }  // namespace
