@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kGridUpTo = 25;  // percent; above, lines that alternate from layer to layer
+constexpr std::size_t kLongestLine = 200;
 constexpr int kNozzleCelsius = 210;
 constexpr int kBedCelsius = 60;
 constexpr double kOverhangDegrees = 50;  // from the vertical
@@ -52,6 +53,8 @@ std::vector<std::string> prusa_arguments(const SliceSettings& settings) {
       "--fill-density", text_of(settings.infill) + "%", "--fill-pattern",
       settings.infill > kGridUpTo ? "rectilinear" : "grid", "--perimeters",
       std::to_string(settings.perimeters),
+      // The other generator, Arachne, gives other lines each time.
+      "--perimeter-generator", "classic",
       // No more perimeters than asked for; slopes are closed by solid infill instead.
       "--no-extra-perimeters", "--ensure-vertical-shell-thickness", "--top-solid-layers", solid,
       "--bottom-solid-layers", solid, "--skirts", "0", "--gcode-flavor", "marlin",
@@ -218,17 +221,16 @@ fs::path cura_definition() {
 
 std::string failure_line(std::string_view output) {
   std::istringstream lines{std::string(output)};
-  std::string found;
+  std::string before, last;
   for (std::string line; std::getline(lines, line);) {
     line = one_line(line);
-    if (says_error(line)) {
-      found = line;
-      break;
-    }
-    if (!is_noise(line)) found = line;
+    line.erase(0, line.find_first_not_of(' '));
+    if (says_error(line)) return line.substr(0, kLongestLine);
+    if (is_noise(line)) continue;
+    before = std::exchange(last, line);
   }
-  found.erase(0, found.find_first_not_of(' '));
-  return found.substr(0, 200);
+  if (!before.empty()) before += ' ';
+  return (before + last).substr(0, kLongestLine);
 }
 
 PrusaInfo parse_prusa_info(std::string_view output) {

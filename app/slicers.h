@@ -57,8 +57,9 @@ std::filesystem::path require_program(const Slicer& slicer);
 /// @throws InputError  if it is nowhere; the message names Debian's package.
 std::filesystem::path cura_definition();
 
-/// The line with which a program that failed says why: the first that calls itself an error, else
-/// the last that is no progress; "" if there is none. At most 200 characters.
+/// The words with which a program that failed says why, on one line: its first line that calls
+/// itself an error, else its last two that are no progress; "" if there are none. At most 200
+/// characters.
 std::string failure_line(std::string_view output);
 
 /// What `prusa-slicer --info` says of a surface.

@@ -12,6 +12,8 @@
 
 #include "child_process.h"
 #include "mesamis/io/surface_files.h"
+#include "mesamis/mesh/tet_mesh.h"
+#include "support/level_set.h"
 #include "support/run_program.h"
 #include "support/script.h"
 #include "support/shapes.h"
@@ -40,6 +42,14 @@ std::vector<std::string> slice_arguments(const TempFolder& folder,
   std::vector<std::string> arguments{"slice", folder / "cube.stl"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
+}
+
+/// Half a ball with bumps: in a slicer that does its work in another order each time, its lines
+/// differ.
+TriMesh bumpy_ball() {
+  return level_set({{-13, -13, -13}, {13, 13, 13}}, {24, 24, 24}, [](const Vec3& p) {
+    return std::min(9 + 2 * std::sin(p.x) * std::cos(p.y + 0.5 * p.z) - norm(p), p.z + 0.1);
+  });
 }
 
 class EverySlicer : public testing::TestWithParam<std::string> {
@@ -183,15 +193,19 @@ TEST_P(EverySlicer, ReportsWhatThePrintTakes) {
   EXPECT_LT(volume, 8);
 }
 
-TEST_P(EverySlicer, GivesTheSameBytesAgainFromAnyFormat) {
+TEST_P(EverySlicer, GivesTheSameBytesAgain) {
+  write_surface(folder_ / "ball.ply", bumpy_ball());
+  slice("a", {}, "ball.ply");
+  slice("b", {}, "ball.ply");
+  EXPECT_GT(read_bytes(folder_ / "a.gcode").size(), 10000u);
+  EXPECT_TRUE(read_bytes(folder_ / "a.gcode") == read_bytes(folder_ / "b.gcode"));
+}
+
+TEST_P(EverySlicer, GivesTheSameBytesFromAnyFormat) {
   slice("a");
-  slice("b");
-  const std::string gcode = read_bytes(folder_ / "a.gcode");
-  EXPECT_GT(gcode.size(), 10000u);
-  EXPECT_EQ(read_bytes(folder_ / "b.gcode"), gcode);
   write_cube(folder_ / "cube.ply");
-  slice("c", {}, "cube.ply");
-  EXPECT_EQ(read_bytes(folder_ / "c.gcode"), gcode);
+  slice("b", {}, "cube.ply");
+  EXPECT_TRUE(read_bytes(folder_ / "a.gcode") == read_bytes(folder_ / "b.gcode"));
 }
 
 TEST_P(EverySlicer, LeavesNothingButItsOutputs) {

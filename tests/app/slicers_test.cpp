@@ -92,6 +92,10 @@ TEST(Slicers, FailuresAreNamedByTheirOwnLine) {
   EXPECT_EQ(failure_line("terminate called after throwing an instance of 'E'\n"
                          "  what():  Objects could not fit on the bed\nlast\n"),
             "what():  Objects could not fit on the bed");
+  EXPECT_EQ(failure_line("88 => Generating skirt and brim\n"
+                         "There is an object with no extrusions in the first layer.\n"
+                         "Object name: surface.stl\n"),
+            "There is an object with no extrusions in the first layer. Object name: surface.stl");
   EXPECT_EQ(failure_line("[ERROR] Failed to load model: a.stl.\nUsage\n"),
             "[ERROR] Failed to load model: a.stl.");
   EXPECT_EQ(failure_line("error: " + std::string(500, 'x')).size(), 200u);
