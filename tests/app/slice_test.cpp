@@ -11,8 +11,10 @@
 #include <thread>
 
 #include "child_process.h"
+#include "mesamis/io/gcode.h"
 #include "mesamis/io/surface_files.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "support/external_program.h"
 #include "support/level_set.h"
 #include "support/run_program.h"
 #include "support/script.h"
@@ -386,6 +388,24 @@ TEST(SliceCommand, RefusesPlainly) {
   fails({"-o", folder / "a.stl"}, 2, "ends with one of .gcode");
   fails({"-o", folder / "none/a.gcode"}, 3, "there is no folder");
   EXPECT_EQ(folder.file_count(), 3) << "the cube, stdout and stderr";
+}
+
+/// What we write beside STL, given to PrusaSlicer by its user.
+TEST(PrusaSlicer, SlicesThreeMfAndAmfAsTheyAre) {
+  MESAMIS_REQUIRE_PROGRAM("prusa-slicer");
+  const TempFolder folder;
+  const TriMesh ball = bumpy_ball();
+  const std::vector<double> grey(ball.points.size(), 128);
+  for (const char* file : {"a.3mf", "a.amf"}) {
+    write_surface(folder / file, ball, {.name = "a & b", .grey = grey});
+    const ProgramRun run =
+        run_command(folder, {"prusa-slicer", "--datadir", folder / "prusa", "--layer-height", "0.3",
+                             "--export-gcode", folder / file, "--output", folder / "a.gcode"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    std::istringstream gcode(read_bytes(folder / "a.gcode"));
+    EXPECT_GT(read_gcode(gcode).layers, 20) << file;
+    std::filesystem::remove(folder / "a.gcode");
+  }
 }
 
 }  // namespace
