@@ -10,9 +10,9 @@
 #include "mesamis/image/volume.h"
 #include "mesamis/mesh/metric.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/printable.h"
 #include "mesamis/segment/amis.h"
 #include "mesamis/settings.h"
-#include "mesamis/surface/select_parts.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// The whole method: a scan walks in, a surface and an adapted mesh walk out.
@@ -31,16 +31,6 @@ struct Iteration {
   struct Seconds {
     double project = 0, amis = 0, estimate = 0, remesh = 0, transfer = 0;
   } seconds;
-};
-
-/// From the surface as extracted to the one delivered.
-struct PrintableReport {
-  /// What the solid consisted of, and what went; none for a band or a flawed surface.
-  std::optional<SelectionReport> parts;
-  std::int64_t triangles_extracted = 0;  ///< of the parts that stay
-  /// The greatest distance of any point of one surface to the other, mm: upper bounds, see
-  /// max_distance(). 0 for a surface that is delivered as extracted.
-  double extracted_to_result = 0, result_to_extracted = 0;
 };
 
 /// How deep beneath a solid's surface its grey value is looked for, voxels' geometric means.

@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "mesamis/base/progress.h"
-#include "mesamis/mes_amis.h"
+#include "mesamis/settings.h"
+#include "mesamis/surface/select_parts.h"
+#include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {
+
+/// From the surface as extracted to the one delivered.
+struct PrintableReport {
+  /// What the solid consisted of, and what went; none for a band or a flawed surface.
+  std::optional<SelectionReport> parts;
+  std::int64_t triangles_extracted = 0;  ///< of the parts that stay
+  /// The greatest distance of any point of one surface to the other, mm: upper bounds, see
+  /// max_distance(). 0 for a surface that is delivered as extracted.
+  double extracted_to_result = 0, result_to_extracted = 0;
+};
 
 /// Makes the solid surface ready to be written in any format: the parts asked for; coordinates
 /// that single precision holds; and no more triangles than settings.tolerance and
