@@ -343,7 +343,8 @@ void add_print_options(CLI::App& sub, const std::shared_ptr<SliceCommand>& comma
 void add_slice_command(CLI::App& app, CommonOptions&, Action& action) {
   auto command = std::make_shared<SliceCommand>();
   CLI::App* sub = app.add_subcommand("slice", "Turn a closed surface into G-code by a slicer");
-  sub->add_option("surface", command->surface, "Closed surface, mm: .stl .ply .obj .vtp .3mf .amf .vtk")
+  sub->add_option("surface", command->surface,
+                  "Closed surface, mm: .stl .ply .obj .vtp .3mf .amf .vtk")
       ->required();
   sub->add_option("--slicer", command->slicer, "prusa (PrusaSlicer) or cura (CuraEngine)")
       ->check(CLI::IsMember({"prusa", "cura"}))
