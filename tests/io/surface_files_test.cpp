@@ -98,6 +98,59 @@ TEST_P(EachFormat, SaysItsFrameAndItsName) {
   EXPECT_EQ(read_surface(file("ras")).triangles.size(), 12u);
 }
 
+TEST_P(EachFormat, TellsTheFrameItsFileStates) {
+  for (const std::optional<Frame> frame :
+       {std::optional(Frame::kLps), std::optional(Frame::kRas), std::optional<Frame>()}) {
+    write_surface(file(), cube(), {.frame = frame, .name = "SPACED out"});
+    EXPECT_EQ(read_surface_file(file()).frame, frame);
+  }
+  EXPECT_LT(largest_difference(read_surface(file()), cube()), 1e-6) << "as given, no frame";
+}
+
+TEST(StatedFrame, IsReadAs3DSlicerWritesIt) {
+  const TempFolder folder;
+  const auto frame_of = [&](const char* name, const std::string& bytes) {
+    write_bytes(folder / name, bytes);
+    return read_surface_file(folder / name).frame;
+  };
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  EXPECT_EQ(frame_of("a.obj", "# 3D Slicer output. SPACE=RAS\n" + obj), Frame::kRas);
+  EXPECT_EQ(frame_of("b.obj", "#SPACE=LPS\n" + obj), Frame::kLps);
+  EXPECT_EQ(frame_of("c.obj", "# SPACE=LPSX\n" + obj), std::nullopt);
+  EXPECT_EQ(frame_of("d.obj", "# SPACE=\n" + obj), std::nullopt);
+  EXPECT_EQ(frame_of("a.stl",
+                     "solid 3D Slicer output. SPACE=LPS\nfacet\nouter loop\nvertex 0 0 0\n"
+                     "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n"),
+            Frame::kLps);
+  const std::string head = "\nASCII\nDATASET POLYDATA\n",
+                    rest = "POINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n";
+  const std::string vtk = "# vtk DataFile Version 4.2\n";
+  EXPECT_EQ(frame_of("a.vtk", vtk + "3D Slicer output. SPACE=RAS" + head + rest), Frame::kRas);
+  EXPECT_EQ(frame_of("b.vtk", vtk + "vtk output" + head +
+                                  "FIELD FieldData 1\nSPACE 1 1 string\nLPS\n" + rest),
+            Frame::kLps);
+  EXPECT_EQ(frame_of("c.vtk", vtk + "vtk output" + head + rest), std::nullopt);
+}
+
+TEST(Vtp, ArraysOnItsPointsAreReadBackByName) {
+  const TempFolder folder;
+  const TriMesh surface = cube();
+  const std::vector<double> values{0.5, -1, 1e-300, 3, 4, 5, 6, 1.0 / 3};
+  write_surface(folder / "a.vtp", surface, {.point_arrays = {{"one", values}, {"two", values}}});
+  EXPECT_EQ(read_point_array(folder / "a.vtp", "two"), values);
+  EXPECT_REFUSED(read_point_array(folder / "a.vtp", "three"), HasSubstr("there is one, two"));
+  write_surface(folder / "b.vtp", surface);
+  EXPECT_REFUSED(read_point_array(folder / "b.vtp", "one"), HasSubstr("there is none"));
+  write_surface(folder / "c.ply", surface);
+  EXPECT_REFUSED(read_point_array(folder / "c.ply", "one"), HasSubstr("only .vtp"));
+  EXPECT_REFUSED(write_surface(folder / "d.vtp", surface, {.point_arrays = {{"short", {1, 2}}}}),
+                 HasSubstr("per point (8), found 2"));
+  EXPECT_REFUSED(write_surface(folder / "d.vtp", surface,
+                               {.point_arrays = {{"x", std::vector<double>(8, std::nan(""))}}}),
+                 HasSubstr("not finite"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "d.vtp"));
+}
+
 TEST_P(EachFormat, IsReadFromGzip) {
   const TriMesh surface = sample();
   write_surface(file(), surface);

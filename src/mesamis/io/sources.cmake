@@ -30,6 +30,7 @@ set(ROOM_SOURCES
   isosurface.cpp
   detail/abaqus_file.cpp
   detail/amf_file.cpp
+  detail/frame_note.cpp
   detail/gmsh_file.cpp
   detail/mesh_checks.cpp
   detail/obj_file.cpp

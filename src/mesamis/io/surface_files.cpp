@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Parser = TriMesh (*)(const fs::path&, std::string_view);
+using Parser = SurfaceFile (*)(const fs::path&, std::string_view);
 using Formatter = std::string (*)(const TriMesh&, const SurfaceWriteOptions&);
 
 constexpr auto kMostPoints = static_cast<std::size_t>(std::numeric_limits<Index>::max());
@@ -44,18 +44,18 @@ constexpr Format kFormats[] = {{".stl", parse_stl, stl_bytes},
                    (found.empty() ? "no extension" : "the extension " + in_quotes(found)));
 }
 
-Parser parser_for(const fs::path& path) {
+/// In lower case, without a final .gz.
+std::string extension_of(const fs::path& path) {
   const bool packed = lower(path.extension().string()) == ".gz";
-  const std::string extension = lower((packed ? path.stem() : path).extension().string());
+  return lower((packed ? path.stem() : path).extension().string());
+}
+
+Parser parser_for(const fs::path& path) {
+  const std::string extension = extension_of(path);
   for (const Format& format : kFormats) {
     if (extension == format.extension && format.parse != nullptr) return format.parse;
   }
   refuse_extension(path, ".stl .ply .obj .vtp .3mf .amf .vtk, each also with .gz");
-}
-
-/// Half a turn about z: a rotation, so that triangles keep facing outward.
-void turn(std::vector<Vec3>& points) {
-  for (Vec3& p : points) p = {-p.x, -p.y, p.z};
 }
 
 /// One line, as headers and comments must be.
@@ -85,6 +85,18 @@ std::string joined(const std::vector<std::string>& words) {
   return line;
 }
 
+/// As many values as points, all of them finite.
+void require_values(const fs::path& path, const char* what, const std::vector<double>& values,
+                    const TriMesh& surface) {
+  if (values.size() != surface.points.size()) {
+    refuse(path, say("expected ", what, " per point (", surface.points.size(), "), found ",
+                     values.size()));
+  }
+  if (std::any_of(values.begin(), values.end(), [](double x) { return !std::isfinite(x); })) {
+    refuse(path, say(what, " is not finite"));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> written_surface_formats() {
@@ -104,22 +116,18 @@ void write_surface(const fs::path& path, const TriMesh& surface,
     return extension == f.extension && f.bytes != nullptr;
   });
   if (format == std::end(kFormats)) refuse_extension(path, joined(written_surface_formats()));
-  if (!options.grey.empty() && options.grey.size() != surface.points.size()) {
-    refuse(path, say("expected a grey value per point (", surface.points.size(), "), found ",
-                     options.grey.size()));
+  if (!options.grey.empty()) require_values(path, "a grey value", options.grey, surface);
+  for (const PointArray& array : options.point_arrays) {
+    require_values(path, "an array's value", array.values, surface);
   }
-  if (std::any_of(options.grey.begin(), options.grey.end(),
-                  [](double grey) { return !std::isfinite(grey); })) {
-    refuse(path, "a grey value is not finite");
-  }
-  TriMesh turned = surface;
-  if (options.frame == Frame::kRas) turn(turned.points);
-  write_file(path, format->bytes(turned, as_written(options)));
+  const bool as_given = options.frame != Frame::kRas;
+  write_file(path, format->bytes(as_given ? surface : turned(surface), as_written(options)));
 }
 
-TriMesh read_surface(const fs::path& path) {
+SurfaceFile read_surface_file(const fs::path& path) {
   const Parser parse = parser_for(path);
-  TriMesh surface = parse(path, read_all(path));
+  SurfaceFile file = parse(path, read_all(path));
+  const TriMesh& surface = file.surface;
   if (surface.triangles.empty()) refuse(path, "holds no triangle");
   if (surface.points.size() > kMostPoints) refuse(path, "its points exceed 32-bit indices");
   try {
@@ -127,7 +135,25 @@ TriMesh read_surface(const fs::path& path) {
   } catch (const InputError& error) {
     refuse(path, error.what());
   }
+  return file;
+}
+
+TriMesh read_surface(const fs::path& path) { return read_surface_file(path).surface; }
+
+TriMesh turned(TriMesh surface) {
+  for (Vec3& p : surface.points) p = {-p.x, -p.y, p.z};
   return surface;
+}
+
+TriMesh in_lps(const SurfaceFile& file) {
+  return file.frame == Frame::kRas ? turned(file.surface) : file.surface;
+}
+
+std::vector<double> read_point_array(const fs::path& path, const std::string& name) {
+  if (extension_of(path) != ".vtp") {
+    refuse(path, "has no array " + in_quotes(name) + " to colour by, only .vtp files have arrays");
+  }
+  return parse_vtp_array(path, read_all(path), name);
 }
 
 }  // namespace mesamis

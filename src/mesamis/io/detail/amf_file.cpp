@@ -76,18 +76,19 @@ void add_mesh(const fs::path& file, const XmlElement& mesh, double unit, TriMesh
 
 }  // namespace
 
-TriMesh parse_amf(const fs::path& file, std::string_view bytes) {
+SurfaceFile parse_amf(const fs::path& file, std::string_view bytes) {
   const XmlElement root = parse_xml(file, bytes);
   if (root.name != "amf") refuse(file, "expected <amf>, found " + in_quotes(root.name));
   const double unit = unit_in_mm(file, root.attribute("unit"));
-  TriMesh surface;
+  SurfaceFile result;
   for (const XmlElement& object : root.children) {
+    if (object.name == "metadata" && !result.frame) result.frame = frame_named_in(object.text);
     if (object.name != "object") continue;
     for (const XmlElement& mesh : object.children) {
-      if (mesh.name == "mesh") add_mesh(file, mesh, unit, surface);
+      if (mesh.name == "mesh") add_mesh(file, mesh, unit, result.surface);
     }
   }
-  return surface;
+  return result;
 }
 
 std::string amf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options) {

@@ -14,13 +14,14 @@ class ObjParser {
  public:
   ObjParser(const fs::path& file, std::string_view text) : file_(file), text_(text) {}
 
-  TriMesh parse() {
+  SurfaceFile parse() {
     for (std::string_view line; take_line(text_, line); ++line_number_) {
-      const std::string_view keyword = take_word(line);
+      const std::string_view whole = line, keyword = take_word(line);
       if (keyword == "v") add_point(line);
       if (keyword == "f") add_face(line);
+      if (keyword.starts_with('#') && !frame_) frame_ = frame_named_in(whole);
     }
-    return std::move(surface_);
+    return {std::move(surface_), frame_};
   }
 
  private:
@@ -67,6 +68,7 @@ class ObjParser {
   std::string_view text_;
   std::size_t line_number_ = 1;
   TriMesh surface_;
+  std::optional<Frame> frame_;
 };
 
 }  // namespace
@@ -87,7 +89,7 @@ std::string obj_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
   return out;
 }
 
-TriMesh parse_obj(const fs::path& file, std::string_view bytes) {
+SurfaceFile parse_obj(const fs::path& file, std::string_view bytes) {
   return ObjParser(file, bytes).parse();
 }
 

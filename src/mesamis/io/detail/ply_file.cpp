@@ -30,6 +30,7 @@ enum class Format { kText, kLittle, kBig };
 struct Header {
   Format format = Format::kText;
   std::vector<Element> elements;
+  std::optional<Frame> frame;
 };
 
 struct NamedType {
@@ -99,6 +100,7 @@ Header take_header(const fs::path& file, std::string_view& bytes) {
     if (keyword == "format") read_format(file, line, header);
     if (keyword == "element") read_element(file, line, header);
     if (keyword == "property") read_property(file, line, header);
+    if (keyword == "comment" && !header.frame) header.frame = frame_named_in(line);
   }
   refuse(file, "the header has no end");
 }
@@ -204,7 +206,7 @@ std::string ply_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
   return out;
 }
 
-TriMesh parse_ply(const fs::path& file, std::string_view bytes) {
+SurfaceFile parse_ply(const fs::path& file, std::string_view bytes) {
   const Header header = take_header(file, bytes);
   Values values(file, bytes, header.format);
   TriMesh surface;
@@ -224,7 +226,7 @@ TriMesh parse_ply(const fs::path& file, std::string_view bytes) {
       }
     }
   }
-  return surface;
+  return {std::move(surface), header.frame};
 }
 
 }  // namespace mesamis::detail

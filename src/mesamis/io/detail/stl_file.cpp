@@ -118,10 +118,6 @@ bool is_binary(std::string_view bytes) {
 
 }  // namespace
 
-std::string frame_note(Frame frame) {
-  return std::string("mesamis, millimetre, SPACE=") + (frame == Frame::kRas ? "RAS" : "LPS");
-}
-
 std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options) {
   const TriMesh single = round_to_single(surface);
   // The header must not begin with "solid", or readers take the file for text.
@@ -144,14 +140,15 @@ std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
   return out;
 }
 
-TriMesh parse_stl(const fs::path& file, std::string_view bytes) {
+SurfaceFile parse_stl(const fs::path& file, std::string_view bytes) {
   const bool binary = is_binary(bytes);
   if (!binary && !lower(trimmed(bytes.substr(0, kHeader))).starts_with("solid")) {
     refuse(file, "is not an STL file: neither begins with solid nor holds a binary header");
   }
   const auto corners = binary ? binary_corners(file, bytes) : text_corners(file, bytes);
   require_finite(file, corners);
-  return weld(file, corners);
+  const std::string_view head = bytes.substr(0, kHeader);
+  return {weld(file, corners), frame_named_in(binary ? head : head.substr(0, head.find('\n')))};
 }
 
 }  // namespace mesamis::detail

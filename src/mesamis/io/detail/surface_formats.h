@@ -13,8 +13,14 @@
 /// checked further: indices may be out of range.
 namespace mesamis::detail {
 
-/// "mesamis, millimetre, SPACE=LPS": 3D Slicer looks for the last part in all four formats.
-std::string frame_note(Frame frame);
+/// "mesamis, millimetre, SPACE=LPS": 3D Slicer looks for the last part in all four formats, which
+/// is missing where no frame is stated.
+std::string frame_note(std::optional<Frame> frame);
+/// The frame that a text names in this way.
+std::optional<Frame> frame_named_in(std::string_view note);
+/// "LPS" or "RAS", and the frame of this name.
+const char* frame_name(Frame frame);
+std::optional<Frame> frame_named(std::string_view name);
 
 /// The type of the fact that names the program; among the facts of what is written, always.
 inline constexpr const char* kProducer = "producer";
@@ -28,33 +34,35 @@ inline void append_shortest(std::string& out, double value) {
 /// Single precision, as the format has it, see round_to_single().
 std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
 /// Binary or text; equal corners become one point, in the order of their first use.
-TriMesh parse_stl(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_stl(const std::filesystem::path& file, std::string_view bytes);
 
 /// Double precision: VTK, MeshLab, CloudCompare, Blender, Open3D and Assimp read it.
 std::string ply_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
 /// Text or binary of either order. Polygons are cut into fans.
-TriMesh parse_ply(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_ply(const std::filesystem::path& file, std::string_view bytes);
 
 /// Shortest decimals that give the same doubles back.
 std::string obj_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
 /// Polygons are cut into fans; everything but positions and faces is passed over.
-TriMesh parse_obj(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_obj(const std::filesystem::path& file, std::string_view bytes);
 
 /// Double precision, appended binary.
 std::string vtp_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
 /// Polygons are cut into fans, strips into triangles; points and lines are passed over.
-TriMesh parse_vtp(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_vtp(const std::filesystem::path& file, std::string_view bytes);
+std::vector<double> parse_vtp_array(const std::filesystem::path& file, std::string_view bytes,
+                                    const std::string& name);
 /// Legacy VTK, DATASET POLYDATA.
-TriMesh parse_vtk(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_vtk(const std::filesystem::path& file, std::string_view bytes);
 
 /// AMF 1.1, text; shortest decimals that give the same doubles back.
 std::string amf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
 /// Every object's mesh, in mm; not packed as ZIP; constellations are passed over.
-TriMesh parse_amf(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_amf(const std::filesystem::path& file, std::string_view bytes);
 
 /// 3MF through lib3mf: single precision, six decimals; the same bytes every time.
 std::string threemf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
 /// What is to be built, where it is to be built, in mm.
-TriMesh parse_threemf(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_threemf(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace mesamis::detail

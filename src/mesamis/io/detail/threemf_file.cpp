@@ -266,9 +266,29 @@ class Gatherer {
   TriMesh surface_;
 };
 
+/// The value of a fact about the model, empty if lib3mf does not tell.
+std::string metadata_text(const Handle& model, DWORD index) {
+  ULONG size = 0;
+  if (NMR::lib3mf_model_getmetadatavalueutf8(model.get(), index, nullptr, 0, &size) != LIB3MF_OK) {
+    return {};
+  }
+  std::string text(std::size_t{size} + 1, '\0');  // whether or not it counts the final zero
+  const LIB3MFRESULT result = NMR::lib3mf_model_getmetadatavalueutf8(
+      model.get(), index, text.data(), static_cast<ULONG>(text.size()), &size);
+  return result == LIB3MF_OK ? text : std::string{};
+}
+
+std::optional<Frame> stated_frame(const Handle& model) {
+  DWORD count = 0;
+  std::optional<Frame> frame;
+  if (NMR::lib3mf_model_getmetadatacount(model.get(), &count) != LIB3MF_OK) return frame;
+  for (DWORD i = 0; i < count && !frame; ++i) frame = frame_named_in(metadata_text(model, i));
+  return frame;
+}
+
 }  // namespace
 
-TriMesh parse_threemf(const fs::path& file, std::string_view bytes) {
+SurfaceFile parse_threemf(const fs::path& file, std::string_view bytes) {
   Handle model, reader;
   require_done(NMR::lib3mf_createmodel(model.put()));
   require_done(NMR::lib3mf_model_queryreader(model.get(), "3mf", reader.put()));
@@ -278,7 +298,7 @@ TriMesh parse_threemf(const fs::path& file, std::string_view bytes) {
   }
   Gatherer gatherer(file, unit_in_mm(model));
   gatherer.add_build(model);
-  return gatherer.surface();
+  return {gatherer.surface(), stated_frame(model)};
 }
 
 }  // namespace mesamis::detail

@@ -32,7 +32,7 @@ class LegacyParser {
   LegacyParser(const fs::path& file, std::string_view bytes)
       : file_(file), rest_(bytes), sink_(file, surface_) {}
 
-  TriMesh parse() {
+  SurfaceFile parse() {
     read_head();
     for (auto word = take_word(rest_); !word.empty(); word = take_word(rest_)) {
       const std::string keyword = lower(word);
@@ -43,7 +43,7 @@ class LegacyParser {
       } else if (keyword == "vertices" || keyword == "lines") {
         read_lists();
       } else if (keyword == "field") {
-        skip_field();
+        read_field();
       } else if (keyword == "metadata") {
         skip_paragraph();
       } else if (keyword == "point_data" || keyword == "cell_data") {
@@ -52,7 +52,7 @@ class LegacyParser {
         refuse(file_, "expected a section of polygonal data, found " + in_quotes(word));
       }
     }
-    return std::move(surface_);
+    return {std::move(surface_), frame_};
   }
 
  private:
@@ -68,6 +68,7 @@ class LegacyParser {
     std::string_view version = line.substr(line.find("Version") + 7);
     if (!parse_number(take_word(version), version_)) refuse(file_, "expected a version number");
     take_line(rest_, line);  // title
+    frame_ = frame_named_in(line);
     const std::string format = lower(take_word(rest_));
     if (format != "ascii" && format != "binary") {
       refuse(file_, "expected ASCII or BINARY, found " + in_quotes(format));
@@ -167,19 +168,23 @@ class LegacyParser {
     }
   }
 
-  /// FIELD name count, then for each array: name components tuples type, values.
-  void skip_field() {
+  /// FIELD name count, then for each array: name components tuples type, values. All that counts is
+  /// a text SPACE.
+  void read_field() {
     take_word(rest_);
     const std::size_t arrays = next_count();
     for (std::size_t a = 0; a < arrays; ++a) {
-      take_word(rest_);
+      const bool names_frame = take_word(rest_) == "SPACE";
       const std::size_t components = next_count(), tuples = next_count();
       if (components != 0 && tuples > rest_.size() / components) {
         refuse(file_, "an array of field data does not fit the file");
       }
       if (!binary_ && lower(rest_.substr(0, 7)) == " string") {
         take_word(rest_);
-        for (std::size_t i = 0; i < components * tuples; ++i) take_word(rest_);
+        for (std::size_t i = 0; i < components * tuples; ++i) {
+          const std::string_view word = take_word(rest_);
+          if (names_frame && !frame_) frame_ = frame_named(word);
+        }
       } else {
         next_values(components * tuples, next_type());
       }
@@ -197,6 +202,7 @@ class LegacyParser {
   const fs::path& file_;
   std::string_view rest_;
   TriMesh surface_;
+  std::optional<Frame> frame_;
   PolygonSink sink_;
   double version_ = 0;
   bool binary_ = false;
@@ -204,7 +210,7 @@ class LegacyParser {
 
 }  // namespace
 
-TriMesh parse_vtk(const fs::path& file, std::string_view bytes) {
+SurfaceFile parse_vtk(const fs::path& file, std::string_view bytes) {
   return LegacyParser(file, bytes).parse();
 }
 

@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kFrameField = "SPACE";
+
 void add_points(const fs::path& file, const VtkXml& xml, const XmlElement& piece,
                 TriMesh& surface) {
   const std::size_t count = count_in(file, piece, "NumberOfPoints");
@@ -51,16 +53,45 @@ void add_cells(const fs::path& file, const VtkXml& xml, const XmlElement& piece,
   sink.add_all(connectivity, offsets, kind == "Strips");
 }
 
+std::optional<Frame> stated_frame(const VtkXml& xml) {
+  const XmlElement* fields = xml.data_set().child("FieldData");
+  if (fields == nullptr) return std::nullopt;
+  for (const XmlElement& array : fields->children) {
+    if (array.attribute("Name") == kFrameField) return frame_named(xml.text(array));
+  }
+  return std::nullopt;
+}
+
+/// The only piece of a file.
+const XmlElement& only_piece(const fs::path& file, const VtkXml& xml) {
+  const XmlElement* piece = nullptr;
+  for (const XmlElement& child : xml.data_set().children) {
+    if (child.name != "Piece") continue;
+    if (piece != nullptr) refuse(file, "expected one piece to colour, found several");
+    piece = &child;
+  }
+  if (piece == nullptr) refuse(file, "holds no points");
+  return *piece;
+}
+
+bool has_one_component(const XmlElement& array) {
+  const std::string components = array.attribute("NumberOfComponents");
+  return array.name == "DataArray" && (components.empty() || components == "1");
+}
+
 }  // namespace
 
 std::string vtp_bytes(const TriMesh& surface, const SurfaceWriteOptions& options) {
   const VtkMessages messages;
   const auto data = vtk_surface(surface);
-  add_text(*data->GetFieldData(), "SPACE", options.frame == Frame::kRas ? "RAS" : "LPS");
+  if (options.frame) add_text(*data->GetFieldData(), kFrameField, frame_name(*options.frame));
   add_text(*data->GetFieldData(), "LengthUnit", "mm");
   if (!options.name.empty()) add_text(*data->GetFieldData(), "Name", options.name);
   if (!options.grey.empty()) {
     add_array(*data->GetPointData(), {"grey", 1, options.grey}, surface.points.size(), "point");
+  }
+  for (const PointArray& array : options.point_arrays) {
+    add_array(*data->GetPointData(), {array.name, 1, array.values}, surface.points.size(), "point");
   }
   const auto writer = vtkSmartPointer<vtkXMLPolyDataWriter>::New();
   writer->WriteToOutputStringOn();
@@ -72,7 +103,7 @@ std::string vtp_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
   return writer->GetOutputString();
 }
 
-TriMesh parse_vtp(const fs::path& file, std::string_view bytes) {
+SurfaceFile parse_vtp(const fs::path& file, std::string_view bytes) {
   const VtkXml xml(file, bytes, "PolyData");
   TriMesh surface;
   for (const XmlElement& piece : xml.data_set().children) {
@@ -82,7 +113,30 @@ TriMesh parse_vtp(const fs::path& file, std::string_view bytes) {
     add_cells(file, xml, piece, "Polys", sink);
     add_cells(file, xml, piece, "Strips", sink);
   }
-  return surface;
+  return {std::move(surface), stated_frame(xml)};
+}
+
+std::vector<double> parse_vtp_array(const fs::path& file, std::string_view bytes,
+                                    const std::string& name) {
+  const VtkXml xml(file, bytes, "PolyData");
+  const XmlElement& piece = only_piece(file, xml);
+  const XmlElement* data = piece.child("PointData");
+  std::string known;
+  for (const XmlElement& array : data == nullptr ? std::vector<XmlElement>{} : data->children) {
+    if (!has_one_component(array)) continue;
+    const std::string found = array.attribute("Name");
+    if (found != name) {
+      known += (known.empty() ? "" : ", ") + shown(found);
+      continue;
+    }
+    std::vector<double> values = xml.values(array);
+    const std::size_t points = count_in(file, piece, "NumberOfPoints");
+    if (values.size() == points) return values;
+    refuse(file, say("the array ", in_quotes(name), " has ", values.size(), " values, expected ",
+                     points));
+  }
+  refuse(file, say("has no array ", in_quotes(name), " of one component to colour by, there is ",
+                   known.empty() ? "none" : known));
 }
 
 }  // namespace mesamis::detail
