@@ -43,8 +43,18 @@ void draw_volume(const PictureCommand& command) {
   const VolumeFile file = read_volume(command.input, {command.series});
   for (const std::string& warning : file.warnings) log_warning(warning);
   std::optional<TriMesh> outline;
-  if (!command.outline.empty()) outline = read_surface(command.outline);
+  if (!command.outline.empty()) outline = in_lps(read_surface_file(command.outline));
   draw_slice(command.output, file.volume, outline ? &*outline : nullptr, command.picture);
+}
+
+/// Views are named in LPS: a surface that says it is in RAS is turned.
+void draw_surface_file(const PictureCommand& command) {
+  const SurfaceFile file = read_surface_file(command.input);
+  std::vector<double> values;
+  if (!command.picture.color.empty()) {
+    values = read_point_array(command.input, command.picture.color);
+  }
+  draw_surface(command.output, in_lps(file), command.picture, values);
 }
 
 int run_picture(const PictureCommand& command) {
@@ -54,7 +64,7 @@ int run_picture(const PictureCommand& command) {
   }
   switch (kind) {
     case FileKind::kSurface:
-      draw_surface(command.output, read_surface(command.input), command.picture);
+      draw_surface_file(command);
       break;
     case FileKind::kMesh:
       draw_mesh(command.output,
@@ -98,7 +108,7 @@ void add_picture_command(CLI::App& app, CommonOptions&, Action& action) {
   command->add_option_function<std::string>(
       "--clip", [options](const std::string& text) { options->picture.clip = parse_clip(text); },
       "AXIS,MM: cut the object open there; of a volume, the slice (default: the middle along z)");
-  command->add_option("--color", options->picture.color, "Array of the mesh to colour by");
+  command->add_option("--color", options->picture.color, "Array to colour by, of a mesh or a .vtp");
   command->add_option_function<std::string>(
       "--size",
       [options](const std::string& text) {

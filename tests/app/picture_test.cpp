@@ -47,6 +47,23 @@ TEST(PictureCommand, DrawsSurfacesMeshesAndSlices) {
             slice);
 }
 
+TEST(PictureCommand, ColoursSurfacesAndTurnsThoseInRas) {
+  MESAMIS_REQUIRE_DISPLAY();
+  const TempFolder folder;
+  const TriMesh surface{{{0, 0, 0}, {10, 0, 0}, {0, 0, 10}}, {{0, 1, 2}}};
+  const std::vector<PointArray> arrays{{"distance", {0, 1, 2}}};
+  write_surface(folder / "lps.vtp", surface, {.point_arrays = arrays});
+  write_surface(folder / "ras.vtp", surface, {.frame = Frame::kRas, .point_arrays = arrays});
+  const std::vector<std::string> front{"--view", "front", "--color", "distance"};
+  const auto draw_front = [&](const char* name, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), folder / name);
+    return draw(folder, arguments);
+  };
+  const std::string colored = draw_front("lps.vtp", front);
+  EXPECT_EQ(draw_front("ras.vtp", front), colored);
+  EXPECT_NE(draw_front("lps.vtp", {"--view", "front"}), colored);
+}
+
 TEST(PictureCommand, RefusesPlainly) {
   const TempFolder folder;
   write_bytes(folder / "s.obj", kTriangle);
@@ -57,7 +74,7 @@ TEST(PictureCommand, RefusesPlainly) {
   EXPECT_FAILS(run_program(folder, {"picture", surface, "-o", png, "--clip", "x,1,"}), 2, "--clip");
   EXPECT_FAILS(run_program(folder, {"picture", surface, "-o", png, "--size", "10"}), 2, "--size");
   EXPECT_FAILS(run_program(folder, {"picture", surface, "-o", png, "--size", "10,10"}), 3, "10");
-  EXPECT_FAILS(run_program(folder, {"picture", surface, "-o", png, "--color", "u"}), 3, "'u'");
+  EXPECT_FAILS(run_program(folder, {"picture", surface, "-o", png, "--color", "u"}), 3, "\"u\"");
   EXPECT_FAILS(run_program(folder, {"picture", surface, "-o", png, "--outline", surface}), 3,
                "--outline");
   EXPECT_FAILS(run_program(folder, {"picture", folder / "none.vtu", "-o", png}), 3, "none.vtu");

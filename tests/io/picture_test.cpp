@@ -202,6 +202,29 @@ TEST(Picture, ColoursByPointArraysWithABar) {
   EXPECT_NEAR(bar, 0.62 * 320, 20);
 }
 
+TEST(Picture, ColoursSurfacesByValuesOfTheirPoints) {
+  MESAMIS_REQUIRE_DISPLAY();
+  const TempFolder folder;
+  TriMesh surface;
+  add_octahedron(surface, {0, 0, 0}, 10);
+  std::vector<double> heights;
+  for (const Vec3& p : surface.points) heights.push_back(p.z);
+  PictureOptions options = small("front");
+  options.color = "height";
+  for (const bool edges : {false, true}) {
+    options.edges = edges;
+    draw_surface(folder / "a.png", surface, options, heights);
+    const Image image(folder / "a.png");
+    const Ink body(image, kDrawn);
+    const int x = int(body.middle()[0]) + 3;
+    const Rgb low = image.at(x, int(body.lo[1]) + 12), high = image.at(x, int(body.hi[1]) - 12);
+    EXPECT_GT(low.b, low.g) << "violet";
+    EXPECT_GT(high.r, high.b + 50) << "yellow";
+  }
+  EXPECT_REFUSED(draw_surface(folder / "b.png", surface, options, std::vector<double>(3)),
+                 HasSubstr("found 3 values"));
+}
+
 TEST(Picture, EdgesShowTheTriangles) {
   MESAMIS_REQUIRE_DISPLAY();
   const TempFolder folder;

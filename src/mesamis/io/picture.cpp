@@ -121,6 +121,37 @@ void paint(vtkActor& actor, const Paint& paint) {
   actor.GetProperty()->SetColor(paint.r, paint.g, paint.b);
 }
 
+// ---------------------------------------------------------------- colours
+
+vtkSmartPointer<vtkLookupTable> lookup_table(const ColorBar& bar) {
+  constexpr int kSteps = 256;
+  const auto table = vtkSmartPointer<vtkLookupTable>::New();
+  table->SetNumberOfTableValues(kSteps);
+  table->SetTableRange(bar.range.lo, bar.range.hi);
+  for (int i = 0; i < kSteps; ++i) {
+    const Rgb rgb = bar.color((i + 0.5) / kSteps);
+    table->SetTableValue(i, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+  }
+  table->SetNanColor(1, 0, 1, 1);
+  return table;
+}
+
+void color_by(vtkActor& actor, bool on_points, const ColorBar& bar) {
+  vtkMapper& mapper = *actor.GetMapper();
+  mapper.ScalarVisibilityOn();
+  if (on_points) {
+    mapper.SetScalarModeToUsePointData();
+  } else {
+    mapper.SetScalarModeToUseCellData();
+  }
+  mapper.SetLookupTable(lookup_table(bar));
+  mapper.UseLookupTableScalarRangeOn();
+  mapper.InterpolateScalarsBeforeMappingOn();
+  // Mostly flat light, so that a colour in the picture is the one in the bar.
+  actor.GetProperty()->SetAmbient(0.58);
+  actor.GetProperty()->SetDiffuse(0.44);
+}
+
 // ---------------------------------------------------------------- surfaces
 
 TriMesh clipped(const TriMesh& surface, const PictureOptions& options, const Sight& sight) {
@@ -142,8 +173,15 @@ vtkSmartPointer<vtkPolyData> with_normals(vtkPolyData* data) {
   return normals->GetOutput();
 }
 
-void add_surface(Scene& scene, const TriMesh& surface, bool edges) {
+/// @param values  one per point, or none: plain.
+vtkSmartPointer<vtkActor> add_surface(Scene& scene, const TriMesh& surface, bool edges,
+                                      std::span<const double> values) {
   const auto data = vtk_surface(surface);
+  if (!values.empty()) {
+    add_array(*data->GetPointData(), {"color", 1, {values.begin(), values.end()}},
+              surface.points.size(), "point");
+    data->GetPointData()->SetActiveScalars("color");
+  }
   const auto actor = add_actor(scene, edges ? data.Get() : with_normals(data).Get(), edges);
   paint(*actor, kBone);
   vtkProperty& property = *actor->GetProperty();
@@ -157,7 +195,8 @@ void add_surface(Scene& scene, const TriMesh& surface, bool edges) {
   inside->DeepCopy(&property);
   inside->SetColor(kInside.r, kInside.g, kInside.b);
   inside->SetSpecular(0);
-  actor->SetBackfaceProperty(inside);
+  if (values.empty()) actor->SetBackfaceProperty(inside);
+  return actor;
 }
 
 // ---------------------------------------------------------------- meshes
@@ -209,35 +248,6 @@ vtkSmartPointer<vtkPolyData> skin(const MeshWithArrays& mesh, const PictureOptio
   filter->SetInputData(grid);
   filter->Update();
   return filter->GetOutput();
-}
-
-vtkSmartPointer<vtkLookupTable> lookup_table(const ColorBar& bar) {
-  constexpr int kSteps = 256;
-  const auto table = vtkSmartPointer<vtkLookupTable>::New();
-  table->SetNumberOfTableValues(kSteps);
-  table->SetTableRange(bar.range.lo, bar.range.hi);
-  for (int i = 0; i < kSteps; ++i) {
-    const Rgb rgb = bar.color((i + 0.5) / kSteps);
-    table->SetTableValue(i, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
-  }
-  table->SetNanColor(1, 0, 1, 1);
-  return table;
-}
-
-void color_by(vtkActor& actor, const ColorArray& color, const ColorBar& bar) {
-  vtkMapper& mapper = *actor.GetMapper();
-  mapper.ScalarVisibilityOn();
-  if (color.on_points) {
-    mapper.SetScalarModeToUsePointData();
-  } else {
-    mapper.SetScalarModeToUseCellData();
-  }
-  mapper.SetLookupTable(lookup_table(bar));
-  mapper.UseLookupTableScalarRangeOn();
-  mapper.InterpolateScalarsBeforeMappingOn();
-  // Mostly flat light, so that a colour in the picture is the one in the bar.
-  actor.GetProperty()->SetAmbient(0.58);
-  actor.GetProperty()->SetDiffuse(0.44);
 }
 
 // ---------------------------------------------------------------- slices
@@ -317,17 +327,27 @@ std::string slice_label(const Volume& volume, const SlicePlane& plane, int axis)
 }  // namespace
 
 void draw_surface(const std::filesystem::path& png, const TriMesh& surface,
-                  const PictureOptions& options) {
+                  const PictureOptions& options, std::span<const double> values) {
   require_drawable(surface.points, surface.triangles.size());
-  if (!options.color.empty()) {
-    throw InputError("picture: a surface has no array '" + options.color + "' to colour by");
+  if (!options.color.empty() && values.size() != surface.points.size()) {
+    throw InputError("picture: a surface of " + std::to_string(surface.points.size()) +
+                     " points has no array '" + options.color + "' to colour by, found " +
+                     std::to_string(values.size()) + " values");
   }
+  if (options.color.empty()) values = {};
   const Sight sight = sight_of(options.view);
   const TriMesh shown = clipped(surface, options, sight);
   Scene scene(options.pixels);
-  add_surface(scene, shown, options.edges);
+  const auto actor = add_surface(scene, shown, options.edges, values);
+  Margins margins;
+  if (!values.empty()) {
+    const ColorBar bar{options.color, percentile_range(values, 0.005, 0.995)};
+    color_by(*actor, true, bar);
+    add_color_bar(scene, bar);
+    margins.right = kColorBarMargin;
+  }
   scene.add_lights();
-  scene.fit(sight, used_points(*vtk_surface(shown)), {});
+  scene.fit(sight, used_points(*vtk_surface(shown)), margins);
   scene.approach(options.zoom, options.focus);
   add_scale_bar(scene);
   add_corner_label(scene, size_label(bounding_box(surface.points)));
@@ -348,7 +368,7 @@ void draw_mesh(const std::filesystem::path& png, const MeshWithArrays& mesh,
   if (color.array) {
     const std::span<const double> values = color.array->values;
     const ColorBar bar{options.color, percentile_range(values, 0.005, 0.995)};
-    color_by(*actor, color, bar);
+    color_by(*actor, color.on_points, bar);
     add_color_bar(scene, bar);
     margins.right = kColorBarMargin;
   }

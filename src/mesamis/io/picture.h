@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "mesamis/image/volume.h"
@@ -27,7 +28,8 @@ struct PictureOptions {
   bool edges = false;            ///< draw the edges of triangles or cells
   std::optional<Clip> clip;      ///< what lies on the viewer's side of it is taken away, cells
                                  ///< whole; volumes: the slice nearest to it
-  std::string color;             ///< meshes: the point or cell array to colour by; empty: plain
+  std::string color;             ///< meshes: the point or cell array to colour by; surfaces:
+                                 ///< what their values are called; empty: plain
 };
 
 /// Parallel projection with a scale bar; the file appears whole or not at all.
@@ -37,8 +39,10 @@ struct PictureOptions {
 /// software renderer would write to it. Not to be called from two threads at once.
 /// @throws InputError  if there is no display and no Xvfb, nothing to draw, an array or a view that
 ///                     does not exist, or the file cannot be written.
+///
+/// @param values  with options.color: one per point of the surface, what to colour it by.
 void draw_surface(const std::filesystem::path& png, const TriMesh& surface,
-                  const PictureOptions& options = {});
+                  const PictureOptions& options = {}, std::span<const double> values = {});
 void draw_mesh(const std::filesystem::path& png, const MeshWithArrays& mesh,
                const PictureOptions& options = {});
 /// One slice of the voxel grid in grey values, laid on the page as radiologists do, with the
