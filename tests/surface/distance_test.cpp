@@ -68,13 +68,13 @@ double brute_distance(const Vec3& p, const TriMesh& surface) {
       for (int i = 0; i < 3; ++i) r[i] = q[i] - s * e[i] - t * f[i];
       return product(r, r);
     };
-    auto part = [](Real x) { return std::clamp(x, Real(0), Real(1)); };
+    auto share = [](Real x, Real y) { return y > 0 ? std::clamp(x / y, Real(0), Real(1)) : 0; };
     const Real ee = product(e, e), ff = product(f, f), ef = product(e, f);
     const Real eq = product(e, q), fq = product(f, q), det = ee * ff - ef * ef;
     const Real s = (ff * eq - ef * fq) / det, t = (ee * fq - ef * eq) / det;
-    if (s >= 0 && t >= 0 && s + t <= 1) nearest = std::min(nearest, length2(s, t));
-    nearest = std::min({nearest, length2(part(eq / ee), 0), length2(0, part(fq / ff))});
-    const Real w = part((fq - eq - ef + ee) / (ee + ff - 2 * ef));
+    if (det > 0 && s >= 0 && t >= 0 && s + t <= 1) nearest = std::min(nearest, length2(s, t));
+    nearest = std::min({nearest, length2(share(eq, ee), 0), length2(0, share(fq, ff))});
+    const Real w = share(fq - eq - ef + ee, ee + ff - 2 * ef);
     nearest = std::min(nearest, length2(1 - w, w));
   }
   return static_cast<double>(std::sqrt(nearest));
@@ -108,6 +108,58 @@ TEST(Distance, AgreesWithBruteForceOnNeedles) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_NEAR(distances[i], brute_distance(points[i], surface), 1e-10) << i;
   }
+}
+
+/// Triangles of every kind in the unit cube: with area, long and flat, points on a line, points
+/// that coincide.
+TriMesh mixed_triangles(std::size_t count) {
+  TriMesh surface = random_triangles(count, {1, 1, 1}, 7);
+  for (std::size_t t = 0; t < count; ++t) {
+    auto corner = [&](std::size_t i) -> Vec3& { return surface.points[3 * t + i]; };
+    const double height = std::pow(10.0, -static_cast<double>(t % 7));
+    const Vec3 middle = corner(0) + 0.5 * (corner(1) - corner(0));
+    if (t % 5 == 1) corner(2) = middle + height * (corner(2) - middle);
+    if (t % 5 == 2) corner(2) = middle;
+    if (t % 5 == 3) corner(t % 3) = corner((t + 1) % 3);
+    if (t % 25 == 4) corner(0) = corner(1) = corner(2);
+  }
+  return surface;
+}
+
+TEST(Distance, AgreesWithBruteForceOnTrianglesOfEveryKind) {
+  const TriMesh surface = mixed_triangles(400);
+  auto points = random_points(2000, {-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5}, 8);
+  for (const Vec3& p : random_points(400, {-1e-3, -1e-3, -1e-3}, {1e-3, 1e-3, 1e-3}, 9)) {
+    points.push_back(surface.points[points.size() % surface.points.size()] + p);  // close by
+  }
+  const std::vector<double> distances = distances_to_surface(points, surface);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(distances[i], brute_distance(points[i], surface), 1e-12) << i;
+  }
+}
+
+TEST(Distance, TheTreeFindsTheNearestOfAllTriangles) {
+  const TriMesh surface = mixed_triangles(3000);
+  const auto points = random_points(300, {-3, -3, -3}, {3, 3, 3}, 10);
+  const TriangleTree tree(surface);
+  std::size_t hint = 0;
+  for (const Vec3& p : points) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Triangle& t : surface.triangles) {
+      nearest = std::min(nearest, squared_distance(p, {surface.points[t[0]], surface.points[t[1]],
+                                                       surface.points[t[2]]}));
+    }
+    EXPECT_EQ(tree.squared_distance_to(p, hint), nearest);
+  }
+}
+
+TEST(Distance, OfATranslatedSquareIsTheTranslation) {
+  const TriMesh square{{{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  TriMesh moved = square;
+  for (Vec3& p : moved.points) p += Vec3{0, 0, 0.3};
+  for (const double d : distances_to_surface(moved.points, square)) EXPECT_DOUBLE_EQ(d, 0.3);
+  for (Vec3& p : moved.points) p += Vec3{-4, 0, 2.7};
+  EXPECT_EQ(distances_to_surface(moved.points, square), (std::vector<double>{5, 3, 3, 5}));
 }
 
 TEST(Distance, OfPointsOnTheSurfaceIsZero) {
