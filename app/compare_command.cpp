@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <sstream>
 
@@ -11,7 +12,9 @@
 #include "mesamis/io/atomic_file.h"
 #include "mesamis/io/surface_files.h"
 #include "mesamis/surface/distance.h"
+#include "outputs.h"
 #include "process.h"
+#include "surface_pair.h"
 
 namespace mesamis {
 namespace {
@@ -22,7 +25,8 @@ constexpr std::size_t kAreaSamples = 200000;
 constexpr std::size_t kBins = 100;
 
 struct CompareCommand {
-  fs::path reference, surface, report, histogram;
+  fs::path reference, surface, report, histogram, colored;
+  FrameRule frames = FrameRule::kAuto;
 };
 
 /// Distances from one surface to another, from its vertices and from points even by area.
@@ -42,16 +46,27 @@ nlohmann::ordered_json summary_json(const char* count_name, const std::vector<do
           {"p95", s.p95},        {"p99", s.p99},   {"max", s.max}};
 }
 
-void write_report(const CompareCommand& command, const std::vector<Direction>& directions) {
+/// What the paper calls its distances: its surface of vertices v is the reference.
+nlohmann::ordered_json paper_json(const std::vector<double>& local_distances) {
+  const DistanceSummary s = summarize(local_distances);
+  return {{"hausdorff", s.max},
+          {"average_hausdorff", s.mean},
+          {"least_local", *std::min_element(local_distances.begin(), local_distances.end())}};
+}
+
+void write_report(const CompareCommand& command, const SurfacePair& pair,
+                  const Direction& surface_to_reference, const Direction& reference_to_surface) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   report["reference"] = command.reference.string();
   report["surface"] = command.surface.string();
+  report["frames"] = frames_json(pair);
   report["unit"] = "mm";
-  for (const Direction& d : directions) {
-    report[d.name] = summary_json("vertices", d.from_vertices);
-    report[d.name]["by_area"] = summary_json("samples", d.from_area);
+  for (const Direction* d : {&surface_to_reference, &reference_to_surface}) {
+    report[d->name] = summary_json("vertices", d->from_vertices);
+    report[d->name]["by_area"] = summary_json("samples", d->from_area);
   }
+  report["paper"] = paper_json(reference_to_surface.from_vertices);
   report["seconds"] = wall_seconds();
   report["peak_memory_mb"] = peak_memory_mb();
   write_json(command.report, report);
@@ -91,6 +106,15 @@ void write_histogram(const fs::path& path, const std::vector<Direction>& directi
   write_file(path, text.str());
 }
 
+/// The surface where it was compared, in the frame it has there, with each vertex's distance.
+void write_colored(const fs::path& path, const SurfacePair& pair,
+                   const std::vector<double>& distances) {
+  SurfaceWriteOptions options{.frame = pair.frame()};
+  options.point_arrays = {{"distance", distances}};
+  const bool ras = options.frame == Frame::kRas;  // the writer takes LPS
+  write_surface(path, ras ? turned(pair.surface) : pair.surface, options);
+}
+
 void print_line(const std::string& name, const char* how, const std::vector<double>& distances) {
   const DistanceSummary s = summarize(distances);
   std::printf("%-22s %-8s %9zu %9.4f %9.4f %9.4f %9.4f %9.4f\n", name.c_str(), how, s.count, s.mean,
@@ -98,12 +122,16 @@ void print_line(const std::string& name, const char* how, const std::vector<doub
 }
 
 int run_compare(const CompareCommand& command) {
-  const TriMesh reference = read_surface(command.reference);
-  const TriMesh surface = read_surface(command.surface);
-  const std::vector<Direction> directions{measure("surface_to_reference", surface, reference),
-                                          measure("reference_to_surface", reference, surface)};
-  if (!command.report.empty()) write_report(command, directions);
+  if (!command.colored.empty()) require_output(command.colored, {".vtp"}, "--colored");
+  const SurfacePair pair = read_pair(command.reference, command.surface, command.frames);
+  const std::vector<Direction> directions{
+      measure("surface_to_reference", pair.surface, pair.reference),
+      measure("reference_to_surface", pair.reference, pair.surface)};
+  if (!command.report.empty()) write_report(command, pair, directions[0], directions[1]);
   if (!command.histogram.empty()) write_histogram(command.histogram, directions);
+  if (!command.colored.empty()) {
+    write_colored(command.colored, pair, directions[0].from_vertices);
+  }
   std::printf("%-22s %-8s %9s %9s %9s %9s %9s %9s\n", "distance, mm", "from", "points", "mean",
               "rms", "p95", "p99", "max");
   for (const Direction& d : directions) {
@@ -122,12 +150,15 @@ void add_compare_command(CLI::App& app, CommonOptions&, Action& action) {
   command->add_option("surface", options->surface, "Surface to judge")->required();
   command->add_option("--report", options->report, "Report: .json");
   command->add_option("--histogram", options->histogram, "Histogram of the distances: .csv");
-  command->add_option_function<std::string>(
-      "--colored",
-      [](const std::string&) {
-        throw CLI::ValidationError("--colored", "is not available in this version");
-      },
-      "Surface with its distances: .vtp (not available in this version)");
+  command->add_option("--colored", options->colored,
+                      "The surface with the distance of each vertex (array distance): .vtp");
+  const std::map<std::string, FrameRule> rules{
+      {"auto", FrameRule::kAuto}, {"as-is", FrameRule::kAsIs}, {"turned", FrameRule::kTurned}};
+  command
+      ->add_option("--frames", options->frames,
+                   "auto: as the files state, refused if they fit only after a flip; as-is: "
+                   "coordinates as they are; turned: the surface's x and y negated")
+      ->transform(CLI::CheckedTransformer(rules));
   command->callback([options, &action] { action = [options] { return run_compare(*options); }; });
 }
 

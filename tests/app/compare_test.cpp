@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <sstream>
 
+#include "mesamis/io/surface_files.h"
 #include "support/run_program.h"
+#include "support/shapes.h"
 
 namespace mesamis {
 namespace {
@@ -72,9 +75,125 @@ TEST(CompareCommand, RefusesPlainly) {
   const TempFolder folder;
   write_bytes(folder / "a.obj", square(0));
   const std::string a = folder / "a.obj";
-  EXPECT_FAILS(run_program(folder, {"compare", a, a, "--colored", "c.vtp"}), 2, "not available");
+  EXPECT_FAILS(run_program(folder, {"compare", a, a, "--colored", "c.ply"}), 2, ".vtp");
+  EXPECT_FAILS(run_program(folder, {"compare", a, a, "--frames", "lps"}), 2, "lps");
   EXPECT_FAILS(run_program(folder, {"compare", a, folder / "none.obj"}), 3, "none.obj");
   EXPECT_FAILS(run_program(folder, {"compare", a}), 2, "surface");
+}
+
+/// A box far from the origin in LPS, 20 by 30 by 40 mm.
+TriMesh head() {
+  TriMesh surface = cube({0, 0, 0}, 10);
+  for (Vec3& p : surface.points) p = {15 + 2 * p.x, -170 + 3 * p.y, 600 + 4 * p.z};
+  return surface;
+}
+
+TEST(CompareCommand, DirectionsChangePlacesWithTheSurfaces) {
+  const TempFolder folder;
+  write_surface(folder / "a.ply", head());
+  TriMesh other = head();
+  other.points[7] = other.points[7] + Vec3{3, 1, 2};
+  write_surface(folder / "b.ply", other);
+  const auto compare = [&](const char* reference, const char* surface) {
+    run_program(folder,
+                {"compare", folder / reference, folder / surface, "--report", folder / "r.json"});
+    return nlohmann::json::parse(read_bytes(folder / "r.json"));
+  };
+  const auto ab = compare("a.ply", "b.ply"), ba = compare("b.ply", "a.ply");
+  EXPECT_EQ(ab["surface_to_reference"], ba["reference_to_surface"]);
+  EXPECT_EQ(ab["reference_to_surface"], ba["surface_to_reference"]);
+  EXPECT_NEAR(ab["surface_to_reference"]["max"], std::sqrt(14), 1e-9);
+  // (14)-(16) of the paper: from the vertices of the reference.
+  EXPECT_EQ(ab["paper"]["hausdorff"], ab["reference_to_surface"]["max"]);
+  EXPECT_EQ(ab["paper"]["average_hausdorff"], ab["reference_to_surface"]["mean"]);
+  EXPECT_EQ(ab["paper"]["least_local"], 0);
+  const auto aa = compare("a.ply", "a.ply");
+  for (const auto* figure : {"mean", "rms", "p95", "p99", "max"}) {
+    EXPECT_EQ(aa["surface_to_reference"][figure], 0) << figure;
+    EXPECT_LT(aa["surface_to_reference"]["by_area"][figure], 1e-10) << figure;
+  }
+}
+
+TEST(CompareCommand, ColoursTheSurfaceByTheDistanceOfItsVertices) {
+  const TempFolder folder;
+  write_surface(folder / "a.ply", head());
+  TriMesh shifted = head();
+  for (Vec3& p : shifted.points) p.z += 2;
+  shifted.points.push_back({0, 0, 0});  // of no triangle: no vertex
+  for (const Frame frame : {Frame::kLps, Frame::kRas}) {
+    write_surface(folder / "b.ply", shifted, {.frame = frame});
+    const ProgramRun run =
+        run_program(folder, {"compare", folder / "a.ply", folder / "b.ply", "--colored",
+                             folder / "c.vtp", "--report", folder / "r.json"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    const SurfaceFile colored = read_surface_file(folder / "c.vtp");
+    EXPECT_EQ(colored.frame, Frame::kLps) << "that of the reference";
+    EXPECT_EQ(colored.surface.triangles, shifted.triangles);
+    const auto distances = read_point_array(folder / "c.vtp", "distance");
+    ASSERT_EQ(distances.size(), 8u);
+    for (std::size_t i = 0; i < 8; ++i) {
+      EXPECT_EQ(colored.surface.points[i], shifted.points[i]);
+      EXPECT_NEAR(distances[i], i < 4 ? 0 : 2, 1e-9) << "only the top is off";
+    }
+    const auto report = nlohmann::json::parse(read_bytes(folder / "r.json"));
+    EXPECT_EQ(report["surface_to_reference"]["vertices"], 8);
+  }
+}
+
+TEST(CompareCommand, TurnsWhatStatesAnotherFrameAndSaysSo) {
+  const TempFolder folder;
+  for (const auto& [name, frame] : {std::pair{"lps.stl", Frame::kLps}, {"ras.vtp", Frame::kRas}}) {
+    write_surface(folder / name, head(), {.frame = frame});
+  }
+  const ProgramRun run = run_program(
+      folder, {"compare", folder / "ras.vtp", folder / "lps.stl", "--report", folder / "r.json"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.error_lines(), 1u);
+  EXPECT_THAT(run.err, testing::HasSubstr("turned from LPS to RAS"));
+  const auto report = nlohmann::json::parse(read_bytes(folder / "r.json"));
+  EXPECT_LT(report["surface_to_reference"]["max"], 1e-4);
+  EXPECT_EQ(report["frames"]["reference"], "RAS");
+  EXPECT_EQ(report["frames"]["surface"], "LPS");
+  EXPECT_EQ(report["frames"]["surface_turned"], true);
+  EXPECT_TRUE(report["frames"]["fits_better_flipped"].is_null());
+}
+
+TEST(CompareCommand, RefusesWhatOnlyFitsAfterAFlip) {
+  const TempFolder folder;
+  write_surface(folder / "a.ply", head());
+  write_surface(folder / "silent.ply", turned(head()), {.frame = {}});
+  write_surface(folder / "liar.ply", turned(head()));
+  TriMesh mirrored = head();
+  for (Vec3& p : mirrored.points) p.z = -p.z;
+  write_surface(folder / "mirrored.ply", mirrored);
+  const std::string a = folder / "a.ply", report = folder / "r.json";
+  const auto compare = [&](const char* name, const std::string& rule) {
+    return run_program(folder, {"compare", a, folder / name, "--frames", rule, "--report", report});
+  };
+  for (const auto* name : {"silent.ply", "liar.ply"}) {
+    EXPECT_FAILS(compare(name, "auto"), 3, "(-x, -y, z)");
+    EXPECT_FAILS(compare(name, "auto"), 3, "15,-170,600 to 35,-140,640");
+    EXPECT_FAILS(compare(name, "auto"), 3, "-35,140,600 to -15,170,640");
+    EXPECT_FALSE(std::filesystem::exists(report));
+    EXPECT_EQ(compare(name, "turned").status, 0);
+    EXPECT_EQ(nlohmann::json::parse(read_bytes(report))["surface_to_reference"]["max"], 0);
+    EXPECT_EQ(compare(name, "as-is").status, 0);
+    EXPECT_GT(nlohmann::json::parse(read_bytes(report))["surface_to_reference"]["mean"], 200);
+    std::filesystem::remove(report);
+  }
+  EXPECT_FAILS(compare("mirrored.ply", "auto"), 3, "(x, y, -z)");
+}
+
+TEST(CompareCommand, SaysTheSameForAnyNumberOfThreads) {
+  const TempFolder folder;
+  write_surface(folder / "a.ply", head());
+  write_surface(folder / "b.ply", random_triangles(200, {40, 40, 40}));
+  const auto compare = [&](const char* threads) {
+    return run_program(folder, {"compare", folder / "a.ply", folder / "b.ply", "--threads", threads,
+                                "--colored", folder / (std::string(threads) + ".vtp")});
+  };
+  EXPECT_EQ(compare("1").out, compare("3").out);
+  EXPECT_EQ(read_bytes(folder / "1.vtp"), read_bytes(folder / "3.vtp"));
 }
 
 }  // namespace

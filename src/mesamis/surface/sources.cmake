@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  axis_flip.h
   beneath.h
   components.h
   decimate.h
@@ -9,8 +10,10 @@ set(ROOM_HEADERS
   round_to_single.h
   select_parts.h
   self_intersections.h
-  tri_mesh.h)
+  tri_mesh.h
+  unused_points.h)
 set(ROOM_SOURCES
+  axis_flip.cpp
   beneath.cpp
   box_tree.cpp
   components.cpp

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "mesamis/io/surface_files.h"
+#include "mesamis/surface/axis_flip.h"
+
+namespace mesamis {
+
+/// What decides how two surfaces lie to each other.
+enum class FrameRule {
+  kAuto,    ///< the frames their files state; what fits only after a flip is refused
+  kAsIs,    ///< coordinates as they are, unchecked
+  kTurned,  ///< the surface's x and y are negated, unchecked
+};
+
+/// Two surfaces to compare, in one frame as far as is known, without points that no triangle uses.
+struct SurfacePair {
+  TriMesh reference, surface;                           ///< mm
+  std::optional<Frame> reference_frame, surface_frame;  ///< as their files state
+  bool surface_turned = false;                          ///< x and y negated to fit the reference
+  std::optional<FlipFound> flip;  ///< the surface fits as it is, and better after this
+
+  /// The frame of the surface as it lies here, if it is known.
+  std::optional<Frame> frame() const;
+};
+
+/// Reads both. Warns where one is turned, and where a flip would fit better.
+/// @throws InputError  if a file cannot be read or, with kAuto, the surface lies off the reference
+///                     unless its axes are flipped; the message says how, and both boxes.
+SurfacePair read_pair(const std::filesystem::path& reference, const std::filesystem::path& surface,
+                      FrameRule rule);
+
+/// The entry "frames" of a report.
+nlohmann::ordered_json frames_json(const SurfacePair& pair);
+
+}  // namespace mesamis
