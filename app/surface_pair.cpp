@@ -23,7 +23,9 @@ bool states_differ(const SurfacePair& pair) {
 }
 
 std::ostream& operator<<(std::ostream& out, const Box& box) {
-  const auto write = [&out](const Vec3& p) { out << p.x << "," << p.y << "," << p.z; };
+  const auto write = [&out](const Vec3& p) {
+    out << p.x + 0.0 << "," << p.y + 0.0 << "," << p.z + 0.0;  // no -0
+  };
   write(box.lo);
   out << " to ";
   write(box.hi);

@@ -39,7 +39,8 @@ double wave(const Vec3& p, double frequency) {
          std::sin(frequency * p.z) * std::cos(frequency * p.x);
 }
 
-/// A bumpy ball of n by 2n quadrilaterals without its poles: 2 n^2 points, 4 n^2 triangles.
+/// A bumpy ball of n by 2n quadrilaterals: 2 n (n + 1) points, 4 n^2 triangles. Those at the poles
+/// have no area.
 TriMesh bumpy_ball(Index n, double radius) {
   const double step = std::acos(-1.0) / n;
   TriMesh ball;

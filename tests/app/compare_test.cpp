@@ -9,6 +9,7 @@
 #include "mesamis/io/surface_files.h"
 #include "support/run_program.h"
 #include "support/shapes.h"
+#include "support/test_data.h"
 
 namespace mesamis {
 namespace {
@@ -182,6 +183,30 @@ TEST(CompareCommand, RefusesWhatOnlyFitsAfterAFlip) {
     std::filesystem::remove(report);
   }
   EXPECT_FAILS(compare("mirrored.ply", "auto"), 3, "(x, y, -z)");
+}
+
+TEST(CompareCommand, RealPelvisIsRefusedFlippedAndOnlyThen) {
+  const auto labels = test_data("data/pelvis_ts/bone.nii.gz");
+  MESAMIS_REQUIRE_DATA(labels);
+  const TempFolder folder;
+  run_program(folder, {"baseline", labels, "--level", "0.5", "-o", folder / "a.ply"});
+  run_program(folder, {"baseline", labels, "--level", "0.5", "--smooth", "1", "--triangles",
+                       "30000", "-o", folder / "b.ply"});
+  const TriMesh other = read_surface(folder / "b.ply");
+  write_surface(folder / "flipped.ply", turned(other), {.frame = {}});
+  // A part: what lies above the middle.
+  TriMesh part{other.points, {}};
+  for (const Triangle& t : other.triangles) {
+    if (other.points[t[0]].z > 260) part.triangles.push_back(t);
+  }
+  write_surface(folder / "part.ply", part);
+  for (const auto* name : {"b.ply", "part.ply"}) {
+    const ProgramRun run = run_program(folder, {"compare", folder / "a.ply", folder / name});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+  }
+  EXPECT_FAILS(run_program(folder, {"compare", folder / "a.ply", folder / "flipped.ply"}), 3,
+               "LPS to RAS");
 }
 
 TEST(CompareCommand, SaysTheSameForAnyNumberOfThreads) {
