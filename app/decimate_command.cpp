@@ -2,6 +2,7 @@
 // mesamis decimate: any closed surface, with fewer triangles, within a distance.
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "commands.h"
 #include "json_file.h"
@@ -26,10 +27,10 @@ struct DecimateCommand {
   Settings settings;  // only what make_printable() heeds
 };
 
-TriMesh read_closed(const fs::path& path) {
-  TriMesh surface = read_surface(path);
-  const SurfaceCheck check = check_surface(surface);
-  if (check.closed() && check.manifold()) return surface;
+SurfaceFile read_closed(const fs::path& path) {
+  SurfaceFile file = read_surface_file(path);
+  const SurfaceCheck check = check_surface(file.surface);
+  if (check.closed() && check.manifold()) return file;
   throw InputError(path.string() + ": expected a closed 2-manifold surface, found " +
                    std::to_string(check.open_edges) + " open edges, " +
                    std::to_string(check.nonmanifold_edges) + " non-manifold edges and " +
@@ -47,7 +48,8 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
   } catch (const InputError& error) {  // of an option, not of a file
     throw CLI::ValidationError(error.what());
   }
-  const TriMesh surface = read_closed(command.input);
+  const SurfaceFile file = read_closed(command.input);
+  const TriMesh surface = in_lps(file);
   ProgressDisplay display(common.quiet);
   PrintableReport printable;
   const TriMesh result = make_printable(surface, command.settings, display.callback(), printable);
@@ -55,7 +57,8 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
   if (result.triangles.empty()) {
     throw InputError(command.input.string() + ": every part is smaller than --min-volume");
   }
-  write_surface(command.output, result, {.name = command.name});
+  const auto frame = file.frame ? std::optional(Frame::kLps) : std::nullopt;
+  write_surface(command.output, result, {.frame = frame, .name = command.name});
   const SurfaceCheck check = check_surface(result);
   if (!command.report.empty()) {
     nlohmann::ordered_json report;

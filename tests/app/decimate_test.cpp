@@ -44,6 +44,25 @@ TEST(DecimateCommand, KeepsItsPromisesAndTellsThem) {
   EXPECT_EQ(report["components"], 3);
 }
 
+TEST(DecimateCommand, KeepsTheFrameStatedOrLeavesItUnstated) {
+  const TempFolder folder;
+  auto decimate = [&folder](const char* from, const char* to) {
+    return run_program(
+        folder, {"decimate", folder / from, "-o", folder / to, "--tolerance", "0.01", "--quiet"});
+  };
+  const TriMesh surface = cube({5, 6, 7}, 2);
+  write_surface(folder / "ras.ply", surface, {.frame = Frame::kRas});
+  EXPECT_EQ(decimate("ras.ply", "a.ply").status, 0);
+  const SurfaceFile turned_back = read_surface_file(folder / "a.ply");
+  EXPECT_EQ(turned_back.frame, Frame::kLps);
+  EXPECT_EQ(turned_back.surface.points, surface.points);
+  write_surface(folder / "none.ply", surface, {.frame = std::nullopt});
+  EXPECT_EQ(decimate("none.ply", "b.ply").status, 0);
+  const SurfaceFile unstated = read_surface_file(folder / "b.ply");
+  EXPECT_EQ(unstated.frame, std::nullopt);
+  EXPECT_EQ(unstated.surface.points, surface.points);
+}
+
 TEST(DecimateCommand, SelectsParts) {
   const TempFolder folder;
   write_surface(folder / "a.ply", hollow_ball_and_crumb());

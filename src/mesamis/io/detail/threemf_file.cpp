@@ -122,7 +122,7 @@ void add_metadata(const Handle& model, const SurfaceWriteOptions& options) {
     if (type == kProducer) {
       application = text;
     } else {
-      description += "; " + type + " " + text;
+      ((description += "; ") += type) += " " + text;
     }
   }
   auto add = [&](const char* key, const std::string& text) {
