@@ -2,13 +2,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "mesamis/io/read_volume.h"
+#include "mesamis/io/write_volume.h"
 #include "support/expect_near.h"
 #include "support/read_scan.h"
 #include "support/scan_bytes.h"
 #include "support/temp_folder.h"
+#include "support/throws.h"
 
 namespace mesamis {
 namespace {
@@ -91,6 +95,61 @@ TEST(Nrrd, RefusesWhatItCannotMean) {
   EXPECT_THAT(spoilt("type: short\n" + grid + end + "space directions: (1,0,0) (1,1,0) (0,0,1)\n"),
               HasSubstr("orthogonal"));
   EXPECT_THAT(spoilt("nonsense\n"), HasSubstr("nonsense"));
+}
+
+/// Turned, shifted, left-handed, with numbers that have no short decimals.
+Volume odd_volume() {
+  Volume volume;
+  volume.size = {4, 3, 2};
+  volume.spacing = {0.1, 1.0 / 3, 2.5};
+  volume.origin = {-10.7, 1e-3, 1234.5678901234567};
+  volume.direction = {{Vec3{0.6, 0.8, 0}, Vec3{0.8, -0.6, 0}, Vec3{0, 0, 1}}};
+  for (int n = 0; n < 24; ++n) volume.samples.push_back(static_cast<float>(1000.0 / 7 * n - 900));
+  return volume;
+}
+
+TEST(Nrrd, ReadsWhatItWrote) {
+  const TempFolder folder;
+  const Volume volume = odd_volume();
+  for (const bool gzip : {false, true}) {
+    write_nrrd(folder / "a.nrrd", volume, {.gzip = gzip});
+    const VolumeFile file = read_volume(folder / "a.nrrd");
+    EXPECT_EQ(file.format, "NRRD");
+    EXPECT_THAT(file.warnings, testing::IsEmpty());
+    EXPECT_EQ(file.volume.size, volume.size);
+    EXPECT_EQ(file.volume.samples, volume.samples);
+    EXPECT_EQ(file.volume.origin, volume.origin);
+    expect_near(file.volume.spacing, volume.spacing, 1e-15);
+    for (std::size_t a = 0; a < 3; ++a) {
+      expect_near(file.volume.direction.rows[a], volume.direction.rows[a], 1e-15);
+    }
+  }
+}
+
+TEST(Nrrd, WritesShortsRounded) {
+  const TempFolder folder;
+  Volume volume = odd_volume();
+  const NrrdOptions options{.type = SampleType::kShort, .gzip = true};
+  write_nrrd(folder / "a.nrrd", volume, options);
+  const Volume found = read_volume(folder / "a.nrrd").volume;
+  for (std::size_t n = 0; n < volume.samples.size(); ++n) {
+    EXPECT_EQ(found.samples[n], std::round(volume.samples[n]));
+  }
+  for (const float bad : {32768.F, -32769.F, std::numeric_limits<float>::quiet_NaN()}) {
+    volume.samples[5] = bad;
+    EXPECT_REFUSED(write_nrrd(folder / "b.nrrd", volume, options), HasSubstr("16 bits"));
+  }
+  EXPECT_EQ(folder.file_count(), 1);
+}
+
+TEST(Nrrd, RefusesToWriteWhatNobodyCouldRead) {
+  const TempFolder folder;
+  Volume volume = odd_volume();
+  EXPECT_REFUSED(write_nrrd(folder / "a.nii", volume), HasSubstr(".nrrd"));
+  EXPECT_REFUSED(write_nrrd(folder / "no" / "a.nrrd", volume), HasSubstr("cannot be written"));
+  volume.samples.pop_back();
+  EXPECT_REFUSED(write_nrrd(folder / "a.nrrd", volume), HasSubstr("expected 24 samples, found 23"));
+  EXPECT_EQ(folder.file_count(), 0);
 }
 
 }  // namespace

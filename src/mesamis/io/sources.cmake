@@ -6,7 +6,8 @@ set(ROOM_HEADERS
   mesh_files.h
   picture.h
   read_volume.h
-  surface_files.h)
+  surface_files.h
+  write_volume.h)
 set(ROOM_SOURCES
   # Volumes in: own readers over zlib, libtiff, and GDCM for compressed DICOM pixels.
   detail/byte_source.cpp
@@ -25,6 +26,8 @@ set(ROOM_SOURCES
   sha256.cpp
   detail/text_header.cpp
   detail/tiff_file.cpp
+  # Volumes out.
+  write_volume.cpp
   # Surfaces and meshes in and out, files that appear whole.
   atomic_file.cpp
   isosurface.cpp
