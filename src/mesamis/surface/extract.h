@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -11,12 +12,17 @@ namespace mesamis {
 
 struct SolidOptions {
   bool close_at_box = true;  ///< cap the object where it meets the box, so that it is closed
+  /// Where the object's surface crosses the edge from a to b, 0 at a to 1 at b; none: where the
+  /// linear function does. For a function that is known between the nodes.
+  std::function<double(const Vec3& a, const Vec3& b)> crossing{};
 };
 
 /// Crossings keep this distance from an edge's ends, relative to the edge: they stay distinct,
 /// also after rounding to single precision, where a value at a node is at the level or near it.
 /// The surface is moved by less than that: at most 0.005 of an edge, 2.5e-5 in the mean.
 inline constexpr double kCrossingMargin = 0.005;
+/// The same for crossings that are known exactly: enough for double precision.
+inline constexpr double kExactCrossingMargin = 1e-4;
 
 /// The boundary of {u > level}: u linear on each cell, the surface its level set, welded.
 ///

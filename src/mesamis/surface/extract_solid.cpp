@@ -136,6 +136,15 @@ class Marcher {
   std::vector<std::uint8_t> planes_;  // empty: no caps
 };
 
+Vec3 exact_position(const TetMesh& mesh, Site site,
+                    const std::function<double(const Vec3&, const Vec3&)>& crossing) {
+  const Vec3& a = mesh.points[site_begin(site)];
+  const Vec3& b = mesh.points[site_end(site)];
+  if (site_begin(site) == site_end(site)) return a;
+  const double t = std::clamp(crossing(a, b), kExactCrossingMargin, 1 - kExactCrossingMargin);
+  return a + t * (b - a);
+}
+
 /// All triangles in the order of the cells.
 std::vector<SiteTriangle> march_all(const TetMesh& mesh, const Marcher& marcher) {
   std::vector<std::vector<SiteTriangle>> blocks((mesh.cells.size() + kBlock - 1) / kBlock);
@@ -180,8 +189,10 @@ TriMesh extract_solid(const TetMesh& mesh, std::span<const double> u, double lev
   const std::vector<Site> sites = unique_sites(triangles);
   TriMesh surface;
   surface.points.resize(sites.size());
-  parallel_for(sites.size(),
-               [&](std::size_t i) { surface.points[i] = marcher.position(sites[i]); });
+  parallel_for(sites.size(), [&](std::size_t i) {
+    surface.points[i] = options.crossing ? exact_position(mesh, sites[i], options.crossing)
+                                         : marcher.position(sites[i]);
+  });
   surface.triangles.resize(triangles.size());
   parallel_for(triangles.size(), [&](std::size_t t) {
     for (std::size_t i = 0; i < 3; ++i) {

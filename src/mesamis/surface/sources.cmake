@@ -6,6 +6,7 @@ set(ROOM_HEADERS
   decimate.h
   distance.h
   extract.h
+  implicit_surface.h
   normals.h
   round_to_single.h
   select_parts.h
@@ -25,6 +26,7 @@ set(ROOM_SOURCES
   extract_band.cpp
   extract_solid.cpp
   farthest.cpp
+  implicit_surface.cpp
   nesting.cpp
   normals.cpp
   round_to_single.cpp
