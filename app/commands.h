@@ -31,6 +31,7 @@ void add_baseline_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_compare_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_decimate_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_info_command(CLI::App& app, CommonOptions& common, Action& action);
+void add_phantom_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_picture_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_remesh_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_segment_command(CLI::App& app, CommonOptions& common, Action& action);

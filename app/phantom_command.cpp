@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// mesamis phantom: a synthetic scan whose surface is known.
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "arguments.h"
+#include "commands.h"
+#include "json_file.h"
+#include "log.h"
+#include "mesamis/base/error.h"
+#include "mesamis/image/degrade.h"
+#include "mesamis/image/phantom.h"
+#include "mesamis/io/surface_files.h"
+#include "mesamis/io/write_volume.h"
+#include "mesamis/surface/implicit_surface.h"
+#include "outputs.h"
+#include "process.h"
+#include "report.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of a voxel's shortest side: what is promised of the truth, and what it is refined for.
+constexpr double kTruthError = 0.02, kTruthTolerance = 0.012;
+
+struct PhantomCommand {
+  bool list = false;
+  std::string name, type = "float";
+  fs::path output, truth, report;
+  std::array<Index, 3> size{0, 0, 0};
+  Vec3 spacing{1, 1, 1};
+  int samples = 4;
+  bool gzip = false;
+  DegradeOptions degrade{.blur = 1};
+};
+
+int print_list() {
+  for (const PhantomInfo& info : phantom_list()) {
+    std::cout << info.name << ": " << info.description << " (" << info.size[0] << " x "
+              << info.size[1] << " x " << info.size[2] << ")\n";
+  }
+  return kExitDone;
+}
+
+/// Refuses what is wrong with the command line before any work is done.
+Phantom require_all(const PhantomCommand& command) {
+  if (command.name.empty())
+    throw CLI::ValidationError("name: expected a phantom; --list shows them");
+  if (command.output.empty()) throw CLI::ValidationError("--output is required");
+  require_output(command.output, {".nrrd"}, "--output");
+  if (!command.truth.empty()) {
+    require_output(command.truth, written_surface_formats(), "--truth");
+  }
+  if (!command.report.empty()) require_output(command.report, {".json"}, "--report");
+  try {
+    require_valid(command.degrade);
+    return make_phantom(command.name, command.size, command.spacing);
+  } catch (const InputError& error) {  // of an option, not of a file
+    throw CLI::ValidationError(error.what());
+  }
+}
+
+double shortest_side(const Vec3& spacing) { return std::min({spacing.x, spacing.y, spacing.z}); }
+
+/// The truth, and how true it is.
+struct Truth {
+  TriMesh surface;
+  SurfaceCheck check;
+  ImplicitError error;
+};
+
+Truth find_truth(const Phantom& phantom) {
+  Truth truth;
+  truth.surface = extract_implicit(phantom.lines, phantom.inside,
+                                   kTruthTolerance * shortest_side(phantom.spacing));
+  truth.check = check_surface(truth.surface);
+  truth.error = implicit_error(truth.surface, phantom.inside);
+  return truth;
+}
+
+nlohmann::ordered_json truth_json(const Truth& truth, const Phantom& phantom) {
+  const double voxel = shortest_side(phantom.spacing);
+  return {{"triangles", truth.surface.triangles.size()},
+          {"vertices", truth.surface.points.size()},
+          {"closed", truth.check.closed()},
+          {"manifold", truth.check.manifold()},
+          {"components", truth.check.components},
+          {"error_max_mm", truth.error.max},
+          {"error_mean_mm", truth.error.mean},
+          {"error_max_voxel", truth.error.max / voxel},
+          {"error_promised_voxel", kTruthError},
+          {"volume_mm3", truth.check.volume},
+          {"area_mm2", truth.check.area}};
+}
+
+nlohmann::ordered_json phantom_settings(const PhantomCommand& command, const Phantom& phantom) {
+  const DegradeOptions& degrade = command.degrade;
+  return {{"name", phantom.name},
+          {"size", phantom.size},
+          {"spacing_mm", vec_json(phantom.spacing)},
+          {"scale", phantom.scale},
+          {"background", phantom.background},
+          {"samples", command.samples},
+          {"blur_voxel", degrade.blur},
+          {"speckle", degrade.speckle},
+          {"noise", degrade.noise},
+          {"salt_pepper", degrade.salt_pepper},
+          {"pepper", degrade.pepper},
+          {"salt", degrade.salt},
+          {"seed", degrade.seed},
+          {"type", command.type},
+          {"gzip", command.gzip}};
+}
+
+int status_of(const Truth& truth, const Phantom& phantom) {
+  if (!truth.check.closed() || !truth.check.manifold()) return kExitNotClosed;
+  if (truth.error.max <= kTruthError * shortest_side(phantom.spacing)) return kExitDone;
+  log_warning("the truth's error is " + std::to_string(truth.error.max) + " mm, expected at most " +
+              std::to_string(kTruthError) + " of a voxel");
+  return kExitNotConverged;
+}
+
+void write_report(const PhantomCommand& command, const Phantom& phantom, const Truth& truth) {
+  nlohmann::ordered_json report;
+  report["program"] = program_json();
+  report["settings"] = phantom_settings(command, phantom);
+  if (!command.truth.empty()) report["truth"] = truth_json(truth, phantom);
+  report["seconds"] = wall_seconds();
+  report["peak_memory_mb"] = peak_memory_mb();
+  write_json(command.report, report);
+}
+
+int run_phantom(const PhantomCommand& command) {
+  if (command.list) return print_list();
+  const Phantom phantom = require_all(command);
+  write_nrrd(command.output, degrade(sample_phantom(phantom, command.samples), command.degrade),
+             {.type = command.type == "short" ? SampleType::kShort : SampleType::kFloat,
+              .gzip = command.gzip});
+  Truth truth;
+  if (!command.truth.empty()) {
+    truth = find_truth(phantom);
+    write_surface(command.truth, truth.surface, {.name = phantom.name});
+  }
+  if (!command.report.empty()) write_report(command, phantom, truth);
+  std::cout << phantom.name << ": " << phantom.size[0] << " x " << phantom.size[1] << " x "
+            << phantom.size[2] << " voxels";
+  if (!command.truth.empty()) {
+    std::cout << "; truth: " << truth.surface.triangles.size() << " triangles, at most "
+              << truth.error.max << " mm from the surface";
+  }
+  std::cout << "\n";
+  return command.truth.empty() ? kExitDone : status_of(truth, phantom);
+}
+
+void add_degrade_options(CLI::App& sub, DegradeOptions& degrade) {
+  sub.add_option("--blur", degrade.blur, "Gaussian, sigma in voxels of each axis")
+      ->capture_default_str();
+  sub.add_option("--noise", degrade.noise, "Gaussian, standard deviation in grey values")
+      ->capture_default_str();
+  sub.add_option("--speckle", degrade.speckle, "Multiplicative Gaussian, standard deviation")
+      ->capture_default_str();
+  sub.add_option("--salt-pepper", degrade.salt_pepper, "Share of voxels that become 0 or 255")
+      ->capture_default_str();
+  sub.add_option("--seed", degrade.seed, "Of the noise")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+void add_grid_options(CLI::App& sub, const std::shared_ptr<PhantomCommand>& command) {
+  sub.add_option_function<std::string>(
+      "--size",
+      [command](const std::string& text) {
+        const std::vector<int> n = parse_integers(text, 3, "--size");
+        for (std::size_t a = 0; a < 3; ++a) {
+          if (n[a] < kPhantomSizeMin) {
+            throw CLI::ValidationError("--size", "expected at least " +
+                                                     std::to_string(kPhantomSizeMin) +
+                                                     " voxels, found '" + text + "'");
+          }
+          command->size[a] = n[a];
+        }
+      },
+      "Voxels NX,NY,NZ (default: see --list)");
+  sub.add_option_function<std::string>(
+      "--spacing",
+      [command](const std::string& text) {
+        const std::vector<double> s = parse_numbers(text, 3, "--spacing");
+        command->spacing = {s[0], s[1], s[2]};
+      },
+      "Of the voxels X,Y,Z, mm (default 1,1,1)");
+  sub.add_option("--samples", command->samples, "Points per voxel and direction at the surface")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+}
+
+std::string name_help() {
+  std::string text = "What to make:";
+  for (const PhantomInfo& info : phantom_list()) {
+    text += "\n" + info.name + ": " + info.description;
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_phantom_command(CLI::App& app, CommonOptions&, Action& action) {
+  auto command = std::make_shared<PhantomCommand>();
+  CLI::App* sub = app.add_subcommand("phantom", "A synthetic scan whose surface is known");
+  sub->add_option("name", command->name, name_help());
+  sub->add_flag("--list", command->list, "Show the phantoms, a line each");
+  sub->add_option("-o,--output", command->output, "Volume: .nrrd");
+  sub->add_option("--truth", command->truth, "Its surface: .stl .ply .obj .vtp .3mf .amf");
+  add_grid_options(*sub, command);
+  add_degrade_options(*sub, command->degrade);
+  sub->add_option("--type", command->type, "Of the samples: float, or short (rounded)")
+      ->check(CLI::IsMember({"float", "short"}))
+      ->capture_default_str();
+  sub->add_flag("--gzip", command->gzip, "Pack the samples");
+  sub->add_option("--report", command->report, "Report: .json");
+  sub->callback([command, &action] { action = [command] { return run_phantom(*command); }; });
+}
+
+}  // namespace mesamis
