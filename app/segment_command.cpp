@@ -148,7 +148,7 @@ void add_method_settings(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) 
   add_number(c, o, "--band-threshold", "The band's cells have v below this (default 0.1)");
   add_number(
       c, o, "--min-volume",
-      "Drop islands and fill cavities of the solid below so many mm^3 (default auto: 8 voxels)",
+      "Drop islands and fill cavities of the solid below so many mm^3 (default auto: 4 voxels)",
       {"auto"});
   add_number(c, o, "--keep-largest", "Islands of the solid to keep (default 0: all)");
   c.add_flag_callback(

@@ -23,8 +23,8 @@ enum class ThresholdRule { kAuto, kNone, kValue };
 
 /// Of the geometric mean of the voxels' spacing.
 inline constexpr double kDefaultTolerance = 0.1;
-/// Voxels: what is smaller is noise.
-inline constexpr double kDefaultMinVolume = 8;
+/// Voxels: what is smaller cannot be told from noise.
+inline constexpr double kDefaultMinVolume = 4;
 
 /// Everything a run depends on, with its default, unit and range. Empty optionals are chosen from
 /// the volume; the result tells the values used.
