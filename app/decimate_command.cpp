@@ -33,8 +33,10 @@ SurfaceFile read_closed(const fs::path& path) {
   if (check.closed() && check.manifold()) return file;
   throw InputError(path.string() + ": expected a closed 2-manifold surface, found " +
                    std::to_string(check.open_edges) + " open edges, " +
-                   std::to_string(check.nonmanifold_edges) + " non-manifold edges and " +
-                   std::to_string(check.nonmanifold_points) + " non-manifold points");
+                   std::to_string(check.nonmanifold_edges) + " non-manifold edges, " +
+                   std::to_string(check.nonmanifold_points) + " non-manifold points, " +
+                   std::to_string(check.misoriented_edges) + " misoriented edges and " +
+                   std::to_string(check.degenerate_triangles) + " degenerate triangles");
 }
 
 int run_decimate(const DecimateCommand& command, const CommonOptions& common) {

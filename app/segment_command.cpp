@@ -244,9 +244,16 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
     if (mesh) report["mesh"]["region"] = region_json(*mesh);
     write_json(options.report, report);
   }
-  if (!check.closed() || !check.manifold()) {
-    log_error("the surface is not closed and 2-manifold: " + std::to_string(check.open_edges) +
-              " open edges, " + std::to_string(check.nonmanifold_edges) + " non-manifold edges");
+  const bool solid = result.settings.surface == SurfaceKind::kSolid;
+  const bool outward = !solid || result.surface.triangles.empty() || check.volume > 0;
+  if (!check.closed() || !check.manifold() || !outward) {
+    log_error("expected a closed 2-manifold surface that faces outward, found " +
+              std::to_string(check.open_edges) + " open edges, " +
+              std::to_string(check.nonmanifold_edges) + " non-manifold and " +
+              std::to_string(check.misoriented_edges) + " misoriented edges, " +
+              std::to_string(check.nonmanifold_points) + " non-manifold points, " +
+              std::to_string(check.degenerate_triangles) +
+              " degenerate triangles and a volume of " + std::to_string(check.volume) + " mm^3");
     return kExitNotClosed;
   }
   if (result.converged) return kExitDone;

@@ -28,11 +28,8 @@ double fine_distance(const TriMesh& surface, double tolerance) {
   return kFineOfBox * norm(box.extent());
 }
 
-/// A flawed surface stays whole, for the caller to find.
 TriMesh keep_parts_wanted(const TriMesh& surface, const Settings& settings,
                           PrintableReport& report) {
-  const SurfaceCheck check = check_surface(surface);
-  if (!check.closed() || !check.manifold()) return surface;
   const PartSelection wanted{settings.min_volume.value_or(0), settings.keep_largest,
                              settings.fill_cavities};
   return select_parts(surface, wanted, &report.parts.emplace());
@@ -56,6 +53,9 @@ TriMesh decimated(const TriMesh& surface, const Settings& settings, double toler
 TriMesh make_printable(const TriMesh& extracted, const Settings& settings, const Progress& progress,
                        PrintableReport& report) {
   report = {};
+  report.triangles_extracted = static_cast<std::int64_t>(extracted.triangles.size());
+  const SurfaceCheck check = check_surface(extracted);
+  if (!check.closed() || !check.manifold()) return extracted;  // for the caller to find
   TriMesh surface = keep_parts_wanted(extracted, settings, report);
   report.triangles_extracted = static_cast<std::int64_t>(surface.triangles.size());
   const double otherwise = settings.triangles ? std::numeric_limits<double>::infinity() : 0;

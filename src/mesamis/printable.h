@@ -24,10 +24,9 @@ struct PrintableReport {
 /// Makes the solid surface ready to be written in any format: the parts asked for; coordinates
 /// that single precision holds; and no more triangles than settings.tolerance and
 /// settings.triangles ask for. With neither (tolerance 0) the parts that stay are as extracted.
-/// @param extracted  closed, 2-manifold or empty; world frame, mm. Parts of any other stay.
+/// @param extracted  world frame, mm. What is not closed or not a 2-manifold is returned as it is.
 /// @param settings   defaults filled in, see prepare_image(); what is still missing counts as 0.
 /// @param report     what was done, distances measured against the parts that stay.
-/// @throws InputError  if the surface is not closed or not a 2-manifold, and is to be decimated.
 /// @throws Cancelled   if progress says stop.
 TriMesh make_printable(const TriMesh& extracted, const Settings& settings, const Progress& progress,
                        PrintableReport& report);

@@ -52,6 +52,7 @@ TEST_P(EachScan, GivesASurfaceThatPrints) {
   const auto& surface = report["surface"];
   EXPECT_EQ(surface["closed"], true);
   EXPECT_EQ(surface["manifold"], true);
+  EXPECT_GT(surface["volume_mm3"], 0);
   EXPECT_EQ(surface["self_intersections"], 0);
   const double tolerance = report["settings"]["tolerance"];
   EXPECT_GT(tolerance, 0);
@@ -65,7 +66,7 @@ TEST_P(EachScan, GivesASurfaceThatPrints) {
     EXPECT_THAT(admesh.out, testing::ContainsRegex("Total disconnected facets *: +0 +0\n"));
     EXPECT_THAT(admesh.out, testing::ContainsRegex("Degenerate facets *: +0"));
   }
-  if (!is_installed("prusa-slicer")) return;
+  MESAMIS_REQUIRE_PROGRAM("prusa-slicer");
   for (const char* file : {"a.stl", "a.3mf", "a.amf"}) {
     const ProgramRun prusa = run_command(folder_, {"prusa-slicer", "--info", folder_ / file});
     EXPECT_EQ(prusa.status, 0) << file;

@@ -53,6 +53,7 @@ TEST(Isosurface, ClosesWhatLeavesTheVolumeOnItsBox) {
 
 TEST(Isosurface, RefusesALevelNothingCrosses) {
   EXPECT_THROW(isosurface(make_ball({}), 1e6), InputError);
+  EXPECT_THROW(isosurface(make_ball({}), 1e6, {.close_at_box = true}), InputError);
   EXPECT_THROW(isosurface(make_ball({}), 175, {.smooth_voxels = -1}), InputError);
 }
 

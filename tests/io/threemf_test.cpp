@@ -153,6 +153,34 @@ TEST(ThreeMf, ReadsWhatIsBuiltWhereItIsBuilt) {
   EXPECT_NEAR(check_surface(surface).volume, 2 * std::pow(25.4, 3) / 6, 0.1);
 }
 
+TEST(ThreeMf, AMirroredPartStillFacesOutward) {
+  const TempFolder folder;
+  Model model;
+  NMR::PLib3MFBase* mesh = add_tetrahedron(model);
+  NMR::MODELTRANSFORM mirror{{{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  ASSERT_EQ(NMR::lib3mf_model_addbuilditem(model.get(), mesh, &mirror, model.add()), LIB3MF_OK);
+  write(model, folder / "a.3mf");
+  EXPECT_NEAR(check_surface(read_surface(folder / "a.3mf")).volume, 1.0 / 6, 1e-6);
+}
+
+TEST(ThreeMf, WithEndlessComponentsIsRefused) {
+  const TempFolder folder;
+  Model model;
+  NMR::PLib3MFBase* inner = add_tetrahedron(model);
+  for (int level = 0; level < 25; ++level) {
+    ASSERT_EQ(NMR::lib3mf_model_addcomponentsobject(model.get(), model.add()), LIB3MF_OK);
+    NMR::PLib3MFBase* pair = model.last();
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_EQ(NMR::lib3mf_componentsobject_addcomponent(pair, inner, nullptr, model.add()),
+                LIB3MF_OK);
+    }
+    inner = pair;
+  }
+  ASSERT_EQ(NMR::lib3mf_model_addbuilditem(model.get(), inner, nullptr, model.add()), LIB3MF_OK);
+  write(model, folder / "a.3mf");
+  EXPECT_REFUSED(read_surface(folder / "a.3mf"), HasSubstr("too many components"));
+}
+
 TEST(ThreeMf, ThatBuildsNothingIsRefused) {
   const TempFolder folder;
   Model model;

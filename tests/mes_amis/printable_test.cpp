@@ -82,6 +82,17 @@ TEST(Printable, DropsWhatIsSmallerThanAskedAndSaysSo) {
             2);
 }
 
+TEST(Printable, AFlawedSurfaceIsLeftForTheCallerToFind) {
+  TriMesh open = ball();
+  open.triangles.pop_back();
+  Settings settings;
+  settings.tolerance = 0.1;
+  PrintableReport report;
+  EXPECT_EQ(make_printable(open, settings, {}, report).triangles, open.triangles);
+  EXPECT_FALSE(report.parts);
+  EXPECT_EQ(report.triangles_extracted, static_cast<std::int64_t>(open.triangles.size()));
+}
+
 TEST(Printable, NothingStaysNothing) {
   PrintableReport report;
   Settings settings;

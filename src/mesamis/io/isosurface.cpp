@@ -94,6 +94,11 @@ TriMesh isosurface(const Volume& volume, double level, const IsosurfaceOptions& 
   }
   vtkSmartPointer<vtkImageData> image = image_of(volume);
   if (options.smooth_voxels > 0) image = smoothed(image, options.smooth_voxels);
+  double range[2];
+  image->GetScalarRange(range);
+  if (!(range[0] < level && level < range[1])) {
+    throw InputError("isosurface: nothing crosses the level " + std::to_string(level));
+  }
   if (options.close_at_box) image = padded(image, level);
   vtkNew<vtkFlyingEdges3D> contour;
   contour->SetInputData(image);

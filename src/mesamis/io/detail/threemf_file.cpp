@@ -128,9 +128,9 @@ void add_metadata(const Handle& model, const SurfaceWriteOptions& options) {
   auto add = [&](const char* key, const std::string& text) {
     require_done(NMR::lib3mf_model_addmetadatautf8(model.get(), key, xml_escaped(text).c_str()));
   };
+  add("Description", description);  // first: it states the frame
   if (!options.name.empty()) add("Title", options.name);
   add("Application", application);
-  add("Description", description);
 }
 
 std::string bytes_of(const Handle& model) {
@@ -177,6 +177,14 @@ Vec3 moved(const Transform& t, const Vec3& p) {
   return q;
 }
 
+bool mirrors(const Transform& t) {
+  const auto row = [&t](int axis) {
+    const auto& r = t.m_fFields[axis];
+    return Vec3{r[0], r[1], r[2]};
+  };
+  return dot(row(0), cross(row(1), row(2))) < 0;
+}
+
 double unit_in_mm(const Handle& model) {
   constexpr double kMillimetres[] = {1e-3, 1, 10, 25.4, 304.8, 1000};  // in the order of MODELUNIT
   DWORD unit = NMR::MODELUNIT_MILLIMETER;
@@ -192,8 +200,12 @@ class Gatherer {
   void add_build(const Handle& model) {
     Handle items;
     require(NMR::lib3mf_model_getbuilditems(model.get(), items.put()), model);
-    BOOL more = 0;
-    while (NMR::lib3mf_builditemiterator_movenext(items.get(), &more) == LIB3MF_OK && more != 0) {
+    auto another = [&] {
+      BOOL more = 0;
+      require(NMR::lib3mf_builditemiterator_movenext(items.get(), &more), items);
+      return more != 0;
+    };
+    while (another()) {
       Handle item, object;
       require(NMR::lib3mf_builditemiterator_getcurrent(items.get(), item.put()), items);
       require(NMR::lib3mf_builditem_getobjectresource(item.get(), object.put()), item);
@@ -219,7 +231,9 @@ class Gatherer {
   /// @param path  transforms, the object's own last.
   void add_object(const Handle& object, std::vector<Transform>& path) {
     constexpr std::size_t kDeepest = 32;
+    constexpr int kMostVisits = 100'000;  // a few objects that name each other twice are billions
     if (path.size() > kDeepest) refuse(file_, "too many components within one another");
+    if (++visits_ > kMostVisits) refuse(file_, "too many components");
     BOOL is_mesh = 0, is_list = 0;
     require(NMR::lib3mf_object_ismeshobject(object.get(), &is_mesh), object);
     require(NMR::lib3mf_object_iscomponentsobject(object.get(), &is_list), object);
@@ -255,7 +269,9 @@ class Gatherer {
       for (auto t = path.rbegin(); t != path.rend(); ++t) q = moved(*t, q);
       surface_.points.push_back(unit_ * q);
     }
-    for (const auto& [c] : corners) {
+    const bool mirrored = std::count_if(path.begin(), path.end(), mirrors) % 2 != 0;
+    for (auto& [c] : corners) {
+      if (mirrored) std::swap(c[1], c[2]);
       const std::vector<double> polygon(std::begin(c), std::end(c));
       sink.add(polygon, false);
     }
@@ -263,6 +279,7 @@ class Gatherer {
 
   const fs::path& file_;
   double unit_;
+  int visits_ = 0;
   TriMesh surface_;
 };
 
