@@ -76,7 +76,11 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
   std::cout << result.triangles.size() << " of " << surface.triangles.size()
             << " triangles, at most " << printable.extracted_to_result << " mm there and "
             << printable.result_to_extracted << " mm back\n";
-  return check.closed() && check.manifold() ? kExitDone : kExitNotClosed;
+  if (!check.closed() || !check.manifold()) return kExitNotClosed;
+  const auto& tolerance = command.settings.tolerance;
+  if (!tolerance || printable.within(*tolerance)) return kExitDone;
+  log_error(tolerance_unmet(*tolerance, printable));
+  return kExitNotConverged;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "report.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "json_file.h"
 #include "mesamis/base/parallel.h"
@@ -123,6 +124,14 @@ ordered_json printable_json(const PrintableReport& printable, const Settings& se
           {"distance_extracted_to_result_max", printable.extracted_to_result},
           {"distance_result_to_extracted_max", printable.result_to_extracted},
           {"parts", parts_json(printable.parts)}};
+}
+
+std::string tolerance_unmet(double tolerance, const PrintableReport& printable) {
+  std::ostringstream line;
+  line << "tolerance: expected distances of " << tolerance << " mm at most, found "
+       << printable.extracted_to_result << " and " << printable.result_to_extracted
+       << ": single precision is too coarse so far from the origin";
+  return line.str();
 }
 
 ordered_json check_json(const TriMesh& surface, const SurfaceCheck& check) {

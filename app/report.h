@@ -27,6 +27,9 @@ InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file, F
 /// How a solid was made printable: tolerance, triangles before, distances, parts.
 nlohmann::ordered_json printable_json(const PrintableReport& printable, const Settings& settings);
 
+/// Why a surface is farther off than it should be, on one line.
+std::string tolerance_unmet(double tolerance, const PrintableReport& printable);
+
 /// What a surface consists of, and whether it is closed.
 nlohmann::ordered_json check_json(const TriMesh& surface, const SurfaceCheck& check);
 

@@ -256,6 +256,11 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
               " degenerate triangles and a volume of " + std::to_string(check.volume) + " mm^3");
     return kExitNotClosed;
   }
+  const auto& tolerance = result.settings.tolerance;
+  if (solid && tolerance && !result.printable.within(*tolerance)) {
+    log_error(tolerance_unmet(*tolerance, result.printable));
+    return kExitNotConverged;
+  }
   if (result.converged) return kExitDone;
   log_error(why_not_converged(result));
   return kExitNotConverged;

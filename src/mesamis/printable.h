@@ -19,6 +19,11 @@ struct PrintableReport {
   /// The greatest distance of any point of one surface to the other, mm: upper bounds, see
   /// max_distance(). 0 for a surface that is delivered as extracted.
   double extracted_to_result = 0, result_to_extracted = 0;
+
+  /// False where single precision is coarser than the tolerance, mm.
+  bool within(double tolerance) const {
+    return extracted_to_result <= tolerance && result_to_extracted <= tolerance;
+  }
 };
 
 /// Makes the solid surface ready to be written in any format: the parts asked for; coordinates

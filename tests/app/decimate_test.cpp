@@ -63,6 +63,15 @@ TEST(DecimateCommand, KeepsTheFrameStatedOrLeavesItUnstated) {
   EXPECT_EQ(unstated.surface.points, surface.points);
 }
 
+TEST(DecimateCommand, SaysWhenSinglePrecisionIsTooCoarse) {
+  const TempFolder folder;
+  write_surface(folder / "far.ply", cube({1'000'000.02, 0.3, 0.3}, 3));
+  const ProgramRun run = run_program(folder, {"decimate", folder / "far.ply", "-o",
+                                              folder / "b.ply", "--tolerance", "1e-3", "--quiet"});
+  EXPECT_EQ(run.status, 4);
+  EXPECT_THAT(run.err, HasSubstr("tolerance: expected distances of 0.001 mm at most"));
+}
+
 TEST(DecimateCommand, SelectsParts) {
   const TempFolder folder;
   write_surface(folder / "a.ply", hollow_ball_and_crumb());

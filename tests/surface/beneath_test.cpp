@@ -54,6 +54,8 @@ TEST(GreatestBeneath, RefusesValuesThatAreNotOnePerNode) {
   const TetMesh mesh = box_mesh(kBox, {1, 1, 1});
   EXPECT_REFUSED(greatest_beneath(mesh, std::vector<double>(7), cube(), 1, 1),
                  testing::HasSubstr("7 values for 8 nodes"));
+  EXPECT_REFUSED(greatest_beneath(mesh, std::vector<double>(8), cube(), 1, 0),
+                 testing::HasSubstr("a sample at least"));
 }
 
 }  // namespace

@@ -27,6 +27,10 @@ std::vector<double> greatest_beneath(const TetMesh& mesh, std::span<const double
     throw InputError("greatest beneath: " + std::to_string(u.size()) + " values for " +
                      std::to_string(mesh.points.size()) + " nodes");
   }
+  if (!(depth >= 0) || samples < 1) {
+    throw InputError("greatest beneath: expected a depth of 0 or more and a sample at least");
+  }
+  const Box box = bounding_box(mesh.points);
   const std::vector<Vec3> normals = vertex_normals(surface);
   const auto neighbors = cell_neighbors(mesh);
   std::vector<double> greatest(surface.points.size());
@@ -35,7 +39,9 @@ std::vector<double> greatest_beneath(const TetMesh& mesh, std::span<const double
     Index near = 0;  // points come in the order of the cells that made them
     for (std::size_t n = begin; n < end; ++n) {
       for (int s = 0; s <= samples; ++s) {
-        const Vec3 p = surface.points[n] - (depth * s / samples) * normals[n];
+        Vec3 p = surface.points[n] - (depth * s / samples) * normals[n];
+        // What rounding moved out of the mesh would be sought in every cell.
+        for (int a = 0; a < 3; ++a) p[a] = std::clamp(p[a], box.lo[a], box.hi[a]);
         const Location place = locate(mesh, neighbors, p, near);
         near = place.cell;
         const double value = value_at(mesh, u, place);
