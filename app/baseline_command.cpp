@@ -10,7 +10,6 @@
 #include "mesamis/io/isosurface.h"
 #include "mesamis/io/surface_files.h"
 #include "outputs.h"
-#include "process.h"
 #include "report.h"
 #include "scan.h"
 
@@ -43,8 +42,7 @@ int run_baseline(const BaselineCommand& command) {
                           {"triangles", command.options.triangles},
                           {"close", command.options.close_at_box}};
     report["surface"] = check_json(surface, check);
-    report["seconds"] = wall_seconds();
-    report["peak_memory_mb"] = peak_memory_mb();
+    add_costs(report);
     write_json(command.report, report);
   }
   std::cout << surface.triangles.size() << " triangles at level " << level << "\n";
@@ -57,7 +55,7 @@ void add_baseline_command(CLI::App& app, CommonOptions&, Action& action) {
   auto command = std::make_shared<BaselineCommand>();
   CLI::App* sub = app.add_subcommand("baseline", "What is used today: an isosurface of the voxels");
   sub->add_option("input", command->input, "Volume file, DICOM directory or file")->required();
-  sub->add_option("-o,--output", command->output, "Surface: .stl .ply .obj .vtp .3mf .amf")
+  sub->add_option("-o,--output", command->output, listed("Surface:", written_surface_formats()))
       ->required();
   sub->add_option("--method", command->method, "isosurface")
       ->check(CLI::IsMember({"isosurface"}))

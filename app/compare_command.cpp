@@ -13,7 +13,7 @@
 #include "mesamis/io/surface_files.h"
 #include "mesamis/surface/distance.h"
 #include "outputs.h"
-#include "process.h"
+#include "report.h"
 #include "surface_pair.h"
 
 namespace mesamis {
@@ -67,8 +67,7 @@ void write_report(const CompareCommand& command, const SurfacePair& pair,
     report[d->name]["by_area"] = summary_json("samples", d->from_area);
   }
   report["paper"] = paper_json(reference_to_surface.from_vertices);
-  report["seconds"] = wall_seconds();
-  report["peak_memory_mb"] = peak_memory_mb();
+  add_costs(report);
   write_json(command.report, report);
 }
 

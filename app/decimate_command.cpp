@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "arguments.h"
 #include "commands.h"
 #include "json_file.h"
 #include "log.h"
@@ -12,7 +13,6 @@
 #include "mesamis/printable.h"
 #include "mesamis/surface/self_intersections.h"
 #include "outputs.h"
-#include "process.h"
 #include "progress.h"
 #include "report.h"
 
@@ -29,14 +29,9 @@ struct DecimateCommand {
 
 SurfaceFile read_closed(const fs::path& path) {
   SurfaceFile file = read_surface_file(path);
-  const SurfaceCheck check = check_surface(file.surface);
-  if (check.closed() && check.manifold()) return file;
-  throw InputError(path.string() + ": expected a closed 2-manifold surface, found " +
-                   std::to_string(check.open_edges) + " open edges, " +
-                   std::to_string(check.nonmanifold_edges) + " non-manifold edges, " +
-                   std::to_string(check.nonmanifold_points) + " non-manifold points, " +
-                   std::to_string(check.misoriented_edges) + " misoriented edges and " +
-                   std::to_string(check.degenerate_triangles) + " degenerate triangles");
+  const std::string flaws = flaws_of(check_surface(file.surface));
+  if (flaws.empty()) return file;
+  throw InputError(path.string() + ": expected a closed 2-manifold surface, found " + flaws);
 }
 
 int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
@@ -45,11 +40,7 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
   if (!command.settings.tolerance && !command.settings.triangles) {
     throw CLI::ValidationError("expected --tolerance or --triangles, found neither");
   }
-  try {
-    require_valid(command.settings);
-  } catch (const InputError& error) {  // of an option, not of a file
-    throw CLI::ValidationError(error.what());
-  }
+  as_usage([&command] { require_valid(command.settings); });
   const SurfaceFile file = read_closed(command.input);
   const TriMesh surface = in_lps(file);
   ProgressDisplay display(common.quiet);
@@ -69,14 +60,16 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
     report["surface"] = printable_json(printable, command.settings);
     report["surface"].update(check_json(result, check));
     report["surface"]["self_intersections"] = find_self_intersections(result).size();
-    report["seconds"] = wall_seconds();
-    report["peak_memory_mb"] = peak_memory_mb();
+    add_costs(report);
     write_json(command.report, report);
   }
   std::cout << result.triangles.size() << " of " << surface.triangles.size()
             << " triangles, at most " << printable.extracted_to_result << " mm there and "
             << printable.result_to_extracted << " mm back\n";
-  if (!check.closed() || !check.manifold()) return kExitNotClosed;
+  if (const std::string flaws = flaws_of(check); !flaws.empty()) {
+    log_error("expected a closed 2-manifold surface, found " + flaws);
+    return kExitNotClosed;
+  }
   const auto& tolerance = command.settings.tolerance;
   if (!tolerance || printable.within(*tolerance)) return kExitDone;
   log_error(tolerance_unmet(*tolerance, printable));
@@ -90,8 +83,9 @@ void add_decimate_command(CLI::App& app, CommonOptions& common, Action& action) 
   Settings& settings = command->settings;
   CLI::App* sub =
       app.add_subcommand("decimate", "Fewer triangles for any closed surface, within a distance");
-  sub->add_option("input", command->input, "Surface: .stl .ply .obj .vtp .3mf .amf")->required();
-  sub->add_option("-o,--output", command->output, "Surface: .stl .ply .obj .vtp .3mf .amf")
+  sub->add_option("input", command->input, listed("Surface:", written_surface_formats()))
+      ->required();
+  sub->add_option("-o,--output", command->output, listed("Surface:", written_surface_formats()))
       ->required();
   sub->add_option("--tolerance", settings.tolerance, "Distance in both directions, mm");
   sub->add_option("--triangles", settings.triangles, "Stop at this many triangles");

@@ -12,15 +12,19 @@ void require_output(const std::filesystem::path& path, const std::vector<std::st
                     const std::string& option) {
   const std::string found = lower_extension(path);
   if (std::find(extensions.begin(), extensions.end(), found) == extensions.end()) {
-    std::string known;
-    for (const std::string& extension : extensions) known += " " + extension;
-    throw CLI::ValidationError(option, "expected a name that ends with one of" + known +
+    throw CLI::ValidationError(option, listed("expected a name that ends with one of", extensions) +
                                            ", found '" + path.string() + "'");
   }
   const auto folder = path.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder)) {
     throw InputError(path.string() + ": there is no folder " + folder.string());
   }
+}
+
+std::string listed(const std::string& what, const std::vector<std::string>& extensions) {
+  std::string text = what;
+  for (const std::string& extension : extensions) text += " " + extension;
+  return text;
 }
 
 std::string lower_extension(const std::filesystem::path& path) {

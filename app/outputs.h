@@ -14,6 +14,9 @@ namespace mesamis {
 void require_output(const std::filesystem::path& path, const std::vector<std::string>& extensions,
                     const std::string& option);
 
+/// "Surface: .stl .ply ...", as an option's help lists what it can write.
+std::string listed(const std::string& what, const std::vector<std::string>& extensions);
+
 /// The extension in lower case, with its dot.
 std::string lower_extension(const std::filesystem::path& path);
 

@@ -15,7 +15,6 @@
 #include "mesamis/io/write_volume.h"
 #include "mesamis/surface/implicit_surface.h"
 #include "outputs.h"
-#include "process.h"
 #include "report.h"
 
 namespace mesamis {
@@ -55,12 +54,10 @@ Phantom require_all(const PhantomCommand& command) {
     require_output(command.truth, written_surface_formats(), "--truth");
   }
   if (!command.report.empty()) require_output(command.report, {".json"}, "--report");
-  try {
+  return as_usage([&command] {
     require_valid(command.degrade);
     return make_phantom(command.name, command.size, command.spacing);
-  } catch (const InputError& error) {  // of an option, not of a file
-    throw CLI::ValidationError(error.what());
-  }
+  });
 }
 
 double shortest_side(const Vec3& spacing) { return std::min({spacing.x, spacing.y, spacing.z}); }
@@ -83,17 +80,12 @@ Truth find_truth(const Phantom& phantom) {
 
 nlohmann::ordered_json truth_json(const Truth& truth, const Phantom& phantom) {
   const double voxel = shortest_side(phantom.spacing);
-  return {{"triangles", truth.surface.triangles.size()},
-          {"vertices", truth.surface.points.size()},
-          {"closed", truth.check.closed()},
-          {"manifold", truth.check.manifold()},
-          {"components", truth.check.components},
-          {"error_max_mm", truth.error.max},
-          {"error_mean_mm", truth.error.mean},
-          {"error_max_voxel", truth.error.max / voxel},
-          {"error_promised_voxel", kTruthError},
-          {"volume_mm3", truth.check.volume},
-          {"area_mm2", truth.check.area}};
+  nlohmann::ordered_json json = check_json(truth.surface, truth.check);
+  json.update({{"error_max_mm", truth.error.max},
+               {"error_mean_mm", truth.error.mean},
+               {"error_max_voxel", truth.error.max / voxel},
+               {"error_promised_voxel", kTruthError}});
+  return json;
 }
 
 nlohmann::ordered_json phantom_settings(const PhantomCommand& command, const Phantom& phantom) {
@@ -128,8 +120,7 @@ void write_report(const PhantomCommand& command, const Phantom& phantom, const T
   report["program"] = program_json();
   report["settings"] = phantom_settings(command, phantom);
   if (!command.truth.empty()) report["truth"] = truth_json(truth, phantom);
-  report["seconds"] = wall_seconds();
-  report["peak_memory_mb"] = peak_memory_mb();
+  add_costs(report);
   write_json(command.report, report);
 }
 
@@ -212,7 +203,7 @@ void add_phantom_command(CLI::App& app, CommonOptions&, Action& action) {
   sub->add_option("name", command->name, name_help());
   sub->add_flag("--list", command->list, "Show the phantoms, a line each");
   sub->add_option("-o,--output", command->output, "Volume: .nrrd");
-  sub->add_option("--truth", command->truth, "Its surface: .stl .ply .obj .vtp .3mf .amf");
+  sub->add_option("--truth", command->truth, listed("Its surface:", written_surface_formats()));
   add_grid_options(*sub, command);
   add_degrade_options(*sub, command->degrade);
   sub->add_option("--type", command->type, "Of the samples: float, or short (rounded)")

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "print_gate.h"
 
-#include <array>
-#include <utility>
-
 #include "mesamis/surface/self_intersections.h"
 
 namespace mesamis {
@@ -12,22 +9,6 @@ namespace {
 using nlohmann::ordered_json;
 
 void add(std::string& list, const std::string& item) { list += (list.empty() ? "" : ", ") + item; }
-
-std::string own_flaw(const SurfaceCheck& check) {
-  const std::array<std::pair<std::int64_t, const char*>, 5> counts{
-      {{check.open_edges, "open edges"},
-       {check.nonmanifold_edges, "edges with more than two triangles"},
-       {check.misoriented_edges, "edges between triangles that turn opposite ways"},
-       {check.nonmanifold_points, "points where the surface touches itself"},
-       {check.degenerate_triangles, "triangles with a repeated corner"}}};
-  std::string flaw;
-  for (const auto& [count, what] : counts) {
-    if (count > 0) add(flaw, std::to_string(count) + " " + what);
-  }
-  if (flaw.empty() && check.volume < 0) flaw = "triangles that face inward (negative volume)";
-  if (flaw.empty() && check.volume == 0) flaw = "no volume";
-  return flaw;
-}
 
 std::string prusa_flaw(const PrusaInfo& info) {
   std::string flaw;
@@ -54,7 +35,7 @@ PrintGate check_for_print(const TriMesh& surface) {
 }
 
 std::string print_flaw(const PrintGate& gate) {
-  std::string flaw = own_flaw(gate.check);
+  std::string flaw = solid_flaws_of(gate.check);
   if (gate.prusa && !gate.prusa->sound()) {
     add(flaw, "prusa-slicer --info: " + prusa_flaw(*gate.prusa));
   }

@@ -13,8 +13,8 @@
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/remesh/remesh.h"
 #include "outputs.h"
-#include "process.h"
 #include "progress.h"
+#include "report.h"
 
 namespace mesamis {
 namespace {
@@ -127,8 +127,7 @@ void write_report(const RemeshCommand& command, const Background& background,
   report["remesh"] = {{"rounds", r.rounds}, {"splits", r.splits}, {"collapses", r.collapses},
                       {"swaps", r.swaps},   {"moves", r.moves},   {"size_factor", r.size_factor}};
   report["converged"] = r.converged;
-  report["seconds"] = wall_seconds();
-  report["peak_memory_mb"] = peak_memory_mb();
+  add_costs(report);
   write_json(command.report, report);
 }
 

@@ -117,6 +117,11 @@ InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file, F
   return facts;
 }
 
+void add_costs(ordered_json& report) {
+  report["seconds"] = wall_seconds();
+  report["peak_memory_mb"] = peak_memory_mb();
+}
+
 ordered_json printable_json(const PrintableReport& printable, const Settings& settings) {
   const auto& tolerance = settings.tolerance;
   return {{"tolerance_mm", tolerance ? ordered_json(*tolerance) : ordered_json(nullptr)},
@@ -179,8 +184,7 @@ ordered_json segment_report(const InputFacts& input, const Settings& settings, c
                              {"surface", result.seconds.surface},
                              {"printable", result.seconds.printable},
                              {"method", result.seconds.total}};
-  report["seconds"] = wall_seconds();
-  report["peak_memory_mb"] = peak_memory_mb();
+  add_costs(report);
   return report;
 }
 

@@ -24,6 +24,9 @@ struct InputFacts {
 };
 InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file, Frame frame);
 
+/// "seconds" and "peak_memory_mb" of the program so far: the end of every report.
+void add_costs(nlohmann::ordered_json& report);
+
 /// How a solid was made printable: tolerance, triangles before, distances, parts.
 nlohmann::ordered_json printable_json(const PrintableReport& printable, const Settings& settings);
 

@@ -178,20 +178,20 @@ Settings settings_of(const SegmentOptions& options) {
       throw InputError(options.settings_file.string() + ": " + error.what());
     }
   }
-  try {
+  as_usage([&] {
     from_json(options.overrides, settings);
     require_valid(settings);
-  } catch (const InputError& error) {  // of an option, not of a file
-    throw CLI::ValidationError(error.what());
-  }
+  });
   return settings;
 }
 
-SurfaceWriteOptions surface_options(const SegmentOptions& options, const Result& result) {
+SurfaceWriteOptions surface_options(const SegmentOptions& options, const Result& result,
+                                    double voxel) {
+  const bool grey = std::any_of(options.surfaces.begin(), options.surfaces.end(), carries_grey);
   const std::string program = std::string("mesamis ") + kVersion + " (" + kCommit + ")";
   return {options.frame,
           options.name,
-          result.surface_grey,
+          grey ? surface_grey(result, voxel) : std::vector<double>{},
           {{"producer", program}, {"settings", to_json(settings_used(result)).dump()}}};
 }
 
@@ -233,9 +233,8 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   const SurfaceCheck check = check_surface(result.surface);
   std::optional<MeshOutput> mesh;  // before any file is written: it may be refused
   if (!options.meshes.empty()) mesh = make_mesh_output(result, file.volume, options.mesh);
-  for (const fs::path& path : options.surfaces) {
-    write_surface(path, result.surface, surface_options(options, result));
-  }
+  const auto surface_as = surface_options(options, result, file.volume.voxel_size());
+  for (const fs::path& path : options.surfaces) write_surface(path, result.surface, surface_as);
   for (const fs::path& path : options.meshes) write_mesh(path, *mesh, options.frame);
   for (const fs::path& path : options.band_meshes) write_band_mesh(path, result, options.frame);
   if (!options.report.empty()) {
@@ -245,15 +244,10 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
     write_json(options.report, report);
   }
   const bool solid = result.settings.surface == SurfaceKind::kSolid;
-  const bool outward = !solid || result.surface.triangles.empty() || check.volume > 0;
-  if (!check.closed() || !check.manifold() || !outward) {
-    log_error("expected a closed 2-manifold surface that faces outward, found " +
-              std::to_string(check.open_edges) + " open edges, " +
-              std::to_string(check.nonmanifold_edges) + " non-manifold and " +
-              std::to_string(check.misoriented_edges) + " misoriented edges, " +
-              std::to_string(check.nonmanifold_points) + " non-manifold points, " +
-              std::to_string(check.degenerate_triangles) +
-              " degenerate triangles and a volume of " + std::to_string(check.volume) + " mm^3");
+  const bool encloses = solid && !result.surface.triangles.empty();
+  const std::string flaws = encloses ? solid_flaws_of(check) : flaws_of(check);
+  if (!flaws.empty()) {
+    log_error("expected a closed 2-manifold surface that faces outward, found " + flaws);
     return kExitNotClosed;
   }
   const auto& tolerance = result.settings.tolerance;
@@ -272,7 +266,8 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<SegmentOptions>();
   CLI::App* command = app.add_subcommand("segment", "Segment a scan: surface, mesh, report");
   command->add_option("input", options->input, "Volume file, DICOM directory or file")->required();
-  command->add_option("-o,--output", options->surfaces, "Surface: .stl .ply .obj .vtp .3mf .amf");
+  command->add_option("-o,--output", options->surfaces,
+                      listed("Surface:", written_surface_formats()));
   add_mesh_options(*command, options);
   command->add_option("--report", options->report, "Report: .json");
   command->add_option("--series", options->series, "DICOM series UID");

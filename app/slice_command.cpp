@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <sstream>
 
@@ -17,6 +18,8 @@
 #include "mesamis/io/atomic_file.h"
 #include "mesamis/io/read_volume.h"
 #include "mesamis/io/surface_files.h"
+#include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/surface/unused_points.h"
 #include "outputs.h"
 #include "print_gate.h"
 #include "private_folder.h"
@@ -29,7 +32,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr std::int64_t kLayersMissed = 2;  // that a flat top or bottom may account for
 
 struct SliceCommand {
@@ -54,19 +56,6 @@ struct Sliced {
   GcodeFacts facts;
 };
 
-Box bounds_of(const TriMesh& surface) {
-  Box box{surface.points[surface.triangles[0][0]], surface.points[surface.triangles[0][0]]};
-  for (const Triangle& triangle : surface.triangles) {
-    for (const Index n : triangle) {
-      for (int i = 0; i < 3; ++i) {
-        box.lo[i] = std::min(box.lo[i], surface.points[n][i]);
-        box.hi[i] = std::max(box.hi[i], surface.points[n][i]);
-      }
-    }
-  }
-  return box;
-}
-
 std::string size_text(double x, double y, double z) {
   std::ostringstream text;
   text << x << " x " << y << " x " << z << " mm";
@@ -82,7 +71,7 @@ void require_fit(const SliceCommand& command, const Vec3& size) {
 }
 
 Placed place(TriMesh surface, const std::array<double, 3>& bed) {
-  const Box box = bounds_of(surface);
+  const Box box = bounding_box(without_unused_points(surface).points);
   const Vec3 middle = 0.5 * (box.lo + box.hi);
   const Vec3 shift{bed[0] / 2 - middle.x, bed[1] / 2 - middle.y, -box.lo.z};
   for (Vec3& p : surface.points) p += shift;
@@ -177,7 +166,7 @@ void require_success(const Slicer& slicer, const ChildRun& run, const fs::path& 
 /// Filament as volume and weight, where the slicer gives its length alone.
 void complete(GcodeFacts& facts) {
   if (facts.filament_mm && !facts.filament_cm3) {
-    const double section = kPi / 4 * kFilamentDiameter * kFilamentDiameter;
+    const double section = std::numbers::pi / 4 * kFilamentDiameter * kFilamentDiameter;
     facts.filament_cm3 = *facts.filament_mm * section / 1000;
   }
   if (facts.filament_cm3 && !facts.filament_g) {

@@ -12,10 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* name_of(Frame frame) { return frame == Frame::kRas ? "RAS" : "LPS"; }
-
 nlohmann::ordered_json frame_json(const std::optional<Frame>& frame) {
-  return frame ? nlohmann::ordered_json(name_of(*frame)) : nlohmann::ordered_json(nullptr);
+  return frame ? nlohmann::ordered_json(frame_name(*frame)) : nlohmann::ordered_json(nullptr);
 }
 
 bool states_differ(const SurfacePair& pair) {
@@ -56,8 +54,8 @@ std::string nearness(const FlipFound& found) {
 }
 
 void warn_of_turn(const fs::path& path, const SurfacePair& pair) {
-  log_warning(path.string() + ": turned from " + name_of(*pair.surface_frame) + " to " +
-              name_of(*pair.reference_frame) + ", as the files state");
+  log_warning(path.string() + ": turned from " + frame_name(*pair.surface_frame) + " to " +
+              frame_name(*pair.reference_frame) + ", as the files state");
 }
 
 }  // namespace

@@ -337,9 +337,6 @@ class Run {
     TriMesh& surface = result_.surface;
     result_.printable.triangles_extracted = static_cast<std::int64_t>(surface.triangles.size());
     if (solid) surface = make_printable(surface, settings(), progress_, result_.printable);
-    constexpr int kSamples = 4;
-    const double depth = solid ? kCoverDepth * volume_.voxel_size() : 0;
-    result_.surface_grey = greatest_beneath(result_.mesh, result_.u, surface, depth, kSamples);
     result_.seconds.printable = watch.lap();
   }
 
@@ -390,6 +387,14 @@ Result mes_amis(const Volume& volume, const Settings& settings, const Progress& 
                         : Run(crop(volume, range), settings, progress).execute();
   result.seconds.total = watch.lap();
   return result;
+}
+
+std::vector<double> surface_grey(const Result& result, double voxel) {
+  constexpr double kVoxels = 2;
+  constexpr int kSamples = 4;
+  const bool solid = result.settings.surface == SurfaceKind::kSolid;
+  return greatest_beneath(result.mesh, result.u, result.surface, solid ? kVoxels * voxel : 0,
+                          kSamples);
 }
 
 }  // namespace mesamis

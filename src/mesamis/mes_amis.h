@@ -33,9 +33,6 @@ struct Iteration {
   } seconds;
 };
 
-/// How deep beneath a solid's surface its grey value is looked for, voxels' geometric means.
-inline constexpr double kCoverDepth = 2;
-
 struct Result {
   Settings settings;   ///< with every default filled in
   double unit_mm = 1;  ///< the length unit
@@ -48,10 +45,7 @@ struct Result {
   std::vector<Sym3> metric;     ///< the last one asked for, at the nodes, world frame
   MeshFit fit;                  ///< how well the mesh fits it
   TriMesh surface;              ///< world frame LPS, mm
-  /// Grey values at the surface's points: of a band u itself; of a solid, where u is the level
-  /// everywhere, the greatest one met within kCoverDepth voxels beneath (greatest_beneath()).
-  std::vector<double> surface_grey;
-  PrintableReport printable;  ///< which parts of the surface went, how it was decimated
+  PrintableReport printable;    ///< which parts of the surface went, how it was decimated
 
   std::vector<Iteration> iterations;  ///< the last one is the final minimisation
   bool converged = false;             ///< mesh and energy settled, every solve converged
@@ -74,5 +68,10 @@ struct Result {
 /// @throws InputError  if the volume or a setting cannot be used.
 /// @throws Cancelled   if progress says stop.
 Result mes_amis(const Volume& volume, const Settings& settings, const Progress& progress = {});
+
+/// Grey values at the points of the result's surface: of a band u itself; of a solid, where u is
+/// the level everywhere, the greatest one met within two voxels beneath (greatest_beneath()).
+/// @param voxel  mm, see Volume::voxel_size().
+std::vector<double> surface_grey(const Result& result, double voxel);
 
 }  // namespace mesamis

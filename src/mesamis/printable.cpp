@@ -12,22 +12,6 @@
 namespace mesamis {
 namespace {
 
-/// Distances below this share of the tolerance, or of the box where there is none, are told as
-/// this share.
-constexpr double kFineOfTolerance = 0.01, kFineOfBox = 1e-6;
-
-double fine_distance(const TriMesh& surface, double tolerance) {
-  if (tolerance < std::numeric_limits<double>::infinity()) return kFineOfTolerance * tolerance;
-  Box box{surface.points.front(), surface.points.front()};
-  for (const Vec3& p : surface.points) {
-    for (int axis = 0; axis < 3; ++axis) {
-      box.lo[axis] = std::min(box.lo[axis], p[axis]);
-      box.hi[axis] = std::max(box.hi[axis], p[axis]);
-    }
-  }
-  return kFineOfBox * norm(box.extent());
-}
-
 TriMesh keep_parts_wanted(const TriMesh& surface, const Settings& settings,
                           PrintableReport& report) {
   const PartSelection wanted{settings.min_volume.value_or(0), settings.keep_largest,
@@ -54,15 +38,14 @@ TriMesh make_printable(const TriMesh& extracted, const Settings& settings, const
                        PrintableReport& report) {
   report = {};
   report.triangles_extracted = static_cast<std::int64_t>(extracted.triangles.size());
-  const SurfaceCheck check = check_surface(extracted);
-  if (!check.closed() || !check.manifold()) return extracted;  // for the caller to find
+  if (!flaws_of(check_surface(extracted)).empty()) return extracted;  // for the caller to find
   TriMesh surface = keep_parts_wanted(extracted, settings, report);
   report.triangles_extracted = static_cast<std::int64_t>(surface.triangles.size());
   const double otherwise = settings.triangles ? std::numeric_limits<double>::infinity() : 0;
   const double tolerance = settings.tolerance.value_or(otherwise);
   if (surface.triangles.empty() || tolerance == 0) return surface;
   TriMesh result = decimated(surface, settings, tolerance, progress);
-  const double fine = fine_distance(surface, tolerance);
+  const double fine = fine_enough(surface, tolerance);
   report.extracted_to_result = max_distance(surface, result, fine);
   report.result_to_extracted = max_distance(result, surface, fine);
   return result;

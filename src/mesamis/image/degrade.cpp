@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/image/degrade.h"
 
+#include <numbers>
 #include <sstream>
 
 #include "mesamis/base/error.h"
@@ -9,7 +10,6 @@
 namespace mesamis {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kHuge = 1e30;  // no limit but finite
 
 /// One kind of noise each.
@@ -36,7 +36,8 @@ class Random {
   }
   /// Standard normal, after Box and Muller.
   double normal(std::uint64_t voxel) const {
-    return std::sqrt(-2 * std::log(uniform(voxel))) * std::cos(2 * kPi * uniform(voxel, 1));
+    return std::sqrt(-2 * std::log(uniform(voxel))) *
+           std::cos(2 * std::numbers::pi * uniform(voxel, 1));
   }
 
  private:

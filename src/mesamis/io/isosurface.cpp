@@ -44,13 +44,12 @@ vtkSmartPointer<vtkImageData> smoothed(vtkImageData* image, double voxels) {
 /// A layer around the volume that lies so far below the level that caps are on its box.
 vtkSmartPointer<vtkImageData> padded(vtkImageData* image, double level) {
   constexpr double kSteepness = 1e4;
-  double range[2];
-  image->GetScalarRange(range);
+  const double highest = image->GetScalarRange()[1];
   int extent[6];
   image->GetExtent(extent);
   vtkNew<vtkImageConstantPad> filter;
   filter->SetInputData(image);
-  filter->SetConstant(level - kSteepness * (range[1] - level));
+  filter->SetConstant(level - kSteepness * (highest - level));
   filter->SetOutputWholeExtent(extent[0] - 1, extent[1] + 1, extent[2] - 1, extent[3] + 1,
                                extent[4] - 1, extent[5] + 1);
   filter->Update();
@@ -94,8 +93,7 @@ TriMesh isosurface(const Volume& volume, double level, const IsosurfaceOptions& 
   }
   vtkSmartPointer<vtkImageData> image = image_of(volume);
   if (options.smooth_voxels > 0) image = smoothed(image, options.smooth_voxels);
-  double range[2];
-  image->GetScalarRange(range);
+  const double* range = image->GetScalarRange();
   if (!(range[0] < level && level < range[1])) {
     throw InputError("isosurface: nothing crosses the level " + std::to_string(level));
   }
@@ -107,9 +105,6 @@ TriMesh isosurface(const Volume& volume, double level, const IsosurfaceOptions& 
   contour->ComputeScalarsOff();
   contour->Update();
   vtkSmartPointer<vtkPolyData> surface = contour->GetOutput();
-  if (surface->GetNumberOfCells() == 0) {
-    throw InputError("isosurface: nothing crosses the level " + std::to_string(level));
-  }
   if (options.triangles > 0) surface = decimated(surface, options.triangles);
   return in_world(*surface, volume);
 }

@@ -28,14 +28,15 @@ struct Format {
   const char* extension;
   Parser parse;     // null: not read
   Formatter bytes;  // null: not written
+  bool grey = false;
 };
 
 constexpr Format kFormats[] = {{".stl", parse_stl, stl_bytes},
                                {".ply", parse_ply, ply_bytes},
                                {".obj", parse_obj, obj_bytes},
-                               {".vtp", parse_vtp, vtp_bytes},
-                               {".3mf", parse_threemf, threemf_bytes},
-                               {".amf", parse_amf, amf_bytes},
+                               {".vtp", parse_vtp, vtp_bytes, true},
+                               {".3mf", parse_threemf, threemf_bytes, true},
+                               {".amf", parse_amf, amf_bytes, true},
                                {".vtk", parse_vtk, nullptr}};
 
 [[noreturn]] void refuse_extension(const fs::path& path, const std::string& known) {
@@ -105,6 +106,13 @@ std::vector<std::string> written_surface_formats() {
     if (format.bytes != nullptr) extensions.emplace_back(format.extension);
   }
   return extensions;
+}
+
+bool carries_grey(const fs::path& path) {
+  const std::string extension = lower(path.extension().string());
+  return std::any_of(std::begin(kFormats), std::end(kFormats), [&](const Format& format) {
+    return extension == format.extension && format.grey;
+  });
 }
 
 void write_surface(const fs::path& path, const TriMesh& surface,

@@ -13,6 +13,8 @@ namespace mesamis {
 
 /// The frame a file's coordinates are given in: LPS (DICOM, ITK) or RAS (x and y negated).
 enum class Frame { kLps, kRas };
+/// "LPS" or "RAS".
+const char* frame_name(Frame frame);
 
 /// A value per point of a surface.
 struct PointArray {
@@ -56,6 +58,9 @@ void write_surface(const std::filesystem::path& path, const TriMesh& surface,
 
 /// The extensions above, with their dots.
 std::vector<std::string> written_surface_formats();
+
+/// Whether the format of this extension has a place for SurfaceWriteOptions::grey.
+bool carries_grey(const std::filesystem::path& path);
 
 /// Reads .stl .ply .obj (text or binary where there are both), .vtp, .3mf, .amf (not zipped),
 /// legacy .vtk, also gzip'd (.gz). Equal points of an STL are welded; polygons are cut into fans.

@@ -13,12 +13,6 @@ Box united(const Box& a, const Box& b) {
 
 }  // namespace
 
-Box box_of(std::span<const Vec3> points) {
-  Box box = kNoBox;
-  for (const Vec3& p : points) box = united(box, {p, p});
-  return box;
-}
-
 BoxTree::BoxTree(std::span<const Box> boxes) {
   if (boxes.empty()) return;
   std::vector<Index> items(boxes.size());

@@ -20,8 +20,6 @@ inline bool overlap(const Box& a, const Box& b) {
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
 inline constexpr Box kNoBox{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 
-Box box_of(std::span<const Vec3> points);
-
 /// A hierarchy over boxes that may change: who overlaps a box?
 class BoxTree {
  public:

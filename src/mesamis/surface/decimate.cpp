@@ -20,8 +20,6 @@ namespace {
 constexpr int kMostPasses = 24;
 /// From this pass on, wider and wider rings are held.
 constexpr int kPatience = 6;
-/// Distances below this share of the tolerance are told as this share.
-constexpr double kFine = 0.01;
 
 void require_decimatable(const TriMesh& surface, const DecimateOptions& options) {
   if (!(options.tolerance >= 0)) {
@@ -32,15 +30,10 @@ void require_decimatable(const TriMesh& surface, const DecimateOptions& options)
     throw InputError("decimate: expected 0 or more triangles, found " +
                      std::to_string(options.triangles));
   }
-  const SurfaceCheck check = check_surface(surface);
   if (surface.triangles.empty()) throw InputError("decimate: the surface has no triangle");
-  if (check.closed() && check.manifold()) return;
-  throw InputError("decimate: expected a closed 2-manifold surface, found " +
-                   std::to_string(check.open_edges) + " open edges, " +
-                   std::to_string(check.nonmanifold_edges) + " non-manifold edges, " +
-                   std::to_string(check.nonmanifold_points) + " non-manifold points, " +
-                   std::to_string(check.misoriented_edges) + " misoriented edges and " +
-                   std::to_string(check.degenerate_triangles) + " degenerate triangles");
+  const std::string flaws = flaws_of(check_surface(surface));
+  if (flaws.empty()) return;
+  throw InputError("decimate: expected a closed 2-manifold surface, found " + flaws);
 }
 
 /// Triangles around each point.
@@ -155,15 +148,6 @@ class Decimation {
   int pass_ = 0;
 };
 
-/// What is near enough not to be looked at any closer.
-double fine_distance(const TriMesh& surface, double tolerance) {
-  if (!std::isinf(tolerance)) return kFine * tolerance;
-  const auto [lo, hi] =
-      std::minmax_element(surface.points.begin(), surface.points.end(),
-                          [](const Vec3& a, const Vec3& b) { return dot(a, a) < dot(b, b); });
-  return 1e-6 * norm(*hi - *lo);
-}
-
 }  // namespace
 
 TriMesh decimate(const TriMesh& surface, const DecimateOptions& options, DecimateReport* report) {
@@ -180,7 +164,7 @@ TriMesh decimate(const TriMesh& surface, const DecimateOptions& options, Decimat
   told.points_held = decimation.points_held();
   told.triangles_after = static_cast<std::int64_t>(result.triangles.size());
   if (report) {
-    const double fine = fine_distance(surface, options.tolerance);
+    const double fine = fine_enough(surface, options.tolerance);
     told.original_to_result = max_distance(surface, result, fine);
     told.result_to_original = max_distance(result, surface, fine);
   }

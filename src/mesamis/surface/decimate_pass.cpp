@@ -9,6 +9,7 @@
 #include <memory>
 #include <queue>
 
+#include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/box_tree.h"
 #include "mesamis/surface/farthest.h"
 #include "mesamis/surface/openmesh.h"
@@ -198,7 +199,8 @@ class ModIntersection : public Module {
   void set_surface(const TriMesh& surface) {
     points_ = &surface.points;
     std::vector<Box> boxes;
-    for (const Triangle& t : surface.triangles) boxes.push_back(box_of(corners_of(surface, t)));
+    for (const Triangle& t : surface.triangles)
+      boxes.push_back(bounding_box(corners_of(surface, t)));
     tree_ = std::make_unique<BoxTree>(boxes);
   }
 
@@ -225,7 +227,7 @@ class ModIntersection : public Module {
 
  private:
   Box box(const Triangle& t) const {
-    return box_of(Corners{(*points_)[t[0]], (*points_)[t[1]], (*points_)[t[2]]});
+    return bounding_box(Corners{(*points_)[t[0]], (*points_)[t[1]], (*points_)[t[2]]});
   }
 
   bool meets_others(const Triangle& t, const Info& collapse, const Star& star) {
@@ -337,7 +339,7 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
 
 std::vector<Triangle> decimate_pass(const DecimateTask& task, const std::vector<char>& held) {
   // Near the origin quadrics lose less to round-off; all else works with the original's points.
-  const Box box = box_of(task.surface.points);
+  const Box box = bounding_box(task.surface.points);
   HalfedgeMesh mesh;
   build_halfedges(task.surface, 0.5 * (box.lo + box.hi), mesh);
   mesh.request_face_normals();

@@ -7,6 +7,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/farthest.h"
 #include "mesamis/surface/triangle_tree.h"
 
@@ -63,6 +64,11 @@ double max_distance(const TriMesh& from, const TriMesh& to, double fine) {
     }
     return farthest;
   });
+}
+
+double fine_enough(const TriMesh& surface, double tolerance) {
+  if (!std::isinf(tolerance)) return 0.01 * tolerance;
+  return 1e-6 * norm(bounding_box(surface.points).extent());
 }
 
 DistanceSummary summarize(std::vector<double> distances) {

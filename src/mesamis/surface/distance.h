@@ -28,6 +28,10 @@ std::vector<double> distances_to_surface(std::span<const Vec3> points, const Tri
 /// @throws InputError  if a surface has no triangle or is not sound.
 double max_distance(const TriMesh& from, const TriMesh& to, double fine);
 
+/// What is fine enough for max_distance() where a tolerance is judged: a hundredth of it, or a
+/// millionth of the surface's box where it is infinite. mm.
+double fine_enough(const TriMesh& surface, double tolerance);
+
 /// Points spread evenly by area over the surface, the same for the same surface and count: one in
 /// each of `count` equal shares of the area, in the order of the triangles; the places within
 /// the triangles follow a sequence of low discrepancy.

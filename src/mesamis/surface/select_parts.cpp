@@ -8,6 +8,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/surface/components.h"
 #include "mesamis/surface/nesting.h"
+#include "mesamis/surface/unused_points.h"
 
 namespace mesamis {
 namespace {
@@ -58,35 +59,21 @@ SelectionReport tell(const SurfaceComponents& parts, const Nesting& nesting,
 
 TriMesh without(const TriMesh& surface, const SurfaceComponents& parts,
                 const std::vector<char>& goes) {
-  TriMesh kept;
-  std::vector<char> used(surface.points.size(), 0);
+  TriMesh kept{surface.points, {}};
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const Index part = parts.of_triangle[t];
-    if (part == kNoIndex || goes[part]) continue;
-    kept.triangles.push_back(surface.triangles[t]);
-    for (const Index p : surface.triangles[t]) used[p] = 1;
+    if (part != kNoIndex && !goes[part]) kept.triangles.push_back(surface.triangles[t]);
   }
-  std::vector<Index> place(surface.points.size(), kNoIndex);
-  for (std::size_t p = 0; p < used.size(); ++p) {
-    if (!used[p]) continue;
-    place[p] = static_cast<Index>(kept.points.size());
-    kept.points.push_back(surface.points[p]);
-  }
-  for (Triangle& t : kept.triangles) t = {place[t[0]], place[t[1]], place[t[2]]};
-  return kept;
+  return without_unused_points(kept);
 }
 
 }  // namespace
 
 TriMesh select_parts(const TriMesh& surface, const PartSelection& selection,
                      SelectionReport* report) {
-  const SurfaceCheck check = check_surface(surface);
-  if (!check.closed() || !check.manifold()) {
-    throw InputError("parts of a surface: expected a closed, manifold surface, found " +
-                     std::to_string(check.open_edges) + " open edges and " +
-                     std::to_string(check.nonmanifold_edges + check.nonmanifold_points +
-                                    check.misoriented_edges + check.degenerate_triangles) +
-                     " flaws else");
+  const std::string flaws = flaws_of(check_surface(surface));
+  if (!flaws.empty()) {
+    throw InputError("parts of a surface: expected a closed 2-manifold surface, found " + flaws);
   }
   const SurfaceComponents parts = find_components(surface);
   const Nesting nesting = find_nesting(surface, parts);

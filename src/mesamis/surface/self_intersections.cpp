@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/box_tree.h"
 #include "mesamis/surface/triangle_intersection.h"
 
@@ -15,7 +16,7 @@ std::vector<std::array<Index, 2>> find_self_intersections(const TriMesh& surface
   std::vector<Box> boxes(count);
   parallel_for(count, [&](std::size_t t) {
     const Triangle& k = surface.triangles[t];
-    boxes[t] = box_of(
+    boxes[t] = bounding_box(
         std::array<Vec3, 3>{surface.points[k[0]], surface.points[k[1]], surface.points[k[2]]});
   });
   const BoxTree tree(boxes);

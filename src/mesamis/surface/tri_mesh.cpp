@@ -2,8 +2,10 @@
 #include "mesamis/surface/tri_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
@@ -89,6 +91,26 @@ SurfaceCheck check_surface(const TriMesh& surface) {
   check.volume = sum_over_triangles(surface, cone_volume);
   check.area = sum_over_triangles(surface, triangle_area);
   return check;
+}
+
+std::string flaws_of(const SurfaceCheck& check) {
+  const std::array<std::pair<std::int64_t, const char*>, 5> counts{
+      {{check.open_edges, "open edges"},
+       {check.nonmanifold_edges, "edges with more than two triangles (non-manifold)"},
+       {check.misoriented_edges, "edges between triangles that turn opposite ways"},
+       {check.nonmanifold_points, "points where the surface touches itself"},
+       {check.degenerate_triangles, "triangles with a repeated corner (degenerate)"}}};
+  std::string flaws;
+  for (const auto& [count, what] : counts) {
+    if (count > 0) flaws += (flaws.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+  }
+  return flaws;
+}
+
+std::string solid_flaws_of(const SurfaceCheck& check) {
+  const std::string flaws = flaws_of(check);
+  if (!flaws.empty() || check.volume > 0) return flaws;
+  return check.volume < 0 ? "triangles that face inward (negative volume)" : "no volume";
 }
 
 }  // namespace mesamis

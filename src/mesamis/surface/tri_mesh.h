@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "mesamis/base/types.h"
@@ -43,5 +44,11 @@ struct SurfaceCheck {
 
 /// @throws InputError  as require_sound. O(n log n).
 SurfaceCheck check_surface(const TriMesh& surface);
+
+/// Why a surface is not closed or not a 2-manifold, as "3 open edges, 1 points ..."; "" if it is.
+std::string flaws_of(const SurfaceCheck& check);
+
+/// The same for a surface that bounds a solid: it must face outward, too.
+std::string solid_flaws_of(const SurfaceCheck& check);
 
 }  // namespace mesamis

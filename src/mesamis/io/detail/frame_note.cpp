@@ -4,14 +4,16 @@
 
 #include "mesamis/io/detail/surface_formats.h"
 
-namespace mesamis::detail {
+namespace mesamis {
+
+const char* frame_name(Frame frame) { return frame == Frame::kRas ? "RAS" : "LPS"; }
+
+namespace detail {
 namespace {
 
 constexpr std::string_view kMark = "SPACE=";
 
 }  // namespace
-
-const char* frame_name(Frame frame) { return frame == Frame::kRas ? "RAS" : "LPS"; }
 
 std::optional<Frame> frame_named(std::string_view name) {
   for (const Frame frame : {Frame::kLps, Frame::kRas}) {
@@ -35,4 +37,5 @@ std::optional<Frame> frame_named_in(std::string_view note) {
   return frame_named(note.substr(0, end));
 }
 
-}  // namespace mesamis::detail
+}  // namespace detail
+}  // namespace mesamis

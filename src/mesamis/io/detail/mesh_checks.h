@@ -18,6 +18,5 @@ std::vector<std::int64_t> cells_per_set(const CellSets& sets);
 inline Vec3 in_frame(const Vec3& p, Frame frame) {
   return frame == Frame::kRas ? Vec3{-p.x, -p.y, p.z} : p;
 }
-inline const char* frame_name(Frame frame) { return frame == Frame::kRas ? "RAS" : "LPS"; }
 
 }  // namespace mesamis::detail

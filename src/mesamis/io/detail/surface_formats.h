@@ -18,8 +18,7 @@ namespace mesamis::detail {
 std::string frame_note(std::optional<Frame> frame);
 /// The frame that a text names in this way.
 std::optional<Frame> frame_named_in(std::string_view note);
-/// "LPS" or "RAS", and the frame of this name.
-const char* frame_name(Frame frame);
+/// The frame of this name, see frame_name().
 std::optional<Frame> frame_named(std::string_view name);
 
 /// The type of the fact that names the program; among the facts of what is written, always.
