@@ -172,6 +172,8 @@ ordered_json segment_report(const InputFacts& input, const Settings& settings, c
       {"threshold_grey", result.threshold_used
                              ? ordered_json(result.grey.to_grey(result.grey.threshold))
                              : ordered_json(nullptr)}};
+  report["image"] = {{"noise_left", result.restored.noise_left},
+                     {"impulse_share", result.restored.impulses}};
   report["iterations"] = ordered_json::array();
   const std::size_t passes = result.iterations.size();
   for (std::size_t i = 0; i < passes; ++i) {

@@ -93,6 +93,15 @@ void add_word(CLI::App& command, const std::shared_ptr<SegmentOptions>& options,
   add_setting(command, options, flag, help, [](const std::string& text) { return json(text); });
 }
 
+/// "1", "1,1,2", "none" or "auto" as the setting has it: three numbers or a word.
+json blur_of_axes(const std::string& text) {
+  if (text == "auto") return json(text);
+  if (text == "none") return json({0, 0, 0});
+  double value = 0;
+  if (parse_number(text, value)) return json({value, value, value});
+  return json(parse_numbers(text, 3, "--blur"));
+}
+
 /// Options of the files alone, as --frame: no setting of the run depends on them.
 void add_mesh_options(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
   c.add_option("--mesh", o->meshes,
@@ -120,6 +129,11 @@ void add_image_settings(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
               [](const std::string& text) {
                 return text == "auto" ? json(text) : json(parse_numbers(text, 2, "--window"));
               });
+  add_number(c, o, "--noise", "Standard deviation of the noise, native units, or auto (default)",
+             {"auto"});
+  add_setting(c, o, "--blur",
+              "Blur to undo, standard deviation in voxels: S, X,Y,Z, none or auto (default)",
+              blur_of_axes);
   add_number(c, o, "--threshold", "Native value below which all is one tissue, auto or none",
              {"auto", "none"});
   add_number(c, o, "--level", "Native value of the solid surface, or auto", {"auto"});
@@ -130,7 +144,9 @@ void add_method_settings(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) 
   add_number(c, o, "--epsilon", "Thickness of the edge indicator (default 1e-3)");
   add_number(c, o, "--eta", "Smallest diffusion at edges (default epsilon squared)", {"auto"});
   add_number(c, o, "--beta", "Weight of smoothness away from edges (default 2)");
-  add_number(c, o, "--gamma", "Price of edges (default 0.1)");
+  add_number(c, o, "--gamma",
+             "Price of edges, or auto (default): by the contrast and the noise; the paper: 0.1",
+             {"auto"});
   add_number(c, o, "--amis-iterations", "Alternations per mesh at most (default 10)");
   add_number(c, o, "--tol-v", "Alternations stop at this change of v (default 1e-2)");
   add_number(c, o, "--solver-tolerance", "Relative residual of each solve (default 1e-6)");

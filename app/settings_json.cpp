@@ -110,6 +110,15 @@ ordered_json write_window(const Settings& s) {
   return s.window ? ordered_json{s.window->low, s.window->high} : ordered_json("auto");
 }
 
+void read_blur(const json& value, Settings& s) {
+  s.blur.reset();
+  if (value != "auto") s.blur = value.get<std::array<double, 3>>();
+}
+
+ordered_json write_blur(const Settings& s) {
+  return s.blur ? ordered_json(*s.blur) : ordered_json("auto");
+}
+
 void read_threshold(const json& value, Settings& s) {
   if (value == "auto" || value == "none") {
     s.threshold_rule = value == "auto" ? ThresholdRule::kAuto : ThresholdRule::kNone;
@@ -132,6 +141,8 @@ const std::vector<Entry>& entries() {
       setting("stride", &Settings::stride),
       {"window", read_window, write_window},
       {"threshold", read_threshold, write_threshold},
+      setting("noise", &Settings::noise),
+      {"blur", read_blur, write_blur},
       setting("length_unit", &Settings::length_unit,
               {{"voxel", LengthUnit::kVoxel}, {"mm", LengthUnit::kMm}}),
       setting("epsilon", &Settings::epsilon),

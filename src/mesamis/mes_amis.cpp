@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "mesamis/adapt/estimator.h"
@@ -60,6 +61,29 @@ void measure_aspects(const TetMesh& mesh, Iteration& iteration) {
   }
 }
 
+/// About as many points as triangles, evenly by area: small triangles crowd where the surface is
+/// bent, and such places are not to decide for the others.
+std::vector<SurfacePoint> points_by_area(const TriMesh& surface, double unit_mm) {
+  std::vector<double> areas;
+  for (const Triangle& t : surface.triangles) {
+    const Vec3& a = surface.points[t[0]];
+    areas.push_back(norm(cross(surface.points[t[1]] - a, surface.points[t[2]] - a)) / 2);
+  }
+  const double share =
+      std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
+  std::vector<SurfacePoint> points;
+  double gone = 0;
+  for (std::size_t n = 0; n < areas.size(); ++n) {
+    const Triangle& t = surface.triangles[n];
+    const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+    for (gone += areas[n]; gone >= share; gone -= share) {
+      const Vec3 normal = cross(b - a, c - a);
+      points.push_back({(unit_mm / 3) * (a + b + c), (1 / norm(normal)) * normal});
+    }
+  }
+  return points;
+}
+
 /// One run of Algorithm 2; the steps share the volume, the settings and the report.
 class Run {
  public:
@@ -113,8 +137,10 @@ class Run {
     result_.grey = prepared.map;
     result_.threshold_used = prepared.threshold_used;
     result_.level_native = prepared.level_native;
+    result_.restored = {prepared.restored.noise_left, prepared.restored.impulses};
+    native_ = std::move(prepared.restored.volume);
     grey_ = std::move(prepared.grey);
-    amis_.parameters = {settings().epsilon, *settings().eta, settings().beta, settings().gamma};
+    amis_.parameters = {settings().epsilon, *settings().eta, settings().beta, *settings().gamma};
     amis_.max_iterations = settings().amis_iterations;
     amis_.v_tolerance = settings().tol_v;
     amis_.solver.tolerance = settings().solver_tolerance;
@@ -289,15 +315,8 @@ class Run {
     // Caps at the box are no edges of the image.
     const TriMesh surface = extract_solid(mesh_, fields_.u, to_grey_level(result_.level_native),
                                           {.close_at_box = false});
-    std::vector<SurfacePoint> points;
-    const double unit = result_.unit_mm;
-    for (const Triangle& t : surface.triangles) {
-      const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
-      const Vec3 normal = cross(b - a, c - a);
-      const double length = norm(normal);
-      if (length > 0) points.push_back({(unit / 3) * (a + b + c), (1 / length) * normal});
-    }
-    const auto sides = measure_sides(volume_, volume_, points, result_.level_native);
+    const auto points = points_by_area(surface, result_.unit_mm);
+    const auto sides = measure_sides(native_, native_, points, result_.level_native);
     const double lowest =
         result_.threshold_used ? result_.grey.threshold : std::numeric_limits<double>::lowest();
     if (sides && sides->middle() > lowest) result_.level_native = sides->middle();
@@ -362,7 +381,7 @@ class Run {
   const Volume& volume_;
   const Progress& progress_;
   Result result_;
-  Volume grey_;
+  Volume native_, grey_;  // the image, restored
   AmisOptions amis_;
   Box box_;
   TetMesh mesh_;

@@ -38,6 +38,10 @@ struct Result {
   double unit_mm = 1;  ///< the length unit
   GreyMap grey;        ///< native units to grey values, with T
   bool threshold_used = false;
+  struct Image {
+    double noise_left = 0;  ///< standard deviation after deblurring, native units
+    double impulses = 0;    ///< share of the voxels that were replaced
+  } restored;
   double level_native = 0;  ///< where the solid surface was taken
 
   TetMesh mesh;                 ///< world frame LPS, mm

@@ -25,6 +25,14 @@ Window choose_window(const Volume& volume, const EdgeSides& sides, double level)
   return {std::min(window.low, level - room), std::max(window.high, level + room)};
 }
 
+/// Beyond the window nothing is seen: what lies there (air, metal) must not ring when the blur is
+/// undone, nor count as noise.
+Volume clamped(Volume volume, const Window& window) {
+  const auto low = static_cast<float>(window.low), high = static_cast<float>(window.high);
+  for (float& x : volume.samples) x = std::clamp(x, low, high);
+  return volume;
+}
+
 /// T of (13), in native units; nothing if it would not act.
 std::optional<double> choose_threshold(const Settings& settings, double found, double level) {
   const ThresholdRule rule = settings.threshold_rule;
@@ -33,6 +41,16 @@ std::optional<double> choose_threshold(const Settings& settings, double found, d
   // A level below T would be everywhere: what the user asks to see comes first.
   if (rule == ThresholdRule::kAuto && t >= level) return std::nullopt;
   return t;
+}
+
+/// See default_gamma(); the paper's value where there is no object to tell the contrast from.
+double choose_gamma(const Prepared& prepared, const EdgeSides& sides) {
+  constexpr double kPaper = 0.1;
+  const double grey_per_native = prepared.map.to_grey(1) - prepared.map.to_grey(0);
+  const double contrast = sides.contrast() * grey_per_native;
+  if (!(contrast > 0)) return kPaper;
+  const Settings& s = prepared.settings;
+  return default_gamma(s.epsilon, s.beta, contrast, prepared.restored.noise_left * grey_per_native);
 }
 
 /// Settings that leave nothing to see, or nothing at the level, are refused.
@@ -72,17 +90,26 @@ Prepared prepare_image(const Volume& volume, const Settings& settings) {
     const Vec3& voxel = volume.spacing;
     chosen.min_volume = kDefaultMinVolume * voxel.x * voxel.y * voxel.z;
   }
-  const ObjectEdges object = find_object(volume, chosen.level);
+  const ObjectEdges seen = find_object(volume);
+  if (!chosen.window) {
+    chosen.window = choose_window(volume, seen.sides, chosen.level.value_or(seen.level));
+  }
+  prepared.restored = restore(clamped(volume, *chosen.window), seen, {chosen.noise, chosen.blur});
+  const Volume& restored = prepared.restored.volume;
+  chosen.noise = prepared.restored.noise;
+  chosen.blur = prepared.restored.blur;
+  const ObjectEdges object = find_object(restored, {.count_at = chosen.level, .start = seen.level});
   prepared.level_native = chosen.level.value_or(object.level);
   if (!chosen.max_tets) chosen.max_tets = default_max_tets(object.crossings);
-  if (!chosen.window) chosen.window = choose_window(volume, object.sides, prepared.level_native);
   prepared.map = {chosen.window->low, chosen.window->high, chosen.window->low};
-  if (const auto t = choose_threshold(chosen, object.threshold, prepared.level_native)) {
+  const double found = find_threshold(volume, seen.sides, seen.level, prepared.restored.noise_left);
+  if (const auto t = choose_threshold(chosen, found, prepared.level_native)) {
     prepared.threshold_used = true;
     prepared.map.threshold = chosen.threshold = *t;
   }
-  require_contrast(volume, prepared);
-  prepared.grey = apply(prepared.map, volume);
+  if (!chosen.gamma) chosen.gamma = choose_gamma(prepared, object.sides);
+  require_contrast(restored, prepared);
+  prepared.grey = apply(prepared.map, restored);
   return prepared;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesamis/image/grey_values.h"
+#include "mesamis/image/restore.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/settings.h"
 
@@ -14,7 +15,8 @@ struct Prepared {
   GreyMap map;                  ///< native units to grey values, with T
   bool threshold_used = false;  ///< whether T acts, see (13)
   double level_native = 0;      ///< the level asked for, or a first guess of it
-  Volume grey;                  ///< the volume in grey values
+  Restored restored;            ///< the volume without its faults, native units
+  Volume grey;                  ///< that in grey values
 };
 
 /// Chooses what the settings leave open from the volume, and maps it to grey values.

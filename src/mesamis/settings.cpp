@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "mesamis/base/error.h"
+#include "mesamis/image/deblur.h"
 
 namespace mesamis {
 namespace {
@@ -29,7 +30,7 @@ void require_valid(const Settings& s) {
   require_range("epsilon", s.epsilon, kTiny, kHuge);
   if (s.eta) require_range("eta", *s.eta, kTiny * kTiny, kHuge);
   require_range("beta", s.beta, kTiny, kHuge);
-  require_range("gamma", s.gamma, kTiny, kHuge);
+  if (s.gamma) require_range("gamma", *s.gamma, kTiny, kHuge);
   require_range("amis-iterations", s.amis_iterations, 1, 1000);
   require_range("tol-v", s.tol_v, 0, 1);
   require_range("solver-tolerance", s.solver_tolerance, 1e-14, 1e-2);
@@ -48,6 +49,10 @@ void require_valid(const Settings& s) {
   if (s.tolerance) require_range("tolerance", *s.tolerance, 0, kHuge);
   if (s.triangles) require_range("triangles", static_cast<double>(*s.triangles), 4, 2e9);
   require_range("threshold", s.threshold, -kLargestValue, kLargestValue);
+  if (s.noise) require_range("noise", *s.noise, 0, kLargestValue);
+  if (s.blur) {
+    for (const double blur : *s.blur) require_range("blur", blur, 0, kLargestBlur);
+  }
   if (s.level) require_range("level", *s.level, -kLargestValue, kLargestValue);
   if (s.window) {
     require_range("window", s.window->low, -kLargestValue, kLargestValue);
@@ -63,6 +68,12 @@ void require_valid(const Settings& s) {
 std::int64_t default_max_tets(std::size_t crossings) {
   constexpr std::int64_t kCellsPerCrossing = 3, kFewest = 20'000, kMost = 2'000'000;
   return std::clamp(static_cast<std::int64_t>(crossings) * kCellsPerCrossing, kFewest, kMost);
+}
+
+double default_gamma(double epsilon, double beta, double contrast, double noise) {
+  constexpr double kOfContrast = 0.07, kOfNoise = 0.25;
+  const double gradient = kOfContrast * contrast + kOfNoise * noise;
+  return 4 * epsilon * beta * gradient * gradient;
 }
 
 }  // namespace mesamis

@@ -35,13 +35,18 @@ struct Settings {
   std::optional<Window> window;                         ///< native units; default: default_window()
   ThresholdRule threshold_rule = ThresholdRule::kAuto;  ///< (13)
   double threshold = 0;  ///< T, native units, for ThresholdRule::kValue
+  /// Standard deviation of the noise, native units, >= 0; default: measure_noise().
+  std::optional<double> noise;
+  /// Standard deviations of the blur to undo along the axes, voxels, 0 (leave it) to kLargestBlur;
+  /// default: measure_blur().
+  std::optional<std::array<double, 3>> blur;
 
   // The functional (2); lengths in length units.
   LengthUnit length_unit = LengthUnit::kVoxel;
   double epsilon = 1e-3;           ///< > 0
   std::optional<double> eta;       ///< > 0; default: epsilon^2
   double beta = 2;                 ///< > 0
-  double gamma = 0.1;              ///< > 0
+  std::optional<double> gamma;     ///< > 0; default: default_gamma()
   int amis_iterations = 10;        ///< Jmax of Algorithm 1, 1 to 1000
   double tol_v = 1e-2;             ///< Fxv, 0 to 1
   double solver_tolerance = 1e-6;  ///< relative residual of each solve, 1e-14 to 1e-2
@@ -84,5 +89,12 @@ void require_valid(const Settings& settings);
 /// and 2 000 000. It grows with the extent of the edges, not with the empty space around them.
 /// @param crossings  see ObjectEdges.
 std::int64_t default_max_tets(std::size_t crossings);
+
+/// The default of gamma: 4 epsilon beta (s c)^2 makes v fall below one half where u changes by more
+/// than s c over a length unit, c being the object's contrast; s grows with the noise, so that it
+/// is no edge. The paper's 0.1 is right for one window and one contrast; this is for any.
+/// @param contrast  of the object, grey values, > 0.
+/// @param noise     left in the image, grey values, >= 0.
+double default_gamma(double epsilon, double beta, double contrast, double noise);
 
 }  // namespace mesamis

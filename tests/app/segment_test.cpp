@@ -151,7 +151,8 @@ TEST(SegmentCommand, WritesTheObjectAloneInBinsTheSameForAnyNumberOfThreads) {
   const double volume = volume_of(object.mesh);
   EXPECT_NEAR(region["volume_mm3"], volume, 1e-6 * volume);
   EXPECT_NEAR(volume / report["surface"]["volume_mm3"].get<double>(), 1, 0.02);
-  EXPECT_NEAR(volume / (4.0 / 3 * M_PI * std::pow(kRadius, 3)), 1, 0.05);
+  const double middle = 4.0 / 3 * M_PI * std::pow(middle_radius(kRadius, 1), 3);
+  EXPECT_NEAR(volume / middle, 1, 0.05);
 
   const auto& native = array_of(object.cell_arrays, "native");
   const auto& bin = array_of(object.cell_arrays, "bin");

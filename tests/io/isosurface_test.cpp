@@ -21,7 +21,7 @@ TEST(Isosurface, OfABallIsClosedOutwardAndInPlace) {
   volume.direction.rows[0] = {-1, 0, 0};  // left-handed: still outward
   const TriMesh surface = isosurface(volume, 175);
   EXPECT_TRUE(check_surface(surface).closed());
-  EXPECT_NEAR(relative_volume(surface, 11), 1, 0.02);
+  EXPECT_NEAR(relative_volume(surface, middle_radius(11, 1)), 1, 0.02);
   const Vec3 center = volume.to_world(0.5 * volume.box().extent());
   for (const Vec3& p : surface.points) EXPECT_NEAR(norm(p - center), 11, 0.3);
 }
@@ -32,7 +32,7 @@ TEST(Isosurface, SmoothsAndDecimates) {
   const TriMesh few = isosurface(volume, 175, {.smooth_voxels = 1, .triangles = 1000});
   EXPECT_LE(few.triangles.size(), 1010u);
   EXPECT_GT(full.triangles.size(), 5 * few.triangles.size());
-  EXPECT_NEAR(relative_volume(few, 11), 1, 0.05);
+  EXPECT_NEAR(relative_volume(few, middle_radius(11, std::sqrt(2))), 1, 0.05);
 }
 
 TEST(Isosurface, ClosesWhatLeavesTheVolumeOnItsBox) {

@@ -48,15 +48,37 @@ TEST(Settings, ARefusedValueNamesItsRange) {
 
 TEST(Settings, NothingThatIsNotANumberPasses) {
   for (double Settings::*member :
-       {&Settings::epsilon, &Settings::beta, &Settings::gamma, &Settings::tol_v,
-        &Settings::solver_tolerance, &Settings::tau, &Settings::tol_mesh, &Settings::tol_energy,
-        &Settings::h_min, &Settings::band_threshold}) {
+       {&Settings::epsilon, &Settings::beta, &Settings::tol_v, &Settings::solver_tolerance,
+        &Settings::tau, &Settings::tol_mesh, &Settings::tol_energy, &Settings::h_min,
+        &Settings::band_threshold}) {
     Settings settings;
     settings.*member = std::numeric_limits<double>::quiet_NaN();
     EXPECT_NE(refusal(settings), "");
     settings.*member = std::numeric_limits<double>::infinity();
     EXPECT_NE(refusal(settings), "");
   }
+}
+
+TEST(Settings, WhatIsKnownOfTheImageIsChecked) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double value : {-1.0, nan}) {
+    Settings settings;
+    settings.noise = value;
+    EXPECT_THAT(refusal(settings), ::testing::HasSubstr("noise: expected 0"));
+    settings = {};
+    settings.blur = {1, value, 1};
+    EXPECT_THAT(refusal(settings), ::testing::HasSubstr("blur: expected 0 to 3"));
+    settings = {};
+    settings.gamma = value;
+    EXPECT_THAT(refusal(settings), ::testing::HasSubstr("gamma: expected"));
+  }
+}
+
+TEST(DefaultGamma, IsAPriceOfGreyValuesSquared) {
+  const double one = default_gamma(1e-3, 2, 100, 5);
+  EXPECT_NEAR(default_gamma(1e-3, 2, 300, 15), 9 * one, 1e-12);
+  EXPECT_NEAR(default_gamma(1e-3, 4, 100, 5), 2 * one, 1e-12);
+  EXPECT_GT(default_gamma(1e-3, 2, 100, 10), one);
 }
 
 TEST(DefaultMaxTets, GrowsWithTheEdgesWithinBounds) {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   error.h
+  median.h
   parallel.h
   progress.h
   stopwatch.h

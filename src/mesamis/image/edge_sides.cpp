@@ -5,7 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "mesamis/base/median.h"
+#include "mesamis/base/parallel.h"
 #include "mesamis/image/grey_values.h"
+#include "mesamis/image/scan_quality.h"
 
 namespace mesamis {
 namespace {
@@ -20,12 +23,6 @@ constexpr std::size_t kMostPoints = 200'000;
 double voxel_step(const Volume& volume, const Vec3& d) {
   const Vec3& s = volume.spacing;
   return 1 / norm({d.x / s.x, d.y / s.y, d.z / s.z});
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The value at the end of a ray of one and a half voxels, if the guide keeps to its side of the
@@ -110,14 +107,60 @@ double upper_end_of_tissue(const Volume& volume, double value, double level) {
   return value + (bin - kBins / 2.0) * width;
 }
 
-double choose_threshold(const Volume& volume, const EdgeSides& sides, double level) {
-  constexpr double kThirdClass = 0.5;  // distance of the two dark classes, against the contrast
-  const OtsuSplit dark = otsu_split(volume, level);
-  if (dark.mean_above - dark.mean_below < kThirdClass * (sides.inside - sides.outside)) {
-    return std::numeric_limits<double>::lowest();
+/// Otsu's threshold of the voxels on edges alone: where most of the image is one tissue, the
+/// threshold of all splits that tissue's noise.
+/// @param calm  smoothed until edges stand out.
+double level_of_edges(const Volume& calm) {
+  constexpr double kOfMedian = 4;  // a gradient of noise is hardly ever that large
+  std::vector<double> gradients(calm.voxel_count());
+  const auto layer =
+      static_cast<std::size_t>(calm.size[0]) * static_cast<std::size_t>(calm.size[1]);
+  parallel_for_each(static_cast<std::size_t>(calm.size[2]), [&](std::size_t k) {
+    for (std::size_t n = 0; n < layer; ++n) {
+      const auto i = static_cast<Index>(n % static_cast<std::size_t>(calm.size[0]));
+      const auto j = static_cast<Index>(n / static_cast<std::size_t>(calm.size[0]));
+      gradients[k * layer + n] = norm(gradient_at(calm, i, j, static_cast<Index>(k)));
+    }
+  });
+  std::vector<double> sorted = gradients;
+  const double least = kOfMedian * median(sorted);
+  Volume edges;
+  for (std::size_t n = 0; n < gradients.size(); ++n) {
+    if (gradients[n] > least) edges.samples.push_back(calm.samples[n]);
   }
-  return std::min(upper_end_of_tissue(volume, sides.outside, level),
-                  sides.outside + 0.5 * (level - sides.outside));
+  if (edges.samples.empty()) edges.samples = calm.samples;
+  return otsu_split(edges).threshold;
+}
+
+/// Moves a level midway between the sides of its surface until it settles.
+ObjectEdges settle_level(const Volume& volume, const Volume& calm, double level) {
+  ObjectEdges object;
+  object.level = level;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto points = crossing_points(calm, object.level, kMostPoints);
+    const auto sides = measure_sides(volume, calm, points, object.level);
+    if (!sides) break;
+    const double change = std::abs(sides->middle() - object.level);
+    object.sides = *sides;
+    object.level = sides->middle();
+    if (change < kSettled * sides->contrast()) break;
+  }
+  return object;
+}
+
+/// Whether the two sides differ by more than the noise alone would make them.
+bool stands_out(const ObjectEdges& object, const Volume& volume, const Volume& calm) {
+  constexpr double kOfNoise = 2.5;
+  const auto points = crossing_points(calm, object.level, kMostPoints);
+  return object.sides.contrast() > kOfNoise * measure_noise(volume, calm, points, object.level);
+}
+
+ObjectEdges find_anywhere(const Volume& volume, const Volume& calm) {
+  const bool bone = is_hounsfield(volume) && quantiles(volume, {0.999})[0] > kBoneHu;
+  if (bone) return settle_level(volume, calm, kBoneHu);
+  const ObjectEdges object = settle_level(volume, calm, otsu_split(volume).threshold);
+  if (stands_out(object, volume, calm)) return object;
+  return settle_level(volume, calm, level_of_edges(smoothed(calm)));
 }
 
 }  // namespace
@@ -153,26 +196,26 @@ std::vector<SurfacePoint> crossing_points(const Volume& volume, double level, st
   return points;
 }
 
-ObjectEdges find_object(const Volume& volume, std::optional<double> level) {
+ObjectEdges find_object(const Volume& volume, const FindObjectOptions& options) {
   const Volume calm = smoothed(volume);
-  ObjectEdges object;
-  object.level = otsu_split(volume).threshold;
-  if (is_hounsfield(volume) && quantiles(volume, {0.999})[0] > kBoneHu) object.level = kBoneHu;
-  object.threshold = std::numeric_limits<double>::lowest();
-  for (int round = 0; round < kRounds; ++round) {
-    const auto points = crossing_points(calm, object.level, kMostPoints);
-    const auto sides = measure_sides(volume, calm, points, object.level);
-    if (!sides) break;
-    const double change = std::abs(sides->middle() - object.level);
-    object.sides = *sides;
-    object.level = sides->middle();
-    if (change < kSettled * (sides->inside - sides->outside)) break;
-  }
-  object.crossings = count_crossings(calm, level.value_or(object.level));
-  if (object.sides.samples > 0) {
-    object.threshold = choose_threshold(volume, object.sides, object.level);
-  }
+  ObjectEdges object =
+      options.start ? settle_level(volume, calm, *options.start) : find_anywhere(volume, calm);
+  object.crossings = count_crossings(calm, options.count_at.value_or(object.level));
   return object;
+}
+
+double find_threshold(const Volume& volume, const EdgeSides& sides, double level, double noise) {
+  constexpr double kClearOfNoise = 2.5;
+  constexpr double kTwoClasses = 4;    // one class's halves are 1.6 times its noise apart
+  constexpr double kThirdClass = 0.5;  // distance of the two dark classes, against the contrast
+  if (!(sides.contrast() > 0)) return std::numeric_limits<double>::lowest();
+  const OtsuSplit dark = otsu_split(volume, level);
+  const double apart = dark.mean_above - dark.mean_below;
+  if (apart < std::max(kThirdClass * sides.contrast(), kTwoClasses * noise)) {
+    return std::numeric_limits<double>::lowest();
+  }
+  return std::min({upper_end_of_tissue(volume, sides.outside, level),
+                   sides.outside + 0.5 * (level - sides.outside), level - kClearOfNoise * noise});
 }
 
 }  // namespace mesamis

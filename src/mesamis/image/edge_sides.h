@@ -20,6 +20,7 @@ struct EdgeSides {
   double outside = 0, inside = 0;  ///< medians, native units
   std::size_t samples = 0;         ///< points that counted on both sides, together
   double middle() const { return (outside + inside) / 2; }
+  double contrast() const { return inside - outside; }
 };
 
 /// Medians of the image one and a half voxels outside and inside of the points: beyond most of
@@ -40,20 +41,31 @@ std::vector<SurfacePoint> crossing_points(const Volume& volume, double level, st
 struct ObjectEdges {
   EdgeSides sides;
   double level = 0;           ///< midway between the two sides
-  double threshold = 0;       ///< T for (13); below the image's minimum if none is needed
   std::size_t crossings = 0;  ///< of the smoothed image's grid lines with the level: the extent of
                               ///< the edges; marching cubes makes about two triangles each
 };
 
+struct FindObjectOptions {
+  std::optional<double> count_at =
+      std::nullopt;  ///< level whose crossings are counted; default: the one found
+  std::optional<double> start =
+      std::nullopt;  ///< level to settle from; default: as described below
+};
+
 /// Finds the bright object: CT from its crossings of 200 HU (bone), other images from Otsu's
-/// threshold; the level is moved midway between the sides measured there until it settles.
-///
-/// Three-class images (air, soft tissue, bone) get a threshold T at the upper end of the tissue
-/// outside the object: where the histogram, right of that tissue's peak, has fallen to a tenth of
-/// it, but no more than half way up to the level, so that no edge profile is cut in its middle.
-/// Two-class ones, where what is darker than the level does not fall into two classes half the
-/// object's contrast apart, need none.
-/// @param level  where crossings are counted instead of the level found, and nothing else.
-ObjectEdges find_object(const Volume& volume, std::optional<double> level = std::nullopt);
+/// threshold, of all voxels or, where that splits nothing but noise, of those on edges; the level
+/// is moved midway between the sides measured there until it settles.
+ObjectEdges find_object(const Volume& volume, const FindObjectOptions& options = {});
+
+/// T for (13), native units. Three-class images (air, soft tissue, bone) get one at the upper end
+/// of the tissue outside the object: where the histogram, right of that tissue's peak, has fallen
+/// to a tenth of it, but no more than half way up to the level, so that no edge profile is cut in
+/// its middle, nor nearer to it than two and a half times the noise. Two-class ones need none:
+/// where what is darker than the level does not fall into two classes half the object's contrast
+/// apart, and four times the noise (the halves of one class's noise are 1.6 times it apart).
+/// @param sides, level  of the object, see ObjectEdges.
+/// @param noise         standard deviation, native units.
+/// @return below every value if none is needed.
+double find_threshold(const Volume& volume, const EdgeSides& sides, double level, double noise);
 
 }  // namespace mesamis

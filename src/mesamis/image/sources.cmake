@@ -1,15 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  deblur.h
   degrade.h
   edge_sides.h
   grey_values.h
   phantom.h
+  restore.h
+  scan_quality.h
   volume.h)
 set(ROOM_SOURCES
+  deblur.cpp
   degrade.cpp
   edge_sides.cpp
   grey_values.cpp
   hemipelvis.cpp
   phantom.cpp
   phantom_designs.cpp
+  restore.cpp
+  scan_quality.cpp
   volume.cpp)

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/image/restore.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "mesamis/image/deblur.h"
+#include "mesamis/image/grey_values.h"
+#include "mesamis/image/scan_quality.h"
+
+namespace mesamis {
+namespace {
+
+constexpr std::size_t kMostPoints = 100'000;
+/// Regularization per noise against contrast: found on phantoms, where half and twice as much
+/// cost a tenth of the distance.
+constexpr double kRegularization = 0.2, kLeastRegularization = 0.004, kMostRegularization = 1;
+/// An impulse stands out from the noise and against the contrast.
+constexpr double kImpulseOfNoise = 5, kImpulseOfContrast = 0.25;
+/// Fewer impulses than this are not a fault of the scan but something small.
+constexpr double kFewImpulses = 1e-3;
+/// What is sharper than this has nothing to undo but the voxels' own extent.
+constexpr double kSharp = 0.3;
+
+double share_of(std::size_t count, const Volume& volume) {
+  return static_cast<double>(count) / static_cast<double>(volume.voxel_count());
+}
+
+void take_impulses(Restored& restored, double contrast) {
+  Volume clean = restored.volume;
+  const double difference =
+      std::max(kImpulseOfNoise * restored.noise, kImpulseOfContrast * contrast);
+  const double share = share_of(remove_impulses(clean, difference), clean);
+  if (share < kFewImpulses) return;
+  restored.impulses = share;
+  restored.volume = std::move(clean);
+}
+
+}  // namespace
+
+Restored restore(Volume volume, const ObjectEdges& object, const RestoreOptions& options) {
+  Restored restored{std::move(volume), options.noise.value_or(0), 0,
+                    options.blur.value_or(std::array<double, 3>{}), 0};
+  const double contrast = object.sides.contrast();
+  if (!(contrast > 0)) return restored;
+  Volume guide = smoothed(restored.volume);
+  auto points = crossing_points(guide, object.level, kMostPoints);
+  if (!options.noise) restored.noise = measure_noise(restored.volume, guide, points, object.level);
+  take_impulses(restored, contrast);
+  if (restored.impulses > 0) {
+    guide = smoothed(restored.volume);
+    points = crossing_points(guide, object.level, kMostPoints);
+    if (!options.noise)
+      restored.noise = measure_noise(restored.volume, guide, points, object.level);
+  }
+  if (!options.blur) {
+    const auto calm_points = crossing_points(smoothed(guide), object.level, kMostPoints);
+    restored.blur = measure_blur(restored.volume, calm_points, restored.noise);
+  }
+  if (*std::max_element(restored.blur.begin(), restored.blur.end()) > kSharp) {
+    const double r = std::clamp(kRegularization * restored.noise / contrast, kLeastRegularization,
+                                kMostRegularization);
+    restored.volume = deblurred(restored.volume, restored.blur, r);
+  }
+  restored.noise_left = measure_noise(restored.volume, guide, points, object.level);
+  return restored;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/image/scan_quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "mesamis/base/median.h"
+#include "mesamis/base/parallel.h"
+
+namespace mesamis {
+namespace {
+
+constexpr std::size_t kFewPlaces = 10, kFewProfiles = 100, kFewOfAnAxis = 100;
+constexpr double kMadToDeviation = 1.4826;  // of a normal distribution
+
+/// The unit direction n in voxels: one step along it is one voxel long.
+Vec3 voxel_direction(const Volume& volume, const Vec3& n) {
+  const Vec3& s = volume.spacing;
+  const Vec3 d{n.x / s.x, n.y / s.y, n.z / s.z};
+  return (1 / norm(d)) * d;
+}
+
+/// mm of a place in voxels.
+Vec3 in_mm(const Volume& volume, const Vec3& voxels) {
+  const Vec3& s = volume.spacing;
+  return {voxels.x * s.x, voxels.y * s.y, voxels.z * s.z};
+}
+
+/// The voxel next to a place, or nothing within one voxel of the border.
+std::optional<std::array<Index, 3>> voxel_at(const Volume& volume, const Vec3& p) {
+  std::array<Index, 3> voxel;
+  for (int a = 0; a < 3; ++a) {
+    const double n = std::round(p[a] / volume.spacing[a]);
+    if (!(n >= 1 && n <= volume.size[a] - 2)) return std::nullopt;
+    voxel[a] = static_cast<Index>(n);
+  }
+  return voxel;
+}
+
+/// How far a voxel is from the mean of the 3x3x3 around it.
+double deviation_at(const Volume& volume, const std::array<Index, 3>& voxel) {
+  double sum = 0;
+  for (Index k = -1; k <= 1; ++k) {
+    for (Index j = -1; j <= 1; ++j) {
+      for (Index i = -1; i <= 1; ++i) sum += volume.at(voxel[0] + i, voxel[1] + j, voxel[2] + k);
+    }
+  }
+  return std::abs(volume.at(voxel[0], voxel[1], voxel[2]) - sum / 27);
+}
+
+/// Beyond the edge, on the same side of the level all the way.
+std::optional<Vec3> place_beside(const Volume& guide, const SurfacePoint& point, double sign,
+                                 double level) {
+  Vec3 p;
+  for (const double voxels : {0.75, 1.5, 2.5}) {
+    p = point.position + in_mm(guide, sign * voxels * voxel_direction(guide, point.normal));
+    if ((interpolate(guide, p) > level) != (sign < 0)) return std::nullopt;
+  }
+  return p;
+}
+
+// The edge's profile.
+
+constexpr int kProfileHalf = 12;       // samples on either side
+constexpr double kProfileStep = 0.25;  // voxels
+using Profile = std::array<double, 2 * kProfileHalf + 1>;
+
+/// Medians over the points of the image along their normals, inwards; the surface is in the middle.
+Profile median_profile(const Volume& volume, const std::vector<const SurfacePoint*>& points) {
+  Profile profile;
+  parallel_for_each(profile.size(), [&](std::size_t n) {
+    const double offset = (static_cast<double>(n) - kProfileHalf) * kProfileStep;
+    std::vector<double> values;
+    values.reserve(points.size());
+    for (const SurfacePoint* point : points) {
+      const Vec3 step = in_mm(volume, voxel_direction(volume, point->normal));
+      values.push_back(interpolate(volume, point->position - offset * step));
+    }
+    profile[n] = median(values);
+  });
+  return profile;
+}
+
+/// Half a profile, from the surface to one side: by how much it has risen after each step, up to
+/// where it rises no more (a thin wall ends).
+std::vector<double> rise(const Profile& profile, int direction) {
+  std::vector<double> heights;
+  double highest = 0;
+  for (int n = 1; n <= kProfileHalf; ++n) {
+    const auto at = static_cast<std::size_t>(kProfileHalf + direction * n);
+    const double height = direction * (profile[at] - profile[kProfileHalf]);
+    if (height < highest) break;
+    heights.push_back(highest = height);
+  }
+  return heights;
+}
+
+/// A Gaussian edge of one side: of deviation sigma, voxels, and height h it is h erf(t / sqrt(2)
+/// sigma) after t voxels.
+struct Edge {
+  double sigma = 0, height = 0;
+};
+Edge fit_edge(const std::vector<double>& heights) {
+  constexpr double kNarrowest = 0.2, kWidest = 3.5, kStep = 0.01;
+  Edge best;
+  double least = std::numeric_limits<double>::infinity();
+  for (double sigma = kNarrowest; sigma <= kWidest; sigma += kStep) {
+    double ee = 0, eh = 0, hh = 0;
+    for (std::size_t n = 0; n < heights.size(); ++n) {
+      const double t = static_cast<double>(n + 1) * kProfileStep;
+      const double e = std::erf(t / (std::sqrt(2) * sigma));
+      ee += e * e, eh += e * heights[n], hh += heights[n] * heights[n];
+    }
+    const double misfit = hh - eh * eh / ee;
+    if (misfit < least) {
+      least = misfit;
+      best = {sigma, 2 * eh / ee};
+    }
+  }
+  return best;
+}
+
+/// The sharper of the two sides: what comes after the edge (the next tissue, the far side of a
+/// wall) widens one of them.
+Edge sharper_edge(const Profile& profile) {
+  constexpr std::size_t kFewest = 4;  // a voxel
+  Edge best;
+  for (const int direction : {-1, 1}) {
+    const auto heights = rise(profile, direction);
+    if (heights.size() < kFewest) continue;
+    const Edge edge = fit_edge(heights);
+    if (best.sigma == 0 || edge.sigma < best.sigma) best = edge;
+  }
+  return best;
+}
+
+/// The blur of the image from that of the profile.
+double blur_behind(const Edge& edge, double noise) {
+  constexpr double kInterpolation = 1.0 / 6;  // variance of the hat function
+  constexpr double kGuideBlur = 1;            // variance of smoothed(smoothed()), per axis
+  const double kGuideNoise = std::pow(70.0 / 256, 1.5);  // white noise it leaves
+  if (!(edge.height > 0)) return 0;
+  const double square = edge.sigma * edge.sigma - kInterpolation;
+  const double slope =
+      edge.height / std::sqrt(2 * std::numbers::pi * (std::max(square, 0.0) + kGuideBlur));
+  const double scatter = kGuideNoise * noise / slope;
+  return std::sqrt(std::max(0.0, square - scatter * scatter));
+}
+
+// Impulses.
+
+/// Calls visit(value) for the 26 voxels around, cut off at the border, until it says stop (true).
+template <class Visit>
+void visit_neighbors(const Volume& volume, const std::array<Index, 3>& voxel, Visit&& visit) {
+  std::array<Index, 3> low, high;
+  for (std::size_t a = 0; a < 3; ++a) {
+    low[a] = std::max(voxel[a] - 1, 0);
+    high[a] = std::min(voxel[a] + 1, volume.size[a] - 1);
+  }
+  for (Index k = low[2]; k <= high[2]; ++k) {
+    for (Index j = low[1]; j <= high[1]; ++j) {
+      for (Index i = low[0]; i <= high[0]; ++i) {
+        const bool is_itself = i == voxel[0] && j == voxel[1] && k == voxel[2];
+        if (!is_itself && visit(volume.at(i, j, k))) return;
+      }
+    }
+  }
+}
+
+bool is_impulse(const Volume& volume, const std::array<Index, 3>& voxel, float difference) {
+  const float value = volume.at(voxel[0], voxel[1], voxel[2]);
+  int alike = 0;
+  visit_neighbors(volume, voxel, [&](float other) {
+    alike += std::abs(other - value) <= difference;
+    return alike == 2;
+  });
+  return alike < 2;
+}
+
+float median_around(const Volume& volume, const std::array<Index, 3>& voxel) {
+  std::vector<double> values;
+  visit_neighbors(volume, voxel, [&values](float value) {
+    values.push_back(value);
+    return false;
+  });
+  return static_cast<float>(median(values));
+}
+
+}  // namespace
+
+double measure_noise(const Volume& volume, const Volume& guide,
+                     const std::vector<SurfacePoint>& points, double level) {
+  const double seen = std::sqrt(26.0 / 27);  // of white noise, its neighbourhood's mean taken off
+  double squares = 0, sides = 0;
+  for (const double sign : {-1.0, 1.0}) {
+    std::vector<double> deviations;
+    for (const SurfacePoint& point : points) {
+      if (norm(point.normal) == 0) continue;
+      const auto place = place_beside(guide, point, sign, level);
+      const auto voxel = place ? voxel_at(volume, *place) : std::nullopt;
+      if (voxel) deviations.push_back(deviation_at(volume, *voxel));
+    }
+    if (deviations.size() < kFewPlaces) continue;
+    const double deviation = kMadToDeviation * median(deviations) / seen;
+    squares += deviation * deviation;
+    ++sides;
+  }
+  return sides > 0 ? std::sqrt(squares / sides) : 0;
+}
+
+std::array<double, 3> measure_blur(const Volume& volume, const std::vector<SurfacePoint>& points,
+                                   double noise) {
+  constexpr double kAlongAxis = 0.9, kMostOfMiddle = 1.5, kMostBlur = 2;
+  std::vector<const SurfacePoint*> all;
+  std::array<std::vector<const SurfacePoint*>, 3> along;
+  for (const SurfacePoint& point : points) {
+    if (norm(point.normal) == 0) continue;
+    all.push_back(&point);
+    const Vec3 d = voxel_direction(volume, point.normal);
+    for (int a = 0; a < 3; ++a) {
+      if (std::abs(d[a]) > kAlongAxis) along[static_cast<std::size_t>(a)].push_back(&point);
+    }
+  }
+  std::array<double, 3> blur{};
+  if (all.size() < kFewProfiles) return blur;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto& group = along[a].size() < kFewOfAnAxis ? all : along[a];
+    blur[a] = blur_behind(sharper_edge(median_profile(volume, group)), noise);
+  }
+  // One axis whose surfaces are no plain edges (a table, thin walls) must not be overdone.
+  std::array<double, 3> sorted = blur;
+  std::sort(sorted.begin(), sorted.end());
+  for (double& b : blur) b = std::min({b, kMostOfMiddle * sorted[1], kMostBlur});
+  return blur;
+}
+
+std::size_t remove_impulses(Volume& volume, double difference) {
+  const auto layers = static_cast<std::size_t>(volume.size[2]);
+  std::vector<std::vector<std::pair<std::size_t, float>>> found(layers);
+  parallel_for_each(layers, [&](std::size_t layer) {
+    const auto k = static_cast<Index>(layer);
+    for (Index j = 0; j < volume.size[1]; ++j) {
+      for (Index i = 0; i < volume.size[0]; ++i) {
+        if (is_impulse(volume, {i, j, k}, static_cast<float>(difference))) {
+          found[layer].emplace_back(volume.offset(i, j, k), median_around(volume, {i, j, k}));
+        }
+      }
+    }
+  });
+  std::size_t count = 0;
+  for (const auto& layer : found) {
+    for (const auto& [voxel, value] : layer) volume.samples[voxel] = value;
+    count += layer.size();
+  }
+  return count;
+}
+
+}  // namespace mesamis
