@@ -8,6 +8,7 @@
 namespace mesamis {
 namespace {
 
+/// @param count  how many there must be; 0: one at least.
 template <class Number>
 std::vector<Number> parse_list(const std::string& text, std::size_t count,
                                const std::string& option) {
@@ -23,9 +24,10 @@ std::vector<Number> parse_list(const std::string& text, std::size_t count,
     more = stop != end && *stop == ',';
     at = more ? stop + 1 : stop;
   }
-  if (more || at != end || numbers.size() != count) {
-    throw CLI::ValidationError(option, "expected " + std::to_string(count) +
-                                           " numbers with commas between, found '" + text + "'");
+  if (more || at != end || (count != 0 && numbers.size() != count)) {
+    const std::string how_many = count == 0 ? "" : std::to_string(count) + " ";
+    throw CLI::ValidationError(
+        option, "expected " + how_many + "numbers with commas between, found '" + text + "'");
   }
   return numbers;
 }
@@ -47,6 +49,10 @@ std::vector<double> parse_numbers(const std::string& text, std::size_t count,
 std::vector<int> parse_integers(const std::string& text, std::size_t count,
                                 const std::string& option) {
   return parse_list<int>(text, count, option);
+}
+
+std::vector<int> parse_integers(const std::string& text, const std::string& option) {
+  return parse_list<int>(text, 0, option);
 }
 
 std::string one_line(const std::string& text) {

@@ -22,6 +22,9 @@ bool parse_number(const std::string& text, double& value);
 std::vector<int> parse_integers(const std::string& text, std::size_t count,
                                 const std::string& option);
 
+/// Any count of them, one at least.
+std::vector<int> parse_integers(const std::string& text, const std::string& option);
+
 /// Runs a check of options: what it refuses is an error of usage, not of a file.
 /// @throws CLI::ValidationError  with the words of an InputError.
 template <class Check>

@@ -21,17 +21,6 @@ ordered_json energy_json(const Energy& e) {
       {"total", e.total()}, {"fidelity", e.fidelity}, {"smoothing", e.smoothing}, {"edge", e.edge}};
 }
 
-ordered_json input_json(const InputFacts& input) {
-  return {{"path", input.path.string()},
-          {"format", input.format},
-          {"sha256", input.sha256},
-          {"size", input.size},
-          {"spacing_mm", vec_json(input.spacing)},
-          {"range", {input.lowest, input.highest}},
-          {"modality", input.modality},
-          {"warnings", input.warnings}};
-}
-
 /// What a pass has not measured is null: the first has no energy before it, the last leads to no
 /// other mesh.
 ordered_json iteration_json(const Iteration& i, bool is_first, bool is_last) {
@@ -117,6 +106,17 @@ InputFacts facts_of(const std::filesystem::path& path, const VolumeFile& file, F
   return facts;
 }
 
+ordered_json input_json(const InputFacts& input) {
+  return {{"path", input.path.string()},
+          {"format", input.format},
+          {"sha256", input.sha256},
+          {"size", input.size},
+          {"spacing_mm", vec_json(input.spacing)},
+          {"range", {input.lowest, input.highest}},
+          {"modality", input.modality},
+          {"warnings", input.warnings}};
+}
+
 void add_costs(ordered_json& report) {
   report["seconds"] = wall_seconds();
   report["peak_memory_mb"] = peak_memory_mb();
@@ -157,13 +157,8 @@ Settings settings_used(const Result& result) {
   return used;
 }
 
-ordered_json segment_report(const InputFacts& input, const Settings& settings, const Result& result,
-                            const SurfaceCheck& surface) {
+ordered_json run_json(const Settings& settings, const Result& result, const SurfaceCheck& surface) {
   ordered_json report;
-  report["program"] = program_json();
-  report["input"] = input_json(input);
-  report["output"] = {{"frame", input.frame == Frame::kRas ? "ras" : "lps"},
-                      {"threads", thread_count()}};
   report["settings"] = to_json(settings_used(result));
   report["chosen"] = chosen(settings);
   report["grey"] = {
@@ -186,6 +181,17 @@ ordered_json segment_report(const InputFacts& input, const Settings& settings, c
                              {"surface", result.seconds.surface},
                              {"printable", result.seconds.printable},
                              {"method", result.seconds.total}};
+  return report;
+}
+
+ordered_json segment_report(const InputFacts& input, const Settings& settings, const Result& result,
+                            const SurfaceCheck& surface) {
+  ordered_json report;
+  report["program"] = program_json();
+  report["input"] = input_json(input);
+  report["output"] = {{"frame", input.frame == Frame::kRas ? "ras" : "lps"},
+                      {"threads", thread_count()}};
+  report.update(run_json(settings, result, surface));
   add_costs(report);
   return report;
 }

@@ -39,8 +39,16 @@ nlohmann::ordered_json check_json(const TriMesh& surface, const SurfaceCheck& ch
 /// Settings with the values used, so that a run can be repeated from its report.
 Settings settings_used(const Result& result);
 
-/// The report of a run, as docs/formats.md describes it.
+/// What a report says of a run itself: settings, chosen, grey, iterations, mesh, surface,
+/// converged, seconds_parts.
 /// @param settings  those asked for, to tell what was chosen automatically.
+nlohmann::ordered_json run_json(const Settings& settings, const Result& result,
+                                const SurfaceCheck& surface);
+
+/// "path", "format", "sha256", ... of the scan a report is about.
+nlohmann::ordered_json input_json(const InputFacts& input);
+
+/// The report of a run, as docs/formats.md describes it.
 nlohmann::ordered_json segment_report(const InputFacts& input, const Settings& settings,
                                       const Result& result, const SurfaceCheck& surface);
 

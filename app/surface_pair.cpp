@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface_pair.h"
 
+#include <map>
 #include <sstream>
 
 #include "log.h"
@@ -14,10 +15,6 @@ namespace fs = std::filesystem;
 
 nlohmann::ordered_json frame_json(const std::optional<Frame>& frame) {
   return frame ? nlohmann::ordered_json(frame_name(*frame)) : nlohmann::ordered_json(nullptr);
-}
-
-bool states_differ(const SurfacePair& pair) {
-  return pair.reference_frame && pair.surface_frame && pair.reference_frame != pair.surface_frame;
 }
 
 std::ostream& operator<<(std::ostream& out, const Box& box) {
@@ -40,11 +37,11 @@ std::string nearness(const FlipFound& found) {
   return text.str();
 }
 
-[[noreturn]] void refuse_flipped(const fs::path& path, const SurfacePair& pair,
+[[noreturn]] void refuse_flipped(const std::string& name, const SurfacePair& pair,
                                  const FlipFound& found) {
   std::ostringstream text;
   text.precision(5);
-  text << path.string() << ": lies off the reference"
+  text << name << ": lies off the reference"
        << (pair.surface_turned ? " in the frames that the files state" : "") << "; "
        << nearness(found) << "; expected about the box " << found.reference << ", found "
        << found.surface << "; --frames as-is compares them "
@@ -53,8 +50,8 @@ std::string nearness(const FlipFound& found) {
   throw InputError(text.str());
 }
 
-void warn_of_turn(const fs::path& path, const SurfacePair& pair) {
-  log_warning(path.string() + ": turned from " + frame_name(*pair.surface_frame) + " to " +
+void warn_of_turn(const std::string& name, const SurfacePair& pair) {
+  log_warning(name + ": turned from " + frame_name(*pair.surface_frame) + " to " +
               frame_name(*pair.reference_frame) + ", as the files state");
 }
 
@@ -66,25 +63,43 @@ std::optional<Frame> SurfacePair::frame() const {
   return reference_frame;
 }
 
-SurfacePair read_pair(const fs::path& reference, const fs::path& surface, FrameRule rule) {
-  const SurfaceFile a = read_surface_file(reference), b = read_surface_file(surface);
-  SurfacePair pair{without_unused_points(a.surface),
-                   without_unused_points(b.surface),
-                   a.frame,
-                   b.frame,
-                   false,
+void add_frames_option(CLI::App& command, FrameRule& rule) {
+  const std::map<std::string, FrameRule> rules{
+      {"auto", FrameRule::kAuto}, {"as-is", FrameRule::kAsIs}, {"turned", FrameRule::kTurned}};
+  command
+      .add_option("--frames", rule,
+                  "auto: as the files state, refused if they fit only after a flip; as-is: "
+                  "coordinates as they are; turned: the surface's x and y negated")
+      ->transform(CLI::CheckedTransformer(rules));
+}
+
+bool must_turn(const std::optional<Frame>& reference, const std::optional<Frame>& surface,
+               FrameRule rule) {
+  const bool states_differ = reference && surface && reference != surface;
+  return rule == FrameRule::kTurned || (rule == FrameRule::kAuto && states_differ);
+}
+
+SurfacePair pair_up(const SurfaceFile& reference, const SurfaceFile& surface, FrameRule rule,
+                    const std::string& name) {
+  SurfacePair pair{without_unused_points(reference.surface),
+                   without_unused_points(surface.surface),
+                   reference.frame,
+                   surface.frame,
+                   must_turn(reference.frame, surface.frame, rule),
                    {}};
-  pair.surface_turned =
-      rule == FrameRule::kTurned || (rule == FrameRule::kAuto && states_differ(pair));
   if (pair.surface_turned) pair.surface = turned(std::move(pair.surface));
   if (rule != FrameRule::kAuto) return pair;
   pair.flip = find_axis_flip(pair.reference, pair.surface);
-  if (pair.flip && pair.flip->plain) refuse_flipped(surface, pair, *pair.flip);
-  if (pair.surface_turned) warn_of_turn(surface, pair);
+  if (pair.flip && pair.flip->plain) refuse_flipped(name, pair, *pair.flip);
+  if (pair.surface_turned) warn_of_turn(name, pair);
   if (pair.flip) {
-    log_warning(surface.string() + ": is it in the reference's frame? " + nearness(*pair.flip));
+    log_warning(name + ": is it in the reference's frame? " + nearness(*pair.flip));
   }
   return pair;
+}
+
+SurfacePair read_pair(const fs::path& reference, const fs::path& surface, FrameRule rule) {
+  return pair_up(read_surface_file(reference), read_surface_file(surface), rule, surface.string());
 }
 
 nlohmann::ordered_json frames_json(const SurfacePair& pair) {

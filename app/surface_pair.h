@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "mesamis/io/surface_files.h"
 #include "mesamis/surface/axis_flip.h"
@@ -28,9 +30,23 @@ struct SurfacePair {
   std::optional<Frame> frame() const;
 };
 
-/// Reads both. Warns where one is turned, and where a flip would fit better.
-/// @throws InputError  if a file cannot be read or, with kAuto, the surface lies off the reference
-///                     unless its axes are flipped; the message says how, and both boxes.
+/// Adds --frames. `rule` must outlive the parsing.
+void add_frames_option(CLI::App& command, FrameRule& rule);
+
+/// Whether the surface's x and y are to be negated, so that it lies in the reference's frame.
+bool must_turn(const std::optional<Frame>& reference, const std::optional<Frame>& surface,
+               FrameRule rule);
+
+/// Brings both into one frame. Warns where the surface is turned, and where a flip would fit
+/// better.
+/// @param name  what messages call the surface.
+/// @throws InputError  with kAuto if the surface lies off the reference unless its axes are
+///                     flipped; the message says how, and both boxes.
+SurfacePair pair_up(const SurfaceFile& reference, const SurfaceFile& surface, FrameRule rule,
+                    const std::string& name);
+
+/// Reads both and pairs them up.
+/// @throws InputError  if a file cannot be read, and as pair_up().
 SurfacePair read_pair(const std::filesystem::path& reference, const std::filesystem::path& surface,
                       FrameRule rule);
 
