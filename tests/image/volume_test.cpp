@@ -73,6 +73,17 @@ TEST(Volume, RefusesWhatNoMethodCanUse) {
               HasSubstr("found 7 everywhere"));
 }
 
+TEST(Volume, GoesToTheWorldAndBack) {
+  Volume v = oblique();
+  EXPECT_LT(norm(v.to_grid(v.origin)), 1e-12);
+  for (const bool mirrored : {false, true}) {
+    if (mirrored) v.direction.rows[1].z = -v.direction.rows[1].z, v.direction.rows[2].z *= -1;
+    for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 2, 3}, Vec3{-4, 0.5, 100}}) {
+      EXPECT_LT(norm(v.to_grid(v.to_world(p)) - p), 1e-12);
+    }
+  }
+}
+
 TEST(Volume, CropKeepsSamplesAndTheirPlaceInTheWorld) {
   const Volume v = oblique();
   const Volume part = crop(v, {{1, 0, 2}, {4, -1, 5}});
@@ -109,6 +120,7 @@ TEST(Volume, SubsampleKeepsEveryStrideThVoxelInItsPlace) {
             norm(coarse.to_world(centre(coarse, i, j, k)) - v.to_world(centre(v, 2 * i, 3 * j, k))),
             1e-12);
       }
+  EXPECT_EQ(coarse.spacing, (Vec3{2 * v.spacing.x, 3 * v.spacing.y, v.spacing.z}));
   EXPECT_THROW(subsample(v, {0, 1, 1}), InputError);
   EXPECT_THROW(subsample(v, {1, 4, 1}), InputError);
 }

@@ -48,6 +48,8 @@ struct Volume {
   double voxel_size() const { return std::cbrt(spacing.x * spacing.y * spacing.z); }
   /// From the grid's own axes (mm) to the world (LPS, mm).
   Vec3 to_world(const Vec3& p) const { return origin + direction * p; }
+  /// From the world (LPS, mm) to the grid's own axes (mm).
+  Vec3 to_grid(const Vec3& p) const { return transpose(direction) * (p - origin); }
 };
 
 /// Checks what every method relies on: at least 2 voxels per direction, as many samples as

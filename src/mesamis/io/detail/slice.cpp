@@ -86,7 +86,7 @@ SlicePlane slice_plane(const Volume& volume, int axis, const double* position) {
 }
 
 Vec3 to_page(const Volume& volume, const SlicePlane& plane, const Vec3& world) {
-  const Vec3 grid = transpose(volume.direction) * (world - volume.origin);
+  const Vec3 grid = volume.to_grid(world);
   return {plane.sign[0] * grid[plane.axis[0]], plane.sign[1] * grid[plane.axis[1]],
           grid[plane.axis[2]] - plane.index * volume.spacing[plane.axis[2]]};
 }
