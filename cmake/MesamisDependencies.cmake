@@ -4,4 +4,4 @@ set(MESAMIS_VTK_VERSION 9.1)
 set(MESAMIS_VTK_COMPONENTS
   CommonCore CommonDataModel IOCore IOXML IOPLY IOLegacy IOGeometry IOImage FiltersCore
   FiltersGeometry FiltersExtraction ImagingGeneral RenderingCore RenderingAnnotation RenderingFreeType
-  RenderingOpenGL2)
+  RenderingOpenGL2 RenderingContext2D RenderingContextOpenGL2 ChartsCore)

@@ -2,51 +2,21 @@
 #include "mesamis/io/picture.h"
 
 #include <gmock/gmock.h>
-#include <stdlib.h>
 #include <sys/wait.h>
-#include <vtkImageData.h>
-#include <vtkPNGReader.h>
-#include <vtkSmartPointer.h>
 
 #include <cmath>
 #include <limits>
 
 #include "support/can_draw.h"
+#include "support/png_image.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
+#include "support/variable.h"
 
 namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
-
-struct Rgb {
-  int r, g, b;
-  bool is_white() const { return r > 250 && g > 250 && b > 250; }
-  bool is_bright_grey() const { return r > 150 && r == g && g == b; }
-  bool is_orange() const { return r - b > 60; }
-};
-
-/// A picture read back; row 0 is the lowest.
-class Image {
- public:
-  explicit Image(const std::filesystem::path& png) {
-    reader_->SetFileName(png.c_str());
-    reader_->Update();
-  }
-  std::array<int, 2> size() const {
-    const int* d = reader_->GetOutput()->GetDimensions();
-    return {d[0], d[1]};
-  }
-  Rgb at(int x, int y) const {
-    const auto* p =
-        static_cast<const unsigned char*>(reader_->GetOutput()->GetScalarPointer(x, y, 0));
-    return {p[0], p[1], p[2]};
-  }
-
- private:
-  vtkSmartPointer<vtkPNGReader> reader_ = vtkSmartPointer<vtkPNGReader>::New();
-};
 
 /// Where the pixels of one kind lie: bounds and centre of gravity, above the labels' strip and
 /// left of the colour bar where there is one.
@@ -343,26 +313,6 @@ TEST(Picture, RefusesAFolderThatIsNotThere) {
   add_octahedron(surface, {0, 0, 0}, 1);
   EXPECT_THROW(draw_surface(folder / "none/a.png", surface, small()), InputError);
 }
-
-/// Sets an environment variable as long as it lives.
-class Variable {
- public:
-  Variable(const char* name, const char* value) : name_(name) {
-    if (const char* before = getenv(name)) before_ = before;
-    setenv(name, value, 1);
-  }
-  ~Variable() {
-    if (before_) {
-      setenv(name_, before_->c_str(), 1);
-    } else {
-      unsetenv(name_);
-    }
-  }
-
- private:
-  const char* name_;
-  std::optional<std::string> before_;
-};
 
 TEST(Picture, SaysWhatToInstallWhereNothingCanDraw) {
   const TempFolder folder;

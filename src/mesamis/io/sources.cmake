@@ -5,6 +5,7 @@ set(ROOM_HEADERS
   isosurface.h
   mesh_files.h
   picture.h
+  plot.h
   read_volume.h
   surface_files.h
   write_volume.h)
@@ -55,6 +56,7 @@ set(ROOM_SOURCES
   detail/color_scale.cpp
   detail/display.cpp
   picture.cpp
+  plot.cpp
   detail/scene.cpp
   detail/slice.cpp
   detail/vtk_data.cpp
