@@ -36,5 +36,6 @@ void add_picture_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_remesh_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_segment_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_slice_command(CLI::App& app, CommonOptions& common, Action& action);
+void add_study_command(CLI::App& app, CommonOptions& common, Action& action);
 
 }  // namespace mesamis

@@ -20,7 +20,8 @@ TEST(Arguments, VersionAndHelpAreResults) {
   EXPECT_EQ(version.err, "");
   const ProgramRun help = run_program(folder, {"--help"});
   EXPECT_EQ(help.status, 0);
-  for (const auto* command : {"segment", "remesh", "compare", "picture", "info", "slice"}) {
+  for (const auto* command :
+       {"segment", "remesh", "compare", "study", "picture", "info", "slice"}) {
     EXPECT_THAT(help.out, HasSubstr(command));
     const ProgramRun one = run_program(folder, {command, "--help"});
     EXPECT_EQ(one.status, 0);
