@@ -194,7 +194,7 @@ float median_around(const Volume& volume, const std::array<Index, 3>& voxel) {
 double measure_noise(const Volume& volume, const Volume& guide,
                      const std::vector<SurfacePoint>& points, double level) {
   const double seen = std::sqrt(26.0 / 27);  // of white noise, its neighbourhood's mean taken off
-  double squares = 0, sides = 0;
+  std::optional<double> quieter;
   for (const double sign : {-1.0, 1.0}) {
     std::vector<double> deviations;
     for (const SurfacePoint& point : points) {
@@ -205,10 +205,9 @@ double measure_noise(const Volume& volume, const Volume& guide,
     }
     if (deviations.size() < kFewPlaces) continue;
     const double deviation = kMadToDeviation * median(deviations) / seen;
-    squares += deviation * deviation;
-    ++sides;
+    quieter = std::min(deviation, quieter.value_or(deviation));
   }
-  return sides > 0 ? std::sqrt(squares / sides) : 0;
+  return quieter.value_or(0);
 }
 
 std::array<double, 3> measure_blur(const Volume& volume, const std::vector<SurfacePoint>& points,
