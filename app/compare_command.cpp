@@ -2,7 +2,9 @@
 // mesamis compare: distances (14)-(16) between two surfaces, both directions.
 #include <cstdio>
 #include <memory>
+#include <optional>
 
+#include "arguments.h"
 #include "commands.h"
 #include "comparison.h"
 #include "json_file.h"
@@ -21,7 +23,23 @@ namespace fs = std::filesystem;
 struct CompareCommand {
   fs::path reference, surface, report, histogram, colored;
   FrameRule frames = FrameRule::kAuto;
+  std::optional<Box> part;
 };
+
+/// "X0,Y0,Z0,X1,Y1,Z1"
+Box box_of(const std::string& text) {
+  const std::vector<double> n = parse_numbers(text, 6, "--box");
+  const Box box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+  for (int a = 0; a < 3; ++a) {
+    if (!(box.lo[a] < box.hi[a])) {
+      throw CLI::ValidationError("--box",
+                                 "expected X0,Y0,Z0,X1,Y1,Z1 with each first below its "
+                                 "second, found " +
+                                     text);
+    }
+  }
+  return box;
+}
 
 void write_report(const CompareCommand& command, const SurfacePair& pair,
                   const Direction& surface_to_reference, const Direction& reference_to_surface) {
@@ -31,6 +49,10 @@ void write_report(const CompareCommand& command, const SurfacePair& pair,
   report["surface"] = command.surface.string();
   report["frames"] = frames_json(pair);
   report["unit"] = "mm";
+  if (command.part) {
+    const auto& [lo, hi] = *command.part;
+    report["box"] = {lo.x, lo.y, lo.z, hi.x, hi.y, hi.z};
+  }
   for (const Direction* d : {&surface_to_reference, &reference_to_surface}) {
     report[d->name] = direction_json(*d);
   }
@@ -58,14 +80,16 @@ int run_compare(const CompareCommand& command) {
   if (!command.colored.empty()) require_output(command.colored, {".vtp"}, "--colored");
   const SurfacePair pair = read_pair(command.reference, command.surface, command.frames);
   const std::vector<Direction> directions{
-      measure("surface_to_reference", pair.surface, pair.reference),
-      measure("reference_to_surface", pair.reference, pair.surface)};
+      measure("surface_to_reference", pair.surface, pair.reference, command.part),
+      measure("reference_to_surface", pair.reference, pair.surface, command.part)};
   if (!command.report.empty()) write_report(command, pair, directions[0], directions[1]);
   if (!command.histogram.empty()) {
     write_file(command.histogram, to_csv(histogram_of(directions)));
   }
   if (!command.colored.empty()) {
-    write_colored(command.colored, pair, directions[0].from_vertices);
+    write_colored(command.colored, pair,
+                  command.part ? distances_to_surface(pair.surface.points, pair.reference)
+                               : directions[0].from_vertices);
   }
   std::printf("%-22s %-8s %9s %9s %9s %9s %9s %9s\n", "distance, mm", "from", "points", "mean",
               "rms", "p95", "p99", "max");
@@ -88,6 +112,9 @@ void add_compare_command(CLI::App& app, CommonOptions&, Action& action) {
   command->add_option("--colored", options->colored,
                       "The surface with the distance of each vertex (array distance): .vtp");
   add_frames_option(*command, options->frames);
+  command->add_option_function<std::string>(
+      "--box", [options](const std::string& text) { options->part = box_of(text); },
+      "Measure from points inside this box alone: X0,Y0,Z0,X1,Y1,Z1, mm in the reference's frame");
   command->callback([options, &action] { action = [options] { return run_compare(*options); }; });
 }
 

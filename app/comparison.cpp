@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "mesamis/base/error.h"
 #include "mesamis/surface/distance.h"
 
 namespace mesamis {
@@ -38,11 +39,28 @@ double longest_of(std::span<const Direction> directions) {
   return longest;
 }
 
+void keep_inside(std::vector<Vec3>& points, const Box& box) {
+  std::erase_if(points, [&box](const Vec3& p) {
+    for (int a = 0; a < 3; ++a) {
+      if (!(p[a] >= box.lo[a] && p[a] <= box.hi[a])) return true;
+    }
+    return false;
+  });
+}
+
 }  // namespace
 
-Direction measure(const std::string& name, const TriMesh& from, const TriMesh& to) {
-  return {name, distances_to_surface(from.points, to),
-          distances_to_surface(sample_by_area(from, kAreaSamples), to)};
+Direction measure(const std::string& name, const TriMesh& from, const TriMesh& to,
+                  const std::optional<Box>& part) {
+  std::vector<Vec3> vertices = from.points, samples = sample_by_area(from, kAreaSamples);
+  if (part) {
+    keep_inside(vertices, *part);
+    keep_inside(samples, *part);
+    if (vertices.empty() || samples.empty()) {
+      throw InputError(name + ": no point of the first lies inside the box");
+    }
+  }
+  return {name, distances_to_surface(vertices, to), distances_to_surface(samples, to)};
 }
 
 ordered_json direction_json(const Direction& direction) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,8 +20,10 @@ struct Direction {
 };
 
 /// @param from  without points that no triangle uses: all of them count as vertices.
-/// @throws InputError  if a surface has no triangle or is not sound.
-Direction measure(const std::string& name, const TriMesh& from, const TriMesh& to);
+/// @param part  where given, only points of `from` inside this box count.
+/// @throws InputError  if a surface has no triangle or is not sound, or no point counts.
+Direction measure(const std::string& name, const TriMesh& from, const TriMesh& to,
+                  const std::optional<Box>& part = std::nullopt);
 
 /// A direction's entry in a report: vertices, mean (15), rms, p95, p99, max, and the same by area.
 nlohmann::ordered_json direction_json(const Direction& direction);

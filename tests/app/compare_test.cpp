@@ -45,6 +45,24 @@ TEST(CompareCommand, MeasuresParallelSquares) {
   }
 }
 
+TEST(CompareCommand, MeasuresInsideABoxAlone) {
+  const TempFolder folder;
+  write_bytes(folder / "a.obj", square(0));
+  const std::string far = "v 10 0 3\nv 14 0 3\nv 14 4 3\nf 5 6 7\n";
+  write_bytes(folder / "b.obj", square(0.25) + far);
+  const auto compare = [&folder](const std::string& box) {
+    return run_program(folder, {"compare", folder / "a.obj", folder / "b.obj", "--box", box,
+                                "--report", folder / "r.json"});
+  };
+  EXPECT_EQ(compare("-1,-1,-1,5,5,5").status, 0);
+  const auto report = nlohmann::json::parse(read_bytes(folder / "r.json"));
+  EXPECT_EQ(report["surface_to_reference"]["vertices"], 4);
+  EXPECT_NEAR(report["surface_to_reference"]["by_area"]["max"], 0.25, 1e-12);
+  EXPECT_EQ(report["box"], nlohmann::json({-1, -1, -1, 5, 5, 5}));
+  EXPECT_FAILS(compare("0,0,0,0,1,1"), 2, "--box");
+  EXPECT_FAILS(compare("20,20,20,21,21,21"), 3, "inside the box");
+}
+
 TEST(CompareCommand, HistogramCountsEveryPoint) {
   const TempFolder folder;
   write_bytes(folder / "a.obj", square(0));
