@@ -17,7 +17,7 @@
 #include "mesamis/fem/grid_space.h"
 #include "mesamis/fem/mesh_space.h"
 #include "mesamis/fem/transfer.h"
-#include "mesamis/image/edge_sides.h"
+#include "mesamis/image/scan_quality.h"
 #include "mesamis/mesh/gradation.h"
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/prepare.h"
@@ -310,16 +310,16 @@ class Run {
     result_.seconds.surface = watch.lap();
   }
 
-  /// Midway between the two sides of the surface itself, measured in the unclamped image.
+  /// Where the edges along the surface itself are steepest, in the image without T.
   void refine_level() {
     // Caps at the box are no edges of the image.
     const TriMesh surface = extract_solid(mesh_, fields_.u, to_grey_level(result_.level_native),
                                           {.close_at_box = false});
     const auto points = points_by_area(surface, result_.unit_mm);
-    const auto sides = measure_sides(native_, native_, points, result_.level_native);
+    const auto level = measure_level(native_, points);
     const double lowest =
         result_.threshold_used ? result_.grey.threshold : std::numeric_limits<double>::lowest();
-    if (sides && sides->middle() > lowest) result_.level_native = sides->middle();
+    if (level && *level > lowest) result_.level_native = *level;
   }
 
   /// From length units in the grid's axes to mm in the world frame.

@@ -236,6 +236,32 @@ std::array<double, 3> measure_blur(const Volume& volume, const std::vector<Surfa
   return blur;
 }
 
+std::optional<double> measure_level(const Volume& volume, const std::vector<SurfacePoint>& points) {
+  constexpr int kReach = 4;  // samples: a voxel
+  std::vector<const SurfacePoint*> all;
+  for (const SurfacePoint& point : points) {
+    if (norm(point.normal) > 0) all.push_back(&point);
+  }
+  if (all.size() < kFewProfiles) return std::nullopt;
+  const Profile profile = median_profile(volume, all);
+  const auto slope = [&profile](int n) {
+    const auto at = static_cast<std::size_t>(kProfileHalf + n);
+    return profile[at + 1] - profile[at - 1];
+  };
+  int steepest = 0;
+  for (int n = -kReach; n <= kReach; ++n) {
+    if (slope(n) > slope(steepest)) steepest = n;
+  }
+  const double before = slope(steepest - 1), here = slope(steepest), after = slope(steepest + 1);
+  if (!(here > 0)) return std::nullopt;
+  // The vertex of the parabola through three slopes, and the profile there.
+  const double bend = before - 2 * here + after;
+  const double shift = bend < 0 ? std::clamp((before - after) / (2 * bend), -1.0, 1.0) : 0;
+  const auto at = static_cast<std::size_t>(kProfileHalf + steepest);
+  const double next = shift < 0 ? profile[at - 1] : profile[at + 1];
+  return profile[at] + std::abs(shift) * (next - profile[at]);
+}
+
 std::size_t remove_impulses(Volume& volume, double difference) {
   const auto layers = static_cast<std::size_t>(volume.size[2]);
   std::vector<std::vector<std::pair<std::size_t, float>>> found(layers);

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "mesamis/image/edge_sides.h"
 #include "mesamis/image/volume.h"
@@ -35,6 +37,14 @@ double measure_noise(const Volume& volume, const Volume& guide,
 /// @return zeros if there are fewer than a hundred points.
 std::array<double, 3> measure_blur(const Volume& volume, const std::vector<SurfacePoint>& points,
                                    double noise);
+
+/// The value where an edge is steepest: that of the median profile along the normals of the points,
+/// as above, where it rises most within a voxel of them. In an image without blur this is the
+/// middle of the edge whatever lies behind it; midway between the two sides is not, where a thin
+/// shell or a narrow gap leaves no room for a side.
+/// @param points  near the edge; a surface at a level that is not far off.
+/// @return nothing if there are fewer than a hundred points, or the profile does not rise.
+std::optional<double> measure_level(const Volume& volume, const std::vector<SurfacePoint>& points);
 
 /// Replaces impulses (salt and pepper, dead detector elements) by the median of their neighbours. A
 /// voxel is one if fewer than two of its 26 neighbours are within `difference` of it: even a line
