@@ -3,8 +3,8 @@
 
 #include "mesamis/io/surface_files.h"
 
-#if __has_include(<vtkVersion.h>) || __has_include(<gdcmReader.h>)
-#error "VTK and GDCM are the library's own affair"
+#if __has_include(<vtkVersion.h>) || __has_include(<gdcmReader.h>) || __has_include(<itkImage.h>)
+#error "VTK, GDCM and ITK are the library's own affair"
 #endif
 
 int main() {

@@ -2,6 +2,7 @@
 set(ROOM_HEADERS
   atomic_file.h
   gcode.h
+  geodesic_contour.h
   isosurface.h
   mesh_files.h
   picture.h
@@ -49,6 +50,10 @@ set(ROOM_SOURCES
   medit_files.cpp
   mesh_files.cpp
   surface_files.cpp
+  # A contour to compare with, by ITK; one of the two beside it is compiled.
+  geodesic_contour.cpp
+  detail/itk_absent.cpp
+  detail/itk_level_set.cpp
   # What slicers write.
   gcode.cpp
   # Pictures.
