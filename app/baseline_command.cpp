@@ -3,13 +3,19 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 
+#include "arguments.h"
 #include "commands.h"
 #include "json_file.h"
+#include "log.h"
+#include "mesamis/base/stopwatch.h"
 #include "mesamis/image/edge_sides.h"
+#include "mesamis/io/geodesic_contour.h"
 #include "mesamis/io/isosurface.h"
 #include "mesamis/io/surface_files.h"
 #include "outputs.h"
+#include "progress.h"
 #include "report.h"
 #include "scan.h"
 
@@ -17,57 +23,203 @@ namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::ordered_json;
 
 struct BaselineCommand {
   fs::path input, output, report;
   std::string method = "isosurface", series;
   std::optional<double> level;
-  IsosurfaceOptions options;
+  std::optional<double> smooth;
+  IsosurfaceOptions isosurface;
+  GeodesicOptions geodesic;
+  std::vector<const CLI::Option*> geodesic_only;
+
+  bool is_geodesic() const { return method == "geodesic"; }
+  double smoothing() const {
+    return smooth.value_or(is_geodesic() ? geodesic.smooth_voxels : isosurface.smooth_voxels);
+  }
 };
 
-int run_baseline(const BaselineCommand& command) {
+struct Baseline {
+  double level = 0;  // native units
+  TriMesh surface;
+  SurfaceCheck check;
+  std::optional<GeodesicReport> contour;
+  double seconds = 0;  // of the method, from voxels to triangles
+};
+
+GeodesicOptions geodesic_options(const BaselineCommand& command) {
+  GeodesicOptions options = command.geodesic;
+  options.smooth_voxels = command.smoothing();
+  return options;
+}
+
+/// Refuses what is wrong with the command line before any work is done.
+void require_all(const BaselineCommand& command) {
   require_output(command.output, written_surface_formats(), "--output");
-  const VolumeFile file = read_scan(command.input, command.series);
-  const double level = command.level ? *command.level : find_object(file.volume).level;
-  const TriMesh surface = isosurface(file.volume, level, command.options);
-  write_surface(command.output, surface);
-  const SurfaceCheck check = check_surface(surface);
-  if (!command.report.empty()) {
-    nlohmann::ordered_json report;
-    report["program"] = program_json();
-    report["input"] = {{"path", command.input.string()}};
-    report["settings"] = {{"method", command.method},
-                          {"level", level},
-                          {"smooth", command.options.smooth_voxels},
-                          {"triangles", command.options.triangles},
-                          {"close", command.options.close_at_box}};
-    report["surface"] = check_json(surface, check);
-    add_costs(report);
-    write_json(command.report, report);
+  if (!command.report.empty()) require_output(command.report, {".json"}, "--report");
+  if (command.is_geodesic() && !has_geodesic_contour()) {
+    throw CLI::ValidationError(
+        "--method geodesic: not in this program, which was built without ITK");
   }
-  std::cout << surface.triangles.size() << " triangles at level " << level << "\n";
-  return kExitDone;
+  for (const CLI::Option* option : command.geodesic_only) {
+    if (command.is_geodesic() || option->count() == 0) continue;
+    throw CLI::ValidationError(option->get_name() + " is for --method geodesic");
+  }
+  if (command.is_geodesic()) as_usage([&command] { require_valid(geodesic_options(command)); });
+}
+
+/// The scan's surface at the level, or where the contour that starts there stops.
+void make_surface(const Volume& volume, const BaselineCommand& command, const Progress& progress,
+                  Baseline& made) {
+  IsosurfaceOptions options = command.isosurface;
+  if (!command.is_geodesic()) {
+    options.smooth_voxels = command.smoothing();
+    made.surface = isosurface(volume, made.level, options);
+    return;
+  }
+  const GeodesicContour contour =
+      geodesic_contour(volume, made.level, geodesic_options(command), progress);
+  made.contour = contour.report;
+  made.surface = isosurface(contour.level_set, 0, options);
+}
+
+Baseline make_baseline(const Volume& volume, const BaselineCommand& command, bool quiet) {
+  ProgressDisplay display(quiet);
+  Stopwatch watch;
+  Baseline made;
+  made.level = command.level ? *command.level : find_object(volume).level;
+  make_surface(volume, command, display.callback(), made);
+  made.seconds = watch.lap();
+  made.check = check_surface(made.surface);
+  return made;
+}
+
+/// With the values used, so that a run can be repeated from its report.
+ordered_json settings_json(const BaselineCommand& command, const Baseline& made) {
+  ordered_json json{{"method", command.method},
+                    {"level", made.level},
+                    {"smooth", command.smoothing()},
+                    {"triangles", command.isosurface.triangles},
+                    {"close", command.isosurface.close_at_box}};
+  if (!made.contour) return json;
+  const GeodesicOptions& g = command.geodesic;
+  json.update({{"diffusions", g.diffusions},
+               {"conductance", g.conductance},
+               {"sigma", g.sigma},
+               {"alpha", made.contour->alpha},
+               {"beta", made.contour->beta},
+               {"shrink", g.shrink},
+               {"propagation", g.propagation},
+               {"curvature", g.curvature},
+               {"advection", g.advection},
+               {"iterations", g.iterations},
+               {"rms_change", g.rms_change}});
+  return json;
+}
+
+/// Names of the settings that were left to the program.
+ordered_json chosen(const BaselineCommand& command) {
+  ordered_json names = ordered_json::array();
+  if (!command.level) names.push_back("level");
+  if (command.is_geodesic() && !command.geodesic.alpha) names.push_back("alpha");
+  if (command.is_geodesic() && !command.geodesic.beta) names.push_back("beta");
+  return names;
+}
+
+void write_report(const BaselineCommand& command, const Baseline& made) {
+  ordered_json report;
+  report["program"] = program_json();
+  report["input"] = {{"path", command.input.string()}};
+  report["settings"] = settings_json(command, made);
+  report["chosen"] = chosen(command);
+  if (made.contour) {
+    report["contour"] = {{"edge_gradient", made.contour->edge_gradient},
+                         {"flat_gradient", made.contour->flat_gradient},
+                         {"iterations", made.contour->iterations},
+                         {"rms_change", made.contour->rms_change}};
+  }
+  report["surface"] = check_json(made.surface, made.check);
+  report["converged"] = !made.contour || made.contour->converged;
+  report["seconds_parts"] = {{"method", made.seconds}};
+  add_costs(report);
+  write_json(command.report, report);
+}
+
+std::string why_not_converged(const GeodesicReport& contour, const GeodesicOptions& options) {
+  std::ostringstream line;
+  line << "not converged: after " << contour.iterations << " iterations the contour moved by "
+       << contour.rms_change << " voxels in the last 20, expected less than " << options.rms_change;
+  return line.str();
+}
+
+int run_baseline(const BaselineCommand& command, const CommonOptions& common) {
+  require_all(command);
+  const VolumeFile file = read_scan(command.input, command.series);
+  const Baseline made = make_baseline(file.volume, command, common.quiet);
+  write_surface(command.output, made.surface);
+  if (!command.report.empty()) write_report(command, made);
+  std::cout << made.surface.triangles.size() << " triangles ";
+  if (made.contour)
+    std::cout << "after " << made.contour->iterations << " iterations from ";
+  else
+    std::cout << "at ";
+  std::cout << "level " << made.level << "\n";
+  if (!made.contour || made.contour->converged) return kExitDone;
+  log_error(why_not_converged(*made.contour, command.geodesic));
+  return kExitNotConverged;
+}
+
+template <class Value>
+void add_geodesic(CLI::App& sub, BaselineCommand& command, const std::string& flag, Value& value,
+                  const std::string& help) {
+  CLI::Option* option = sub.add_option(flag, value, help)->group("Geodesic");
+  command.geodesic_only.push_back(option);
+}
+
+void add_geodesic_options(CLI::App& sub, BaselineCommand& c) {
+  GeodesicOptions& g = c.geodesic;
+  add_geodesic(sub, c, "--diffusions", g.diffusions,
+               "Steps of anisotropic diffusion after --smooth (default 0)");
+  add_geodesic(sub, c, "--conductance", g.conductance, "Of the diffusion (default 1)");
+  add_geodesic(sub, c, "--sigma", g.sigma, "Of the gradient's Gaussian, voxels (default 0.7)");
+  add_geodesic(sub, c, "--alpha", g.alpha,
+               "Width of the gradient's sigmoid, native per mm, below 0 (default: chosen)");
+  add_geodesic(sub, c, "--beta", g.beta, "Its middle, native per mm (default: chosen)");
+  add_geodesic(sub, c, "--shrink", g.shrink,
+               "The contour starts so far inside the level's surface, voxels (default 0)");
+  add_geodesic(sub, c, "--propagation", g.propagation, "Weight of growth (default 0.05)");
+  add_geodesic(sub, c, "--curvature", g.curvature, "Weight of straightening (default 0.05)");
+  add_geodesic(sub, c, "--advection", g.advection, "Weight of the pull towards edges (default 1)");
+  add_geodesic(sub, c, "--iterations", g.iterations, "At most (default 1000)");
+  add_geodesic(sub, c, "--rms-change", g.rms_change,
+               "At rest: 20 iterations move the contour less, rms, voxels (default 0.03)");
 }
 
 }  // namespace
 
-void add_baseline_command(CLI::App& app, CommonOptions&, Action& action) {
+void add_baseline_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto command = std::make_shared<BaselineCommand>();
-  CLI::App* sub = app.add_subcommand("baseline", "What is used today: an isosurface of the voxels");
+  CLI::App* sub = app.add_subcommand(
+      "baseline", "What is used today: an isosurface of the voxels, or a geodesic active contour");
   sub->add_option("input", command->input, "Volume file, DICOM directory or file")->required();
   sub->add_option("-o,--output", command->output, listed("Surface:", written_surface_formats()))
       ->required();
-  sub->add_option("--method", command->method, "isosurface")
-      ->check(CLI::IsMember({"isosurface"}))
+  sub->add_option("--method", command->method, "isosurface, or geodesic (ITK's)")
+      ->check(CLI::IsMember({"isosurface", "geodesic"}))
       ->capture_default_str();
   sub->add_option("--level", command->level, "Native value (default: midway, as for segment)");
-  sub->add_option("--smooth", command->options.smooth_voxels, "Gaussian first, sigma in voxels");
-  sub->add_option("--triangles", command->options.triangles, "Decimate to this many triangles");
-  sub->add_flag("--close", command->options.close_at_box,
+  sub->add_option("--smooth", command->smooth,
+                  "Gaussian first, sigma in voxels (default 0; geodesic: 0.5)");
+  sub->add_option("--triangles", command->isosurface.triangles, "Decimate to this many triangles");
+  sub->add_flag("--close", command->isosurface.close_at_box,
                 "Caps where the object leaves the volume");
+  add_geodesic_options(*sub, *command);
   sub->add_option("--series", command->series, "DICOM series UID");
   sub->add_option("--report", command->report, "Report: .json");
-  sub->callback([command, &action] { action = [command] { return run_baseline(*command); }; });
+  sub->callback([command, &common, &action] {
+    action = [command, &common] { return run_baseline(*command, common); };
+  });
 }
 
 }  // namespace mesamis
