@@ -76,7 +76,7 @@ double number(const json& run, const char* place) {
 TEST(StudyCommand, TablesSayWhatCompareSaysOfTheSurfacesLeftBehind) {
   const TempFolder folder;
   make_ball(folder);
-  const ProgramRun run = study(folder, {"--subsample", "1,2", "--adaptations", "2"});
+  const ProgramRun run = study(folder, {"--subsample", "1,2", "--adaptations", "6"});
   EXPECT_THAT(run.status, testing::AnyOf(0, 4)) << run.err;
   const json runs = report_of(folder)["subsampling"]["runs"];
   const auto rows = read_csv(folder / "out/runs.csv");

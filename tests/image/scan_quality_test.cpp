@@ -65,6 +65,30 @@ TEST(MeasureBlur, IsNothingWithoutPoints) {
   EXPECT_EQ(measure_blur(scan_of("sphere", {}), {}, 0), (std::array<double, 3>{}));
 }
 
+TEST(MeasureLevel, IsMidwayThoughAThinShellLeavesNoRoomForItsSide) {
+  // 120, then a shell of 230 that is a voxel and a half thick, then 200; hardly blurred.
+  const Vec3 normal = (1 / norm(Vec3{1, 0.3, 0.2})) * Vec3{1, 0.3, 0.2};
+  const auto depth = [&normal](const Vec3& p) { return dot(normal, p) - 18; };
+  const auto step = [](double t) { return 0.5 * std::erfc(-t / (0.5 * std::sqrt(2))); };
+  const Volume scan = sampled_volume({30, 30, 30}, {1, 1, 1}, [&](const Vec3& p) {
+    return 120 + 110 * step(depth(p)) - 30 * step(depth(p) - 1.5);
+  });
+  std::vector<SurfacePoint> points;
+  for (double y = 8; y < 20; y += 0.37) {
+    for (double z = 8; z < 20; z += 0.41) {
+      const Vec3 seen{10, y, z};
+      points.push_back({seen - (depth(seen) - 0.3) * normal, -1.0 * normal});  // 0.3 too deep
+    }
+  }
+  const auto level = measure_level(scan, points);
+  ASSERT_TRUE(level);
+  EXPECT_NEAR(*level, kLevel, 4);
+  const auto sides = measure_sides(scan, scan, points, kLevel);
+  ASSERT_TRUE(sides);
+  EXPECT_LT(sides->middle(), kLevel - 5);
+  EXPECT_FALSE(measure_level(scan, {}));
+}
+
 TEST(RemoveImpulses, FindsThemAndKeepsALineOneVoxelThin) {
   Volume volume = sampled_volume({12, 12, 12}, {1, 1, 1}, [](const Vec3& p) {
     return p.x == 4 && p.y == 5 ? 100 : 10 + 0.1 * p.y;
