@@ -90,7 +90,7 @@ std::vector<double> rise(const Profile& profile, int direction) {
   std::vector<double> heights;
   double highest = 0;
   for (int n = 1; n <= kProfileHalf; ++n) {
-    const auto at = static_cast<std::size_t>(kProfileHalf + direction * n);
+    const auto at = static_cast<std::size_t>(std::ptrdiff_t{kProfileHalf} + direction * n);
     const double height = direction * (profile[at] - profile[kProfileHalf]);
     if (height < highest) break;
     heights.push_back(highest = height);
@@ -123,14 +123,16 @@ Edge fit_edge(const std::vector<double>& heights) {
   return best;
 }
 
-/// The sharper of the two sides: what comes after the edge (the next tissue, the far side of a
-/// wall) widens one of them.
+/// The sharper of the two sides, for what comes after the edge (the next tissue) widens one of
+/// them; of those that rise for two voxels, if there are any, for the far side of a wall cuts one
+/// short.
 Edge sharper_edge(const Profile& profile) {
-  constexpr std::size_t kFewest = 4;  // a voxel
+  constexpr std::size_t kWhole = 8, kFewest = 4;  // samples: two voxels, one
+  const std::array<std::vector<double>, 2> sides{rise(profile, -1), rise(profile, 1)};
+  const std::size_t longest = std::max(sides[0].size(), sides[1].size());
   Edge best;
-  for (const int direction : {-1, 1}) {
-    const auto heights = rise(profile, direction);
-    if (heights.size() < kFewest) continue;
+  for (const auto& heights : sides) {
+    if (heights.size() < (longest < kWhole ? kFewest : kWhole)) continue;
     const Edge edge = fit_edge(heights);
     if (best.sigma == 0 || edge.sigma < best.sigma) best = edge;
   }
@@ -245,7 +247,7 @@ std::optional<double> measure_level(const Volume& volume, const std::vector<Surf
   if (all.size() < kFewProfiles) return std::nullopt;
   const Profile profile = median_profile(volume, all);
   const auto slope = [&profile](int n) {
-    const auto at = static_cast<std::size_t>(kProfileHalf + n);
+    const auto at = static_cast<std::size_t>(std::ptrdiff_t{kProfileHalf} + n);
     return profile[at + 1] - profile[at - 1];
   };
   int steepest = 0;
@@ -257,7 +259,7 @@ std::optional<double> measure_level(const Volume& volume, const std::vector<Surf
   // The vertex of the parabola through three slopes, and the profile there.
   const double bend = before - 2 * here + after;
   const double shift = bend < 0 ? std::clamp((before - after) / (2 * bend), -1.0, 1.0) : 0;
-  const auto at = static_cast<std::size_t>(kProfileHalf + steepest);
+  const auto at = static_cast<std::size_t>(std::ptrdiff_t{kProfileHalf} + steepest);
   const double next = shift < 0 ? profile[at - 1] : profile[at + 1];
   return profile[at] + std::abs(shift) * (next - profile[at]);
 }
