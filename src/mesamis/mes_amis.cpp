@@ -310,16 +310,19 @@ class Run {
     result_.seconds.surface = watch.lap();
   }
 
-  /// Where the edges along the surface itself are steepest, in the image without T.
+  /// Measured along the surface itself, in the image without T.
   void refine_level() {
     // Caps at the box are no edges of the image.
     const TriMesh surface = extract_solid(mesh_, fields_.u, to_grey_level(result_.level_native),
                                           {.close_at_box = false});
     const auto points = points_by_area(surface, result_.unit_mm);
-    const auto level = measure_level(native_, points);
-    const double lowest =
-        result_.threshold_used ? result_.grey.threshold : std::numeric_limits<double>::lowest();
-    if (level && *level > lowest) result_.level_native = *level;
+    const auto steepest = measure_level(native_, points);
+    const auto sides = measure_sides(native_, native_, points, result_.level_native);
+    if (!steepest || !sides) return;
+    // The first is a little high where the surface is much bent (what deblurring overshoots piles
+    // up inside), the second low where a shell is thin: half way between them.
+    const double level = (*steepest + sides->middle()) / 2;
+    if (!result_.threshold_used || level > result_.grey.threshold) result_.level_native = level;
   }
 
   /// From length units in the grid's axes to mm in the world frame.

@@ -102,7 +102,7 @@ Prepared prepare_image(const Volume& volume, const Settings& settings) {
   prepared.level_native = chosen.level.value_or(object.level);
   if (!chosen.max_tets) chosen.max_tets = default_max_tets(object.crossings);
   prepared.map = {chosen.window->low, chosen.window->high, chosen.window->low};
-  const double found = find_threshold(volume, seen.sides, seen.level, prepared.restored.noise_left);
+  const double found = find_threshold(volume, seen.sides, seen.level, prepared.restored.noise);
   if (const auto t = choose_threshold(chosen, found, prepared.level_native)) {
     prepared.threshold_used = true;
     prepared.map.threshold = chosen.threshold = *t;

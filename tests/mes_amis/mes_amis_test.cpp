@@ -131,6 +131,13 @@ TEST(MesAmis, ClampsSoftTissueInAThreeClassImage) {
   EXPECT_LT(mean_radius_error(result, 0.5 * volume.box().extent(), 7), 0.3);
 }
 
+TEST(MesAmis, NoiseOfOneTissueIsNoSecondOne) {
+  Settings settings = small_run();
+  settings.adaptations = 1;
+  const Result result = mes_amis(make_ball({.size = 40, .noise = 30, .radius = 7}), settings);
+  EXPECT_FALSE(result.threshold_used);
+}
+
 TEST(MesAmis, BandLiesOnBothSidesOfTheEdge) {
   Settings settings = small_run();
   settings.surface = SurfaceKind::kBand;
