@@ -40,12 +40,7 @@ double longest_of(std::span<const Direction> directions) {
 }
 
 void keep_inside(std::vector<Vec3>& points, const Box& box) {
-  std::erase_if(points, [&box](const Vec3& p) {
-    for (int a = 0; a < 3; ++a) {
-      if (!(p[a] >= box.lo[a] && p[a] <= box.hi[a])) return true;
-    }
-    return false;
-  });
+  std::erase_if(points, [&box](const Vec3& p) { return !box.contains(p); });
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ nlohmann::ordered_json check_json(const TriMesh& surface, const SurfaceCheck& ch
 /// Settings with the values used, so that a run can be repeated from its report.
 Settings settings_used(const Result& result);
 
-/// What a report says of a run itself: settings, chosen, grey, iterations, mesh, surface,
+/// What a report says of a run itself: settings, chosen, grey, image, iterations, mesh, surface,
 /// converged, seconds_parts.
 /// @param settings  those asked for, to tell what was chosen automatically.
 nlohmann::ordered_json run_json(const Settings& settings, const Result& result,

@@ -18,10 +18,6 @@ using nlohmann::ordered_json;
 
 constexpr int kInPlane = 2;  // of the paper: 102 x 122 of 204 x 244 pixels
 
-bool is_whole(const CropRange& range) {
-  return range.begin == CropRange{}.begin && range.end == CropRange{}.end;
-}
-
 /// Looks before hours of work whether every run can begin.
 void require_usable_runs(const Experiment& experiment) {
   for (const PlannedRun& plan : experiment.runs) {
@@ -50,7 +46,7 @@ ordered_json summary_json(const Volume& volume, const Result& result) {
 
 Experiment subsampling_experiment(const Volume& scan, const Settings& settings,
                                   const std::vector<int>& s) {
-  const bool cut = !is_whole(settings.crop);
+  const bool cut = settings.crop != CropRange{};
   Experiment experiment{"subsampling", "",       cut ? crop(scan, settings.crop) : scan,
                         cut,           settings, {}};
   experiment.settings.crop = {};
@@ -83,14 +79,10 @@ StudyRun begun(const PlannedRun& plan) {
 }
 
 TriMesh part_inside(const TriMesh& surface, const Volume& volume, const Vec3& margin) {
-  const Vec3 hi = volume.box().hi;
+  const Box box{margin, volume.box().hi - margin};
   std::vector<bool> inside(surface.points.size());
   for (std::size_t i = 0; i < inside.size(); ++i) {
-    const Vec3 p = volume.to_grid(surface.points[i]);
-    inside[i] = true;
-    for (int a = 0; a < 3; ++a) {
-      inside[i] = inside[i] && p[a] >= margin[a] && p[a] <= hi[a] - margin[a];
-    }
+    inside[i] = box.contains(volume.to_grid(surface.points[i]));
   }
   TriMesh part{surface.points, {}};
   for (const Triangle& t : surface.triangles) {

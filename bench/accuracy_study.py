@@ -14,33 +14,16 @@ reports in FOLDER and prints the tables of docs/accuracy.md. What is there alrea
 `mesamis` is the one in build/release, or that of the variable MESAMIS.
 """
 import argparse
-import json
-import os
 import pathlib
-import subprocess
-import sys
 
-MESAMIS = os.environ.get("MESAMIS", str(pathlib.Path(__file__).parent / "../build/release/mesamis"))
+from mesamis_runs import once
+
 CASES = ",".join(f"{phantom}:{fault}" for phantom in ("fracture", "hemipelvis")
                  for fault in ("4", "15", "30", "sp", "speckle"))
 FAULTS = {"sp": ["--salt-pepper", "0.02"], "speckle": ["--speckle", "0.1"]}
 WIDTHS = (0, 0.5, 0.7, 0.9, 1.1, 1.4)  # voxels
 LEVEL = 175  # midway between bone and its surroundings
 GAPS = {"fracture": "26,23,26,47,41,38", "hemipelvis": "121,108,172,139,126,270"}
-
-
-def run(*arguments):
-    """Runs mesamis; ends with its message where it fails."""
-    done = subprocess.run([MESAMIS, *map(str, arguments)], capture_output=True, text=True)
-    if done.returncode not in (0, 4):
-        sys.exit(f"{' '.join(map(str, arguments))}: {done.stderr.strip()}")
-
-
-def once(report, *arguments):
-    """The report of a run, made only if it is not there."""
-    if not report.exists():
-        run(*arguments, "--report", report)
-    return json.loads(report.read_text())
 
 
 def distances(folder, truth, surface, box=None):

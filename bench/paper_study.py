@@ -10,12 +10,12 @@ there already is not made again. `mesamis` is the one in build/release, or that 
 """
 import argparse
 import json
-import os
 import pathlib
 import subprocess
 import sys
 
-MESAMIS = os.environ.get("MESAMIS", str(pathlib.Path(__file__).parent / "../build/release/mesamis"))
+from mesamis_runs import MESAMIS
+
 PHANTOM = {
     "whole": ["--subsample", "1,2,4,6,8,10,12", "--stride", "2,2,1", "--level", "175"],
     "region": ["--region", ":,:,225:263", "--region-subsample", "1,2,4", "--level", "175"],

@@ -9,28 +9,11 @@ is not made again. Distances are means by area in mm, from the full marching cub
 printed and back. `mesamis` is the one in build/release, or that of the variable MESAMIS.
 """
 import argparse
-import json
-import os
 import pathlib
-import subprocess
-import sys
 
-MESAMIS = os.environ.get("MESAMIS", str(pathlib.Path(__file__).parent / "../build/release/mesamis"))
+from mesamis_runs import once
+
 BED = "500,500,500"  # large enough for any part of a patient
-
-
-def run(*arguments):
-    """Runs mesamis; ends with its message where it fails."""
-    done = subprocess.run([MESAMIS, *map(str, arguments)], capture_output=True, text=True)
-    if done.returncode not in (0, 4):
-        sys.exit(f"{' '.join(map(str, arguments))}: {done.stderr.strip()}")
-
-
-def once(report, *arguments):
-    """The report of a run, made only if it is not there."""
-    if not report.exists():
-        run(*arguments, "--report", report)
-    return json.loads(report.read_text())
 
 
 def slicings(surface, folder, slicers):

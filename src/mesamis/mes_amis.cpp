@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <string>
 
 #include "mesamis/adapt/estimator.h"
@@ -17,6 +15,7 @@
 #include "mesamis/fem/grid_space.h"
 #include "mesamis/fem/mesh_space.h"
 #include "mesamis/fem/transfer.h"
+#include "mesamis/image/edge_sides.h"
 #include "mesamis/image/scan_quality.h"
 #include "mesamis/mesh/gradation.h"
 #include "mesamis/mesh/metric_field.h"
@@ -25,6 +24,7 @@
 #include "mesamis/remesh/remesh.h"
 #include "mesamis/surface/beneath.h"
 #include "mesamis/surface/extract.h"
+#include "mesamis/surface/measure.h"
 
 namespace mesamis {
 namespace {
@@ -64,21 +64,18 @@ void measure_aspects(const TetMesh& mesh, Iteration& iteration) {
 /// About as many points as triangles, evenly by area: small triangles crowd where the surface is
 /// bent, and such places are not to decide for the others.
 std::vector<SurfacePoint> points_by_area(const TriMesh& surface, double unit_mm) {
-  std::vector<double> areas;
-  for (const Triangle& t : surface.triangles) {
-    const Vec3& a = surface.points[t[0]];
-    areas.push_back(norm(cross(surface.points[t[1]] - a, surface.points[t[2]] - a)) / 2);
-  }
-  const double share =
-      std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
+  const std::size_t count = surface.triangles.size();
+  double total = 0;
+  for (std::size_t n = 0; n < count; ++n) total += triangle_area(surface, n);
+  const double share = total / static_cast<double>(count);
   std::vector<SurfacePoint> points;
   double gone = 0;
-  for (std::size_t n = 0; n < areas.size(); ++n) {
-    const Triangle& t = surface.triangles[n];
-    const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
-    for (gone += areas[n]; gone >= share; gone -= share) {
-      const Vec3 normal = cross(b - a, c - a);
-      points.push_back({(unit_mm / 3) * (a + b + c), (1 / norm(normal)) * normal});
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto& [a, b, c] = surface.triangles[n];
+    for (gone += triangle_area(surface, n); gone >= share; gone -= share) {
+      const Vec3 normal = area_vector(surface, n);
+      points.push_back({(unit_mm / 3) * (surface.points[a] + surface.points[b] + surface.points[c]),
+                        (1 / norm(normal)) * normal});
     }
   }
   return points;
@@ -404,9 +401,8 @@ Result mes_amis(const Volume& volume, const Settings& settings, const Progress& 
   require_valid(settings);
   require_usable(volume);
   const CropRange& range = settings.crop;
-  const bool whole = range.begin == CropRange{}.begin && range.end == CropRange{}.end;
-  Result result = whole ? Run(volume, settings, progress).execute()
-                        : Run(crop(volume, range), settings, progress).execute();
+  Result result = range == CropRange{} ? Run(volume, settings, progress).execute()
+                                       : Run(crop(volume, range), settings, progress).execute();
   result.seconds.total = watch.lap();
   return result;
 }

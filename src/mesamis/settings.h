@@ -67,7 +67,8 @@ struct Settings {
 
   // The surface.
   SurfaceKind surface = SurfaceKind::kSolid;
-  std::optional<double> level;  ///< native units; default: midway, see find_object()
+  /// Native units; default: that of find_object(), measured once more along the surface itself.
+  std::optional<double> level;
   double band_threshold = 0.1;  ///< TOLth, 0 to 1
   // The solid's parts, see PartSelection.
   /// mm^3, >= 0: smaller islands go, smaller cavities are filled; default: kDefaultMinVolume

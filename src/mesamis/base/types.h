@@ -92,6 +92,10 @@ struct Box {
     const Vec3 e = extent();
     return e.x * e.y * e.z;
   }
+  /// Faces included; false for what is not a number.
+  bool contains(const Vec3& p) const {
+    return p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y && p.z >= lo.z && p.z <= hi.z;
+  }
   friend bool operator==(const Box&, const Box&) = default;
 };
 

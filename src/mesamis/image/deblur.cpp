@@ -56,7 +56,7 @@ std::size_t mirrored(std::ptrdiff_t n, std::size_t count) {
   return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(n, 0, last));
 }
 
-/// next = a x + b Lambda x - next, where Lambda is the weighted sum of (negative) fourth-order
+/// next = a x + b Lambda x + c next, where Lambda is the weighted sum of (negative) fourth-order
 /// second differences.
 class Recurrence {
  public:

@@ -25,23 +25,6 @@ double voxel_step(const Volume& volume, const Vec3& d) {
   return 1 / norm({d.x / s.x, d.y / s.y, d.z / s.z});
 }
 
-/// The value at the end of a ray of one and a half voxels, if the guide keeps to its side of the
-/// level on the way.
-std::optional<double> look_along(const Volume& volume, const Volume& guide, const Vec3& from,
-                                 const Vec3& direction, double level, bool above) {
-  const double step = voxel_step(volume, direction);
-  const Box box = volume.box();
-  Vec3 p;
-  for (const double voxels : {0.75, 1.5}) {
-    p = from + voxels * step * direction;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (p[axis] < box.lo[axis] || p[axis] > box.hi[axis]) return std::nullopt;
-    }
-    if ((interpolate(guide, p) > level) != above) return std::nullopt;
-  }
-  return interpolate(volume, p);
-}
-
 Vec3 gradient_at(const Volume& volume, Index i, Index j, Index k) {
   const std::array<Index, 3> at{i, j, k};
   Vec3 g;
@@ -165,16 +148,30 @@ ObjectEdges find_anywhere(const Volume& volume, const Volume& calm) {
 
 }  // namespace
 
+std::optional<Vec3> place_beside(const Volume& guide, const SurfacePoint& point, double voxels,
+                                 double level) {
+  const double step = std::copysign(voxel_step(guide, point.normal), voxels);
+  const Box box = guide.box();
+  Vec3 p;
+  for (const double gone : {0.75, 1.5, 2.5}) {
+    if (gone > std::abs(voxels)) break;
+    p = point.position + gone * step * point.normal;
+    if (!box.contains(p) || (interpolate(guide, p) > level) != (voxels < 0)) return std::nullopt;
+  }
+  return p;
+}
+
 std::optional<EdgeSides> measure_sides(const Volume& volume, const Volume& guide,
                                        const std::vector<SurfacePoint>& points, double level) {
+  constexpr double kOff = 1.5;  // voxels
   std::vector<double> inside, outside;
   for (const SurfacePoint& point : points) {
     if (norm(point.normal) == 0) continue;
-    if (const auto value = look_along(volume, guide, point.position, -point.normal, level, true)) {
-      inside.push_back(*value);
+    if (const auto place = place_beside(guide, point, -kOff, level)) {
+      inside.push_back(interpolate(volume, *place));
     }
-    if (const auto value = look_along(volume, guide, point.position, point.normal, level, false)) {
-      outside.push_back(*value);
+    if (const auto place = place_beside(guide, point, kOff, level)) {
+      outside.push_back(interpolate(volume, *place));
     }
   }
   if (inside.size() < kFewPoints || outside.size() < kFewPoints) return std::nullopt;

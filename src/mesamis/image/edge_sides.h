@@ -23,6 +23,13 @@ struct EdgeSides {
   double contrast() const { return inside - outside; }
 };
 
+/// The place so many voxels off an edge's point along its normal, outwards, or inwards if negative.
+/// @param guide   what is asked on the way: it must stay on that side of the level.
+/// @param voxels  up to 2.5.
+/// @return nothing if the guide does not, or its box ends before.
+std::optional<Vec3> place_beside(const Volume& guide, const SurfacePoint& point, double voxels,
+                                 double level);
+
 /// Medians of the image one and a half voxels outside and inside of the points: beyond most of
 /// the blur, not yet in the next tissue. What blur is left pulls both sides alike. A point counts
 /// on a side only if the guide stays on that side of the level up to there, so that thin walls,
@@ -46,10 +53,10 @@ struct ObjectEdges {
 };
 
 struct FindObjectOptions {
-  std::optional<double> count_at =
-      std::nullopt;  ///< level whose crossings are counted; default: the one found
-  std::optional<double> start =
-      std::nullopt;  ///< level to settle from; default: as described below
+  /// Level whose crossings are counted; default: the one found.
+  std::optional<double> count_at = std::nullopt;
+  /// Level to settle from; default: as described below.
+  std::optional<double> start = std::nullopt;
 };
 
 /// Finds the bright object: CT from its crossings of 200 HU (bone), other images from Otsu's

@@ -24,22 +24,15 @@ constexpr double kFewImpulses = 1e-3;
 /// What is sharper than this has nothing to undo but the voxels' own extent.
 constexpr double kSharp = 0.3;
 
-double share_of(std::size_t count, const Volume& volume) {
-  return static_cast<double>(count) / static_cast<double>(volume.voxel_count());
-}
-
 double mean_square(const std::array<double, 3>& x) {
   return (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) / 3;
 }
 
-void take_impulses(Restored& restored, double contrast) {
-  Volume clean = restored.volume;
-  const double difference =
-      std::max(kImpulseOfNoise * restored.noise, kImpulseOfContrast * contrast);
-  const double share = share_of(remove_impulses(clean, difference), clean);
-  if (share < kFewImpulses) return;
-  restored.impulses = share;
-  restored.volume = std::move(clean);
+/// The share of the voxels that were replaced.
+double take_impulses(Volume& volume, double noise, double contrast) {
+  const double difference = std::max(kImpulseOfNoise * noise, kImpulseOfContrast * contrast);
+  const std::size_t count = remove_impulses(volume, difference, kFewImpulses);
+  return static_cast<double>(count) / static_cast<double>(volume.voxel_count());
 }
 
 }  // namespace
@@ -49,16 +42,17 @@ Restored restore(Volume volume, const ObjectEdges& object, const RestoreOptions&
                     options.blur.value_or(std::array<double, 3>{}), 0};
   const double contrast = object.sides.contrast();
   if (!(contrast > 0)) return restored;
-  Volume guide = smoothed(restored.volume);
-  auto points = crossing_points(guide, object.level, kMostPoints);
-  if (!options.noise) restored.noise = measure_noise(restored.volume, guide, points, object.level);
-  take_impulses(restored, contrast);
-  if (restored.impulses > 0) {
+  Volume guide;
+  std::vector<SurfacePoint> points;
+  const auto look = [&] {
     guide = smoothed(restored.volume);
     points = crossing_points(guide, object.level, kMostPoints);
-    if (!options.noise)
-      restored.noise = measure_noise(restored.volume, guide, points, object.level);
-  }
+    if (options.noise) return;
+    restored.noise = measure_noise(restored.volume, guide, points, object.level);
+  };
+  look();
+  restored.impulses = take_impulses(restored.volume, restored.noise, contrast);
+  if (restored.impulses > 0) look();
   if (!options.blur) {
     const auto calm_points = crossing_points(smoothed(guide), object.level, kMostPoints);
     restored.blur = measure_blur(restored.volume, calm_points, restored.noise);

@@ -11,9 +11,10 @@ namespace mesamis {
 
 /// What is known of a scan; what is not is measured.
 struct RestoreOptions {
-  std::optional<double> noise = std::nullopt;  ///< native units, >= 0; see measure_noise()
-  std::optional<std::array<double, 3>> blur =
-      std::nullopt;  ///< voxels, 0 to kLargestBlur; see measure_blur()
+  /// Native units, >= 0; see measure_noise().
+  std::optional<double> noise = std::nullopt;
+  /// Voxels, 0 to kLargestBlur; see measure_blur().
+  std::optional<std::array<double, 3>> blur = std::nullopt;
 };
 
 /// The scan with its faults undone, as far as they can be.

@@ -51,25 +51,25 @@ double deviation_at(const Volume& volume, const std::array<Index, 3>& voxel) {
   return std::abs(volume.at(voxel[0], voxel[1], voxel[2]) - sum / 27);
 }
 
-/// Beyond the edge, on the same side of the level all the way.
-std::optional<Vec3> place_beside(const Volume& guide, const SurfacePoint& point, double sign,
-                                 double level) {
-  Vec3 p;
-  for (const double voxels : {0.75, 1.5, 2.5}) {
-    p = point.position + in_mm(guide, sign * voxels * voxel_direction(guide, point.normal));
-    if ((interpolate(guide, p) > level) != (sign < 0)) return std::nullopt;
-  }
-  return p;
-}
-
 // The edge's profile.
 
 constexpr int kProfileHalf = 12;       // samples on either side
 constexpr double kProfileStep = 0.25;  // voxels
 using Profile = std::array<double, 2 * kProfileHalf + 1>;
 
+using PointGroup = std::vector<const SurfacePoint*>;
+
+/// Those that have a normal.
+PointGroup with_normals(const std::vector<SurfacePoint>& points) {
+  PointGroup group;
+  for (const SurfacePoint& point : points) {
+    if (norm(point.normal) > 0) group.push_back(&point);
+  }
+  return group;
+}
+
 /// Medians over the points of the image along their normals, inwards; the surface is in the middle.
-Profile median_profile(const Volume& volume, const std::vector<const SurfacePoint*>& points) {
+Profile median_profile(const Volume& volume, const PointGroup& points) {
   Profile profile;
   parallel_for_each(profile.size(), [&](std::size_t n) {
     const double offset = (static_cast<double>(n) - kProfileHalf) * kProfileStep;
@@ -197,11 +197,11 @@ double measure_noise(const Volume& volume, const Volume& guide,
                      const std::vector<SurfacePoint>& points, double level) {
   const double seen = std::sqrt(26.0 / 27);  // of white noise, its neighbourhood's mean taken off
   std::optional<double> quieter;
-  for (const double sign : {-1.0, 1.0}) {
+  for (const double off : {-2.5, 2.5}) {  // voxels
     std::vector<double> deviations;
     for (const SurfacePoint& point : points) {
       if (norm(point.normal) == 0) continue;
-      const auto place = place_beside(guide, point, sign, level);
+      const auto place = place_beside(guide, point, off, level);
       const auto voxel = place ? voxel_at(volume, *place) : std::nullopt;
       if (voxel) deviations.push_back(deviation_at(volume, *voxel));
     }
@@ -215,14 +215,12 @@ double measure_noise(const Volume& volume, const Volume& guide,
 std::array<double, 3> measure_blur(const Volume& volume, const std::vector<SurfacePoint>& points,
                                    double noise) {
   constexpr double kAlongAxis = 0.9, kMostOfMiddle = 1.5, kMostBlur = 2;
-  std::vector<const SurfacePoint*> all;
-  std::array<std::vector<const SurfacePoint*>, 3> along;
-  for (const SurfacePoint& point : points) {
-    if (norm(point.normal) == 0) continue;
-    all.push_back(&point);
-    const Vec3 d = voxel_direction(volume, point.normal);
+  const PointGroup all = with_normals(points);
+  std::array<PointGroup, 3> along;
+  for (const SurfacePoint* point : all) {
+    const Vec3 d = voxel_direction(volume, point->normal);
     for (int a = 0; a < 3; ++a) {
-      if (std::abs(d[a]) > kAlongAxis) along[static_cast<std::size_t>(a)].push_back(&point);
+      if (std::abs(d[a]) > kAlongAxis) along[static_cast<std::size_t>(a)].push_back(point);
     }
   }
   std::array<double, 3> blur{};
@@ -240,10 +238,7 @@ std::array<double, 3> measure_blur(const Volume& volume, const std::vector<Surfa
 
 std::optional<double> measure_level(const Volume& volume, const std::vector<SurfacePoint>& points) {
   constexpr int kReach = 4;  // samples: a voxel
-  std::vector<const SurfacePoint*> all;
-  for (const SurfacePoint& point : points) {
-    if (norm(point.normal) > 0) all.push_back(&point);
-  }
+  const PointGroup all = with_normals(points);
   if (all.size() < kFewProfiles) return std::nullopt;
   const Profile profile = median_profile(volume, all);
   const auto slope = [&profile](int n) {
@@ -264,7 +259,7 @@ std::optional<double> measure_level(const Volume& volume, const std::vector<Surf
   return profile[at] + std::abs(shift) * (next - profile[at]);
 }
 
-std::size_t remove_impulses(Volume& volume, double difference) {
+std::size_t remove_impulses(Volume& volume, double difference, double least_share) {
   const auto layers = static_cast<std::size_t>(volume.size[2]);
   std::vector<std::vector<std::pair<std::size_t, float>>> found(layers);
   parallel_for_each(layers, [&](std::size_t layer) {
@@ -278,9 +273,11 @@ std::size_t remove_impulses(Volume& volume, double difference) {
     }
   });
   std::size_t count = 0;
+  for (const auto& layer : found) count += layer.size();
+  if (static_cast<double>(count) / static_cast<double>(volume.voxel_count()) < least_share)
+    return 0;
   for (const auto& layer : found) {
     for (const auto& [voxel, value] : layer) volume.samples[voxel] = value;
-    count += layer.size();
   }
   return count;
 }

@@ -14,8 +14,8 @@ namespace mesamis {
 
 /// Standard deviation of the image's noise, native units: of the differences between voxels and
 /// the mean of their 3x3x3 neighbourhood, two and a half voxels outside and inside of the object's
-/// surface, where no edge is near; robust (from medians), so that impulses and texture do not
-/// count. Noise that varies over many voxels is not seen.
+/// surface, where no edge is near; robust (from medians), so that impulses do not count, and of the
+/// quieter side, for spongy bone is no noise. Noise that varies over many voxels is not seen.
 /// @param guide  the same, smoothed: says on which side of the level a point is.
 /// @return 0 if there are fewer than ten such places.
 double measure_noise(const Volume& volume, const Volume& guide,
@@ -30,9 +30,8 @@ double measure_noise(const Volume& volume, const Volume& guide,
 /// that too few normals follow get the profile of all points. No axis gets more than half as much
 /// again as the middle one of the three, nor more than two voxels. Includes the voxels' own extent:
 /// partial volume alone is 0.29.
-/// @param points  crossing_points() of smoothed(smoothed(volume)) at the level: less smoothing
-/// would
-///                let the noise that moves the points be seen as part of their profile.
+/// @param points  crossing_points() of smoothed(smoothed(volume)) at the level: less smoothing and
+///                the noise that moves the points is seen as part of their profile.
 /// @param noise   of the volume, native units.
 /// @return zeros if there are fewer than a hundred points.
 std::array<double, 3> measure_blur(const Volume& volume, const std::vector<SurfacePoint>& points,
@@ -49,8 +48,9 @@ std::optional<double> measure_level(const Volume& volume, const std::vector<Surf
 /// Replaces impulses (salt and pepper, dead detector elements) by the median of their neighbours. A
 /// voxel is one if fewer than two of its 26 neighbours are within `difference` of it: even a line
 /// one voxel thin has two, but for its ends.
-/// @param difference  native units, > 0; well above the noise.
-/// @return how many were found.
-std::size_t remove_impulses(Volume& volume, double difference);
+/// @param difference   native units, > 0; well above the noise.
+/// @param least_share  of the voxels: where fewer are found, they stay as they are.
+/// @return how many were replaced.
+std::size_t remove_impulses(Volume& volume, double difference, double least_share = 0);
 
 }  // namespace mesamis

@@ -46,6 +46,8 @@ struct Volume {
   }
   /// The geometric mean of the spacing, mm.
   double voxel_size() const { return std::cbrt(spacing.x * spacing.y * spacing.z); }
+  /// The shortest side of a voxel, mm.
+  double shortest_side() const { return std::min({spacing.x, spacing.y, spacing.z}); }
   /// From the grid's own axes (mm) to the world (LPS, mm).
   Vec3 to_world(const Vec3& p) const { return origin + direction * p; }
   /// From the world (LPS, mm) to the grid's own axes (mm).
@@ -63,6 +65,7 @@ void require_usable(const Volume& volume);
 struct CropRange {
   std::array<Index, 3> begin{0, 0, 0};
   std::array<Index, 3> end{-1, -1, -1};
+  friend bool operator==(const CropRange&, const CropRange&) = default;
 };
 
 /// The part of the volume inside the range; its world position is kept.

@@ -32,10 +32,6 @@ void require_scan(const Volume& volume) {
   require(least >= kLeast, "geodesic contour", "4 voxels or more per direction", least);
 }
 
-double shortest_side(const Volume& volume) {
-  return std::min({volume.spacing.x, volume.spacing.y, volume.spacing.z});
-}
-
 /// What lies below a share of the values.
 double quantile(std::vector<double>& values, double share) {
   const auto last = static_cast<double>(values.size() - 1);
@@ -115,7 +111,7 @@ Start prepare(const Volume& volume, double level, const GeodesicOptions& options
               const Progress& progress) {
   const Volume calm = denoised(volume, options, progress);
   require_crossing(calm, level, "the level");
-  Volume gradient = detail::gradient_magnitude(calm, options.sigma * shortest_side(volume));
+  Volume gradient = detail::gradient_magnitude(calm, options.sigma * volume.shortest_side());
   Volume distance = detail::signed_distance(calm, level, kBand);
   Start start;
   start.report.edge_gradient = edge_gradient(calm, level, gradient);

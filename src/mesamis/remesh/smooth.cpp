@@ -12,11 +12,6 @@
 namespace mesamis::remeshing {
 namespace {
 
-bool is_inside(const Box& box, const Vec3& p) {
-  return p.x >= box.lo.x && p.x <= box.hi.x && p.y >= box.lo.y && p.y <= box.hi.y &&
-         p.z >= box.lo.z && p.z <= box.hi.z;
-}
-
 /// One vertex on its way to a better place.
 class Mover {
  public:
@@ -87,7 +82,7 @@ class Mover {
   /// The energy with the vertex there, where it stays; infinite if a cell is too bad.
   double try_position(const Vertex& old, const Vec3& move) {
     vertex_.position = old.position + move;
-    if (!is_inside(mesh_.box, vertex_.position) ||
+    if (!mesh_.box.contains(vertex_.position) ||
         planes_of(mesh_.box, vertex_.position) != old.mask) {
       return kTooBad;
     }

@@ -7,6 +7,7 @@ set(ROOM_HEADERS
   distance.h
   extract.h
   implicit_surface.h
+  measure.h
   normals.h
   round_to_single.h
   select_parts.h

@@ -45,8 +45,6 @@ class ItkManners {
   itk::ThreadIdType threads_ = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
 };
 
-double shortest_side(const Vec3& s) { return std::min({s.x, s.y, s.z}); }
-
 /// The samples, shared with the volume; the grid's own axes, lengths in the unit (mm).
 Image::Pointer image_of(const Volume& volume, double unit) {
   auto image = Image::New();
@@ -65,7 +63,7 @@ Image::Pointer image_of(const Volume& volume, double unit) {
 }
 
 Image::Pointer image_in_voxels(const Volume& volume) {
-  return image_of(volume, shortest_side(volume.spacing));
+  return image_of(volume, volume.shortest_side());
 }
 
 /// The image's values on the grid.

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How the studies here run mesamis: the one in build/release, or that of the variable MESAMIS."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+MESAMIS = os.environ.get("MESAMIS", str(pathlib.Path(__file__).parent / "../build/release/mesamis"))
+
+
+def run(*arguments):
+    """Runs mesamis; ends with its message where it fails."""
+    done = subprocess.run([MESAMIS, *map(str, arguments)], capture_output=True, text=True)
+    if done.returncode not in (0, 4):
+        sys.exit(f"{' '.join(map(str, arguments))}: {done.stderr.strip()}")
+
+
+def once(report, *arguments):
+    """The report of a run, made only if it is not there."""
+    if not report.exists():
+        run(*arguments, "--report", report)
+    return json.loads(report.read_text())
