@@ -135,7 +135,6 @@ class Run {
     result_.threshold_used = prepared.threshold_used;
     result_.level_native = prepared.level_native;
     result_.restored = {prepared.restored.noise_left, prepared.restored.impulses};
-    native_ = std::move(prepared.restored.volume);
     grey_ = std::move(prepared.grey);
     amis_.parameters = {settings().epsilon, *settings().eta, settings().beta, *settings().gamma};
     amis_.max_iterations = settings().amis_iterations;
@@ -307,19 +306,17 @@ class Run {
     result_.seconds.surface = watch.lap();
   }
 
-  /// Measured along the surface itself, in the image without T.
+  /// Measured along the surface itself, in the image as it came: restoring it overshoots at edges.
   void refine_level() {
     // Caps at the box are no edges of the image.
     const TriMesh surface = extract_solid(mesh_, fields_.u, to_grey_level(result_.level_native),
                                           {.close_at_box = false});
     const auto points = points_by_area(surface, result_.unit_mm);
-    const auto steepest = measure_level(native_, points);
-    const auto sides = measure_sides(native_, native_, points, result_.level_native);
-    if (!steepest || !sides) return;
-    // The first is a little high where the surface is much bent (what deblurring overshoots piles
-    // up inside), the second low where a shell is thin: half way between them.
-    const double level = (*steepest + sides->middle()) / 2;
-    if (!result_.threshold_used || level > result_.grey.threshold) result_.level_native = level;
+    const auto level = measure_level(volume_, points);
+    if (!level) return;
+    if (!result_.threshold_used || *level > result_.grey.threshold) {
+      result_.level_native = *level;
+    }
   }
 
   /// From length units in the grid's axes to mm in the world frame.
@@ -381,7 +378,7 @@ class Run {
   const Volume& volume_;
   const Progress& progress_;
   Result result_;
-  Volume native_, grey_;  // the image, restored
+  Volume grey_;  // the image, restored
   AmisOptions amis_;
   Box box_;
   TetMesh mesh_;

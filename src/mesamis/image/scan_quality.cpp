@@ -9,25 +9,13 @@
 
 #include "mesamis/base/median.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/image/edge_profile.h"
 
 namespace mesamis {
 namespace {
 
 constexpr std::size_t kFewPlaces = 10, kFewProfiles = 100, kFewOfAnAxis = 100;
 constexpr double kMadToDeviation = 1.4826;  // of a normal distribution
-
-/// The unit direction n in voxels: one step along it is one voxel long.
-Vec3 voxel_direction(const Volume& volume, const Vec3& n) {
-  const Vec3& s = volume.spacing;
-  const Vec3 d{n.x / s.x, n.y / s.y, n.z / s.z};
-  return (1 / norm(d)) * d;
-}
-
-/// mm of a place in voxels.
-Vec3 in_mm(const Volume& volume, const Vec3& voxels) {
-  const Vec3& s = volume.spacing;
-  return {voxels.x * s.x, voxels.y * s.y, voxels.z * s.z};
-}
 
 /// The voxel next to a place, or nothing within one voxel of the border.
 std::optional<std::array<Index, 3>> voxel_at(const Volume& volume, const Vec3& p) {
@@ -53,12 +41,6 @@ double deviation_at(const Volume& volume, const std::array<Index, 3>& voxel) {
 
 // The edge's profile.
 
-constexpr int kProfileHalf = 12;       // samples on either side
-constexpr double kProfileStep = 0.25;  // voxels
-using Profile = std::array<double, 2 * kProfileHalf + 1>;
-
-using PointGroup = std::vector<const SurfacePoint*>;
-
 /// Those that have a normal.
 PointGroup with_normals(const std::vector<SurfacePoint>& points) {
   PointGroup group;
@@ -66,22 +48,6 @@ PointGroup with_normals(const std::vector<SurfacePoint>& points) {
     if (norm(point.normal) > 0) group.push_back(&point);
   }
   return group;
-}
-
-/// Medians over the points of the image along their normals, inwards; the surface is in the middle.
-Profile median_profile(const Volume& volume, const PointGroup& points) {
-  Profile profile;
-  parallel_for_each(profile.size(), [&](std::size_t n) {
-    const double offset = (static_cast<double>(n) - kProfileHalf) * kProfileStep;
-    std::vector<double> values;
-    values.reserve(points.size());
-    for (const SurfacePoint* point : points) {
-      const Vec3 step = in_mm(volume, voxel_direction(volume, point->normal));
-      values.push_back(interpolate(volume, point->position - offset * step));
-    }
-    profile[n] = median(values);
-  });
-  return profile;
 }
 
 /// Half a profile, from the surface to one side: by how much it has risen after each step, up to
@@ -100,12 +66,12 @@ std::vector<double> rise(const Profile& profile, int direction) {
 
 /// A Gaussian edge of one side: of deviation sigma, voxels, and height h it is h erf(t / sqrt(2)
 /// sigma) after t voxels.
-struct Edge {
+struct HalfEdge {
   double sigma = 0, height = 0;
 };
-Edge fit_edge(const std::vector<double>& heights) {
+HalfEdge fit_half(const std::vector<double>& heights) {
   constexpr double kNarrowest = 0.2, kWidest = 3.5, kStep = 0.01;
-  Edge best;
+  HalfEdge best;
   double least = std::numeric_limits<double>::infinity();
   for (double sigma = kNarrowest; sigma <= kWidest; sigma += kStep) {
     double ee = 0, eh = 0, hh = 0;
@@ -126,21 +92,21 @@ Edge fit_edge(const std::vector<double>& heights) {
 /// The sharper of the two sides, for what comes after the edge (the next tissue) widens one of
 /// them; of those that rise for two voxels, if there are any, for the far side of a wall cuts one
 /// short.
-Edge sharper_edge(const Profile& profile) {
+HalfEdge sharper_half(const Profile& profile) {
   constexpr std::size_t kWhole = 8, kFewest = 4;  // samples: two voxels, one
   const std::array<std::vector<double>, 2> sides{rise(profile, -1), rise(profile, 1)};
   const std::size_t longest = std::max(sides[0].size(), sides[1].size());
-  Edge best;
+  HalfEdge best;
   for (const auto& heights : sides) {
     if (heights.size() < (longest < kWhole ? kFewest : kWhole)) continue;
-    const Edge edge = fit_edge(heights);
+    const HalfEdge edge = fit_half(heights);
     if (best.sigma == 0 || edge.sigma < best.sigma) best = edge;
   }
   return best;
 }
 
 /// The blur of the image from that of the profile.
-double blur_behind(const Edge& edge, double noise) {
+double blur_behind(const HalfEdge& edge, double noise) {
   constexpr double kInterpolation = 1.0 / 6;  // variance of the hat function
   constexpr double kGuideBlur = 1;            // variance of smoothed(smoothed()), per axis
   const double kGuideNoise = std::pow(70.0 / 256, 1.5);  // white noise it leaves
@@ -227,7 +193,7 @@ std::array<double, 3> measure_blur(const Volume& volume, const std::vector<Surfa
   if (all.size() < kFewProfiles) return blur;
   for (std::size_t a = 0; a < 3; ++a) {
     const auto& group = along[a].size() < kFewOfAnAxis ? all : along[a];
-    blur[a] = blur_behind(sharper_edge(median_profile(volume, group)), noise);
+    blur[a] = blur_behind(sharper_half(median_profile(volume, group)), noise);
   }
   // One axis whose surfaces are no plain edges (a table, thin walls) must not be overdone.
   std::array<double, 3> sorted = blur;
@@ -237,26 +203,12 @@ std::array<double, 3> measure_blur(const Volume& volume, const std::vector<Surfa
 }
 
 std::optional<double> measure_level(const Volume& volume, const std::vector<SurfacePoint>& points) {
-  constexpr int kReach = 4;  // samples: a voxel
   const PointGroup all = with_normals(points);
   if (all.size() < kFewProfiles) return std::nullopt;
-  const Profile profile = median_profile(volume, all);
-  const auto slope = [&profile](int n) {
-    const auto at = static_cast<std::size_t>(std::ptrdiff_t{kProfileHalf} + n);
-    return profile[at + 1] - profile[at - 1];
-  };
-  int steepest = 0;
-  for (int n = -kReach; n <= kReach; ++n) {
-    if (slope(n) > slope(steepest)) steepest = n;
-  }
-  const double before = slope(steepest - 1), here = slope(steepest), after = slope(steepest + 1);
-  if (!(here > 0)) return std::nullopt;
-  // The vertex of the parabola through three slopes, and the profile there.
-  const double bend = before - 2 * here + after;
-  const double shift = bend < 0 ? std::clamp((before - after) / (2 * bend), -1.0, 1.0) : 0;
-  const auto at = static_cast<std::size_t>(std::ptrdiff_t{kProfileHalf} + steepest);
-  const double next = shift < 0 ? profile[at - 1] : profile[at + 1];
-  return profile[at] + std::abs(shift) * (next - profile[at]);
+  constexpr double kMostMisfit = 0.01;
+  const Edge edge = fit_edge(median_profile(volume, all));
+  if (!(edge.misfit < kMostMisfit * edge.height())) return std::nullopt;
+  return edge.level();
 }
 
 std::size_t remove_impulses(Volume& volume, double difference, double least_share) {

@@ -37,12 +37,13 @@ double measure_noise(const Volume& volume, const Volume& guide,
 std::array<double, 3> measure_blur(const Volume& volume, const std::vector<SurfacePoint>& points,
                                    double noise);
 
-/// The value where an edge is steepest: that of the median profile along the normals of the points,
-/// as above, where it rises most within a voxel of them. In an image without blur this is the
-/// middle of the edge whatever lies behind it; midway between the two sides is not, where a thin
-/// shell or a narrow gap leaves no room for a side.
-/// @param points  near the edge; a surface at a level that is not far off.
-/// @return nothing if there are fewer than a hundred points, or the profile does not rise.
+/// The value of a blurred image where an object begins: an edge with a shell behind it, one to two
+/// and a half voxels thick, is fitted to the median profile along the normals of the points, as
+/// above. Without shells this is midway between the two sides; where the blur mixes a thin dense
+/// shell with what is behind, midway between the sides that are seen is too low.
+/// @param points  within a voxel of the edge: a surface at a level that is not far off.
+/// @return nothing if there are fewer than a hundred points, or no such edge explains their profile
+///         to a hundredth of its height.
 std::optional<double> measure_level(const Volume& volume, const std::vector<SurfacePoint>& points);
 
 /// Replaces impulses (salt and pepper, dead detector elements) by the median of their neighbours. A

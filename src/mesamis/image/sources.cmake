@@ -11,6 +11,7 @@ set(ROOM_HEADERS
 set(ROOM_SOURCES
   deblur.cpp
   degrade.cpp
+  edge_profile.cpp
   edge_sides.cpp
   grey_values.cpp
   hemipelvis.cpp
