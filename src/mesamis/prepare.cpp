@@ -98,9 +98,9 @@ Prepared prepare_image(const Volume& volume, const Settings& settings) {
   const Volume& restored = prepared.restored.volume;
   chosen.noise = prepared.restored.noise;
   chosen.blur = prepared.restored.blur;
-  const ObjectEdges object = find_object(restored, {.count_at = chosen.level, .start = seen.level});
+  const ObjectEdges object = find_object(restored, {.area_at = chosen.level, .start = seen.level});
   prepared.level_native = chosen.level.value_or(object.level);
-  if (!chosen.max_tets) chosen.max_tets = default_max_tets(object.crossings);
+  if (!chosen.max_tets) chosen.max_tets = default_max_tets(object.area, volume.spacing);
   prepared.map = {chosen.window->low, chosen.window->high, chosen.window->low};
   const double found = find_threshold(volume, seen.sides, seen.level, prepared.restored.noise);
   if (const auto t = choose_threshold(chosen, found, prepared.level_native)) {

@@ -65,9 +65,11 @@ void require_valid(const Settings& s) {
   }
 }
 
-std::int64_t default_max_tets(std::size_t crossings) {
-  constexpr std::int64_t kCellsPerCrossing = 3, kFewest = 20'000, kMost = 2'000'000;
-  return std::clamp(static_cast<std::int64_t>(crossings) * kCellsPerCrossing, kFewest, kMost);
+std::int64_t default_max_tets(double area, const Vec3& spacing) {
+  constexpr double kCellsPerSquare = 4.5, kFewest = 20'000, kMost = 2'000'000, kThickest = 8;
+  const auto [shortest, longest] = std::minmax({spacing.x, spacing.y, spacing.z});
+  const double side = std::max(shortest, longest / kThickest);
+  return std::llround(std::clamp(kCellsPerSquare * area / (side * side), kFewest, kMost));
 }
 
 double default_gamma(double epsilon, double beta, double contrast, double noise) {

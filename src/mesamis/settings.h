@@ -85,11 +85,14 @@ struct Settings {
 /// @throws InputError  for the first value out of range, naming the setting, range and value.
 void require_valid(const Settings& settings);
 
-/// The default of max_tets: three cells for every crossing of the voxel grid's lines with the
-/// object's surface (half as many again as marching cubes would make triangles), between 20 000
-/// and 2 000 000. It grows with the extent of the edges, not with the empty space around them.
-/// @param crossings  see ObjectEdges.
-std::int64_t default_max_tets(std::size_t crossings);
+/// The default of max_tets: four and a half cells for every square on the object's surface whose
+/// side is the voxel's shortest (half as many again as marching cubes would make triangles in cubic
+/// voxels), between 20 000 and 2 000 000. It grows with the extent of the edges, not with the
+/// empty space around them, and thick slices do not lessen it: the mesh has to hold the shape
+/// between them. Only where they are thicker than eight such sides an eighth of that counts.
+/// @param area     of the object's surface, mm^2, see ObjectEdges.
+/// @param spacing  of the voxels, mm.
+std::int64_t default_max_tets(double area, const Vec3& spacing);
 
 /// The default of gamma: 4 epsilon beta (s c)^2 makes v fall below one half where u changes by more
 /// than s c over a length unit, c being the object's contrast; s grows with the noise, so that it

@@ -82,9 +82,13 @@ TEST(DefaultGamma, IsAPriceOfGreyValuesSquared) {
 }
 
 TEST(DefaultMaxTets, GrowsWithTheEdgesWithinBounds) {
-  EXPECT_EQ(default_max_tets(0), 20'000);
-  EXPECT_EQ(default_max_tets(50'000), 150'000);
-  EXPECT_EQ(default_max_tets(1'000'000'000), 2'000'000);
+  EXPECT_EQ(default_max_tets(0, {1, 1, 1}), 20'000);
+  EXPECT_EQ(default_max_tets(50'000, {1, 1, 1}), 225'000);
+  EXPECT_EQ(default_max_tets(1e9, {1, 1, 1}), 2'000'000);
+  // The same surface in voxels half as wide, and in slices four times as thick.
+  EXPECT_EQ(default_max_tets(12'500, {0.5, 0.5, 0.5}), 225'000);
+  EXPECT_EQ(default_max_tets(50'000, {1, 1, 4}), 225'000);
+  EXPECT_EQ(default_max_tets(50'000, {0.1, 0.1, 8}), 225'000);
 }
 
 }  // namespace

@@ -53,11 +53,24 @@ void for_each_crossing(const Volume& volume, double level, Visit&& visit) {
   }
 }
 
-/// How often the grid lines cross the level; marching cubes makes about two triangles each.
-std::size_t count_crossings(const Volume& volume, double level) {
-  std::size_t count = 0;
-  for_each_crossing(volume, level, [&count](Index, Index, Index, int) { ++count; });
+/// How often the grid lines of each axis cross the level.
+std::array<std::size_t, 3> count_crossings(const Volume& volume, double level) {
+  std::array<std::size_t, 3> count{};
+  for_each_crossing(volume, level, [&count](Index, Index, Index, int axis) {
+    ++count[static_cast<std::size_t>(axis)];
+  });
   return count;
+}
+
+/// The area of the level's surface, mm^2, from its crossings with the grid lines (Cauchy): along
+/// an axis, each stands for so much area seen from there, and a surface whose normals point
+/// everywhere is seen from the three axes at one and a half times its area.
+double area_of(const Volume& volume, double level) {
+  const auto count = count_crossings(volume, level);
+  const Vec3& s = volume.spacing;
+  return (static_cast<double>(count[0]) * s.y * s.z + static_cast<double>(count[1]) * s.x * s.z +
+          static_cast<double>(count[2]) * s.x * s.y) /
+         1.5;
 }
 
 SurfacePoint crossing(const Volume& volume, double level, std::array<Index, 3> at, int axis) {
@@ -183,8 +196,9 @@ std::optional<EdgeSides> measure_sides(const Volume& volume, const Volume& guide
 }
 
 std::vector<SurfacePoint> crossing_points(const Volume& volume, double level, std::size_t most) {
+  const auto count = count_crossings(volume, level);
   const std::size_t every =
-      std::max<std::size_t>(1, count_crossings(volume, level) / std::max<std::size_t>(1, most));
+      std::max<std::size_t>(1, (count[0] + count[1] + count[2]) / std::max<std::size_t>(1, most));
   std::vector<SurfacePoint> points;
   std::size_t n = 0;
   for_each_crossing(volume, level, [&](Index i, Index j, Index k, int axis) {
@@ -197,7 +211,7 @@ ObjectEdges find_object(const Volume& volume, const FindObjectOptions& options) 
   const Volume calm = smoothed(volume);
   ObjectEdges object =
       options.start ? settle_level(volume, calm, *options.start) : find_anywhere(volume, calm);
-  object.crossings = count_crossings(calm, options.count_at.value_or(object.level));
+  object.area = area_of(calm, options.area_at.value_or(object.level));
   return object;
 }
 

@@ -47,14 +47,13 @@ std::vector<SurfacePoint> crossing_points(const Volume& volume, double level, st
 /// A first guess of the object's edges, from the image alone.
 struct ObjectEdges {
   EdgeSides sides;
-  double level = 0;           ///< midway between the two sides
-  std::size_t crossings = 0;  ///< of the smoothed image's grid lines with the level: the extent of
-                              ///< the edges; marching cubes makes about two triangles each
+  double level = 0;  ///< midway between the two sides
+  double area = 0;   ///< of the smoothed image's level set, mm^2: the extent of the edges
 };
 
 struct FindObjectOptions {
-  /// Level whose crossings are counted; default: the one found.
-  std::optional<double> count_at = std::nullopt;
+  /// Level whose area is measured; default: the one found.
+  std::optional<double> area_at = std::nullopt;
   /// Level to settle from; default: as described below.
   std::optional<double> start = std::nullopt;
 };
