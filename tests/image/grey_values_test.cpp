@@ -5,6 +5,7 @@
 
 #include "mesamis/base/error.h"
 #include "support/ball_volume.h"
+#include "support/sampled_volume.h"
 
 namespace mesamis {
 namespace {
@@ -73,6 +74,14 @@ TEST(DefaultWindow, IsNeverEmpty) {
   Volume rare = ramp(0, 0);
   rare.samples[17] = 1;  // beyond every percentile
   EXPECT_LT(default_window(rare, 0).low, default_window(rare, 0).high);
+}
+
+TEST(Smoothed, DoesNotMixSlicesThatAreFarApart) {
+  Volume scan = sampled_volume({5, 5, 5}, {1, 1, 2}, [](const Vec3& p) { return p.z == 4; });
+  EXPECT_EQ(smoothed(scan).at(2, 2, 1), 0.25f);
+  scan.spacing.z = 2.5;
+  EXPECT_EQ(smoothed(scan).at(2, 2, 1), 0);
+  EXPECT_EQ(smoothed(scan).at(2, 2, 2), 1);
 }
 
 TEST(Smoothed, KeepsConstantsAndTheSumOfAPeak) {

@@ -115,17 +115,21 @@ Window default_window(const Volume& volume, double outside) {
 }
 
 Volume smoothed(const Volume& volume) {
+  constexpr double kClose = 2;
   Volume result = volume;
   const auto nx = static_cast<std::size_t>(volume.size[0]);
   const auto ny = static_cast<std::size_t>(volume.size[1]);
   const auto nz = static_cast<std::size_t>(volume.size[2]);
   float* samples = result.samples.data();
+  const auto is_close = [&](double side) { return side <= kClose * volume.shortest_side(); };
+  const bool along_x = is_close(volume.spacing.x), along_y = is_close(volume.spacing.y);
   parallel_for_each(nz, [&](std::size_t k) {
     std::vector<float> line;
     float* layer = samples + k * nx * ny;
-    for (std::size_t j = 0; j < ny; ++j) smooth_line(layer + j * nx, 1, nx, line);
-    for (std::size_t i = 0; i < nx; ++i) smooth_line(layer + i, nx, ny, line);
+    for (std::size_t j = 0; along_x && j < ny; ++j) smooth_line(layer + j * nx, 1, nx, line);
+    for (std::size_t i = 0; along_y && i < nx; ++i) smooth_line(layer + i, nx, ny, line);
   });
+  if (!is_close(volume.spacing.z)) return result;
   parallel_for_each(ny, [&](std::size_t j) {
     std::vector<float> line;
     for (std::size_t i = 0; i < nx; ++i) smooth_line(samples + j * nx + i, nx * ny, nz, line);

@@ -45,7 +45,9 @@ struct Window {
 Window default_window(const Volume& volume, double outside);
 
 /// Every sample replaced by the binomial mean 1 2 1 of its line, in all three directions: a
-/// Gaussian of 0.7 voxels. Lines end by repeating their last sample.
+/// Gaussian of 0.7 voxels. Lines end by repeating their last sample. A direction in which voxels
+/// are more than twice as long as in the shortest is left alone: slices that far apart show
+/// another part of the object, not the same once more.
 Volume smoothed(const Volume& volume);
 
 }  // namespace mesamis
