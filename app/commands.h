@@ -19,6 +19,7 @@ struct CommonOptions {
   bool quiet = false;     ///< nothing on stderr but errors
   bool log_json = false;  ///< stderr as JSON lines
   int threads = 0;        ///< 0: as many as the machine has
+  double memory_gb = 0;   ///< a run may take, 10^9 bytes; 0: what is free
 };
 
 /// What the command line asked for, ready to run; returns an exit status. InputError and

@@ -45,6 +45,9 @@ void add_common_options(CLI::App& app, CommonOptions& common) {
   app.add_flag("--log-json", common.log_json, "Log on stderr as JSON lines");
   app.add_option("--threads", common.threads, "Threads at most (default: all)")
       ->check(CLI::Range(1, 1024));
+  app.add_option("--memory", common.memory_gb,
+                 "Memory that a run may take, GB (default: what is free)")
+      ->check(CLI::PositiveNumber);
 }
 
 std::string version_text() {

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "json_file.h"
 #include "log.h"
+#include "memory_check.h"
 #include "mesamis/base/error.h"
 #include "mesamis/io/read_volume.h"
 #include "mesamis/io/surface_files.h"
@@ -81,6 +82,7 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   const Settings settings = settings_of(options.settings);
   require_outputs(options);
   const VolumeFile file = read_scan(options.input, options.series);
+  require_memory(file.volume, settings, common.memory_gb);
   ProgressDisplay display(common.quiet);
   const Result result = mes_amis(file.volume, settings, display.callback());
   display.finish();

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "json_file.h"
 #include "log.h"
+#include "memory_check.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/io/surface_files.h"
@@ -118,6 +119,9 @@ class Study {
     file.volume.samples = {};  // the experiments have what they need of it
     reference_ = read_reference(command_);
     require_inside(reference_, command_, experiments);
+    for (const Experiment& experiment : experiments) {
+      require_memory(experiment.volume, experiment.settings, common_.memory_gb);
+    }
     for (const Experiment& experiment : experiments) run_experiment(experiment);
     write_report(input);
     if (status_ != kExitDone) log_error(remarks_);

@@ -17,8 +17,8 @@ import sys
 from mesamis_runs import MESAMIS
 
 PHANTOM = {
-    "whole": ["--subsample", "1,2,4,6,8,10,12", "--stride", "2,2,1", "--level", "175"],
-    "region": ["--region", ":,:,225:263", "--region-subsample", "1,2,4", "--level", "175"],
+    "whole": ["--subsample", "1,2,4,6,8,10,12", "--stride", "2,2,1"],
+    "region": ["--region", ":,:,225:263", "--region-subsample", "1,2,4"],
 }
 SCAN = {"whole": ["--subsample", "1,2,4"]}
 

@@ -2,6 +2,7 @@
 #include "mesamis/mes_amis.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -33,6 +34,15 @@ namespace {
 constexpr double kCellsPerComplexity = 9.3;
 /// Sweeps over the grid's log-metric before the first mesh is refined towards it.
 constexpr int kSmoothingSweeps = 3;
+
+/// All meshes but the last are there to find the next one: their fields need not be exact.
+constexpr double kDraftTolerance = 1e-3;
+constexpr int kDraftAlternations = 4;
+/// Cells of the meshes against max_tets, one after the other; with fewer adaptations than
+/// kToGrow the first are left out.
+constexpr std::array kShares{0.25, 0.35, 0.6, 1.0};
+constexpr int kToGrow = 6;
+constexpr long long kFewestCells = 20'000;
 
 /// Nodal fields carried from mesh to mesh.
 struct Fields {
@@ -94,11 +104,11 @@ class Run {
     start_on_grid();
     for (int k = 2; k <= settings().adaptations && !settled_; ++k) {
       announce(adaptation_name(k));
-      minimise();
+      minimise(draft_);
       adapt();
     }
     announce("final minimisation");
-    minimise();
+    minimise(amis_);
     result_.fit = measure_fit(mesh_, asked_);
     extract();
     deliver();
@@ -140,6 +150,9 @@ class Run {
     amis_.max_iterations = settings().amis_iterations;
     amis_.v_tolerance = settings().tol_v;
     amis_.solver.tolerance = settings().solver_tolerance;
+    draft_ = amis_;
+    draft_.max_iterations = std::min(amis_.max_iterations, kDraftAlternations);
+    draft_.solver.tolerance = std::max(amis_.solver.tolerance, kDraftTolerance);
     result_.seconds.prepare = watch.lap();
   }
 
@@ -156,7 +169,7 @@ class Run {
     Fields fields;
     fields.f = project_image(grey_, grid);
     iteration().seconds.project = watch.lap();
-    run_amis_on(space, fields);
+    run_amis_on(space, draft_, fields);
     advance(0.2);
     iteration().seconds.amis = watch.lap();
     GridEstimate estimated = estimate_on_grid(grid, amis_.parameters, fields.u, fields.v, fields.f,
@@ -181,27 +194,27 @@ class Run {
     measure_aspects(box_mesh({{0, 0, 0}, grid.spacing}, {1, 1, 1}), iteration());
   }
 
-  void run_amis_on(const P1Space& space, Fields& fields) {
+  void run_amis_on(const P1Space& space, const AmisOptions& options, Fields& fields) {
     if (fields.v.empty()) fields.v.assign(space.node_count(), 1);
     AmisFields solved =
-        run_amis(space, fields.f, std::move(fields.v), fields.u, amis_, &iteration().amis);
+        run_amis(space, fields.f, std::move(fields.v), fields.u, options, &iteration().amis);
     fields.u = std::move(solved.u);
     fields.v = std::move(solved.v);
     iteration().energy = energy(space, amis_.parameters, fields.u, fields.v, fields.f);
   }
 
   /// Projects the image onto the present mesh and runs Algorithm 1 there.
-  void minimise() {
+  void minimise(const AmisOptions& options) {
     result_.iterations.emplace_back();
     Stopwatch watch;
     const MeshSpace space(mesh_);
     iteration().tets = static_cast<std::int64_t>(mesh_.cells.size());
     iteration().nodes = static_cast<std::int64_t>(mesh_.points.size());
     SolveReport projection;
-    fields_.f = project_image(grey_, space, result_.unit_mm, amis_.solver, &projection);
+    fields_.f = project_image(grey_, space, result_.unit_mm, options.solver, &projection);
     advance(0.1);
     iteration().seconds.project = watch.lap();
-    run_amis_on(space, fields_);
+    run_amis_on(space, options, fields_);
     iteration().amis.solver_converged &= projection.converged;
     advance(0.3);
     iteration().seconds.amis = watch.lap();
@@ -236,8 +249,10 @@ class Run {
     const bool mesh_settled =
         mesh_stagnates || (bounded_ && iteration().mesh_change <= kSteeringSlack);
     const bool energy_settled = energy_known && iteration().energy_change <= settings().tol_energy;
-    settled_ = settings().stop_at_first ? mesh_stagnates || energy_settled
-                                        : mesh_settled && energy_settled;
+    const bool settled = settings().stop_at_first ? mesh_stagnates || energy_settled
+                                                  : mesh_settled && energy_settled;
+    // While the count is still to grow nothing has.
+    settled_ = settled && most_cells() == *settings().max_tets;
   }
 
   std::vector<Sym3> estimate_metric() {
@@ -263,15 +278,26 @@ class Run {
     return {cells, settings().tau, settings().max_stretch};
   }
 
+  /// Of the mesh that the present pass leads to: max_tets in the end, less at first, when the mesh
+  /// is still to find out where the edges are and which way they run.
+  std::int64_t most_cells() {
+    const auto left_out = static_cast<std::size_t>(std::max(0, kToGrow - settings().adaptations));
+    const std::size_t place = result_.iterations.size() - 1 + left_out;
+    const auto most = static_cast<double>(*settings().max_tets);
+    const double share = kShares[std::min(place, kShares.size() - 1)];
+    return std::min<std::int64_t>(*settings().max_tets,
+                                  std::max(kFewestCells, std::llround(share * most)));
+  }
+
   SizeControl size_control() {
     return {settings().h_min, *settings().h_max,
-            static_cast<double>(*settings().max_tets) / cells_per_complexity_};
+            static_cast<double>(most_cells()) / cells_per_complexity_};
   }
 
   void replace_mesh(const TetMesh& start, const MetricField& field) {
     constexpr double kShareBefore = 0.4;  // of a stage's time, what comes before remeshing
     RemeshOptions options;
-    options.max_cells = *settings().max_tets;
+    options.max_cells = most_cells();
     options.progress = [this](std::string_view, double share) {
       advance(kShareBefore + (1 - kShareBefore) * share);
       return true;
@@ -378,8 +404,8 @@ class Run {
   const Volume& volume_;
   const Progress& progress_;
   Result result_;
-  Volume grey_;  // the image, restored
-  AmisOptions amis_;
+  Volume grey_;               // the image, restored
+  AmisOptions amis_, draft_;  // of the mesh delivered, of those before
   Box box_;
   TetMesh mesh_;
   Fields fields_;

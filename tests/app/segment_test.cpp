@@ -228,6 +228,8 @@ TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
   }
   EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--stride", "1,1,1,"})), 2,
                "--stride");
+  EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--memory", "0.01"})), 3,
+               "memory: expected about 0.1 GB for this run, found 0.0 GB; no stride fits");
   EXPECT_FAILS(
       run_program(folder, segment_arguments(folder, "a", {"--window", "900,990", "--quiet"})), 3,
       "window: expected one that holds some of the samples");

@@ -41,7 +41,6 @@ class ConjugateGradients {
         b_(b),
         x_(x),
         r_(b.size()),
-        z_(b.size()),
         p_(b.size()),
         ap_(b.size()) {}
 
@@ -67,9 +66,8 @@ class ConjugateGradients {
 
   void start(const Preconditioner& precondition) {
     find_residual();
-    precondition(r_, z_);
-    std::copy(z_.begin(), z_.end(), p_.begin());
-    rz_ = inner(r_, z_);
+    precondition(r_, p_);
+    rz_ = inner(r_, p_);
   }
 
   bool step(const Preconditioner& precondition) {
@@ -81,11 +79,12 @@ class ConjugateGradients {
       x_[i] += alpha * p_[i];
       r_[i] -= alpha * ap_[i];
     });
-    precondition(r_, z_);
-    const double rz = inner(r_, z_);
+    std::vector<double>& z = ap_;  // no longer needed: on large grids every field counts
+    precondition(r_, z);
+    const double rz = inner(r_, z);
     const double beta = rz / rz_;
     rz_ = rz;
-    parallel_for(b_.size(), [&](std::size_t i) { p_[i] = z_[i] + beta * p_[i]; });
+    parallel_for(b_.size(), [&](std::size_t i) { p_[i] = z[i] + beta * p_[i]; });
     return true;
   }
 
@@ -93,7 +92,7 @@ class ConjugateGradients {
   const std::vector<double>& weights_;
   std::span<const double> b_;
   std::span<double> x_;
-  std::vector<double> r_, z_, p_, ap_;
+  std::vector<double> r_, p_, ap_;
   double rz_ = 0;
 };
 

@@ -61,7 +61,7 @@ class Alternation {
     });
     const auto system = space_.diffusion({}, 0, gamma * epsilon, std::move(diagonal));
     std::vector<double> right(mass);
-    for (double& value : right) value *= well;
+    parallel_for(right.size(), [&](std::size_t n) { right[n] *= well; });
     solve_into(*system, right, fields_.v);
     clamp_v();
     finish_half_step();
@@ -121,8 +121,8 @@ AmisFields run_amis(const P1Space& space, std::span<const double> f, std::vector
   r = {};
   Alternation alternation(space, f, fields, options, r);
   while (r.iterations < options.max_iterations && !r.converged) {
-    const std::vector<double> v_before = fields.v;
     alternation.step_u();
+    const std::vector<double> v_before = fields.v;
     alternation.step_v();
     r.v_change = largest_change(fields.v, v_before);
     r.converged = r.v_change <= options.v_tolerance;
