@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis segment: a scan in, a surface, an adapted mesh and a report out.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
@@ -78,6 +80,24 @@ void require_outputs(const SegmentOptions& options) {
   if (!options.report.empty()) require_output(options.report, {".json"}, "--report");
 }
 
+/// There must be something to write; which bound left nothing is what the user can change.
+void require_surface(const Result& result) {
+  if (!result.surface.triangles.empty()) return;
+  if (result.settings.surface == SurfaceKind::kBand) {
+    throw InputError(
+        fmt::format("surface: expected cells with v below --band-threshold {}, found none",
+                    result.settings.band_threshold));
+  }
+  const auto& parts = result.printable.parts;
+  if (parts && parts->islands_dropped > 0) {
+    throw InputError(
+        fmt::format("surface: expected a part of at least --min-volume {} mm^3, found none",
+                    result.settings.min_volume.value_or(0)));
+  }
+  throw InputError(
+      fmt::format("surface: expected values above --level {}, found none", result.level_native));
+}
+
 int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   const Settings settings = settings_of(options.settings);
   require_outputs(options);
@@ -89,6 +109,7 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   const SurfaceCheck check = check_surface(result.surface);
   std::optional<MeshOutput> mesh;  // before any file is written: it may be refused
   if (!options.meshes.empty()) mesh = make_mesh_output(result, file.volume, options.mesh);
+  if (!options.surfaces.empty()) require_surface(result);
   const auto surface_as = surface_options(options, result, file.volume.voxel_size());
   for (const fs::path& path : options.surfaces) write_surface(path, result.surface, surface_as);
   for (const fs::path& path : options.meshes) write_mesh(path, *mesh, options.frame);

@@ -16,6 +16,10 @@ std::string why_not_converged(const Result& result) {
              std::to_string(result.settings.solver_tolerance);
     }
   }
+  if (result.settings.adaptations == 1) {
+    return "not converged: one adaptation cannot show that anything has settled, expected 2 or "
+           "more";
+  }
   const Iteration& last = passes[passes.size() - 2];
   return "not converged: after " + std::to_string(result.settings.adaptations) +
          " adaptations the cell count changed by " + std::to_string(last.mesh_change) +

@@ -231,6 +231,9 @@ TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
   EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--memory", "0.01"})), 3,
                "memory: expected about 0.1 GB for this run, found 0.0 GB; no stride fits");
   EXPECT_FAILS(
+      run_program(folder, segment_arguments(folder, "a", {"--min-volume", "1e9", "--quiet"})), 3,
+      "surface: expected a part of at least --min-volume 1000000000 mm^3, found none");
+  EXPECT_FAILS(
       run_program(folder, segment_arguments(folder, "a", {"--window", "900,990", "--quiet"})), 3,
       "window: expected one that holds some of the samples");
   write_bytes(folder / "ball.nrrd", "no scan");
