@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -20,19 +21,29 @@ std::optional<double> number_in(const char* path) {
   return std::nullopt;
 }
 
+/// The number behind a word of a file, if it is there.
+std::optional<double> number_after(const std::string& word, const char* path) {
+  std::ifstream file(path);
+  for (std::string found; file >> found;) {
+    double value = 0;
+    if (found == word && file >> value) return value;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> available_memory() {
   constexpr double kUnit = 1024;
-  std::optional<double> available;
-  std::ifstream file("/proc/meminfo");
-  for (std::string name; file >> name;) {
-    double value = 0;
-    if (name == "MemAvailable:" && file >> value) available = kUnit * value;
-  }
+  auto available = number_after("MemAvailable:", "/proc/meminfo");
+  if (available) *available *= kUnit;
   const auto most = number_in("/sys/fs/cgroup/memory.max");
   const auto used = number_in("/sys/fs/cgroup/memory.current");
-  if (available && most && used) available = std::min(*available, *most - *used);
+  if (available && most && used) {
+    // Files that were read stay in memory until it is wanted.
+    const auto cached = number_after("inactive_file", "/sys/fs/cgroup/memory.stat");
+    available = std::min(*available, *most - *used + cached.value_or(0));
+  }
   return available;
 }
 
