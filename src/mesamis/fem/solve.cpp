@@ -36,13 +36,7 @@ double weighted_norm(std::span<const double> r, std::span<const double> d) {
 class ConjugateGradients {
  public:
   ConjugateGradients(const SpdOperator& a, std::span<const double> b, std::span<double> x)
-      : a_(a),
-        weights_(a.diagonal()),
-        b_(b),
-        x_(x),
-        r_(b.size()),
-        p_(b.size()),
-        ap_(b.size()) {}
+      : a_(a), weights_(a.diagonal()), b_(b), x_(x), r_(b.size()), p_(b.size()), ap_(b.size()) {}
 
   void run(const Preconditioner& precondition, double goal, int max_iterations,
            SolveReport& report) {
