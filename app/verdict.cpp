@@ -13,7 +13,7 @@ std::string why_not_converged(const Result& result) {
     if (!pass.amis.solver_converged) {
       return "not converged: a linear solve ended with a relative residual of " +
              std::to_string(pass.amis.solver_residual) + ", expected " +
-             std::to_string(result.settings.solver_tolerance);
+             std::to_string(pass.amis.solver_tolerance);
     }
   }
   if (result.settings.adaptations == 1) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "mesamis/prepare.h"
+
 namespace mesamis {
 namespace {
 
@@ -11,17 +13,6 @@ constexpr double kBytesToPrepare = 24;  // per voxel: sorted samples and the ste
 constexpr double kBytesPerNode = 112;   // of the first grid
 constexpr double kBytesPerCell = 450;   // of the adapted meshes
 constexpr double kBytesOfProgram = 5e7;
-constexpr double kMostCellsChosen = 2e6;  // see default_max_tets()
-
-/// The volume's size after cropping.
-std::array<Index, 3> size_used(const Volume& volume, const CropRange& crop) {
-  std::array<Index, 3> size;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const Index end = crop.end[a] < 0 ? volume.size[a] : std::min(crop.end[a], volume.size[a]);
-    size[a] = std::max<Index>(1, end - std::max<Index>(crop.begin[a], 0));
-  }
-  return size;
-}
 
 double product(const std::array<Index, 3>& n) {
   return static_cast<double>(n[0]) * static_cast<double>(n[1]) * static_cast<double>(n[2]);
@@ -30,17 +21,12 @@ double product(const std::array<Index, 3>& n) {
 }  // namespace
 
 double memory_needed(const Volume& volume, const Settings& settings) {
-  const std::array<Index, 3> size = size_used(volume, settings.crop);
-  std::array<Index, 3> nodes;
-  for (std::size_t a = 0; a < 3; ++a) {
-    nodes[a] = std::max<Index>(2, (size[a] - 1) / std::max<Index>(1, settings.stride[a]) + 1);
-  }
-  const double voxels = product(size);
+  const std::array<Index, 3> size = cropped_size(volume, settings.crop);
+  const double voxels = product(size), nodes = product(first_grid_size(size, settings.stride));
   const double cells = settings.max_tets ? static_cast<double>(*settings.max_tets)
-                                         : std::min(kMostCellsChosen, 3 * voxels);
+                                         : std::min<double>(kMostTets, 3 * voxels);
   return kBytesOfProgram + kBytesPerVoxel * voxels +
-         std::max(
-             {kBytesToPrepare * voxels, kBytesPerNode * product(nodes), kBytesPerCell * cells});
+         std::max({kBytesToPrepare * voxels, kBytesPerNode * nodes, kBytesPerCell * cells});
 }
 
 std::optional<std::array<Index, 3>> stride_that_fits(const Volume& volume, Settings settings,

@@ -13,6 +13,7 @@ namespace mesamis {
 /// three: preparing the image (by the voxel), the first pass (by the node of its grid), and the
 /// adapted meshes (by the cell). Measured, with a little to spare: see docs/performance.md.
 /// @param settings  valid; where max_tets is left to be chosen, the most that could be counts.
+/// @throws InputError  as cropped_size().
 double memory_needed(const Volume& volume, const Settings& settings);
 
 /// The settings' stride, made larger, always along the axis where it is shortest in mm, until a

@@ -42,7 +42,6 @@ constexpr int kDraftAlternations = 4;
 /// kToGrow the first are left out.
 constexpr std::array kShares{0.25, 0.35, 0.6, 1.0};
 constexpr int kToGrow = 6;
-constexpr long long kFewestCells = 20'000;
 
 /// Nodal fields carried from mesh to mesh.
 struct Fields {
@@ -52,9 +51,9 @@ struct Fields {
 /// The first grid: every stride-th voxel, spread so that it fills the whole box.
 KuhnGrid first_grid(const Volume& volume, const std::array<Index, 3>& stride, double unit) {
   KuhnGrid grid;
+  grid.size = first_grid_size(volume.size, stride);
   const Vec3 extent = volume.box().extent();
   for (int a = 0; a < 3; ++a) {
-    grid.size[a] = std::max<Index>(2, (volume.size[a] - 1) / stride[a] + 1);
     grid.spacing[a] = extent[a] / (grid.size[a] - 1) / unit;
   }
   return grid;
@@ -144,7 +143,7 @@ class Run {
     result_.grey = prepared.map;
     result_.threshold_used = prepared.threshold_used;
     result_.level_native = prepared.level_native;
-    result_.restored = {prepared.restored.noise_left, prepared.restored.impulses};
+    result_.restored = {prepared.noise_left, prepared.impulses};
     grey_ = std::move(prepared.grey);
     amis_.parameters = {settings().epsilon, *settings().eta, settings().beta, *settings().gamma};
     amis_.max_iterations = settings().amis_iterations;
@@ -285,8 +284,8 @@ class Run {
     const std::size_t place = result_.iterations.size() - 1 + left_out;
     const auto most = static_cast<double>(*settings().max_tets);
     const double share = kShares[std::min(place, kShares.size() - 1)];
-    return std::min<std::int64_t>(*settings().max_tets,
-                                  std::max(kFewestCells, std::llround(share * most)));
+    return std::min(*settings().max_tets,
+                    std::max<std::int64_t>(kFewestTets, std::llround(share * most)));
   }
 
   SizeControl size_control() {

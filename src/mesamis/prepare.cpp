@@ -8,6 +8,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/image/edge_sides.h"
+#include "mesamis/image/restore.h"
 
 namespace mesamis {
 namespace {
@@ -50,7 +51,7 @@ double choose_gamma(const Prepared& prepared, const EdgeSides& sides) {
   const double contrast = sides.contrast() * grey_per_native;
   if (!(contrast > 0)) return kPaper;
   const Settings& s = prepared.settings;
-  return default_gamma(s.epsilon, s.beta, contrast, prepared.restored.noise_left * grey_per_native);
+  return default_gamma(s.epsilon, s.beta, contrast, prepared.noise_left * grey_per_native);
 }
 
 /// Settings that leave nothing to see, or nothing at the level, are refused.
@@ -74,6 +75,13 @@ void require_contrast(const Volume& volume, const Prepared& prepared) {
 
 }  // namespace
 
+std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
+                                     const std::array<Index, 3>& stride) {
+  std::array<Index, 3> size;
+  for (std::size_t a = 0; a < 3; ++a) size[a] = std::max(2, (voxels[a] - 1) / stride[a] + 1);
+  return size;
+}
+
 Prepared prepare_image(const Volume& volume, const Settings& settings) {
   Prepared prepared;
   prepared.settings = settings;
@@ -94,22 +102,24 @@ Prepared prepare_image(const Volume& volume, const Settings& settings) {
   if (!chosen.window) {
     chosen.window = choose_window(volume, seen.sides, chosen.level.value_or(seen.level));
   }
-  prepared.restored = restore(clamped(volume, *chosen.window), seen, {chosen.noise, chosen.blur});
-  const Volume& restored = prepared.restored.volume;
-  chosen.noise = prepared.restored.noise;
-  chosen.blur = prepared.restored.blur;
-  const ObjectEdges object = find_object(restored, {.area_at = chosen.level, .start = seen.level});
+  Restored restored = restore(clamped(volume, *chosen.window), seen, {chosen.noise, chosen.blur});
+  chosen.noise = restored.noise;
+  chosen.blur = restored.blur;
+  prepared.noise_left = restored.noise_left;
+  prepared.impulses = restored.impulses;
+  const ObjectEdges object =
+      find_object(restored.volume, {.area_at = chosen.level, .start = seen.level});
   prepared.level_native = chosen.level.value_or(object.level);
   if (!chosen.max_tets) chosen.max_tets = default_max_tets(object.area, volume.spacing);
   prepared.map = {chosen.window->low, chosen.window->high, chosen.window->low};
-  const double found = find_threshold(volume, seen.sides, seen.level, prepared.restored.noise);
+  const double found = find_threshold(volume, seen.sides, seen.level, restored.noise);
   if (const auto t = choose_threshold(chosen, found, prepared.level_native)) {
     prepared.threshold_used = true;
     prepared.map.threshold = chosen.threshold = *t;
   }
   if (!chosen.gamma) chosen.gamma = choose_gamma(prepared, object.sides);
-  require_contrast(restored, prepared);
-  prepared.grey = apply(prepared.map, restored);
+  require_contrast(restored.volume, prepared);
+  prepared.grey = apply(prepared.map, std::move(restored.volume));
   return prepared;
 }
 

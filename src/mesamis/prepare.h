@@ -2,7 +2,6 @@
 #pragma once
 
 #include "mesamis/image/grey_values.h"
-#include "mesamis/image/restore.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/settings.h"
 
@@ -15,9 +14,14 @@ struct Prepared {
   GreyMap map;                  ///< native units to grey values, with T
   bool threshold_used = false;  ///< whether T acts, see (13)
   double level_native = 0;      ///< the level asked for, or a first guess of it
-  Restored restored;            ///< the volume without its faults, native units
-  Volume grey;                  ///< that in grey values
+  double noise_left = 0;        ///< in the image below, native units
+  double impulses = 0;          ///< share of the voxels that were replaced
+  Volume grey;                  ///< the volume without its faults, in grey values
 };
+
+/// Nodes of the first grid: every stride-th voxel, at least two along each axis.
+std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
+                                     const std::array<Index, 3>& stride);
 
 /// Chooses what the settings leave open from the volume, and maps it to grey values.
 /// @param settings  valid, see require_valid().

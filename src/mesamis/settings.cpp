@@ -66,10 +66,11 @@ void require_valid(const Settings& s) {
 }
 
 std::int64_t default_max_tets(double area, const Vec3& spacing) {
-  constexpr double kCellsPerSquare = 4.5, kFewest = 20'000, kMost = 2'000'000, kThickest = 8;
+  constexpr double kCellsPerSquare = 4.5, kThickest = 8;
   const auto [shortest, longest] = std::minmax({spacing.x, spacing.y, spacing.z});
   const double side = std::max(shortest, longest / kThickest);
-  return std::llround(std::clamp(kCellsPerSquare * area / (side * side), kFewest, kMost));
+  return std::llround(
+      std::clamp<double>(kCellsPerSquare * area / (side * side), kFewestTets, kMostTets));
 }
 
 double default_gamma(double epsilon, double beta, double contrast, double noise) {

@@ -85,9 +85,12 @@ struct Settings {
 /// @throws InputError  for the first value out of range, naming the setting, range and value.
 void require_valid(const Settings& settings);
 
+/// The bounds of what is chosen for max_tets.
+inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
+
 /// The default of max_tets: four and a half cells for every square on the object's surface whose
 /// side is the voxel's shortest (half as many again as marching cubes would make triangles in cubic
-/// voxels), between 20 000 and 2 000 000. It grows with the extent of the edges, not with the
+/// voxels), between kFewestTets and kMostTets. It grows with the extent of the edges, not with the
 /// empty space around them, and thick slices do not lessen it: the mesh has to hold the shape
 /// between them. Only where they are thicker than eight such sides an eighth of that counts.
 /// @param area     of the object's surface, mm^2, see ObjectEdges.

@@ -102,15 +102,14 @@ double Edge::level() const {
 
 Edge fit_edge(const Profile& profile) {
   // One inside the other, for the three make up for each other: steps along axes would get stuck.
-  const auto at_place = [&](const Shape& shape) {
-    return least(-1, 1, [&](double place) {
-      return fit_values(profile, {shape.sigma, shape.thickness, place});
+  const Fit best = least(1, 2.5, [&](double thickness) {
+    return least(0.2, 2.6, [&](double sigma) {
+      return least(-1, 1, [&](double place) {
+        return fit_values(profile, {sigma, thickness, place});
+      });
     });
-  };
-  const auto with_sigma = [&](double thickness) {
-    return least(0.2, 2.6, [&](double sigma) { return at_place({sigma, thickness, 0}); });
-  };
-  return least(1, 2.5, with_sigma).edge;
+  });
+  return best.edge;
 }
 
 }  // namespace mesamis

@@ -36,9 +36,9 @@ struct Edge {
   double level() const;
 };
 
-/// The edge that comes nearest to a profile, by least squares. The blur hides
-/// whether a shell is thin and bright or thick and less so; it is therefore taken to be one to two
-/// and a half voxels, and only as bright as is worth it.
+/// The edge that comes nearest to a profile, by least squares. The blur hides whether a shell is
+/// thin and bright or thick and less so; it is therefore taken to be one to two and a half voxels,
+/// and only as bright as is worth it.
 Edge fit_edge(const Profile& profile);
 
 }  // namespace mesamis

@@ -45,17 +45,17 @@ void smooth_line(float* first, std::size_t step, std::size_t count, std::vector<
 
 }  // namespace
 
-Volume apply(const GreyMap& map, const Volume& volume) {
+Volume apply(const GreyMap& map, Volume volume) {
   if (!(map.low < map.high)) {
     throw InputError("window: expected low below high, found " + std::to_string(map.low) + " and " +
                      std::to_string(map.high));
   }
-  Volume grey = volume;
   const double floor = std::clamp(map.to_grey(map.threshold), 0.0, 255.0);
-  parallel_for(grey.samples.size(), [&](std::size_t i) {
-    grey.samples[i] = static_cast<float>(std::clamp(map.to_grey(volume.samples[i]), floor, 255.0));
+  parallel_for(volume.samples.size(), [&](std::size_t i) {
+    float& sample = volume.samples[i];
+    sample = static_cast<float>(std::clamp(map.to_grey(sample), floor, 255.0));
   });
-  return grey;
+  return volume;
 }
 
 std::vector<double> quantiles(const Volume& volume, const std::vector<double>& fractions) {

@@ -19,7 +19,7 @@ struct GreyMap {
 };
 
 /// @throws InputError  if low < high does not hold.
-Volume apply(const GreyMap& map, const Volume& volume);
+Volume apply(const GreyMap& map, Volume volume);
 
 /// The values below which the given fractions of the samples lie, to a 4096th of their range.
 std::vector<double> quantiles(const Volume& volume, const std::vector<double>& fractions);

@@ -106,8 +106,8 @@ void require_usable(const Volume& volume) {
   require_samples(volume);
 }
 
-Volume crop(const Volume& volume, const CropRange& range) {
-  Selection kept{range.begin, {}, {1, 1, 1}};
+std::array<Index, 3> cropped_size(const Volume& volume, const CropRange& range) {
+  std::array<Index, 3> size{};
   for (std::size_t a = 0; a < 3; ++a) {
     const Index n = volume.size[a];
     const Index end = range.end[a] == -1 ? n : range.end[a];
@@ -119,9 +119,13 @@ Volume crop(const Volume& volume, const CropRange& range) {
       refuse("crop: expected at least 2 voxels along axis ", a, ", found ", range.begin[a], ":",
              end);
     }
-    kept.count[a] = end - range.begin[a];
+    size[a] = end - range.begin[a];
   }
-  return select(volume, kept);
+  return size;
+}
+
+Volume crop(const Volume& volume, const CropRange& range) {
+  return select(volume, {range.begin, cropped_size(volume, range), {1, 1, 1}});
 }
 
 Volume subsample(const Volume& volume, const std::array<Index, 3>& stride) {

@@ -68,8 +68,12 @@ struct CropRange {
   friend bool operator==(const CropRange&, const CropRange&) = default;
 };
 
-/// The part of the volume inside the range; its world position is kept.
+/// How many voxels of the volume the range keeps.
 /// @throws InputError  if the range is empty, leaves the volume or keeps fewer than 2 voxels.
+std::array<Index, 3> cropped_size(const Volume& volume, const CropRange& range);
+
+/// The part of the volume inside the range; its world position is kept.
+/// @throws InputError  as cropped_size().
 Volume crop(const Volume& volume, const CropRange& range);
 
 /// Keeps every stride-th voxel, starting with the first.

@@ -119,6 +119,7 @@ AmisFields run_amis(const P1Space& space, std::span<const double> f, std::vector
   AmisReport own;
   AmisReport& r = report ? *report : own;
   r = {};
+  r.solver_tolerance = options.solver.tolerance;
   Alternation alternation(space, f, fields, options, r);
   while (r.iterations < options.max_iterations && !r.converged) {
     alternation.step_u();

@@ -22,11 +22,12 @@ struct AmisOptions {
 
 struct AmisReport {
   int iterations = 0;
-  double v_change = 0;         ///< largest change of v in the last iteration
-  bool converged = false;      ///< v_change <= v_tolerance
-  std::size_t clamped = 0;     ///< nodal values of v that left [0, 1] and were clamped, in all
-  int solver_iterations = 0;   ///< conjugate gradient steps, in all
-  double solver_residual = 0;  ///< largest relative residual of any solve
+  double v_change = 0;          ///< largest change of v in the last iteration
+  bool converged = false;       ///< v_change <= v_tolerance
+  std::size_t clamped = 0;      ///< nodal values of v that left [0, 1] and were clamped, in all
+  int solver_iterations = 0;    ///< conjugate gradient steps, in all
+  double solver_residual = 0;   ///< largest relative residual of any solve
+  double solver_tolerance = 0;  ///< what was asked of it
   bool solver_converged = true;
 };
 
