@@ -91,8 +91,10 @@ TEST(Decimate, ATorusKeepsItsHole) {
 }
 
 TEST(Decimate, AFlatBoxNeedsTwelveTriangles) {
-  const TriMesh surface = level_set(kBox, {9, 9, 9}, [](const Vec3&) { return 1.0; });
-  EXPECT_EQ(expect_decimated(surface, 1e-6).triangles_after, 12);
+  for (const Index n : {3, 5, 9, 12, 16}) {
+    const TriMesh surface = level_set(kBox, {n, 9, 20 - n}, [](const Vec3&) { return 1.0; });
+    EXPECT_EQ(expect_decimated(surface, 1e-6).triangles_after, 12) << n;
+  }
 }
 
 TEST(Decimate, ThinPlatesDoNotMerge) {

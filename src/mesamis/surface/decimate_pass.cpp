@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <queue>
+#include <tuple>
 
+#include "mesamis/base/parallel.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/box_tree.h"
 #include "mesamis/surface/farthest.h"
@@ -86,6 +89,7 @@ class ModHausdorff : public Module {
   void set_task(const DecimateTask& task) {
     task_ = &task;
     if (std::isinf(task.tolerance)) return;
+    hint_.assign(task.surface.points.size(), 0);
     of_face_.resize(task.surface.triangles.size());
     for (std::size_t t = 0; t < of_face_.size(); ++t) of_face_[t] = {static_cast<Index>(t)};
   }
@@ -93,7 +97,8 @@ class ModHausdorff : public Module {
   float collapse_priority(const Info& collapse) override {
     if (std::isinf(task_->tolerance)) return LEGAL_COLLAPSE;
     const Star star = star_of(mesh(), collapse);
-    return removed_is_near(collapse, star) && new_are_near(star) && old_are_near(collapse, star)
+    return removed_is_near(collapse, star) && old_are_near(collapse, star) &&
+                   new_are_near(collapse, star)
                ? LEGAL_COLLAPSE
                : ILLEGAL_COLLAPSE;
   }
@@ -151,19 +156,33 @@ class ModHausdorff : public Module {
     });
   }
 
-  bool new_are_near(const Star& star) {
+  bool new_are_near(const Info& collapse, const Star& star) {
+    std::size_t& hint = hint_[index(collapse.v0)];
     return std::all_of(star.after.begin(), star.after.end(), [&](const Triangle& t) {
-      return farthest_distance(shape(t), task_->tree, enough(), hint_) <= task_->tolerance;
+      return farthest_distance(shape(t), task_->tree, enough(), hint) <= task_->tolerance;
     });
   }
 
   bool old_are_near(const Info& collapse, const Star& star) {
+    std::vector<Index> open = listed_around(collapse);
+    std::erase_if(open, [&](Index t) { return is_near_one(original(t), star.after); });
+    if (open.empty()) return true;
     const TriangleTree after(surroundings(collapse, star));
     std::size_t hint = 0;
-    for (const Index t : listed_around(collapse)) {
-      if (farthest_distance(original(t), after, enough(), hint) > task_->tolerance) return false;
-    }
-    return true;
+    return std::all_of(open.begin(), open.end(), [&](Index t) {
+      return farthest_distance(original(t), after, enough(), hint) <= task_->tolerance;
+    });
+  }
+
+  /// Is the whole triangle near to one of them? The distance to one is convex: corners decide. Most
+  /// are, and are spared the search.
+  bool is_near_one(const Corners& triangle, const std::vector<Triangle>& others) const {
+    const double most = task_->tolerance * task_->tolerance;
+    return std::any_of(others.begin(), others.end(), [&](const Triangle& t) {
+      const Corners other = shape(t);
+      return std::all_of(triangle.begin(), triangle.end(),
+                         [&](const Vec3& p) { return squared_distance(p, other) <= most; });
+    });
   }
 
   /// The triangles after the collapse, those of the ring's other points included.
@@ -188,7 +207,7 @@ class ModHausdorff : public Module {
   std::vector<std::vector<Index>> of_face_;
   std::vector<Index> waiting_;
   Star star_;
-  std::size_t hint_ = 0;
+  std::vector<std::size_t> hint_;  // of each point, where the last search for its triangles ended
 };
 
 /// Refuses triangles that meet others.
@@ -247,41 +266,56 @@ class ModIntersection : public Module {
 };
 
 /// OpenMesh's decimater with one change: the modules that say yes or no, which are dear, are asked
-/// only when a collapse's turn has come, and against the surface as it is then.
+/// only when a collapse's turn has come, and several collapses that have nothing in common have
+/// their turn at once. How many depends on the surface, never on the machine.
 class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
  public:
-  LateDecimater(Mesh& mesh, const DecimateTask& task) : BaseDecimaterT<Mesh>(mesh), mesh_(mesh) {
+  LateDecimater(Mesh& mesh, const DecimateTask& task)
+      : BaseDecimaterT<Mesh>(mesh), mesh_(mesh), points_(task.surface.points) {
     OpenMesh::Decimater::ModNormalFlippingT<Mesh>::Handle flips;
     ModuleHandle<ModFlatness> flatness;
     ModuleHandle<ModHausdorff> hausdorff;
-    ModuleHandle<ModIntersection> intersection;
     add(quadric_);
     add(flips);
     add(flatness);
     add(hausdorff);
-    add(intersection);
+    add(intersection_);
     module(quadric_).unset_max_err();
     module(flips).set_max_normal_deviation(kMaxNormalChange);
     module(flatness).set_surface(task.surface);
     module(hausdorff).set_task(task);
-    module(intersection).set_surface(task.surface);
+    module(intersection_).set_surface(task.surface);
     initialize();
   }
 
   void run(std::int64_t triangles, const std::function<void(double)>& progress) {
     stamps_.assign(mesh_.n_vertices(), 0);
-    for (const auto v : mesh_.vertices()) push_around(v);
-    std::size_t turns = 0;
+    refused_.resize(mesh_.n_vertices());
+    turn_of_.assign(mesh_.n_vertices(), 0);
+    woken_.assign(mesh_.n_vertices(), 1);
+    push_woken();
     const std::size_t first_count = queue_.size();
     auto count = static_cast<std::int64_t>(mesh_.n_faces());
-    while (!queue_.empty() && count > triangles) {
-      const Candidate next = queue_.top();
-      queue_.pop();
-      if (++turns % 4096 == 0) {
+    while (count > triangles && (!queue_.empty() || push_woken())) {
+      choose();
+      parallel_blocks(chosen_.size(), 4, [this](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          chosen_[i].allowed = collapse_priority(chosen_[i].info) >= 0;
+        }
+      });
+      changed_.clear();
+      for (Chosen& next : chosen_) {
+        if (count <= triangles) break;
+        if (next.allowed && still_meets_none(next.info)) {
+          collapse(next.info);
+          count -= 2;
+        } else {
+          refuse(next.info);
+        }
+      }
+      if (turn_ % 32 == 0) {
         progress(1 - static_cast<double>(queue_.size()) / static_cast<double>(first_count));
       }
-      if (next.stamp != stamps_[next.point]) continue;
-      if (collapse(next)) count -= 2;
     }
   }
 
@@ -290,49 +324,141 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
   using ModuleHandle = OpenMesh::Decimater::ModHandleT<M>;
 
   struct Candidate {
-    float priority;
+    float error, length;
     Index halfedge, point, stamp;
-    /// The smallest error, then the smallest index comes out first.
+    /// The smallest error comes out first; where the surface is flat, the shortest edge.
     bool operator<(const Candidate& other) const {
-      return priority != other.priority ? priority > other.priority : halfedge > other.halfedge;
+      return std::tie(error, length, halfedge) >
+             std::tie(other.error, other.length, other.halfedge);
     }
   };
 
-  void push_around(Mesh::VertexHandle v) {
-    const Index stamp = ++stamps_[index(v)];
-    if (mesh_.status(v).locked()) return;
-    for (auto h = mesh_.cvoh_iter(v); h.is_valid(); ++h) push(*h, v, stamp);
-  }
+  struct Chosen {
+    Info info;
+    bool allowed = false;
+  };
 
-  void push(Mesh::HalfedgeHandle h, Mesh::VertexHandle v, Index stamp) {
-    queue_.push({module(quadric_).collapse_priority(Info(mesh_, h)), h.idx(), v.idx(), stamp});
-  }
-
-  bool collapse(const Candidate& candidate) {
-    const Mesh::HalfedgeHandle h(candidate.halfedge);
-    Info info(mesh_, h);
-    if (!is_collapse_legal(info)) return false;
-    const float now = module(quadric_).collapse_priority(info);
-    if (now > candidate.priority) {  // the target has gathered errors meanwhile
-      queue_.push({now, candidate.halfedge, candidate.point, candidate.stamp});
-      return false;
+  /// What was refused may have become possible by what happened two rings away.
+  /// @return whether there is anything to try.
+  bool push_woken() {
+    for (const auto v : mesh_.vertices()) {
+      if (woken_[index(v)] != 0) push_around(v);
     }
-    if (collapse_priority(info) < 0) return false;
-    std::vector<Mesh::VertexHandle> ring;
-    for (auto v = mesh_.cvv_iter(info.v0); v.is_valid(); ++v) ring.push_back(*v);
-    preprocess_collapse(info);
-    mesh_.collapse(h);
-    ++stamps_[index(info.v0)];
-    for (auto f = mesh_.cvf_iter(info.v1); f.is_valid(); ++f) mesh_.update_normal(*f);
-    postprocess_collapse(info);
-    for (const auto v : ring) push_around(v);
+    return !queue_.empty();
+  }
+
+  void push_around(Mesh::VertexHandle v) {
+    woken_[index(v)] = 0;
+    ++stamps_[index(v)];
+    refused_[index(v)].clear();
+    if (!mesh_.status(v).locked()) push_best(v);
+  }
+
+  /// A point is in the queue once, with the best of its halfedges that has not been refused.
+  void push_best(Mesh::VertexHandle v) {
+    const std::vector<Index>& refused = refused_[index(v)];
+    std::optional<Candidate> best;
+    for (auto h = mesh_.cvoh_iter(v); h.is_valid(); ++h) {
+      if (std::find(refused.begin(), refused.end(), h->idx()) != refused.end()) continue;
+      const Candidate next{error_of(*h), length_of(*h), h->idx(), v.idx(), stamps_[index(v)]};
+      if (!best || *best < next) best = next;
+    }
+    if (best) queue_.push(*best);
+  }
+
+  void refuse(const Info& collapse) {
+    refused_[index(collapse.v0)].push_back(collapse.v0v1.idx());
+    push_best(collapse.v0);
+  }
+
+  float length_of(Mesh::HalfedgeHandle h) const {
+    return static_cast<float>(mesh_.calc_edge_sqr_length(h));
+  }
+
+  float error_of(Mesh::HalfedgeHandle h) {
+    return module(quadric_).collapse_priority(Info(mesh_, h));
+  }
+
+  /// The next collapses by their order. One whose surroundings reach into another's waits.
+  void choose() {
+    constexpr std::size_t kMostChosen = 128, kMostWaiting = 256;
+    ++turn_;
+    chosen_.clear();
+    waiting_.clear();
+    while (!queue_.empty() && chosen_.size() < kMostChosen && waiting_.size() < kMostWaiting) {
+      const Candidate next = queue_.top();
+      queue_.pop();
+      if (next.stamp != stamps_[next.point]) continue;
+      Info info(mesh_, Mesh::HalfedgeHandle(next.halfedge));
+      if (!is_collapse_legal(info)) {
+        refuse(info);
+      } else if (error_of(info.v0v1) > next.error) {  // the target has gathered errors meanwhile
+        push_best(info.v0);
+      } else if (reserve(info)) {
+        chosen_.push_back({info});
+      } else {
+        waiting_.push_back(next);
+      }
+    }
+    for (const Candidate& candidate : waiting_) queue_.push(candidate);
+  }
+
+  /// A collapse changes the triangles around the point removed, and its test looks at those around
+  /// their corners: these corners may not be shared.
+  /// @return false if one of them is taken for this turn.
+  bool reserve(const Info& collapse) {
+    if (turn_of_[index(collapse.v0)] == turn_) return false;
+    for (auto v = mesh_.cvv_iter(collapse.v0); v.is_valid(); ++v) {
+      if (turn_of_[index(*v)] == turn_) return false;
+    }
+    turn_of_[index(collapse.v0)] = turn_;
+    for (auto v = mesh_.cvv_iter(collapse.v0); v.is_valid(); ++v) turn_of_[index(*v)] = turn_;
     return true;
   }
 
+  /// Other surroundings may still be near in space, where the surface has come close to itself.
+  bool still_meets_none(const Info& collapse) {
+    const Box around = box_around(collapse.v0);
+    const bool changed = std::any_of(changed_.begin(), changed_.end(),
+                                     [&](const Box& box) { return overlap(box, around); });
+    return !changed || module(intersection_).collapse_priority(collapse) >= 0;
+  }
+
+  /// Of all triangles around a point, and thus of those that take their place.
+  Box box_around(Mesh::VertexHandle point) const {
+    std::vector<Vec3> points{points_[index(point)]};
+    for (auto v = mesh_.cvv_iter(point); v.is_valid(); ++v) points.push_back(points_[index(*v)]);
+    return bounding_box(points);
+  }
+
+  void collapse(Info& info) {
+    std::vector<Mesh::VertexHandle> ring;
+    for (auto v = mesh_.cvv_iter(info.v0); v.is_valid(); ++v) ring.push_back(*v);
+    changed_.push_back(box_around(info.v0));
+    preprocess_collapse(info);
+    mesh_.collapse(info.v0v1);
+    ++stamps_[index(info.v0)];
+    for (auto f = mesh_.cvf_iter(info.v1); f.is_valid(); ++f) mesh_.update_normal(*f);
+    postprocess_collapse(info);
+    for (const auto v : ring) {
+      for (auto w = mesh_.cvv_iter(v); w.is_valid(); ++w) woken_[index(*w)] = 1;
+    }
+    for (const auto v : ring) push_around(v);
+  }
+
   Mesh& mesh_;
+  const std::vector<Vec3>& points_;
   OpenMesh::Decimater::ModQuadricT<Mesh>::Handle quadric_;
+  ModuleHandle<ModIntersection> intersection_;
   std::priority_queue<Candidate> queue_;
   std::vector<Index> stamps_;
+  std::vector<char> woken_;                  // of each point
+  std::vector<std::vector<Index>> refused_;  // halfedges of each point, as it is now
+  std::size_t turn_ = 0;
+  std::vector<std::size_t> turn_of_;  // the last one that each point was reserved for
+  std::vector<Chosen> chosen_;        // for the present turn
+  std::vector<Candidate> waiting_;    // for the next one
+  std::vector<Box> changed_;          // in the present turn
 };
 
 }  // namespace
