@@ -60,12 +60,26 @@ KuhnGrid first_grid(const Volume& volume, const std::array<Index, 3>& stride, do
 }
 
 void measure_aspects(const TetMesh& mesh, Iteration& iteration) {
+  struct Aspects {
+    std::array<double, 3> max{}, sum{};
+  };
+  const std::size_t count = mesh.cells.size();
+  std::vector<Aspects> blocks((count + kBlock - 1) / kBlock);
+  parallel_blocks(count, kBlock, [&](std::size_t begin, std::size_t end) {
+    Aspects& block = blocks[begin / kBlock];
+    for (std::size_t c = begin; c < end; ++c) {
+      const auto s = aspect_ratios(cell_shape(cell_corners(mesh, mesh.cells[c])));
+      for (std::size_t i = 0; i < 3; ++i) {
+        block.max[i] = std::max(block.max[i], s[i]);
+        block.sum[i] += s[i];
+      }
+    }
+  });
   iteration.aspect_max = iteration.aspect_mean = {};
-  for (const Cell& cell : mesh.cells) {
-    const auto s = aspect_ratios(cell_shape(cell_corners(mesh, cell)));
+  for (const Aspects& block : blocks) {
     for (std::size_t i = 0; i < 3; ++i) {
-      iteration.aspect_max[i] = std::max(iteration.aspect_max[i], s[i]);
-      iteration.aspect_mean[i] += s[i] / static_cast<double>(mesh.cells.size());
+      iteration.aspect_max[i] = std::max(iteration.aspect_max[i], block.max[i]);
+      iteration.aspect_mean[i] += block.sum[i] / static_cast<double>(count);
     }
   }
 }

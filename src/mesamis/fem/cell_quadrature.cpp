@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <vector>
 
 #include "mesamis/mesh/tet_mesh.h"
 
@@ -19,13 +19,19 @@ constexpr double kLeastPivot = 0.02;  // of the normal matrix, against evenly sp
 /// Normal equations of the fit: sums over samples of l l' and l I, l the barycentric coordinates.
 class NormalEquations {
  public:
-  void add(const Vec4& l, double value) {
+  /// Samples in a row: the k-th at l + k step, k from 0, with the sums of their values and of k
+  /// times them. What is quadratic in k adds up by itself.
+  void add_row(const Vec4& l, const Vec4& step, double count, double sum, double moment) {
+    const double ones = count, ks = count * (count - 1) / 2, squares = ks * (2 * count - 1) / 3;
     std::size_t e = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-      right_[i] += l[i] * value;
-      for (std::size_t j = i; j < 4; ++j) matrix_[e++] += l[i] * l[j];
+      right_[i] += l[i] * sum + step[i] * moment;
+      for (std::size_t j = i; j < 4; ++j) {
+        matrix_[e++] += ones * l[i] * l[j] + ks * (l[i] * step[j] + step[i] * l[j]) +
+                        squares * step[i] * step[j];
+      }
     }
-    ++count_;
+    count_ += count;
   }
   double count() const { return count_; }
 
@@ -64,6 +70,102 @@ class NormalEquations {
   double count_ = 0;
 };
 
+/// std::ceil() calls a function on processors without SSE4.1.
+Index ceiling(double x) {
+  const auto whole = static_cast<Index>(x);
+  return whole + (whole < x ? 1 : 0);
+}
+
+/// Cell and fraction of a coordinate in voxels, clamped to the image.
+struct Place {
+  Place(double x, Index size) {
+    const double inside = std::clamp<double>(x, 0, size - 1);
+    cell = std::min(static_cast<Index>(inside), size - 2);
+    fraction = inside - cell;
+  }
+  Index cell;
+  double fraction;
+};
+
+/// interpolate() along a line in the direction of x: what y and z decide is decided once.
+class ImageLine {
+ public:
+  ImageLine(const Volume& image, double y, double z) : size_(image.size[0]) {
+    const Place in_y(y, image.size[1]), in_z(z, image.size[2]);
+    const auto step_y = static_cast<std::ptrdiff_t>(image.size[0]);
+    const auto step_z = step_y * image.size[1];
+    const bool y_first = in_y.fraction >= in_z.fraction;
+    more_ = std::max(in_y.fraction, in_z.fraction);
+    less_ = std::min(in_y.fraction, in_z.fraction);
+    row_ = image.samples.data() + step_y * in_y.cell + step_z * in_z.cell;
+    first_ = row_ + (y_first ? step_y : step_z);
+    both_ = row_ + step_y + step_z;
+  }
+
+  double at(double x) const {
+    const Place in_x(x, size_);
+    const Index i = in_x.cell;
+    const double fraction = in_x.fraction;
+    if (fraction >= more_) {
+      return along({row_[i], row_[i + 1], first_[i + 1], both_[i + 1]}, {fraction, more_, less_});
+    }
+    if (fraction >= less_) {
+      return along({row_[i], first_[i], first_[i + 1], both_[i + 1]}, {more_, fraction, less_});
+    }
+    return along({row_[i], first_[i], both_[i], both_[i + 1]}, {more_, less_, fraction});
+  }
+
+ private:
+  /// On the Kuhn cell whose corners have these values, the fractions sorted.
+  static double along(const Vec4& f, const std::array<double, 3>& t) {
+    return f[0] + t[0] * (f[1] - f[0]) + t[1] * (f[2] - f[1]) + t[2] * (f[3] - f[2]);
+  }
+
+  Index size_;
+  double more_, less_;                 // of the fractions in y and z
+  const float *row_, *first_, *both_;  // after the step of the greater fraction, and after both
+};
+
+/// l = (i + 1/2) / 6 for all whole i >= 0 that add up to 4: 35 points. No coordinate differs from
+/// another, so that the normal matrix is a I + b 1 1' and known beforehand.
+class FixedSamples {
+ public:
+  FixedSamples() {
+    for (int a = 0; a <= 4; ++a) {
+      for (int b = 0; a + b <= 4; ++b) {
+        for (int c = 0; a + b + c <= 4; ++c) {
+          points_.push_back(
+              {(a + 0.5) / 6, (b + 0.5) / 6, (c + 0.5) / 6, (4 - a - b - c + 0.5) / 6});
+        }
+      }
+    }
+    double square = 0, product = 0;
+    for (const Vec4& l : points_) {
+      square += l[0] * l[0];
+      product += l[0] * l[1];
+    }
+    own_ = 1 / (square - product);
+    shared_ = product * own_ / (square + 3 * product);
+  }
+
+  /// @param value  of the image at barycentric coordinates.
+  template <class Value>
+  Vec4 fit(Value&& value) const {
+    Vec4 right{};
+    for (const Vec4& l : points_) {
+      const double v = value(l);
+      for (std::size_t i = 0; i < 4; ++i) right[i] += l[i] * v;
+    }
+    const double sum = right[0] + right[1] + right[2] + right[3];
+    for (double& x : right) x = own_ * x - shared_ * sum;
+    return right;
+  }
+
+ private:
+  std::vector<Vec4> points_;
+  double own_, shared_;  // of the inverse
+};
+
 /// A cell in voxel coordinates, with its barycentric coordinates as linear functions.
 class CellInVoxels {
  public:
@@ -80,6 +182,10 @@ class CellInVoxels {
       base_[i] = -dot(slope_[i], p_[a]);
     }
     volume_ = six_volume(p_[0], p_[1], p_[2], p_[3]) / 6;
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (slope_[i].x == 0) continue;
+      crossing_[i] = (-1 / slope_[i].x) * Vec3{base_[i], slope_[i].y, slope_[i].z};
+    }
   }
 
   double volume() const { return volume_; }
@@ -87,41 +193,48 @@ class CellInVoxels {
   /// Samples at (m + 1/2) / density - 1/2 per direction, m whole: with density 1 the voxels.
   NormalEquations sample_lattice(int density) const {
     const Box box = bounding_box(p_);
-    auto first = [&](double x) { return std::ceil((x + 0.5) * density - 0.5); };
-    auto last = [&](double x) { return std::floor((x + 0.5) * density - 0.5); };
-    auto coordinate = [&](double m) { return (m + 0.5) / density - 0.5; };
+    const auto first = [density](double x) { return ceiling((x + 0.5) * density - 0.5); };
+    const auto last = [density](double x) { return -ceiling(-((x + 0.5) * density - 0.5)); };
+    const auto coordinate = [step = 1.0 / density](Index m) { return (m + 0.5) * step - 0.5; };
+    const Vec4 step = slopes_along_x(density);
     NormalEquations sums;
-    for (double mz = first(box.lo.z); mz <= last(box.hi.z); ++mz) {
-      for (double my = first(box.lo.y); my <= last(box.hi.y); ++my) {
+    for (Index mz = first(box.lo.z); mz <= last(box.hi.z); ++mz) {
+      for (Index my = first(box.lo.y); my <= last(box.hi.y); ++my) {
         Vec3 q{0, coordinate(my), coordinate(mz)};
         double low = box.lo.x, high = box.hi.x;
-        clip_row(q, low, high);
-        for (double mx = first(low); mx <= last(high); ++mx) {
-          q.x = coordinate(mx);
-          sums.add(barycentric(q), value_at(q));
+        if (!clip_row(q, low, high)) continue;
+        const Index begin = first(low), count = last(high) - begin + 1;
+        if (count <= 0) continue;
+        const ImageLine line(image_, q.y, q.z);
+        double sum = 0, moment = 0;
+        for (Index k = 0; k < count; ++k) {
+          const double value = line.at(coordinate(begin + k));
+          sum += value;
+          moment += k * value;
         }
+        q.x = coordinate(begin);
+        sums.add_row(barycentric(q), step, count, sum, moment);
       }
     }
     return sums;
   }
 
-  /// Samples at l = (i + 1/2) / 6 for all whole i >= 0 that add up to 4: 35 points.
-  NormalEquations sample_fixed() const {
-    NormalEquations sums;
-    for (int a = 0; a <= 4; ++a) {
-      for (int b = 0; a + b <= 4; ++b) {
-        for (int c = 0; a + b + c <= 4; ++c) {
-          const Vec4 l{(a + 0.5) / 6, (b + 0.5) / 6, (c + 0.5) / 6, (4 - a - b - c + 0.5) / 6};
-          Vec3 q;
-          for (std::size_t i = 0; i < 4; ++i) q += l[i] * p_[i];
-          sums.add(l, value_at(q));
-        }
-      }
-    }
-    return sums;
+  /// The fit to samples at fixed places.
+  Vec4 fit_fixed() const {
+    static const FixedSamples samples;
+    return samples.fit([this](const Vec4& l) {
+      const Vec3 q = l[0] * p_[0] + l[1] * p_[1] + l[2] * p_[2] + l[3] * p_[3];
+      return ImageLine(image_, q.y, q.z).at(q.x);
+    });
   }
 
  private:
+  /// Of the barycentric coordinates, from sample to sample.
+  Vec4 slopes_along_x(int density) const {
+    return {slope_[0].x / density, slope_[1].x / density, slope_[2].x / density,
+            slope_[3].x / density};
+  }
+
   Vec4 barycentric(const Vec3& q) const {
     Vec4 l;
     for (std::size_t i = 0; i < 4; ++i) l[i] = base_[i] + dot(slope_[i], q);
@@ -129,26 +242,24 @@ class CellInVoxels {
   }
 
   /// The part of the row through q (along x) that lies in the cell.
-  void clip_row(const Vec3& q, double& low, double& high) const {
+  /// @return false if none does.
+  bool clip_row(const Vec3& q, double& low, double& high) const {
     for (std::size_t i = 0; i < 4; ++i) {
-      const double at_zero = base_[i] + slope_[i].y * q.y + slope_[i].z * q.z;
+      const double x = crossing_[i].x + crossing_[i].y * q.y + crossing_[i].z * q.z;
       if (slope_[i].x > 0) {
-        low = std::max(low, -at_zero / slope_[i].x);
+        low = std::max(low, x);
       } else if (slope_[i].x < 0) {
-        high = std::min(high, -at_zero / slope_[i].x);
-      } else if (at_zero < 0) {
-        high = -std::numeric_limits<double>::infinity();
+        high = std::min(high, x);
+      } else if (base_[i] + slope_[i].y * q.y + slope_[i].z * q.z < 0) {
+        return false;
       }
     }
-  }
-
-  double value_at(const Vec3& q) const {
-    return interpolate(image_,
-                       {q.x * image_.spacing.x, q.y * image_.spacing.y, q.z * image_.spacing.z});
+    return low <= high;
   }
 
   const Volume& image_;
   std::array<Vec3, 4> p_, slope_;
+  std::array<Vec3, 4> crossing_{};  // where a row meets face i: x = this . (1, y, z)
   Vec4 base_{};
   double volume_;
 };
@@ -163,8 +274,7 @@ std::array<double, 4> fit_image_on_cell(const Volume& image, const std::array<Ve
     const NormalEquations sums = cell.sample_lattice(density);
     if (sums.count() >= kEnoughSamples / 2 && sums.solve(fit)) return fit;
   }
-  cell.sample_fixed().solve(fit);
-  return fit;
+  return cell.fit_fixed();
 }
 
 }  // namespace mesamis

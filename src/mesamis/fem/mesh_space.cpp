@@ -30,6 +30,10 @@ void build_graph(const TetMesh& mesh, const PointCells& around,
   for (const auto& row : rows) columns.insert(columns.end(), row.begin(), row.end());
 }
 
+/// The edges at each corner, in the order of their other ends.
+constexpr std::array<std::array<std::size_t, 3>, 4> kEdgesAtCorner{
+    {{0, 1, 2}, {0, 3, 4}, {1, 3, 5}, {2, 4, 5}}};
+
 }  // namespace
 
 CellGeometry cell_geometry(const TetMesh& mesh, Index cell) {
@@ -66,10 +70,34 @@ MeshSpace::MeshSpace(const TetMesh& mesh) : mesh_(mesh), point_cells_(point_cell
       edge_weights_[c][e] = g.volume * dot(g.gradients[i], g.gradients[j]);
     }
   });
+  find_corners();
   lumped_mass_.assign(mesh.points.size(), 0);
   parallel_for(mesh.points.size(), [this](std::size_t i) {
     for (const Index c : point_cells_.of(static_cast<Index>(i))) {
       lumped_mass_[i] += volumes_[c] / 4;
+    }
+  });
+}
+
+void MeshSpace::find_corners() {
+  corners_.resize(point_cells_.cells.size());
+  parallel_for(mesh_.points.size(), [this](std::size_t i) {
+    const auto row = static_cast<Index>(i);
+    const Index* begin = columns_.data() + row_start_[i];
+    const Index* end = columns_.data() + row_start_[i + 1];
+    Corner* corner = corners_.data() + point_cells_.start[i];
+    for (const Index c : point_cells_.of(row)) {
+      std::size_t others = 0;
+      for (int k = 0; k < 4; ++k) {
+        const Index other = mesh_.cells[c][k];
+        if (other == row) {
+          corner->local = k;
+        } else {
+          corner->places[others++] =
+              static_cast<Index>(std::lower_bound(begin, end, other) - begin);
+        }
+      }
+      ++corner;
     }
   });
 }
@@ -83,19 +111,18 @@ SparseMatrix MeshSpace::assemble(EdgeValue&& edge_value, std::vector<double> dia
     const Index* begin = columns_.data() + row_start_[i];
     const Index* end = columns_.data() + row_start_[i + 1];
     double* values = matrix.values.data() + row_start_[i];
-    double& own = values[std::lower_bound(begin, end, row) - begin];
-    own = diagonal[i];
+    const Corner* corner = corners_.data() + point_cells_.start[i];
+    double own = diagonal[i];
     for (const Index c : point_cells_.of(row)) {
-      const Cell& cell = mesh_.cells[c];
-      for (std::size_t e = 0; e < 6; ++e) {
-        const auto& [a, b] = kCellEdges[e];
-        if (cell[a] != row && cell[b] != row) continue;
-        const Index other = cell[a] == row ? cell[b] : cell[a];
-        const double value = edge_value(c, e);
-        values[std::lower_bound(begin, end, other) - begin] += value;
+      const auto& edges = kEdgesAtCorner[static_cast<std::size_t>(corner->local)];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double value = edge_value(c, edges[k]);
+        values[corner->places[k]] += value;
         if (zero_row_sums) own -= value;
       }
+      ++corner;
     }
+    values[std::lower_bound(begin, end, row) - begin] = own;
   });
   return matrix;
 }

@@ -38,6 +38,8 @@ class MeshSpace : public P1Space {
   MatrixOperator consistent_mass() const;
 
  private:
+  void find_corners();
+
   /// Sums per-cell edge values (kCellEdges order) into a matrix of the mesh's graph, plus a
   /// diagonal. `edge_value(cell, edge)` is the off-diagonal entry; with `zero_row_sums` the
   /// diagonal gets minus the off-diagonal sum.
@@ -45,10 +47,17 @@ class MeshSpace : public P1Space {
   SparseMatrix assemble(EdgeValue&& edge_value, std::vector<double> diagonal,
                         bool zero_row_sums) const;
 
+  /// One corner of a cell: which, and where the others stand in its row, in their order.
+  struct Corner {
+    Index local;
+    std::array<Index, 3> places;
+  };
+
   const TetMesh& mesh_;
   PointCells point_cells_;
   std::vector<std::int64_t> row_start_;
   std::vector<Index> columns_;
+  std::vector<Corner> corners_;  // for each entry of point_cells_
   std::vector<double> volumes_;
   std::vector<std::array<double, 6>> edge_weights_;  // |K| grad phi_i . grad phi_j
   std::vector<double> lumped_mass_;

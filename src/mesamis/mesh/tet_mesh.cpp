@@ -22,40 +22,86 @@ struct FaceSlot {
   std::int8_t face;
 };
 
-/// The faces of all cells by their points, then by cell. Put into one bucket per lowest point
-/// first: what is left to sort is short.
-std::vector<FaceSlot> sorted_faces(const TetMesh& mesh) {
-  Index highest = kNoIndex;
-  for (const Cell& cell : mesh.cells) {
-    const auto [low, high] = std::minmax_element(cell.begin(), cell.end());
-    if (*low < 0) throw InputError("mesh: a cell names a missing point");
-    highest = std::max(highest, *high);
+/// The faces of all cells, in one bucket per lowest point: what is left to sort is short, and a
+/// matter of each bucket.
+class FaceBuckets {
+ public:
+  explicit FaceBuckets(const TetMesh& mesh) : mesh_(mesh), start_(point_count(mesh) + 1, 0) {
+    for_each_face([this](std::size_t lowest, std::int64_t) { ++start_[lowest + 1]; });
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    slots_.resize(4 * mesh.cells.size());
+    std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+    for_each_face([&](std::size_t lowest, std::int64_t slot) { slots_[next[lowest]++] = slot; });
   }
-  if (!mesh.points.empty() && highest >= std::ssize(mesh.points)) {
-    throw InputError("mesh: a cell names a missing point");
+
+  std::size_t size() const { return start_.size() - 1; }
+
+  /// Those of one bucket by their points, then by cell.
+  void sort(std::size_t lowest, std::vector<FaceSlot>& faces) const {
+    faces.clear();
+    for (std::size_t i = start_[lowest]; i < start_[lowest + 1]; ++i) {
+      const std::int64_t cell = slots_[i] / 4, face = slots_[i] % 4;
+      faces.push_back(
+          {sorted_face(mesh_.cells[static_cast<std::size_t>(cell)], static_cast<int>(face)),
+           static_cast<Index>(cell), static_cast<std::int8_t>(face)});
+    }
+    std::sort(faces.begin(), faces.end(), [](const FaceSlot& a, const FaceSlot& b) {
+      return std::tie(a.points[1], a.points[2], a.cell) <
+             std::tie(b.points[1], b.points[2], b.cell);
+    });
   }
-  std::vector<std::size_t> start(static_cast<std::size_t>(highest) + 2, 0);
-  for (const Cell& cell : mesh.cells) {
-    for (int f = 0; f < 4; ++f) ++start[sorted_face(cell, f)[0] + 1];
+
+ private:
+  static std::size_t point_count(const TetMesh& mesh) {
+    Index highest = kNoIndex;
+    for (const Cell& cell : mesh.cells) {
+      const auto [low, high] = std::minmax_element(cell.begin(), cell.end());
+      if (*low < 0) throw InputError("mesh: a cell names a missing point");
+      highest = std::max(highest, *high);
+    }
+    if (!mesh.points.empty() && highest >= std::ssize(mesh.points)) {
+      throw InputError("mesh: a cell names a missing point");
+    }
+    return static_cast<std::size_t>(highest + 1);
   }
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<std::size_t> next(start.begin(), start.end() - 1);
-  std::vector<FaceSlot> faces(4 * mesh.cells.size());
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    for (int f = 0; f < 4; ++f) {
-      const std::array<Index, 3> points = sorted_face(mesh.cells[c], f);
-      faces[next[points[0]]++] = {points, static_cast<Index>(c), static_cast<std::int8_t>(f)};
+
+  template <class Visit>
+  void for_each_face(Visit&& visit) const {
+    std::int64_t slot = 0;
+    for (const Cell& cell : mesh_.cells) {
+      for (const auto& [a, b, c] : kCellFaces) {
+        visit(static_cast<std::size_t>(std::min({cell[a], cell[b], cell[c]})), slot++);
+      }
     }
   }
-  parallel_for(next.size(), [&](std::size_t p) {
-    std::sort(faces.begin() + static_cast<std::ptrdiff_t>(start[p]),
-              faces.begin() + static_cast<std::ptrdiff_t>(start[p + 1]),
-              [](const FaceSlot& a, const FaceSlot& b) {
-                return std::tie(a.points[1], a.points[2], a.cell) <
-                       std::tie(b.points[1], b.points[2], b.cell);
-              });
+
+  const TetMesh& mesh_;
+  std::vector<std::size_t> start_;
+  std::vector<std::int64_t> slots_;  // four times the cell and the face
+};
+
+/// Calls look(faces) once for the faces that have the same points, concurrently.
+/// @return what it says where it first says anything, in the order of the points.
+template <class Look>
+std::string look_at_faces(const TetMesh& mesh, Look&& look) {
+  const FaceBuckets buckets(mesh);
+  std::vector<std::string> said((buckets.size() + kBlock - 1) / kBlock);
+  parallel_blocks(buckets.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    std::vector<FaceSlot> faces;
+    std::string& first = said[begin / kBlock];
+    for (std::size_t p = begin; p < end && first.empty(); ++p) {
+      buckets.sort(p, faces);
+      for (std::size_t i = 0; i < faces.size() && first.empty();) {
+        std::size_t j = i + 1;
+        while (j < faces.size() && faces[j].points == faces[i].points) ++j;
+        first = look(std::span<const FaceSlot>(faces).subspan(i, j - i));
+        i = j;
+      }
+    }
   });
-  return faces;
+  const auto found =
+      std::find_if(said.begin(), said.end(), [](const std::string& s) { return !s.empty(); });
+  return found == said.end() ? std::string() : *found;
 }
 
 bool on_one_plane(const std::array<Vec3, 3>& p, const Box& box) {
@@ -101,19 +147,15 @@ std::string find_bad_cell(const TetMesh& mesh) {
 }
 
 std::string find_bad_face(const TetMesh& mesh, const Box& box) {
-  const std::vector<FaceSlot> faces = sorted_faces(mesh);
-  for (std::size_t i = 0; i < faces.size();) {
-    std::size_t j = i + 1;
-    while (j < faces.size() && faces[j].points == faces[i].points) ++j;
-    const auto& p = faces[i].points;
+  return look_at_faces(mesh, [&](std::span<const FaceSlot> same) -> std::string {
+    const auto& p = same[0].points;
     const bool outer = on_one_plane({mesh.points[p[0]], mesh.points[p[1]], mesh.points[p[2]]}, box);
-    auto face = [&] { return "a face of cell " + std::to_string(faces[i].cell); };
-    if (j - i > 2) return face() + " is shared by " + std::to_string(j - i) + " cells";
-    if (j - i == 2 && outer) return face() + " lies on the box and has two cells";
-    if (j - i == 1 && !outer) return face() + " has one cell and does not lie on the box";
-    i = j;
-  }
-  return {};
+    auto face = [&] { return "a face of cell " + std::to_string(same[0].cell); };
+    if (same.size() > 2) return face() + " is shared by " + std::to_string(same.size()) + " cells";
+    if (same.size() == 2 && outer) return face() + " lies on the box and has two cells";
+    if (same.size() == 1 && !outer) return face() + " has one cell and does not lie on the box";
+    return {};
+  });
 }
 
 std::string find_bad_volume(const TetMesh& mesh, const Box& box) {
@@ -206,17 +248,17 @@ TetMesh coarse_box_mesh(const Box& box) {
 std::vector<std::array<Index, 4>> cell_neighbors(const TetMesh& mesh) {
   std::vector<std::array<Index, 4>> neighbors(mesh.cells.size(),
                                               {kNoIndex, kNoIndex, kNoIndex, kNoIndex});
-  const std::vector<FaceSlot> faces = sorted_faces(mesh);
-  for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
-    if (faces[i].points != faces[i + 1].points) continue;
-    if (i + 2 < faces.size() && faces[i + 2].points == faces[i].points) {
-      throw InputError("mesh: a face of cell " + std::to_string(faces[i].cell) +
-                       " is shared by more than two cells");
+  const std::string flaw = look_at_faces(mesh, [&](std::span<const FaceSlot> same) -> std::string {
+    if (same.size() > 2) {
+      return "mesh: a face of cell " + std::to_string(same[0].cell) +
+             " is shared by more than two cells";
     }
-    neighbors[faces[i].cell][faces[i].face] = faces[i + 1].cell;
-    neighbors[faces[i + 1].cell][faces[i + 1].face] = faces[i].cell;
-    ++i;
-  }
+    if (same.size() < 2) return {};
+    neighbors[same[0].cell][same[0].face] = same[1].cell;
+    neighbors[same[1].cell][same[1].face] = same[0].cell;
+    return {};
+  });
+  if (!flaw.empty()) throw InputError(flaw);
   return neighbors;
 }
 
