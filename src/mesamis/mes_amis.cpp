@@ -311,6 +311,7 @@ class Run {
     constexpr double kShareBefore = 0.4;  // of a stage's time, what comes before remeshing
     RemeshOptions options;
     options.max_cells = most_cells();
+    options.draft = options.max_cells < *settings().max_tets;
     options.progress = [this](std::string_view, double share) {
       advance(kShareBefore + (1 - kShareBefore) * share);
       return true;

@@ -157,6 +157,26 @@ TEST(Remesh, RefinesAndCoarsensByTwoAsWellAsFromACoarseBox) {
   }
 }
 
+TEST(Remesh, ADraftIsCheapAndLeadsToAMeshAsGood) {
+  for (const Ugawg which : {Ugawg::kLinear, Ugawg::kPolar1, Ugawg::kPolar2}) {
+    const FormulaMetric metric = ugawg_metric(which, ugawg_scale(which, 10'000));
+    RemeshOptions options;
+    options.draft = true;
+    RemeshReport full, quick;
+    const TetMesh mesh = remesh(coarse_box_mesh(kUnitBox), metric, {}, &full);
+    const TetMesh draft = remesh(coarse_box_mesh(kUnitBox), metric, options, &quick);
+    EXPECT_EQ(find_flaw(draft, kUnitBox), "");
+    EXPECT_TRUE(quick.converged);
+    EXPECT_LT(4 * quick.rounds, 3 * full.rounds);
+    EXPECT_LT(operations(quick), operations(full));
+    EXPECT_NEAR(static_cast<double>(draft.cells.size()), static_cast<double>(mesh.cells.size()),
+                0.2 * static_cast<double>(mesh.cells.size()));
+    const MeshFit wanted = fit_of(mesh, metric), found = fit_of(remesh(draft, metric), metric);
+    EXPECT_GT(found.unit_edge_fraction, wanted.unit_edge_fraction - 0.02);
+    EXPECT_GT(found.quality_mean, wanted.quality_mean - 0.02);
+  }
+}
+
 TEST(Remesh, MeshMetricIsFollowed) {
   const FormulaMetric metric([](const Vec3& p) {
     const double h = 0.04 + 0.3 * std::abs(p.x - 0.5);

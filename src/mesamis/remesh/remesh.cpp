@@ -91,9 +91,8 @@ class Remesher {
       growth_ = static_cast<double>(mesh_.cell_count()) / cells_before;
       count(done);
       const double change = share_of_vertices(done);
-      const bool circling = change < kFew && change > 0.8 * last_change;
       const bool resized = control_count(change);
-      report_.converged = strict_ && !resized && (change < kHardlyAny || circling);
+      report_.converged = !resized && is_done(change, last_change);
       // A mesh that must change its count gets freedom to do so, unless it has settled.
       if (resized) strict_ = false;
       strict_ |= is_settled(round, change, last_change);
@@ -103,9 +102,11 @@ class Remesher {
 
   void polish() {
     set_pending(mesh_, kToSwap | kToSmooth | kToRepair);
-    for (int round = 0; round < options_.polish_rounds; ++round) {
-      tell_progress(0.8 + 0.2 * round / options_.polish_rounds);
-      const bool is_last = round + 1 == options_.polish_rounds;
+    const int rounds =
+        options_.draft ? std::min(1, options_.polish_rounds) : options_.polish_rounds;
+    for (int round = 0; round < rounds; ++round) {
+      tell_progress(0.8 + 0.2 * round / rounds);
+      const bool is_last = round + 1 == rounds;
       count(on_parts(options_.max_rounds + round,
                      [is_last](Workbench& bench) { return polish_once(bench, is_last); }));
     }
@@ -125,6 +126,12 @@ class Remesher {
   double share_of_vertices(const Counters& done) const {
     return static_cast<double>(done.splits + done.collapses) /
            static_cast<double>(mesh_.vertex_count());
+  }
+
+  bool is_done(double change, double last_change) const {
+    if (options_.draft) return change < kMany;
+    const bool circling = change < kFew && change > 0.8 * last_change;
+    return strict_ && (change < kHardlyAny || circling);
   }
 
   /// Is the mesh so near its goal that new edges can be held to it? Or going round in circles?

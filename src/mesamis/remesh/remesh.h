@@ -14,6 +14,7 @@ struct RemeshOptions {
   int max_rounds = 40;         ///< split, collapse, swap, smooth rounds at most
   int polish_rounds = 3;       ///< quality-only rounds at the end
   std::int64_t max_cells = 0;  ///< coarsen the metric until at most about this many; 0: as it is
+  bool draft = false;          ///< stop early: a mesh that is only to lead to the next one
   Index part_cells = 40000;    ///< cells per part of the parallel schedule
   Progress progress;           ///< optional
 };
