@@ -5,23 +5,13 @@
 #include <cmath>
 #include <string>
 
+#include "mesamis/adapt/paired_gradients.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/mesh_space.h"
 
 namespace mesamis {
 namespace {
-
-struct CellGradients {
-  double volume;
-  Vec3 u, v, f;
-};
-
-void add(PatchSums& sums, double volume, const Vec3& gradient) {
-  sums.volume += volume;
-  sums.gradient += volume * gradient;
-  sums.gradient_outer += volume * outer(gradient);
-}
 
 int shared_points(const Cell& a, const Cell& b) {
   int shared = 0;
@@ -42,28 +32,27 @@ class MeshEstimator {
         f_(f),
         neighbors_(cell_neighbors(mesh)),
         around_(point_cells(mesh)),
+        volumes_(mesh.cells.size()),
         gradients_(mesh.cells.size()) {
     parallel_for(mesh.cells.size(), [&](std::size_t c) {
       const CellGeometry g = cell_geometry(mesh, static_cast<Index>(c));
       const Cell& k = mesh.cells[c];
-      gradients_[c] = {g.volume, cell_gradient(g, k, u), cell_gradient(g, k, v),
-                       cell_gradient(g, k, f)};
+      volumes_[c] = g.volume;
+      gradients_[c] = {cell_gradient(g, k, u), cell_gradient(g, k, v)};
     });
   }
 
   CellEstimate at(Index c) const {
-    PatchSums patch_u, patch_v;
+    PairedSums patch;
     const Cell& k = mesh_.cells[c];
     for (const Index p : k) {
       for (const Index t : around_.of(p)) {
         // A cell that shares s vertices with K is met s times: each time it counts 1/s.
-        const double part = gradients_[t].volume / shared_points(k, mesh_.cells[t]);
-        add(patch_u, part, gradients_[t].u);
-        add(patch_v, part, gradients_[t].v);
+        patch.add(gradients_[t], volumes_[t] / shared_points(k, mesh_.cells[t]));
       }
     }
-    return estimate_cell(data_of(c), parameters_, recovered_error(patch_u),
-                         recovered_error(patch_v));
+    return estimate_cell(data_of(c), parameters_, recovered_error(patch.of_u()),
+                         recovered_error(patch.of_v()));
   }
 
  private:
@@ -71,11 +60,11 @@ class MeshEstimator {
     const Cell& k = mesh_.cells[c];
     const std::array<Vec3, 4> p = cell_corners(mesh_, k);
     CellData data;
-    data.volume = gradients_[c].volume;
+    data.volume = volumes_[c];
     data.shape = cell_shape(p);
-    data.grad_u = gradients_[c].u;
-    data.grad_v = gradients_[c].v;
-    data.grad_f = gradients_[c].f;
+    data.grad_u = gradients_[c].u();
+    data.grad_v = gradients_[c].v();
+    data.grad_f = cell_gradient(cell_geometry(mesh_, c), k, f_);
     for (std::size_t i = 0; i < 4; ++i) {
       data.u[i] = u_[k[i]];
       data.v[i] = v_[k[i]];
@@ -85,17 +74,14 @@ class MeshEstimator {
       const double doubled_area = norm(doubled_normal);
       const Vec3 normal = (1 / doubled_area) * doubled_normal;
       data.face_area[i] = doubled_area / 2;
-      data.jump_u[i] = jump(c, neighbors_[c][i], normal, &CellGradients::u);
-      data.jump_v[i] = jump(c, neighbors_[c][i], normal, &CellGradients::v);
+      // On the boundary twice the normal derivative: the face is shared by nobody.
+      const Index beyond = neighbors_[c][i];
+      const Vec3 other_u = beyond == kNoIndex ? -data.grad_u : gradients_[beyond].u();
+      const Vec3 other_v = beyond == kNoIndex ? -data.grad_v : gradients_[beyond].v();
+      data.jump_u[i] = std::abs(dot(data.grad_u - other_u, normal));
+      data.jump_v[i] = std::abs(dot(data.grad_v - other_v, normal));
     }
     return data;
-  }
-
-  /// On the boundary twice the normal derivative: the face is shared by nobody.
-  double jump(Index c, Index neighbor, const Vec3& normal, Vec3 CellGradients::*field) const {
-    const Vec3& inside = gradients_[c].*field;
-    if (neighbor == kNoIndex) return 2 * std::abs(dot(inside, normal));
-    return std::abs(dot(inside - gradients_[neighbor].*field, normal));
   }
 
   const TetMesh& mesh_;
@@ -103,7 +89,8 @@ class MeshEstimator {
   std::span<const double> u_, v_, f_;
   std::vector<std::array<Index, 4>> neighbors_;
   PointCells around_;
-  std::vector<CellGradients> gradients_;
+  std::vector<double> volumes_;
+  std::vector<PairedGradients> gradients_;
 };
 
 void require_size(const char* name, std::size_t found, std::size_t expected) {

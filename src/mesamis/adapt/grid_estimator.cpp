@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mesamis/adapt/metric_from_estimate.h"
+#include "mesamis/adapt/paired_gradients.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/kuhn.h"
@@ -66,34 +67,6 @@ std::array<PathGeometry, kPaths> path_geometries(const Vec3& h) {
   return result;
 }
 
-struct CellGradients {
-  Vec3 u, v;
-};
-
-/// What a patch adds up of one field: gradients and their outer products.
-struct GradientSums {
-  Vec3 gradient;
-  Sym3 outer_product;
-  void add(const Vec3& g) {
-    gradient += g;
-    outer_product += outer(g);
-  }
-};
-
-struct PatchGradients {
-  GradientSums u, v;
-  double count = 0;
-  void add(const CellGradients& cell) {
-    u.add(cell.u);
-    v.add(cell.v);
-    ++count;
-  }
-};
-
-PatchSums patch_of(const GradientSums& sums, double count, double cell_volume) {
-  return {count * cell_volume, cell_volume * sums.gradient, cell_volume * sums.outer_product};
-}
-
 struct Totals {
   EstimateSums sums;
   double predicted_cells = 0;
@@ -144,7 +117,7 @@ class GridEstimator {
 
  private:
   /// Three consecutive layers of cells; layer k is kept at k modulo 3.
-  using Ring = std::array<std::vector<CellGradients>, 3>;
+  using Ring = std::array<std::vector<PairedGradients>, 3>;
 
   static std::size_t slot(Index k) { return static_cast<std::size_t>((k + 3) % 3); }
 
@@ -182,7 +155,7 @@ class GridEstimator {
 
   void fill_layer(Index k, Ring& ring) const {
     if (k < 0 || k >= bricks_[2]) return;
-    std::vector<CellGradients>& layer = ring[slot(k)];
+    std::vector<PairedGradients>& layer = ring[slot(k)];
     layer.resize(place(0, bricks_[1], 0));
     for (Index j = 0; j < bricks_[1]; ++j) {
       for (Index i = 0; i < bricks_[0]; ++i) {
@@ -194,8 +167,8 @@ class GridEstimator {
     }
   }
 
-  const CellGradients* find(const std::array<Index, 3>& brick, const RelativeCell& cell,
-                            const Ring& ring) const {
+  const PairedGradients* find(const std::array<Index, 3>& brick, const RelativeCell& cell,
+                              const Ring& ring) const {
     const std::array<Index, 3> at{brick[0] + cell.brick[0], brick[1] + cell.brick[1],
                                   brick[2] + cell.brick[2]};
     if (!is_inside(at)) return nullptr;
@@ -204,13 +177,13 @@ class GridEstimator {
 
   CellData data_of(const std::array<Index, 3>& brick, std::size_t path, const Ring& ring) const {
     const PathGeometry& g = paths_[path];
-    const CellGradients& own = ring[slot(brick[2])][place(brick[0], brick[1], path)];
+    const PairedGradients& own = ring[slot(brick[2])][place(brick[0], brick[1], path)];
     std::array<std::size_t, 4> nodes = nodes_of(brick, path);
     CellData data;
     data.volume = cell_volume_;
     data.shape = g.shape;
-    data.grad_u = own.u;
-    data.grad_v = own.v;
+    data.grad_u = own.u();
+    data.grad_v = own.v();
     data.grad_f = gradient(f_, nodes, path);
     if (kuhn_path_is_odd(kKuhnPaths[path])) std::swap(nodes[2], nodes[3]);
     data.face_area = g.face_area;
@@ -218,9 +191,9 @@ class GridEstimator {
       data.u[i] = u_[nodes[i]];
       data.v[i] = v_[nodes[i]];
       data.f[i] = f_[nodes[i]];
-      const CellGradients* beyond = find(brick, g.neighbor[i], ring);
-      const Vec3 jump_u = beyond ? data.grad_u - beyond->u : 2.0 * data.grad_u;
-      const Vec3 jump_v = beyond ? data.grad_v - beyond->v : 2.0 * data.grad_v;
+      const PairedGradients* beyond = find(brick, g.neighbor[i], ring);
+      const Vec3 jump_u = beyond ? data.grad_u - beyond->u() : 2.0 * data.grad_u;
+      const Vec3 jump_v = beyond ? data.grad_v - beyond->v() : 2.0 * data.grad_v;
       data.jump_u[i] = std::abs(dot(jump_u, g.normal[i]));
       data.jump_v[i] = std::abs(dot(jump_v, g.normal[i]));
     }
@@ -234,18 +207,18 @@ class GridEstimator {
     return true;
   }
 
-  PatchGradients sum_patch(const std::array<Index, 3>& brick, std::size_t path,
-                           const Ring& ring) const {
-    PatchGradients sums;
+  PairedSums sum_patch(const std::array<Index, 3>& brick, std::size_t path,
+                       const Ring& ring) const {
+    PairedSums sums;
     const std::vector<RelativeCell>& patch = paths_[path].patch;
     if (!is_surrounded(brick)) {
       for (const RelativeCell& cell : patch) {
-        if (const CellGradients* found = find(brick, cell, ring)) sums.add(*found);
+        if (const PairedGradients* found = find(brick, cell, ring)) sums.add(*found);
       }
       return sums;
     }
     // Nearly all cells: no bounds to check, and fixed steps through three layers.
-    std::array<const CellGradients*, 3> own;
+    std::array<const PairedGradients*, 3> own;
     for (Index layer = 0; layer < 3; ++layer) {
       own[static_cast<std::size_t>(layer)] =
           ring[slot(brick[2] + layer - 1)].data() + place(brick[0], brick[1], 0);
@@ -256,11 +229,10 @@ class GridEstimator {
 
   void add_cell(const std::array<Index, 3>& brick, std::size_t path, const Ring& ring,
                 std::vector<PackedSym3>& metrics, Totals& totals) const {
-    const PatchGradients sums = sum_patch(brick, path, ring);
-    const CellEstimate e =
-        estimate_cell(data_of(brick, path, ring), parameters_,
-                      recovered_error(patch_of(sums.u, sums.count, cell_volume_)),
-                      recovered_error(patch_of(sums.v, sums.count, cell_volume_)));
+    const PairedSums sums = sum_patch(brick, path, ring);
+    const CellEstimate e = estimate_cell(data_of(brick, path, ring), parameters_,
+                                         recovered_error(sums.of_u(cell_volume_)),
+                                         recovered_error(sums.of_v(cell_volume_)));
     const Sym3 m = cell_metric(e.gamma, metric_);
     totals.sums.add(e);
     totals.predicted_cells +=

@@ -30,7 +30,7 @@ Sym3 cell_metric(const Sym3& gamma, const CellMetricOptions& options) {
   const double equidistribution = std::sqrt(std::sqrt(3.0) * kReferenceVolume *
                                             static_cast<double>(options.cell_count) / options.tau);
   const double det = std::max(determinant(unit), 0.1 * share * share);
-  return equidistribution * std::pow(size, 0.25) * std::pow(det, -0.25) * unit;
+  return equidistribution * std::sqrt(std::sqrt(size / det)) * unit;
 }
 
 double predicted_cells(const TetMesh& mesh, std::span<const Sym3> cell_metrics) {

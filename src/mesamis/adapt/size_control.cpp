@@ -15,6 +15,10 @@ namespace {
 const Sym3& unpacked(const Sym3& m) { return m; }
 Sym3 unpacked(const PackedSym3& m) { return unpack(m); }
 
+/// Are all eigenvalues below this? They are where the image is flat, often nearly everywhere, and
+/// need not be worked out.
+bool asks_for_less_than(double value, const Sym3& metric) { return trace(metric) < value; }
+
 /// Eigenvalues of all metrics, so that each trial scale costs only clamping and a product.
 using Eigenvalues = std::array<float, 3>;
 
@@ -28,7 +32,10 @@ class ClampedComplexity {
         highest_(1 / control.h_min),
         roots_(metrics.size()) {
     parallel_for(metrics.size(), [&](std::size_t n) {
-      const SymEigen e = eigen_decompose(unpacked(metrics[n]));
+      const Sym3 m = unpacked(metrics[n]);
+      roots_[n] = {};
+      if (asks_for_less_than(lowest_ * lowest_, m)) return;
+      const SymEigen e = eigen_decompose(m);
       for (std::size_t i = 0; i < 3; ++i) {
         roots_[n][i] = static_cast<float>(std::sqrt(std::max(e.values[i], 0.0)));
       }
@@ -84,7 +91,12 @@ double control(std::span<const Metric> metrics, std::span<const double> weights,
   const double lowest = 1 / (control.h_max * control.h_max);
   const double highest = 1 / (control.h_min * control.h_min);
   parallel_for(metrics.size(), [&](std::size_t n) {
-    SymEigen e = eigen_decompose(unpacked(metrics[n]));
+    const Sym3 m = unpacked(metrics[n]);
+    if (asks_for_less_than(lowest * factor * factor, m)) {
+      store(n, SymEigen{{lowest, lowest, lowest}, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}});
+      return;
+    }
+    SymEigen e = eigen_decompose(m);
     for (double& value : e.values) {
       value = std::clamp(value / (factor * factor), lowest, highest);
     }
