@@ -62,7 +62,7 @@ class FaceBuckets {
     if (!mesh.points.empty() && highest >= std::ssize(mesh.points)) {
       throw InputError("mesh: a cell names a missing point");
     }
-    return static_cast<std::size_t>(highest + 1);
+    return static_cast<std::size_t>(highest) + 1;  // 0 without cells
   }
 
   template <class Visit>
