@@ -55,20 +55,24 @@ void ProgressDisplay::show(std::string_view stage, double fraction) {
   // A stage that starts over, for instance on the next mesh, is timed anew.
   if (stage != stage_ || fraction < fraction_at_start_) enter(stage, fraction);
   const auto now = Clock::now();
-  if (!log_allows_bar() || (drawn_ && now - last_drawn_ < kBetweenBars)) return;
+  if (!log_allows_bar()) {
+    // A stage that begins just after another is told when it turns out to last.
+    if (told_ || now - last_line_ < kBetweenLines) return;
+    last_line_ = now;
+    told_ = true;
+    log_info(stage_);
+    return;
+  }
+  if (drawn_ && now - last_drawn_ < kBetweenBars) return;
   last_drawn_ = now;
   draw_bar(fraction);
 }
 
 void ProgressDisplay::enter(std::string_view stage, double fraction) {
-  const auto now = Clock::now();
-  const bool changed = stage != stage_;
+  told_ &= stage == stage_;
   stage_ = stage;
-  stage_start_ = now;
+  stage_start_ = Clock::now();
   fraction_at_start_ = fraction;
-  if (log_allows_bar() || !changed || now - last_line_ < kBetweenLines) return;
-  last_line_ = now;
-  log_info(stage_);
 }
 
 void ProgressDisplay::draw_bar(double fraction) {

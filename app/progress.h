@@ -10,8 +10,8 @@
 namespace mesamis {
 
 /// Shows on stderr how far long work has come. On a terminal: one line with the stage, a bar, the
-/// percentage and the time left in this stage. Otherwise: a log line when the stage changes, at
-/// most one in two seconds.
+/// percentage and the time left in this stage. Otherwise: a log line for each stage, at most one in
+/// two seconds; stages shorter than that may go without.
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(bool quiet) : quiet_(quiet) {}
@@ -32,6 +32,7 @@ class ProgressDisplay {
 
   bool quiet_;
   bool drawn_ = false;
+  bool told_ = false;  // the stage has had its line
   std::string stage_;
   double fraction_at_start_ = 0;
   Clock::time_point stage_start_, last_drawn_, last_line_;
