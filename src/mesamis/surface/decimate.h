@@ -23,8 +23,9 @@ struct DecimateReport {
   std::int64_t points_held = 0;
 };
 
-/// Fewer triangles, near the same surface: points are removed in the order of their quadric error,
-/// each drawn onto a neighbour, so that what remains is a part of the points, where they were.
+/// Fewer triangles, near the same surface: points are removed in the order of their quadric error
+/// (where the surface is flat, of the length of the edge), each drawn onto a neighbour, so that what
+/// remains is a part of the points, where they were.
 ///
 /// Kept without exception: closed and 2-manifold; the number of components and handles; no pair of
 /// triangles that meets unless it did before (see find_self_intersections()); every point of either
@@ -35,7 +36,7 @@ struct DecimateReport {
 /// @throws InputError  if it is not, or an option is out of range.
 /// @throws Cancelled   if progress says stop.
 ///
-/// 30 to 130 us per triangle: most of it goes to collapses that the tolerance refuses.
+/// 30 to 130 us per triangle: most of it goes to the proof that the new triangles lie near.
 TriMesh decimate(const TriMesh& surface, const DecimateOptions& options,
                  DecimateReport* report = nullptr);
 
