@@ -56,16 +56,19 @@ void ProgressDisplay::show(std::string_view stage, double fraction) {
   if (stage != stage_ || fraction < fraction_at_start_) enter(stage, fraction);
   const auto now = Clock::now();
   if (!log_allows_bar()) {
-    // A stage that begins just after another is told when it turns out to last.
-    if (told_ || now - last_line_ < kBetweenLines) return;
-    last_line_ = now;
-    told_ = true;
-    log_info(stage_);
-    return;
+    tell_stage(now);
+  } else if (!drawn_ || now - last_drawn_ >= kBetweenBars) {
+    last_drawn_ = now;
+    draw_bar(fraction);
   }
-  if (drawn_ && now - last_drawn_ < kBetweenBars) return;
-  last_drawn_ = now;
-  draw_bar(fraction);
+}
+
+/// A stage that begins just after another is told when it turns out to last.
+void ProgressDisplay::tell_stage(Clock::time_point now) {
+  if (told_ || now - last_line_ < kBetweenLines) return;
+  last_line_ = now;
+  told_ = true;
+  log_info(stage_);
 }
 
 void ProgressDisplay::enter(std::string_view stage, double fraction) {

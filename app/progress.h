@@ -28,6 +28,7 @@ class ProgressDisplay {
   using Clock = std::chrono::steady_clock;
   void show(std::string_view stage, double fraction);
   void enter(std::string_view stage, double fraction);
+  void tell_stage(Clock::time_point now);
   void draw_bar(double fraction);
 
   bool quiet_;

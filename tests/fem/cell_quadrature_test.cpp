@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -39,6 +40,118 @@ TEST(CellQuadrature, LinearImagesAreExactForCellsOfAnyShape) {
     ++tried;
     const auto fit = fit_image_on_cell(image, p);
     for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(fit[i], linear(p[i]), 2e-4);
+  }
+}
+
+using Values = std::array<double, 4>;
+
+/// Least squares, sample by sample, solved by Gauss and Jordan.
+class SlowFit {
+ public:
+  void add(const Values& l, double value) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) rows_[i][j] += l[i] * l[j];
+      rows_[i][4] += l[i] * value;
+    }
+    ++count_;
+  }
+  int count() const { return count_; }
+  Values solve() {
+    for (std::size_t c = 0; c < 4; ++c) {
+      for (std::size_t r = 0; r < 4; ++r) {
+        const double factor = r == c ? 0 : rows_[r][c] / rows_[c][c];
+        for (std::size_t k = 0; k < 5; ++k) rows_[r][k] -= factor * rows_[c][k];
+      }
+    }
+    Values x{};
+    for (std::size_t i = 0; i < 4; ++i) x[i] = rows_[i][4] / rows_[i][i];
+    return x;
+  }
+
+ private:
+  std::array<std::array<double, 5>, 4> rows_{};
+  int count_ = 0;
+};
+
+/// The lattice that a cell of this volume (in voxels) gets; 0: the fixed places.
+int density_for(double volume) {
+  for (int d = 1; d <= 4; ++d) {
+    if (volume * d * d * d >= 40) return d;
+  }
+  return 0;
+}
+
+Values slow_fit(const Volume& image, const std::array<Vec3, 4>& p, int density) {
+  const double whole = six_volume(p[0], p[1], p[2], p[3]);
+  SlowFit fit;
+  if (density == 0) {
+    for (int n = 0; n < 5 * 5 * 5; ++n) {
+      const int a = n / 25, b = n / 5 % 5, c = n % 5;
+      if (a + b + c > 4) continue;
+      const Values l{(a + 0.5) / 6, (b + 0.5) / 6, (c + 0.5) / 6, (4 - a - b - c + 0.5) / 6};
+      fit.add(l, interpolate(image, l[0] * p[0] + l[1] * p[1] + l[2] * p[2] + l[3] * p[3]));
+    }
+    return fit.solve();
+  }
+  for (int k = 0; k < image.size[2] * density; ++k) {
+    for (int j = 0; j < image.size[1] * density; ++j) {
+      for (int i = 0; i < image.size[0] * density; ++i) {
+        const Vec3 q{((i + 0.5) / density - 0.5) * image.spacing.x,
+                     ((j + 0.5) / density - 0.5) * image.spacing.y,
+                     ((k + 0.5) / density - 0.5) * image.spacing.z};
+        const Values l{
+            six_volume(q, p[1], p[2], p[3]) / whole, six_volume(p[0], q, p[2], p[3]) / whole,
+            six_volume(p[0], p[1], q, p[3]) / whole, six_volume(p[0], p[1], p[2], q) / whole};
+        if (*std::min_element(l.begin(), l.end()) >= 0) fit.add(l, interpolate(image, q));
+      }
+    }
+  }
+  return fit.solve();
+}
+
+/// A clever summation agrees with brute force, on an image that is linear nowhere.
+TEST(CellQuadrature, AgreesWithASumOverAllSamples) {
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (const auto& [size, spacing] : {std::pair{std::array<Index, 3>{12, 11, 10}, Vec3{1, 0.5, 2}},
+                                      std::pair{std::array<Index, 3>{2, 14, 9}, Vec3{3, 1, 1}},
+                                      std::pair{std::array<Index, 3>{13, 9, 2}, Vec3{1, 1, 4}}}) {
+    const Volume image =
+        sampled_volume(size, spacing, [&](const Vec3&) { return 100 * uniform(generator); });
+    const Vec3 extent = image.box().extent();
+    std::array<int, 5> tried{};
+    int next_taken = 0;
+    for (int n = 0; n < 120; ++n) {
+      // Nearly regular cells from a corner, so that the samples determine the fit.
+      const double length = std::pow(10, 1 - 1.3 * uniform(generator));
+      std::array<Vec3, 4> p{};
+      for (int axis = 0; axis < 3; ++axis) {
+        const double side = std::min(extent[axis], length * spacing[axis]);
+        const double start = uniform(generator) * (extent[axis] - side);
+        for (std::size_t i = 0; i < 4; ++i) {
+          p[i][axis] = start + side * (axis + 1 == static_cast<int>(i) ? 0.97 : 0.02) +
+                       0.01 * side * uniform(generator);
+        }
+      }
+      const double voxels =
+          six_volume(p[0], p[1], p[2], p[3]) / 6 / (spacing.x * spacing.y * spacing.z);
+      const int density = density_for(voxels);
+      ++tried[static_cast<std::size_t>(density)];
+      const Values found = fit_image_on_cell(image, p);
+      auto agrees_at = [&](int d) {
+        const Values expected = slow_fit(image, p, d);
+        return std::equal(found.begin(), found.end(), expected.begin(),
+                          [](double a, double b) { return std::abs(a - b) < 1e-7; });
+      };
+      if (agrees_at(density)) continue;
+      // Samples that happen to lie badly: then the next lattice, or the fixed places.
+      ++next_taken;
+      EXPECT_TRUE(density > 0 && agrees_at(density % 4 == 0 ? 0 : density + 1)) << voxels;
+    }
+    EXPECT_LE(next_taken, 3);
+    EXPECT_GT(tried[0], 5);
+    EXPECT_GT(tried[4], 5);
+    EXPECT_GT(tried[1] + tried[2] + tried[3], 5);
   }
 }
 

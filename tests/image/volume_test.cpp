@@ -9,6 +9,7 @@
 #include <random>
 
 #include "mesamis/base/error.h"
+#include "support/throws.h"
 
 namespace mesamis {
 namespace {
@@ -61,6 +62,9 @@ TEST(Volume, RefusesWhatNoMethodCanUse) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(complaint(oblique({5, 4, 1})), HasSubstr("found 5 x 4 x 1"));
   EXPECT_THAT(complaint(Volume{}), HasSubstr("at least 2 voxels"));
+  Volume slice;
+  slice.size = {5, 4, 1};
+  EXPECT_REFUSED(cropped_size(slice, {}), HasSubstr("volume: expected at least 2 voxels"));
   EXPECT_THAT(spoil([](Volume& v) { v.samples.pop_back(); }), HasSubstr("found 119"));
   EXPECT_THAT(spoil([](Volume& v) { v.spacing.y = 0; }), HasSubstr("spacing along axis 1"));
   EXPECT_THAT(spoil([&](Volume& v) { v.spacing.z = nan; }), HasSubstr("spacing along axis 2"));

@@ -94,6 +94,23 @@ TEST(Decimate, AFlatBoxNeedsTwelveTriangles) {
   for (const Index n : {3, 5, 9, 12, 16}) {
     const TriMesh surface = level_set(kBox, {n, 9, 20 - n}, [](const Vec3&) { return 1.0; });
     EXPECT_EQ(expect_decimated(surface, 1e-6).triangles_after, 12) << n;
+    TriMesh tilted = surface;  // where errors are round-off instead of zero
+    for (Vec3& p : tilted.points) {
+      p = {0.36 * p.x + 0.48 * p.y - 0.8 * p.z + 17, -0.8 * p.x + 0.6 * p.y,
+           0.48 * p.x + 0.64 * p.y + 0.6 * p.z - 5};
+    }
+    EXPECT_EQ(expect_decimated(tilted, 1e-6).triangles_after, 12) << n << " tilted";
+  }
+}
+
+TEST(Decimate, FlatSidesGoBeforeCorners) {
+  for (const Index n : {3, 4, 5, 7, 12}) {
+    const TriMesh surface = level_set(kBox, {n, n, n}, [](const Vec3&) { return 1.0; });
+    DecimateReport report;
+    decimate(surface, {.triangles = 40}, &report);
+    EXPECT_NEAR(static_cast<double>(report.triangles_after), 40, 1) << n;
+    EXPECT_LT(report.original_to_result, 1e-5) << n;
+    EXPECT_LT(report.result_to_original, 1e-5) << n;
   }
 }
 

@@ -20,6 +20,7 @@ struct PairedGradients {
 /// What a patch adds up: gradients and their outer products, each with its cell's weight.
 class PairedSums {
  public:
+  /// Of weight one, without the products: on grids this is the innermost loop.
   void add(const PairedGradients& g) {
     ++weights_;
     x_ += g.x, y_ += g.y, z_ += g.z;

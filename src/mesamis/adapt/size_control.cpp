@@ -15,8 +15,8 @@ namespace {
 const Sym3& unpacked(const Sym3& m) { return m; }
 Sym3 unpacked(const PackedSym3& m) { return unpack(m); }
 
-/// Are all eigenvalues below this? They are where the image is flat, often nearly everywhere, and
-/// need not be worked out.
+/// Are all eigenvalues surely below this? None is negative, so that none exceeds their sum. Where
+/// the image is flat, often nearly everywhere, they need not be worked out.
 bool asks_for_less_than(double value, const Sym3& metric) { return trace(metric) < value; }
 
 /// Eigenvalues of all metrics, so that each trial scale costs only clamping and a product.

@@ -79,7 +79,7 @@ Index ceiling(double x) {
 /// Cell and fraction of a coordinate in voxels, clamped to the image.
 struct Place {
   Place(double x, Index size) {
-    const double inside = std::clamp<double>(x, 0, size - 1);
+    const double inside = x > 0 ? std::min<double>(x, size - 1) : 0;  // NaN goes to 0
     cell = std::min(static_cast<Index>(inside), size - 2);
     fraction = inside - cell;
   }

@@ -18,12 +18,15 @@ template <class... Part>
   throw InputError(line.str());
 }
 
+void require_two_voxels(const std::array<Index, 3>& n) {
+  if (std::min({n[0], n[1], n[2]}) >= 2) return;
+  refuse("volume: expected at least 2 voxels in each direction, found ", n[0], " x ", n[1], " x ",
+         n[2]);
+}
+
 void require_sizes(const Volume& volume) {
   const auto& n = volume.size;
-  if (std::min({n[0], n[1], n[2]}) < 2) {
-    refuse("volume: expected at least 2 voxels in each direction, found ", n[0], " x ", n[1], " x ",
-           n[2]);
-  }
+  require_two_voxels(n);
   if (volume.samples.size() != volume.voxel_count()) {
     refuse("volume: expected ", volume.voxel_count(), " samples for ", n[0], " x ", n[1], " x ",
            n[2], " voxels, found ", volume.samples.size());
@@ -107,6 +110,7 @@ void require_usable(const Volume& volume) {
 }
 
 std::array<Index, 3> cropped_size(const Volume& volume, const CropRange& range) {
+  require_two_voxels(volume.size);
   std::array<Index, 3> size{};
   for (std::size_t a = 0; a < 3; ++a) {
     const Index n = volume.size[a];

@@ -14,16 +14,18 @@ struct RemeshOptions {
   int max_rounds = 40;         ///< split, collapse, swap, smooth rounds at most
   int polish_rounds = 3;       ///< quality-only rounds at the end
   std::int64_t max_cells = 0;  ///< coarsen the metric until at most about this many; 0: as it is
-  bool draft = false;          ///< stop early: a mesh that is only to lead to the next one
-  Index part_cells = 40000;    ///< cells per part of the parallel schedule
-  Progress progress;           ///< optional
+  /// A mesh that is only to lead to the next one: the work has converged as soon as less than a
+  /// fifth of the vertices come or go, and one round of polish follows at most.
+  bool draft = false;
+  Index part_cells = 40000;  ///< cells per part of the parallel schedule
+  Progress progress;         ///< optional
 };
 
 struct RemeshReport {
   int rounds = 0;
   std::int64_t splits = 0, collapses = 0, swaps = 0, moves = 0;
   double size_factor = 1;  ///< by how much max_cells made the metric's sizes larger
-  bool converged = false;  ///< false: max_rounds ended the work
+  bool converged = false;  ///< false: max_rounds ended the work; see draft
 
   // What threads share: the rest of the time is spent between the rounds, mostly by one thread.
   double seconds = 0;                             ///< of the whole call

@@ -23,9 +23,9 @@ struct DecimateReport {
   std::int64_t points_held = 0;
 };
 
-/// Fewer triangles, near the same surface: points are removed in the order of their quadric error
-/// (where the surface is flat, of the length of the edge), each drawn onto a neighbour, so that what
-/// remains is a part of the points, where they were.
+/// Fewer triangles, near the same surface: points are removed nearly in the order of their quadric
+/// error (where the surface is flat, of the length of the edge), each drawn onto a neighbour, so
+/// that what remains is a part of the points, where they were.
 ///
 /// Kept without exception: closed and 2-manifold; the number of components and handles; no pair of
 /// triangles that meets unless it did before (see find_self_intersections()); every point of either

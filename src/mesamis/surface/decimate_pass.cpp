@@ -271,7 +271,12 @@ class ModIntersection : public Module {
 class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
  public:
   LateDecimater(Mesh& mesh, const DecimateTask& task)
-      : BaseDecimaterT<Mesh>(mesh), mesh_(mesh), points_(task.surface.points) {
+      : BaseDecimaterT<Mesh>(mesh),
+        mesh_(mesh),
+        points_(task.surface.points),
+        live_(static_cast<std::int64_t>(mesh.n_vertices())) {
+    const Vec3 extent = bounding_box(points_).extent();
+    negligible_ = 1e-14 * dot(extent, extent);
     OpenMesh::Decimater::ModNormalFlippingT<Mesh>::Handle flips;
     ModuleHandle<ModFlatness> flatness;
     ModuleHandle<ModHausdorff> hausdorff;
@@ -292,15 +297,16 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
     stamps_.assign(mesh_.n_vertices(), 0);
     refused_.resize(mesh_.n_vertices());
     turn_of_.assign(mesh_.n_vertices(), 0);
-    woken_.assign(mesh_.n_vertices(), 1);
-    push_woken();
-    const std::size_t first_count = queue_.size();
+    is_woken_.assign(mesh_.n_vertices(), 0);
+    for (const auto v : mesh_.vertices()) push_around(v);
+    const auto first_count = static_cast<double>(queue_.size());
+    double done = 0;
     auto count = static_cast<std::int64_t>(mesh_.n_faces());
     while (count > triangles && (!queue_.empty() || push_woken())) {
       choose();
       parallel_blocks(chosen_.size(), 4, [this](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-          chosen_[i].allowed = collapse_priority(chosen_[i].info) >= 0;
+          chosen_[i].allowed = is_legal(collapse_priority(chosen_[i].info));
         }
       });
       changed_.clear();
@@ -314,7 +320,8 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
         }
       }
       if (turn_ % 32 == 0) {
-        progress(1 - static_cast<double>(queue_.size()) / static_cast<double>(first_count));
+        done = std::max(done, 1 - static_cast<double>(queue_.size()) / first_count);
+        progress(done);
       }
     }
   }
@@ -341,14 +348,22 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
   /// What was refused may have become possible by what happened two rings away.
   /// @return whether there is anything to try.
   bool push_woken() {
-    for (const auto v : mesh_.vertices()) {
-      if (woken_[index(v)] != 0) push_around(v);
+    std::vector<Mesh::VertexHandle> woken;
+    woken.swap(woken_);
+    std::sort(woken.begin(), woken.end());
+    for (const auto v : woken) {
+      if (is_woken_[index(v)] != 0 && !mesh_.status(v).deleted()) push_around(v);
     }
     return !queue_.empty();
   }
 
+  void wake(Mesh::VertexHandle v) {
+    if (is_woken_[index(v)] == 0) woken_.push_back(v);
+    is_woken_[index(v)] = 1;
+  }
+
   void push_around(Mesh::VertexHandle v) {
-    woken_[index(v)] = 0;
+    is_woken_[index(v)] = 0;
     ++stamps_[index(v)];
     refused_[index(v)].clear();
     if (!mesh_.status(v).locked()) push_best(v);
@@ -375,17 +390,25 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
     return static_cast<float>(mesh_.calc_edge_sqr_length(h));
   }
 
+  /// Where the surface is flat what is left is round-off, and may be negative.
   float error_of(Mesh::HalfedgeHandle h) {
-    return module(quadric_).collapse_priority(Info(mesh_, h));
+    const float error = module(quadric_).collapse_priority(Info(mesh_, h));
+    return error > negligible_ * length_of(h) ? error : 0;
   }
 
-  /// The next collapses by their order. One whose surroundings reach into another's waits.
+  /// What is legal may be negative all the same: the quadric's error, but for round-off.
+  static bool is_legal(float priority) {
+    return priority > static_cast<float>(Module::ILLEGAL_COLLAPSE);
+  }
+
+  /// The next collapses by their order. One whose surroundings reach into another's waits; not many
+  /// are chosen of a small surface, or some would have their turn long before those that wait.
   void choose() {
-    constexpr std::size_t kMostChosen = 128, kMostWaiting = 256;
+    const auto most = static_cast<std::size_t>(std::clamp<std::int64_t>(live_ / 200, 1, 128));
     ++turn_;
     chosen_.clear();
     waiting_.clear();
-    while (!queue_.empty() && chosen_.size() < kMostChosen && waiting_.size() < kMostWaiting) {
+    while (!queue_.empty() && chosen_.size() < most && waiting_.size() < 2 * most) {
       const Candidate next = queue_.top();
       queue_.pop();
       if (next.stamp != stamps_[next.point]) continue;
@@ -404,7 +427,9 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
   }
 
   /// A collapse changes the triangles around the point removed, and its test looks at those around
-  /// their corners: these corners may not be shared.
+  /// their corners: these corners may not be shared. Nor may they for the threads' sake, for during
+  /// its test OpenMesh's ModNormalFlipping moves the mesh's own point v0; the other modules here
+  /// look at the original's points alone.
   /// @return false if one of them is taken for this turn.
   bool reserve(const Info& collapse) {
     if (turn_of_[index(collapse.v0)] == turn_) return false;
@@ -421,7 +446,7 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
     const Box around = box_around(collapse.v0);
     const bool changed = std::any_of(changed_.begin(), changed_.end(),
                                      [&](const Box& box) { return overlap(box, around); });
-    return !changed || module(intersection_).collapse_priority(collapse) >= 0;
+    return !changed || is_legal(module(intersection_).collapse_priority(collapse));
   }
 
   /// Of all triangles around a point, and thus of those that take their place.
@@ -437,22 +462,26 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
     changed_.push_back(box_around(info.v0));
     preprocess_collapse(info);
     mesh_.collapse(info.v0v1);
+    --live_;
     ++stamps_[index(info.v0)];
     for (auto f = mesh_.cvf_iter(info.v1); f.is_valid(); ++f) mesh_.update_normal(*f);
     postprocess_collapse(info);
     for (const auto v : ring) {
-      for (auto w = mesh_.cvv_iter(v); w.is_valid(); ++w) woken_[index(*w)] = 1;
+      for (auto w = mesh_.cvv_iter(v); w.is_valid(); ++w) wake(*w);
     }
     for (const auto v : ring) push_around(v);
   }
 
   Mesh& mesh_;
   const std::vector<Vec3>& points_;
+  std::int64_t live_;  // points that are left
+  double negligible_;  // error, per squared length of the edge
   OpenMesh::Decimater::ModQuadricT<Mesh>::Handle quadric_;
   ModuleHandle<ModIntersection> intersection_;
   std::priority_queue<Candidate> queue_;
   std::vector<Index> stamps_;
-  std::vector<char> woken_;                  // of each point
+  std::vector<Mesh::VertexHandle> woken_;    // to be asked again in the end
+  std::vector<char> is_woken_;               // of each point
   std::vector<std::vector<Index>> refused_;  // halfedges of each point, as it is now
   std::size_t turn_ = 0;
   std::vector<std::size_t> turn_of_;  // the last one that each point was reserved for
