@@ -69,9 +69,8 @@ struct CropRange {
 };
 
 /// How many voxels of the volume the range keeps.
-/// @throws InputError  if the range is empty, leaves the volume or keeps fewer than 2 voxels, or
-/// the
-///                     volume has fewer.
+/// @throws InputError  if the volume has fewer than 2 voxels along an axis, or the range leaves it
+///                     or keeps fewer.
 std::array<Index, 3> cropped_size(const Volume& volume, const CropRange& range);
 
 /// The part of the volume inside the range; its world position is kept.
