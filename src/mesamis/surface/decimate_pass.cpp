@@ -5,265 +5,21 @@
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <algorithm>
-#include <cmath>
-#include <memory>
 #include <optional>
 #include <queue>
 #include <tuple>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/tet_mesh.h"
-#include "mesamis/surface/box_tree.h"
-#include "mesamis/surface/farthest.h"
-#include "mesamis/surface/openmesh.h"
-#include "mesamis/surface/triangle_intersection.h"
+#include "mesamis/surface/collapse_rules.h"
 
 namespace mesamis {
 namespace {
 
 using Mesh = HalfedgeMesh;
-using Info = OpenMesh::Decimater::CollapseInfoT<Mesh>;
-using Module = OpenMesh::Decimater::ModBaseT<Mesh>;
+using Info = CollapseInfo;
 
 constexpr double kMaxNormalChange = 75;  // degrees, of a triangle in one collapse
-/// Height over longest side: a collapse may not make a triangle flatter than this and than the
-/// flattest one it starts from.
-constexpr double kFlattest = 0.01;
-
-/// Triangles around the point to be removed that stay: before, and after.
-struct Star {
-  std::vector<OpenMesh::FaceHandle> faces;
-  std::vector<Triangle> before, after;
-};
-
-Star star_of(const Mesh& mesh, const Info& collapse) {
-  Star star;
-  for (auto f = mesh.cvf_iter(collapse.v0); f.is_valid(); ++f) {
-    if (*f == collapse.fl || *f == collapse.fr) continue;
-    star.faces.push_back(*f);
-    Triangle t = corner_indices(mesh, *f);
-    star.before.push_back(t);
-    std::replace(t.begin(), t.end(), Index{collapse.v0.idx()}, Index{collapse.v1.idx()});
-    star.after.push_back(t);
-  }
-  return star;
-}
-
-/// Height over longest side, squared.
-double flatness(const std::vector<Vec3>& p, const Triangle& t) {
-  const Vec3 a = p[t[1]] - p[t[0]], b = p[t[2]] - p[t[1]], c = p[t[0]] - p[t[2]];
-  const double longest = std::max({dot(a, a), dot(b, b), dot(c, c)});
-  const Vec3 n = cross(a, b);
-  return longest > 0 ? dot(n, n) / (longest * longest) : 0;
-}
-
-/// Refuses triangles that are nearly degenerate.
-class ModFlatness : public Module {
- public:
-  explicit ModFlatness(Mesh& mesh) : Module(mesh, true) {}
-  void set_surface(const TriMesh& surface) { points_ = &surface.points; }
-  float collapse_priority(const Info& collapse) override {
-    const Star star = star_of(mesh(), collapse);
-    double least = kFlattest * kFlattest;
-    for (const Triangle& t : star.before) least = std::min(least, flatness(*points_, t));
-    for (const Triangle& t : star.after) {
-      if (flatness(*points_, t) < least || !has_area(*points_, t)) return ILLEGAL_COLLAPSE;
-    }
-    return LEGAL_COLLAPSE;
-  }
-
- private:
-  const std::vector<Vec3>* points_ = nullptr;
-};
-
-/// Hausdorff distance in both directions, over whole triangles: of the new ones to the original,
-/// and of the original ones that lie near to the new. Each original triangle is listed with those
-/// that its corners and its middle are nearest to; what else it may reach is seen to afterwards.
-///
-/// OpenMesh's own ModHausdorff knows the second direction only, at points only, and takes any
-/// distance to a triangle without area for good.
-class ModHausdorff : public Module {
- public:
-  explicit ModHausdorff(Mesh& mesh) : Module(mesh, true) {}
-
-  void set_task(const DecimateTask& task) {
-    task_ = &task;
-    if (std::isinf(task.tolerance)) return;
-    hint_.assign(task.surface.points.size(), 0);
-    of_face_.resize(task.surface.triangles.size());
-    for (std::size_t t = 0; t < of_face_.size(); ++t) of_face_[t] = {static_cast<Index>(t)};
-  }
-
-  float collapse_priority(const Info& collapse) override {
-    if (std::isinf(task_->tolerance)) return LEGAL_COLLAPSE;
-    const Star star = star_of(mesh(), collapse);
-    return removed_is_near(collapse, star) && old_are_near(collapse, star) &&
-                   new_are_near(collapse, star)
-               ? LEGAL_COLLAPSE
-               : ILLEGAL_COLLAPSE;
-  }
-
-  void preprocess_collapse(const Info& collapse) override {
-    if (std::isinf(task_->tolerance)) return;
-    waiting_ = listed_around(collapse);
-    for (auto f = mesh().cvf_iter(collapse.v0); f.is_valid(); ++f) of_face_[index(*f)].clear();
-    star_ = star_of(mesh(), collapse);
-  }
-
-  void postprocess_collapse(const Info&) override {
-    if (std::isinf(task_->tolerance)) return;
-    for (const Index t : waiting_) {
-      const Corners c = original(t);
-      for (const Vec3& p : {c[0], c[1], c[2], (1.0 / 3) * (c[0] + c[1] + c[2])}) list(t, p);
-    }
-  }
-
- private:
-  Corners shape(const Triangle& t) const { return corners_of(task_->surface, t); }
-  Corners original(Index t) const { return shape(task_->surface.triangles[t]); }
-  Enough enough() const { return {task_->tolerance, task_->tolerance}; }
-
-  /// The originals listed around the point to be removed, each once.
-  std::vector<Index> listed_around(const Info& collapse) {
-    std::vector<Index> all;
-    for (auto f = mesh().cvf_iter(collapse.v0); f.is_valid(); ++f) {
-      all.insert(all.end(), of_face_[index(*f)].begin(), of_face_[index(*f)].end());
-    }
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    return all;
-  }
-
-  /// Lists t with the new triangle that is nearest to p.
-  void list(Index t, const Vec3& p) {
-    std::size_t nearest = 0;
-    double least = kFar;
-    for (std::size_t i = 0; i < star_.after.size(); ++i) {
-      const double d = squared_distance(p, shape(star_.after[i]));
-      if (d >= least) continue;
-      least = d;
-      nearest = i;
-    }
-    std::vector<Index>& own = of_face_[index(star_.faces[nearest])];
-    if (own.empty() || own.back() != t) own.push_back(t);
-  }
-
-  /// The cheapest test, and the one that refuses most.
-  bool removed_is_near(const Info& collapse, const Star& star) const {
-    const Vec3& p = task_->surface.points[index(collapse.v0)];
-    return std::any_of(star.after.begin(), star.after.end(), [&](const Triangle& t) {
-      return squared_distance(p, shape(t)) <= task_->tolerance * task_->tolerance;
-    });
-  }
-
-  bool new_are_near(const Info& collapse, const Star& star) {
-    std::size_t& hint = hint_[index(collapse.v0)];
-    return std::all_of(star.after.begin(), star.after.end(), [&](const Triangle& t) {
-      return farthest_distance(shape(t), task_->tree, enough(), hint) <= task_->tolerance;
-    });
-  }
-
-  bool old_are_near(const Info& collapse, const Star& star) {
-    std::vector<Index> open = listed_around(collapse);
-    std::erase_if(open, [&](Index t) { return is_near_one(original(t), star.after); });
-    if (open.empty()) return true;
-    const TriangleTree after(surroundings(collapse, star));
-    std::size_t hint = 0;
-    return std::all_of(open.begin(), open.end(), [&](Index t) {
-      return farthest_distance(original(t), after, enough(), hint) <= task_->tolerance;
-    });
-  }
-
-  /// Is the whole triangle near to one of them? The distance to one is convex: corners decide. Most
-  /// are, and are spared the search.
-  bool is_near_one(const Corners& triangle, const std::vector<Triangle>& others) const {
-    const double most = task_->tolerance * task_->tolerance;
-    return std::any_of(others.begin(), others.end(), [&](const Triangle& t) {
-      const Corners other = shape(t);
-      return std::all_of(triangle.begin(), triangle.end(),
-                         [&](const Vec3& p) { return squared_distance(p, other) <= most; });
-    });
-  }
-
-  /// The triangles after the collapse, those of the ring's other points included.
-  TriMesh surroundings(const Info& collapse, const Star& star) {
-    std::vector<Triangle> triangles = star.after;
-    for (auto v = mesh().cvv_iter(collapse.v0); v.is_valid(); ++v) {
-      for (auto f = mesh().cvf_iter(*v); f.is_valid(); ++f) {
-        const Triangle t = corner_indices(mesh(), *f);
-        if (std::find(t.begin(), t.end(), collapse.v0.idx()) == t.end()) triangles.push_back(t);
-      }
-    }
-    TriMesh local;
-    for (const Triangle& t : triangles) {
-      const auto first = static_cast<Index>(local.points.size());
-      for (const Vec3& p : shape(t)) local.points.push_back(p);
-      local.triangles.push_back({first, first + 1, first + 2});
-    }
-    return local;
-  }
-
-  const DecimateTask* task_ = nullptr;
-  std::vector<std::vector<Index>> of_face_;
-  std::vector<Index> waiting_;
-  Star star_;
-  std::vector<std::size_t> hint_;  // of each point, where the last search for its triangles ended
-};
-
-/// Refuses triangles that meet others.
-class ModIntersection : public Module {
- public:
-  explicit ModIntersection(Mesh& mesh) : Module(mesh, true) {}
-
-  void set_surface(const TriMesh& surface) {
-    points_ = &surface.points;
-    std::vector<Box> boxes;
-    for (const Triangle& t : surface.triangles)
-      boxes.push_back(bounding_box(corners_of(surface, t)));
-    tree_ = std::make_unique<BoxTree>(boxes);
-  }
-
-  float collapse_priority(const Info& collapse) override {
-    const Star star = star_of(mesh(), collapse);
-    for (std::size_t i = 0; i < star.after.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        if (intersect(*points_, star.after[i], star.after[j])) return ILLEGAL_COLLAPSE;
-      }
-    }
-    for (const Triangle& t : star.after) {
-      if (meets_others(t, collapse, star)) return ILLEGAL_COLLAPSE;
-    }
-    return LEGAL_COLLAPSE;
-  }
-
-  void postprocess_collapse(const Info& collapse) override {
-    tree_->update(index(collapse.fl), kNoBox);
-    tree_->update(index(collapse.fr), kNoBox);
-    for (auto f = mesh().cvf_iter(collapse.v1); f.is_valid(); ++f) {
-      tree_->update(index(*f), box(corner_indices(mesh(), *f)));
-    }
-  }
-
- private:
-  Box box(const Triangle& t) const {
-    return bounding_box(Corners{(*points_)[t[0]], (*points_)[t[1]], (*points_)[t[2]]});
-  }
-
-  bool meets_others(const Triangle& t, const Info& collapse, const Star& star) {
-    bool met = false;
-    tree_->for_each_overlap(box(t), [&](std::size_t other) {
-      const OpenMesh::FaceHandle f(static_cast<int>(other));
-      const bool changes = f == collapse.fl || f == collapse.fr ||
-                           std::find(star.faces.begin(), star.faces.end(), f) != star.faces.end();
-      met = !changes && intersect(*points_, t, corner_indices(mesh(), f));
-      return !met;
-    });
-    return met;
-  }
-
-  const std::vector<Vec3>* points_ = nullptr;
-  std::unique_ptr<BoxTree> tree_;
-};
 
 /// OpenMesh's decimater with one change: the modules that say yes or no, which are dear, are asked
 /// only when a collapse's turn has come, and several collapses that have nothing in common have
@@ -274,7 +30,7 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
       : BaseDecimaterT<Mesh>(mesh),
         mesh_(mesh),
         points_(task.surface.points),
-        live_(static_cast<std::int64_t>(mesh.n_vertices())) {
+        points_left_(static_cast<std::int64_t>(mesh.n_vertices())) {
     const Vec3 extent = bounding_box(points_).extent();
     negligible_ = 1e-14 * dot(extent, extent);
     OpenMesh::Decimater::ModNormalFlippingT<Mesh>::Handle flips;
@@ -301,8 +57,7 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
     for (const auto v : mesh_.vertices()) push_around(v);
     const auto first_count = static_cast<double>(queue_.size());
     double done = 0;
-    auto count = static_cast<std::int64_t>(mesh_.n_faces());
-    while (count > triangles && (!queue_.empty() || push_woken())) {
+    while (triangles_left() > triangles && (!queue_.empty() || push_woken())) {
       choose();
       parallel_blocks(chosen_.size(), 4, [this](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -311,10 +66,11 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
       });
       changed_.clear();
       for (Chosen& next : chosen_) {
-        if (count <= triangles) break;
-        if (next.allowed && still_meets_none(next.info)) {
+        if (triangles_left() <= triangles) break;
+        const Box around = box_around(next.info.v0);
+        if (next.allowed && still_meets_none(next.info, around)) {
+          changed_.push_back(around);
           collapse(next.info);
-          count -= 2;
         } else {
           refuse(next.info);
         }
@@ -344,6 +100,18 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
     Info info;
     bool allowed = false;
   };
+
+  /// Each collapse takes one point and two triangles.
+  std::int64_t triangles_left() const {
+    const auto points = static_cast<std::int64_t>(mesh_.n_vertices());
+    return static_cast<std::int64_t>(mesh_.n_faces()) - 2 * (points - points_left_);
+  }
+
+  std::vector<Mesh::VertexHandle> ring_of(Mesh::VertexHandle point) const {
+    std::vector<Mesh::VertexHandle> ring;
+    for (auto v = mesh_.cvv_iter(point); v.is_valid(); ++v) ring.push_back(*v);
+    return ring;
+  }
 
   /// What was refused may have become possible by what happened two rings away.
   /// @return whether there is anything to try.
@@ -398,13 +166,14 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
 
   /// What is legal may be negative all the same: the quadric's error, but for round-off.
   static bool is_legal(float priority) {
-    return priority > static_cast<float>(Module::ILLEGAL_COLLAPSE);
+    return priority > static_cast<float>(CollapseRule::ILLEGAL_COLLAPSE);
   }
 
   /// The next collapses by their order. One whose surroundings reach into another's waits; not many
   /// are chosen of a small surface, or some would have their turn long before those that wait.
   void choose() {
-    const auto most = static_cast<std::size_t>(std::clamp<std::int64_t>(live_ / 200, 1, 128));
+    const auto most =
+        static_cast<std::size_t>(std::clamp<std::int64_t>(points_left_ / 200, 1, 128));
     ++turn_;
     chosen_.clear();
     waiting_.clear();
@@ -432,18 +201,17 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
   /// look at the original's points alone.
   /// @return false if one of them is taken for this turn.
   bool reserve(const Info& collapse) {
-    if (turn_of_[index(collapse.v0)] == turn_) return false;
-    for (auto v = mesh_.cvv_iter(collapse.v0); v.is_valid(); ++v) {
-      if (turn_of_[index(*v)] == turn_) return false;
+    std::vector<Mesh::VertexHandle> corners = ring_of(collapse.v0);
+    corners.push_back(collapse.v0);
+    for (const auto v : corners) {
+      if (turn_of_[index(v)] == turn_) return false;
     }
-    turn_of_[index(collapse.v0)] = turn_;
-    for (auto v = mesh_.cvv_iter(collapse.v0); v.is_valid(); ++v) turn_of_[index(*v)] = turn_;
+    for (const auto v : corners) turn_of_[index(v)] = turn_;
     return true;
   }
 
   /// Other surroundings may still be near in space, where the surface has come close to itself.
-  bool still_meets_none(const Info& collapse) {
-    const Box around = box_around(collapse.v0);
+  bool still_meets_none(const Info& collapse, const Box& around) {
     const bool changed = std::any_of(changed_.begin(), changed_.end(),
                                      [&](const Box& box) { return overlap(box, around); });
     return !changed || is_legal(module(intersection_).collapse_priority(collapse));
@@ -452,29 +220,27 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
   /// Of all triangles around a point, and thus of those that take their place.
   Box box_around(Mesh::VertexHandle point) const {
     std::vector<Vec3> points{points_[index(point)]};
-    for (auto v = mesh_.cvv_iter(point); v.is_valid(); ++v) points.push_back(points_[index(*v)]);
+    for (const auto v : ring_of(point)) points.push_back(points_[index(v)]);
     return bounding_box(points);
   }
 
   void collapse(Info& info) {
-    std::vector<Mesh::VertexHandle> ring;
-    for (auto v = mesh_.cvv_iter(info.v0); v.is_valid(); ++v) ring.push_back(*v);
-    changed_.push_back(box_around(info.v0));
+    const std::vector<Mesh::VertexHandle> ring = ring_of(info.v0);
     preprocess_collapse(info);
     mesh_.collapse(info.v0v1);
-    --live_;
+    --points_left_;
     ++stamps_[index(info.v0)];
     for (auto f = mesh_.cvf_iter(info.v1); f.is_valid(); ++f) mesh_.update_normal(*f);
     postprocess_collapse(info);
     for (const auto v : ring) {
-      for (auto w = mesh_.cvv_iter(v); w.is_valid(); ++w) wake(*w);
+      for (const auto w : ring_of(v)) wake(w);
     }
     for (const auto v : ring) push_around(v);
   }
 
   Mesh& mesh_;
   const std::vector<Vec3>& points_;
-  std::int64_t live_;  // points that are left
+  std::int64_t points_left_;
   double negligible_;  // error, per squared length of the edge
   OpenMesh::Decimater::ModQuadricT<Mesh>::Handle quadric_;
   ModuleHandle<ModIntersection> intersection_;

@@ -18,6 +18,7 @@ set(ROOM_SOURCES
   axis_flip.cpp
   beneath.cpp
   box_tree.cpp
+  collapse_rules.cpp
   components.cpp
   decimate.cpp
   decimate_pass.cpp
