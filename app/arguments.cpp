@@ -8,7 +8,7 @@
 namespace mesamis {
 namespace {
 
-/// @param count  how many there must be; 0: one at least.
+/// @param count  of the numbers; 0: any count above zero.
 template <class Number>
 std::vector<Number> parse_list(const std::string& text, std::size_t count,
                                const std::string& option) {

@@ -15,18 +15,21 @@ std::vector<double> parse_numbers(const std::string& text, std::size_t count,
                                   const std::string& option);
 
 /// One number, in any of the usual spellings: 5, +5, .5, 05, 5e3.
-/// @return false  if the text is none, or not finite.
+/// @return false  if the text is not a number, or not finite.
 bool parse_number(const std::string& text, double& value);
 
-/// The same for whole numbers.
+/// "3,2,4" as whole numbers.
+/// @throws CLI::ValidationError  naming the option, if there are not `count` of them.
 std::vector<int> parse_integers(const std::string& text, std::size_t count,
                                 const std::string& option);
 
-/// Any count of them, one at least.
+/// "3,2,4" as whole numbers, of any count above zero.
+/// @throws CLI::ValidationError  naming the option, if the text is something else.
 std::vector<int> parse_integers(const std::string& text, const std::string& option);
 
-/// Runs a check of options: what it refuses is an error of usage, not of a file.
-/// @throws CLI::ValidationError  with the words of an InputError.
+/// Runs a check of options and turns its InputError, which stands for a file, into an error of
+/// usage.
+/// @throws CLI::ValidationError  with the message of the InputError.
 template <class Check>
 auto as_usage(const Check& check) {
   try {
@@ -36,7 +39,7 @@ auto as_usage(const Check& check) {
   }
 }
 
-/// Text on one line, control characters replaced: what may stand in a message.
+/// Replaces control characters, so that the text is one line of a message.
 std::string one_line(const std::string& text);
 
 }  // namespace mesamis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// mesamis baseline: what is used today, to compare with.
+// mesamis baseline: surfaces of other methods, to compare with.
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -7,16 +7,14 @@
 
 #include "arguments.h"
 #include "commands.h"
-#include "json_file.h"
+#include "costs.h"
 #include "log.h"
-#include "mesamis/base/stopwatch.h"
-#include "mesamis/image/edge_sides.h"
-#include "mesamis/io/geodesic_contour.h"
-#include "mesamis/io/isosurface.h"
-#include "mesamis/io/surface_files.h"
+#include "mesamis/baseline/baseline_surface.h"
+#include "mesamis/record/json_file.h"
+#include "mesamis/record/report.h"
+#include "mesamis/shape_files/surface_files.h"
 #include "outputs.h"
 #include "progress.h"
-#include "report.h"
 #include "scan.h"
 
 namespace mesamis {
@@ -40,17 +38,15 @@ struct BaselineCommand {
   }
 };
 
-struct Baseline {
-  double level = 0;  // native units
-  TriMesh surface;
-  SurfaceCheck check;
-  std::optional<GeodesicReport> contour;
-  double seconds = 0;  // of the method, from voxels to triangles
-};
-
-GeodesicOptions geodesic_options(const BaselineCommand& command) {
-  GeodesicOptions options = command.geodesic;
-  options.smooth_voxels = command.smoothing();
+BaselineOptions options_of(const BaselineCommand& command) {
+  BaselineOptions options;
+  options.method = command.is_geodesic() ? BaselineMethod::kGeodesic : BaselineMethod::kIsosurface;
+  options.level = command.level;
+  options.isosurface = command.isosurface;
+  options.geodesic = command.geodesic;
+  if (command.smooth) {
+    options.isosurface.smooth_voxels = options.geodesic.smooth_voxels = *command.smooth;
+  }
   return options;
 }
 
@@ -66,37 +62,16 @@ void require_all(const BaselineCommand& command) {
     if (command.is_geodesic() || option->count() == 0) continue;
     throw CLI::ValidationError(option->get_name() + " is for --method geodesic");
   }
-  if (command.is_geodesic()) as_usage([&command] { require_valid(geodesic_options(command)); });
+  if (command.is_geodesic()) as_usage([&command] { require_valid(options_of(command).geodesic); });
 }
 
-/// The scan's surface at the level, or where the contour that starts there stops.
-void make_surface(const Volume& volume, const BaselineCommand& command, const Progress& progress,
-                  Baseline& made) {
-  IsosurfaceOptions options = command.isosurface;
-  if (!command.is_geodesic()) {
-    options.smooth_voxels = command.smoothing();
-    made.surface = isosurface(volume, made.level, options);
-    return;
-  }
-  const GeodesicContour contour =
-      geodesic_contour(volume, made.level, geodesic_options(command), progress);
-  made.contour = contour.report;
-  made.surface = isosurface(contour.level_set, 0, options);
-}
-
-Baseline make_baseline(const Volume& volume, const BaselineCommand& command, bool quiet) {
+BaselineSurface run_method(const Volume& volume, const BaselineCommand& command, bool quiet) {
   ProgressDisplay display(quiet);
-  Stopwatch watch;
-  Baseline made;
-  made.level = command.level ? *command.level : find_object(volume).level;
-  make_surface(volume, command, display.callback(), made);
-  made.seconds = watch.lap();
-  made.check = check_surface(made.surface);
-  return made;
+  return make_baseline(volume, options_of(command), display.callback());
 }
 
 /// With the values used, so that a run can be repeated from its report.
-ordered_json settings_json(const BaselineCommand& command, const Baseline& made) {
+ordered_json settings_json(const BaselineCommand& command, const BaselineSurface& made) {
   ordered_json json{{"method", command.method},
                     {"level", made.level},
                     {"smooth", command.smoothing()},
@@ -127,7 +102,7 @@ ordered_json chosen(const BaselineCommand& command) {
   return names;
 }
 
-void write_report(const BaselineCommand& command, const Baseline& made) {
+void write_report(const BaselineCommand& command, const BaselineSurface& made) {
   ordered_json report;
   report["program"] = program_json();
   report["input"] = {{"path", command.input.string()}};
@@ -139,8 +114,8 @@ void write_report(const BaselineCommand& command, const Baseline& made) {
                          {"iterations", made.contour->iterations},
                          {"rms_change", made.contour->rms_change}};
   }
-  report["surface"] = check_json(made.surface, made.check);
-  report["converged"] = !made.contour || made.contour->converged;
+  report["surface"] = check_json(made.surface, check_surface(made.surface));
+  report["converged"] = made.converged();
   report["seconds_parts"] = {{"method", made.seconds}};
   add_costs(report);
   write_json(command.report, report);
@@ -156,7 +131,7 @@ std::string why_not_converged(const GeodesicReport& contour, const GeodesicOptio
 int run_baseline(const BaselineCommand& command, const CommonOptions& common) {
   require_all(command);
   const VolumeFile file = read_scan(command.input, command.series);
-  const Baseline made = make_baseline(file.volume, command, common.quiet);
+  const BaselineSurface made = run_method(file.volume, command, common.quiet);
   write_surface(command.output, made.surface);
   if (!command.report.empty()) write_report(command, made);
   std::cout << made.surface.triangles.size() << " triangles ";
@@ -165,35 +140,30 @@ int run_baseline(const BaselineCommand& command, const CommonOptions& common) {
   else
     std::cout << "at ";
   std::cout << "level " << made.level << "\n";
-  if (!made.contour || made.contour->converged) return kExitDone;
+  if (made.converged()) return kExitDone;
   log_error(why_not_converged(*made.contour, command.geodesic));
   return kExitNotConverged;
 }
 
-template <class Value>
-void add_geodesic(CLI::App& sub, BaselineCommand& command, const std::string& flag, Value& value,
-                  const std::string& help) {
-  CLI::Option* option = sub.add_option(flag, value, help)->group("Geodesic");
-  command.geodesic_only.push_back(option);
-}
-
 void add_geodesic_options(CLI::App& sub, BaselineCommand& c) {
   GeodesicOptions& g = c.geodesic;
-  add_geodesic(sub, c, "--diffusions", g.diffusions,
-               "Steps of anisotropic diffusion after --smooth (default 0)");
-  add_geodesic(sub, c, "--conductance", g.conductance, "Of the diffusion (default 1)");
-  add_geodesic(sub, c, "--sigma", g.sigma, "Of the gradient's Gaussian, voxels (default 0.7)");
-  add_geodesic(sub, c, "--alpha", g.alpha,
-               "Width of the gradient's sigmoid, native per mm, below 0 (default: chosen)");
-  add_geodesic(sub, c, "--beta", g.beta, "Its middle, native per mm (default: chosen)");
-  add_geodesic(sub, c, "--shrink", g.shrink,
-               "The contour starts so far inside the level's surface, voxels (default 0)");
-  add_geodesic(sub, c, "--propagation", g.propagation, "Weight of growth (default 0.05)");
-  add_geodesic(sub, c, "--curvature", g.curvature, "Weight of straightening (default 0.05)");
-  add_geodesic(sub, c, "--advection", g.advection, "Weight of the pull towards edges (default 1)");
-  add_geodesic(sub, c, "--iterations", g.iterations, "At most (default 1000)");
-  add_geodesic(sub, c, "--rms-change", g.rms_change,
-               "At rest: 20 iterations move the contour less, rms, voxels (default 0.03)");
+  const auto add = [&sub, &c](const char* flag, auto& value, const char* help) {
+    c.geodesic_only.push_back(sub.add_option(flag, value, help)->group("Geodesic"));
+  };
+  add("--diffusions", g.diffusions, "Steps of anisotropic diffusion after --smooth (default 0)");
+  add("--conductance", g.conductance, "Of the diffusion (default 1)");
+  add("--sigma", g.sigma, "Of the gradient's Gaussian, voxels (default 0.7)");
+  add("--alpha", g.alpha,
+      "Width of the gradient's sigmoid, native per mm, below 0 (default: chosen)");
+  add("--beta", g.beta, "Its middle, native per mm (default: chosen)");
+  add("--shrink", g.shrink,
+      "The contour starts so far inside the level's surface, voxels (default 0)");
+  add("--propagation", g.propagation, "Weight of growth (default 0.05)");
+  add("--curvature", g.curvature, "Weight of straightening (default 0.05)");
+  add("--advection", g.advection, "Weight of the pull towards edges (default 1)");
+  add("--iterations", g.iterations, "At most (default 1000)");
+  add("--rms-change", g.rms_change,
+      "At rest: 20 iterations move the contour less, rms, voxels (default 0.03)");
 }
 
 }  // namespace
@@ -201,14 +171,18 @@ void add_geodesic_options(CLI::App& sub, BaselineCommand& c) {
 void add_baseline_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto command = std::make_shared<BaselineCommand>();
   CLI::App* sub = app.add_subcommand(
-      "baseline", "What is used today: an isosurface of the voxels, or a geodesic active contour");
+      "baseline",
+      "Surfaces to compare with: an isosurface of the voxels, or a geodesic active contour");
   sub->add_option("input", command->input, "Volume file, DICOM directory or file")->required();
   sub->add_option("-o,--output", command->output, listed("Surface:", written_surface_formats()))
       ->required();
   sub->add_option("--method", command->method, "isosurface, or geodesic (ITK's)")
       ->check(CLI::IsMember({"isosurface", "geodesic"}))
       ->capture_default_str();
-  sub->add_option("--level", command->level, "Native value (default: midway, as for segment)");
+  sub->add_option(
+      "--level", command->level,
+      "Native value (default: midway between the values 1.5 voxels outside and inside the "
+      "object's edges in the scan; segment's default may differ)");
   sub->add_option("--smooth", command->smooth,
                   "Gaussian first, sigma in voxels (default 0; geodesic: 0.5)");
   sub->add_option("--triangles", command->isosurface.triangles, "Decimate to this many triangles");

@@ -4,15 +4,24 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "mesamis/record/verdict.h"
+
 namespace mesamis {
 
-/// What the program's exit status means.
+/// The exit statuses of the program.
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitInternal = 1;      ///< a bug
 inline constexpr int kExitUsage = 2;         ///< the command line
 inline constexpr int kExitInput = 3;         ///< an input was refused
 inline constexpr int kExitNotConverged = 4;  ///< outputs are written and marked in the report
 inline constexpr int kExitNotClosed = 5;     ///< a surface that should be closed is not
+
+/// The exit status of a run with this outcome.
+constexpr int exit_status(Outcome outcome) {
+  return outcome == Outcome::kKept           ? kExitDone
+         : outcome == Outcome::kNotConverged ? kExitNotConverged
+                                             : kExitNotClosed;
+}
 
 /// Options of every command.
 struct CommonOptions {
@@ -22,12 +31,12 @@ struct CommonOptions {
   double memory_gb = 0;   ///< a run may take, 10^9 bytes; 0: what is free
 };
 
-/// What the command line asked for, ready to run; returns an exit status. InputError and
-/// NumericalError may leave it.
+/// A command with its options, ready to run; returns an exit status. It may throw InputError and
+/// NumericalError.
 using Action = std::function<int()>;
 
-/// Each adds its subcommand, which sets the action when it is chosen. `common` and `action` must
-/// outlive the parsing.
+/// Each function adds a subcommand, which sets the action when the command line names it. `common`
+/// and `action` must outlive the parsing.
 void add_baseline_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_compare_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_decimate_command(CLI::App& app, CommonOptions& common, Action& action);
@@ -36,6 +45,7 @@ void add_phantom_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_picture_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_remesh_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_segment_command(CLI::App& app, CommonOptions& common, Action& action);
+void add_settings_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_slice_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_study_command(CLI::App& app, CommonOptions& common, Action& action);
 

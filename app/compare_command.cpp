@@ -6,14 +6,18 @@
 
 #include "arguments.h"
 #include "commands.h"
-#include "comparison.h"
-#include "json_file.h"
-#include "mesamis/io/atomic_file.h"
-#include "mesamis/io/surface_files.h"
+#include "costs.h"
+#include "frames_option.h"
+#include "log.h"
+#include "mesamis/comparison/comparison.h"
+#include "mesamis/comparison/surface_pair.h"
+#include "mesamis/files/atomic_file.h"
+#include "mesamis/record/comparison_json.h"
+#include "mesamis/record/json_file.h"
+#include "mesamis/record/report.h"
+#include "mesamis/shape_files/surface_files.h"
 #include "mesamis/surface/distance.h"
 #include "outputs.h"
-#include "report.h"
-#include "surface_pair.h"
 
 namespace mesamis {
 namespace {
@@ -42,7 +46,8 @@ Box box_of(const std::string& text) {
 }
 
 void write_report(const CompareCommand& command, const SurfacePair& pair,
-                  const Direction& surface_to_reference, const Direction& reference_to_surface) {
+                  const DirectedDistances& surface_to_reference,
+                  const DirectedDistances& reference_to_surface) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   report["reference"] = command.reference.string();
@@ -53,10 +58,10 @@ void write_report(const CompareCommand& command, const SurfacePair& pair,
     const auto& [lo, hi] = *command.part;
     report["box"] = {lo.x, lo.y, lo.z, hi.x, hi.y, hi.z};
   }
-  for (const Direction* d : {&surface_to_reference, &reference_to_surface}) {
-    report[d->name] = direction_json(*d);
+  for (const DirectedDistances* d : {&surface_to_reference, &reference_to_surface}) {
+    report[d->name] = distances_json(*d);
   }
-  report["paper"] = paper_json(reference_to_surface);
+  report["paper"] = paper_distances_json(reference_to_surface);
   add_costs(report);
   write_json(command.report, report);
 }
@@ -79,9 +84,10 @@ void print_line(const std::string& name, const char* how, const std::vector<doub
 int run_compare(const CompareCommand& command) {
   if (!command.colored.empty()) require_output(command.colored, {".vtp"}, "--colored");
   const SurfacePair pair = read_pair(command.reference, command.surface, command.frames);
-  const std::vector<Direction> directions{
-      measure("surface_to_reference", pair.surface, pair.reference, command.part),
-      measure("reference_to_surface", pair.reference, pair.surface, command.part)};
+  for (const std::string& warning : pair.warnings) log_warning(warning);
+  const std::vector<DirectedDistances> directions{
+      measure_distances("surface_to_reference", pair.surface, pair.reference, command.part),
+      measure_distances("reference_to_surface", pair.reference, pair.surface, command.part)};
   if (!command.report.empty()) write_report(command, pair, directions[0], directions[1]);
   if (!command.histogram.empty()) {
     write_file(command.histogram, to_csv(histogram_of(directions)));
@@ -93,7 +99,7 @@ int run_compare(const CompareCommand& command) {
   }
   std::printf("%-22s %-8s %9s %9s %9s %9s %9s %9s\n", "distance, mm", "from", "points", "mean",
               "rms", "p95", "p99", "max");
-  for (const Direction& d : directions) {
+  for (const DirectedDistances& d : directions) {
     print_line(d.name, "vertices", d.from_vertices);
     print_line(d.name, "area", d.from_area);
   }

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis decimate: any closed surface, with fewer triangles, within a distance.
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 
 #include "arguments.h"
 #include "commands.h"
-#include "json_file.h"
+#include "costs.h"
 #include "log.h"
 #include "mesamis/base/error.h"
-#include "mesamis/io/surface_files.h"
-#include "mesamis/printable.h"
+#include "mesamis/method/printable.h"
+#include "mesamis/method/setting_table.h"
+#include "mesamis/record/json_file.h"
+#include "mesamis/record/report.h"
+#include "mesamis/shape_files/surface_files.h"
 #include "mesamis/surface/self_intersections.h"
 #include "outputs.h"
 #include "progress.h"
-#include "report.h"
 
 namespace mesamis {
 namespace {
@@ -24,7 +27,11 @@ namespace fs = std::filesystem;
 struct DecimateCommand {
   fs::path input, output, report;
   std::string name = "mesamis surface";
-  Settings settings;  // only what make_printable() heeds
+  std::optional<double> tolerance;  // mm
+  std::optional<std::int64_t> triangles;
+  double min_volume = 0;  // mm^3
+  std::int64_t keep_largest = 0;
+  bool fill_cavities = false;
 };
 
 SurfaceFile read_closed(const fs::path& path) {
@@ -34,18 +41,36 @@ SurfaceFile read_closed(const fs::path& path) {
   throw InputError(path.string() + ": expected a closed 2-manifold surface, found " + flaws);
 }
 
+/// What the settings of a run say of the same things holds here as well.
+void require_valid_options(const DecimateCommand& command) {
+  if (!command.tolerance && !command.triangles) {
+    throw CLI::ValidationError("expected --tolerance or --triangles, found neither");
+  }
+  Settings settings;
+  settings.tolerance = command.tolerance;
+  settings.triangles = command.triangles;
+  settings.min_volume = command.min_volume;
+  settings.keep_largest = command.keep_largest;
+  as_usage([&] {
+    require_valid(settings);
+    if (command.tolerance) check_value(find_setting("tolerance"), std::vector{*command.tolerance});
+  });
+}
+
 int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
   require_output(command.output, written_surface_formats(), "--output");
   if (!command.report.empty()) require_output(command.report, {".json"}, "--report");
-  if (!command.settings.tolerance && !command.settings.triangles) {
-    throw CLI::ValidationError("expected --tolerance or --triangles, found neither");
-  }
-  as_usage([&command] { require_valid(command.settings); });
+  require_valid_options(command);
+  const double tolerance = command.tolerance.value_or(std::numeric_limits<double>::infinity());
   const SurfaceFile file = read_closed(command.input);
   const TriMesh surface = in_lps(file);
   ProgressDisplay display(common.quiet);
   PrintableReport printable;
-  const TriMesh result = make_printable(surface, command.settings, display.callback(), printable);
+  const TriMesh result =
+      make_printable(surface,
+                     {command.min_volume, command.keep_largest, command.fill_cavities, tolerance,
+                      command.triangles.value_or(0), display.callback()},
+                     &printable);
   display.finish();
   if (result.triangles.empty()) {
     throw InputError(command.input.string() + ": every part is smaller than --min-volume");
@@ -57,7 +82,7 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
     nlohmann::ordered_json report;
     report["program"] = program_json();
     report["input"] = {{"path", command.input.string()}, {"triangles", surface.triangles.size()}};
-    report["surface"] = printable_json(printable, command.settings);
+    report["surface"] = printable_json(printable, tolerance);
     report["surface"].update(check_json(result, check));
     report["surface"]["self_intersections"] = find_self_intersections(result).size();
     add_costs(report);
@@ -70,9 +95,8 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
     log_error("expected a closed 2-manifold surface, found " + flaws);
     return kExitNotClosed;
   }
-  const auto& tolerance = command.settings.tolerance;
-  if (!tolerance || printable.within(*tolerance)) return kExitDone;
-  log_error(tolerance_unmet(*tolerance, printable));
+  if (printable.within(tolerance)) return kExitDone;
+  log_error(tolerance_unmet(tolerance, printable));
   return kExitNotConverged;
 }
 
@@ -80,19 +104,18 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
 
 void add_decimate_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto command = std::make_shared<DecimateCommand>();
-  Settings& settings = command->settings;
   CLI::App* sub =
       app.add_subcommand("decimate", "Fewer triangles for any closed surface, within a distance");
   sub->add_option("input", command->input, listed("Surface:", written_surface_formats()))
       ->required();
   sub->add_option("-o,--output", command->output, listed("Surface:", written_surface_formats()))
       ->required();
-  sub->add_option("--tolerance", settings.tolerance, "Distance in both directions, mm");
-  sub->add_option("--triangles", settings.triangles, "Stop at this many triangles");
-  sub->add_option("--min-volume", settings.min_volume,
+  sub->add_option("--tolerance", command->tolerance, "Distance in both directions, mm");
+  sub->add_option("--triangles", command->triangles, "Stop at this many triangles");
+  sub->add_option("--min-volume", command->min_volume,
                   "Drop islands and fill cavities below so many mm^3 (default 0)");
-  sub->add_option("--keep-largest", settings.keep_largest, "Islands to keep (default 0: all)");
-  sub->add_flag("--fill-cavities", settings.fill_cavities, "Fill every cavity");
+  sub->add_option("--keep-largest", command->keep_largest, "Islands to keep (default 0: all)");
+  sub->add_flag("--fill-cavities", command->fill_cavities, "Fill every cavity");
   sub->add_option("--name", command->name, "The object's name in the file written");
   sub->add_option("--report", command->report, "Report: .json");
   sub->callback([command, &common, &action] {

@@ -6,10 +6,9 @@
 
 #include "arguments.h"
 #include "commands.h"
-#include "file_kind.h"
-#include "mesamis/io/mesh_files.h"
-#include "mesamis/io/read_volume.h"
-#include "mesamis/io/surface_files.h"
+#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/shape_files/file_kind.h"
+#include "mesamis/shape_files/surface_files.h"
 
 namespace mesamis {
 namespace {
@@ -50,8 +49,7 @@ std::string surface_line(const fs::path& path) {
 }
 
 std::string mesh_line(const fs::path& path) {
-  const MeshWithArrays mesh =
-      path.extension() == ".mesh" ? MeshWithArrays{read_medit_mesh(path), {}, {}} : read_vtu(path);
+  const MeshWithArrays mesh = read_mesh(path);
   std::ostringstream line;
   line << one_line(path.filename().string()) << "  mesh  " << mesh.mesh.cells.size()
        << " tetrahedra, " << mesh.mesh.points.size() << " vertices, " << box_text(mesh.mesh.points);

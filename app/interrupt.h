@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/types.h>
-
 #include <exception>
 
 /// SIGINT, SIGTERM and SIGHUP while something must be tidied up that a signal handler cannot.
@@ -14,8 +12,7 @@ class Interrupted : public std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// While one lives, an interrupt is noted, the child process killed, and the program goes on until
-/// check_interrupted().
+/// While one lives, an interrupt is noted and the program goes on until check_interrupted().
 class HeldInterrupts {
  public:
   HeldInterrupts() noexcept;
@@ -30,10 +27,8 @@ void check_interrupted();
 /// The signal that came while they were held; 0: none.
 int noted_interrupt() noexcept;
 
-/// For the signal handler: notes the signal and kills the child, if interrupts are held.
+/// For the signal handler: notes the signal if interrupts are held.
+/// @return whether they are.
 bool note_interrupt(int signal) noexcept;
-
-/// The child that an interrupt kills; 0: none. One at a time.
-void set_child_to_kill(pid_t child) noexcept;
 
 }  // namespace mesamis

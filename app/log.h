@@ -5,7 +5,7 @@
 
 #include "commands.h"
 
-/// Everything the program says beside its results, on stderr, one line per message.
+/// Messages of the program on stderr, one line each.
 namespace mesamis {
 
 /// Call once, before anything is logged. With --quiet only errors appear.
@@ -18,7 +18,7 @@ void log_error(const std::string& message);
 /// Whether a progress bar may be drawn: stderr is a terminal and its lines are for people.
 bool log_allows_bar();
 
-/// How the log wipes a bar off the terminal's current line before it writes.
+/// Wipes a progress bar off the current line of the terminal.
 inline constexpr const char* kWipeLine = "\r\033[K";
 
 }  // namespace mesamis

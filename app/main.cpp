@@ -15,8 +15,8 @@
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
-#include "mesamis/io/atomic_file.h"
-#include "version.h"
+#include "mesamis/base/version.h"
+#include "mesamis/files/atomic_file.h"
 
 namespace mesamis {
 namespace {
@@ -51,7 +51,7 @@ void add_common_options(CLI::App& app, CommonOptions& common) {
 }
 
 std::string version_text() {
-  return std::string("mesamis ") + kVersion + " (commit " + kCommit + ")";
+  return std::string("mesamis ") + version() + " (commit " + commit() + ")";
 }
 
 void add_commands(CLI::App& app, CommonOptions& common, Action& action) {
@@ -68,6 +68,7 @@ void add_commands(CLI::App& app, CommonOptions& common, Action& action) {
   add_phantom_command(app, common, action);
   add_picture_command(app, common, action);
   add_info_command(app, common, action);
+  add_settings_command(app, common, action);
   add_slice_command(app, common, action);
 }
 
@@ -123,8 +124,7 @@ int run_program(int count, char** arguments) {
     return kExitUsage;
   }
   set_up_log(common);
-  set_thread_count(common.threads);
-  const int status = run(action);
+  const int status = with_threads(common.threads, [&] { return run(action); });
   if (const int number = noted_interrupt()) end_by_signal(number);
   return status;
 }

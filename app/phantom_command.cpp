@@ -6,24 +6,22 @@
 
 #include "arguments.h"
 #include "commands.h"
-#include "json_file.h"
+#include "costs.h"
 #include "log.h"
 #include "mesamis/base/error.h"
-#include "mesamis/image/degrade.h"
-#include "mesamis/image/phantom.h"
-#include "mesamis/io/surface_files.h"
-#include "mesamis/io/write_volume.h"
-#include "mesamis/surface/implicit_surface.h"
+#include "mesamis/phantom/degrade.h"
+#include "mesamis/phantom/phantom.h"
+#include "mesamis/phantom/phantom_truth.h"
+#include "mesamis/record/json_file.h"
+#include "mesamis/record/report.h"
+#include "mesamis/scan_files/write_volume.h"
+#include "mesamis/shape_files/surface_files.h"
 #include "outputs.h"
-#include "report.h"
 
 namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Of a voxel's shortest side: what is promised of the truth, and what it is refined for.
-constexpr double kTruthError = 0.02, kTruthTolerance = 0.012;
 
 struct PhantomCommand {
   bool list = false;
@@ -60,31 +58,14 @@ Phantom require_all(const PhantomCommand& command) {
   });
 }
 
-double shortest_side(const Vec3& spacing) { return std::min({spacing.x, spacing.y, spacing.z}); }
-
-/// The truth, and how true it is.
-struct Truth {
-  TriMesh surface;
-  SurfaceCheck check;
-  ImplicitError error;
-};
-
-Truth find_truth(const Phantom& phantom) {
-  Truth truth;
-  truth.surface = extract_implicit(phantom.lines, phantom.inside,
-                                   kTruthTolerance * shortest_side(phantom.spacing));
-  truth.check = check_surface(truth.surface);
-  truth.error = implicit_error(truth.surface, phantom.inside);
-  return truth;
-}
-
-nlohmann::ordered_json truth_json(const Truth& truth, const Phantom& phantom) {
-  const double voxel = shortest_side(phantom.spacing);
+nlohmann::ordered_json truth_json(const PhantomTruth& truth, const Phantom& phantom) {
+  const Vec3& spacing = phantom.spacing;
+  const double voxel = std::min({spacing.x, spacing.y, spacing.z});
   nlohmann::ordered_json json = check_json(truth.surface, truth.check);
   json.update({{"error_max_mm", truth.error.max},
                {"error_mean_mm", truth.error.mean},
                {"error_max_voxel", truth.error.max / voxel},
-               {"error_promised_voxel", kTruthError}});
+               {"error_promised_voxel", kTruthErrorVoxel}});
   return json;
 }
 
@@ -107,15 +88,16 @@ nlohmann::ordered_json phantom_settings(const PhantomCommand& command, const Pha
           {"gzip", command.gzip}};
 }
 
-int status_of(const Truth& truth, const Phantom& phantom) {
-  if (!truth.check.closed() || !truth.check.manifold()) return kExitNotClosed;
-  if (truth.error.max <= kTruthError * shortest_side(phantom.spacing)) return kExitDone;
+int status_of(const PhantomTruth& truth) {
+  if (!truth.is_closed_manifold()) return kExitNotClosed;
+  if (truth.within_bound()) return kExitDone;
   log_warning("the truth's error is " + std::to_string(truth.error.max) + " mm, expected at most " +
-              std::to_string(kTruthError) + " of a voxel");
+              std::to_string(kTruthErrorVoxel) + " of a voxel");
   return kExitNotConverged;
 }
 
-void write_report(const PhantomCommand& command, const Phantom& phantom, const Truth& truth) {
+void write_report(const PhantomCommand& command, const Phantom& phantom,
+                  const PhantomTruth& truth) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   report["settings"] = phantom_settings(command, phantom);
@@ -130,9 +112,9 @@ int run_phantom(const PhantomCommand& command) {
   write_nrrd(command.output, degrade(sample_phantom(phantom, command.samples), command.degrade),
              {.type = command.type == "short" ? SampleType::kShort : SampleType::kFloat,
               .gzip = command.gzip});
-  Truth truth;
+  PhantomTruth truth;
   if (!command.truth.empty()) {
-    truth = find_truth(phantom);
+    truth = make_truth(phantom);
     write_surface(command.truth, truth.surface, {.name = phantom.name});
   }
   if (!command.report.empty()) write_report(command, phantom, truth);
@@ -143,7 +125,7 @@ int run_phantom(const PhantomCommand& command) {
               << truth.error.max << " mm from the surface";
   }
   std::cout << "\n";
-  return command.truth.empty() ? kExitDone : status_of(truth, phantom);
+  return command.truth.empty() ? kExitDone : status_of(truth);
 }
 
 void add_degrade_options(CLI::App& sub, DegradeOptions& degrade) {

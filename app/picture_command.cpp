@@ -5,12 +5,13 @@
 
 #include "arguments.h"
 #include "commands.h"
-#include "file_kind.h"
 #include "log.h"
 #include "mesamis/base/error.h"
-#include "mesamis/io/picture.h"
-#include "mesamis/io/read_volume.h"
-#include "mesamis/io/surface_files.h"
+#include "mesamis/picture/picture.h"
+#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/shape_files/file_kind.h"
+#include "mesamis/shape_files/surface_files.h"
+#include "virtual_display.h"
 
 namespace mesamis {
 namespace {
@@ -33,6 +34,20 @@ Clip parse_clip(const std::string& text) {
   return {static_cast<int>(axis), parse_numbers(text.substr(2), 1, "--clip")[0]};
 }
 
+/// Draws on the display that the environment names, or else on one of the program's own.
+/// @param draw  called with the options, the display among them.
+template <class Draw>
+void draw_on_display(PictureOptions options, const Draw& draw) {
+  const SilentStderr silent;  // software renderers report there
+  try {
+    draw(options);
+  } catch (const DisplayError&) {
+    const VirtualDisplay display;
+    options.display = display.name();
+    draw(options);
+  }
+}
+
 void draw_volume(const PictureCommand& command) {
   if (!command.picture.color.empty() || command.picture.edges) {
     throw InputError(command.input.string() + ": a volume has no array to colour by and no edges");
@@ -44,7 +59,9 @@ void draw_volume(const PictureCommand& command) {
   for (const std::string& warning : file.warnings) log_warning(warning);
   std::optional<TriMesh> outline;
   if (!command.outline.empty()) outline = in_lps(read_surface_file(command.outline));
-  draw_slice(command.output, file.volume, outline ? &*outline : nullptr, command.picture);
+  draw_on_display(command.picture, [&](const PictureOptions& options) {
+    draw_slice(command.output, file.volume, outline ? &*outline : nullptr, options);
+  });
 }
 
 /// Views are named in LPS: a surface that says it is in RAS is turned.
@@ -54,7 +71,16 @@ void draw_surface_file(const PictureCommand& command) {
   if (!command.picture.color.empty()) {
     values = read_point_array(command.input, command.picture.color);
   }
-  draw_surface(command.output, in_lps(file), command.picture, values);
+  const TriMesh surface = in_lps(file);
+  draw_on_display(command.picture, [&](const PictureOptions& options) {
+    draw_surface(command.output, surface, options, values);
+  });
+}
+
+void draw_mesh_file(const PictureCommand& command) {
+  const MeshWithArrays mesh = read_mesh(command.input);
+  draw_on_display(command.picture,
+                  [&](const PictureOptions& options) { draw_mesh(command.output, mesh, options); });
 }
 
 int run_picture(const PictureCommand& command) {
@@ -67,11 +93,7 @@ int run_picture(const PictureCommand& command) {
       draw_surface_file(command);
       break;
     case FileKind::kMesh:
-      draw_mesh(command.output,
-                command.input.extension() == ".mesh"
-                    ? MeshWithArrays{read_medit_mesh(command.input), {}, {}}
-                    : read_vtu(command.input),
-                command.picture);
+      draw_mesh_file(command);
       break;
     case FileKind::kVolume:
       draw_volume(command);

@@ -56,23 +56,23 @@ void ProgressDisplay::show(std::string_view stage, double fraction) {
   if (stage != stage_ || fraction < fraction_at_start_) enter(stage, fraction);
   const auto now = Clock::now();
   if (!log_allows_bar()) {
-    tell_stage(now);
+    log_stage(now);
   } else if (!drawn_ || now - last_drawn_ >= kBetweenBars) {
     last_drawn_ = now;
     draw_bar(fraction);
   }
 }
 
-/// A stage that begins just after another is told when it turns out to last.
-void ProgressDisplay::tell_stage(Clock::time_point now) {
-  if (told_ || now - last_line_ < kBetweenLines) return;
+/// Logs a stage once; one that begins just after another is logged when it lasts.
+void ProgressDisplay::log_stage(Clock::time_point now) {
+  if (logged_ || now - last_line_ < kBetweenLines) return;
   last_line_ = now;
-  told_ = true;
+  logged_ = true;
   log_info(stage_);
 }
 
 void ProgressDisplay::enter(std::string_view stage, double fraction) {
-  told_ &= stage == stage_;
+  logged_ &= stage == stage_;
   stage_ = stage;
   stage_start_ = Clock::now();
   fraction_at_start_ = fraction;

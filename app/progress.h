@@ -9,9 +9,9 @@
 
 namespace mesamis {
 
-/// Shows on stderr how far long work has come. On a terminal: one line with the stage, a bar, the
+/// Shows the progress of long work on stderr. On a terminal: one line with the stage, a bar, the
 /// percentage and the time left in this stage. Otherwise: a log line for each stage, at most one in
-/// two seconds; stages shorter than that may go without.
+/// two seconds; a shorter stage may have none.
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(bool quiet) : quiet_(quiet) {}
@@ -19,7 +19,7 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  /// To be handed to the work; refers to this object.
+  /// The progress function for the work; refers to this object.
   Progress callback();
   /// Wipes the bar.
   void finish();
@@ -28,12 +28,12 @@ class ProgressDisplay {
   using Clock = std::chrono::steady_clock;
   void show(std::string_view stage, double fraction);
   void enter(std::string_view stage, double fraction);
-  void tell_stage(Clock::time_point now);
+  void log_stage(Clock::time_point now);
   void draw_bar(double fraction);
 
   bool quiet_;
   bool drawn_ = false;
-  bool told_ = false;  // the stage has had its line
+  bool logged_ = false;  // the stage has been logged
   std::string stage_;
   double fraction_at_start_ = 0;
   Clock::time_point stage_start_, last_drawn_, last_line_;

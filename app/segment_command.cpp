@@ -9,22 +9,23 @@
 #include <vector>
 
 #include "commands.h"
-#include "json_file.h"
+#include "costs.h"
 #include "log.h"
-#include "memory_check.h"
 #include "mesamis/base/error.h"
-#include "mesamis/io/read_volume.h"
-#include "mesamis/io/surface_files.h"
-#include "mesamis/mes_amis.h"
-#include "mesh_output.h"
+#include "mesamis/base/version.h"
+#include "mesamis/delivery/mesh_output.h"
+#include "mesamis/method/memory.h"
+#include "mesamis/method/mes_amis.h"
+#include "mesamis/record/json_file.h"
+#include "mesamis/record/report.h"
+#include "mesamis/record/settings_json.h"
+#include "mesamis/record/verdict.h"
+#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/shape_files/surface_files.h"
 #include "outputs.h"
 #include "progress.h"
-#include "report.h"
 #include "scan.h"
-#include "settings_json.h"
 #include "settings_options.h"
-#include "verdict.h"
-#include "version.h"
 
 namespace mesamis {
 namespace {
@@ -62,11 +63,11 @@ void add_mesh_options(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
 SurfaceWriteOptions surface_options(const SegmentOptions& options, const Result& result,
                                     double voxel) {
   const bool grey = std::any_of(options.surfaces.begin(), options.surfaces.end(), carries_grey);
-  const std::string program = std::string("mesamis ") + kVersion + " (" + kCommit + ")";
+  const std::string program = std::string("mesamis ") + version() + " (" + commit() + ")";
   return {options.frame,
           options.name,
           grey ? surface_grey(result, voxel) : std::vector<double>{},
-          {{"producer", program}, {"settings", to_json(settings_used(result)).dump()}}};
+          {{"producer", program}, {"settings", to_json(settings_of(result.parameters)).dump()}}};
 }
 
 void require_outputs(const SegmentOptions& options) {
@@ -83,19 +84,19 @@ void require_outputs(const SegmentOptions& options) {
 /// There must be something to write; which bound left nothing is what the user can change.
 void require_surface(const Result& result) {
   if (!result.surface.triangles.empty()) return;
-  if (result.settings.surface == SurfaceKind::kBand) {
+  if (result.parameters.surface == SurfaceKind::kBand) {
     throw InputError(
         fmt::format("surface: expected cells with v below --band-threshold {}, found none",
-                    result.settings.band_threshold));
+                    result.parameters.band_threshold));
   }
   const auto& parts = result.printable.parts;
   if (parts && parts->islands_dropped > 0) {
     throw InputError(
         fmt::format("surface: expected a part of at least --min-volume {} mm^3, found none",
-                    result.settings.min_volume.value_or(0)));
+                    result.parameters.min_volume));
   }
-  throw InputError(
-      fmt::format("surface: expected values above --level {}, found none", result.level_native));
+  throw InputError(fmt::format("surface: expected values above --level {}, found none",
+                               result.parameters.level));
 }
 
 int run_segment(const SegmentOptions& options, const CommonOptions& common) {
@@ -115,14 +116,18 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   for (const fs::path& path : options.meshes) write_mesh(path, *mesh, options.frame);
   for (const fs::path& path : options.band_meshes) write_band_mesh(path, result, options.frame);
   if (!options.report.empty()) {
-    auto report =
-        segment_report(facts_of(options.input, file, options.frame), settings, result, check);
+    nlohmann::ordered_json report;
+    report["program"] = program_json();
+    report["input"] = input_json(facts_of(options.input, file.volume, file.format, file.warnings));
+    report["output"] = output_json(options.frame);
+    report.update(run_json(settings, result, check));
     if (mesh) report["mesh"]["region"] = region_json(*mesh);
+    add_costs(report);
     write_json(options.report, report);
   }
   const Verdict verdict = judge(result, check);
-  if (verdict.status != kExitDone) log_error(verdict.message);
-  return verdict.status;
+  if (verdict.outcome != Outcome::kKept) log_error(verdict.message);
+  return exit_status(verdict.outcome);
 }
 
 }  // namespace

@@ -3,34 +3,39 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
-#include "mesamis/io/surface_files.h"
-#include "mesamis/settings.h"
+#include "mesamis/method/settings.h"
+#include "mesamis/shape_files/surface_files.h"
 
-/// The options of every command that runs the method.
+/// The options of every command that runs the method, made from setting_table().
 namespace mesamis {
 
-/// What the command line says about a run's settings.
+/// The settings of a run on the command line.
 struct SettingsArguments {
-  std::filesystem::path file;                           ///< of settings, or a report; may be empty
-  nlohmann::json overrides = nlohmann::json::object();  ///< options, on top of the file's
+  struct Override {
+    std::string name, text;  ///< of a setting, and its value
+  };
+  std::string preset = "default";
+  std::filesystem::path file;       ///< of settings, or a report; may be empty
+  std::vector<Override> overrides;  ///< options, on top of the file's
 };
 
-/// Adds --settings and one option for each of the settings. `arguments` must outlive the parsing.
+/// Adds --preset, --settings and one option for each of the settings. `arguments` must outlive the
+/// parsing.
 void add_settings_options(CLI::App& command, SettingsArguments& arguments);
 
-/// The settings asked for: the defaults, under the file's, under the options'.
+/// The settings of the preset, overridden by those of the file, then by those of the options.
 /// @throws InputError            if the file cannot be read or has a setting that is refused.
 /// @throws CLI::ValidationError  if an option's value is refused.
 Settings settings_of(const SettingsArguments& arguments);
 
-/// Adds --frame, that of the files written. `frame` must outlive the parsing.
+/// Adds --frame, the frame of the files written. `frame` must outlive the parsing.
 void add_frame_option(CLI::App& command, Frame& frame);
 
-/// "I0:I1,J0:J1,K0:K1" as the setting crop is written; an empty bound is the volume's own.
+/// "I0:I1,J0:J1,K0:K1" as a range of voxels; an empty bound is the volume's own.
 /// @throws CLI::ValidationError  naming the option, if the text is something else.
-nlohmann::json crop_ranges(const std::string& text, const std::string& option);
+CropRange parse_crop(const std::string& text, const std::string& option);
 
 }  // namespace mesamis

@@ -1,32 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis study: how well the surface is found from fewer and fewer slices.
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <optional>
 
 #include "arguments.h"
 #include "commands.h"
-#include "json_file.h"
+#include "costs.h"
+#include "frames_option.h"
 #include "log.h"
-#include "memory_check.h"
 #include "mesamis/base/error.h"
-#include "mesamis/base/parallel.h"
-#include "mesamis/io/surface_files.h"
+#include "mesamis/comparison/surface_pair.h"
+#include "mesamis/method/memory.h"
+#include "mesamis/record/json_file.h"
+#include "mesamis/shape_files/surface_files.h"
+#include "mesamis/study/experiment.h"
+#include "mesamis/study/study_diagrams.h"
+#include "mesamis/study/study_json.h"
+#include "mesamis/study/study_run.h"
+#include "mesamis/study/study_tables.h"
 #include "mesamis/surface/unused_points.h"
 #include "progress.h"
-#include "report.h"
 #include "scan.h"
-#include "settings_json.h"
 #include "settings_options.h"
-#include "study.h"
-#include "study_output.h"
-#include "surface_pair.h"
 
 namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::ordered_json;
 
 struct StudyCommand {
   fs::path input, reference, folder;
@@ -51,7 +53,7 @@ std::vector<int> parse_steps(const std::string& text, const std::string& option)
   return steps;
 }
 
-/// Made only when there is something to put in.
+/// Checks the folder; make_folder() makes it when there is something to put in.
 void require_folder(const fs::path& folder) {
   const fs::path above = fs::absolute(folder).parent_path();
   if (fs::exists(folder) ? !fs::is_directory(folder) : !fs::is_directory(above)) {
@@ -93,148 +95,163 @@ Reference read_reference(const StudyCommand& command) {
   return reference;
 }
 
-void require_inside(const Reference& reference, const StudyCommand& command,
-                    const std::vector<Experiment>& experiments) {
-  for (const Experiment& experiment : experiments) {
-    const TriMesh part =
-        part_inside(reference.surface, experiment.volume, experiment.volume.spacing);
-    if (!part.triangles.empty()) continue;
-    throw InputError(command.reference.string() + ": expected triangles inside the " +
-                     (experiment.cut ? "region" : "scan") +
-                     ", a voxel away from its faces, found none of " +
-                     std::to_string(reference.surface.triangles.size()));
+/// A figure of the table, or a dash.
+std::string number_text(const std::optional<double>& value, const char* format) {
+  if (!value) return "-";
+  char number[32];
+  std::snprintf(number, sizeof number, format, *value);
+  return number;
+}
+
+/// The table for people, on stdout.
+void print_table(const std::vector<StudyRun>& runs) {
+  std::printf("%-12s %7s %9s %9s %8s %9s %9s %9s %9s\n", "run", "slices", "tets", "triangles",
+              "seconds", "ref->surf", "by area", "surf->ref", "by area");
+  for (const StudyRun& run : runs) {
+    const auto figure = [&run](const char* format, auto value) {
+      return number_text(run.summary ? std::optional<double>(value(*run.summary)) : std::nullopt,
+                         format);
+    };
+    const auto mean = [&run](auto value) {
+      return number_text(
+          run.comparison ? std::optional<double>(value(*run.comparison).mean) : std::nullopt,
+          "%.4f");
+    };
+    using Figures = const RunSummary&;
+    using Compared = const RunComparison&;
+    std::printf("%-12s %7s %9s %9s %8s %9s %9s %9s %9s\n", run.plan.name.c_str(),
+                figure("%.0f", [&run](Figures) { return run.grid.size[2]; }).c_str(),
+                figure("%.0f", [](Figures r) { return r.tets; }).c_str(),
+                figure("%.0f", [](Figures r) { return r.triangles; }).c_str(),
+                figure("%.1f", [](Figures r) { return r.seconds.total; }).c_str(),
+                mean([](Compared c) { return c.reference_to_surface.vertices; }).c_str(),
+                mean([](Compared c) { return c.reference_to_surface.area; }).c_str(),
+                mean([](Compared c) { return c.surface_to_reference.vertices; }).c_str(),
+                mean([](Compared c) { return c.surface_to_reference.area; }).c_str());
   }
 }
 
-class Study {
- public:
-  Study(const StudyCommand& command, const CommonOptions& common)
-      : command_(command), common_(common) {}
-
-  int run() {
-    require_folder(command_.folder);
-    VolumeFile file = read_scan(command_.input, command_.series);
-    const std::vector<Experiment> experiments = plan(command_, file.volume);
-    const ordered_json input = input_json(facts_of(command_.input, file, command_.frame));
-    file.volume.samples = {};  // the experiments have what they need of it
-    reference_ = read_reference(command_);
-    require_inside(reference_, command_, experiments);
-    for (const Experiment& experiment : experiments) {
-      require_memory(experiment.volume, experiment.settings, common_.memory_gb);
-    }
-    for (const Experiment& experiment : experiments) run_experiment(experiment);
-    write_report(input);
-    if (status_ != kExitDone) log_error(remarks_);
-    return status_;
-  }
-
- private:
-  /// Tables are written after every run: an interrupted study keeps what it has.
-  void run_experiment(const Experiment& experiment) {
-    std::vector<StudyRun> runs;
-    for (const PlannedRun& plan : experiment.runs) {
-      runs.push_back(run_one(experiment, plan));
-      note(runs.back());
-      if (experiment.name == "region") add_variations(runs);
-      make_folder(command_.folder);
-      write_tables(command_.folder, experiment.prefix, runs);
-    }
-    for (const std::string& name : draw_pictures(command_.folder, experiment.prefix, runs)) {
-      pictures_.push_back(name);
-    }
-    print_table(runs);
-    ordered_json& entries = experiments_[experiment.name]["runs"];
-    for (StudyRun& run : runs) entries.push_back(std::move(run.json));
-  }
-
-  StudyRun run_one(const Experiment& experiment, const PlannedRun& plan) {
-    StudyRun run = attempt(experiment, plan);
-    if (!run.surface.triangles.empty()) {
-      require_one_frame(run);
-      make_folder(command_.folder);
-      const std::string name = plan.name + ".ply";
-      write_surface(command_.folder / name, run.surface, {.frame = command_.frame});
-      run.json["surface_file"] = name;
-    }
-    compare_with(reference_.surface, experiment, run);
-    run.json["remark"] = run.remark;
-    run.surface = {};
-    return run;
-  }
-
-  /// What goes wrong in one run is no reason to give up those that went well: it is marked. Before
-  /// any of these the input is refused.
-  StudyRun attempt(const Experiment& experiment, const PlannedRun& plan) const {
-    ProgressDisplay display(common_.quiet);
-    const Progress show = display.callback();
-    const Progress progress = [&](std::string_view stage, double share) {
-      return show(plan.name + ": " + std::string(stage), share);
-    };
-    StudyRun run = begun(plan);
-    try {
-      return execute(experiment, plan, progress);
-    } catch (const InputError& error) {
-      if (frames_.is_null()) throw InputError(plan.name + ": " + error.what());
-      mark_failed(run, error.what());
-    } catch (const NumericalError& error) {
-      mark_failed(run, error.what());
-    }
-    return run;
-  }
-
-  /// All runs lie in the scan's frame: one of them tells whether the reference does.
-  void require_one_frame(const StudyRun& run) {
-    if (!frames_.is_null()) return;
-    const SurfacePair pair = pair_up(reference_.file, {run.surface, Frame::kLps}, command_.frames,
-                                     "the surface of " + run.plan.name);
-    frames_ = frames_json(pair);
-  }
-
-  /// Keeps the worst status, and why, for the end.
-  void note(const StudyRun& run) {
-    status_ = std::max(status_, run.status);
-    if (run.status == kExitDone) return;
-    remarks_ += (remarks_.empty() ? "" : "; ") + run.plan.name + ": " + run.remark;
-  }
-
-  void write_report(const ordered_json& input) const {
-    ordered_json report;
-    report["program"] = program_json();
-    report["input"] = input;
-    report["output"] = {{"frame", command_.frame == Frame::kRas ? "ras" : "lps"},
-                        {"threads", thread_count()}};
-    report["reference"] = {{"path", command_.reference.string()},
-                           {"triangles", reference_.surface.triangles.size()},
-                           {"vertices", reference_.surface.points.size()}};
-    report["frames"] = frames_;
-    report["settings"] = to_json(settings_of(command_.settings));
-    report.update(experiments_);
-    report["pictures"] = pictures_;
-    report["converged"] = status_ == kExitDone;
-    add_costs(report);
-    write_json(command_.folder / "study.json", report);
-  }
-
-  const StudyCommand& command_;
-  const CommonOptions& common_;
-  Reference reference_;
-  ordered_json experiments_ = ordered_json::object(), frames_;
-  ordered_json pictures_ = ordered_json::array();
-  int status_ = kExitDone;
-  std::string remarks_;
+/// A study while it runs.
+struct Study {
+  const StudyCommand& command;
+  const CommonOptions& common;
+  Reference reference;
+  StudyRecord record;
+  std::string remarks;  ///< of the runs whose outcome is not kKept
 };
+
+/// Segments one volume. A run that fails is marked, and the study continues, but for the first one
+/// with an InputError: then it is the input that is refused.
+StudyRun segment(const Study& study, const Experiment& experiment, const PlannedRun& plan) {
+  ProgressDisplay display(study.common.quiet);
+  const Progress show = display.callback();
+  const Progress progress = [&](std::string_view stage, double share) {
+    return show(plan.name + ": " + std::string(stage), share);
+  };
+  try {
+    return segment_planned(experiment, plan, progress);
+  } catch (const InputError& error) {
+    if (!study.record.frames) throw InputError(plan.name + ": " + error.what());
+    return failed_run(plan, error.what());
+  } catch (const NumericalError& error) {
+    return failed_run(plan, error.what());
+  }
+}
+
+/// All runs lie in the scan's frame: one of them tells whether the reference does.
+void require_one_frame(Study& study, const StudyRun& run) {
+  if (study.record.frames) return;
+  SurfacePair pair = pair_up(study.reference.file, {run.surface, Frame::kLps}, study.command.frames,
+                             "the surface of " + run.plan.name);
+  for (const std::string& warning : pair.warnings) log_warning(warning);
+  pair.reference = pair.surface = {};
+  study.record.frames = std::move(pair);
+}
+
+/// Segments, writes the surface and compares it.
+StudyRun complete_run(Study& study, const Experiment& experiment, const PlannedRun& plan) {
+  StudyRun run = segment(study, experiment, plan);
+  if (!run.surface.triangles.empty()) {
+    require_one_frame(study, run);
+    make_folder(study.command.folder);
+    run.surface_file = plan.name + ".ply";
+    write_surface(study.command.folder / run.surface_file, run.surface,
+                  {.frame = study.command.frame});
+  }
+  run = with_comparison(study.reference.surface, experiment, std::move(run));
+  run.surface = {};
+  if (run.outcome != Outcome::kKept) {
+    study.remarks += (study.remarks.empty() ? "" : "; ") + run.plan.name + ": " + run.remark;
+  }
+  return run;
+}
+
+/// Writes the tables after every run: an interrupted study keeps those of the finished runs.
+void run_experiment(Study& study, const Experiment& experiment) {
+  const fs::path& folder = study.command.folder;
+  std::vector<StudyRun> runs;
+  for (const PlannedRun& plan : experiment.runs) {
+    runs.push_back(complete_run(study, experiment, plan));
+    runs = with_distance_variations(std::move(runs));
+    make_folder(folder);
+    write_tables(folder, experiment.prefix, runs);
+  }
+  for (const std::string& name : draw_diagrams(folder, experiment.prefix, runs)) {
+    study.record.pictures.push_back(name);
+  }
+  print_table(runs);
+  study.record.experiments.push_back({experiment.name, experiment.settings, std::move(runs)});
+}
+
+/// The record of a study before its first run.
+StudyRecord begin_record(const StudyCommand& command, const VolumeFile& scan,
+                         const Reference& reference) {
+  StudyRecord record;
+  record.input = facts_of(command.input, scan.volume, scan.format, scan.warnings);
+  record.frame = command.frame;
+  record.reference = command.reference;
+  record.reference_triangles = static_cast<std::int64_t>(reference.surface.triangles.size());
+  record.reference_vertices = static_cast<std::int64_t>(reference.surface.points.size());
+  record.settings = settings_of(command.settings);
+  return record;
+}
+
+/// Refuses what can be refused before the first run.
+void require_all(const Study& study, const std::vector<Experiment>& experiments) {
+  for (const Experiment& experiment : experiments) {
+    try {
+      require_inside(study.reference.surface, experiment);
+    } catch (const InputError& error) {
+      throw InputError(study.command.reference.string() + ": " + error.what());
+    }
+  }
+  for (const Experiment& experiment : experiments) {
+    require_memory(experiment.volume, experiment.settings, study.common.memory_gb);
+  }
+}
+
+int run_experiments(Study& study, const std::vector<Experiment>& experiments) {
+  for (const Experiment& experiment : experiments) run_experiment(study, experiment);
+  nlohmann::ordered_json report = study_json(study.record);
+  add_costs(report);
+  write_json(study.command.folder / "study.json", report);
+  if (!study.remarks.empty()) log_error(study.remarks);
+  return exit_status(study.record.outcome());
+}
 
 int run_study(const StudyCommand& command, const CommonOptions& common) {
   if (command.subsample.empty() && !command.region) {
     throw CLI::ValidationError("study", "expected --subsample, --region or both, found neither");
   }
-  return Study(command, common).run();
-}
-
-CropRange parse_region(const std::string& text) {
-  Settings settings;
-  as_usage([&] { from_json({{"crop", crop_ranges(text, "--region")}}, settings); });
-  return settings.crop;
+  require_folder(command.folder);
+  VolumeFile scan = read_scan(command.input, command.series);
+  const std::vector<Experiment> experiments = plan(command, scan.volume);
+  Reference reference = read_reference(command);
+  StudyRecord record = begin_record(command, scan, reference);
+  scan.volume.samples = {};  // the experiments have what they need of it
+  Study study{command, common, std::move(reference), std::move(record), {}};
+  require_all(study, experiments);
+  return run_experiments(study, experiments);
 }
 
 void add_study_options(CLI::App& c, const std::shared_ptr<StudyCommand>& o) {
@@ -245,7 +262,7 @@ void add_study_options(CLI::App& c, const std::shared_ptr<StudyCommand>& o) {
       "--subsample", [o](const std::string& t) { o->subsample = parse_steps(t, "--subsample"); },
       "S,S,...: a run for each, on every S-th slice of the scan");
   c.add_option_function<std::string>(
-      "--region", [o](const std::string& t) { o->region = parse_region(t); },
+      "--region", [o](const std::string& t) { o->region = parse_crop(t, "--region"); },
       "I0:I1,J0:J1,K0:K1, voxels: runs on this part, with all voxels and with every second in "
       "the plane");
   c.add_option_function<std::string>(

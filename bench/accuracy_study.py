@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""How near to the truth: ours with default settings against the best tuned marching cubes.
+"""Distances from the truth: ours with default settings against the best tuned marching cubes.
 
     bench/accuracy_study.py FOLDER [--cases fracture:4,hemipelvis:30,...]
 
-A case is a phantom and what spoils its scan: the noise in grey values, `sp` (2 % salt and pepper)
-or `speckle` (0.1); the blur is one voxel. The rival is an isosurface at the true level of the scan
-smoothed by a Gaussian, whose width is the one of WIDTHS that comes nearest to the truth, chosen
-with knowledge of it; full, and decimated by quadrics to a tenth of the triangles that the isosurface
-of the noiseless scan has. Ours is as extracted, and decimated to the same count. Distances are means
-by area in mm, truth to surface and back, added; the ratio is ours to the rival's. Leaves surfaces and
-reports in FOLDER and prints the tables of docs/accuracy.md. What is there already is not made again.
-`mesamis` is the one in build/release, or that of the variable MESAMIS.
+A case is a phantom and a fault of its scan: the noise in grey values, `sp` (2 % salt and pepper) or
+`speckle` (0.1). The blur is one voxel. The rival is an isosurface of the smoothed scan at the true
+level. The width of the Gaussian is the one of WIDTHS that gives the smallest distance from the truth.
+The rival is taken in full, and decimated by quadrics to a tenth of the triangles of the noiseless
+scan's isosurface. Ours is taken as extracted, and decimated to the same count. Distances are means by
+area in mm, truth to surface and back, added; the ratio is ours to the rival's. The script leaves
+surfaces and reports in FOLDER and prints the tables of docs/accuracy.md. It does not repeat a run
+whose report is there. `mesamis` is the one in build/release, or that of the variable MESAMIS.
 """
 import argparse
 import pathlib
@@ -68,12 +68,12 @@ def study(folder, case):
     once(few.with_suffix(".json"), "decimate", ours, "--triangles", tenth, "-o", few, "--quiet")
     for what, surface, triangles in (("full", ours, 0), ("tenth", few, tenth)):
         best, width = rival(folder, name, scan, truth, triangles)
-        mine, its = distances(folder, truth, surface), distances(folder, truth, best)
-        walls, its_walls = (distances(folder, truth, s, GAPS[phantom]) for s in (surface, best))
+        our, rivals = distances(folder, truth, surface), distances(folder, truth, best)
+        our_gap, rivals_gap = (distances(folder, truth, s, GAPS[phantom]) for s in (surface, best))
         print("| " + " | ".join([
-            phantom, fault, what, str(triangles or segment["surface"]["triangles"]), cell(mine),
-            f"{cell(its)} ({width})", f"**{sum(mine) / sum(its):.2f}**", cell(walls),
-            cell(its_walls), f"{sum(walls) / sum(its_walls):.2f}"]) + " |", flush=True)
+            phantom, fault, what, str(triangles or segment["surface"]["triangles"]), cell(our),
+            f"{cell(rivals)} ({width})", f"**{sum(our) / sum(rivals):.2f}**", cell(our_gap),
+            cell(rivals_gap), f"{sum(our_gap) / sum(rivals_gap):.2f}"]) + " |", flush=True)
 
 
 def main():

@@ -64,14 +64,13 @@ int main(int argc, char** argv) {
               static_cast<long long>(grid.cell_count()), thread_count());
 
   const double start = seconds();
-  AmisReport report;
-  const AmisFields fields =
-      run_amis(GridSpace(grid), f, std::vector<double>(f.size(), 1), {}, options, &report);
+  const AmisResult fields = run_amis(GridSpace(grid), f, {}, options);
+  const AmisReport& report = fields.report;
   const double solved = seconds();
   std::printf("minimise  %6.2f s  %d half-step pairs, %d solver steps, residual %.1e\n",
               solved - start, report.iterations, report.solver_iterations, report.solver_residual);
 
-  GridEstimate estimate = estimate_on_grid(grid, options.parameters, fields.u, fields.v, f, {});
+  GridEstimate estimate = estimate_on_grid(grid, options.parameters, {fields.u, fields.v, f}, {});
   const double estimated = seconds();
   std::printf("estimate  %6.2f s  predicted cells %.3g\n", estimated - solved,
               estimate.predicted_cells);

@@ -10,14 +10,14 @@ MESAMIS = os.environ.get("MESAMIS", str(pathlib.Path(__file__).parent / "../buil
 
 
 def run(*arguments):
-    """Runs mesamis; ends with its message where it fails."""
+    """Runs mesamis; ends with its message if it fails. Not converged (4) is no failure."""
     done = subprocess.run([MESAMIS, *map(str, arguments)], capture_output=True, text=True)
     if done.returncode not in (0, 4):
         sys.exit(f"{' '.join(map(str, arguments))}: {done.stderr.strip()}")
 
 
 def once(report, *arguments):
-    """The report of a run, made only if it is not there."""
+    """The report of a run. Runs only if the report is not there."""
     if not report.exists():
         run(*arguments, "--report", report)
     return json.loads(report.read_text())

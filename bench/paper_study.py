@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The paper's experiments with the resolution, for docs/paper.md.
 
-    bench/paper_study.py FOLDER                        the hemipelvis phantom, which is made first
+    bench/paper_study.py FOLDER                        the hemipelvis phantom; makes it first
     bench/paper_study.py FOLDER SCAN LABELS            a scan; its reference is that of its labels
 
-Leaves scan, reference and all that `mesamis study` writes in FOLDER and prints the tables. What is
-there already is not made again. `mesamis` is the one in build/release, or that of the variable MESAMIS.
+Leaves scan, reference and all that `mesamis study` writes in FOLDER and prints the tables. Does not
+repeat a run whose report is there. `mesamis` is the one in build/release, or that of the variable MESAMIS.
 """
 import argparse
 import json
@@ -24,7 +24,7 @@ SCAN = {"whole": ["--subsample", "1,2,4"]}
 
 
 def run(*arguments):
-    """Runs mesamis; ends with its message where it fails. What has not converged is marked."""
+    """Runs mesamis; ends with its message if it fails. A run that has not converged is marked."""
     command = [MESAMIS, *map(str, arguments)]
     print("mesamis", *command[1:], file=sys.stderr, flush=True)
     done = subprocess.run(command, stdout=subprocess.DEVNULL)

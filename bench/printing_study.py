@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What printing a scan takes: the full marching cubes' surface against ours, decimated.
+"""The cost of printing a scan: the full marching cubes surface against ours, decimated.
 
     bench/printing_study.py SCAN FOLDER [--tolerances 0.05,0.1,0.2,0.3] [--slicers prusa,cura]
 
-Leaves surfaces and reports in FOLDER and prints a table for docs/printing.md. What is there already
-is not made again. Distances are means by area in mm, from the full marching cubes' surface to the one
-printed and back. `mesamis` is the one in build/release, or that of the variable MESAMIS.
+Leaves surfaces and reports in FOLDER and prints a table for docs/printing.md. Does not repeat a run
+whose report is there. Distances are means by area in mm, from the full marching cubes surface to the
+one printed and back. `mesamis` is the one in build/release, or that of the variable MESAMIS.
 """
 import argparse
 import pathlib

@@ -341,11 +341,7 @@ Arguments parse(int argc, char** argv) {
   return arguments;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) try {
-  const Arguments arguments = parse(argc, argv);
-  set_thread_count(arguments.threads);
+void run_cases(const Arguments& arguments) {
   if (!arguments.json) {
     std::printf("%-12s %9s %7s %6s %6s %8s %8s %8s %7s %6s %6s %4s  %s\n", "case", "tets", "unit %",
                 "q min", "q mean", "captured", "user s", "wall s", "tets/s", "B/tet", "rounds",
@@ -362,7 +358,13 @@ int main(int argc, char** argv) try {
     if (!arguments.write.empty()) write_medit(mesh, arguments.write + "-" + name + ".mesh");
     if (arguments.again) run_again(c, mesh, arguments);
   }
-  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Arguments arguments = parse(argc, argv);
+  with_threads(arguments.threads, [&] { run_cases(arguments); });
 } catch (const std::exception& error) {
   std::fprintf(stderr, "bench_remesh: %s\n", error.what());
   return 1;

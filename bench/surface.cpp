@@ -16,6 +16,7 @@
 #include "mesamis/surface/components.h"
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/extract.h"
+#include "mesamis/surface/sampling.h"
 
 namespace {
 
@@ -61,7 +62,6 @@ TriMesh bumpy_ball(Index n, double radius) {
 /// A million points of one surface against a million triangles of another, both a human head's
 /// size.
 void compare_surfaces() {
-  set_thread_count(0);
   const TriMesh reference = bumpy_ball(500, 100), surface = bumpy_ball(707, 100.5);
   std::printf("%zu vertices against %zu triangles, all threads\n", surface.points.size(),
               reference.triangles.size());
@@ -71,11 +71,8 @@ void compare_surfaces() {
   timed("is there a flip that fits?", [&] { return find_axis_flip(reference, surface); });
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const Index n = argc > 1 ? std::atoi(argv[1]) : 60;
-  set_thread_count(1);
+/// Extraction, checks and distances on level sets of a mesh of n^3 boxes.
+void time_level_sets(Index n) {
   const TetMesh mesh = box_mesh({{0, 0, 0}, {100, 100, 100}}, {n, n, n});
   std::vector<double> u, v;
   for (const Vec3& p : mesh.points) u.push_back(wave(p, 0.3));
@@ -114,5 +111,12 @@ int main(int argc, char** argv) {
     }
   }
   timed("distances of points anywhere", [&] { return distances_to_surface(scattered, surface); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Index n = argc > 1 ? std::atoi(argv[1]) : 60;
+  with_threads(1, [&] { time_level_sets(n); });
   compare_surfaces();
 }

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-# What another project finds with find_package(mesamis): two sets of targets, so that the core
-# can be used where VTK is not installed.
+# What another project finds with find_package(mesamis): a set of targets for the core and for each
+# room with dependencies of its own, so that none need be installed that is not used.
 include(CMakePackageConfigHelpers)
 
 set(MESAMIS_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/mesamis)
 install(TARGETS mesamis EXPORT mesamisTargets FILE_SET HEADERS)
 install(EXPORT mesamisTargets NAMESPACE mesamis:: DESTINATION ${MESAMIS_CMAKE_DIR})
-if(MESAMIS_BUILD_IO)
-  install(TARGETS mesamis_io EXPORT mesamisIoTargets FILE_SET HEADERS)
-  install(EXPORT mesamisIoTargets NAMESPACE mesamis:: DESTINATION ${MESAMIS_CMAKE_DIR})
-endif()
+get_property(mesamis_libraries GLOBAL PROPERTY MESAMIS_LIBRARIES)
+foreach(room IN LISTS mesamis_libraries)
+  install(TARGETS mesamis_${room} EXPORT mesamis_${room} FILE_SET HEADERS)
+  install(EXPORT mesamis_${room} NAMESPACE mesamis:: DESTINATION ${MESAMIS_CMAKE_DIR})
+endforeach()
 
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/cmake/mesamisConfig.cmake.in ${PROJECT_BINARY_DIR}/mesamisConfig.cmake

@@ -40,8 +40,9 @@ function(mesamis_instrument target)
   endif()
 endfunction()
 
-# Adds a room to a library. Its sources.cmake names its doors (ROOM_HEADERS, which are installed)
-# and its sources (ROOM_SOURCES); any other header is the room's own.
+# Adds a room to a library. Its sources.cmake names its doors (ROOM_HEADERS, which are installed), the
+# headers that other rooms of the project may include as well (ROOM_INNER_HEADERS) and its sources
+# (ROOM_SOURCES); any other header is the room's own.
 function(mesamis_add_room target room)
   set(folder ${PROJECT_SOURCE_DIR}/src/mesamis/${room})
   include(${folder}/sources.cmake)
@@ -50,4 +51,16 @@ function(mesamis_add_room target room)
   target_sources(${target}
     PRIVATE ${ROOM_SOURCES}
     PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${ROOM_HEADERS})
+endfunction()
+
+# A room with dependencies of its own: the library mesamis_ROOM, which is mesamis::ROOM elsewhere.
+function(mesamis_add_library room)
+  set(target mesamis_${room})
+  add_library(${target})
+  add_library(mesamis::${room} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${room})
+  mesamis_add_room(${target} ${room})
+  mesamis_compile_options(${target})
+  mesamis_instrument(${target})
+  set_property(GLOBAL APPEND PROPERTY MESAMIS_LIBRARIES ${room})
 endfunction()

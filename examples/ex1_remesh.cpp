@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <exception>
 
-#include "mesamis/io/mesh_files.h"
 #include "mesamis/mesh/metric.h"
 #include "mesamis/remesh/remesh.h"
+#include "mesamis/shape_files/mesh_files.h"
 
 using namespace mesamis;
 
@@ -50,7 +50,7 @@ int main(int count, char** arguments) try {
               mesh.cells.size(), report.rounds, 100 * fit.unit_edge_fraction, fit.quality_min);
 
   // 5. Write it, for ParaView or mesamis picture.
-  write_vtu(count > 1 ? arguments[1] : "sphere.vtu", mesh, std::vector{radius}, {});
+  write_vtu(count > 1 ? arguments[1] : "sphere.vtu", mesh, {.point_arrays = std::vector{radius}});
 } catch (const std::exception& error) {
   std::fprintf(stderr, "ex1_remesh: %s\n", error.what());
   return 1;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Example 2: read a scan, print its facts, draw its middle slice.
 //
-//   ex2_volume SCAN [OUT.png]
+//   ex2_volume SCAN [OUT.png]      (without a screen: xvfb-run ex2_volume ...)
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 
-#include "mesamis/io/picture.h"
-#include "mesamis/io/read_volume.h"
+#include "mesamis/picture/picture.h"
+#include "mesamis/scan_files/read_volume.h"
 
 using namespace mesamis;
 

@@ -7,9 +7,9 @@
 #include <exception>
 #include <random>
 
-#include "mesamis/io/mesh_files.h"
-#include "mesamis/io/surface_files.h"
-#include "mesamis/mes_amis.h"
+#include "mesamis/method/mes_amis.h"
+#include "mesamis/shape_files/mesh_files.h"
+#include "mesamis/shape_files/surface_files.h"
 #include "mesamis/surface/tri_mesh.h"
 
 using namespace mesamis;
@@ -49,8 +49,8 @@ int main(int count, char** arguments) try {
 
   // 4. Files, written whole or not at all, in LPS mm.
   if (count > 1) write_surface(arguments[1], result.surface, {});
-  if (count > 2)
-    write_vtu(arguments[2], result.mesh, std::vector<MeshArray>{{"u", 1, result.u}}, {});
+  const std::vector<MeshArray> arrays{{"u", 1, result.u}};
+  if (count > 2) write_vtu(arguments[2], result.mesh, {.point_arrays = arrays});
 } catch (const std::exception& error) {
   std::fprintf(stderr, "ex3_segment: %s\n", error.what());
   return 1;

@@ -35,15 +35,16 @@ TEST(GridEstimator, AgreesWithTheMeshOfItsCells) {
   const TetMesh mesh = box_mesh(grid.box(), {5, 4, 11});
   const Fields x = random_fields(grid.node_count());
   const AtParameters parameters{0.3, 0.01, 1.5, 4};
-  const double tau = 0.01;
-  const Estimate expected = estimate(mesh, parameters, x.u, x.v, x.f);
+  const double tau = 0.01, stretch = 3e4;
+  const Estimate expected = estimate(mesh, parameters, {x.u, x.v, x.f});
   std::vector<Sym3> cell_metrics;
   for (const Sym3& gamma : expected.gamma) {
-    cell_metrics.push_back(cell_metric(gamma, {grid.cell_count(), tau}));
+    cell_metrics.push_back(cell_metric(gamma, {grid.cell_count(), tau, stretch}));
   }
   const auto nodes = node_metrics(mesh, cell_metrics);
 
-  const GridEstimate found = estimate_on_grid(grid, parameters, x.u, x.v, x.f, {.tau = tau});
+  const GridEstimate found =
+      estimate_on_grid(grid, parameters, {x.u, x.v, x.f}, {.tau = tau, .max_stretch = stretch});
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_NEAR(found.sums.residuals.a[i] / expected.sums.residuals.a[i], 1, 1e-9);
   }
@@ -63,11 +64,12 @@ TEST(GridEstimator, AgreesWithTheMeshOfItsCells) {
 TEST(GridEstimator, TheSameBitsForAnyNumberOfThreads) {
   const KuhnGrid grid{{7, 6, 41}, {1, 1, 1}};
   const Fields x = random_fields(grid.node_count());
-  set_thread_count(1);
-  const GridEstimate a = estimate_on_grid(grid, {}, x.u, x.v, x.f, {});
-  set_thread_count(4);
-  const GridEstimate b = estimate_on_grid(grid, {}, x.u, x.v, x.f, {});
-  set_thread_count(0);
+  const GridEstimate a = with_threads(1, [&] {
+    return estimate_on_grid(grid, {}, {x.u, x.v, x.f}, {});
+  });
+  const GridEstimate b = with_threads(4, [&] {
+    return estimate_on_grid(grid, {}, {x.u, x.v, x.f}, {});
+  });
   EXPECT_EQ(a.node_metrics, b.node_metrics);
   EXPECT_EQ(a.sums.zeta_a, b.sums.zeta_a);
 }
@@ -75,7 +77,7 @@ TEST(GridEstimator, TheSameBitsForAnyNumberOfThreads) {
 TEST(GridEstimator, RefusesFieldsOfAnotherSize) {
   const KuhnGrid grid{{3, 3, 3}, {1, 1, 1}};
   const std::vector<double> right(27, 1), wrong(26, 1);
-  EXPECT_THROW(estimate_on_grid(grid, {}, wrong, right, right, {}), InputError);
+  EXPECT_THROW(estimate_on_grid(grid, {}, {wrong, right, right}, {}), InputError);
 }
 
 TEST(SmoothLogMetrics, KeepsAConstantAndSpreadsAPeak) {

@@ -3,11 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "mesamis/image/degrade.h"
-#include "mesamis/image/phantom.h"
-#include "mesamis/io/geodesic_contour.h"
-#include "mesamis/io/surface_files.h"
-#include "mesamis/io/write_volume.h"
+#include "mesamis/baseline/geodesic_contour.h"
+#include "mesamis/phantom/degrade.h"
+#include "mesamis/phantom/phantom.h"
+#include "mesamis/restore/half_maximum_level.h"
+#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/scan_files/write_volume.h"
+#include "mesamis/shape_files/surface_files.h"
 #include "support/run_program.h"
 
 namespace mesamis {
@@ -45,6 +47,20 @@ TEST(BaselineCommand, MakesAnIsosurface) {
   EXPECT_NEAR(report["settings"]["level"], 175, 5);
   EXPECT_EQ(report["converged"], true);
   EXPECT_FALSE(report.contains("contour"));
+}
+
+TEST(BaselineCommand, MeasuresTheLevelInTheScanUnlessGiven) {
+  const TempFolder folder;
+  const auto level = [&folder](const std::vector<std::string>& more) {
+    std::vector<std::string> options{"-o", folder / "a.stl", "--report", folder / "r.json"};
+    options.insert(options.end(), more.begin(), more.end());
+    EXPECT_EQ(baseline(folder, options).status, 0);
+    return report_in(folder)["settings"]["level"].get<double>();
+  };
+  const double measured = level({});
+  EXPECT_EQ(measured, find_half_maximum_level(read_volume(folder / "scan.nrrd").volume).level);
+  EXPECT_EQ(level({"--smooth", "1"}), measured) << "of the scan as it is";
+  EXPECT_EQ(level({"--level", "150"}), 150);
 }
 
 TEST(BaselineCommand, MakesAGeodesicContourAndTellsHow) {

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "mesamis/io/surface_files.h"
+#include "mesamis/shape_files/surface_files.h"
 #include "support/run_program.h"
 #include "support/shapes.h"
 #include "support/test_data.h"

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "mesamis/io/surface_files.h"
+#include "mesamis/shape_files/surface_files.h"
 #include "mesamis/surface/distance.h"
 #include "support/level_set.h"
 #include "support/run_program.h"

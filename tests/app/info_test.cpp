@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include "mesamis/io/mesh_files.h"
+#include "mesamis/shape_files/mesh_files.h"
 #include "support/run_program.h"
 #include "support/test_data.h"
 
@@ -28,7 +28,7 @@ TEST(Info, DescribesAMeshAndItsArrays) {
   const TempFolder folder;
   const TetMesh mesh = box_mesh({{0, 0, 0}, {2, 3, 4}}, {1, 1, 1});
   const std::vector<MeshArray> arrays{{"u", 1, std::vector<double>(8, 1)}};
-  write_vtu(folder / "m.vtu", mesh, arrays, {});
+  write_vtu(folder / "m.vtu", mesh, {.point_arrays = arrays});
   const ProgramRun run = run_program(folder, {"info", folder / "m.vtu"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("6 tetrahedra, 8 vertices, 2 x 3 x 4 mm, arrays u"));

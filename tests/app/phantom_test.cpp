@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "mesamis/io/read_volume.h"
-#include "mesamis/io/surface_files.h"
+#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/shape_files/surface_files.h"
 #include "support/run_program.h"
 
 namespace mesamis {

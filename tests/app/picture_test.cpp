@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include "mesamis/io/mesh_files.h"
+#include "mesamis/shape_files/mesh_files.h"
+#include "mesamis/shape_files/surface_files.h"
 #include "support/can_draw.h"
 #include "support/run_program.h"
 

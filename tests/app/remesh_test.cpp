@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "mesamis/io/mesh_files.h"
 #include "mesamis/mesh/metric.h"
+#include "mesamis/shape_files/mesh_files.h"
 #include "support/metric_fields.h"
 #include "support/run_program.h"
 

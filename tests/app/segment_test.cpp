@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "mesamis/io/mesh_files.h"
-#include "mesamis/io/surface_files.h"
+#include "mesamis/shape_files/mesh_files.h"
+#include "mesamis/shape_files/surface_files.h"
 #include "support/ball_volume.h"
 #include "support/run_program.h"
 

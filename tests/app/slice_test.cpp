@@ -10,10 +10,10 @@
 #include <sstream>
 #include <thread>
 
-#include "child_process.h"
-#include "mesamis/io/gcode.h"
-#include "mesamis/io/surface_files.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/printing/child_process.h"
+#include "mesamis/printing/gcode.h"
+#include "mesamis/shape_files/surface_files.h"
 #include "support/external_program.h"
 #include "support/level_set.h"
 #include "support/run_program.h"
@@ -299,7 +299,13 @@ TEST_F(StandIn, WhatPrusaSlicerFindsUnsoundIsNotSliced) {
   stand_in("touch " + (folder_ / "sliced").string(), "manifold = no");
   EXPECT_FAILS(slice(), 5, "prusa-slicer --info: manifold = no");
   stand_in("touch " + (folder_ / "sliced").string(), "facets_reversed = 2");
-  EXPECT_FAILS(slice(), 5, "prusa-slicer --info: facets_reversed = 2");
+  EXPECT_FAILS(slice({"--report", folder_ / "r.json"}), 5,
+               "prusa-slicer --info: facets_reversed = 2");
+  const json gate = json::parse(read_bytes(folder_ / "r.json"))["gate"];
+  EXPECT_EQ(gate["passed"], false);
+  EXPECT_EQ(gate["by"].size(), 2u);
+  EXPECT_EQ(gate["prusa_slicer"]["repairs"]["facets_reversed"], 2);
+  std::filesystem::remove(folder_ / "r.json");
   expect_nothing_left();
 }
 

@@ -24,13 +24,26 @@ TEST(Parallel, VisitsEveryItemOnce) {
 TEST(Parallel, SumHasTheSameBitsForAnyNumberOfThreads) {
   std::vector<double> sums;
   for (const int threads : {1, 2, 3, 8}) {
-    set_thread_count(threads);
-    EXPECT_EQ(thread_count(), threads);
-    sums.push_back(parallel_sum(1'000'003, harmonic_sum));
+    sums.push_back(with_threads(threads, [&] {
+      EXPECT_EQ(thread_count(), threads);
+      return parallel_sum(1'000'003, harmonic_sum);
+    }));
   }
-  set_thread_count(0);
   for (const double sum : sums) EXPECT_EQ(sum, sums[0]);
   EXPECT_NEAR(sums[0], std::log(1'000'003.0) + 0.5772156649, 1e-5);
+}
+
+TEST(Parallel, ThreadsAreLimitedOnlyWithinTheWork) {
+  const int outside = thread_count();
+  const int inside = with_threads(outside + 2, [&] {
+    EXPECT_EQ(with_threads(1, [] { return thread_count(); }), 1);
+    EXPECT_EQ(with_threads(0, [] { return thread_count(); }), outside + 2);
+    return thread_count();
+  });
+  EXPECT_EQ(inside, outside + 2);
+  EXPECT_EQ(thread_count(), outside);
+  EXPECT_THROW(with_threads(1, [] { throw 1; }), int);
+  EXPECT_EQ(thread_count(), outside);
 }
 
 TEST(Parallel, MaxOfNothingIsTheLowest) {

@@ -34,7 +34,7 @@ System u_step(const P1Space& space, const std::vector<Vec3>& points, double size
 
 int iterations(const System& system) {
   std::vector<double> x(system.b.size(), 0);
-  const SolveReport report = solve(*system.a, system.b, x);
+  const SolveReport report = solve(*system.a, system.b, x, {.tolerance = 1e-8});
   EXPECT_TRUE(report.converged);
   std::vector<double> ax(x.size());
   system.a->apply(x, ax);

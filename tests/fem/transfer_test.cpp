@@ -26,9 +26,10 @@ TEST(ProjectImage, ReproducesLinearImagesOnAnyMesh) {
   for (const std::array<Index, 3> n : {std::array<Index, 3>{2, 3, 2}, {20, 14, 25}}) {
     const TetMesh mesh = perturbed_box({{0, 0, 0}, extent}, n, 0.25);
     const MeshSpace space(mesh);
-    SolveReport report;
-    const auto f = project_image(image, space, unit, {1e-12, 500, 500}, &report);
-    EXPECT_TRUE(report.converged);
+    const ProjectedImage projected =
+        project_image(image, space, {.point_scale = unit, .solver = {1e-12, 500, 500}});
+    EXPECT_TRUE(projected.solve.converged);
+    const std::vector<double>& f = projected.values;
     for (std::size_t i = 0; i < f.size(); ++i)
       EXPECT_NEAR(f[i], linear(unit * mesh.points[i]), 1e-4);
   }
@@ -42,7 +43,7 @@ TEST(ProjectImage, KeepsTheMean) {
   }
   const TetMesh mesh = perturbed_box({{0, 0, 0}, {16, 16, 16}}, {16, 16, 16}, 0.0);
   const MeshSpace space(mesh);
-  const auto f = project_image(image, space, 1, {1e-12, 500, 500});
+  const auto f = project_image(image, space, {.solver = {1e-12, 500, 500}}).values;
   double projected = 0, exact = 0;
   for (std::size_t n = 0; n < f.size(); ++n) {
     projected += space.lumped_mass()[n] * f[n];
@@ -134,11 +135,8 @@ TEST(AverageImage, OfNodesHasTheCellsIntegralAndStaysInTheRange) {
 
 TEST(AverageImage, HasTheSameBitsForAnyNumberOfThreads) {
   const Placed placed(false);
-  set_thread_count(1);
-  const ImageMeans one = average_image(placed.volume, placed.mesh);
-  set_thread_count(2);
-  const ImageMeans two = average_image(placed.volume, placed.mesh);
-  set_thread_count(0);
+  const ImageMeans one = with_threads(1, [&] { return average_image(placed.volume, placed.mesh); });
+  const ImageMeans two = with_threads(2, [&] { return average_image(placed.volume, placed.mesh); });
   EXPECT_EQ(one.cells, two.cells);
   EXPECT_EQ(one.nodes, two.nodes);
 }

@@ -345,14 +345,14 @@ void run_case(const TetMesh& start, const MetricField& metric, const RemeshOptio
               bool twice) {
   const bool is_valid = find_flaw(start, bounding_box(start.points)).empty();
   try {
-    set_thread_count(2);
-    const TetMesh mesh = remesh(start, metric, options);
+    const TetMesh mesh = with_threads(2, [&] { return remesh(start, metric, options); });
     require(is_valid, "a start mesh that is none was taken");
     require_law(start, options, mesh);
     if (!twice) return;
-    set_thread_count(1);
-    require(mesh_hash(mesh) == mesh_hash(remesh(start, metric, options)),
-            "one and two threads give different meshes");
+    with_threads(1, [&] {
+      require(mesh_hash(mesh) == mesh_hash(remesh(start, metric, options)),
+              "one and two threads give different meshes");
+    });
   } catch (const InputError& error) {
     require(!is_valid, std::string("a valid start was refused: ") + error.what());
   } catch (const std::exception& error) {

@@ -77,6 +77,57 @@ TEST(Volume, RefusesWhatNoMethodCanUse) {
               HasSubstr("found 7 everywhere"));
 }
 
+/// Voxels that no Volume owns, as a program that uses the library has them.
+class ViewOfAnArray : public ::testing::Test {
+ protected:
+  const Volume owner_ = oblique();
+  const std::vector<float> voxels_ = owner_.samples;
+  const VolumeView view_{owner_, voxels_};
+};
+
+TEST_F(ViewOfAnArray, CopiesNoSample) {
+  EXPECT_EQ(view_.samples.data(), voxels_.data());
+  const VolumeView of_volume = owner_;
+  EXPECT_EQ(of_volume.samples.data(), owner_.samples.data());
+  EXPECT_EQ(of_volume.samples.size(), owner_.samples.size());
+}
+
+TEST_F(ViewOfAnArray, KnowsTheSameGridAndSamples) {
+  EXPECT_EQ(view_.size, owner_.size);
+  EXPECT_EQ(view_.modality, "CT");
+  EXPECT_EQ(view_.box(), owner_.box());
+  EXPECT_EQ(view_.to_world({1, 2, 3}), owner_.to_world({1, 2, 3}));
+  EXPECT_EQ(view_.at(3, 2, 1), owner_.at(3, 2, 1));
+}
+
+TEST_F(ViewOfAnArray, IsReadAsTheVolumeIs) {
+  EXPECT_NO_THROW(require_usable(view_));
+  const CropRange range{{1, 0, 2}, {4, -1, 5}};
+  EXPECT_EQ(crop(view_, range).samples, crop(owner_, range).samples);
+  EXPECT_EQ(subsample(view_, {2, 3, 1}).samples, subsample(owner_, {2, 3, 1}).samples);
+  EXPECT_EQ(interpolate(view_, {0.7, 1.1, 4.2}), interpolate(owner_, {0.7, 1.1, 4.2}));
+}
+
+TEST_F(ViewOfAnArray, IsRefusedWhereSamplesAreMissing) {
+  const VolumeView cut{owner_, std::span(voxels_).first(100)};
+  EXPECT_REFUSED(require_usable(cut), HasSubstr("expected 120 samples"));
+}
+
+TEST_F(ViewOfAnArray, IsCopiedIntoAVolumeOfItsOwn) {
+  const Volume copy = copy_volume(view_);
+  EXPECT_EQ(copy.samples, voxels_);
+  EXPECT_NE(copy.samples.data(), voxels_.data());
+  EXPECT_EQ(copy.origin, view_.origin);
+  EXPECT_EQ(copy.direction, view_.direction);
+}
+
+TEST(VolumeView, IsWrittenInOneExpression) {
+  const std::vector<float> voxels{0, 1, 2, 3, 4, 5, 6, 7};
+  const VolumeView view{{.size = {2, 2, 2}, .spacing = {0.5, 0.5, 1}}, voxels};
+  EXPECT_NO_THROW(require_usable(view));
+  EXPECT_EQ(view.at(1, 0, 1), 5);
+}
+
 TEST(Volume, GoesToTheWorldAndBack) {
   Volume v = oblique();
   EXPECT_LT(norm(v.to_grid(v.origin)), 1e-12);

@@ -95,11 +95,8 @@ TEST(Gradation, NothingGetsCoarserAndAllNeighborsAllowWhatIsLeft) {
 TEST(Gradation, SameBitsForAnyNumberOfThreads) {
   const TetMesh mesh = perturbed_box({{0, 0, 0}, {1, 1, 1}}, {16, 16, 16}, 0.2);
   auto one = random_metrics(mesh.points.size()), four = one;
-  set_thread_count(1);
-  limit_gradation(mesh, one, 1.3);
-  set_thread_count(4);
-  limit_gradation(mesh, four, 1.3);
-  set_thread_count(0);
+  with_threads(1, [&] { limit_gradation(mesh, one, 1.3); });
+  with_threads(4, [&] { limit_gradation(mesh, four, 1.3); });
   EXPECT_EQ(one, four);
 }
 

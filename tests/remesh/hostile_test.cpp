@@ -47,14 +47,12 @@ void expect_valid_for_any_threads(const TetMesh& start, const MetricField& metri
   const Box box = bounding_box(start.points);
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 4}) {
-    set_thread_count(threads);
-    const TetMesh mesh = remesh(start, metric, options);
+    const TetMesh mesh = with_threads(threads, [&] { return remesh(start, metric, options); });
     expect_box_kept(mesh, box);
     EXPECT_GT(std::ssize(mesh.cells), 2 * options.part_cells);
     EXPECT_LT(std::ssize(mesh.cells), 3 * options.max_cells);
     hashes.push_back(mesh_hash(mesh));
   }
-  set_thread_count(0);
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 

@@ -25,7 +25,7 @@ TEST(Partition, IdlePartsJoinToTheSameMesh) {
   for (int round = 0; round < 5; ++round) {
     WorkingMesh mesh = loaded(start, sampler);
     std::atomic<std::int64_t> cells = 0;
-    work_on_parts(mesh, round, 7, [&](WorkingMesh& part) {
+    work_on_parts(mesh, {round, 7}, [&](WorkingMesh& part) {
       cells += part.cell_count();
       return Counters{};
     });
@@ -43,7 +43,7 @@ TEST(Partition, PartsAreBalancedAndBordersMove) {
   for (int round = 0; round < 2; ++round) {
     WorkingMesh mesh = loaded(start, sampler);
     std::atomic<std::int64_t> largest = 0, sum = 0;
-    work_on_parts(mesh, round, 4, [&](WorkingMesh& part) {
+    work_on_parts(mesh, {round, 4}, [&](WorkingMesh& part) {
       std::int64_t seen = largest;
       while (part.cell_count() > seen && !largest.compare_exchange_weak(seen, part.cell_count())) {
       }
@@ -61,20 +61,22 @@ TEST(Partition, WorkOnPartsGivesAValidMeshAndTheSameBitsForAnyThreads) {
   const MetricSampler sampler(kFine, kUnitBox);
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 2, 8}) {
-    set_thread_count(threads);
-    WorkingMesh mesh = loaded(start, sampler);
-    Counters sum;
-    for (int round = 0; round < 4; ++round) {
-      sum += work_on_parts(mesh, round, 5, [&](WorkingMesh& part) {
-        Workbench bench(part, sampler);
-        return Counters{.splits = split_long_edges(bench, {})};
-      });
-      expect_sound(mesh);
-    }
-    EXPECT_GT(sum.splits, 100);
-    hashes.push_back(mesh_hash(unload(mesh)));
+    with_threads(threads, [&] {
+      WorkingMesh mesh = loaded(start, sampler);
+      Counters sum;
+      for (int round = 0; round < 4; ++round) {
+        const PartsReport done = work_on_parts(mesh, {round, 5}, [&](WorkingMesh& part) {
+          Workbench bench(part, sampler);
+          return Counters{.splits = split_long_edges(bench, {})};
+        });
+        EXPECT_EQ(done.seconds.size(), 5u);
+        sum += done.counters;
+        expect_sound(mesh);
+      }
+      EXPECT_GT(sum.splits, 100);
+      hashes.push_back(mesh_hash(unload(mesh)));
+    });
   }
-  set_thread_count(0);
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);
 }

@@ -72,13 +72,11 @@ TEST(Remesh, SameBytesForAnyNumberOfThreads) {
   options.part_cells = 1000;
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 2, 4, 8}) {
-    set_thread_count(threads);
-    const TetMesh mesh = remesh(background, field, options);
+    const TetMesh mesh = with_threads(threads, [&] { return remesh(background, field, options); });
     EXPECT_EQ(find_flaw(mesh, kUnitBox), "");
     EXPECT_GT(mesh.cells.size(), 2000u);
     hashes.push_back(mesh_hash(mesh));
   }
-  set_thread_count(0);
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);
 }

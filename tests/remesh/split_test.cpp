@@ -13,7 +13,7 @@ TEST(Split, EveryEdgeOfABoxMeshCanBeSplit) {
   for (Index c = 0; c < cells; ++c) {
     const Index a = small.mesh.cells[c].points[0], b = small.mesh.cells[c].points[3];
     const std::int64_t before = small.mesh.vertex_count();
-    ASSERT_TRUE(split_edge(small.bench, c, {a, b}, {}, true));
+    ASSERT_TRUE(split_edge(small.bench, {c, a, b, true}, {}));
     EXPECT_EQ(small.mesh.vertex_count(), before + 1);
     expect_sound(small.mesh);
   }
@@ -44,7 +44,7 @@ TEST(Split, MiddleHalvesTheLengthWhereSizesGrowGeometrically) {
   const FormulaMetric metric([](const Vec3& p) { return std::exp(-4 * p.x) * kIdentity3; });
   SmallMesh small(box_mesh(kUnitBox, {1, 1, 1}), metric);
   const Index c = cell_with(small.mesh, 0, 1);
-  ASSERT_TRUE(split_edge(small.bench, c, {0, 1}, {}, true));
+  ASSERT_TRUE(split_edge(small.bench, {c, 0, 1, true}, {}));
   const Vec3 middle = small.mesh.vertices.back().position;
   EXPECT_NEAR(middle.x, -std::log((1 + std::exp(-2.0)) / 2) / 2, 1e-6);
   EXPECT_EQ(middle.y, 0);
@@ -55,7 +55,7 @@ TEST(Split, RefusesCrowdingAndKeepsTheMesh) {
   const FormulaMetric metric = uniform_metric(2);  // every edge is short
   SmallMesh small(box_mesh(kUnitBox, {2, 2, 2}), metric);
   const auto cells = small.mesh.cell_count();
-  EXPECT_FALSE(split_edge(small.bench, 0, {0, small.mesh.cells[0].points[1]}, {}, false));
+  EXPECT_FALSE(split_edge(small.bench, {0, 0, small.mesh.cells[0].points[1]}, {}));
   EXPECT_EQ(small.mesh.cell_count(), cells);
   expect_sound(small.mesh);
 }

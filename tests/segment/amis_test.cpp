@@ -49,7 +49,7 @@ TEST(AmisOracle, HalfStepsAgree) {
     std::size_t half_step = 0;
     options.after_half_step = [&](std::span<const double> u, std::span<const double> v) {
       const auto& step = c["steps"][half_step / 2];
-      const Energy e = energy(space, options.parameters, u, v, f);
+      const Energy e = energy(space, options.parameters, {u, v, f});
       if (half_step % 2 == 0) {
         EXPECT_LT(relative_difference({u.begin(), u.end()}, step["u"]), 1e-9);
         EXPECT_NEAR(e.total() / step["energy_after_u"].get<double>(), 1, 1e-9);
@@ -63,8 +63,7 @@ TEST(AmisOracle, HalfStepsAgree) {
       }
       ++half_step;
     };
-    AmisReport report;
-    run_amis(space, f, std::vector<double>(f.size(), 1), {}, options, &report);
+    const AmisReport report = run_amis(space, f, {}, options).report;
     EXPECT_EQ(half_step, 2 * c["steps"].size());
     EXPECT_NEAR(report.v_change / c["steps"].back()["change_v_max"].get<double>(), 1, 1e-7);
   }
@@ -77,12 +76,12 @@ void expect_descent(const P1Space& space, const std::vector<double>& f,
   double last = 1e300;
   int half_steps = 0;
   options.after_half_step = [&](std::span<const double> u, std::span<const double> v) {
-    const double now = energy(space, parameters, u, v, f).total();
+    const double now = energy(space, parameters, {u, v, f}).total();
     EXPECT_LE(now, last * (1 + 1e-12));
     last = now;
     ++half_steps;
   };
-  run_amis(space, f, std::vector<double>(f.size(), 1), {}, options);
+  run_amis(space, f, {}, options);
   EXPECT_EQ(half_steps, 20);
 }
 
@@ -106,10 +105,8 @@ TEST(Amis, EdgeIndicatorStaysInRangeOnAGrid) {
   const KuhnGrid grid{{12, 12, 12}, {1, 0.5, 2}};
   const auto f = noisy_ball(box_mesh(grid.box(), {11, 11, 11}).points, {5, 3, 10}, 3);
   for (const AtParameters& parameters : {AtParameters{}, AtParameters{0.5, 0.01, 1, 10}}) {
-    AmisReport report;
-    const AmisFields fields = run_amis(GridSpace(grid), f, std::vector<double>(f.size(), 1), {},
-                                       accurate_options(parameters), &report);
-    EXPECT_EQ(report.clamped, 0u);
+    const AmisResult fields = run_amis(GridSpace(grid), f, {}, accurate_options(parameters));
+    EXPECT_EQ(fields.report.clamped, 0u);
     EXPECT_THAT(fields.v, ::testing::Each(::testing::AllOf(::testing::Ge(0), ::testing::Le(1))));
   }
 }
@@ -117,10 +114,10 @@ TEST(Amis, EdgeIndicatorStaysInRangeOnAGrid) {
 TEST(Amis, AConstantImageHasNoEdge) {
   const KuhnGrid grid{{5, 6, 7}, {1, 1, 1}};
   const std::vector<double> f(grid.node_count(), 42);
-  AmisReport report;
-  const AmisFields fields =
-      run_amis(GridSpace(grid), f, std::vector<double>(f.size(), 1), {}, {}, &report);
-  EXPECT_TRUE(report.converged);
+  AmisOptions options;
+  options.solver.tolerance = 1e-8;
+  const AmisResult fields = run_amis(GridSpace(grid), f, {}, options);
+  EXPECT_TRUE(fields.report.converged);
   for (std::size_t n = 0; n < f.size(); ++n) {
     EXPECT_NEAR(fields.u[n], 42, 1e-5);
     EXPECT_NEAR(fields.v[n], 1, 1e-7);
@@ -132,37 +129,41 @@ TEST(Amis, MeshAndGridAgreeOnKuhnCells) {
   const TetMesh mesh = box_mesh(grid.box(), {7, 6, 5});
   const auto f = noisy_ball(mesh.points, {3.5, 2, 3.7}, 1.8);
   const AmisOptions options = accurate_options({0.2, 0.01, 0.5, 5});
-  const std::vector<double> one(f.size(), 1);
-  const AmisFields a = run_amis(MeshSpace(mesh), f, one, {}, options);
-  const AmisFields b = run_amis(GridSpace(grid), f, one, {}, options);
+  const AmisResult a = run_amis(MeshSpace(mesh), f, {}, options);
+  const AmisResult b = run_amis(GridSpace(grid), f, {}, options);
   EXPECT_LT(relative_difference(a.u, b.u), 1e-9);
   EXPECT_LT(relative_difference(a.v, b.v), 1e-9);
+}
+
+TEST(Amis, StartsFromAnIndicatorOfOneIfNoneIsGiven) {
+  const KuhnGrid grid{{8, 7, 6}, {1, 0.7, 1.5}};
+  const auto f = noisy_ball(box_mesh(grid.box(), {7, 6, 5}).points, {3.5, 2, 3.7}, 1.8);
+  const AmisResult none = run_amis(GridSpace(grid), f, {}, {});
+  const AmisResult one = run_amis(GridSpace(grid), f, {std::vector<double>(f.size(), 1), f}, {});
+  EXPECT_EQ(none.u, one.u);
+  EXPECT_EQ(none.v, one.v);
 }
 
 TEST(Amis, TheSameBitsForAnyNumberOfThreads) {
   const KuhnGrid grid{{33, 31, 29}, {1, 1, 1}};
   const auto f = noisy_ball(box_mesh(grid.box(), {32, 30, 28}).points, {16, 15, 14}, 9);
-  const std::vector<double> one(f.size(), 1);
-  set_thread_count(1);
-  const AmisFields a = run_amis(GridSpace(grid), f, one, {}, {});
-  set_thread_count(4);
-  const AmisFields b = run_amis(GridSpace(grid), f, one, {}, {});
-  set_thread_count(0);
+  const AmisResult a = with_threads(1, [&] { return run_amis(GridSpace(grid), f, {}, {}); });
+  const AmisResult b = with_threads(4, [&] { return run_amis(GridSpace(grid), f, {}, {}); });
   EXPECT_EQ(a.u, b.u);
   EXPECT_EQ(a.v, b.v);
 }
 
 TEST(Amis, RefusesWhatItCannotUse) {
   const GridSpace space({{3, 3, 3}, {1, 1, 1}});
-  const std::vector<double> f(27, 1), one(27, 1), few(26, 1);
-  EXPECT_THROW(run_amis(space, few, one, {}, {}), InputError);
-  EXPECT_THROW(run_amis(space, f, few, {}, {}), InputError);
-  EXPECT_THROW(run_amis(space, f, one, few, {}), InputError);
+  const std::vector<double> f(27, 1), few(26, 1);
+  EXPECT_THROW(run_amis(space, few, {}, {}), InputError);
+  EXPECT_THROW(run_amis(space, f, {.v = few}, {}), InputError);
+  EXPECT_THROW(run_amis(space, f, {.u = few}, {}), InputError);
   for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                            std::numeric_limits<double>::infinity()}) {
     AmisOptions options;
     options.parameters.beta = bad;
-    EXPECT_THROW(run_amis(space, f, one, {}, options), InputError);
+    EXPECT_THROW(run_amis(space, f, {}, options), InputError);
   }
 }
 

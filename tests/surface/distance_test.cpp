@@ -10,44 +10,12 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
-#include "mesamis/surface/triangle_tree.h"
+#include "mesamis/surface/sampling.h"
 #include "support/shapes.h"
+#include "surface/random_surfaces.h"
 
 namespace mesamis {
 namespace {
-
-std::vector<Vec3> random_points(std::size_t count, const Vec3& lo, const Vec3& hi, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  std::vector<Vec3> points(count);
-  for (Vec3& p : points) {
-    for (int axis = 0; axis < 3; ++axis) {
-      p[axis] = lo[axis] + uniform(generator) * (hi[axis] - lo[axis]);
-    }
-  }
-  return points;
-}
-
-TEST(SquaredDistance, IsRightInEachRegionOfATriangle) {
-  const Corners triangle{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}};
-  const std::vector<std::pair<Vec3, double>> cases{
-      {{1, 1, 3}, 9},  {{1, 1, -3}, 9},  {{-3, -4, 0}, 25}, {{-3, -4, 12}, 169},
-      {{7, 0, 4}, 25}, {{2, -5, 0}, 25}, {{4, 4, 0}, 8},    {{-1, 2, 1}, 2},
-      {{0, 9, 0}, 25}, {{1, 1, 0}, 0},   {{8, -3, 0}, 25}};
-  for (const auto& [p, expected] : cases) {
-    EXPECT_NEAR(squared_distance(p, triangle), expected, 1e-13) << p.x << ' ' << p.y << ' ' << p.z;
-  }
-}
-
-TEST(SquaredDistance, ToATriangleWithoutAreaIsThatToItsEdges) {
-  const Vec3 a{0, 0, 0}, b{10, 0, 0}, m{5, 0, 0};
-  for (const Corners& t :
-       {Corners{a, b, m}, Corners{b, m, a}, Corners{m, a, b}, Corners{a, a, b}}) {
-    EXPECT_NEAR(squared_distance({5, 3, 4}, t), 25, 1e-13);
-    EXPECT_NEAR(squared_distance({13, 4, 0}, t), 25, 1e-13);
-  }
-  EXPECT_NEAR(squared_distance({3, 4, 0}, {a, a, a}), 25, 1e-13);
-}
 
 /// Least distance to any triangle, by minimising over barycentric coordinates in long double: the
 /// inside by the normal equations, else the three edges.
@@ -110,22 +78,6 @@ TEST(Distance, AgreesWithBruteForceOnNeedles) {
   }
 }
 
-/// Triangles of every kind in the unit cube: with area, long and flat, points on a line, points
-/// that coincide.
-TriMesh mixed_triangles(std::size_t count) {
-  TriMesh surface = random_triangles(count, {1, 1, 1}, 7);
-  for (std::size_t t = 0; t < count; ++t) {
-    auto corner = [&](std::size_t i) -> Vec3& { return surface.points[3 * t + i]; };
-    const double height = std::pow(10.0, -static_cast<double>(t % 7));
-    const Vec3 middle = corner(0) + 0.5 * (corner(1) - corner(0));
-    if (t % 5 == 1) corner(2) = middle + height * (corner(2) - middle);
-    if (t % 5 == 2) corner(2) = middle;
-    if (t % 5 == 3) corner(t % 3) = corner((t + 1) % 3);
-    if (t % 25 == 4) corner(0) = corner(1) = corner(2);
-  }
-  return surface;
-}
-
 TEST(Distance, AgreesWithBruteForceOnTrianglesOfEveryKind) {
   const TriMesh surface = mixed_triangles(400);
   auto points = random_points(2000, {-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5}, 8);
@@ -135,21 +87,6 @@ TEST(Distance, AgreesWithBruteForceOnTrianglesOfEveryKind) {
   const std::vector<double> distances = distances_to_surface(points, surface);
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_NEAR(distances[i], brute_distance(points[i], surface), 1e-12) << i;
-  }
-}
-
-TEST(Distance, TheTreeFindsTheNearestOfAllTriangles) {
-  const TriMesh surface = mixed_triangles(3000);
-  const auto points = random_points(300, {-3, -3, -3}, {3, 3, 3}, 10);
-  const TriangleTree tree(surface);
-  std::size_t hint = 0;
-  for (const Vec3& p : points) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Triangle& t : surface.triangles) {
-      nearest = std::min(nearest, squared_distance(p, {surface.points[t[0]], surface.points[t[1]],
-                                                       surface.points[t[2]]}));
-    }
-    EXPECT_EQ(tree.squared_distance_to(p, hint), nearest);
   }
 }
 
@@ -180,11 +117,8 @@ TEST(Distance, CopesWithEqualTriangles) {
 TEST(Distance, HasTheSameBitsForAnyNumberOfThreads) {
   const TriMesh surface = random_triangles(2000, {1, 1, 1});
   const auto points = random_points(10'000, {-1, -1, -1}, {2, 2, 2}, 5);
-  set_thread_count(1);
-  const auto one = distances_to_surface(points, surface);
-  set_thread_count(3);
-  EXPECT_EQ(distances_to_surface(points, surface), one);
-  set_thread_count(0);
+  const auto one = with_threads(1, [&] { return distances_to_surface(points, surface); });
+  with_threads(3, [&] { EXPECT_EQ(distances_to_surface(points, surface), one); });
 }
 
 TEST(Distance, RefusesWhatHasNoAnswer) {
@@ -218,11 +152,8 @@ TEST(MaxDistance, BoundsSamplesClosely) {
 
 TEST(MaxDistance, HasTheSameBitsForAnyNumberOfThreads) {
   const TriMesh a = random_triangles(1500, {9, 9, 9}, 1), b = random_triangles(500, {9, 9, 9}, 2);
-  set_thread_count(1);
-  const double one = max_distance(a, b, 1e-2);
-  set_thread_count(3);
-  EXPECT_EQ(max_distance(a, b, 1e-2), one);
-  set_thread_count(0);
+  const double one = with_threads(1, [&] { return max_distance(a, b, 1e-2); });
+  with_threads(3, [&] { EXPECT_EQ(max_distance(a, b, 1e-2), one); });
 }
 
 TEST(Summarize, KnowsOneToAHundred) {

@@ -263,11 +263,8 @@ TEST(ExtractSolid, TakesValuesOfAnySize) {
 TEST(ExtractSolid, HasTheSameBytesForAnyNumberOfThreads) {
   const TetMesh mesh = perturbed_box(kUnit, {12, 12, 12}, 0.2);
   const auto u = sampled(mesh, [](const Vec3& p) { return std::sin(9 * p.x) + p.y * p.z; });
-  set_thread_count(1);
-  const TriMesh one = extract_solid(mesh, u, 0.3);
-  set_thread_count(3);
-  const TriMesh three = extract_solid(mesh, u, 0.3);
-  set_thread_count(0);
+  const TriMesh one = with_threads(1, [&] { return extract_solid(mesh, u, 0.3); });
+  const TriMesh three = with_threads(3, [&] { return extract_solid(mesh, u, 0.3); });
   EXPECT_EQ(one.points, three.points);
   EXPECT_EQ(one.triangles, three.triangles);
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/sampling.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,6 +68,40 @@ TEST(SampleByArea, OfNoAreaIsRefused) {
   EXPECT_TRUE(sample_by_area({}, 0).empty());
   EXPECT_THROW(sample_by_area({}, 1), InputError);
   EXPECT_THROW(sample_by_area({{{1, 2, 3}}, {{0, 0, 0}}}, 1), InputError);
+}
+
+TEST(SampleTrianglesByArea, GivesEachTriangleItsShare) {
+  const TriMesh surface = random_triangles(200, {1, 1, 1});
+  const double share = check_surface(surface).area / 200;
+  const auto samples = sample_triangles_by_area(surface);
+  EXPECT_NEAR(static_cast<double>(samples.size()), 200, 1);
+  for (const Triangle& t : surface.triangles) {
+    const TriMesh one{surface.points, {t}};
+    const Vec3 normal = cross(surface.points[t[1]] - surface.points[t[0]],
+                              surface.points[t[2]] - surface.points[t[0]]);
+    const Vec3 centroid =
+        (1.0 / 3) * (surface.points[t[0]] + surface.points[t[1]] + surface.points[t[2]]);
+    const auto found = std::count_if(samples.begin(), samples.end(), [&](const TriangleSample& s) {
+      return norm(s.position - centroid) < 1e-12 &&
+             dot(s.normal, normal) > (1 - 1e-12) * norm(normal);
+    });
+    EXPECT_NEAR(static_cast<double>(found), check_surface(one).area / share, 1.0001);
+  }
+}
+
+TEST(SampleTrianglesByArea, ScalesPositionsAndNotNormals) {
+  const auto plain = sample_triangles_by_area(cube()), scaled = sample_triangles_by_area(cube(), 4);
+  ASSERT_EQ(plain.size(), 12u);
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_NEAR(norm(scaled[i].position - 4 * plain[i].position), 0, 1e-14);
+    EXPECT_EQ(scaled[i].normal, plain[i].normal);
+    EXPECT_GT(dot(plain[i].normal, plain[i].position - Vec3{0.5, 0.5, 0.5}), 0.49);
+  }
+}
+
+TEST(SampleTrianglesByArea, OfNoAreaIsRefused) {
+  EXPECT_THROW(sample_triangles_by_area({}), InputError);
+  EXPECT_THROW(sample_triangles_by_area({{{1, 2, 3}}, {{0, 0, 0}}}), InputError);
 }
 
 }  // namespace

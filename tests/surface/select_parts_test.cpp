@@ -3,60 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
-#include "mesamis/surface/components.h"
-#include "mesamis/surface/nesting.h"
-#include "support/shapes.h"
 #include "support/throws.h"
+#include "surface/nested_cubes.h"
 
 namespace mesamis {
 namespace {
 
 using ::testing::HasSubstr;
 
-TriMesh turned(TriMesh surface) {
-  for (Triangle& t : surface.triangles) std::swap(t[1], t[2]);
-  return surface;
-}
-
-/// A cube of 10 with a cavity of 6 that holds an island of 2 with a cavity of 1; beside it a cube
-/// of 3 and one of 0.5.
-TriMesh nested() {
-  TriMesh surface = joined(cube({0, 0, 0}, 10), turned(cube({2, 2, 2}, 6)));
-  surface = joined(joined(surface, cube({4, 4, 4}, 2)), turned(cube({4.5, 4.5, 4.5}, 1)));
-  return joined(joined(surface, cube({20, 0, 0}, 3)), cube({20, 5, 5}, 0.5));
-}
-
 double volume_of(const TriMesh& surface) { return check_surface(surface).volume; }
-
-TEST(Nesting, KnowsWhatLiesInWhat) {
-  const TriMesh surface = nested();
-  const SurfaceComponents parts = find_components(surface);
-  const Nesting nesting = find_nesting(surface, parts);
-  // Largest first: 1000, -216, 27, 8, -1, 0.125.
-  EXPECT_EQ(nesting.depth, (std::vector<int>{0, 1, 0, 2, 3, 0}));
-  EXPECT_EQ(nesting.parent, (std::vector<Index>{kNoIndex, 0, kNoIndex, 1, 3, kNoIndex}));
-}
-
-/// Rays that meet edges and corners are counted right: all on one lattice.
-TEST(Nesting, HoldsWhereRaysMeetEdgesAndPoints) {
-  TriMesh surface = cube({0, 0, 0}, 64);
-  int inside = 0;
-  for (int k = 0; k < 4; ++k) {
-    for (int j = 0; j < 4; ++j) {
-      for (int i = 0; i < 4; ++i, ++inside) {
-        surface = joined(surface, turned(cube({4.0 + 16 * i, 4.0 + 16 * j, 4.0 + 16 * k}, 8)));
-      }
-    }
-  }
-  const Nesting nesting = find_nesting(surface, find_components(surface));
-  EXPECT_EQ(nesting.depth[0], 0);
-  for (std::size_t p = 1; p < nesting.depth.size(); ++p) {
-    EXPECT_EQ(nesting.depth[p], 1);
-    EXPECT_EQ(nesting.parent[p], 0);
-  }
-}
 
 TEST(SelectParts, KeepsAllByDefaultAndCounts) {
   SelectionReport report;

@@ -140,11 +140,8 @@ TEST(CheckSurface, RefusesWhatIsNotASurface) {
 
 TEST(CheckSurface, HasTheSameBitsForAnyNumberOfThreads) {
   const TriMesh surface = random_triangles(20'000, {1, 1, 1});
-  set_thread_count(1);
-  const SurfaceCheck one = check_surface(surface);
-  set_thread_count(3);
-  const SurfaceCheck three = check_surface(surface);
-  set_thread_count(0);
+  const SurfaceCheck one = with_threads(1, [&] { return check_surface(surface); });
+  const SurfaceCheck three = with_threads(3, [&] { return check_surface(surface); });
   EXPECT_EQ(one.volume, three.volume);
   EXPECT_EQ(one.area, three.area);
   EXPECT_EQ(one.components, 20'000);

@@ -23,22 +23,21 @@ int shared_points(const Cell& a, const Cell& b) {
 
 class MeshEstimator {
  public:
-  MeshEstimator(const TetMesh& mesh, const AtParameters& parameters, std::span<const double> u,
-                std::span<const double> v, std::span<const double> f)
+  MeshEstimator(const TetMesh& mesh, const AtParameters& parameters, const AtFields& fields)
       : mesh_(mesh),
         parameters_(parameters),
-        u_(u),
-        v_(v),
-        f_(f),
+        fields_(fields),
         neighbors_(cell_neighbors(mesh)),
         around_(point_cells(mesh)),
         volumes_(mesh.cells.size()),
-        gradients_(mesh.cells.size()) {
+        gradients_(mesh.cells.size()),
+        gradients_f_(mesh.cells.size()) {
     parallel_for(mesh.cells.size(), [&](std::size_t c) {
       const CellGeometry g = cell_geometry(mesh, static_cast<Index>(c));
       const Cell& k = mesh.cells[c];
       volumes_[c] = g.volume;
-      gradients_[c] = {cell_gradient(g, k, u), cell_gradient(g, k, v)};
+      gradients_[c] = {cell_gradient(g, k, fields_.u), cell_gradient(g, k, fields_.v)};
+      gradients_f_[c] = cell_gradient(g, k, fields_.f);
     });
   }
 
@@ -64,33 +63,30 @@ class MeshEstimator {
     data.shape = cell_shape(p);
     data.grad_u = gradients_[c].u();
     data.grad_v = gradients_[c].v();
-    data.grad_f = cell_gradient(cell_geometry(mesh_, c), k, f_);
+    data.grad_f = gradients_f_[c];
     for (std::size_t i = 0; i < 4; ++i) {
-      data.u[i] = u_[k[i]];
-      data.v[i] = v_[k[i]];
-      data.f[i] = f_[k[i]];
+      data.u[i] = fields_.u[k[i]];
+      data.v[i] = fields_.v[k[i]];
+      data.f[i] = fields_.f[k[i]];
       const auto& [a, b, d] = kCellFaces[i];
       const Vec3 doubled_normal = cross(p[b] - p[a], p[d] - p[a]);
       const double doubled_area = norm(doubled_normal);
       const Vec3 normal = (1 / doubled_area) * doubled_normal;
       data.face_area[i] = doubled_area / 2;
-      // On the boundary twice the normal derivative: the face is shared by nobody.
       const Index beyond = neighbors_[c][i];
-      const Vec3 other_u = beyond == kNoIndex ? -data.grad_u : gradients_[beyond].u();
-      const Vec3 other_v = beyond == kNoIndex ? -data.grad_v : gradients_[beyond].v();
-      data.jump_u[i] = std::abs(dot(data.grad_u - other_u, normal));
-      data.jump_v[i] = std::abs(dot(data.grad_v - other_v, normal));
+      set_jumps(i, normal, beyond == kNoIndex ? nullptr : &gradients_[beyond], data);
     }
     return data;
   }
 
   const TetMesh& mesh_;
   const AtParameters& parameters_;
-  std::span<const double> u_, v_, f_;
+  AtFields fields_;
   std::vector<std::array<Index, 4>> neighbors_;
   PointCells around_;
   std::vector<double> volumes_;
   std::vector<PairedGradients> gradients_;
+  std::vector<Vec3> gradients_f_;
 };
 
 void require_size(const char* name, std::size_t found, std::size_t expected) {
@@ -102,12 +98,11 @@ void require_size(const char* name, std::size_t found, std::size_t expected) {
 
 }  // namespace
 
-Estimate estimate(const TetMesh& mesh, const AtParameters& parameters, std::span<const double> u,
-                  std::span<const double> v, std::span<const double> f) {
-  require_size("u", u.size(), mesh.points.size());
-  require_size("v", v.size(), mesh.points.size());
-  require_size("f", f.size(), mesh.points.size());
-  const MeshEstimator estimator(mesh, parameters, u, v, f);
+Estimate estimate(const TetMesh& mesh, const AtParameters& parameters, const AtFields& fields) {
+  require_size("u", fields.u.size(), mesh.points.size());
+  require_size("v", fields.v.size(), mesh.points.size());
+  require_size("f", fields.f.size(), mesh.points.size());
+  const MeshEstimator estimator(mesh, parameters, fields);
   const std::size_t n = mesh.cells.size();
   Estimate result;
   result.gamma.resize(n);

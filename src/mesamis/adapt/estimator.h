@@ -5,25 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "mesamis/adapt/cell_shape.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/segment/functional.h"
 
 /// The anisotropic a posteriori error estimator of Prop. 3.1, with recovered gradients.
 namespace mesamis {
-
-/// Volume of the regular tetrahedron inscribed in the unit sphere, |K^| = 8 sqrt(3) / 27.
-inline constexpr double kReferenceVolume = 0.5132002392796673;
-
-/// A cell as the image of the reference tetrahedron: semi-axes of its ellipsoid and diameter.
-struct CellShape {
-  std::array<double, 3> lambda;  ///< lambda_1 >= lambda_2 >= lambda_3 > 0
-  Sym3 stretch_squared;          ///< M_K M_K^T = sum lambda_i^2 r_i r_i^T
-  double diameter;               ///< h_K, longest edge
-};
-CellShape cell_shape(const std::array<Vec3, 4>& points);
-
-/// The three aspect ratios (6): s1 >= s2 >= s3, s1 s2 s3 = 1.
-std::array<double, 3> aspect_ratios(const CellShape& shape);
 
 /// Sums over the patch Delta_K (all cells that share a vertex with K) of one P1 function z.
 struct PatchSums {
@@ -32,18 +19,24 @@ struct PatchSums {
   Sym3 gradient_outer;  ///< sum |T| grad z grad z^T
 };
 
-/// G^R: int over the patch of (R - grad z)(R - grad z)^T, R the patch's mean gradient.
+/// Computes the recovered error G^R: int over the patch of (R - grad z)(R - grad z)^T, R the
+/// patch's mean gradient. O(1).
+/// @param patch  of positive volume.
+/// @return in the unit of z squared times the unit of the mesh.
+/// @throws nothing
 Sym3 recovered_error(const PatchSums& patch);
 
-/// The terms of rho^A and rho^B in the order of Prop. 3.1, for inspection.
+/// The terms of rho^A and rho^B in the order of Prop. 3.1.
 struct ResidualTerms {
   std::array<double, 5> a{};
   std::array<double, 3> b{};
-  double rho_a() const { return a[0] + a[1] + a[2] + a[3] + a[4]; }
-  double rho_b() const { return b[0] + b[1] + b[2]; }
+  /// rho^A of Prop. 3.1: the sum of its terms, in the unit of the terms.
+  double rho_a() const noexcept { return a[0] + a[1] + a[2] + a[3] + a[4]; }
+  /// rho^B of Prop. 3.1: the sum of its terms, in the unit of the terms.
+  double rho_b() const noexcept { return b[0] + b[1] + b[2]; }
 };
 
-/// What the residuals of one cell depend on.
+/// The data of one cell that its residuals depend on.
 struct CellData {
   double volume = 0;
   CellShape shape;
@@ -52,39 +45,56 @@ struct CellData {
   std::array<double, 4> face_area{};         ///< of the face opposite vertex i
   std::array<double, 4> jump_u{}, jump_v{};  ///< |[grad . n]| on it, boundary rule applied
 };
+
+/// Computes the residuals of one cell. Source: Prop. 3.1. O(1).
+/// @param cell        of positive volume; grey values, lengths in the unit of the mesh.
+/// @param parameters  valid, see require_valid().
+/// @throws nothing
 ResidualTerms residual_terms(const CellData& cell, const AtParameters& parameters);
 
-/// What the estimator says about one cell.
+/// The estimate of one cell.
 struct CellEstimate {
   ResidualTerms residuals;
   double zeta_a = 0, zeta_b = 0;  ///< rho^A omega(u) and rho^B omega(v); zeta_K (10) is their sum
   Sym3 gamma;                     ///< Gamma_K of Prop. 3.2
 };
+
+/// Estimates one cell. Source: (10) and Prop. 3.2. O(1).
+/// @param cell              of positive volume; grey values, lengths in the unit of the mesh.
+/// @param parameters        valid, see require_valid().
+/// @param error_u, error_v  recovered_error() of u and v on the cell's patch.
+/// @throws nothing
 CellEstimate estimate_cell(const CellData& cell, const AtParameters& parameters,
                            const Sym3& error_u, const Sym3& error_v);
 
-/// What many cells add up to.
+/// Sums over cells.
 struct EstimateSums {
   ResidualTerms residuals;        ///< each term
   double zeta_a = 0, zeta_b = 0;  ///< the two halves of the estimator
 
-  double zeta() const { return zeta_a + zeta_b; }
+  /// The estimator, in the unit of its two halves.
+  double zeta() const noexcept { return zeta_a + zeta_b; }
+  /// Adds the terms of one cell.
+  /// @throws nothing
   void add(const CellEstimate& cell);
+  /// Adds the sums over other cells.
+  /// @throws nothing
   void add(const EstimateSums& block);
 };
 
-/// What it says about a mesh.
+/// The estimate of a mesh.
 struct Estimate {
   std::vector<Sym3> gamma;   ///< Gamma_K, one per cell
   std::vector<double> zeta;  ///< zeta_K (10), one per cell
   EstimateSums sums;         ///< over the cells
 };
 
-/// Estimates every cell of a mesh.
-/// @param u, v, f  nodal values, f being the projected image.
-/// @throws InputError  for sizes that differ.
+/// Estimates the error of every cell of a mesh. Source: Prop. 3.1, with recovered gradients.
+/// @param mesh    n nodes, m cells of positive volume.
+/// @param fields  n values each: the minimisers on this mesh and the projected image.
+/// @throws InputError  for sizes that differ, and as cell_neighbors().
+///
 /// O(m), in parallel; the same bits for any number of threads.
-Estimate estimate(const TetMesh& mesh, const AtParameters& parameters, std::span<const double> u,
-                  std::span<const double> v, std::span<const double> f);
+Estimate estimate(const TetMesh& mesh, const AtParameters& parameters, const AtFields& fields);
 
 }  // namespace mesamis

@@ -72,16 +72,19 @@ struct Totals {
   double predicted_cells = 0;
 };
 
+/// Where the cells of a run of layers are added up.
+struct Accumulators {
+  std::vector<PackedSym3>& metrics;
+  Totals totals;
+};
+
 class GridEstimator {
  public:
-  GridEstimator(const KuhnGrid& grid, const AtParameters& parameters, std::span<const double> u,
-                std::span<const double> v, std::span<const double> f,
+  GridEstimator(const KuhnGrid& grid, const AtParameters& parameters, const AtFields& fields,
                 const CellMetricOptions& metric)
       : grid_(grid),
         parameters_(parameters),
-        u_(u),
-        v_(v),
-        f_(f),
+        fields_(fields),
         metric_(metric),
         bricks_{grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1},
         cell_volume_(grid.spacing.x * grid.spacing.y * grid.spacing.z / 6),
@@ -99,7 +102,7 @@ class GridEstimator {
   /// Adds |K| M_K of the layers [begin, end) to their nodes.
   Totals run_layers(Index begin, Index end, std::vector<PackedSym3>& metrics) const {
     Ring ring;
-    Totals totals;
+    Accumulators sums{metrics, {}};
     fill_layer(begin - 1, ring);
     fill_layer(begin, ring);
     for (Index k = begin; k < end; ++k) {
@@ -107,12 +110,12 @@ class GridEstimator {
       for (Index j = 0; j < bricks_[1]; ++j) {
         for (Index i = 0; i < bricks_[0]; ++i) {
           for (std::size_t path = 0; path < kPaths; ++path) {
-            add_cell({i, j, k}, path, ring, metrics, totals);
+            add_cell({i, j, k}, path, ring, sums);
           }
         }
       }
     }
-    return totals;
+    return sums.totals;
   }
 
  private:
@@ -161,7 +164,8 @@ class GridEstimator {
       for (Index i = 0; i < bricks_[0]; ++i) {
         for (std::size_t path = 0; path < kPaths; ++path) {
           const auto nodes = nodes_of({i, j, k}, path);
-          layer[place(i, j, path)] = {gradient(u_, nodes, path), gradient(v_, nodes, path)};
+          layer[place(i, j, path)] = {gradient(fields_.u, nodes, path),
+                                      gradient(fields_.v, nodes, path)};
         }
       }
     }
@@ -184,18 +188,14 @@ class GridEstimator {
     data.shape = g.shape;
     data.grad_u = own.u();
     data.grad_v = own.v();
-    data.grad_f = gradient(f_, nodes, path);
+    data.grad_f = gradient(fields_.f, nodes, path);
     if (kuhn_path_is_odd(kKuhnPaths[path])) std::swap(nodes[2], nodes[3]);
     data.face_area = g.face_area;
     for (std::size_t i = 0; i < 4; ++i) {
-      data.u[i] = u_[nodes[i]];
-      data.v[i] = v_[nodes[i]];
-      data.f[i] = f_[nodes[i]];
-      const PairedGradients* beyond = find(brick, g.neighbor[i], ring);
-      const Vec3 jump_u = beyond ? data.grad_u - beyond->u() : 2.0 * data.grad_u;
-      const Vec3 jump_v = beyond ? data.grad_v - beyond->v() : 2.0 * data.grad_v;
-      data.jump_u[i] = std::abs(dot(jump_u, g.normal[i]));
-      data.jump_v[i] = std::abs(dot(jump_v, g.normal[i]));
+      data.u[i] = fields_.u[nodes[i]];
+      data.v[i] = fields_.v[nodes[i]];
+      data.f[i] = fields_.f[nodes[i]];
+      set_jumps(i, g.normal[i], find(brick, g.neighbor[i], ring), data);
     }
     return data;
   }
@@ -228,25 +228,25 @@ class GridEstimator {
   }
 
   void add_cell(const std::array<Index, 3>& brick, std::size_t path, const Ring& ring,
-                std::vector<PackedSym3>& metrics, Totals& totals) const {
+                Accumulators& into) const {
     const PairedSums sums = sum_patch(brick, path, ring);
     const CellEstimate e = estimate_cell(data_of(brick, path, ring), parameters_,
                                          recovered_error(sums.of_u(cell_volume_)),
                                          recovered_error(sums.of_v(cell_volume_)));
     const Sym3 m = cell_metric(e.gamma, metric_);
-    totals.sums.add(e);
-    totals.predicted_cells +=
+    into.totals.sums.add(e);
+    into.totals.predicted_cells +=
         cell_volume_ * std::sqrt(std::max(determinant(m), 0.0)) / kReferenceVolume;
     const Sym3 share = cell_volume_ * m;
     const PackedSym3 packed = pack(share);
     for (const std::size_t n : nodes_of(brick, path)) {
-      for (std::size_t c = 0; c < 6; ++c) metrics[n][c] += packed[c];
+      for (std::size_t c = 0; c < 6; ++c) into.metrics[n][c] += packed[c];
     }
   }
 
   const KuhnGrid& grid_;
   const AtParameters& parameters_;
-  std::span<const double> u_, v_, f_;
+  AtFields fields_;
   CellMetricOptions metric_;
   std::array<Index, 3> bricks_;
   double cell_volume_;
@@ -259,9 +259,8 @@ class GridEstimator {
   std::array<std::vector<Step>, kPaths> steps_;
 };
 
-void require_sizes(const KuhnGrid& grid, std::span<const double> u, std::span<const double> v,
-                   std::span<const double> f) {
-  for (const auto& field : {u, v, f}) {
+void require_sizes(const KuhnGrid& grid, const AtFields& fields) {
+  for (const auto& field : {fields.u, fields.v, fields.f}) {
     if (field.size() != grid.node_count()) {
       throw InputError("grid estimate: " + std::to_string(field.size()) + " values for " +
                        std::to_string(grid.node_count()) + " nodes");
@@ -272,13 +271,12 @@ void require_sizes(const KuhnGrid& grid, std::span<const double> u, std::span<co
 }  // namespace
 
 GridEstimate estimate_on_grid(const KuhnGrid& grid, const AtParameters& parameters,
-                              std::span<const double> u, std::span<const double> v,
-                              std::span<const double> f, CellMetricOptions metric) {
-  require_sizes(grid, u, v, f);
+                              const AtFields& fields, CellMetricOptions metric) {
+  require_sizes(grid, fields);
   metric.cell_count = grid.cell_count();
   GridEstimate result;
   result.node_metrics.assign(grid.node_count(), PackedSym3{});
-  const GridEstimator estimator(grid, parameters, u, v, f, metric);
+  const GridEstimator estimator(grid, parameters, fields, metric);
   // Slabs of one parity touch disjoint nodes: even ones run concurrently, then odd ones, so that
   // every node has one order of summation.
   constexpr Index kSlab = 8;

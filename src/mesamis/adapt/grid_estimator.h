@@ -21,15 +21,23 @@ struct GridEstimate {
 /// The same numbers as estimate(), cell_metric(), predicted_cells() and node_metrics() on the
 /// grid's tetrahedra, computed layer by layer; nodal metrics in single precision.
 ///
-/// @param u, v, f  one value per node.
-/// @param metric   as for cell_metric(); its cell_count is not used, the grid knows it.
+/// @param grid    n nodes, at least two along each axis.
+/// @param fields  n values each: the minimisers on the grid and the image.
+/// @param metric  as for cell_metric(); its cell_count is not used: the grid's own counts.
 /// @throws InputError  for sizes that differ.
+/// O(n), in parallel; six single precision numbers per node. The same bits for any number of
+/// threads.
 GridEstimate estimate_on_grid(const KuhnGrid& grid, const AtParameters& parameters,
-                              std::span<const double> u, std::span<const double> v,
-                              std::span<const double> f, CellMetricOptions metric);
+                              const AtFields& fields, CellMetricOptions metric);
 
-/// Averages each node's logarithm with those of its six neighbours (weight 2 to 1 each), some
-/// times over. Without it a mesh refined from a coarse start can miss features one voxel thin.
+/// Smooths logarithms of metrics: each sweep replaces every node's by the mean of its own (weight
+/// 2) and those of its six neighbours (weight 1 each). Without it a mesh refined from a coarse
+/// start can miss features one voxel thin.
+/// @param logs    one per node of the grid; changed in place.
+/// @param sweeps  0 or more.
+/// @throws nothing
+///
+/// O(n) per sweep and a copy of the logarithms. The same bits for any number of threads.
 void smooth_log_metrics(const KuhnGrid& grid, std::vector<PackedSym3>& logs, int sweeps);
 
 }  // namespace mesamis

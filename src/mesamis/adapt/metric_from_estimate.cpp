@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "mesamis/adapt/estimator.h"
+#include "mesamis/adapt/cell_shape.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 

@@ -9,14 +9,14 @@
 
 namespace mesamis {
 
-/// What cell_metric() needs beside Gamma.
+/// Parameters of cell_metric().
 struct CellMetricOptions {
   std::int64_t cell_count = 1;  ///< #T, the cells of the mesh estimated
   double tau = 1e-2;            ///< tolerance on the estimator, > 0
-  double max_stretch = 3e4;     ///< bound on lambda_1 / lambda_3, roughly; > 1
+  double max_stretch = 10;      ///< bound on lambda_1 / lambda_3, roughly; > 1
 };
 
-/// The metric that equidistributes the error with the fewest cells. Source: Prop. 3.2.
+/// Computes the metric that equidistributes the error with the fewest cells. Source: Prop. 3.2.
 ///
 /// With g_i the eigenvalues of Gamma, the proposition's sizes give the eigenvalues
 /// sqrt(sqrt(3) |K^| #T / tau) (g_1 g_2 g_3)^(-1/4) g_i, that is
@@ -24,13 +24,27 @@ struct CellMetricOptions {
 /// without any decomposition.
 ///
 /// Where u and v do not vary in some direction (walls that are the same in every slice) Gamma is
-/// singular, and the formula makes cells endlessly long, and endlessly thin in return, as if
-/// length in that direction cost nothing. The box ends it: the share 1 / max_stretch^2 of Gamma's
-/// trace is added to its diagonal, which bounds the ratio of the sizes. Where Gamma is zero, so
-/// is M_K.
+/// singular, and the formula gives cells of infinite length in that direction and zero thickness
+/// across it. The domain is bounded, so that the stretch has to be: the share 1 / max_stretch^2 of
+/// Gamma's trace is added to its diagonal, which bounds the ratio of the sizes. Where Gamma is
+/// zero, so is M_K.
+/// @param gamma  Gamma_K, symmetric positive semidefinite.
+/// @return symmetric positive definite unless Gamma is zero; in 1 / u^2 for the unit of length u of
+///         the mesh.
+/// @throws nothing
+///
+/// O(1).
 Sym3 cell_metric(const Sym3& gamma, const CellMetricOptions& options);
 
-/// Cells a mesh of this metric would have, (11): the sum of |K| sqrt(det M_K) / |K^|.
+/// Predicts the number of cells of a mesh that is ideal in a metric, (11): the sum of
+/// |K| sqrt(det M_K) / |K^|.
+/// @param mesh          m cells.
+/// @param cell_metrics  m symmetric positive semidefinite matrices, in 1 / u^2 for the unit of
+///                      length u of the mesh.
+/// @return cells, no unit.
+/// @throws InputError   if the sizes differ; the message gives both.
+///
+/// O(m). The same bits for any number of threads.
 double predicted_cells(const TetMesh& mesh, std::span<const Sym3> cell_metrics);
 
 /// Averages one metric per cell onto the nodes, ready for the remesher.
@@ -40,8 +54,9 @@ double predicted_cells(const TetMesh& mesh, std::span<const Sym3> cell_metrics);
 /// Source: paper, sec. 3, definition of M_N after Prop. 3.2.
 ///
 /// @param mesh          n nodes, m cells of positive volume.
-/// @param cell_metrics  m symmetric positive semidefinite matrices.
-/// @return n matrices; edge e is ideal when e'Me = 1.
+/// @param cell_metrics  m symmetric positive semidefinite matrices, in 1 / u^2 for the unit of
+///                      length u of the mesh.
+/// @return n matrices in the unit of the cells' metrics; edge e is ideal when e'Me = 1.
 /// @throws InputError   if the sizes differ; the message gives both.
 ///
 /// O(m). Summed in cell order: the same bits for any number of threads.

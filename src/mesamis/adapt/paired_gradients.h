@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "mesamis/adapt/estimator.h"
 
@@ -16,6 +17,17 @@ struct PairedGradients {
   Vec3 u() const { return {x[0], y[0], z[0]}; }
   Vec3 v() const { return {x[1], y[1], z[1]}; }
 };
+
+/// Sets the jumps across face i of a cell whose own gradients are set.
+/// @param beyond  of the cell across the face; null on the boundary, where the jump is twice the
+///                normal derivative: the face is shared by nobody.
+inline void set_jumps(std::size_t i, const Vec3& normal, const PairedGradients* beyond,
+                      CellData& data) {
+  const Vec3 jump_u = beyond ? data.grad_u - beyond->u() : 2.0 * data.grad_u;
+  const Vec3 jump_v = beyond ? data.grad_v - beyond->v() : 2.0 * data.grad_v;
+  data.jump_u[i] = std::abs(dot(jump_u, normal));
+  data.jump_v[i] = std::abs(dot(jump_v, normal));
+}
 
 /// What a patch adds up: gradients and their outer products, each with its cell's weight.
 class PairedSums {

@@ -6,22 +6,28 @@
 
 namespace mesamis {
 
-/// What the caller or a file brought cannot be used. The message is one line that says
-/// what, where, expected and found.
+/// An argument of the caller or a file that cannot be used. The message is one line that says what,
+/// where, expected and found.
 class InputError : public std::runtime_error {
  public:
+  /// @param message  one line.
+  /// @throws nothing
   explicit InputError(const std::string& message) : std::runtime_error(message) {}
 };
 
 /// A promise of the library could not be kept (a solve that broke down, an invalid mesh).
 class NumericalError : public std::runtime_error {
  public:
+  /// @param message  one line.
+  /// @throws nothing
   explicit NumericalError(const std::string& message) : std::runtime_error(message) {}
 };
 
 /// The caller's progress function asked to stop.
 class Cancelled : public std::runtime_error {
  public:
+  /// The message is "cancelled".
+  /// @throws nothing
   Cancelled() : std::runtime_error("cancelled") {}
 };
 

@@ -5,21 +5,16 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 #ifdef MESAMIS_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
 #endif
 
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 namespace mesamis {
 namespace {
-
-std::unique_ptr<tbb::global_control>& limit() {
-  static std::unique_ptr<tbb::global_control> control;
-  return control;
-}
 
 // The thread sanitizer does not see how TBB, which is not built with it, passes work from thread
 // to thread: it is told, so that what it reports are races between blocks.
@@ -44,19 +39,17 @@ std::vector<double> block_values(std::size_t n,
 
 }  // namespace
 
-void set_thread_count(int count) {
-  // The old limit goes first: the strictest of all living controls is the one that acts.
-  limit().reset();
-  if (count > 0) {
-    limit() = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                    static_cast<std::size_t>(count));
-  }
+void run_with_threads(int count, const std::function<void()>& work) {
+  if (count <= 0 || count == thread_count()) return work();
+  // TBB has as many workers as the machine has processors, unless it is asked for more.
+  const int most = std::max(count, tbb::info::default_concurrency());
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(most));
+  tbb::task_arena arena(count);
+  arena.execute(work);
 }
 
-int thread_count() {
-  return static_cast<int>(
-      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-}
+int thread_count() { return tbb::this_task_arena::max_concurrency(); }
 
 void parallel_blocks(std::size_t n, std::size_t block,
                      const std::function<void(std::size_t, std::size_t)>& body) {

@@ -3,24 +3,51 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
+#include <type_traits>
+#include <utility>
 
 /// The one door to threads. Every result is the same to the bit for any number of threads:
 /// the work is cut into blocks of fixed size, and partial sums are added in block order.
 namespace mesamis {
 
-/// Limits the threads used by everything below, for the whole process.
-/// @param count  at least 1; 0 means as many as the machine has.
-void set_thread_count(int count);
+/// Runs work that returns nothing with at most so many threads, see with_threads().
+/// @param count  at least 1; 0 means as many as are allowed where this is called.
+/// @throws what the work throws.
+void run_with_threads(int count, const std::function<void()>& work);
+
+/// Runs the work, and all that it calls, with at most so many threads. Nothing else in the process
+/// is affected.
+/// @param count  at least 1; 0 means as many as are allowed where this is called.
+/// @return what the work returns.
+/// @throws what the work throws.
+template <class Work>
+auto with_threads(int count, Work&& work) {
+  if constexpr (std::is_void_v<decltype(work())>) {
+    run_with_threads(count, work);
+  } else {
+    std::optional<decltype(work())> result;
+    run_with_threads(count, [&] { result.emplace(work()); });
+    return *std::move(result);
+  }
+}
+
+/// The number of threads that are allowed where this is called, at least 1.
+/// @throws nothing
 int thread_count();
 
+/// Items per block of the loops below.
 inline constexpr std::size_t kBlock = 4096;
 
 /// Calls body(begin, end) once for each block of at most `block` consecutive items of [0, n).
 /// Blocks run concurrently and in any order; body must not write to what another block reads.
+/// @param block  at least 1.
+/// @throws what body throws: the exception of one block is thrown again here.
 void parallel_blocks(std::size_t n, std::size_t block,
                      const std::function<void(std::size_t, std::size_t)>& body);
 
-/// Calls body(i) for each i of [0, n), for loops whose steps are light.
+/// Calls body(i) for each i of [0, n), in blocks of kBlock: for loops whose steps are short.
+/// @throws what body throws.
 template <class Body>
 void parallel_for(std::size_t n, Body&& body) {
   parallel_blocks(n, kBlock, [&body](std::size_t begin, std::size_t end) {
@@ -28,16 +55,26 @@ void parallel_for(std::size_t n, Body&& body) {
   });
 }
 
-/// Calls body(i) for each i of [0, n), for a few heavy steps (parts, slabs, files).
+/// Calls body(i) for each i of [0, n), one step per block: for a few long steps (layers, files).
+/// @throws what body throws.
 template <class Body>
 void parallel_for_each(std::size_t n, Body&& body) {
   parallel_blocks(n, 1, [&body](std::size_t begin, std::size_t) { body(begin); });
 }
 
-/// Sum over the blocks of [0, n) of partial(begin, end), added in block order.
+/// Adds up partial(begin, end) over the blocks of [0, n), in block order.
+/// @return in the unit of the partial sums, any unit; 0 when n is 0.
+/// @throws what partial throws.
+///
+/// One number per block is kept.
 double parallel_sum(std::size_t n, const std::function<double(std::size_t, std::size_t)>& partial);
 
-/// Largest of partial(begin, end) over the blocks of [0, n); `lowest` when n is 0.
+/// Finds the largest of partial(begin, end) over the blocks of [0, n).
+/// @param lowest  in the unit of the partial values, any unit.
+/// @return in that unit; `lowest` when n is 0 or no value exceeds it.
+/// @throws what partial throws.
+///
+/// One number per block is kept.
 double parallel_max(std::size_t n, double lowest,
                     const std::function<double(std::size_t, std::size_t)>& partial);
 

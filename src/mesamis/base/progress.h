@@ -6,8 +6,9 @@
 
 namespace mesamis {
 
-/// Called now and then by long work: a stage's name and the share of it that is done, 0 to 1.
-/// Returning false asks the work to stop; it then throws Cancelled and leaves nothing behind.
+/// Called at times by a long computation with the name of its stage and the share of the stage that
+/// is done, 0 to 1. If it returns false, the computation stops, throws Cancelled and leaves nothing
+/// behind.
 using Progress = std::function<bool(std::string_view stage, double fraction)>;
 
 }  // namespace mesamis

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   error.h
+  frame.h
   median.h
   parallel.h
   progress.h
   stopwatch.h
   sym3.h
-  types.h)
+  types.h
+  version.h)
 set(ROOM_SOURCES
   parallel.cpp
   sym3.cpp)

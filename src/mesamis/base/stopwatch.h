@@ -5,11 +5,11 @@
 
 namespace mesamis {
 
-/// Wall time, from when it is made or last asked.
+/// Measures wall time, from its construction or the last lap().
 class Stopwatch {
  public:
-  /// Seconds since the last lap.
-  double lap() {
+  /// Seconds since the construction or the last call; starts the next lap.
+  double lap() noexcept {
     const auto now = std::chrono::steady_clock::now();
     const double seconds = std::chrono::duration<double>(now - start_).count();
     start_ = now;

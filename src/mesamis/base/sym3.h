@@ -11,11 +11,13 @@ namespace mesamis {
 /// A symmetric matrix in single precision, xx xy xz yy yz zz: for fields on every voxel.
 using PackedSym3 = std::array<float, 6>;
 
-inline PackedSym3 pack(const Sym3& a) {
+/// Rounds a matrix of any unit to single precision.
+inline PackedSym3 pack(const Sym3& a) noexcept {
   return {static_cast<float>(a.xx), static_cast<float>(a.xy), static_cast<float>(a.xz),
           static_cast<float>(a.yy), static_cast<float>(a.yz), static_cast<float>(a.zz)};
 }
-inline Sym3 unpack(const PackedSym3& a) { return {a[0], a[1], a[2], a[3], a[4], a[5]}; }
+/// Converts a matrix of any unit to double precision, without rounding: the inverse of pack().
+inline Sym3 unpack(const PackedSym3& a) noexcept { return {a[0], a[1], a[2], a[3], a[4], a[5]}; }
 
 /// Eigenpairs, largest eigenvalue first; the vectors are orthonormal.
 struct SymEigen {
@@ -23,20 +25,38 @@ struct SymEigen {
   std::array<Vec3, 3> vectors;
 };
 
-/// Any finite symmetric matrix; relative accuracy is that of the largest eigenvalue.
+/// Decomposes a symmetric matrix. The error of each eigenvalue is relative to the largest.
+/// @param a  finite, of any unit.
+/// @return values in the unit of a; vectors of no unit.
+/// @throws nothing
+///
+/// O(1), iterative.
 SymEigen eigen_decompose(const Sym3& a);
 
-/// sum_i value_i v_i v_i^T
+/// Composes a matrix from eigenpairs: sum_i value_i v_i v_i^T.
+/// @param values   of any unit.
+/// @param vectors  orthonormal, no unit.
+/// @return in the unit of the values.
+/// @throws nothing
 Sym3 compose(const std::array<double, 3>& values, const std::array<Vec3, 3>& vectors);
 
-/// Matrix logarithm of a symmetric positive definite matrix.
+/// The matrix logarithm of a symmetric positive definite matrix.
+/// @param a  numbers in any unit; the unit must be known to whoever applies exp_sym().
+/// @return infinite or NaN where an eigenvalue is not positive.
+/// @throws nothing
 Sym3 log_spd(const Sym3& a);
 
-/// Matrix exponential of a symmetric matrix; the inverse of log_spd. Needs no eigenvectors:
+/// The matrix exponential of a symmetric matrix; the inverse of log_spd(). Needs no eigenvectors:
 /// scaling and squaring of a Taylor polynomial, after the trace is taken out.
+/// @param a  finite; no unit.
+/// @return positive definite; numbers in the unit that log_spd() was given.
+/// @throws nothing
 Sym3 exp_sym(const Sym3& a);
 
-/// Inverse of an invertible matrix.
+/// The inverse of a matrix, by cofactors.
+/// @param a  invertible, of any unit.
+/// @return in the reciprocal of that unit; infinite or NaN where the determinant is zero.
+/// @throws nothing
 Sym3 inverse(const Sym3& a);
 
 }  // namespace mesamis

@@ -26,11 +26,16 @@ inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b
 inline Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
 inline Vec3 operator*(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
 inline Vec3& operator+=(Vec3& a, const Vec3& b) { return a = a + b; }
-inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 cross(const Vec3& a, const Vec3& b) {
+/// The dot product, in the product of the two units: any unit.
+inline double dot(const Vec3& a, const Vec3& b) noexcept {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+/// The cross product, in the product of the two units: any unit.
+inline Vec3 cross(const Vec3& a, const Vec3& b) noexcept {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
+/// The Euclidean norm, in the unit of the vector.
+inline double norm(const Vec3& a) noexcept { return std::sqrt(dot(a, a)); }
 
 /// A symmetric 3x3 matrix: metrics (1/mm^2), gradient covariances.
 struct Sym3 {
@@ -54,17 +59,19 @@ inline Vec3 operator*(const Sym3& a, const Vec3& v) {
   return {a.xx * v.x + a.xy * v.y + a.xz * v.z, a.xy * v.x + a.yy * v.y + a.yz * v.z,
           a.xz * v.x + a.yz * v.y + a.zz * v.z};
 }
-/// v v^T
-inline Sym3 outer(const Vec3& v) {
+/// The outer product v v^T, in the square of the unit of v.
+inline Sym3 outer(const Vec3& v) noexcept {
   return {v.x * v.x, v.x * v.y, v.x * v.z, v.y * v.y, v.y * v.z, v.z * v.z};
 }
-/// v^T a v
-inline double quadratic_form(const Sym3& a, const Vec3& v) {
+/// The quadratic form v^T a v, in the unit of a times the square of the unit of v.
+inline double quadratic_form(const Sym3& a, const Vec3& v) noexcept {
   return v.x * (a.xx * v.x + 2 * (a.xy * v.y + a.xz * v.z)) + v.y * (a.yy * v.y + 2 * a.yz * v.z) +
          a.zz * v.z * v.z;
 }
-inline double trace(const Sym3& a) { return a.xx + a.yy + a.zz; }
-inline double determinant(const Sym3& a) {
+/// The sum of the diagonal, in the unit of the matrix.
+inline double trace(const Sym3& a) noexcept { return a.xx + a.yy + a.zz; }
+/// The determinant, in the cube of the unit of the matrix.
+inline double determinant(const Sym3& a) noexcept {
   return a.xx * (a.yy * a.zz - a.yz * a.yz) - a.xy * (a.xy * a.zz - a.yz * a.xz) +
          a.xz * (a.xy * a.yz - a.yy * a.xz);
 }
@@ -77,23 +84,30 @@ struct Mat3 {
 inline Vec3 operator*(const Mat3& a, const Vec3& v) {
   return {dot(a.rows[0], v), dot(a.rows[1], v), dot(a.rows[2], v)};
 }
-inline Mat3 transpose(const Mat3& a) {
+/// The transposed matrix.
+inline Mat3 transpose(const Mat3& a) noexcept {
   const auto& r = a.rows;
   return {
       {Vec3{r[0].x, r[1].x, r[2].x}, Vec3{r[0].y, r[1].y, r[2].y}, Vec3{r[0].z, r[1].z, r[2].z}}};
 }
-inline double determinant(const Mat3& a) { return dot(a.rows[0], cross(a.rows[1], a.rows[2])); }
+/// The determinant, in the cube of the unit of the matrix: no unit for direction cosines.
+inline double determinant(const Mat3& a) noexcept {
+  return dot(a.rows[0], cross(a.rows[1], a.rows[2]));
+}
 
 /// An axis-aligned box, lo < hi in every direction.
 struct Box {
   Vec3 lo, hi;
-  Vec3 extent() const { return hi - lo; }
-  double volume() const {
+  /// The side lengths, in the unit of the corners.
+  Vec3 extent() const noexcept { return hi - lo; }
+  /// The volume, in the cube of the unit of the corners.
+  double volume() const noexcept {
     const Vec3 e = extent();
     return e.x * e.y * e.z;
   }
-  /// Faces included; false for what is not a number.
-  bool contains(const Vec3& p) const {
+  /// Whether the point lies in the box, faces included; false for coordinates that are not numbers.
+  /// @param p  in the unit of the corners.
+  bool contains(const Vec3& p) const noexcept {
     return p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y && p.z >= lo.z && p.z <= hi.z;
   }
   friend bool operator==(const Box&, const Box&) = default;

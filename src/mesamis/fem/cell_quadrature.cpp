@@ -16,12 +16,18 @@ constexpr int kFinestLattice = 4;  // points per voxel and direction
 constexpr double kEnoughSamples = 40;
 constexpr double kLeastPivot = 0.02;  // of the normal matrix, against evenly spread samples
 
+/// What a row of samples adds up to: how many there are, the sum of their values I_k, and the sum
+/// of k I_k.
+struct RowSums {
+  double count, sum, moment;
+};
+
 /// Normal equations of the fit: sums over samples of l l' and l I, l the barycentric coordinates.
 class NormalEquations {
  public:
-  /// Samples in a row: the k-th at l + k step, k from 0, with the sums of their values and of k
-  /// times them. What is quadratic in k adds up by itself.
-  void add_row(const Vec4& l, const Vec4& step, double count, double sum, double moment) {
+  /// Adds samples in a row, the k-th at l + k step, k from 0. Sums of k and k^2 are known.
+  void add_row(const Vec4& l, const Vec4& step, const RowSums& row) {
+    const auto [count, sum, moment] = row;
     const double ones = count, ks = count * (count - 1) / 2, squares = ks * (2 * count - 1) / 3;
     std::size_t e = 0;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -76,56 +82,6 @@ Index ceiling(double x) {
   return whole + (whole < x ? 1 : 0);
 }
 
-/// Cell and fraction of a coordinate in voxels, clamped to the image.
-struct Place {
-  Place(double x, Index size) {
-    const double inside = x > 0 ? std::min<double>(x, size - 1) : 0;  // NaN goes to 0
-    cell = std::min(static_cast<Index>(inside), size - 2);
-    fraction = inside - cell;
-  }
-  Index cell;
-  double fraction;
-};
-
-/// interpolate() along a line in the direction of x: what y and z decide is decided once.
-class ImageLine {
- public:
-  ImageLine(const Volume& image, double y, double z) : size_(image.size[0]) {
-    const Place in_y(y, image.size[1]), in_z(z, image.size[2]);
-    const auto step_y = static_cast<std::ptrdiff_t>(image.size[0]);
-    const auto step_z = step_y * image.size[1];
-    const bool y_first = in_y.fraction >= in_z.fraction;
-    more_ = std::max(in_y.fraction, in_z.fraction);
-    less_ = std::min(in_y.fraction, in_z.fraction);
-    row_ = image.samples.data() + step_y * in_y.cell + step_z * in_z.cell;
-    first_ = row_ + (y_first ? step_y : step_z);
-    both_ = row_ + step_y + step_z;
-  }
-
-  double at(double x) const {
-    const Place in_x(x, size_);
-    const Index i = in_x.cell;
-    const double fraction = in_x.fraction;
-    if (fraction >= more_) {
-      return along({row_[i], row_[i + 1], first_[i + 1], both_[i + 1]}, {fraction, more_, less_});
-    }
-    if (fraction >= less_) {
-      return along({row_[i], first_[i], first_[i + 1], both_[i + 1]}, {more_, fraction, less_});
-    }
-    return along({row_[i], first_[i], both_[i], both_[i + 1]}, {more_, less_, fraction});
-  }
-
- private:
-  /// On the Kuhn cell whose corners have these values, the fractions sorted.
-  static double along(const Vec4& f, const std::array<double, 3>& t) {
-    return f[0] + t[0] * (f[1] - f[0]) + t[1] * (f[2] - f[1]) + t[2] * (f[3] - f[2]);
-  }
-
-  Index size_;
-  double more_, less_;                 // of the fractions in y and z
-  const float *row_, *first_, *both_;  // after the step of the greater fraction, and after both
-};
-
 /// l = (i + 1/2) / 6 for all whole i >= 0 that add up to 4: 35 points. No coordinate differs from
 /// another, so that the normal matrix is a I + b 1 1' and known beforehand.
 class FixedSamples {
@@ -169,7 +125,7 @@ class FixedSamples {
 /// A cell in voxel coordinates, with its barycentric coordinates as linear functions.
 class CellInVoxels {
  public:
-  CellInVoxels(const Volume& image, const std::array<Vec3, 4>& points) : image_(image) {
+  CellInVoxels(const VolumeView& image, const std::array<Vec3, 4>& points) : image_(image) {
     for (std::size_t i = 0; i < 4; ++i) {
       p_[i] = {points[i].x / image.spacing.x, points[i].y / image.spacing.y,
                points[i].z / image.spacing.z};
@@ -205,7 +161,7 @@ class CellInVoxels {
         if (!clip_row(q, low, high)) continue;
         const Index begin = first(low), count = last(high) - begin + 1;
         if (count <= 0) continue;
-        const ImageLine line(image_, q.y, q.z);
+        const GridLine<float> line = line_through(q);
         double sum = 0, moment = 0;
         for (Index k = 0; k < count; ++k) {
           const double value = line.at(coordinate(begin + k));
@@ -213,7 +169,7 @@ class CellInVoxels {
           moment += k * value;
         }
         q.x = coordinate(begin);
-        sums.add_row(barycentric(q), step, count, sum, moment);
+        sums.add_row(barycentric(q), step, {static_cast<double>(count), sum, moment});
       }
     }
     return sums;
@@ -224,11 +180,15 @@ class CellInVoxels {
     static const FixedSamples samples;
     return samples.fit([this](const Vec4& l) {
       const Vec3 q = l[0] * p_[0] + l[1] * p_[1] + l[2] * p_[2] + l[3] * p_[3];
-      return ImageLine(image_, q.y, q.z).at(q.x);
+      return line_through(q).at(q.x);
     });
   }
 
  private:
+  GridLine<float> line_through(const Vec3& q) const {
+    return {image_.samples, image_.size, q.y, q.z};
+  }
+
   /// Of the barycentric coordinates, from sample to sample.
   Vec4 slopes_along_x(int density) const {
     return {slope_[0].x / density, slope_[1].x / density, slope_[2].x / density,
@@ -257,7 +217,7 @@ class CellInVoxels {
     return low <= high;
   }
 
-  const Volume& image_;
+  const VolumeView& image_;
   std::array<Vec3, 4> p_, slope_;
   std::array<Vec3, 4> crossing_{};  // where a row meets face i: x = this . (1, y, z)
   Vec4 base_{};
@@ -266,7 +226,8 @@ class CellInVoxels {
 
 }  // namespace
 
-std::array<double, 4> fit_image_on_cell(const Volume& image, const std::array<Vec3, 4>& points) {
+std::array<double, 4> fit_image_on_cell(const VolumeView& image,
+                                        const std::array<Vec3, 4>& points) {
   const CellInVoxels cell(image, points);
   Vec4 fit{};
   for (int density = 1; density <= kFinestLattice; ++density) {

@@ -7,13 +7,15 @@
 
 namespace mesamis {
 
-/// The linear function on a cell that fits the image best, by its values at the four vertices.
+/// Fits a linear function to the image on a cell.
 ///
 /// Least squares over samples of the image's interpolant: on a lattice of 1, 2, 3 or 4 points per
 /// voxel and direction, the coarsest that puts enough of them well spread into the cell; where
 /// none does, on 35 points at fixed barycentric places. A linear image is reproduced exactly.
 ///
 /// @param points  the cell's vertices in the image's own axes, mm, positively oriented.
-std::array<double, 4> fit_image_on_cell(const Volume& image, const std::array<Vec3, 4>& points);
+/// @return the function's values at the four vertices, in the image's unit.
+/// O(voxels in the cell).
+std::array<double, 4> fit_image_on_cell(const VolumeView& image, const std::array<Vec3, 4>& points);
 
 }  // namespace mesamis

@@ -15,18 +15,22 @@ struct KuhnGrid {
   std::array<Index, 3> size{0, 0, 0};  ///< nodes per direction, at least 2
   Vec3 spacing;                        ///< between nodes
 
-  std::size_t node_count() const {
+  /// The number of nodes.
+  std::size_t node_count() const noexcept {
     return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
            static_cast<std::size_t>(size[2]);
   }
-  std::int64_t cell_count() const {
+  /// The number of tetrahedra: six per brick.
+  std::int64_t cell_count() const noexcept {
     return 6 * std::int64_t{size[0] - 1} * (size[1] - 1) * (size[2] - 1);
   }
-  std::array<std::size_t, 3> stride() const {
+  /// The steps between the numbers of neighbouring nodes along each axis.
+  std::array<std::size_t, 3> stride() const noexcept {
     return {1, static_cast<std::size_t>(size[0]),
             static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1])};
   }
-  Box box() const {
+  /// The box from the first node to the last, in the unit of the spacing.
+  Box box() const noexcept {
     return {{0, 0, 0},
             {(size[0] - 1) * spacing.x, (size[1] - 1) * spacing.y, (size[2] - 1) * spacing.z}};
   }
@@ -37,7 +41,13 @@ struct KuhnGrid {
 /// a 7-point stencil with one conductance per axis edge, and an M-matrix.
 class GridSpace : public P1Space {
  public:
+  /// Computes the lumped mass. O(n).
+  /// @param grid  n nodes.
+  /// @throws InputError  for fewer than two nodes along an axis.
   explicit GridSpace(const KuhnGrid& grid);
+
+  /// The grid.
+  const KuhnGrid& grid() const noexcept { return grid_; }
 
   const std::vector<double>& lumped_mass() const override { return lumped_mass_; }
   std::unique_ptr<SpdOperator> diffusion(std::span<const double> w, double scale, double offset,

@@ -13,14 +13,22 @@ struct SparseMatrix {
   std::vector<std::int64_t> row_start;  ///< rows + 1 entries
   std::vector<Index> columns;
   std::vector<double> values;
-  std::size_t rows() const { return row_start.size() - 1; }
+  /// The number of rows; row_start must have its entries.
+  std::size_t rows() const noexcept { return row_start.size() - 1; }
 };
 
-/// Entry (row, column, value); equal places are added in the order they stand in.
+/// One entry of a matrix.
 struct Triplet {
   Index row, column;
   double value;
 };
+
+/// Assembles a matrix. Values of the same place are added in the order given.
+/// @param rows      number of rows and columns.
+/// @param triplets  within the matrix; each row should have its diagonal.
+/// @throws nothing
+///
+/// O(t log t) for t triplets.
 SparseMatrix from_triplets(Index rows, std::vector<Triplet> triplets);
 
 }  // namespace mesamis

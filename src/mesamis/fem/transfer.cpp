@@ -44,7 +44,8 @@ AxisFilter hat_filter(Index voxels, Index nodes) {
 }
 
 /// A cell's corners in the image's own axes, mm, in an order that makes it positive there.
-std::array<Vec3, 4> corners_in_image(const Volume& image, const TetMesh& mesh, const Cell& cell) {
+std::array<Vec3, 4> corners_in_image(const VoxelGrid& image, const TetMesh& mesh,
+                                     const Cell& cell) {
   std::array<Vec3, 4> corners = cell_corners(mesh, cell);
   for (Vec3& p : corners) {
     const Vec3 d = p - image.origin;
@@ -56,14 +57,16 @@ std::array<Vec3, 4> corners_in_image(const Volume& image, const TetMesh& mesh, c
 
 }  // namespace
 
-std::vector<double> project_image(const Volume& image, const MeshSpace& space, double point_scale,
-                                  const SolveOptions& options, SolveReport* report) {
+ProjectedImage project_image(const VolumeView& image, const MeshSpace& space,
+                             const ProjectionOptions& options) {
   const TetMesh& mesh = space.mesh();
   std::vector<std::array<double, 4>> loads(mesh.cells.size());
   parallel_blocks(mesh.cells.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       std::array<Vec3, 4> p;
-      for (std::size_t i = 0; i < 4; ++i) p[i] = point_scale * mesh.points[mesh.cells[c][i]];
+      for (std::size_t i = 0; i < 4; ++i) {
+        p[i] = options.point_scale * mesh.points[mesh.cells[c][i]];
+      }
       const std::array<double, 4> fit = fit_image_on_cell(image, p);
       const double sum = fit[0] + fit[1] + fit[2] + fit[3];
       const double weight = cell_volume(mesh, static_cast<Index>(c)) / 20;
@@ -74,14 +77,14 @@ std::vector<double> project_image(const Volume& image, const MeshSpace& space, d
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     for (std::size_t i = 0; i < 4; ++i) load[mesh.cells[c][i]] += loads[c][i];
   }
-  std::vector<double> f(load);
+  ProjectedImage projected{load, {}};
+  std::vector<double>& f = projected.values;
   for (std::size_t n = 0; n < f.size(); ++n) f[n] /= space.lumped_mass()[n];
-  const SolveReport solved = solve(space.consistent_mass(), load, f, options);
-  if (report) *report = solved;
-  return f;
+  projected.solve = solve(space.consistent_mass(), load, f, options.solver);
+  return projected;
 }
 
-std::vector<double> project_image(const Volume& image, const KuhnGrid& grid) {
+std::vector<double> project_image(const VolumeView& image, const KuhnGrid& grid) {
   const AxisFilter x = hat_filter(image.size[0], grid.size[0]);
   const AxisFilter y = hat_filter(image.size[1], grid.size[1]);
   const AxisFilter z = hat_filter(image.size[2], grid.size[2]);
@@ -109,7 +112,7 @@ std::vector<double> project_image(const Volume& image, const KuhnGrid& grid) {
   return f;
 }
 
-ImageMeans average_image(const Volume& image, const TetMesh& mesh) {
+ImageMeans average_image(const VolumeView& image, const TetMesh& mesh) {
   std::vector<std::array<double, 4>> fits(mesh.cells.size());
   const bool mirrored = determinant(image.direction) < 0;
   parallel_blocks(mesh.cells.size(), 256, [&](std::size_t begin, std::size_t end) {

@@ -10,26 +10,49 @@
 #include "mesamis/fem/solve.h"
 #include "mesamis/image/volume.h"
 
-/// Bringing fields to a mesh: the image by projection or averaging, u and v by interpolation.
+/// Transfer of fields to a mesh: of the image by projection or averaging, of u and v by
+/// interpolation.
 namespace mesamis {
 
-/// Q_h, the L2 projection of the image onto the P1 functions of a mesh.
-///
-/// The image is the piecewise linear interpolant of the voxel values. The quadrature sees every
-/// voxel: a cell is sampled on a lattice of one to four points per voxel and direction, so that a
-/// large cell averages all its voxels (that is where noise is removed), and a cell too small for
-/// that on a fixed lattice of its own. From the samples comes the cell's own best linear fit,
-/// and from it the exact load |K|/20 (1 + delta_ij): linear images are reproduced exactly.
-///
-/// @param image         the samples are what is projected: grey values, not native ones.
-/// @param point_scale   mm per unit of the mesh's coordinates, which run along the grid's axes.
-/// @return one grey value per node. At edges it over- and undershoots, as projections do.
-std::vector<double> project_image(const Volume& image, const MeshSpace& space, double point_scale,
-                                  const SolveOptions& options = {}, SolveReport* report = nullptr);
+/// How the image is projected.
+struct ProjectionOptions {
+  double point_scale = 1;  ///< mm per unit of the mesh's coordinates
+  SolveOptions solver;
+};
 
-/// The image on a (coarser) grid over the same box: each node averages the voxels under its
-/// trilinear hat, so that every voxel is seen; with the voxels' own grid it is the identity.
-std::vector<double> project_image(const Volume& image, const KuhnGrid& grid);
+/// The projection, and how its system was solved.
+struct ProjectedImage {
+  std::vector<double> values;  ///< one per node
+  SolveReport solve;           ///< of the mass matrix
+};
+
+/// Computes Q_h, the L2 projection of the image onto the P1 functions of a mesh.
+///
+/// The image is the piecewise linear interpolant of the voxel values. The quadrature uses every
+/// voxel: a cell is sampled on a lattice of one to four points per voxel and direction, so that a
+/// large cell averages all its voxels, which removes noise; a cell too small for that is sampled on
+/// a fixed lattice of its own. The linear fit of a cell's samples gives its exact load
+/// |K|/20 (1 + delta_ij): linear images are reproduced exactly.
+///
+/// @param image  grey values.
+/// @param space  on a mesh whose coordinates run along the grid's axes.
+/// @return one grey value per node. At edges it over- and undershoots, as projections do.
+/// @throws nothing
+///
+/// O(voxels + cells) and one solve with the consistent mass matrix. The same bits for any number of
+/// threads.
+ProjectedImage project_image(const VolumeView& image, const MeshSpace& space,
+                             const ProjectionOptions& options = {});
+
+/// Averages the image onto a (coarser) grid over the same box: each node is the mean of the voxels
+/// under its trilinear hat function, so that every voxel counts. On the voxels' own grid it is the
+/// identity.
+/// @param grid  n nodes, no more than voxels along each axis.
+/// @return n values in the unit of the samples.
+/// @throws nothing
+///
+/// O(voxels), in parallel.
+std::vector<double> project_image(const VolumeView& image, const KuhnGrid& grid);
 
 /// Means of an image over the cells of a mesh, and over the surroundings of its nodes.
 struct ImageMeans {
@@ -37,24 +60,39 @@ struct ImageMeans {
   std::vector<double> nodes;  ///< weighted by the node's hat function, over the cells of the mesh
 };
 
-/// The image as the scan has it on a mesh: what a material is chosen from. Integrated as
-/// project_image does; the nodes' values are the L2 projection with the lumped mass, which does not
-/// overshoot at edges. A cell's value is exact for linear images.
+/// Averages the image over the cells of a mesh and around its nodes: materials are chosen from
+/// these values. The quadrature is that of project_image(); the nodes' values are the L2 projection
+/// with the lumped mass, which does not overshoot at edges. A cell's value is exact for linear
+/// images.
 ///
 /// @param image  native units.
 /// @param mesh   in the world frame, mm, within the image's box (values beyond are those on it);
-///               every point used.
+///               every point belongs to a cell.
 /// @return native units. The same bits for any number of threads.
-ImageMeans average_image(const Volume& image, const TetMesh& mesh);
+/// @throws nothing
+///
+/// O(voxels + cells).
+ImageMeans average_image(const VolumeView& image, const TetMesh& mesh);
 
-/// Values of a P1 function of `from` at other points.
-/// @param fields  one vector of nodal values per field.
-/// @return for each field one value per point.
+/// Evaluates P1 functions of a mesh at points.
+/// @param from    fills a convex box with cells of positive volume; beyond, see locate().
+/// @param fields  for each field one value per node of `from`, any unit.
+/// @param points  in the mesh's own coordinates; fast where neighbours in the list are near.
+/// @return for each field one value per point, in the unit of the field.
+/// @throws InputError  as cell_neighbors(), for `from`.
+///
+/// O(cells), and O(points) in practice: each search walks from the cell of the point before.
 std::vector<std::vector<double>> interpolate_fields(const TetMesh& from,
                                                     std::span<const std::span<const double>> fields,
                                                     std::span<const Vec3> points);
 
-/// The same from a Kuhn grid.
+/// Evaluates P1 functions of a Kuhn grid at points.
+/// @param fields  for each field one value per node of `from`, any unit.
+/// @param points  in the grid's own axes; clamped to its box.
+/// @return for each field one value per point, in the unit of the field.
+/// @throws nothing
+///
+/// O(points).
 std::vector<std::vector<double>> interpolate_fields(const KuhnGrid& from,
                                                     std::span<const std::span<const double>> fields,
                                                     std::span<const Vec3> points);

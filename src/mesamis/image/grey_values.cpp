@@ -19,7 +19,7 @@ struct Histogram {
   double value(std::size_t bin) const { return low + width * (static_cast<double>(bin) + 0.5); }
 };
 
-Histogram histogram(const Volume& volume) {
+Histogram histogram(const VolumeView& volume) {
   constexpr std::size_t kBins = 4096;
   const auto [low, high] = std::minmax_element(volume.samples.begin(), volume.samples.end());
   Histogram h{*low, (static_cast<double>(*high) - *low) / kBins,
@@ -58,7 +58,7 @@ Volume apply(const GreyMap& map, Volume volume) {
   return volume;
 }
 
-std::vector<double> quantiles(const Volume& volume, const std::vector<double>& fractions) {
+std::vector<double> quantiles(const VolumeView& volume, const std::vector<double>& fractions) {
   const Histogram h = histogram(volume);
   std::vector<double> values;
   for (const double fraction : fractions) {
@@ -71,7 +71,7 @@ std::vector<double> quantiles(const Volume& volume, const std::vector<double>& f
   return values;
 }
 
-OtsuSplit otsu_split(const Volume& volume, double limit) {
+OtsuSplit otsu_split(const VolumeView& volume, double limit) {
   Histogram h = histogram(volume);
   while (h.counts.size() > 1 && h.value(h.counts.size() - 1) >= limit) h.counts.pop_back();
   double total = 0, total_sum = 0;
@@ -96,27 +96,27 @@ OtsuSplit otsu_split(const Volume& volume, double limit) {
   return split;
 }
 
-bool is_hounsfield(const Volume& volume) {
+bool is_hounsfield(const VolumeView& volume) {
   if (volume.modality == "CT") return true;
   if (!volume.modality.empty()) return false;
   const auto q = quantiles(volume, {0.01, 0.999});
   return q[0] <= -800 && q[0] >= -3100 && q[1] > 0 && q[1] < 5000;
 }
 
-Window default_window(const Volume& volume, double outside) {
+Window default_window(const VolumeView& volume, double background) {
   constexpr double kDarkest = -200;
   const auto q = quantiles(volume, {0.001, 0.999});
   if (is_hounsfield(volume)) {
-    return {outside > kDarkest ? kDarkest : q[0], std::clamp(q[1], 800.0, 2000.0)};
+    return {background > kDarkest ? kDarkest : q[0], std::clamp(q[1], 800.0, 2000.0)};
   }
   if (q[0] < q[1]) return {q[0], q[1]};
   const auto [low, high] = std::minmax_element(volume.samples.begin(), volume.samples.end());
   return {*low, *high};
 }
 
-Volume smoothed(const Volume& volume) {
+Volume smoothed(const VolumeView& volume) {
   constexpr double kClose = 2;
-  Volume result = volume;
+  Volume result = copy_volume(volume);
   const auto nx = static_cast<std::size_t>(volume.size[0]);
   const auto ny = static_cast<std::size_t>(volume.size[1]);
   const auto nz = static_cast<std::size_t>(volume.size[2]);

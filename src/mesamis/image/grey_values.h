@@ -14,40 +14,79 @@ struct GreyMap {
   double low = 0, high = 255;  ///< native units, low < high
   double threshold = 0;        ///< T in native units; low or less: no threshold
 
-  double to_grey(double native) const { return 255 * (native - low) / (high - low); }
-  double to_native(double grey) const { return low + grey / 255 * (high - low); }
+  /// The grey value of a native value, not clamped.
+  double to_grey(double native) const noexcept { return 255 * (native - low) / (high - low); }
+  /// The native value of a grey value.
+  double to_native(double grey) const noexcept { return low + grey / 255 * (high - low); }
+  /// Whether T acts.
+  bool has_threshold() const noexcept { return threshold > low; }
 };
 
-/// @throws InputError  if low < high does not hold.
+/// Maps all samples to grey values, clamped to [max(0, f(T)), 255].
+/// @param volume  native values; taken over, pass it with std::move() to save the copy.
+/// @throws InputError  unless low < high.
+/// O(voxels).
 Volume apply(const GreyMap& map, Volume volume);
 
-/// The values below which the given fractions of the samples lie, to a 4096th of their range.
-std::vector<double> quantiles(const Volume& volume, const std::vector<double>& fractions);
+/// Finds the values below which the given fractions of the samples lie, to a 4096th of their range.
+/// @param volume     at least one sample, all finite; the grid does not count.
+/// @param fractions  0 to 1.
+/// @return native units, one per fraction.
+/// @throws nothing
+///
+/// O(voxels).
+std::vector<double> quantiles(const VolumeView& volume, const std::vector<double>& fractions);
 
-/// Two classes of least variance (Otsu 1979).
+/// Two classes of samples, native units.
 struct OtsuSplit {
-  double threshold;               ///< between them
-  double mean_below, mean_above;  ///< of the classes; both the threshold if there is but one
+  double threshold;               ///< between the classes
+  double mean_below, mean_above;  ///< of the classes; both the threshold if there is only one
 };
-/// @param below  only samples below this count.
-OtsuSplit otsu_split(const Volume& volume, double below = std::numeric_limits<double>::infinity());
 
-/// True if the samples are Hounsfield units: modality CT, or values from air (-1000) upwards.
-bool is_hounsfield(const Volume& volume);
+/// Splits the samples into the two classes of least variance, on a histogram of 4096 bins. Source:
+/// Otsu, A threshold selection method from gray-level histograms, IEEE SMC 9, 1979.
+/// @param volume  at least one sample, all finite; the grid does not count.
+/// @param below   native units: only samples below this value count.
+/// @throws nothing
+///
+/// O(voxels).
+OtsuSplit otsu_split(const VolumeView& volume,
+                     double below = std::numeric_limits<double>::infinity());
 
+/// Whether the samples are Hounsfield units: the modality is CT or, where it is unknown, the values
+/// begin near those of air (-1000).
+/// @param volume  at least one sample, all finite.
+/// @throws nothing
+///
+/// O(voxels) where the modality is unknown.
+bool is_hounsfield(const VolumeView& volume);
+
+/// A range of values, native units.
 struct Window {
   double low, high;
 };
-/// CT: -200 HU to the 99.9 percentile, but at least to 800 and at most to 2000 HU, so that bone
-/// gets nearly all the contrast; where the object's outside is darker than that (a phantom in
-/// air), from the 0.1 percentile, so that no edge is cut. Else the 0.1 and 99.9 percentiles.
-/// @param outside  what lies around the object, native units (see find_object()).
-Window default_window(const Volume& volume, double outside);
 
-/// Every sample replaced by the binomial mean 1 2 1 of its line, in all three directions: a
-/// Gaussian of 0.7 voxels. Lines end by repeating their last sample. A direction in which voxels
-/// are more than twice as long as in the shortest is left alone: slices that far apart show
-/// another part of the object, not the same once more.
-Volume smoothed(const Volume& volume);
+/// Chooses the range of values that is mapped to grey values.
+///
+/// CT: -200 HU to the 99.9 percentile, which is bounded to 800 to 2000 HU, so that bone gets nearly
+/// all the contrast; if the background of the object is darker than -200 HU (a phantom in air),
+/// from the 0.1 percentile, so that no edge is cut. Other images: the 0.1 to the 99.9 percentile.
+/// @param volume      at least one sample, all finite.
+/// @param background  value around the object, native units, see ObjectContrast.
+/// @return native units; low < high unless all samples are equal.
+/// @throws nothing
+///
+/// O(voxels).
+Window default_window(const VolumeView& volume, double background);
+
+/// Smooths an image by the binomial filter 1 2 1 along each axis: a Gaussian of standard deviation
+/// 0.7 voxels. Beyond the border the last sample is repeated. An axis along which voxels are more
+/// than twice as long as along the shortest is not smoothed: slices that far apart show different
+/// parts of the object.
+/// @param volume  as many samples as voxels.
+/// @throws nothing
+///
+/// O(voxels), a copy of the samples. The same bits for any number of threads.
+Volume smoothed(const VolumeView& volume);
 
 }  // namespace mesamis

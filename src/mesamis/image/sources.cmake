@@ -1,22 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
-  deblur.h
-  degrade.h
-  edge_sides.h
+  gaussian.h
   grey_values.h
-  phantom.h
-  restore.h
-  scan_quality.h
   volume.h)
 set(ROOM_SOURCES
-  deblur.cpp
-  degrade.cpp
-  edge_profile.cpp
-  edge_sides.cpp
+  gaussian.cpp
   grey_values.cpp
-  hemipelvis.cpp
-  phantom.cpp
-  phantom_designs.cpp
-  restore.cpp
-  scan_quality.cpp
   volume.cpp)

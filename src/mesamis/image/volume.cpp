@@ -24,7 +24,7 @@ void require_two_voxels(const std::array<Index, 3>& n) {
          n[2]);
 }
 
-void require_sizes(const Volume& volume) {
+void require_sizes(const VolumeView& volume) {
   const auto& n = volume.size;
   require_two_voxels(n);
   if (volume.samples.size() != volume.voxel_count()) {
@@ -33,7 +33,7 @@ void require_sizes(const Volume& volume) {
   }
 }
 
-void require_grid(const Volume& volume) {
+void require_grid(const VoxelGrid& volume) {
   for (int a = 0; a < 3; ++a) {
     if (!(volume.spacing[a] > 0) || !std::isfinite(volume.spacing[a])) {
       refuse("volume: expected a positive spacing along axis ", a, ", found ", volume.spacing[a],
@@ -55,8 +55,8 @@ void require_grid(const Volume& volume) {
   }
 }
 
-void require_samples(const Volume& volume) {
-  const std::vector<float>& f = volume.samples;
+void require_samples(const VolumeView& volume) {
+  const std::span<const float> f = volume.samples;
   const auto unknown = std::find_if(f.begin(), f.end(), [](float x) { return !std::isfinite(x); });
   if (unknown != f.end()) {
     const auto at = static_cast<std::size_t>(unknown - f.begin());
@@ -75,7 +75,7 @@ struct Selection {
   std::array<Index, 3> begin, count, stride;
 };
 
-Volume select(const Volume& volume, const Selection& kept) {
+Volume select(const VolumeView& volume, const Selection& kept) {
   Volume out;
   out.size = kept.count;
   out.direction = volume.direction;
@@ -103,13 +103,17 @@ Volume select(const Volume& volume, const Selection& kept) {
 
 }  // namespace
 
-void require_usable(const Volume& volume) {
+Volume copy_volume(const VolumeView& volume) {
+  return {volume, {volume.samples.begin(), volume.samples.end()}};
+}
+
+void require_usable(const VolumeView& volume) {
   require_sizes(volume);
   require_grid(volume);
   require_samples(volume);
 }
 
-std::array<Index, 3> cropped_size(const Volume& volume, const CropRange& range) {
+std::array<Index, 3> cropped_size(const VoxelGrid& volume, const CropRange& range) {
   require_two_voxels(volume.size);
   std::array<Index, 3> size{};
   for (std::size_t a = 0; a < 3; ++a) {
@@ -128,11 +132,11 @@ std::array<Index, 3> cropped_size(const Volume& volume, const CropRange& range) 
   return size;
 }
 
-Volume crop(const Volume& volume, const CropRange& range) {
+Volume crop(const VolumeView& volume, const CropRange& range) {
   return select(volume, {range.begin, cropped_size(volume, range), {1, 1, 1}});
 }
 
-Volume subsample(const Volume& volume, const std::array<Index, 3>& stride) {
+Volume subsample(const VolumeView& volume, const std::array<Index, 3>& stride) {
   Selection kept{{0, 0, 0}, {}, stride};
   for (std::size_t a = 0; a < 3; ++a) {
     if (stride[a] < 1) {

@@ -14,52 +14,83 @@
 
 namespace mesamis {
 
-/// A scan: one sample per voxel centre of a regular grid, and where the grid lies in the world.
+/// A regular grid of voxels, and where it lies in the world: what is known of a scan beside its
+/// samples.
 ///
 /// World frame: LPS (x to the patient's left, y to the back, z to the head), in mm.
 /// World position of voxel (i, j, k): origin + direction * (i sx, j sy, k sz).
-struct Volume {
+struct VoxelGrid {
   std::array<Index, 3> size{0, 0, 0};  ///< voxels along i, j, k
   Vec3 spacing{1, 1, 1};               ///< mm between voxel centres, positive
   Vec3 origin{0, 0, 0};                ///< LPS position of voxel (0, 0, 0), mm
-  Mat3 direction;                      ///< orthonormal; column k is the LPS direction of axis k.
+  Mat3 direction{};                    ///< orthonormal; column k is the LPS direction of axis k.
                                        ///< Its determinant may be -1: a left-handed grid
-  std::string modality;                ///< "CT", "MR", ... as the file says; empty: unknown
-  std::vector<float> samples;          ///< native units (HU, counts); i runs fastest, then j, k
+  std::string modality{};              ///< "CT", "MR", ... as the file says; empty: unknown
 
-  std::size_t voxel_count() const {
+  /// The number of voxels.
+  std::size_t voxel_count() const noexcept {
     return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
            static_cast<std::size_t>(size[2]);
   }
-  std::size_t offset(Index i, Index j, Index k) const {
+  /// The place of voxel (i, j, k) among the samples: i runs fastest, then j, k.
+  std::size_t offset(Index i, Index j, Index k) const noexcept {
     return (static_cast<std::size_t>(k) * static_cast<std::size_t>(size[1]) +
             static_cast<std::size_t>(j)) *
                static_cast<std::size_t>(size[0]) +
            static_cast<std::size_t>(i);
   }
-  float at(Index i, Index j, Index k) const { return samples[offset(i, j, k)]; }
 
-  /// The box spanned by the voxel centres, in the grid's own axes: [0, (n-1) s] per direction.
-  Box box() const {
+  /// The box spanned by the voxel centres, in the grid's own axes, mm: [0, (n-1) s] per direction.
+  Box box() const noexcept {
     return {{0, 0, 0},
             {(size[0] - 1) * spacing.x, (size[1] - 1) * spacing.y, (size[2] - 1) * spacing.z}};
   }
   /// The geometric mean of the spacing, mm.
-  double voxel_size() const { return std::cbrt(spacing.x * spacing.y * spacing.z); }
+  double voxel_size() const noexcept { return std::cbrt(spacing.x * spacing.y * spacing.z); }
   /// The shortest side of a voxel, mm.
-  double shortest_side() const { return std::min({spacing.x, spacing.y, spacing.z}); }
+  double shortest_side() const noexcept { return std::min({spacing.x, spacing.y, spacing.z}); }
   /// From the grid's own axes (mm) to the world (LPS, mm).
-  Vec3 to_world(const Vec3& p) const { return origin + direction * p; }
+  Vec3 to_world(const Vec3& p) const noexcept { return origin + direction * p; }
   /// From the world (LPS, mm) to the grid's own axes (mm).
-  Vec3 to_grid(const Vec3& p) const { return transpose(direction) * (p - origin); }
+  Vec3 to_grid(const Vec3& p) const noexcept { return transpose(direction) * (p - origin); }
 };
 
-/// Checks what every method relies on: at least 2 voxels per direction, as many samples as
+/// A scan whose samples belong to somebody else: what functions that only read a scan take. A
+/// caller with voxels in memory of his own passes them without a copy:
+///
+///   mes_amis(VolumeView{{.size = {nx, ny, nz}, .spacing = {0.5, 0.5, 1}}, voxels}, settings);
+///
+/// The view does not own the samples: they must live, unchanged, as long as it is used. No function
+/// of this library keeps a view after it has returned.
+struct VolumeView : VoxelGrid {
+  std::span<const float> samples;  ///< native units (HU, counts); i runs fastest, then j, k
+
+  /// The sample of voxel (i, j, k), native units; the voxel must be within the grid.
+  float at(Index i, Index j, Index k) const noexcept { return samples[offset(i, j, k)]; }
+};
+
+/// A scan: one sample per voxel centre of a regular grid, and where the grid lies in the world.
+struct Volume : VoxelGrid {
+  std::vector<float> samples;  ///< native units (HU, counts); i runs fastest, then j, k
+
+  /// The sample of voxel (i, j, k), native units; the voxel must be within the grid.
+  float at(Index i, Index j, Index k) const noexcept { return samples[offset(i, j, k)]; }
+  /// The volume as a view, valid until the volume is changed or destroyed. O(1).
+  /// @throws nothing
+  operator VolumeView() const { return {*this, samples}; }  // NOLINT(google-explicit-constructor)
+};
+
+/// Copies the scan, which then owns its samples. O(voxels).
+/// @throws nothing
+Volume copy_volume(const VolumeView& volume);
+
+/// Checks that a volume can be worked on: at least 2 voxels per direction, as many samples as
 /// voxels, positive finite spacing, finite origin, orthonormal direction (to 1e-6), finite samples
 /// that are not all equal. A reader may hand on a volume that fails here (one slice of a file
 /// with a third axis, an unknown sample): this is the gate before any method.
-/// @throws InputError  with the first thing that is wrong.
-void require_usable(const Volume& volume);
+/// @throws InputError  naming the first condition that does not hold.
+/// O(voxels).
+void require_usable(const VolumeView& volume);
 
 /// Half-open voxel ranges [begin, end) per direction; an end of -1 means the volume's.
 struct CropRange {
@@ -68,65 +99,108 @@ struct CropRange {
   friend bool operator==(const CropRange&, const CropRange&) = default;
 };
 
-/// How many voxels of the volume the range keeps.
+/// Counts the voxels of the volume that the range keeps along each axis. O(1).
 /// @throws InputError  if the volume has fewer than 2 voxels along an axis, or the range leaves it
 ///                     or keeps fewer.
-std::array<Index, 3> cropped_size(const Volume& volume, const CropRange& range);
+std::array<Index, 3> cropped_size(const VoxelGrid& volume, const CropRange& range);
 
-/// The part of the volume inside the range; its world position is kept.
+/// Copies the part of the volume inside the range; its world position is kept.
 /// @throws InputError  as cropped_size().
-Volume crop(const Volume& volume, const CropRange& range);
+/// O(voxels kept).
+Volume crop(const VolumeView& volume, const CropRange& range);
 
-/// Keeps every stride-th voxel, starting with the first.
+/// Keeps every stride-th voxel, starting with the first; world positions are kept.
+/// @param stride  voxels along each axis, >= 1.
 /// @throws InputError  if a stride is below 1 or leaves fewer than 2 voxels in a direction.
-Volume subsample(const Volume& volume, const std::array<Index, 3>& stride);
+/// O(voxels kept).
+Volume subsample(const VolumeView& volume, const std::array<Index, 3>& stride);
 
 /// Values on a regular grid as a continuous function: linear on each of the six Kuhn tetrahedra of
 /// a grid cell, equal to the values at the nodes. It is the piecewise linear function of a mesh
 /// made by kuhn_cell on the grid, found without the mesh: from the cell's lowest corner walk along
 /// the axes, the largest fraction first, and weigh the four corners met.
-/// @param values   one per node; i runs fastest, then j, k.
-/// @param size     nodes along i, j, k; at least 2 each.
-/// @param spacing  between nodes.
-/// @param p        in the grid's own axes, in the spacing's unit; clamped to the box.
+///
+/// This is the function along one line in the direction of i: what depends on j and k alone is
+/// computed once.
+template <class Number>
+class GridLine {
+ public:
+  /// Finds the four rows of nodes around a line. O(1).
+  /// @param values  one per node, any unit; i runs fastest, then j, k. They must live longer than
+  ///                this.
+  /// @param size    nodes along i, j, k; at least 2 each.
+  /// @param y, z    of the line, in steps of the grid; clamped to it.
+  /// @throws nothing
+  GridLine(std::span<const Number> values, const std::array<Index, 3>& size, double y, double z)
+      : size_(size[0]) {
+    assert(std::min({size[0], size[1], size[2]}) >= 2);
+    const Place in_y(y, size[1]), in_z(z, size[2]);
+    const auto step_y = static_cast<std::ptrdiff_t>(size[0]);
+    const std::ptrdiff_t step_z = step_y * size[1];
+    const bool y_first = in_y.fraction >= in_z.fraction;
+    more_ = y_first ? in_y.fraction : in_z.fraction;
+    less_ = y_first ? in_z.fraction : in_y.fraction;
+    row_ = values.data() + step_y * in_y.cell + step_z * in_z.cell;
+    first_ = row_ + (y_first ? step_y : step_z);
+    both_ = row_ + step_y + step_z;
+  }
+
+  /// The value at a point of the line, in the unit of the nodes' values.
+  /// @param x  in steps of the grid; clamped to it.
+  double at(double x) const noexcept {
+    const Place in_x(x, size_);
+    const Index i = in_x.cell;
+    const double fraction = in_x.fraction;
+    if (fraction >= more_) {
+      return walk({row_[i], row_[i + 1], first_[i + 1], both_[i + 1]}, {fraction, more_, less_});
+    }
+    if (fraction >= less_) {
+      return walk({row_[i], first_[i], first_[i + 1], both_[i + 1]}, {more_, fraction, less_});
+    }
+    return walk({row_[i], first_[i], both_[i], both_[i + 1]}, {more_, less_, fraction});
+  }
+
+ private:
+  struct Place {
+    Place(double x, Index size) {
+      const double inside = x > 0 ? std::min<double>(x, size - 1) : 0;  // NaN goes to 0
+      cell = std::min(static_cast<Index>(inside), size - 2);
+      fraction = inside - cell;
+    }
+    Index cell;
+    double fraction;
+  };
+
+  static double walk(const std::array<double, 4>& f, const std::array<double, 3>& fractions) {
+    return f[0] + fractions[0] * (f[1] - f[0]) + fractions[1] * (f[2] - f[1]) +
+           fractions[2] * (f[3] - f[2]);
+  }
+
+  Index size_;
+  double more_, less_;                  // of the fractions along j and k
+  const Number *row_, *first_, *both_;  // after the step of the greater fraction, and after both
+};
+
+/// Evaluates that function at one point. O(1).
+/// @param values, size  as for GridLine.
+/// @param spacing  between nodes, > 0.
+/// @param p        in the grid's own axes, in the unit of the spacing; clamped to the box.
+/// @return in the unit of the values.
+/// @throws nothing
 template <class Number>
 double interpolate(std::span<const Number> values, const std::array<Index, 3>& size,
                    const Vec3& spacing, const Vec3& p) {
-  assert(std::min({size[0], size[1], size[2]}) >= 2);
-  const auto stride_j = static_cast<std::ptrdiff_t>(size[0]);
-  std::array<std::ptrdiff_t, 3> stride{1, stride_j, stride_j * size[1]};
-  std::array<double, 3> fraction;
-  std::ptrdiff_t corner = 0;
-  for (int a = 0; a < 3; ++a) {
-    const Index last = size[static_cast<std::size_t>(a)] - 1;
-    double t = p[a] / spacing[a];
-    t = t > 0 ? std::min<double>(t, last) : 0;  // NaN goes to 0
-    const Index cell = std::min(static_cast<Index>(t), last - 1);
-    fraction[static_cast<std::size_t>(a)] = t - cell;
-    corner += stride[static_cast<std::size_t>(a)] * cell;
-  }
-  const auto order = [&fraction, &stride](std::size_t a, std::size_t b) {
-    const bool swap = fraction[a] < fraction[b];
-    const double fa = fraction[a], fb = fraction[b];
-    const std::ptrdiff_t sa = stride[a], sb = stride[b];
-    fraction[a] = swap ? fb : fa, fraction[b] = swap ? fa : fb;
-    stride[a] = swap ? sb : sa, stride[b] = swap ? sa : sb;
-  };
-  order(0, 1);
-  order(1, 2);
-  order(0, 1);
-  const Number* f = values.data() + corner;
-  const double f0 = f[0];
-  const double f1 = f[stride[0]];
-  const double f2 = f[stride[0] + stride[1]];
-  const double f3 = f[stride[0] + stride[1] + stride[2]];
-  return f0 + fraction[0] * (f1 - f0) + fraction[1] * (f2 - f1) + fraction[2] * (f3 - f2);
+  return GridLine<Number>(values, size, p.y / spacing.y, p.z / spacing.z).at(p.x / spacing.x);
 }
 
-/// The image as a continuous function.
+/// Evaluates the image as a continuous function (GridLine) at one point. O(1).
+/// @param volume  at least 2 voxels along each axis. Where many points are asked for, pass a view:
+///                each conversion of a Volume copies its grid.
 /// @param p  in the grid's own axes, mm; clamped to the box.
-inline double interpolate(const Volume& volume, const Vec3& p) {
-  return interpolate(std::span<const float>(volume.samples), volume.size, volume.spacing, p);
+/// @return in the unit of the samples.
+/// @throws nothing
+inline double interpolate(const VolumeView& volume, const Vec3& p) {
+  return interpolate(volume.samples, volume.size, volume.spacing, p);
 }
 
 }  // namespace mesamis

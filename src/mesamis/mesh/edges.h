@@ -11,7 +11,13 @@ namespace mesamis {
 /// Two point indices, the smaller first.
 using Edge = std::array<Index, 2>;
 
-/// Every edge of the mesh once, in increasing order.
+/// Lists every edge of the mesh once.
+///
+/// @param mesh  m cells; point indices in range.
+/// @return in increasing order; about 1.2 m edges.
+/// @throws nothing
+///
+/// O(m log d) for at most d cells at a point; 24 bytes per cell beside the result.
 std::vector<Edge> unique_edges(const TetMesh& mesh);
 
 }  // namespace mesamis

@@ -30,19 +30,26 @@ bool exceeds(const Sym3& a, const Sym3& b) {
   return d.zz - d.xz * d.xz / d.xx - yz * yz / yy > 0;
 }
 
-/// What the other nodes of the cells around leave of a node's metric.
-Sym3 limited(const TetMesh& mesh, std::span<const Sym3> metrics, Index n,
-             std::span<const Index> around, double log_gradation) {
+/// A mesh with the metrics of its nodes.
+struct NodeMetrics {
+  const TetMesh& mesh;
+  const PointCells& around;
+  std::span<const Sym3> metrics;
+};
+
+/// The metric of node n, bounded by those of the other nodes of the cells around it.
+Sym3 limited(const NodeMetrics& field, Index n, double log_gradation) {
+  const auto& [mesh, around, metrics] = field;
   constexpr double kSlack = 1.002;  // of a squared size: less is not worth a change
   constexpr double kLeastGrowth = 1.001;
   Sym3 m = metrics[n];
-  for (const Index cell : around) {
+  for (const Index cell : around.of(n)) {
     for (const Index other : mesh.cells[cell]) {
       if (other == n) continue;
       const Sym3 bound = grown(metrics[other], mesh.points[n] - mesh.points[other], log_gradation);
       if (exceeds(kSlack * m, bound)) continue;
       const Sym3 finer = intersect(m, bound);
-      // What round-off makes of flat metrics is no change.
+      // Round-off of flat metrics does not count as a change.
       if (determinant(finer) > kLeastGrowth * determinant(m)) m = finer;
     }
   }
@@ -68,8 +75,7 @@ std::int64_t limit_gradation(const TetMesh& mesh, std::span<Sym3> node_metrics, 
     parallel_for(n, [&](std::size_t i) {
       changed[i] = 0;
       if (!active[i]) return;
-      const auto node = static_cast<Index>(i);
-      next[i] = limited(mesh, node_metrics, node, around.of(node), log_gradation);
+      next[i] = limited({mesh, around, node_metrics}, static_cast<Index>(i), log_gradation);
       changed[i] = next[i] != node_metrics[i];
     });
     any = false;

@@ -13,16 +13,17 @@ namespace mesamis {
 inline constexpr std::array<std::array<int, 3>, 6> kKuhnPaths{
     {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
 
-/// Odd orders walk a negatively oriented cell.
+/// Whether the path is an odd permutation of the axes: its walk gives a negatively oriented cell.
 inline constexpr bool kuhn_path_is_odd(const std::array<int, 3>& path) {
   return (path[0] > path[1]) != ((path[1] > path[2]) != (path[0] > path[2]));
 }
 
 /// The positively oriented cell of one path.
-/// @param corner  the brick's lowest node.
+/// @param corner  the index of the brick's lowest node.
 /// @param stride  what one step along each axis adds to a node's index.
+/// @param path    one of kKuhnPaths.
 inline Cell kuhn_cell(Index corner, const std::array<Index, 3>& stride,
-                      const std::array<int, 3>& path) {
+                      const std::array<int, 3>& path) noexcept {
   const Index a = corner + stride[path[0]];
   const Index b = a + stride[path[1]];
   const Index c = b + stride[path[2]];

@@ -17,13 +17,19 @@ struct Location {
   std::array<double, 4> weights{0, 0, 0, 0};
 };
 
-/// Finds the cell that holds a point, walking from cell `start` through the faces the point
-/// lies behind. It cannot miss: should the walk circle or leave, all cells are tried, and the
-/// one the point violates least is taken.
+/// Finds the cell that holds a point.
 ///
-/// @param mesh       fills a convex box, positive cells.
-/// @param neighbors  cell_neighbors(mesh).
-/// @param p          mm; outside the box the nearest cell's clamped weights are returned.
+/// The search walks from cell `start` through faces that have the point on their outer side. If the
+/// walk circles or leaves the mesh, all cells are tried; the result is then the cell whose least
+/// barycentric coordinate is largest.
+///
+/// @param mesh       m positive cells that fill a box, mm; m > 0.
+/// @param neighbors  m entries, cell_neighbors(mesh).
+/// @param p          mm; outside the box the weights are clamped to those of the nearest cell.
+/// @param start      0 to m - 1.
+/// @throws nothing
+///
+/// O(m^(1/3)) cells on the way across a mesh, O(1) from a cell nearby; O(m) outside the box.
 Location locate(const TetMesh& mesh, std::span<const std::array<Index, 4>> neighbors, const Vec3& p,
                 Index start);
 

@@ -12,38 +12,70 @@
 /// Metric tensors: symmetric positive definite, in 1/mm^2; edge e is ideal when e'Me = 1.
 namespace mesamis {
 
-/// @throws InputError  naming the caller, if there is not one metric per node.
+/// Checks that there is one metric per node. O(1): the cost is that of two sizes.
+/// @param caller        who asks, for the message.
+/// @param node_metrics  1/mm^2.
+/// @throws InputError  with both sizes, if they differ.
 void require_one_per_node(const char* caller, const TetMesh& mesh,
                           std::span<const Sym3> node_metrics);
 
-/// @throws InputError  naming the first node whose metric is not finite or not positive definite.
+/// Checks that every metric is finite and positive definite. O(n).
+/// @param node_metrics  n matrices in 1/mm^2.
+/// @throws InputError  naming the first node whose metric is not.
 void require_positive_definite(std::span<const Sym3> node_metrics);
 
-/// Length of edge e (mm) between nodes with metrics ma and mb, for sizes that vary
-/// geometrically along it: (la - lb) / log(la / lb). Source: UGAWG adaptation benchmarks.
+/// Length of edge e between nodes with metrics ma and mb, for sizes that vary geometrically along
+/// it: (la - lb) / log(la / lb). Source: UGAWG adaptation benchmarks.
+/// @param ma, mb  positive definite, 1/mm^2.
+/// @param e       mm, not zero.
+/// @return no unit: 1 for an ideal edge.
+/// @throws nothing
 double metric_length(const Sym3& ma, const Sym3& mb, const Vec3& e);
 
-/// Mean ratio of a cell in metric m, 1 for the unit regular tetrahedron, 0 when not positive.
+/// Mean ratio of a cell in a metric: 12 (3 V)^(2/3) / sum of squared edges, all in the metric.
+/// @param m  1/mm^2.
+/// @param p  the cell's corners, mm.
+/// @return no unit: 1 for a regular tetrahedron in the metric; 0 if the volume or det m is not
+///         positive.
+/// @throws nothing
 double metric_quality(const Sym3& m, const std::array<Vec3, 4>& p);
 
-/// Log-Euclidean mean: exp(sum_i weights_i log m_i), weights adding up to 1.
+/// Log-Euclidean mean: exp(sum_i weights_i log m_i).
+/// @param metrics  k positive definite matrices, 1/mm^2.
+/// @param weights  k numbers with sum 1, no unit.
+/// @return 1/mm^2.
+/// @throws nothing
+///
+/// O(k).
 Sym3 log_euclidean_mean(std::span<const Sym3> metrics, std::span<const double> weights);
 
-/// The metric with its sizes (1/sqrt of the eigenvalues) clamped to [h_min, h_max], mm.
-/// A singular or zero matrix is welcome: its flat directions get h_max.
+/// Clamps the sizes of a metric, 1/sqrt of its eigenvalues, to [h_min, h_max].
+/// @param m             symmetric, 1/mm^2; directions of a zero eigenvalue get h_max.
+/// @param h_min, h_max  mm, 0 < h_min <= h_max.
+/// @return positive definite, 1/mm^2.
+/// @throws nothing
 Sym3 clamp_sizes(const Sym3& m, double h_min, double h_max);
 
-/// The coarsest metric along the axes of both that is nowhere coarser than either: in the basis
-/// that makes a the identity and b diagonal, the larger of each pair. Symmetric in a and b.
+/// The intersection of two metrics: the coarsest one along the axes of both that is nowhere coarser
+/// than either. In the basis that makes a the identity and b diagonal it takes the larger of each
+/// pair of eigenvalues. Symmetric in a and b.
 /// Source: F. Alauzet, P. Frey, Estimateur d'erreur geometrique et metriques anisotropes, 2003.
-/// @param a, b  positive definite; aspects up to about 1e5, beyond it digits are lost.
+/// @param a, b  positive definite, 1/mm^2; digits are lost beyond aspects of about 1e5.
+/// @return positive definite, 1/mm^2.
+/// @throws nothing
 Sym3 intersect(const Sym3& a, const Sym3& b);
 
-/// Integral of sqrt(det M) over the mesh, the metric's determinant root taken linear per cell.
+/// The complexity of a metric: the integral of sqrt(det M) over the mesh, the root linear on each
+/// cell.
+/// @param mesh          n nodes, m cells, mm.
+/// @param node_metrics  n matrices, 1/mm^2.
+/// @return no unit; a unit mesh has about 9 cells per unit of it.
+/// @throws InputError  if the sizes differ.
+///
+/// O(m). The same bits for any number of threads.
 double complexity(const TetMesh& mesh, std::span<const Sym3> node_metrics);
 
-/// How well a mesh fits a nodal metric; lengths and qualities as in the UGAWG benchmarks,
-/// the cell's metric being that of its vertex with the largest determinant.
+/// How well a mesh fits a nodal metric. Lengths and qualities have no unit.
 struct MeshFit {
   std::int64_t edges = 0;
   double unit_edge_fraction = 0;  ///< share of edges with length in [1/sqrt 2, sqrt 2]
@@ -52,6 +84,15 @@ struct MeshFit {
   double quality_min = 0, quality_mean = 0;
   Index worst_cell = kNoIndex;
 };
+
+/// Measures metric_length() of every edge and metric_quality() of every cell, as the UGAWG
+/// benchmarks do: the metric of a cell is that of its node with the largest determinant.
+/// @param mesh          n nodes, m cells, mm.
+/// @param node_metrics  n positive definite matrices, 1/mm^2.
+/// @return all zero for a mesh without cells.
+/// @throws InputError  if the sizes differ.
+///
+/// O(m), memory as unique_edges().
 MeshFit measure_fit(const TetMesh& mesh, std::span<const Sym3> node_metrics);
 
 }  // namespace mesamis

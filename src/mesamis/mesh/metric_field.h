@@ -10,26 +10,30 @@
 
 namespace mesamis {
 
-/// A metric at every point of the box, for the remesher to ask. Implementations are
-/// immutable: any number of threads may ask at once.
+/// A metric at every point of a box, as the remesher needs it. Implementations are immutable: any
+/// number of threads may call at() at once.
 class MetricField {
  public:
   virtual ~MetricField() = default;
 
-  /// The metric at p (mm), in 1/mm^2; p outside the box counts as its nearest point inside.
+  /// The metric at a point.
+  /// @param p     mm; a point outside the box counts as its nearest point inside.
   /// @param hint  where the last look-up ended; start with 0, pass the same variable again for
   ///              nearby points. It speeds the search up and never changes the answer beyond
   ///              round-off: callers that need equal bits must pass equal hints.
+  /// @return positive definite, 1/mm^2.
+  /// @throws nothing
   virtual Sym3 at(const Vec3& p, Index& hint) const = 0;
 };
 
 /// Metrics at the nodes of a regular grid, interpolated log-Euclidean and trilinear.
 class GridMetricField : public MetricField {
  public:
+  /// Takes the logarithms of nodal metrics. O(n) to check them.
   /// @param box          the grid's box, mm.
   /// @param size         nodes per direction, each at least 2.
-  /// @param log_metrics  logarithms of the nodal metrics, xx xy xz yy yz zz, x fastest.
-  /// @throws InputError  if sizes differ or an entry is not finite; the node is named.
+  /// @param log_metrics  logarithms of n metrics in 1/mm^2, xx xy xz yy yz zz, x fastest.
+  /// @throws InputError  if the sizes differ or an entry is not finite; the node is named.
   GridMetricField(const Box& box, const std::array<Index, 3>& size,
                   std::vector<std::array<float, 6>> log_metrics);
   Sym3 at(const Vec3& p, Index& hint) const override;
@@ -43,10 +47,11 @@ class GridMetricField : public MetricField {
 /// Metrics at the nodes of a mesh, interpolated log-Euclidean and linear on its cells.
 class MeshMetricField : public MetricField {
  public:
-  /// @param mesh          the background mesh, copied; fills its bounding box.
-  /// @param node_metrics  one symmetric positive definite matrix per node.
-  /// @throws InputError   if the sizes differ, or a metric is not finite or not positive
-  ///                      definite; the message names the node.
+  /// Finds the neighbours of the cells and takes the logarithms of the metrics. O(m).
+  /// @param mesh          the background mesh, n nodes, m cells, mm; fills its bounding box.
+  /// @param node_metrics  n symmetric positive definite matrices, 1/mm^2.
+  /// @throws InputError   if the sizes differ, or a metric is not finite or not positive definite;
+  ///                      the message names the node. As cell_neighbors().
   MeshMetricField(TetMesh mesh, std::span<const Sym3> node_metrics);
   Sym3 at(const Vec3& p, Index& hint) const override;
 
@@ -57,10 +62,12 @@ class MeshMetricField : public MetricField {
   std::vector<Sym3> log_metrics_;
 };
 
-/// Another field with all sizes multiplied by a factor; refers to the field, which must live on.
+/// A field with all sizes multiplied by a factor.
 class ScaledMetricField : public MetricField {
  public:
-  ScaledMetricField(const MetricField& field, double size_factor)
+  /// @param field        is referred to: it must outlive this object.
+  /// @param size_factor  no unit, > 0.
+  ScaledMetricField(const MetricField& field, double size_factor) noexcept
       : field_(field), factor_(1 / (size_factor * size_factor)) {}
   Sym3 at(const Vec3& p, Index& hint) const override { return factor_ * field_.at(p, hint); }
 
@@ -69,7 +76,13 @@ class ScaledMetricField : public MetricField {
   double factor_;
 };
 
-/// The field at each point, in parallel.
+/// Evaluates the field at each point, in parallel.
+/// @param points  n points, mm.
+/// @return n matrices, 1/mm^2.
+/// @throws what field.at() throws
+///
+/// O(n) look-ups, cheap where neighbours in the list are near each other. The same bits for any
+/// number of threads.
 std::vector<Sym3> sample(const MetricField& field, std::span<const Vec3> points);
 
 }  // namespace mesamis

@@ -25,34 +25,55 @@ inline constexpr std::array<std::array<int, 3>, 4> kCellFaces{
 inline constexpr std::array<std::array<int, 2>, 6> kCellEdges{
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-/// Six times the signed volume of (a, b, c, d).
-inline double six_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+/// Six times the signed volume of (a, b, c, d): mm^3 for points in mm.
+inline double six_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept {
   return dot(cross(b - a, c - a), d - a);
 }
-inline std::array<Vec3, 4> cell_corners(const TetMesh& mesh, const Cell& cell) {
+
+/// The positions of a cell's four points, mm.
+inline std::array<Vec3, 4> cell_corners(const TetMesh& mesh, const Cell& cell) noexcept {
   return {mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]], mesh.points[cell[3]]};
 }
+
+/// The signed volume of a cell, mm^3. O(1).
+/// @param cell  an index in range.
+/// @throws nothing
 double cell_volume(const TetMesh& mesh, Index cell);
 
 /// The points of the face opposite local point `face`, in increasing order: the same from both its
 /// cells.
+/// @param face  0 to 3.
+/// @throws nothing
 std::array<Index, 3> sorted_face(const Cell& cell, int face);
 
-/// The smallest box around the points.
+/// The smallest box around the points. O(n).
+/// @param points  n points, mm; finite.
+/// @return mm; from +infinity to -infinity if there are no points.
+/// @throws nothing
 Box bounding_box(std::span<const Vec3> points);
 
-/// A box of n[0] x n[1] x n[2] bricks, each cut into the six Kuhn tetrahedra around its main
+/// Meshes a box of n[0] x n[1] x n[2] bricks, each cut into the six Kuhn tetrahedra around its main
 /// diagonal. Points run in x fastest; the outer points lie exactly on the box.
+/// @param box  mm.
+/// @param n    bricks along each axis, at least 1.
 /// @throws InputError  if a count is below 1, the box is empty or the mesh exceeds 32-bit indices.
+///
+/// O(bricks).
 TetMesh box_mesh(const Box& box, const std::array<Index, 3>& n);
 
-/// A box mesh of a few bricks, none much longer than another: what a remesher can start from.
+/// Meshes a box with a few bricks of similar side lengths: a start for the remesher.
+/// @param box  mm.
+/// @throws InputError  if the box is empty.
+///
+/// O(1): at most 33 x 33 x 3 points.
 TetMesh coarse_box_mesh(const Box& box);
 
-/// For each cell the cell across the face opposite vertex i, or kNoIndex on the boundary. Only the
-/// cells are looked at; their indices are from 0. O(m).
-/// @throws InputError  if a face is shared by more than two cells, or a cell names a point that is
-///                     not there (where there are any).
+/// Finds for each cell the cell across the face opposite vertex i, or kNoIndex on the boundary.
+/// @param mesh  m cells; may come without points.
+/// @throws InputError  if a face is shared by more than two cells, or a cell names a point below 0
+///                     or, of a mesh with points, one that is missing.
+///
+/// O(m log d) for at most d cells at a point; 32 bytes per cell beside the result.
 std::vector<std::array<Index, 4>> cell_neighbors(const TetMesh& mesh);
 
 /// Cells around each point, in increasing order: those of point n are
@@ -60,22 +81,37 @@ std::vector<std::array<Index, 4>> cell_neighbors(const TetMesh& mesh);
 struct PointCells {
   std::vector<std::int64_t> start;
   std::vector<Index> cells;
-  std::span<const Index> of(Index point) const {
+  /// The cells around a point.
+  std::span<const Index> of(Index point) const noexcept {
     const auto begin = start[static_cast<std::size_t>(point)];
     return {cells.data() + begin,
             static_cast<std::size_t>(start[static_cast<std::size_t>(point) + 1] - begin)};
   }
 };
+
+/// Lists the cells around each point.
+/// @param mesh  n points, m cells; indices in range.
+/// @throws nothing
+///
+/// O(n + m); 16 bytes per cell and point.
 PointCells point_cells(const TetMesh& mesh);
 
-/// What is wrong with a mesh that should fill the box; empty when nothing is.
+/// Names the first flaw of a mesh that should fill the box; empty if there is none.
 ///
 /// Checked: indices in range, finite coordinates, every point used, certified positive cells,
 /// faces shared by two cells or lying in one box plane, total volume equal to the box's to
-/// 1e-12 relative. Conforming and filling follow from these together.
+/// 1e-12 relative. Together they imply that the mesh conforms and fills the box.
+///
+/// @param mesh  m cells, mm.
+/// @param box   mm.
+/// @throws nothing
+///
+/// O(m log d), memory as cell_neighbors().
 std::string find_flaw(const TetMesh& mesh, const Box& box);
 
-/// @throws NumericalError  with find_flaw's words, if there is a flaw.
+/// Checks that a mesh fills the box. O(m), see find_flaw().
+/// @param mesh, box  mm.
+/// @throws NumericalError  with the flaw that find_flaw() names, if there is one.
 void validate(const TetMesh& mesh, const Box& box);
 
 }  // namespace mesamis

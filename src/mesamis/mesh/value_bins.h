@@ -16,9 +16,12 @@ struct ValueBins {
   std::vector<Index> of_value;  ///< each value's bin, 0 to n - 1
 };
 
-/// @param values       at least one, finite. The bins go from the least to the greatest exactly.
-/// @param count        n, at least 1.
-/// @throws InputError  otherwise.
+/// Sorts values into bins of equal width from the least value to the greatest.
+/// @param values       m >= 1 values of any unit, finite.
+/// @param count        n >= 1 bins.
+/// @throws InputError  if there is no value or no bin, or a value is not finite.
+///
+/// O(m log n).
 ValueBins equal_bins(std::span<const double> values, int count);
 
 }  // namespace mesamis

@@ -115,7 +115,7 @@ std::span<const double> BallShape::qualities(const Vertex& vertex) {
                      own * m.zy + other * k.zy[i], own * m.zz + other * k.zz[i]};
       const Vec3 p = k.a[i] - vertex.position, q = k.b[i] - vertex.position,
                  r = k.c[i] - vertex.position;
-      result[i] = quality3(l, p, q, r, certified_in_any_order(p, q, r));
+      result[i] = quality3(l, {p, q, r}, certified_in_any_order(p, q, r));
     }
     std::copy(result.begin(), result.end(),
               qualities_.begin() + static_cast<std::ptrdiff_t>(n * kLanes));

@@ -14,7 +14,7 @@ struct CollapseRule {
   double quality3_loss = 0.3;               ///< or lose no more than this factor
 };
 
-/// Collapses short edges of cells not yet looked at, shortest first, onto one of their ends.
+/// Collapses short edges of pending cells, shortest first, onto one of their ends.
 /// @return the number of collapses.
 std::int64_t collapse_short_edges(Workbench& bench, const CollapseRule& rule);
 

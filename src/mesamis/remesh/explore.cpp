@@ -117,7 +117,7 @@ std::int64_t explore_once(Workbench& bench, const SplitRule& rule) {
     if (edges[i] < 0 || mesh.cells[cells[i]].points != points[i]) continue;
     if (mesh.cell_count() >= rule.most_cells) break;
     const auto& [a, b] = kCellEdges[edges[i]];
-    splits += split_edge(bench, cells[i], {points[i][a], points[i][b]}, rule, true);
+    splits += split_edge(bench, {cells[i], points[i][a], points[i][b], true}, rule);
   }
   return splits;
 }

@@ -8,8 +8,8 @@
 
 namespace mesamis::remeshing {
 
-/// Splits cells that look right at their vertices but hold much finer metric inside, which no
-/// vertex has met yet: thin features in a coarse mesh.
+/// Splits cells that fit the metric at their vertices but not inside, where it is much finer: thin
+/// features in a coarse mesh.
 ///
 /// About 2^18 probes are spread over the box by volume, each cell of some size getting its
 /// share; a cell whose probes ask for many cells is halved until a vertex sees the feature.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -56,19 +57,19 @@ inline double length(const Vertex& a, const Vertex& b) {
   return (2 * std::sqrt(std::sqrt(la2 * lb2)) + arithmetic) / 3;
 }
 
-/// Cube of the mean ratio of a cell with edges p, q, r from one corner in the metric with factor
-/// L: 432 d^2 det M / S^3 with d six times the volume and S the sum of the squared edge lengths; no
-/// roots are needed. 1 for a regular cell.
-inline double quality3(const Factor& l, const Vec3& p, const Vec3& q, const Vec3& r,
-                       double six_volume) {
-  const Vec3 mp = in_metric(l, p), mq = in_metric(l, q), mr = in_metric(l, r);
+/// Cube of the mean ratio of a cell in the metric with factor L: 432 d^2 det M / S^3 with d six
+/// times the volume and S the sum of the squared edge lengths; no roots are needed. 1 for a regular
+/// cell.
+/// @param edges  the three from one corner.
+inline double quality3(const Factor& l, const std::array<Vec3, 3>& edges, double six_volume) {
+  const Vec3 mp = in_metric(l, edges[0]), mq = in_metric(l, edges[1]), mr = in_metric(l, edges[2]);
   const Vec3 sum = mp + mq + mr;
   const double squares = 4 * (dot(mp, mp) + dot(mq, mq) + dot(mr, mr)) - dot(sum, sum);
   const double metric_volume = six_volume * (l.xx * l.yy * l.zz);
   return 432 * metric_volume * metric_volume / (squares * squares * squares);
 }
 
-/// The same in the metric of the finest corner; 0 for a cell that is not certified positive.
+/// The cube in the metric of the finest corner; 0 for a cell that is not certified positive.
 inline double quality3(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) {
   const double six_volume = certified_six_volume(a.position, b.position, c.position, d.position);
   if (six_volume <= 0) return 0;
@@ -76,8 +77,9 @@ inline double quality3(const Vertex& a, const Vertex& b, const Vertex& c, const 
   for (const Vertex* other : {&b, &c, &d}) {
     if (other->density > finest->density) finest = other;
   }
-  return quality3(widen(finest->metric), b.position - a.position, c.position - a.position,
-                  d.position - a.position, six_volume);
+  return quality3(widen(finest->metric),
+                  {b.position - a.position, c.position - a.position, d.position - a.position},
+                  six_volume);
 }
 
 inline double quality3(const WorkingMesh& mesh, const Cell& cell) {
@@ -96,7 +98,7 @@ inline void measure(Vertex& vertex, const MetricSampler& sampler, Index hint) {
 /// Cells below this are not made by swaps and moves: their energy would drown all others.
 inline constexpr double kTinyQuality3 = 1e-30;
 
-/// What swaps and moves lower, summed over cells: 0 for a regular cell.
+/// The energy of a cell, whose sum swaps and moves lower: 0 for a regular cell.
 inline double energy(double quality3) { return 1 / std::max(quality3, kTinyQuality3) - 1; }
 
 }  // namespace mesamis::remeshing

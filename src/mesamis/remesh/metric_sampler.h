@@ -17,8 +17,8 @@ inline double density(const MetricFactor& l) {
   return static_cast<double>(l.xx) * static_cast<double>(l.yy) * static_cast<double>(l.zz);
 }
 
-/// Asks a field and makes the answer safe: sizes beyond what the box and double precision can
-/// use are clamped, so that no operation meets an overflow or an indefinite metric.
+/// Evaluates a field and clamps its sizes to a range that suits the box and double precision, so
+/// that no operation meets an overflow or an indefinite metric.
 class MetricSampler {
  public:
   MetricSampler(const MetricField& field, const Box& box);

@@ -289,24 +289,21 @@ WorkingMesh join(const WorkingMesh& mesh, const Cut& cut, std::vector<Part>& par
 
 }  // namespace
 
-Counters work_on_parts(WorkingMesh& mesh, int round, Index parts,
-                       const std::function<Counters(WorkingMesh&)>& work,
-                       std::vector<double>* seconds) {
-  const Cut cut = make_cut(mesh, round, parts);
-  std::vector<Part> pieces(static_cast<std::size_t>(parts));
-  std::vector<double> spent(pieces.size());
-  parallel_for_each(pieces.size(), [&](std::size_t p) {
+PartsReport work_on_parts(WorkingMesh& mesh, const PartSchedule& schedule,
+                          const std::function<Counters(WorkingMesh&)>& work) {
+  const Cut cut = make_cut(mesh, schedule.round, schedule.parts);
+  std::vector<Part> parts(static_cast<std::size_t>(schedule.parts));
+  PartsReport report{{}, std::vector<double>(parts.size())};
+  parallel_for_each(parts.size(), [&](std::size_t p) {
     Stopwatch watch;
-    pieces[p] = extract(mesh, cut, static_cast<Index>(p));
-    pieces[p].counters = work(pieces[p].mesh);
-    compact(pieces[p].mesh);
-    spent[p] = watch.lap();
+    parts[p] = extract(mesh, cut, static_cast<Index>(p));
+    parts[p].counters = work(parts[p].mesh);
+    compact(parts[p].mesh);
+    report.seconds[p] = watch.lap();
   });
-  mesh = join(mesh, cut, pieces);
-  if (seconds != nullptr) *seconds = std::move(spent);
-  Counters sum;
-  for (const Part& part : pieces) sum += part.counters;
-  return sum;
+  mesh = join(mesh, cut, parts);
+  for (const Part& part : parts) report.counters += part.counters;
+  return report;
 }
 
 }  // namespace mesamis::remeshing

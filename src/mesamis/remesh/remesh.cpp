@@ -21,7 +21,9 @@ namespace {
 
 using namespace remeshing;
 
-constexpr double kCellsPerComplexity = 9;
+/// The least that kCellsPerComplexity was found to be: a metric is made coarser beforehand only
+/// where even so few cells are too many.
+constexpr double kFewestCellsPerComplexity = 9;
 
 /// Shares of the vertices that a round makes or removes.
 constexpr double kMany = 0.2, kSome = 0.05, kFew = 0.02, kHardlyAny = 0.004;
@@ -198,9 +200,11 @@ class Remesher {
       return work(bench);
     };
     if (parts >= 2) {
-      // Parts put themselves in order; only unused slots are in their way.
+      // Each part is compacted after its work; before it only unused slots must go.
       if (!mesh_.free_cells.empty() || !mesh_.free_vertices.empty()) compact(mesh_);
-      return work_on_parts(mesh_, round, parts, work_on_mesh, &report_.part_seconds.emplace_back());
+      PartsReport done = work_on_parts(mesh_, {round, parts}, work_on_mesh);
+      report_.part_seconds.push_back(std::move(done.seconds));
+      return done.counters;
     }
     const Counters done = work_on_mesh(mesh_);
     keep_compact();
@@ -216,7 +220,7 @@ class Remesher {
   }
 
   void choose_size_factor() {
-    const double predicted = kCellsPerComplexity * probe_complexity(sampler_, mesh_.box);
+    const double predicted = kFewestCellsPerComplexity * probe_complexity(sampler_, mesh_.box);
     if (options_.max_cells > 0) {
       const double ratio = predicted / static_cast<double>(options_.max_cells);
       set_size_factor(std::max(1.0, std::cbrt(ratio)));

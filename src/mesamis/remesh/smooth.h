@@ -13,7 +13,7 @@ struct SmoothRule {
   double quality3_loss = 0.3;   ///< no cell may fall below this share of the worst before
 };
 
-/// Moves vertices of bad cells not yet looked at towards where their cells would be ideal.
+/// Moves vertices of bad pending cells towards where their cells would be ideal.
 /// @return the number of moves.
 std::int64_t smooth_bad_cells(Workbench& bench, const SmoothRule& rule);
 

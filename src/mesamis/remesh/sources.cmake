@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-set(ROOM_HEADERS remesh.h)
+set(ROOM_HEADERS
+  adapt_mesh.h
+  remesh.h)
 set(ROOM_SOURCES
+  adapt_mesh.cpp
   ball_shape.cpp
   cavity.cpp
   collapse.cpp

@@ -42,21 +42,20 @@ Index make_middle(Workbench& bench, Index a, Index b) {
   return v;
 }
 
-bool keeps_distance(const Workbench& bench, std::array<Index, 2> edge, Index v, double distance) {
+bool keeps_distance(const Workbench& bench, const SplitEdge& edge, Index v, double distance) {
   const auto& vertices = bench.mesh.vertices;
   auto is_far = [&](Index other) { return length(vertices[other], vertices[v]) >= distance; };
   const auto ring = bench.cavity.ring();
-  return is_far(edge[0]) && is_far(edge[1]) && std::all_of(ring.begin(), ring.end(), is_far);
+  return is_far(edge.a) && is_far(edge.b) && std::all_of(ring.begin(), ring.end(), is_far);
 }
 
 /// Proposes both halves of every cell around the edge. @return whether they are good enough.
-bool propose_halves(Workbench& bench, std::array<Index, 2> edge, Index v, const SplitRule& rule,
-                    bool urgent) {
+bool propose_halves(Workbench& bench, const SplitEdge& edge, Index v, const SplitRule& rule) {
   bench.cavity.clear();
   double before = 1, after = 1;
   for (const Index c : bench.cavity.shell()) {
     before = std::min(before, double{bench.mesh.cells[c].quality3});
-    for (const Index end : edge) {
+    for (const Index end : {edge.a, edge.b}) {
       Cell half = bench.mesh.cells[c].points;
       half[local_index(half, end)] = v;
       const double q = quality3(bench.mesh, half);
@@ -65,21 +64,19 @@ bool propose_halves(Workbench& bench, std::array<Index, 2> edge, Index v, const 
       bench.cavity.propose(half, q);
     }
   }
-  return urgent || after >= rule.quality3_min || after >= rule.quality3_loss * before;
+  return edge.urgent || after >= rule.quality3_min || after >= rule.quality3_loss * before;
 }
 
 }  // namespace
 
-bool split_edge(Workbench& bench, Index cell, std::array<Index, 2> edge, const SplitRule& rule,
-                bool urgent) {
+bool split_edge(Workbench& bench, const SplitEdge& edge, const SplitRule& rule) {
   WorkingMesh& mesh = bench.mesh;
-  const auto [a, b] = edge;
-  if (mesh.vertices[a].mask & mesh.vertices[b].mask & kFrozen) return false;
-  if (!bench.cavity.find_shell(cell, a, b)) return false;
-  const Index v = make_middle(bench, a, b);
+  if (mesh.vertices[edge.a].mask & mesh.vertices[edge.b].mask & kFrozen) return false;
+  if (!bench.cavity.find_shell(edge.cell, edge.a, edge.b)) return false;
+  const Index v = make_middle(bench, edge.a, edge.b);
   const bool placed = planes_of(mesh.box, mesh.vertices[v].position) == mesh.vertices[v].mask;
-  if (!placed || (!urgent && !keeps_distance(bench, edge, v, rule.new_length_min)) ||
-      !propose_halves(bench, edge, v, rule, urgent)) {
+  if (!placed || (!edge.urgent && !keeps_distance(bench, edge, v, rule.new_length_min)) ||
+      !propose_halves(bench, edge, v, rule)) {
     mesh.free_vertex(v);
     return false;
   }
@@ -94,8 +91,8 @@ std::int64_t split_long_edges(Workbench& bench, const SplitRule& rule) {
     if (edge.is_same_edge(last) || edge.is_gone(bench.mesh)) continue;
     if (bench.mesh.cell_count() >= rule.most_cells) break;
     last = edge;
-    splits +=
-        split_edge(bench, edge.cell, {edge.a, edge.b}, rule, edge.length > rule.urgent_length);
+    const bool urgent = edge.length > rule.urgent_length;
+    splits += split_edge(bench, {edge.cell, edge.a, edge.b, urgent}, rule);
   }
   return splits;
 }

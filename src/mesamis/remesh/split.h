@@ -16,12 +16,18 @@ struct SplitRule {
   std::int64_t most_cells = kMostCells;  ///< no split once there are as many
 };
 
-/// Splits long edges of cells not yet looked at, longest first, at their middle in the metric.
+/// Splits long edges of pending cells, longest first, at their middle in the metric.
 /// @return the number of splits.
 std::int64_t split_long_edges(Workbench& bench, const SplitRule& rule);
 
-/// Splits one edge of a cell if the rule allows; an urgent split needs to be valid only.
-bool split_edge(Workbench& bench, Index cell, std::array<Index, 2> edge, const SplitRule& rule,
-                bool urgent);
+/// The edge (a, b) of a cell, to be split.
+struct SplitEdge {
+  Index cell, a, b;
+  bool urgent = false;  ///< the new cells need to be valid only
+};
+
+/// Splits one edge at its middle in the metric if the rule allows.
+/// @return whether it was split.
+bool split_edge(Workbench& bench, const SplitEdge& edge, const SplitRule& rule);
 
 }  // namespace mesamis::remeshing

@@ -12,7 +12,7 @@ struct SwapRule {
   double gain = 0.05;          ///< energy that a swap must save
 };
 
-/// For each bad cell not yet looked at, makes the best of the swaps around it: removing one of
+/// For each bad pending cell, makes the best of the swaps around it: removing one of
 /// its edges, or turning the face to a neighbour into an edge.
 /// @return the number of swaps.
 std::int64_t swap_bad_cells(Workbench& bench, const SwapRule& rule);

@@ -11,7 +11,7 @@
 
 namespace mesamis::remeshing {
 
-/// A set of vertices that is emptied in no time.
+/// A set of vertices that is cleared in O(1).
 class VertexSet {
  public:
   void clear() { ++epoch_; }
@@ -29,7 +29,7 @@ class VertexSet {
   std::uint64_t epoch_ = 1;
 };
 
-/// What the operations need at hand while they work on a mesh.
+/// The mesh, the metric and the scratch memory that all operations share.
 struct Workbench {
   Workbench(WorkingMesh& m, const MetricSampler& s) : mesh(m), sampler(s), cavity(m) {}
   WorkingMesh& mesh;

@@ -9,7 +9,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/remesh/metric_sampler.h"
 
-/// The remesher's own view of a mesh: what changes fast, close together in memory.
+/// The remesher's own mesh: data that changes often lies close together in memory.
 namespace mesamis::remeshing {
 
 /// Bits of Vertex::mask: the box planes x_lo x_hi y_lo y_hi z_lo z_hi that hold the vertex.
@@ -17,7 +17,7 @@ inline constexpr std::uint8_t kPlanes = 0x3f;
 /// The vertex is shared with another part and must not change now.
 inline constexpr std::uint8_t kFrozen = 0x80;
 
-/// Bits of WorkCell::pending: the operations that have not looked at the cell since it was made.
+/// Bits of WorkCell::pending: the operations that have not tried the cell since it was made.
 inline constexpr std::uint8_t kToSplit = 1, kToCollapse = 2, kToSwap = 4, kToSmooth = 8,
                               kToExplore = 16, kToRepair = 32, kToAll = 63;
 
@@ -35,7 +35,7 @@ using FaceRef = Index;
 inline constexpr Index cell_of(FaceRef face) { return face >> 2; }
 inline constexpr int face_of(FaceRef face) { return face & 3; }
 inline constexpr FaceRef face_ref(Index cell, int face) { return 4 * cell + face; }
-/// What a FaceRef can number.
+/// The most cells that a FaceRef can number.
 inline constexpr std::int64_t kMostCells = (std::int64_t{1} << 29) - 1;
 
 struct WorkCell {
@@ -77,8 +77,8 @@ struct WorkingMesh {
 /// The planes of the box that hold p exactly.
 std::uint8_t planes_of(const Box& box, const Vec3& p);
 
-/// Has the operation still to look at this cell? It is looked at now, and ticked off; cells at a
-/// frozen vertex stay on the list, since not all could be tried there.
+/// Whether the operation has not tried this cell since it was made; clears the cell's bit. Cells at
+/// a frozen vertex keep the bit, since not every operation is possible there.
 bool take_pending(WorkingMesh& mesh, Index cell, std::uint8_t operation);
 
 /// Puts every cell on the lists of the operations given.

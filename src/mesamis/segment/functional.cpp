@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/segment/functional.h"
 
+#include <cmath>
+#include <string>
+
+#include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 
 namespace mesamis {
@@ -16,24 +20,38 @@ double node_sum(const P1Space& space, Weight&& weight) {
   });
 }
 
+void require_positive(const char* name, double value) {
+  if (!(value > 0) || !std::isfinite(value)) {
+    throw InputError(std::string(name) + ": expected a finite number above 0, found " +
+                     std::to_string(value));
+  }
+}
+
 }  // namespace
 
-Energy energy(const P1Space& space, const AtParameters& parameters, std::span<const double> u,
-              std::span<const double> v, std::span<const double> f) {
+void require_valid(const AtParameters& parameters) {
+  require_positive("epsilon", parameters.epsilon);
+  require_positive("eta", parameters.eta);
+  require_positive("beta", parameters.beta);
+  require_positive("gamma", parameters.gamma);
+}
+
+Energy energy(const P1Space& space, const AtParameters& parameters, const AtFields& fields) {
   const auto& [epsilon, eta, beta, gamma] = parameters;
+  const auto [u, v, f] = fields;
   const std::vector<double>& mass = space.lumped_mass();
   // Summed by node: int P_h(w) |grad z|^2 = sum_n w_n s_n with s = gradient_squares(z).
   const std::vector<double> u_squares = space.gradient_squares(u);
   const std::vector<double> v_squares = space.gradient_squares(v);
   Energy e;
-  e.fidelity = node_sum(space, [&](std::size_t n) {
+  e.fidelity = node_sum(space, [&, u = u, f = f](std::size_t n) {
     const double d = u[n] - f[n];
     return mass[n] * d * d;
   });
-  e.smoothing = beta * node_sum(space, [&, h = eta](std::size_t n) {
+  e.smoothing = beta * node_sum(space, [&, v = v, h = eta](std::size_t n) {
                   return (v[n] * v[n] + h) * u_squares[n];
                 });
-  e.edge = gamma * node_sum(space, [&, eps = epsilon](std::size_t n) {
+  e.edge = gamma * node_sum(space, [&, v = v, eps = epsilon](std::size_t n) {
              const double d = v[n] - 1;
              return eps * v_squares[n] + mass[n] * d * d / (4 * eps);
            });

@@ -16,16 +16,33 @@ struct AtParameters {
   double gamma = 0.1;     ///< price of edges, > 0; grey value squared times length
 };
 
-/// The three parts of the discrete functional (4).
+/// Checks the parameters.
+/// @throws InputError  unless all are finite and positive, naming the first that is not.
+void require_valid(const AtParameters& parameters);
+
+/// The fields of the functional on one mesh, one value per node each. They refer to the caller's
+/// values.
+struct AtFields {
+  std::span<const double> u;  ///< denoised image, grey values
+  std::span<const double> v;  ///< edge indicator: 0 at edges, 1 away from them
+  std::span<const double> f;  ///< the image, grey values
+};
+
+/// The three parts of the discrete functional (4); grey value squared times volume.
 struct Energy {
   double fidelity = 0;   ///< int P_h((u - f)^2)
   double smoothing = 0;  ///< beta int (P_h(v^2) + eta) |grad u|^2
   double edge = 0;       ///< gamma int (eps |grad v|^2 + P_h((v - 1)^2) / (4 eps))
-  double total() const { return fidelity + smoothing + edge; }
+  /// The functional itself, grey value squared times volume.
+  double total() const noexcept { return fidelity + smoothing + edge; }
 };
 
-/// @param u, v, f  one value per node of the space.
-Energy energy(const P1Space& space, const AtParameters& parameters, std::span<const double> u,
-              std::span<const double> v, std::span<const double> f);
+/// Evaluates the discrete functional (4). Source: paper, sec. 2.
+/// @param fields  n values each, n the nodes of the space.
+/// @return grey value squared times volume; volumes in the mesh's own unit.
+/// @throws nothing
+///
+/// O(n). Summed in blocks: the same bits for any number of threads.
+Energy energy(const P1Space& space, const AtParameters& parameters, const AtFields& fields);
 
 }  // namespace mesamis

@@ -6,13 +6,16 @@
 
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/distance.h"
+#include "mesamis/surface/sampling.h"
 #include "mesamis/surface/unused_points.h"
 
 namespace mesamis {
 namespace {
 
-constexpr double kFits = 0.02;  // what is nearer than this share of the diagonal lies in place
-constexpr double kPlain = 0.2;  // what is farther has hardly anything in common
+// Shares of the longer diagonal: boxes nearer than the first fit, boxes farther than the second
+// have hardly anything in common.
+constexpr double kFits = 0.02;
+constexpr double kPlain = 0.2;
 constexpr double kBetterBox = 0.5;
 constexpr double kNearer = 0.25;
 constexpr double kOnIt = 0.05;     // of the diagonal
@@ -98,7 +101,7 @@ AxisFlip best_flip_of_boxes(const FlipFound& found) {
 
 }  // namespace
 
-Vec3 AxisFlip::operator()(const Vec3& p) const {
+Vec3 AxisFlip::operator()(const Vec3& p) const noexcept {
   return {sign[0] * p[axis[0]], sign[1] * p[axis[1]], sign[2] * p[axis[2]]};
 }
 

@@ -11,6 +11,7 @@
 
 namespace mesamis {
 
+/// Whether two boxes share a point; touching counts.
 inline bool overlap(const Box& a, const Box& b) {
   return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y &&
          a.lo.z <= b.hi.z && b.lo.z <= a.hi.z;
@@ -20,9 +21,10 @@ inline bool overlap(const Box& a, const Box& b) {
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
 inline constexpr Box kNoBox{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 
-/// A hierarchy over boxes that may change: who overlaps a box?
+/// A bounding volume hierarchy over boxes that may change; finds the boxes that overlap another.
 class BoxTree {
  public:
+  /// O(n log n) for n boxes.
   explicit BoxTree(std::span<const Box> boxes);
 
   /// Gives item i another box. O(log n); the hierarchy itself stays.

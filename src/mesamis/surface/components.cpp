@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "mesamis/surface/edge_sides.h"
+#include "mesamis/surface/half_edges.h"
 #include "mesamis/surface/measure.h"
 
 namespace mesamis {
@@ -54,8 +54,8 @@ void sort_by_volume(SurfaceComponents& components) {
 
 SurfaceComponents find_components(const TriMesh& surface) {
   require_sound(surface);
-  const auto sides = sorted_edge_sides(surface.triangles, surface.points.size());
-  DisjointSets parts = connected_triangles(sides, surface.triangles.size());
+  const auto half_edges = sorted_half_edges(surface.triangles, surface.points.size());
+  DisjointSets parts = connected_triangles(half_edges, surface.triangles.size());
   SurfaceComponents components = number_parts(surface, parts);
   sort_by_volume(components);
   return components;

@@ -18,11 +18,19 @@ struct SurfaceComponents {
   std::vector<Index> of_triangle;  ///< index into sizes; kNoIndex for a degenerate triangle
 };
 
-/// @throws InputError  as require_sound. O(n log n).
+/// Finds the components of a surface and measures them.
+/// @param surface      n triangles, mm.
+/// @throws InputError  as require_sound().
+///
+/// O(n log n).
 SurfaceComponents find_components(const TriMesh& surface);
 
-/// One surface per component, in the order of find_components. Points that belong to none are
-/// left out, points that belong to several are repeated.
+/// Makes one surface per component, in the order of find_components(). Points of no component are
+/// left out, points of several are repeated.
+/// @param surface      n triangles, mm.
+/// @throws InputError  as require_sound().
+///
+/// O(n log n).
 std::vector<TriMesh> split_components(const TriMesh& surface);
 
 }  // namespace mesamis

@@ -6,8 +6,8 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/surface/disjoint_sets.h"
-#include "mesamis/surface/edge_sides.h"
 #include "mesamis/surface/extract.h"
+#include "mesamis/surface/half_edges.h"
 
 namespace mesamis {
 namespace {
@@ -113,12 +113,12 @@ TriMesh split_fans(const Skin& skin, const std::vector<Vec3>& nodes) {
 /// @return for each side its new point or kNoIndex.
 std::vector<Index> add_middles(const Skin& skin, TriMesh& surface) {
   std::vector<Index> middles(skin.opposite.size(), kNoIndex);
-  const auto sides = sorted_edge_sides(surface.triangles, surface.points.size());
-  for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
+  const auto half_edges = sorted_half_edges(surface.triangles, surface.points.size());
+  for_each_edge(half_edges, [&](std::span<const HalfEdge> edge) {
     if (edge.size() == 2) return;
     const Vec3 middle = 0.5 * (surface.points[edge[0].lo] + surface.points[edge[0].hi]);
     bool first = true;
-    for (const EdgeSide& s : edge) {
+    for (const HalfEdge& s : edge) {
       if (!s.forward) continue;  // one side of each pair is forward
       if (!first) {
         const std::size_t side = s.corner_at_lo();

@@ -7,6 +7,7 @@
 
 namespace mesamis {
 
+/// The corners of a triangle of a surface, mm.
 inline Corners corners_of(const TriMesh& surface, const Triangle& t) {
   return {surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]};
 }
@@ -14,13 +15,13 @@ inline Corners corners_of(const TriMesh& surface, const Triangle& t) {
 /// A bound exceeds the true value by this factor at most.
 inline constexpr double kDistanceSlack = 1.004;
 
-/// When to stop looking, mm.
+/// When a search for the farthest point may stop, mm.
 struct Enough {
-  double below;  ///< > 0; what is nearer is not looked at any closer
-  double above = std::numeric_limits<double>::infinity();  ///< farther is far enough
+  double below;  ///< > 0; pieces nearer than this are not cut further
+  double above = std::numeric_limits<double>::infinity();  ///< a farther point ends the search
 };
 
-/// How far is any point of the triangle from the surface in the tree?
+/// The greatest distance of any point of the triangle from the surface in the tree.
 /// @param hint  see TriangleTree.
 /// @return enough.below, or an upper bound above it that exceeds the true value by kDistanceSlack
 ///         at most, or a distance above enough.above that occurs.

@@ -6,20 +6,23 @@
 /// What one triangle adds to the measures of its surface.
 namespace mesamis {
 
-/// Twice the area, along the outward normal.
-inline Vec3 area_vector(const TriMesh& surface, std::size_t t) {
+/// The vector along the outward normal with twice the area as its length, mm^2.
+/// @param t  a triangle's index in range.
+inline Vec3 area_vector(const TriMesh& surface, std::size_t t) noexcept {
   const Triangle& k = surface.triangles[t];
   const Vec3& a = surface.points[k[0]];
   return cross(surface.points[k[1]] - a, surface.points[k[2]] - a);
 }
 
-inline double triangle_area(const TriMesh& surface, std::size_t t) {
+/// The area of triangle t, mm^2.
+inline double triangle_area(const TriMesh& surface, std::size_t t) noexcept {
   return 0.5 * norm(area_vector(surface, t));
 }
 
-/// Volume of the cone from the surface's first point: near the surface, so that little is lost to
+/// The signed volume of the cone over triangle t, mm^3; over a closed surface the cones add up to
+/// its volume. The apex is the surface's first point: near the surface, so that little is lost to
 /// round-off when it lies far from the origin.
-inline double cone_volume(const TriMesh& surface, std::size_t t) {
+inline double cone_volume(const TriMesh& surface, std::size_t t) noexcept {
   const Vec3& base = surface.points[surface.triangles[t][0]];
   return dot(base - surface.points[0], area_vector(surface, t)) / 6;
 }

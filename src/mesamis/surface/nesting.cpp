@@ -10,10 +10,10 @@
 namespace mesamis {
 namespace {
 
-/// Whether the ray's foot lies left of the edge from a to b, all seen along x. A foot on the edge
-/// is thought moved by a hair in y, and by far less in z, so that a ray through an edge or a point
-/// crosses what a ray beside it would. Both triangles of an edge take it from its lower end, and
-/// get the same answer.
+/// Whether the ray's foot lies left of the edge from a to b, seen along x. Symbolic perturbation: a
+/// foot on the edge counts as moved by an infinitesimal step in y, and an even smaller one in z, so
+/// that a ray through an edge or a point crosses the triangles that a ray beside it crosses. Both
+/// triangles of an edge start from its lower point and get the same result.
 bool is_left(const TriMesh& surface, Index a, Index b, const Vec3& foot) {
   const bool swapped = a > b;
   if (swapped) std::swap(a, b);

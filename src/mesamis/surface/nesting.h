@@ -14,7 +14,8 @@ struct Nesting {
                               ///< the wall of a cavity
 };
 
-/// By the parity of a ray's crossings; rays that meet edges and points are counted right.
+/// Finds the nesting by the parity of a ray's crossings; rays that meet edges
+/// and points are counted correctly.
 /// @param surface     closed, without self-intersections.
 /// @param components  of the surface.
 Nesting find_nesting(const TriMesh& surface, const SurfaceComponents& components);

@@ -7,9 +7,12 @@
 
 namespace mesamis {
 
-/// Unit normals at the points, pointing outward: the mean of the triangles' around each point,
-/// weighted by area. Zero where there is no triangle or they cancel out.
-/// @throws InputError  as require_sound. O(n).
+/// Outward normals at the points: the means of the triangles' normals, weighted by area.
+/// @param surface      n points, m triangles, mm.
+/// @return n vectors of length 1 (no unit); zero where there is no triangle or they cancel out.
+/// @throws InputError  as require_sound().
+///
+/// O(n + m).
 std::vector<Vec3> vertex_normals(const TriMesh& surface);
 
 }  // namespace mesamis

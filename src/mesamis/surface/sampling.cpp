@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/sampling.h"
+
+#include <array>
 #include <cmath>
+#include <string>
 
 #include "mesamis/base/error.h"
-#include "mesamis/surface/distance.h"
 #include "mesamis/surface/measure.h"
 
 namespace mesamis {
@@ -25,18 +28,22 @@ Vec3 place_in(const TriMesh& surface, std::size_t triangle, std::array<double, 2
   return a + st[0] * (surface.points[k[1]] - a) + st[1] * (surface.points[k[2]] - a);
 }
 
+/// Summed in the order of the triangles.
+double total_area(const TriMesh& surface) {
+  double total = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) total += triangle_area(surface, t);
+  if (total > 0 && std::isfinite(total)) return total;
+  throw InputError("sampling: expected a surface with a finite area, found " +
+                   std::to_string(total));
+}
+
 }  // namespace
 
 std::vector<Vec3> sample_by_area(const TriMesh& surface, std::size_t count) {
   require_sound(surface);
   std::vector<Vec3> samples;
   if (count == 0) return samples;
-  double total = 0;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) total += triangle_area(surface, t);
-  if (!(total > 0) || !std::isfinite(total)) {
-    throw InputError("sampling: expected a surface with a finite area, found " +
-                     std::to_string(total));
-  }
+  const double total = total_area(surface);
   samples.reserve(count);
   double passed = 0;  // area of the triangles before and including t
   for (std::size_t t = 0; t < surface.triangles.size() && samples.size() < count; ++t) {
@@ -46,6 +53,23 @@ std::vector<Vec3> sample_by_area(const TriMesh& surface, std::size_t count) {
            (static_cast<double>(samples.size()) + 0.5) * (total / static_cast<double>(count)) <
                passed) {
       samples.push_back(place_in(surface, t, low_discrepancy(samples.size())));
+    }
+  }
+  return samples;
+}
+
+std::vector<TriangleSample> sample_triangles_by_area(const TriMesh& surface, double scale) {
+  require_sound(surface);
+  const std::size_t count = surface.triangles.size();
+  const double share = total_area(surface) / static_cast<double>(count);
+  std::vector<TriangleSample> samples;
+  double unsampled = 0;  // area since the last sample
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto& [a, b, c] = surface.triangles[t];
+    for (unsampled += triangle_area(surface, t); unsampled >= share; unsampled -= share) {
+      const Vec3 normal = area_vector(surface, t);
+      samples.push_back({(scale / 3) * (surface.points[a] + surface.points[b] + surface.points[c]),
+                         (1 / norm(normal)) * normal});
     }
   }
   return samples;

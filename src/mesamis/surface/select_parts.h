@@ -7,23 +7,27 @@
 
 namespace mesamis {
 
-/// Which parts of a closed surface to keep. What lies within a part that goes, goes with it.
+/// Which parts of a closed surface to keep. A part inside a part that is removed is removed too.
 struct PartSelection {
-  double volume_min = 0;          ///< mm^3; smaller islands go, smaller cavities are filled
-  std::int64_t keep_largest = 0;  ///< islands beyond so many, by the volume of their skin; 0: all
+  double volume_min = 0;          ///< mm^3; removes smaller islands, fills smaller cavities
+  std::int64_t keep_largest = 0;  ///< so many islands, by the volume of their skin; 0: all
   bool fill_cavities = false;     ///< every cavity is filled
 };
 
+/// What select_parts() found and removed.
 struct SelectionReport {
-  std::int64_t islands = 0, cavities = 0;                 ///< there were
+  std::int64_t islands = 0, cavities = 0;                 ///< before
   std::int64_t islands_dropped = 0, cavities_filled = 0;  ///< of them
   double volume_dropped = 0, volume_filled = 0;           ///< mm^3, each skin's whole volume
 };
 
-/// @param surface  closed and manifold.
+/// Removes islands and fills cavities of a closed surface.
+/// @param surface  n triangles, mm; closed and manifold.
 /// @param report   optional.
 /// @return the triangles kept and their points, in their order.
 /// @throws InputError  if the surface is not closed or not manifold.
+///
+/// O(n log n).
 TriMesh select_parts(const TriMesh& surface, const PartSelection& selection,
                      SelectionReport* report = nullptr);
 

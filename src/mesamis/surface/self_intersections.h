@@ -8,13 +8,15 @@
 
 namespace mesamis {
 
-/// Pairs of triangles that share a point of space other than a common corner or side; a triangle
-/// without area is paired with itself. Points are told apart by their index: two that only lie
-/// at the same place touch, and touching counts.
+/// Finds the pairs of triangles that share a point of space other than a common corner or side.
 ///
-/// Exact: rounding decides nothing, see exact_predicates.h.
+/// A triangle without area is paired with itself. Points are distinguished by their index: two
+/// points at the same place touch, and touching counts. Exact: the result does not depend on
+/// rounding, see exact_predicates.h.
+///
+/// @param surface  n triangles.
 /// @return each pair once, the smaller index first, in ascending order.
-/// @throws InputError  as require_sound.
+/// @throws InputError  as require_sound().
 ///
 /// O(n log n) for a surface that rarely meets itself.
 std::vector<std::array<Index, 2>> find_self_intersections(const TriMesh& surface);

@@ -1,37 +1,37 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   axis_flip.h
-  beneath.h
   components.h
-  decimate.h
+  depth_maximum.h
   distance.h
   extract.h
-  implicit_surface.h
   measure.h
   normals.h
-  round_to_single.h
+  sampling.h
   select_parts.h
   self_intersections.h
   tri_mesh.h
   unused_points.h)
+# For the rooms above alone: not installed.
+set(ROOM_INNER_HEADERS
+  box_tree.h
+  farthest.h
+  half_edges.h
+  triangle_intersection.h
+  triangle_tree.h)
 set(ROOM_SOURCES
   axis_flip.cpp
-  beneath.cpp
   box_tree.cpp
-  collapse_rules.cpp
   components.cpp
-  decimate.cpp
-  decimate_pass.cpp
+  depth_maximum.cpp
   distance.cpp
-  edge_sides.cpp
   exact_predicates.cpp
   extract_band.cpp
   extract_solid.cpp
   farthest.cpp
-  implicit_surface.cpp
+  half_edges.cpp
   nesting.cpp
   normals.cpp
-  round_to_single.cpp
   sampling.cpp
   select_parts.cpp
   self_intersections.cpp

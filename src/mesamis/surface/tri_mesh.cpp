@@ -10,14 +10,14 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/disjoint_sets.h"
-#include "mesamis/surface/edge_sides.h"
+#include "mesamis/surface/half_edges.h"
 #include "mesamis/surface/measure.h"
 
 namespace mesamis {
 namespace {
 
-void count_edges(std::span<const EdgeSide> sides, SurfaceCheck& check) {
-  for_each_edge(sides, [&check](std::span<const EdgeSide> edge) {
+void count_edges(std::span<const HalfEdge> half_edges, SurfaceCheck& check) {
+  for_each_edge(half_edges, [&check](std::span<const HalfEdge> edge) {
     if (edge.size() == 1) ++check.open_edges;
     if (edge.size() == 2 && edge[0].forward == edge[1].forward) ++check.misoriented_edges;
     if (edge.size() > 2) ++check.nonmanifold_edges;
@@ -25,12 +25,13 @@ void count_edges(std::span<const EdgeSide> sides, SurfaceCheck& check) {
 }
 
 /// Triangles around a point belong to one fan if one can walk from each to each across edges.
-std::int64_t count_nonmanifold_points(const TriMesh& surface, std::span<const EdgeSide> sides) {
+std::int64_t count_nonmanifold_points(const TriMesh& surface,
+                                      std::span<const HalfEdge> half_edges) {
   DisjointSets fans(3 * surface.triangles.size());
-  for_each_edge(sides, [&fans](std::span<const EdgeSide> edge) {
-    for (const EdgeSide& side : edge.subspan(1)) {
-      fans.unite(edge[0].corner_at_lo(), side.corner_at_lo());
-      fans.unite(edge[0].corner_at_hi(), side.corner_at_hi());
+  for_each_edge(half_edges, [&fans](std::span<const HalfEdge> edge) {
+    for (const HalfEdge& h : edge.subspan(1)) {
+      fans.unite(edge[0].corner_at_lo(), h.corner_at_lo());
+      fans.unite(edge[0].corner_at_hi(), h.corner_at_hi());
     }
   });
   std::vector<Index> fan_count(surface.points.size(), 0);
@@ -43,8 +44,8 @@ std::int64_t count_nonmanifold_points(const TriMesh& surface, std::span<const Ed
   return std::count_if(fan_count.begin(), fan_count.end(), [](Index n) { return n > 1; });
 }
 
-std::int64_t count_components(const TriMesh& surface, std::span<const EdgeSide> sides) {
-  DisjointSets parts = connected_triangles(sides, surface.triangles.size());
+std::int64_t count_components(const TriMesh& surface, std::span<const HalfEdge> half_edges) {
+  DisjointSets parts = connected_triangles(half_edges, surface.triangles.size());
   std::int64_t count = 0;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     count += parts.find(t) == t && !is_degenerate(surface.triangles[t]);
@@ -84,10 +85,10 @@ SurfaceCheck check_surface(const TriMesh& surface) {
   SurfaceCheck check;
   check.degenerate_triangles =
       std::count_if(surface.triangles.begin(), surface.triangles.end(), is_degenerate);
-  const auto sides = sorted_edge_sides(surface.triangles, surface.points.size());
-  count_edges(sides, check);
-  check.nonmanifold_points = count_nonmanifold_points(surface, sides);
-  check.components = count_components(surface, sides);
+  const auto half_edges = sorted_half_edges(surface.triangles, surface.points.size());
+  count_edges(half_edges, check);
+  check.nonmanifold_points = count_nonmanifold_points(surface, half_edges);
+  check.components = count_components(surface, half_edges);
   check.volume = sum_over_triangles(surface, cone_volume);
   check.area = sum_over_triangles(surface, triangle_area);
   return check;

@@ -10,6 +10,7 @@
 
 namespace mesamis {
 
+/// Three point indices.
 using Triangle = std::array<Index, 3>;
 
 /// A triangle surface; seen from outside the object, triangles turn counter-clockwise.
@@ -18,10 +19,11 @@ struct TriMesh {
   std::vector<Triangle> triangles;
 };
 
+/// Checks indices and coordinates of a surface. O(n + m) for n points and m triangles.
 /// @throws InputError  if a triangle names a missing point or a coordinate is not finite.
 void require_sound(const TriMesh& surface);
 
-/// What a printer, or a solver, would stumble over. Triangles with a repeated index are counted
+/// Flaws that stop a printer or a solver, and measures. Triangles with a repeated index are counted
 /// as degenerate and left out of all other counts.
 struct SurfaceCheck {
   std::int64_t open_edges = 0;            ///< edges with one triangle
@@ -33,22 +35,29 @@ struct SurfaceCheck {
   double volume = 0;                      ///< mm^3, signed: positive when oriented outward
   double area = 0;                        ///< mm^2
 
-  /// For an open surface the volume says nothing.
-  bool closed() const { return open_edges == 0; }
+  /// Every edge has two triangles or more; the volume of an open surface means nothing.
+  bool closed() const noexcept { return open_edges == 0; }
   /// Every edge joins two triangles (one on a rim), every point has one fan, orientation agrees.
-  bool manifold() const {
+  bool manifold() const noexcept {
     return nonmanifold_edges == 0 && nonmanifold_points == 0 && misoriented_edges == 0 &&
            degenerate_triangles == 0;
   }
 };
 
-/// @throws InputError  as require_sound. O(n log n).
+/// Counts the flaws of a surface and measures it.
+/// @throws InputError  as require_sound().
+///
+/// O(n log n) for n triangles; about 90 bytes per triangle. The same bits for any number of
+/// threads.
 SurfaceCheck check_surface(const TriMesh& surface);
 
 /// Why a surface is not closed or not a 2-manifold, as "3 open edges, 1 points ..."; "" if it is.
+/// @throws nothing
 std::string flaws_of(const SurfaceCheck& check);
 
-/// The same for a surface that bounds a solid: it must face outward, too.
+/// Why a surface does not bound a solid: the flaws of flaws_of(), or a volume that is not positive;
+/// "" if it does.
+/// @throws nothing
 std::string solid_flaws_of(const SurfaceCheck& check);
 
 }  // namespace mesamis

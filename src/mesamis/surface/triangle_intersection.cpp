@@ -39,7 +39,12 @@ bool between(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
          std::min(a[t], b[t]) <= c[t] && c[t] <= std::max(a[t], b[t]);
 }
 
-bool plane_segments_meet(int axis, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+using Segment = std::array<Vec3, 2>;
+
+/// Two closed segments in one plane.
+bool plane_segments_meet(int axis, const Segment& s, const Segment& t) {
+  const auto& [a, b] = s;
+  const auto& [c, d] = t;
   const int abc = orientation_along(axis, a, b, c), abd = orientation_along(axis, a, b, d);
   const int cda = orientation_along(axis, c, d, a), cdb = orientation_along(axis, c, d, b);
   if (abc * abd < 0 && cda * cdb < 0) return true;
@@ -50,7 +55,7 @@ bool plane_segments_meet(int axis, const Vec3& a, const Vec3& b, const Vec3& c, 
 bool plane_segment_meets(int axis, const Vec3& p, const Vec3& q, const Corners& t) {
   if (plane_point_in(axis, p, t)) return true;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (plane_segments_meet(axis, p, q, t[i], t[(i + 1) % 3])) return true;
+    if (plane_segments_meet(axis, {p, q}, {t[i], t[(i + 1) % 3]})) return true;
   }
   return false;
 }

@@ -13,7 +13,7 @@ using Corners = std::array<Vec3, 3>;
 /// Squared distance from p to the triangle.
 double squared_distance(const Vec3& p, const Corners& triangle);
 
-/// A bounding volume hierarchy over triangles: who is nearest to a point?
+/// A bounding volume hierarchy over triangles; finds the nearest one to a point.
 class TriangleTree {
  public:
   /// @param surface  sound, at least one triangle.

@@ -1,0 +1,251 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes the tables of README.md and docs/results.md from fresh runs on real scans.
+
+    bench/tables.py --scans FOLDER                     every scan that FOLDER holds
+    bench/tables.py --scan pelvis=ct.nii.gz            one scan, wherever it is
+    bench/tables.py --scans FOLDER --only results      one of the two pages
+    bench/tables.py --list                             the scans and where FOLDER has them
+
+A table stands between <!-- table:NAME --> and <!-- /table:NAME -->. A row is replaced if its scan is
+there; the other rows stay as they are, with a note on stderr. Under each table the script names the
+command, and the last column names the version and the commit of the program that made the row.
+One run at a time, with default settings. Times mean something only on a machine without other work.
+--folder keeps surfaces and reports and does not repeat a run whose report is there. `mesamis` is the one
+in build/release, or that of the variable MESAMIS.
+"""
+import argparse
+import os
+import pathlib
+import sys
+import tempfile
+
+from mesamis_runs import once
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+# Name: first cell of its row, place in FOLDER.
+SCANS = {
+    "pelvis": ("pelvis CT, 3 mm", "pelvis_ts/ct.nii.gz"),
+    "trabecular": ("trabecular bone, micro-CT", "trabecular_microct/ct.nrrd"),
+    "head": ("head CT", "cranium_inv/ct.nrrd"),
+    "mouse": ("mouse, micro-CT", "mouse_skull/ct_A_J.nii.gz"),
+    "spine": ("thoracic spine CT", "thoracic_spine_ts/ct.nii.gz"),
+    "abdomen": ("abdominal CT, DICOM, JPEG 2000", "dicom_ct_j2k"),
+    "skull": ("skull phantom CT", "skull_phantom/ct_soft_1mm.nrrd"),
+    "template": ("", "mouse_skull/ct_template.nii.gz"),
+}
+README_SCANS = ("pelvis", "head", "skull")
+SIZE_SCANS = ("pelvis", "trabecular", "head", "mouse", "spine", "abdomen", "skull")
+
+# First cell of the row: scan, its reference in FOLDER (labels, or a surface), options of segment.
+DISTANCES = {
+    "pelvis CT, bone labels (voxel 3 mm)": ("pelvis", "pelvis_ts/bone.nii.gz", []),
+    "mouse template, bone label (voxel 0.141 mm)": ("template", "mouse_skull/bone.nii.gz", []),
+    "head CT, InVesalius (voxel 0.96 x 0.96 x 1.5 mm)":
+        ("head", "cranium_inv/surface_invesalius.ply.gz", ["--level", "226"]),
+}
+
+SEGMENT = "`mesamis segment SCAN -o ours.ply --mesh ours.vtu --report report.json`"
+BASELINE = "`mesamis baseline SCAN --level LEVEL_OF_THE_REPORT -o cubes.ply`"
+NOTES = {
+    "readme-scans": f"`bench/tables.py` writes this table. It runs {SEGMENT} and, for the triangles "
+                    f"of marching cubes, {BASELINE}.",
+    "results-sizes": f"`bench/tables.py` writes this table. It runs {SEGMENT}.",
+    "results-distances": "`bench/tables.py` writes this table with the commands above.",
+}
+
+
+def note(text):
+    print(f"tables: {text}", file=sys.stderr, flush=True)
+
+
+class Runs:
+    """Runs mesamis on the scans that are there, each command once."""
+
+    def __init__(self, folder, scans, places):
+        self.folder, self.scans, self.places = folder, scans, places
+
+    def scan(self, name):
+        """The scan's file or folder, or None."""
+        path = self.places.get(name)
+        if path is None and self.scans:
+            path = self.scans / SCANS[name][1]
+        return path if path and path.exists() else None
+
+    def reference(self, place):
+        """The reference as a surface, or None; labels become one by marching cubes."""
+        path = self.scans / place if self.scans else None
+        if not path or not path.exists():
+            return None
+        if ".ply" in path.suffixes:
+            return path
+        surface = self.folder / (path.parent.name + ".reference.ply")
+        once(surface.with_suffix(".json"), "baseline", path, "--level", 0.5, "-o", surface)
+        return surface
+
+    def segment(self, name, options=()):
+        """Report and surface of a run."""
+        stem = "".join([name, *options])
+        surface = self.folder / f"{stem}.ply"
+        if not surface.with_suffix(".json").exists():
+            note(f"segmenting {self.scan(name)} {' '.join(options)}".rstrip())
+        return once(surface.with_suffix(".json"), "--quiet", "segment", self.scan(name), *options,
+                    "-o", surface, "--mesh", surface.with_suffix(".vtu")), surface
+
+    def cubes(self, name, level):
+        """Report and surface of marching cubes at a level."""
+        surface = self.folder / f"{name}.{level:g}.cubes.ply"
+        return once(surface.with_suffix(".json"), "baseline", self.scan(name), "--level", level,
+                    "-o", surface), surface
+
+    def distances(self, reference, surface):
+        """Mean distances by area: reference to surface, and back."""
+        report = once(surface.with_suffix(".compare.json"), "compare", reference, surface)
+        return [report[d]["by_area"]["mean"]
+                for d in ("reference_to_surface", "surface_to_reference")]
+
+
+def count(n):
+    return f"{n:,}".replace(",", " ")
+
+
+def distance(mm):
+    return f"{mm:.2f}" if mm >= 0.1 else f"{mm:.3f}"
+
+
+def share(x):
+    return f"{x:.2f}".lstrip("0")
+
+
+def duration(seconds):
+    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.1f} min"
+
+
+def version(report):
+    return f"{report['program']['version']} ({report['program']['commit']})"
+
+
+def readme_row(runs, name):
+    report, _ = runs.segment(name)
+    cubes, _ = runs.cubes(name, report["surface"]["level_native"])
+    millions = 1e-6
+    for n in report["input"]["size"]:
+        millions *= n
+    return [f"{millions:.1f} million" if millions < 10 else f"{millions:.0f} million",
+            duration(report["seconds"]), f"{report['peak_memory_mb'] / 1000:.1f} GB",
+            count(report["mesh"]["tets"]), count(report["surface"]["triangles"]),
+            count(cubes["surface"]["triangles"]), version(report)]
+
+
+def size_row(runs, name):
+    report, _ = runs.segment(name)
+    mesh, surface = report["mesh"], report["surface"]
+    return [" x ".join(map(str, report["input"]["size"])), f"{report['seconds']:.0f}",
+            f"{report['peak_memory_mb']:.0f}", count(mesh["tets"]),
+            count(surface["triangles_extracted"]), count(surface["triangles"]),
+            f"{100 * mesh['edge_unit_fraction']:.1f} %",
+            f"{share(mesh['quality_min'])} / {share(mesh['quality_mean'])}", version(report)]
+
+
+def distance_row(runs, name, reference, options):
+    report, ours = runs.segment(name, options)
+    cubes_report, cubes = runs.cubes(name, report["surface"]["level_native"])
+    return [*map(distance, runs.distances(reference, ours)), count(report["surface"]["triangles"]),
+            *map(distance, runs.distances(reference, cubes)),
+            count(cubes_report["surface"]["triangles"]), version(report)]
+
+
+def scan_rows(runs, names, row):
+    """First cell and further cells of each scan that is there."""
+    rows = {}
+    for name in names:
+        if runs.scan(name):
+            rows[SCANS[name][0]] = row(runs, name)
+        else:
+            note(f"{SCANS[name][0]}: no scan, the old row stays")
+    return rows
+
+
+def distance_rows(runs):
+    rows = {}
+    for title, (name, place, options) in DISTANCES.items():
+        reference = runs.reference(place) if runs.scan(name) else None
+        if reference:
+            rows[title] = distance_row(runs, name, reference, options)
+        else:
+            note(f"{title}: no scan or no reference, the old row stays")
+    return rows
+
+
+def with_rows(text, name, rows):
+    """The page with these rows in one of its tables, and the note under it."""
+    begin, end = f"<!-- table:{name} -->\n", f"<!-- /table:{name} -->"
+    start = text.index(begin) + len(begin)
+    stop = text.index(end, start)
+    header, rule, *old = [line for line in text[start:stop].splitlines() if line.startswith("|")]
+    lines = [header, rule]
+    for line in old:
+        title = line.split("|")[1].strip()
+        new = [title, *rows.pop(title)] if title in rows else None
+        lines.append("| " + " | ".join(new) + " |" if new else line)
+        if lines[-1].count("|") != header.count("|"):
+            sys.exit(f"tables: {name}: {title}: the row does not fit the header")
+    if rows:
+        sys.exit(f"tables: {name}: no row is called {', '.join(rows)}")
+    return text[:start] + "\n".join([*lines, "", NOTES[name], ""]) + text[stop:]
+
+
+def rewrite(page, tables):
+    text = page.read_text()
+    for name, rows in tables.items():
+        text = with_rows(text, name, rows)
+    page.write_text(text)
+
+
+def places_of(parser, entries):
+    """NAME=PATH entries as a dictionary."""
+    places = {}
+    for entry in entries:
+        name, _, path = entry.partition("=")
+        if name not in SCANS or not pathlib.Path(path).exists():
+            parser.error(f"--scan: expected NAME=PATH of an existing scan, found {entry}; "
+                         f"names: {', '.join(SCANS)}")
+        places[name] = pathlib.Path(path)
+    return places
+
+
+def arguments_of(parser):
+    parser.add_argument("--scans", type=pathlib.Path, metavar="FOLDER")
+    parser.add_argument("--scan", action="append", default=[], metavar="NAME=PATH")
+    parser.add_argument("--only", choices=["README", "results"])
+    parser.add_argument("--folder", type=pathlib.Path, help="keeps surfaces and reports")
+    parser.add_argument("--list", action="store_true", help="names the scans")
+    return parser.parse_args()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments = arguments_of(parser)
+    if arguments.list:
+        for name, (_, place) in SCANS.items():
+            print(f"{name:12}{place}")
+        return
+    places = places_of(parser, arguments.scan)
+    load = os.getloadavg()[0]
+    if load > 0.5:
+        note(f"the machine has other work (load {load:.1f}): times will be too long")
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = arguments.folder or pathlib.Path(temporary)
+        folder.mkdir(parents=True, exist_ok=True)
+        runs = Runs(folder, arguments.scans, places)
+        if arguments.only != "results":
+            rewrite(ROOT / "README.md", {"readme-scans": scan_rows(runs, README_SCANS, readme_row)})
+        if arguments.only != "README":
+            rewrite(ROOT / "docs/results.md",
+                    {"results-sizes": scan_rows(runs, SIZE_SCANS, size_row),
+                     "results-distances": distance_rows(runs)})
+
+
+if __name__ == "__main__":
+    main()

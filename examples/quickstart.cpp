@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Quickstart: from a span of voxels to an STL. The voxels are read where they lie.
+//
+//   quickstart [SURFACE.stl]
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <vector>
+
+#include "mesamis/method/mes_amis.h"
+#include "mesamis/shape_files/surface_files.h"
+
+namespace {
+
+/// Stands for your own data: a bright ball of 8 voxels in a dark cube of 24, x fastest.
+std::vector<float> make_voxels() {
+  std::vector<float> voxels;
+  for (int k = 0; k < 24; ++k) {
+    for (int j = 0; j < 24; ++j) {
+      for (int i = 0; i < 24; ++i) {
+        const double r = std::hypot(i - 11.5, j - 11.5, k - 11.5);
+        voxels.push_back(r < 8 ? 1000.F : 0.F);
+      }
+    }
+  }
+  return voxels;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+  const std::vector<float> voxels = make_voxels();
+
+  mesamis::VolumeView scan;
+  scan.size = {24, 24, 24};
+  scan.spacing = {0.5, 0.5, 0.5};  // mm
+  scan.samples = voxels;           // any std::span<const float>
+
+  const mesamis::Result result = mesamis::mes_amis(scan, mesamis::Settings{});
+  mesamis::write_surface(count > 1 ? arguments[1] : "quickstart.stl", result.surface);
+  const bool closed = mesamis::check_surface(result.surface).closed();
+  std::printf("%zu triangles, %s\n", result.surface.triangles.size(), closed ? "closed" : "open");
+  return closed ? 0 : 1;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "quickstart: %s\n", error.what());
+  return 1;
+}

@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: Apache-2.0
+set(ROOM_HEADERS
+  baseline_surface.h
+  geodesic_contour.h
+  isosurface.h)
+set(ROOM_SOURCES
+  baseline_surface.cpp
+  geodesic_contour.cpp
+  isosurface.cpp
+  itk_absent.cpp
+  itk_level_set.cpp)

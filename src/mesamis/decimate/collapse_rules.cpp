@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/decimate/collapse_rules.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/surface/triangle_intersection.h"
+
+namespace mesamis {
+namespace {
+
+/// Height over longest side: a collapse may not make a triangle flatter than this and than the
+/// flattest one it starts from.
+constexpr double kFlattest = 0.01;
+
+Star star_of(const HalfedgeMesh& mesh, const CollapseInfo& collapse) {
+  Star star;
+  for (auto f = mesh.cvf_iter(collapse.v0); f.is_valid(); ++f) {
+    if (*f == collapse.fl || *f == collapse.fr) continue;
+    star.faces.push_back(*f);
+    Triangle t = corner_indices(mesh, *f);
+    star.before.push_back(t);
+    std::replace(t.begin(), t.end(), Index{collapse.v0.idx()}, Index{collapse.v1.idx()});
+    star.after.push_back(t);
+  }
+  return star;
+}
+
+/// Height over longest side, squared.
+double flatness(const std::vector<Vec3>& p, const Triangle& t) {
+  const Vec3 a = p[t[1]] - p[t[0]], b = p[t[2]] - p[t[1]], c = p[t[0]] - p[t[2]];
+  const double longest = std::max({dot(a, a), dot(b, b), dot(c, c)});
+  const Vec3 n = cross(a, b);
+  return longest > 0 ? dot(n, n) / (longest * longest) : 0;
+}
+
+}  // namespace
+
+float ModFlatness::collapse_priority(const CollapseInfo& collapse) {
+  const Star star = star_of(mesh(), collapse);
+  double least = kFlattest * kFlattest;
+  for (const Triangle& t : star.before) least = std::min(least, flatness(*points_, t));
+  for (const Triangle& t : star.after) {
+    if (flatness(*points_, t) < least || !has_area(*points_, t)) return ILLEGAL_COLLAPSE;
+  }
+  return LEGAL_COLLAPSE;
+}
+
+void ModHausdorff::set_task(const DecimateTask& task) {
+  task_ = &task;
+  if (std::isinf(task.tolerance)) return;
+  hint_.assign(task.surface.points.size(), 0);
+  of_face_.resize(task.surface.triangles.size());
+  for (std::size_t t = 0; t < of_face_.size(); ++t) of_face_[t] = {static_cast<Index>(t)};
+}
+
+float ModHausdorff::collapse_priority(const CollapseInfo& collapse) {
+  if (std::isinf(task_->tolerance)) return LEGAL_COLLAPSE;
+  const Star star = star_of(mesh(), collapse);
+  const bool near = removed_is_near(collapse, star) && old_are_near(collapse, star) &&
+                    new_are_near(collapse, star);
+  return near ? LEGAL_COLLAPSE : ILLEGAL_COLLAPSE;
+}
+
+void ModHausdorff::preprocess_collapse(const CollapseInfo& collapse) {
+  if (std::isinf(task_->tolerance)) return;
+  waiting_ = listed_around(collapse);
+  for (auto f = mesh().cvf_iter(collapse.v0); f.is_valid(); ++f) of_face_[index(*f)].clear();
+  star_ = star_of(mesh(), collapse);
+}
+
+void ModHausdorff::postprocess_collapse(const CollapseInfo&) {
+  if (std::isinf(task_->tolerance)) return;
+  for (const Index t : waiting_) {
+    const Corners c = original(t);
+    for (const Vec3& p : {c[0], c[1], c[2], (1.0 / 3) * (c[0] + c[1] + c[2])}) list(t, p);
+  }
+}
+
+/// The originals listed around the point to be removed, each once.
+std::vector<Index> ModHausdorff::listed_around(const CollapseInfo& collapse) {
+  std::vector<Index> all;
+  for (auto f = mesh().cvf_iter(collapse.v0); f.is_valid(); ++f) {
+    all.insert(all.end(), of_face_[index(*f)].begin(), of_face_[index(*f)].end());
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/// Lists t with the new triangle that is nearest to p.
+void ModHausdorff::list(Index t, const Vec3& p) {
+  std::size_t nearest = 0;
+  double least = kFar;
+  for (std::size_t i = 0; i < star_.after.size(); ++i) {
+    const double d = squared_distance(p, shape(star_.after[i]));
+    if (d >= least) continue;
+    least = d;
+    nearest = i;
+  }
+  std::vector<Index>& own = of_face_[index(star_.faces[nearest])];
+  if (own.empty() || own.back() != t) own.push_back(t);
+}
+
+/// The cheapest test.
+bool ModHausdorff::removed_is_near(const CollapseInfo& collapse, const Star& star) const {
+  const Vec3& p = task_->surface.points[index(collapse.v0)];
+  return std::any_of(star.after.begin(), star.after.end(), [&](const Triangle& t) {
+    return squared_distance(p, shape(t)) <= task_->tolerance * task_->tolerance;
+  });
+}
+
+/// The most expensive test, which hardly ever refuses what passed the others.
+bool ModHausdorff::new_are_near(const CollapseInfo& collapse, const Star& star) {
+  std::size_t& hint = hint_[index(collapse.v0)];
+  return std::all_of(star.after.begin(), star.after.end(), [&](const Triangle& t) {
+    return farthest_distance(shape(t), task_->tree, enough(), hint) <= task_->tolerance;
+  });
+}
+
+bool ModHausdorff::old_are_near(const CollapseInfo& collapse, const Star& star) {
+  std::vector<Index> open = listed_around(collapse);
+  std::erase_if(open, [&](Index t) { return is_near_one(original(t), star.after); });
+  if (open.empty()) return true;
+  const TriangleTree after(surroundings(collapse, star));
+  std::size_t hint = 0;
+  return std::all_of(open.begin(), open.end(), [&](Index t) {
+    return farthest_distance(original(t), after, enough(), hint) <= task_->tolerance;
+  });
+}
+
+/// Whether the whole triangle is near one of the others. The distance to one triangle is convex:
+/// its maximum is at a corner. Most triangles pass here and need no search.
+bool ModHausdorff::is_near_one(const Corners& triangle, const std::vector<Triangle>& others) const {
+  const double most = task_->tolerance * task_->tolerance;
+  return std::any_of(others.begin(), others.end(), [&](const Triangle& t) {
+    const Corners other = shape(t);
+    return std::all_of(triangle.begin(), triangle.end(),
+                       [&](const Vec3& p) { return squared_distance(p, other) <= most; });
+  });
+}
+
+/// The triangles after the collapse, those of the ring's other points included.
+TriMesh ModHausdorff::surroundings(const CollapseInfo& collapse, const Star& star) {
+  std::vector<Triangle> triangles = star.after;
+  for (auto v = mesh().cvv_iter(collapse.v0); v.is_valid(); ++v) {
+    for (auto f = mesh().cvf_iter(*v); f.is_valid(); ++f) {
+      const Triangle t = corner_indices(mesh(), *f);
+      if (std::find(t.begin(), t.end(), collapse.v0.idx()) == t.end()) triangles.push_back(t);
+    }
+  }
+  TriMesh local;
+  for (const Triangle& t : triangles) {
+    const auto first = static_cast<Index>(local.points.size());
+    for (const Vec3& p : shape(t)) local.points.push_back(p);
+    local.triangles.push_back({first, first + 1, first + 2});
+  }
+  return local;
+}
+
+void ModIntersection::set_surface(const TriMesh& surface) {
+  points_ = &surface.points;
+  std::vector<Box> boxes;
+  for (const Triangle& t : surface.triangles) boxes.push_back(box(t));
+  tree_ = std::make_unique<BoxTree>(boxes);
+}
+
+float ModIntersection::collapse_priority(const CollapseInfo& collapse) {
+  const Star star = star_of(mesh(), collapse);
+  for (std::size_t i = 0; i < star.after.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (intersect(*points_, star.after[i], star.after[j])) return ILLEGAL_COLLAPSE;
+    }
+  }
+  for (const Triangle& t : star.after) {
+    if (meets_others(t, collapse, star)) return ILLEGAL_COLLAPSE;
+  }
+  return LEGAL_COLLAPSE;
+}
+
+void ModIntersection::postprocess_collapse(const CollapseInfo& collapse) {
+  tree_->update(index(collapse.fl), kNoBox);
+  tree_->update(index(collapse.fr), kNoBox);
+  for (auto f = mesh().cvf_iter(collapse.v1); f.is_valid(); ++f) {
+    tree_->update(index(*f), box(corner_indices(mesh(), *f)));
+  }
+}
+
+Box ModIntersection::box(const Triangle& t) const {
+  return bounding_box(Corners{(*points_)[t[0]], (*points_)[t[1]], (*points_)[t[2]]});
+}
+
+bool ModIntersection::meets_others(const Triangle& t, const CollapseInfo& collapse,
+                                   const Star& star) {
+  bool met = false;
+  tree_->for_each_overlap(box(t), [&](std::size_t other) {
+    const OpenMesh::FaceHandle f(static_cast<int>(other));
+    const bool changes = f == collapse.fl || f == collapse.fr ||
+                         std::find(star.faces.begin(), star.faces.end(), f) != star.faces.end();
+    met = !changes && intersect(*points_, t, corner_indices(mesh(), f));
+    return !met;
+  });
+  return met;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <OpenMesh/Tools/Decimater/ModBaseT.hh>
+#include <memory>
+#include <vector>
+
+#include "mesamis/decimate/decimate_pass.h"
+#include "mesamis/decimate/openmesh.h"
+#include "mesamis/surface/box_tree.h"
+#include "mesamis/surface/farthest.h"
+
+/// The rules that forbid a collapse, as binary modules of OpenMesh's decimater. Their tests read
+/// the original's points and the connectivity, and write only the data of the point to be removed:
+/// collapses that share no triangle may be tested at once, in threads.
+namespace mesamis {
+
+using CollapseInfo = OpenMesh::Decimater::CollapseInfoT<HalfedgeMesh>;
+using CollapseRule = OpenMesh::Decimater::ModBaseT<HalfedgeMesh>;
+
+/// The triangles around the point to be removed, but for the two that a collapse removes.
+struct Star {
+  std::vector<OpenMesh::FaceHandle> faces;
+  std::vector<Triangle> before, after;
+};
+
+/// Refuses triangles that are nearly degenerate.
+class ModFlatness : public CollapseRule {
+ public:
+  explicit ModFlatness(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}
+  void set_surface(const TriMesh& surface) { points_ = &surface.points; }
+  float collapse_priority(const CollapseInfo& collapse) override;
+
+ private:
+  const std::vector<Vec3>* points_ = nullptr;
+};
+
+/// Hausdorff distance in both directions, over whole triangles: of the new ones to the original,
+/// and of the original ones near them to the new. Each original triangle is listed with the new
+/// ones that are nearest to its corners and its centroid; decimate() checks the rest of it
+/// afterwards.
+///
+/// OpenMesh's own ModHausdorff measures the second direction only, at points only, and accepts any
+/// distance to a triangle without area.
+class ModHausdorff : public CollapseRule {
+ public:
+  explicit ModHausdorff(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}
+  void set_task(const DecimateTask& task);
+  float collapse_priority(const CollapseInfo& collapse) override;
+  void preprocess_collapse(const CollapseInfo& collapse) override;
+  void postprocess_collapse(const CollapseInfo& collapse) override;
+
+ private:
+  Corners shape(const Triangle& t) const { return corners_of(task_->surface, t); }
+  Corners original(Index t) const { return shape(task_->surface.triangles[t]); }
+  Enough enough() const { return {task_->tolerance, task_->tolerance}; }
+
+  std::vector<Index> listed_around(const CollapseInfo& collapse);
+  void list(Index t, const Vec3& p);
+  bool removed_is_near(const CollapseInfo& collapse, const Star& star) const;
+  bool new_are_near(const CollapseInfo& collapse, const Star& star);
+  bool old_are_near(const CollapseInfo& collapse, const Star& star);
+  bool is_near_one(const Corners& triangle, const std::vector<Triangle>& others) const;
+  TriMesh surroundings(const CollapseInfo& collapse, const Star& star);
+
+  const DecimateTask* task_ = nullptr;
+  std::vector<std::vector<Index>> of_face_;
+  std::vector<Index> waiting_;
+  Star star_;
+  std::vector<std::size_t> hint_;  // of each point, where the last search for its triangles ended
+};
+
+/// Refuses triangles that intersect others.
+class ModIntersection : public CollapseRule {
+ public:
+  explicit ModIntersection(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}
+  void set_surface(const TriMesh& surface);
+  float collapse_priority(const CollapseInfo& collapse) override;
+  void postprocess_collapse(const CollapseInfo& collapse) override;
+
+ private:
+  Box box(const Triangle& t) const;
+  bool meets_others(const Triangle& t, const CollapseInfo& collapse, const Star& star);
+
+  const std::vector<Vec3>* points_ = nullptr;
+  std::unique_ptr<BoxTree> tree_;
+};
+
+}  // namespace mesamis

@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: Apache-2.0
+# The only room that includes OpenMesh.
+set(ROOM_HEADERS
+  decimate.h
+  round_to_single.h)
+set(ROOM_SOURCES
+  collapse_rules.cpp
+  decimate.cpp
+  decimate_pass.cpp
+  round_to_single.cpp)

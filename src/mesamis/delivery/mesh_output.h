@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mesamis/method/mes_amis.h"
+#include "mesamis/shape_files/mesh_files.h"
+
+namespace mesamis {
+
+enum class MeshRegion { kBox, kObject };
+
+struct MeshOptions {
+  MeshRegion region = MeshRegion::kBox;
+  int bins = 10;  ///< 1 to kMostBins
+};
+inline constexpr int kMostBins = 999;
+
+/// Cells whose native value lies in a range.
+struct MeshBin {
+  double low = 0, high = 0;  ///< native units
+  std::int64_t cells = 0;
+  double volume = 0;       ///< mm^3
+  double native_mean = 0;  ///< by volume; 0 for an empty bin
+};
+
+/// The mesh of a run as it is written: a region of it, its fields, its cells in bins.
+struct MeshOutput {
+  MeshOptions options;
+  double level_native = 0;  ///< the object is where u is above it
+  MeshWithArrays grid;      ///< as docs/formats.md lists them
+  std::vector<MeshBin> bins;
+  CellSets sets;                ///< of the bins
+  double volume = 0;            ///< mm^3
+  std::int64_t components = 0;  ///< connected by faces
+};
+
+/// Collects a region of a run's mesh with its fields, and sorts its cells into bins of equal width
+/// by their mean native value.
+/// @param result   of mes_amis().
+/// @param volume   the scan the result is of, native units.
+/// @param options  the region, and the number of bins.
+/// @throws InputError  if no cell belongs to the object, or there is no bin.
+///
+/// O(voxels + cells). Memory: a copy of the region and of its fields.
+MeshOutput make_mesh_output(const Result& result, const Volume& volume, const MeshOptions& options);
+
+/// Writes the mesh in the format of the extension, one of written_mesh_formats(); .vtu for any
+/// other extension. Each file appears whole or not at all. A .mesh goes with a .sol of the same
+/// name that holds its fields.
+/// @param frame  of the points, vectors and tensors in the file.
+/// @throws InputError  as write_vtu(), write_medit_mesh(), write_gmsh() or write_abaqus().
+///
+/// O(nodes + cells).
+void write_mesh(const std::filesystem::path& path, const MeshOutput& mesh, Frame frame);
+
+/// The extensions of write_mesh(), with their dots. O(1) time and memory.
+/// @throws nothing
+std::vector<std::string> written_mesh_formats();
+
+/// Writes the cells of the band alone with v as a .vtu: T_h^th and v_h^th.
+/// @param result  of mes_amis().
+/// @param frame   of the points in the file.
+/// @throws InputError  as write_vtu().
+///
+/// O(nodes + cells).
+void write_band_mesh(const std::filesystem::path& path, const Result& result, Frame frame);
+
+}  // namespace mesamis

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/files/xml.h"
+
+#include <expat.h>
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <new>
+#include <unordered_set>
+
+#include "mesamis/files/refuse.h"
+
+namespace mesamis::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kDeepest = 32;
+constexpr std::size_t kMostItems = 500'000;   // elements and attributes in the tree at once
+constexpr std::size_t kMostNames = 10'000;    // expat keeps each name until the end
+constexpr std::size_t kLongestTag = 1 << 20;  // expat holds an unfinished tag in memory
+constexpr std::size_t kChunk = 1 << 16;
+
+std::size_t items_in(const XmlElement& element) {
+  std::size_t items = 1 + element.attributes.size();
+  for (const XmlElement& child : element.children) items += items_in(child);
+  return items;
+}
+
+/// Builds the tree from expat's events. No exception may pass through expat, which is C: a handler
+/// keeps it and stops the parser.
+class XmlBuilder {
+ public:
+  XmlBuilder(const fs::path& file, std::string_view text, const XmlOptions& options)
+      : file_(file), text_(text), options_(options), parser_(XML_ParserCreate(nullptr)) {
+    if (!parser_) throw std::bad_alloc();
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(
+        parser_.get(),
+        [](void* self, const XML_Char* name, const XML_Char** attributes) {
+          guarded(self, [&](XmlBuilder& b) { b.begin_element(name, attributes); });
+        },
+        [](void* self, const XML_Char*) { guarded(self, [](XmlBuilder& b) { b.end_element(); }); });
+    XML_SetCharacterDataHandler(parser_.get(), [](void* self, const XML_Char* part, int size) {
+      guarded(self, [&](XmlBuilder& b) {
+        b.open_.back().text.append(part, static_cast<std::size_t>(size));
+      });
+    });
+    XML_SetStartDoctypeDeclHandler(parser_.get(), [](void* self, const XML_Char*, const XML_Char*,
+                                                     const XML_Char*, int has_subset) {
+      guarded(self, [&](XmlBuilder& b) { b.begin_doctype(has_subset != 0); });
+    });
+    XML_SetSkippedEntityHandler(parser_.get(), [](void* self, const XML_Char* name, int) {
+      guarded(self, [&](XmlBuilder& b) { b.refuse_entity(name); });
+    });
+  }
+
+  XmlDocument parse() {
+    for (std::size_t at = 0; at < text_.size() && !stopped_; at += kChunk) {
+      feed(text_.substr(at, kChunk), at + kChunk >= text_.size());
+      require_short_tag(std::min(at + kChunk, text_.size()));
+    }
+    if (text_.empty()) feed({}, true);
+    while (open_.size() > 1) close_element();
+    return {std::move(open_.front()), appended_};
+  }
+
+ private:
+  struct FreeParser {
+    void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
+  };
+
+  template <class Handler>
+  static void guarded(void* self, Handler handler) {
+    auto& builder = *static_cast<XmlBuilder*>(self);
+    if (builder.stopped_) return;
+    try {
+      handler(builder);
+    } catch (...) {
+      builder.error_ = std::current_exception();
+      builder.stop();
+    }
+  }
+
+  void stop() {
+    stopped_ = true;
+    XML_StopParser(parser_.get(), XML_FALSE);
+  }
+
+  [[noreturn]] void refuse_xml(const std::string& what) const {
+    refuse(file_, say("broken XML in line ", XML_GetCurrentLineNumber(parser_.get()), ": ", what));
+  }
+
+  void feed(std::string_view chunk, bool last) {
+    const XML_Status status =
+        XML_Parse(parser_.get(), chunk.data(), static_cast<int>(chunk.size()), last);
+    if (error_) std::rethrow_exception(error_);
+    if (stopped_ || status == XML_STATUS_OK) return;
+    const XML_Error code = XML_GetErrorCode(parser_.get());
+    if (code == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
+    refuse_xml(say("expected well-formed XML, found an error: ", XML_ErrorString(code)));
+  }
+
+  void require_short_tag(std::size_t fed) const {
+    const auto place = XML_GetCurrentByteIndex(parser_.get());
+    if (stopped_ || place < 0 || fed - static_cast<std::size_t>(place) <= kLongestTag) return;
+    refuse_xml(
+        say("expected a tag or comment of at most ", kLongestTag, " bytes, found a longer one"));
+  }
+
+  void begin_element(const XML_Char* name, const XML_Char** attributes) {
+    if (open_.size() == kDeepest) {
+      refuse_xml(say("expected at most ", kDeepest, " elements within one another, found more"));
+    }
+    XmlElement element;
+    element.name = name;
+    require_known(element.name);
+    for (; *attributes != nullptr; attributes += 2) {
+      element.attributes.emplace_back(attributes[0], attributes[1]);
+      require_known(element.attributes.back().first);
+    }
+    if (has_doctype_) refuse_entities_in_tag();
+    items_ += 1 + element.attributes.size();
+    if (items_ > kMostItems) {
+      refuse_xml(say("expected at most ", kMostItems, " elements and attributes, found more"));
+    }
+    (path_ += path_.empty() ? "" : "/") += element.name;
+    const bool is_end = options_.ends_at_appended_data && element.name == "AppendedData";
+    open_.push_back(std::move(element));
+    if (is_end) begin_appended_data();
+  }
+
+  /// Where a DTD is named but not read, expat drops an unknown entity in an attribute silently.
+  void refuse_entities_in_tag() const {
+    const auto begin = static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_.get()));
+    const auto size = static_cast<std::size_t>(XML_GetCurrentByteCount(parser_.get()));
+    const std::string_view tag = text_.substr(begin, size);
+    for (std::size_t at = 0; (at = tag.find('&', at)) != tag.npos; ++at) {
+      const std::string_view name = tag.substr(at + 1);
+      const bool is_known = name.starts_with('#') || name.starts_with("amp;") ||
+                            name.starts_with("lt;") || name.starts_with("gt;") ||
+                            name.starts_with("quot;") || name.starts_with("apos;");
+      if (!is_known)
+        refuse_entity(std::string(name.substr(0, name.find_first_of(";\"' "))).c_str());
+    }
+  }
+
+  void require_known(const std::string& name) {
+    if (names_.insert(name).second && names_.size() > kMostNames) {
+      refuse_xml(say("expected at most ", kMostNames, " different names, found more"));
+    }
+  }
+
+  void begin_appended_data() {
+    const auto tag = static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_.get()));
+    const auto size = static_cast<std::size_t>(XML_GetCurrentByteCount(parser_.get()));
+    const std::size_t mark = text_.find('_', tag + size);
+    if (mark == text_.npos) refuse_xml("expected the mark _ in <AppendedData>, found none");
+    appended_ = text_.substr(mark + 1);
+    stop();
+  }
+
+  void end_element() {
+    if (open_.size() > 1) close_element();  // the root stays
+  }
+
+  void close_element() {
+    XmlElement element = std::move(open_.back());
+    open_.pop_back();
+    XmlElement& parent = open_.back();
+    parent.text += ' ';
+    const bool consumed = options_.consume && options_.consume(element, path_);
+    path_.resize(path_.size() - element.name.size() - 1);
+    if (consumed) {
+      items_ -= items_in(element);
+    } else {
+      parent.children.push_back(std::move(element));
+    }
+  }
+
+  void begin_doctype(bool has_subset) {
+    has_doctype_ = true;
+    if (has_subset) refuse_xml("expected no declarations of entities, found a DTD that holds some");
+  }
+
+  void refuse_entity(const XML_Char* name) const {
+    refuse_xml(say("expected a character or one of XML's own entities, found ",
+                   in_quotes(say('&', name, ';'))));
+  }
+
+  const fs::path& file_;
+  std::string_view text_, appended_;
+  const XmlOptions& options_;
+  std::unique_ptr<XML_ParserStruct, FreeParser> parser_;
+  std::vector<XmlElement> open_;  // the root and the open elements within one another
+  std::string path_;              // of the innermost open element
+  std::unordered_set<std::string> names_;
+  std::size_t items_ = 0;
+  std::exception_ptr error_;
+  bool stopped_ = false, has_doctype_ = false;
+};
+
+/// The bytes of the UTF-8 character that begins the text; 0 if it is none that XML allows.
+std::size_t xml_character_size(std::string_view text) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80) {
+    const bool allowed = first >= 0x20 || first == '\t' || first == '\n' || first == '\r';
+    return allowed ? 1 : 0;
+  }
+  const std::size_t size = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  unsigned code = first & (0xffu >> (size + 1));
+  for (std::size_t i = 1; i < size; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3f);
+  }
+  constexpr unsigned kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xd800 && code < 0xe000;
+  const bool allowed = first >= 0xc2 && first < 0xf5 && code >= kSmallest[size] &&
+                       code <= 0x10ffff && !surrogate && code != 0xfffe && code != 0xffff;
+  return allowed ? size : 0;
+}
+
+std::string_view escaped_character(char c) {
+  switch (c) {
+    case '&':
+      return "&amp;";
+    case '<':
+      return "&lt;";
+    case '>':
+      return "&gt;";
+    case '"':
+      return "&quot;";
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+std::string XmlElement::attribute(std::string_view key) const {
+  const auto found = std::find_if(attributes.begin(), attributes.end(),
+                                  [key](const auto& attribute) { return attribute.first == key; });
+  return found == attributes.end() ? "" : found->second;
+}
+
+const XmlElement* XmlElement::child(std::string_view child_name) const {
+  for (const XmlElement& element : children) {
+    if (element.name == child_name) return &element;
+  }
+  return nullptr;
+}
+
+XmlDocument parse_xml(const fs::path& file, std::string_view text, const XmlOptions& options) {
+  return XmlBuilder(file, text, options).parse();
+}
+
+std::string xml_escaped(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t size = xml_character_size(text);
+    const std::string_view escaped = escaped_character(text.front());
+    if (size == 0) {
+      out += '?';
+    } else {
+      out += escaped.empty() ? text.substr(0, size) : escaped;
+    }
+    text.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return out;
+}
+
+}  // namespace mesamis::detail

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+/// The one reader of XML: expat, with bounds that keep a hostile file harmless.
+namespace mesamis::detail {
+
+struct XmlElement {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> attributes;
+  std::vector<XmlElement> children;
+  /// The element's own characters, comments left out. A blank stands for each child, so that a
+  /// child never joins two numbers into one.
+  std::string text;
+
+  /// @return  the attribute's value, empty if there is none.
+  std::string attribute(std::string_view key) const;
+  /// @return  the first child of this name, or null.
+  const XmlElement* child(std::string_view child_name) const;
+};
+
+struct XmlOptions {
+  /// Called at the end of each element but the root, with its path ("amf/object/mesh"). True: the
+  /// caller has used it, and the tree does not keep it. It may throw.
+  std::function<bool(const XmlElement& element, std::string_view path)> consume{};
+  /// VTK's files: <AppendedData> holds bytes that are no XML; the document ends at its tag.
+  bool ends_at_appended_data = false;
+};
+
+struct XmlDocument {
+  XmlElement root;
+  std::string_view appended;  ///< a part of the text: what follows the mark '_' in <AppendedData>
+};
+
+/// Parses a document. An external DTD may be named; it is never read.
+/// @param file  for messages.
+/// @param text  the document, in an encoding that expat knows (UTF-8, UTF-16, Latin-1, ASCII).
+/// @throws InputError  naming file and line: if the document is not well-formed, declares or uses
+///                     entities other than XML's own, or exceeds a bound: 32 elements within one
+///                     another, 1 MiB per tag or comment, 500 000 elements and attributes in the
+///                     tree, 10 000 different names.
+///
+/// Linear in the text. Memory: the texts and attributes of the tree and about 150 bytes per
+/// element.
+XmlDocument parse_xml(const std::filesystem::path& file, std::string_view text,
+                      const XmlOptions& options = {});
+
+/// Escapes a text for an XML element or attribute, in UTF-8. '?' replaces each byte that XML does
+/// not allow: control characters other than tab and line ends, and bytes that are not UTF-8.
+std::string xml_escaped(std::string_view text);
+
+}  // namespace mesamis::detail

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/memory.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+#include "mesamis/base/error.h"
+#include "mesamis/method/available_memory.h"
+#include "mesamis/method/parameters.h"
+#include "mesamis/method/prepare.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kBytesPerVoxel = 8;    // of the image in grey values, always, and a copy
+constexpr double kBytesToPrepare = 24;  // per voxel: sorted samples and the steps of a filter
+constexpr double kBytesPerNode = 112;   // of the first grid
+constexpr double kBytesPerCell = 450;   // of the adapted meshes
+constexpr double kBytesOfProgram = 5e7;
+
+double product(const std::array<Index, 3>& n) {
+  return static_cast<double>(n[0]) * static_cast<double>(n[1]) * static_cast<double>(n[2]);
+}
+
+}  // namespace
+
+double memory_needed(const VoxelGrid& volume, const Settings& settings) {
+  const std::array<Index, 3> size = cropped_size(volume, settings.crop);
+  const double voxels = product(size), nodes = product(first_grid_size(size, settings.stride));
+  const double cells = settings.max_tets ? static_cast<double>(*settings.max_tets)
+                                         : std::min<double>(kMostTets, 3 * voxels);
+  return kBytesOfProgram + kBytesPerVoxel * voxels +
+         std::max({kBytesToPrepare * voxels, kBytesPerNode * nodes, kBytesPerCell * cells});
+}
+
+std::optional<std::array<Index, 3>> stride_that_fits(const VoxelGrid& volume, Settings settings,
+                                                     double bytes) {
+  constexpr Index kMostStride = 8;
+  while (memory_needed(volume, settings) > bytes) {
+    std::size_t shortest = 3;
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (settings.stride[a] >= kMostStride) continue;
+      const auto length = [&](std::size_t n) {
+        return settings.stride[n] * volume.spacing[static_cast<int>(n)];
+      };
+      if (shortest == 3 || length(a) < length(shortest)) shortest = a;
+    }
+    if (shortest == 3) return std::nullopt;
+    ++settings.stride[shortest];
+  }
+  return settings.stride;
+}
+
+void require_memory(const VoxelGrid& volume, const Settings& settings, double limit_gb) {
+  constexpr double kGigabyte = 1e9;
+  const auto limit = limit_gb > 0 ? std::optional(limit_gb * kGigabyte) : available_memory();
+  const double needed = memory_needed(volume, settings);
+  if (!limit || needed <= *limit) return;
+  std::ostringstream message;
+  message << std::fixed << std::setprecision(1) << "memory: expected about " << needed / kGigabyte
+          << " GB for this run, found " << *limit / kGigabyte << " GB; ";
+  if (const auto stride = stride_that_fits(volume, settings, *limit)) {
+    const auto& [x, y, z] = *stride;
+    message << "--stride " << x << "," << y << "," << z << " fits";
+  } else {
+    message << "no stride fits: --crop the scan, or fewer cells (--max-tets)";
+  }
+  throw InputError(message.str());
+}
+
+}  // namespace mesamis

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "mesamis/image/volume.h"
+#include "mesamis/method/settings.h"
+
+namespace mesamis {
+
+/// Predicts how much memory mes_amis() takes beside the volume it is given. The largest of three
+/// counts: preparing the image (by the voxel), the first pass (by the node of its grid), and the
+/// adapted meshes (by the cell). Measured, with a little to spare: see docs/performance.md.
+/// @param settings  valid; where max_tets is to be chosen, the most that could be chosen counts.
+/// @return bytes. O(1).
+/// @throws InputError  as cropped_size().
+double memory_needed(const VoxelGrid& volume, const Settings& settings);
+
+/// Enlarges the settings' stride, always along the axis where it is shortest in mm, until a run
+/// fits into so many bytes. O(1).
+/// @return voxels along each axis; nothing if no stride up to 8 helps.
+/// @throws InputError  as cropped_size().
+std::optional<std::array<Index, 3>> stride_that_fits(const VoxelGrid& volume, Settings settings,
+                                                     double bytes);
+
+/// Refuses a run that would not fit, before it starts. O(1).
+/// @param limit_gb  that it may take, 10^9 bytes; 0: available_memory().
+/// @throws InputError  if it does not fit: what the run needs, what there is, and the stride that
+///                     fits; and as cropped_size().
+void require_memory(const VoxelGrid& volume, const Settings& settings, double limit_gb);
+
+}  // namespace mesamis

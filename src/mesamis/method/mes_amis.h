@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "mesamis/base/progress.h"
+#include "mesamis/image/volume.h"
+#include "mesamis/mesh/metric.h"
+#include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/method/iteration.h"
+#include "mesamis/method/parameters.h"
+#include "mesamis/method/printable.h"
+#include "mesamis/method/settings.h"
+#include "mesamis/surface/tri_mesh.h"
+
+/// The whole method: a scan in, a surface and an adapted mesh out.
+namespace mesamis {
+
+/// What a run delivers. Points are in the world frame (LPS), in mm.
+struct Result {
+  Parameters parameters;  ///< what the run used, the level of the surface included
+  struct Image {
+    double noise_left = 0;  ///< standard deviation after restoring, native units
+    double impulses = 0;    ///< share of the voxels that were replaced, 0 to 1
+  } image;
+
+  TetMesh mesh;
+  std::vector<double> u, v, f;  ///< nodal: grey values (u, f) and edge indicator
+  std::vector<Sym3> metric;     ///< that the mesh was made for, at the nodes, 1/mm^2
+  MeshFit fit;                  ///< how well the mesh fits it
+  TriMesh surface;
+  PrintableReport printable;  ///< which parts of the surface were dropped, how it was decimated
+
+  std::vector<Iteration> iterations;  ///< the last one is the final minimisation
+  bool converged = false;             ///< mesh and energy settled, every solve converged
+  struct Seconds {
+    double prepare = 0, surface = 0, printable = 0, total = 0;
+  } seconds;
+};
+
+/// Algorithm 2 (MES AMIS). Minimises on the voxel grid, then on adapted meshes, until both the
+/// number of cells and the energy settle; extracts the surface.
+///
+/// Deviations from the paper: the voxel grid is never stored as cells; the first adapted mesh is
+/// refined from a coarse box; after the last adaptation the functional is minimised once more, so
+/// that u and v belong to the mesh they are delivered with. docs/method.md lists all of them.
+///
+/// @param volume    native units; read in place, nothing is kept of it.
+/// @param settings  valid, see require_valid().
+/// @param progress  optional; stages "preparation", "adaptation k of n", "final minimisation",
+///                  "surface", "decimation".
+/// @return the same bits for any number of threads (see with_threads()).
+/// @throws InputError  if the volume or a setting cannot be used.
+/// @throws Cancelled   if progress says stop.
+///
+/// Time grows with the number of voxels and with the number of cells times the adaptations; memory
+/// is about memory_needed().
+Result mes_amis(const VolumeView& volume, const Settings& settings, const Progress& progress = {});
+
+/// Finds grey values for the points of the result's surface: of a band u itself; of a solid, where
+/// u is the level everywhere, the maximum within two voxels below it.
+/// @param result  of mes_amis().
+/// @param voxel   mm, >= 0, see VoxelGrid::voxel_size().
+/// @return one grey value per point of the surface: values of u, 0 to 255 but for the overshoot of
+///         the projection at edges.
+/// @throws InputError  as max_below_surface().
+///
+/// O(cells + points).
+std::vector<double> surface_grey(const Result& result, double voxel);
+
+}  // namespace mesamis

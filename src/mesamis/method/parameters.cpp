@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/parameters.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mesamis {
+
+Settings settings_of(const Parameters& p) {
+  Settings s;
+  s.crop = p.crop;
+  s.stride = p.stride;
+  s.window = Window{p.grey.low, p.grey.high};
+  s.threshold_rule = p.grey.has_threshold() ? ThresholdRule::kValue : ThresholdRule::kNone;
+  s.threshold = p.grey.threshold;
+  s.restore = p.restore;
+  s.noise = p.noise;
+  s.blur = p.blur;
+  s.length_unit = p.length_unit;
+  s.epsilon = p.functional.epsilon;
+  s.eta = p.functional.eta;
+  s.beta = p.functional.beta;
+  s.gamma = p.functional.gamma;
+  s.amis_iterations = p.amis_iterations;
+  s.tol_v = p.tol_v;
+  s.solver_tolerance = p.solver_tolerance;
+  s.max_tets = p.max_tets;
+  s.tau = p.tau;
+  s.adaptations = p.adaptations;
+  s.tol_mesh = p.tol_mesh;
+  s.tol_energy = p.tol_energy;
+  s.stop_at_first = p.stop_at_first;
+  s.drafts = p.drafts;
+  s.max_stretch = p.max_stretch;
+  s.gradation = p.gradation;
+  s.h_min = p.h_min;
+  s.h_max = p.h_max;
+  s.surface = p.surface;
+  if (p.surface == SurfaceKind::kSolid) s.level = p.level;
+  s.band_threshold = p.band_threshold;
+  s.min_volume = p.min_volume;
+  s.keep_largest = p.keep_largest;
+  s.fill_cavities = p.fill_cavities;
+  s.tolerance = p.tolerance;
+  if (p.triangles > 0) s.triangles = p.triangles;
+  return s;
+}
+
+std::int64_t default_max_tets(double area, const Vec3& spacing) {
+  constexpr double kCellsPerSquare = 4.5, kThickest = 8;
+  const auto [shortest, longest] = std::minmax({spacing.x, spacing.y, spacing.z});
+  const double side = std::max(shortest, longest / kThickest);
+  return std::llround(
+      std::clamp<double>(kCellsPerSquare * area / (side * side), kFewestTets, kMostTets));
+}
+
+double default_gamma(double epsilon, double beta, double contrast, double noise) {
+  constexpr double kOfContrast = 0.07, kOfNoise = 0.25;
+  const double gradient = kOfContrast * contrast + kOfNoise * noise;
+  return 4 * epsilon * beta * gradient * gradient;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "mesamis/image/grey_values.h"
+#include "mesamis/method/settings.h"
+#include "mesamis/segment/functional.h"
+
+namespace mesamis {
+
+/// What a run uses: every choice made, nothing left open. origin_of() tells of each setting whether
+/// it was given, is the default, or was measured.
+struct Parameters {
+  // The image.
+  CropRange crop;                 ///< voxels
+  std::array<Index, 3> stride{};  ///< voxels per node of the first grid
+  GreyMap grey;                   ///< native units to grey values: window and T
+  bool restore = false;           ///< impulses removed, blur undone
+  double noise = 0;               ///< standard deviation, native units
+  std::array<double, 3> blur{};   ///< standard deviation along each axis, voxels
+
+  // The functional (2); lengths in length units.
+  LengthUnit length_unit = LengthUnit::kVoxel;
+  double unit_mm = 1;           ///< the length unit, mm
+  AtParameters functional;      ///< epsilon, eta, beta, gamma
+  int amis_iterations = 0;      ///< Jmax of Algorithm 1
+  double tol_v = 0;             ///< Fxv of Algorithm 1
+  double solver_tolerance = 0;  ///< relative residual of each solve
+
+  // The mesh.
+  std::int64_t max_tets = 0;            ///< NMAX
+  double tau = 0;                       ///< tolerance on the estimator
+  int adaptations = 0;                  ///< at most
+  double tol_mesh = 0, tol_energy = 0;  ///< relative changes that count as settled
+  bool stop_at_first = false;           ///< one of the two suffices
+  bool drafts = false;                  ///< meshes before the last are cheaper
+  double max_stretch = 0;               ///< longest to shortest size of a cell
+  double gradation = 0;                 ///< growth of sizes from edge to edge; 0: any
+  double h_min = 0, h_max = 0;          ///< edge lengths, length units
+
+  // The surface.
+  SurfaceKind surface = SurfaceKind::kSolid;
+  double level = 0;               ///< of the solid, native units
+  double band_threshold = 0;      ///< TOLth
+  double min_volume = 0;          ///< of islands and cavities that stay, mm^3
+  std::int64_t keep_largest = 0;  ///< islands; 0: all
+  bool fill_cavities = false;     ///< every cavity
+  double tolerance = 0;        ///< of decimation, mm, both ways; 0: none done; infinite: no bound
+  std::int64_t triangles = 0;  ///< where decimation stops; 0: nowhere
+};
+
+/// Makes the settings that repeat a run with these parameters: none of them is "auto" but the level
+/// of a band, which has none, and a number of triangles that the user did not limit.
+/// @throws nothing
+Settings settings_of(const Parameters& parameters);
+
+/// Bounds of what "auto" chooses for max_tets.
+inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
+
+/// The default of max_tets: four and a half cells for every square on the object's surface whose
+/// side is the voxel's shortest, between kFewestTets and kMostTets. Marching cubes make about three
+/// triangles there in cubic voxels.
+///
+/// The count grows with the extent of the edges, not with the empty space around them. Thick slices
+/// do not lower it, because the mesh has to hold the shape between them; only where slices are
+/// thicker than eight of the shortest sides, an eighth of the thickness counts instead.
+/// @param area     of the object's surface, mm^2, >= 0, see HalfMaximumLevel::area.
+/// @param spacing  of the voxels, mm, > 0.
+/// @return cells.
+/// @throws nothing
+///
+/// O(1).
+std::int64_t default_max_tets(double area, const Vec3& spacing);
+
+/// The default of gamma, 4 epsilon beta (0.07 c + 0.25 n)^2.
+///
+/// v falls below one half where beta |grad u|^2 exceeds gamma / (4 epsilon), that is where u
+/// changes by more than 0.07 c + 0.25 n over a length unit: the more noise there is, the steeper an
+/// edge must be. The paper's 0.1 is right for one window and one contrast.
+/// @param epsilon   thickness of the edge indicator, length units, > 0.
+/// @param beta      weight of smoothness, length units squared, > 0.
+/// @param contrast  c of the object, grey values, > 0.
+/// @param noise     n left in the image, grey values, >= 0.
+/// @return gamma, grey values squared times length units.
+/// @throws nothing
+///
+/// O(1).
+double default_gamma(double epsilon, double beta, double contrast, double noise);
+
+}  // namespace mesamis

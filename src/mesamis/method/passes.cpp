@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/passes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "mesamis/adapt/estimator.h"
+#include "mesamis/adapt/grid_estimator.h"
+#include "mesamis/adapt/metric_from_estimate.h"
+#include "mesamis/adapt/size_control.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/base/stopwatch.h"
+#include "mesamis/fem/grid_space.h"
+#include "mesamis/fem/mesh_space.h"
+#include "mesamis/fem/transfer.h"
+#include "mesamis/mesh/gradation.h"
+#include "mesamis/mesh/metric_field.h"
+#include "mesamis/method/prepare.h"
+#include "mesamis/remesh/remesh.h"
+
+namespace mesamis {
+namespace {
+
+/// Sweeps over the grid's log-metric before the first mesh is refined towards it.
+constexpr int kSmoothingSweeps = 3;
+
+/// All meshes but the last are there to find the next one: their fields need not be exact.
+constexpr double kDraftTolerance = 1e-3;
+constexpr int kDraftAlternations = 4;
+/// Cells of the meshes against max_tets, one after the other; with fewer adaptations than
+/// kToGrow the first are left out.
+constexpr std::array kShares{0.25, 0.35, 0.6, 1.0};
+constexpr int kToGrow = 6;
+
+/// The first grid: every stride-th voxel, spread so that it fills the whole box.
+KuhnGrid first_grid(const RunInput& run) {
+  KuhnGrid grid;
+  grid.size = first_grid_size(run.grey.size, run.parameters.stride);
+  const Vec3 extent = run.grey.box().extent();
+  for (int a = 0; a < 3; ++a) {
+    grid.spacing[a] = extent[a] / (grid.size[a] - 1) / run.parameters.unit_mm;
+  }
+  return grid;
+}
+
+void record_aspects(const TetMesh& mesh, Iteration& record) {
+  const AspectSummary aspects = summarize_aspects(mesh);
+  record.aspect_max = aspects.max;
+  record.aspect_mean = aspects.mean;
+}
+
+/// What one adaptation asks of metric and remesher.
+struct Sizes {
+  std::int64_t cells;           // at most
+  double cells_per_complexity;  // as last measured
+  SizeControl control;          // bounds of the edge lengths, and the complexity of so many cells
+};
+
+Sizes sizes_of(const Pass& pass, double cells_per_complexity) {
+  const std::int64_t cells = pass.run.cells_after(pass.number);
+  const Parameters& p = pass.run.parameters;
+  return {cells,
+          cells_per_complexity,
+          {p.h_min, p.h_max, static_cast<double>(cells) / cells_per_complexity}};
+}
+
+CellMetricOptions metric_options(const RunInput& run, std::int64_t cells) {
+  return {cells, run.parameters.tau, run.parameters.max_stretch};
+}
+
+/// The metric of the first pass, and whether max_tets acted on it.
+GridMetricField grid_metric(const Pass& pass, const GridSpace& space, const Minimum& m,
+                            const SizeControl& control) {
+  const RunInput& run = pass.run;
+  Iteration& record = pass.record;
+  const KuhnGrid& grid = space.grid();
+  GridEstimate estimated = estimate_on_grid(grid, run.parameters.functional, {m.u, m.v, m.f},
+                                            metric_options(run, grid.cell_count()));
+  record.estimator = estimated.sums.zeta();
+  record.predicted_tets = estimated.predicted_cells;
+  const double factor = control_sizes_to_log(estimated.node_metrics, space.lumped_mass(), control);
+  smooth_log_metrics(grid, estimated.node_metrics, kSmoothingSweeps);
+  record.bounded = factor > 1;
+  if (record.bounded) {
+    set_complexity(estimated.node_metrics, space.lumped_mass(), control.complexity);
+  }
+  return {run.box, grid.size, std::move(estimated.node_metrics)};
+}
+
+/// Remeshes towards the metric; the fields are still to be carried over. Where max_tets acted, the
+/// cost of a unit of complexity is measured.
+State remeshed(const Pass& pass, const TetMesh& start, const MetricField& field,
+               const Sizes& sizes) {
+  constexpr double kShareBefore = 0.4;  // of a stage's time, what comes before remeshing
+  RemeshOptions options;
+  options.max_cells = sizes.cells;
+  options.draft = sizes.cells < pass.run.parameters.max_tets;
+  options.progress = [&pass](std::string_view, double share) {
+    pass.stage.advance(kShareBefore + (1 - kShareBefore) * share);
+    return true;
+  };
+  RemeshReport report;
+  State next;
+  next.mesh = remesh(start, field, options, &report);
+  next.metric = sample(ScaledMetricField(field, report.size_factor), next.mesh.points);
+  next.cells_per_complexity = sizes.cells_per_complexity;
+  if (pass.record.bounded) {
+    const double complexity = sizes.control.complexity / std::pow(report.size_factor, 3);
+    next.cells_per_complexity =
+        std::clamp(static_cast<double>(next.mesh.cells.size()) / complexity, 4.0, 20.0);
+  }
+  return next;
+}
+
+}  // namespace
+
+RunInput::RunInput(const Parameters& run_parameters, const Volume& grey_image)
+    : parameters(run_parameters),
+      grey(grey_image),
+      box{{0, 0, 0}, (1 / run_parameters.unit_mm) * grey_image.box().extent()} {}
+
+AmisOptions RunInput::final_options() const {
+  AmisOptions options;
+  options.parameters = parameters.functional;
+  options.max_iterations = parameters.amis_iterations;
+  options.v_tolerance = parameters.tol_v;
+  options.solver.tolerance = parameters.solver_tolerance;
+  return options;
+}
+
+AmisOptions RunInput::draft_options() const {
+  AmisOptions options = final_options();
+  if (!parameters.drafts) return options;
+  options.max_iterations = std::min(options.max_iterations, kDraftAlternations);
+  options.solver.tolerance = std::max(options.solver.tolerance, kDraftTolerance);
+  return options;
+}
+
+std::int64_t RunInput::cells_after(int k) const {
+  if (!parameters.drafts) return parameters.max_tets;
+  const int left_out = std::max(0, kToGrow - parameters.adaptations);
+  const int place = std::min(k - 1 + left_out, static_cast<int>(kShares.size()) - 1);
+  const double share = kShares[static_cast<std::size_t>(place)];
+  return std::min(parameters.max_tets,
+                  std::max<std::int64_t>(
+                      kFewestTets, std::llround(share * static_cast<double>(parameters.max_tets))));
+}
+
+void minimise_on(const P1Space& space, const AmisOptions& options, Minimum& m, Iteration& record) {
+  AmisResult solved = run_amis(space, m.f, {std::move(m.v), m.u}, options);
+  record.amis = solved.report;
+  m.u = std::move(solved.u);
+  m.v = std::move(solved.v);
+  record.energy = energy(space, options.parameters, {m.u, m.v, m.f});
+}
+
+std::vector<Sym3> mesh_metric(const Pass& pass, const TetMesh& mesh, const Minimum& m,
+                              const SizeControl& control) {
+  const RunInput& run = pass.run;
+  Iteration& record = pass.record;
+  const Estimate estimated = estimate(mesh, run.parameters.functional, {m.u, m.v, m.f});
+  record.estimator = estimated.sums.zeta();
+  std::vector<Sym3> cells(mesh.cells.size());
+  const auto options = metric_options(run, std::ssize(cells));
+  parallel_for(cells.size(),
+               [&](std::size_t c) { cells[c] = cell_metric(estimated.gamma[c], options); });
+  record.predicted_tets = predicted_cells(mesh, cells);
+  std::vector<Sym3> metric = node_metrics(mesh, cells);
+  record.bounded = control_sizes(metric, m.lumped_mass, control) > 1;
+  if (run.parameters.gradation != 0) {
+    limit_gradation(mesh, metric, run.parameters.gradation);
+    record.bounded |= control_sizes(metric, m.lumped_mass, control) > 1;
+  }
+  return metric;
+}
+
+State adapt_from_grid(const Pass& pass) {
+  const auto& [run, number, stage, record] = pass;
+  Stopwatch watch;
+  const KuhnGrid grid = first_grid(run);
+  const GridSpace space(grid);
+  record.tets = grid.cell_count();
+  record.nodes = static_cast<std::int64_t>(grid.node_count());
+  Minimum m;
+  m.f = project_image(run.grey, grid);
+  record.seconds.project = watch.lap();
+  minimise_on(space, run.draft_options(), m, record);
+  stage.advance(0.2);
+  record.seconds.amis = watch.lap();
+
+  const Sizes sizes = sizes_of(pass, kCellsPerComplexity);
+  const GridMetricField field = grid_metric(pass, space, m, sizes.control);
+  record.seconds.estimate = watch.lap();
+  State next = remeshed(pass, coarse_box_mesh(run.box), field, sizes);
+  record.seconds.remesh = watch.lap();
+  auto fields =
+      interpolate_fields(grid, std::vector<std::span<const double>>{m.u, m.v}, next.mesh.points);
+  next.u = std::move(fields[0]);
+  next.v = std::move(fields[1]);
+  record.seconds.transfer = watch.lap();
+  // One brick's cells are those of all the others.
+  record_aspects(box_mesh({{0, 0, 0}, grid.spacing}, {1, 1, 1}), record);
+  return next;
+}
+
+Minimum minimise(const Pass& pass, const State& state, const AmisOptions& options) {
+  const auto& [run, number, stage, record] = pass;
+  Stopwatch watch;
+  const MeshSpace space(state.mesh);
+  record.tets = std::ssize(state.mesh.cells);
+  record.nodes = std::ssize(state.mesh.points);
+  ProjectedImage projection =
+      project_image(run.grey, space, {run.parameters.unit_mm, options.solver});
+  Minimum m;
+  m.f = std::move(projection.values);
+  m.u = state.u;
+  m.v = state.v;
+  stage.advance(0.1);
+  record.seconds.project = watch.lap();
+  minimise_on(space, options, m, record);
+  m.lumped_mass = space.lumped_mass();
+  record.amis.solver_converged &= projection.solve.converged;
+  stage.advance(0.3);
+  record.seconds.amis = watch.lap();
+  record_aspects(state.mesh, record);
+  return m;
+}
+
+State adapt(const Pass& pass, const State& state, const Minimum& minimum) {
+  Iteration& record = pass.record;
+  Stopwatch watch;
+  const Sizes sizes = sizes_of(pass, state.cells_per_complexity);
+  const MeshMetricField field(state.mesh, mesh_metric(pass, state.mesh, minimum, sizes.control));
+  record.seconds.estimate = watch.lap();
+  State next = remeshed(pass, state.mesh, field, sizes);
+  record.seconds.remesh = watch.lap();
+  auto fields = interpolate_fields(
+      state.mesh, std::vector<std::span<const double>>{minimum.u, minimum.v}, next.mesh.points);
+  next.u = std::move(fields[0]);
+  next.v = std::move(fields[1]);
+  record.seconds.transfer = watch.lap();
+  const auto before = static_cast<double>(state.mesh.cells.size());
+  record.mesh_change = std::abs(static_cast<double>(next.mesh.cells.size()) - before) / before;
+  return next;
+}
+
+bool has_settled(const RunInput& run, const std::vector<Iteration>& passes) {
+  const Parameters& p = run.parameters;
+  const Iteration& last = passes.back();
+  // While the count is still to grow nothing has settled.
+  if (run.cells_after(static_cast<int>(passes.size())) != p.max_tets) return false;
+  // Energies on the grid and on adapted meshes are not compared: the first Ei means nothing.
+  const bool energy_settled = passes.size() > 2 && last.energy_change <= p.tol_energy;
+  const bool mesh_stagnates = last.mesh_change <= p.tol_mesh;
+  if (p.stop_at_first) return mesh_stagnates || energy_settled;
+  // A count that max_tets holds wavers by what the remesher's steering leaves.
+  constexpr double kSteeringSlack = 0.06;
+  const bool mesh_settled = mesh_stagnates || (last.bounded && last.mesh_change <= kSteeringSlack);
+  return mesh_settled && energy_settled;
+}
+
+}  // namespace mesamis

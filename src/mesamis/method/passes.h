@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesamis/adapt/size_control.h"
+#include "mesamis/base/error.h"
+#include "mesamis/base/progress.h"
+#include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/method/iteration.h"
+#include "mesamis/method/parameters.h"
+#include "mesamis/remesh/remesh.h"
+#include "mesamis/segment/amis.h"
+
+/// The steps of Algorithm 2: each takes what is known on one mesh and returns what is known next.
+/// Meshes lie in the grid's own axes, in length units.
+namespace mesamis {
+
+/// A named part of the work that tells how far it has come.
+class Stage {
+ public:
+  /// @throws Cancelled  if progress says stop.
+  Stage(const Progress& progress, std::string name) : progress_(progress), name_(std::move(name)) {
+    advance(0);
+  }
+  /// @throws Cancelled  if progress says stop.
+  void advance(double share) const {
+    if (progress_ && !progress_(name_, share)) throw Cancelled();
+  }
+
+ private:
+  const Progress& progress_;
+  std::string name_;
+};
+
+/// What all passes of a run share.
+struct RunInput {
+  const Parameters& parameters;
+  const Volume& grey;  ///< the image, restored, in grey values
+  Box box;             ///< of the voxel centres, length units
+
+  RunInput(const Parameters& run_parameters, const Volume& grey_image);
+  /// How exactly Algorithm 1 is solved on the delivered mesh, and on those before it.
+  AmisOptions final_options() const;
+  AmisOptions draft_options() const;
+  /// Cells of the mesh that adaptation k leads to, at most; k from 1.
+  std::int64_t cells_after(int k) const;
+};
+
+/// A mesh and what was carried onto it.
+struct State {
+  TetMesh mesh;
+  std::vector<Sym3> metric;  ///< asked for, at the nodes, 1 / length unit^2
+  std::vector<double> u, v;  ///< interpolated from the mesh before: first guesses
+  /// Cells the remesher makes per unit of complexity, as last measured.
+  double cells_per_complexity = kCellsPerComplexity;
+};
+
+/// The fields that minimise the functional on a state's mesh.
+struct Minimum {
+  std::vector<double> f, u, v;      ///< nodal; grey values, and the edge indicator
+  std::vector<double> lumped_mass;  ///< of the nodes, length units^3
+};
+
+/// One pass: what it works on, what it tells, what it records.
+struct Pass {
+  const RunInput& run;
+  int number;  ///< of the adaptation that the pass leads to, from 1
+  const Stage& stage;
+  Iteration& record;
+};
+
+/// Adaptation 1: minimises on the voxel grid, estimates, and refines the first mesh from a box.
+State adapt_from_grid(const Pass& pass);
+
+/// Algorithm 1 on any space; the minimum's u and v are first guesses going in (empty: f and 1).
+/// Records energy and alternations.
+void minimise_on(const P1Space& space, const AmisOptions& options, Minimum& minimum,
+                 Iteration& record);
+
+/// The nodal metric that the fields ask for, (9) to (12), in length units. Records the estimator,
+/// the predicted cells, and whether the complexity was bounded.
+/// @param control  bounds of the sizes and of the complexity.
+std::vector<Sym3> mesh_metric(const Pass& pass, const TetMesh& mesh, const Minimum& minimum,
+                              const SizeControl& control);
+
+/// Projects the image onto the mesh and minimises there, from the state's fields.
+Minimum minimise(const Pass& pass, const State& state, const AmisOptions& options);
+
+/// Adaptations from 2 on: estimates, builds the metric, remeshes, carries the fields over. Records
+/// mesh_change beside what minimise() has recorded.
+State adapt(const Pass& pass, const State& state, const Minimum& minimum);
+
+/// Whether mesh and energy (or one of them, see Parameters::stop_at_first) stood still in the last
+/// of these passes.
+bool has_settled(const RunInput& run, const std::vector<Iteration>& passes);
+
+}  // namespace mesamis

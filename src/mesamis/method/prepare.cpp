@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/prepare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+#include "mesamis/base/error.h"
+#include "mesamis/restore/half_maximum_level.h"
+#include "mesamis/restore/restore.h"
+#include "mesamis/restore/tissue_threshold.h"
+
+namespace mesamis {
+namespace {
+
+/// Of the voxel size (geometric mean of the spacing).
+constexpr double kDefaultTolerance = 0.1;
+/// Voxels: what is smaller cannot be told from noise.
+constexpr double kDefaultMinVolume = 4;
+/// The paper's T of (13), of 255 grey values.
+constexpr double kPaperThreshold = 140;
+
+/// A quarter of the box's longest side, in length units.
+double default_h_max(const VoxelGrid& volume, double unit_mm) {
+  const Vec3 extent = volume.box().extent();
+  return std::max({extent.x, extent.y, extent.z}) / 4 / unit_mm;
+}
+
+/// The default, widened where the level has no room for an edge on both its sides.
+Window choose_window(const VolumeView& volume, const ObjectContrast& contrast, double level) {
+  const Window window = default_window(volume, contrast.background);
+  const double room = std::abs(contrast.object - contrast.background) / 2;
+  return {std::min(window.low, level - room), std::max(window.high, level + room)};
+}
+
+/// Values beyond the window (air, metal) must not ring when the blur is undone, nor count as noise.
+Volume clamped(const VolumeView& scan, const Window& window) {
+  Volume volume = copy_volume(scan);
+  const auto low = static_cast<float>(window.low), high = static_cast<float>(window.high);
+  for (float& x : volume.samples) x = std::clamp(x, low, high);
+  return volume;
+}
+
+/// Settings that are taken over, and those that follow from the volume's grid alone.
+Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
+  const Vec3& voxel = volume.spacing;
+  const double unit_mm = s.length_unit == LengthUnit::kMm ? 1 : volume.voxel_size();
+  const double tolerance = s.triangles ? std::numeric_limits<double>::infinity()
+                                       : kDefaultTolerance * volume.voxel_size();
+  Parameters p;
+  p.crop = s.crop;
+  p.stride = s.stride;
+  p.restore = s.restore;
+  p.length_unit = s.length_unit;
+  p.unit_mm = unit_mm;
+  p.functional = {s.epsilon, s.eta.value_or(s.epsilon * s.epsilon), s.beta, s.gamma.value_or(0)};
+  p.amis_iterations = s.amis_iterations;
+  p.tol_v = s.tol_v;
+  p.solver_tolerance = s.solver_tolerance;
+  p.max_tets = s.max_tets.value_or(0);
+  p.tau = s.tau;
+  p.adaptations = s.adaptations;
+  p.tol_mesh = s.tol_mesh;
+  p.tol_energy = s.tol_energy;
+  p.stop_at_first = s.stop_at_first;
+  p.drafts = s.drafts;
+  p.max_stretch = s.max_stretch;
+  p.gradation = s.gradation;
+  p.h_min = s.h_min;
+  p.h_max = s.h_max.value_or(std::max(s.h_min, default_h_max(volume, unit_mm)));
+  p.surface = s.surface;
+  p.band_threshold = s.band_threshold;
+  p.min_volume = s.min_volume.value_or(kDefaultMinVolume * voxel.x * voxel.y * voxel.z);
+  p.keep_largest = s.keep_largest;
+  p.fill_cavities = s.fill_cavities;
+  p.tolerance = s.tolerance.value_or(tolerance);
+  p.triangles = s.triangles.value_or(0);
+  return p;
+}
+
+/// What restore() makes of the image; where restoring is off, the image as it is, with its noise.
+Restored restore_if_asked(Volume image, const HalfMaximumLevel& object, const Settings& settings) {
+  if (settings.restore) return restore(std::move(image), object, {settings.noise, settings.blur});
+  constexpr std::array<double, 3> kNone{};
+  Restored as_it_is = restore(image, object, {settings.noise, kNone});
+  as_it_is.volume = std::move(image);
+  as_it_is.noise_left = as_it_is.noise;
+  as_it_is.impulses = 0;
+  return as_it_is;
+}
+
+/// T of (13), in native units; the window's low end if it does not act.
+/// @param measured  see find_tissue_threshold().
+double choose_threshold(const Settings& settings, const GreyMap& map,
+                        const std::optional<double>& measured, double level) {
+  switch (settings.threshold_rule) {
+    case ThresholdRule::kNone:
+      return map.low;
+    case ThresholdRule::kPaper:
+      return map.to_native(kPaperThreshold);
+    case ThresholdRule::kValue:
+      return std::max(map.low, settings.threshold);
+    case ThresholdRule::kAuto:
+      break;
+  }
+  // A level below T would be everywhere: what the user asks to see comes first.
+  return measured && *measured < level ? std::max(map.low, *measured) : map.low;
+}
+
+/// See default_gamma(); the paper's value where there is no object to tell the contrast from.
+double choose_gamma(const Parameters& p, double native_contrast, double native_noise) {
+  constexpr double kPaper = 0.1;
+  const double grey_per_native = p.grey.to_grey(1) - p.grey.to_grey(0);
+  const double contrast = native_contrast * grey_per_native;
+  if (!(contrast > 0)) return kPaper;
+  return default_gamma(p.functional.epsilon, p.functional.beta, contrast,
+                       native_noise * grey_per_native);
+}
+
+/// Settings that leave nothing to see, or nothing at the level, are refused.
+void require_contrast(const VolumeView& volume, const Parameters& p, double level) {
+  const double low = p.grey.threshold, high = p.grey.high;
+  const auto [least, most] = std::minmax_element(volume.samples.begin(), volume.samples.end());
+  const bool sees_samples = *least<high&& * most> low;
+  const bool sees_level = low < level && level < high;
+  std::ostringstream message;
+  if (!sees_samples) {
+    message << "window: expected one that holds some of the samples, which go from " << *least
+            << " to " << *most << ", found " << low << "," << high;
+  } else if (p.surface == SurfaceKind::kSolid && !sees_level) {
+    message << "level: expected a value between the window's ends and above the threshold, " << low
+            << " to " << high << ", found " << level;
+  }
+  if (!message.str().empty()) throw InputError(message.str());
+}
+
+}  // namespace
+
+std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
+                                     const std::array<Index, 3>& stride) {
+  std::array<Index, 3> size;
+  for (std::size_t a = 0; a < 3; ++a) size[a] = std::max(2, (voxels[a] - 1) / stride[a] + 1);
+  return size;
+}
+
+Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
+  Prepared prepared;
+  Parameters& p = prepared.parameters = parameters_from_grid(volume, settings);
+
+  const HalfMaximumLevel seen = find_half_maximum_level(volume);
+  const Window window = settings.window.value_or(
+      choose_window(volume, seen.contrast, settings.level.value_or(seen.level)));
+  p.grey = {window.low, window.high, window.low};
+
+  Restored restored = restore_if_asked(clamped(volume, window), seen, settings);
+  p.noise = restored.noise;
+  p.blur = restored.blur;
+  prepared.noise_left = restored.noise_left;
+  prepared.impulses = restored.impulses;
+
+  const HalfMaximumLevel object =
+      find_half_maximum_level(restored.volume, {.area_at = settings.level, .start = seen.level});
+  prepared.first_level = p.level = settings.level.value_or(object.level);
+  if (!settings.max_tets) p.max_tets = default_max_tets(object.area, volume.spacing);
+  const auto measured = find_tissue_threshold(volume, seen.contrast, seen.level, restored.noise);
+  p.grey.threshold = choose_threshold(settings, p.grey, measured, prepared.first_level);
+  if (!settings.gamma) {
+    p.functional.gamma = choose_gamma(p, object.contrast.difference(), restored.noise_left);
+  }
+  require_contrast(restored.volume, p, prepared.first_level);
+  prepared.grey = apply(p.grey, std::move(restored.volume));
+  return prepared;
+}
+
+}  // namespace mesamis

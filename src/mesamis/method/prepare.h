@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "mesamis/image/volume.h"
+#include "mesamis/method/parameters.h"
+#include "mesamis/method/settings.h"
+
+namespace mesamis {
+
+/// The image as the method works on it, and what was chosen for the run.
+struct Prepared {
+  Parameters parameters;   ///< all but the level, which is still first_level
+  double first_level = 0;  ///< the level asked for, or an estimate from the voxels; native units
+  double noise_left = 0;   ///< standard deviation in the image below, native units
+  double impulses = 0;     ///< share of the voxels that were replaced, 0 to 1
+  Volume grey;             ///< the volume, restored, in grey values
+};
+
+/// Counts the nodes of the first grid along each axis: every stride-th voxel, at least two.
+/// @param voxels  at least 1 along each axis.
+/// @param stride  voxels, at least 1.
+/// @throws nothing
+std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
+                                     const std::array<Index, 3>& stride);
+
+/// Chooses what the settings leave open from the volume, restores it, and maps it to grey values.
+///
+/// The order is that of need: the object's edges give the window, the clamped image its noise and
+/// blur, the restored image the level, the number of cells and the price of edges.
+/// @param volume    native units, see require_usable().
+/// @param settings  valid, see require_valid().
+/// @throws InputError  if the window holds none of the samples, or does not hold the level.
+///
+/// O(voxels); two copies of the samples at a time.
+Prepared prepare_image(const VolumeView& volume, const Settings& settings);
+
+}  // namespace mesamis

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/setting_rows.h"
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+
+#include "mesamis/restore/deblur.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Smallest and largest positive values that make sense of a weight or a length.
+constexpr double kTiny = 1e-12, kHuge = 1e12;
+/// Native values are single precision.
+constexpr double kLargestValue = 1e38;
+constexpr double kLargestIndex = std::numeric_limits<Index>::max();
+
+using Numbers = std::vector<double>;
+
+// ---- From a member of Settings to a value and back.
+
+template <class T>
+requires std::is_arithmetic_v<T> Numbers numbers_of(T x) { return {static_cast<double>(x)}; }
+template <class T>
+Numbers numbers_of(const std::array<T, 3>& x) {
+  return {x.begin(), x.end()};
+}
+Numbers numbers_of(const Window& w) { return {w.low, w.high}; }
+Numbers numbers_of(const CropRange& range) {
+  Numbers numbers;
+  for (std::size_t a = 0; a < 3; ++a) {
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(range.begin[a]), static_cast<double>(range.end[a])});
+  }
+  return numbers;
+}
+
+template <class T>
+requires std::is_arithmetic_v<T>
+void take(const Numbers& n, T& x) { x = static_cast<T>(n[0]); }
+template <class T>
+void take(const Numbers& n, std::array<T, 3>& x) {
+  for (std::size_t a = 0; a < 3; ++a) x[a] = static_cast<T>(n[a]);
+}
+void take(const Numbers& n, Window& w) { w = {n[0], n[1]}; }
+void take(const Numbers& n, CropRange& range) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    range.begin[a] = static_cast<Index>(n[2 * a]);
+    range.end[a] = static_cast<Index>(n[2 * a + 1]);
+  }
+}
+
+bool is_word(const SettingValue& value, std::string_view word) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr && *text == word;
+}
+
+template <class T>
+void bind(Setting& row, T Settings::*member) {
+  row.get = [member](const Settings& s) { return SettingValue(numbers_of(s.*member)); };
+  row.set = [member](Settings& s, const SettingValue& value) {
+    take(std::get<Numbers>(value), s.*member);
+  };
+}
+
+void bind(Setting& row, bool Settings::*member) {
+  row.get = [member](const Settings& s) { return SettingValue(s.*member); };
+  row.set = [member](Settings& s, const SettingValue& value) { s.*member = std::get<bool>(value); };
+}
+
+/// Without a value the setting is "auto".
+template <class T>
+void bind(Setting& row, std::optional<T> Settings::*member) {
+  row.get = [member](const Settings& s) {
+    return s.*member ? SettingValue(numbers_of(*(s.*member))) : SettingValue("auto");
+  };
+  row.set = [member](Settings& s, const SettingValue& value) {
+    (s.*member).reset();
+    if (!is_word(value, "auto")) take(std::get<Numbers>(value), (s.*member).emplace());
+  };
+}
+
+/// The row's words in the order of the enumerators.
+template <class Enum>
+requires std::is_enum_v<Enum>
+void bind(Setting& row, Enum Settings::*member) {
+  const std::vector<std::string> words = row.words;
+  row.get = [=](const Settings& s) {
+    return SettingValue(words[static_cast<std::size_t>(s.*member)]);
+  };
+  row.set = [=](Settings& s, const SettingValue& value) {
+    const auto at = std::find(words.begin(), words.end(), std::get<std::string>(value));
+    s.*member = static_cast<Enum>(at - words.begin());
+  };
+}
+
+template <class Member>
+Setting bound(Setting row, Member member) {
+  bind(row, member);
+  return row;
+}
+
+// ---- Three settings have words of their own beside numbers.
+
+Setting threshold_row(Setting row) {
+  row.get = [](const Settings& s) -> SettingValue {
+    switch (s.threshold_rule) {
+      case ThresholdRule::kAuto:
+        return "auto";
+      case ThresholdRule::kNone:
+        return "none";
+      case ThresholdRule::kPaper:
+        return "paper";
+      case ThresholdRule::kValue:
+        break;
+    }
+    return Numbers{s.threshold};
+  };
+  row.set = [](Settings& s, const SettingValue& value) {
+    s.threshold_rule = is_word(value, "auto")    ? ThresholdRule::kAuto
+                       : is_word(value, "none")  ? ThresholdRule::kNone
+                       : is_word(value, "paper") ? ThresholdRule::kPaper
+                                                 : ThresholdRule::kValue;
+    if (s.threshold_rule == ThresholdRule::kValue) s.threshold = std::get<Numbers>(value)[0];
+  };
+  return row;
+}
+
+Setting blur_row(Setting row) {
+  bind(row, &Settings::blur);
+  row.set = [set = row.set](Settings& s, const SettingValue& value) {
+    set(s, is_word(value, "none") ? SettingValue(Numbers{0, 0, 0}) : value);
+  };
+  return row;
+}
+
+Setting tolerance_row(Setting row) {
+  bind(row, &Settings::tolerance);
+  row.get = [get = row.get](const Settings& s) {
+    return s.tolerance == kInfinity ? SettingValue("none") : get(s);
+  };
+  row.set = [set = row.set](Settings& s, const SettingValue& value) {
+    set(s, is_word(value, "none") ? SettingValue(Numbers{kInfinity}) : value);
+  };
+  return row;
+}
+
+// ---- The table: a row per setting, in the order in which they are written.
+
+// clang-format off
+
+std::vector<Setting> image_rows() {
+  return {
+    bound({.name = "crop", .form = "I0:I1,J0:J1,K0:K1", .count = 6, .whole = true, .ranges = true,
+           .low = -1, .high = kLargestIndex, .unit = "voxels",
+           .help = "Part of the volume to use, ends excluded; nothing, or -1 as an end: the "
+               "volume's own bound"}, &Settings::crop),
+    bound({.name = "stride", .form = "X,Y,Z", .count = 3, .whole = true, .low = 1, .high = 1000,
+           .unit = "voxels", .help = "Voxels per node of the first grid"}, &Settings::stride),
+    bound({.name = "window", .form = "LO,HI", .count = 2, .low = -kLargestValue,
+           .high = kLargestValue, .words = {"auto"}, .unit = "native",
+           .help = "Values that become grey values 0 and 255",
+           .automatic = "CT: -200 HU to the 99.9 percentile, at least 800 and at most 2000 HU; "
+               "else the 0.1 and 99.9 percentiles; widened where the level needs room"},
+          &Settings::window),
+    threshold_row({.name = "threshold", .form = "T", .count = 1, .low = -kLargestValue,
+                   .high = kLargestValue, .words = {"auto", "none", "paper"}, .unit = "native",
+                   .help = "T of (13): what is darker counts as T; paper: 140 of 255 grey values",
+                   .automatic = "the upper end of the tissue around the object; none for images "
+                       "of two classes", .paper = "paper"}),
+    bound({.name = "restore", .form = "yes|no",
+           .help = "Remove impulses and undo the blur before the method sees the image",
+           .paper = "no"}, &Settings::restore),
+    bound({.name = "noise", .form = "S", .count = 1, .low = 0, .high = kLargestValue,
+           .words = {"auto"}, .unit = "native", .help = "Standard deviation of the noise",
+           .automatic = "measured beside the object's surface, on the quieter side"},
+          &Settings::noise),
+    blur_row({.name = "blur", .form = "X,Y,Z", .count = 3, .low = 0, .high = kLargestBlur,
+              .words = {"auto", "none"}, .unit = "voxels",
+              .help = "Blur to undo, standard deviation along each axis",
+              .automatic = "from the median profile of the object's edges; none without restore"}),
+  };
+}
+
+std::vector<Setting> functional_rows() {
+  return {
+    bound({.name = "length_unit", .form = "voxel|mm", .words = {"voxel", "mm"},
+           .help = "Unit of the lengths in the functional and of h-min and h-max; voxel: the "
+               "geometric mean of the spacing", .paper = "mm"}, &Settings::length_unit),
+    bound({.name = "epsilon", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
+           .unit = "length units", .help = "Thickness of the edge indicator"}, &Settings::epsilon),
+    bound({.name = "eta", .form = "X", .count = 1, .low = kTiny * kTiny, .high = kHuge,
+           .words = {"auto"}, .help = "Smallest diffusion, at edges",
+           .automatic = "epsilon squared"}, &Settings::eta),
+    bound({.name = "beta", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
+           .unit = "length units squared",
+           .help = "Weight of smoothness away from edges"}, &Settings::beta),
+    bound({.name = "gamma", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
+           .words = {"auto"}, .unit = "grey values squared times length units",
+           .help = "Weight of the edge indicator: the price of edges",
+           .automatic = "4 epsilon beta (0.07 contrast + 0.25 noise)^2, both measured",
+           .paper = "0.1"}, &Settings::gamma),
+    bound({.name = "amis_iterations", .form = "N", .count = 1, .whole = true, .low = 1,
+           .high = 1000,
+           .help = "Jmax of Algorithm 1: alternations per mesh at most"},
+          &Settings::amis_iterations),
+    bound({.name = "tol_v", .form = "X", .count = 1, .low = 0, .high = 1,
+           .help = "Algorithm 1 stops when v changes by less everywhere"}, &Settings::tol_v),
+    bound({.name = "solver_tolerance", .form = "X", .count = 1, .low = 1e-14, .high = 1e-2,
+           .help = "Relative residual of each linear solve"}, &Settings::solver_tolerance),
+  };
+}
+
+std::vector<Setting> mesh_rows() {
+  return {
+    bound({.name = "max_tets", .form = "N", .count = 1, .whole = true, .low = 100, .high = 2e8,
+           .words = {"auto"}, .help = "NMAX: cells of the mesh at most",
+           .automatic = "4.5 for each square of the object's surface with the voxel's shortest "
+               "side, 20 000 to 2 000 000", .paper = "1300000"}, &Settings::max_tets),
+    bound({.name = "tau", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
+           .help = "Tolerance on the error estimator"}, &Settings::tau),
+    bound({.name = "adaptations", .form = "N", .count = 1, .whole = true, .low = 1, .high = 100,
+           .help = "Adaptations of the mesh at most"}, &Settings::adaptations),
+    bound({.name = "tol_mesh", .form = "X", .count = 1, .low = 0, .high = kHuge,
+           .help = "The mesh has settled when the cell count changes by less, relatively"},
+          &Settings::tol_mesh),
+    bound({.name = "tol_energy", .form = "X", .count = 1, .low = 0, .high = kHuge,
+           .help = "The energy has settled when it changes by less, relatively"},
+          &Settings::tol_energy),
+    bound({.name = "stop_at_first", .form = "yes|no",
+           .help = "Stop when mesh or energy has settled, not both",
+           .paper = "yes"}, &Settings::stop_at_first),
+    bound({.name = "drafts", .form = "yes|no",
+           .help = "Meshes before the last have fewer cells and approximate fields",
+           .paper = "no"}, &Settings::drafts),
+    bound({.name = "max_stretch", .form = "X", .count = 1, .low = 1.1, .high = 1e6,
+           .help = "Longest to shortest size of a cell at most",
+           .paper = "30000"}, &Settings::max_stretch),
+    bound({.name = "gradation", .form = "X", .count = 1, .low = 1.01, .high = 1000,
+           .exceptions = {0},
+           .help = "Growth of sizes from edge to edge at most; 0: any"}, &Settings::gradation),
+    bound({.name = "h_min", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
+           .unit = "length units", .help = "Smallest edge", .paper = "0.1"}, &Settings::h_min),
+    bound({.name = "h_max", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
+           .words = {"auto"}, .unit = "length units", .help = "Largest edge",
+           .automatic = "a quarter of the box's longest side"}, &Settings::h_max),
+  };
+}
+
+std::vector<Setting> surface_rows() {
+  return {
+    bound({.name = "surface", .form = "solid|band", .words = {"solid", "band"},
+           .help = "solid: closed level set of u; band: the paper's surface, the boundary of the "
+               "cells where v is small", .paper = "band"}, &Settings::surface),
+    bound({.name = "level", .form = "X", .count = 1, .low = -kLargestValue, .high = kLargestValue,
+           .words = {"auto"}, .unit = "native", .help = "Value of the solid surface",
+           .automatic = "half maximum of the object's edge, fitted to the image along the normals "
+               "of the surface itself"}, &Settings::level),
+    bound({.name = "band_threshold", .form = "X", .count = 1, .low = 0, .high = 1,
+           .help = "TOLth: the band's cells have v below this"}, &Settings::band_threshold),
+    bound({.name = "min_volume", .form = "X", .count = 1, .low = 0, .high = 1e12,
+           .words = {"auto"}, .unit = "mm^3",
+           .help = "Smaller islands of the solid go, smaller cavities are filled",
+           .automatic = "4 voxels"}, &Settings::min_volume),
+    bound({.name = "keep_largest", .form = "N", .count = 1, .whole = true, .low = 0, .high = 1e9,
+           .help = "Islands of the solid to keep; 0: all"}, &Settings::keep_largest),
+    bound({.name = "fill_cavities", .form = "yes|no",
+           .help = "Fill every cavity of the solid"}, &Settings::fill_cavities),
+    tolerance_row({.name = "tolerance", .form = "X", .count = 1, .low = 0, .high = kHuge,
+                   .words = {"auto", "none"}, .unit = "mm",
+                   .help = "Decimation keeps the solid surface within this distance; 0: no "
+                       "decimation; none: no bound",
+                   .automatic = "0.1 voxel; none where triangles says where to stop"}),
+    bound({.name = "triangles", .form = "N", .count = 1, .whole = true, .low = 4, .high = 2e9,
+           .words = {"auto"}, .help = "Decimation stops at this many triangles",
+           .automatic = "as few as the tolerance permits"}, &Settings::triangles),
+  };
+}
+// clang-format on
+
+void add_group(std::vector<Setting>& table, const std::string& group, std::vector<Setting> rows) {
+  for (Setting& row : rows) {
+    row.group = group;
+    table.push_back(std::move(row));
+  }
+}
+
+}  // namespace
+
+std::vector<Setting> build_setting_rows() {
+  std::vector<Setting> table;
+  add_group(table, "Image", image_rows());
+  add_group(table, "Functional", functional_rows());
+  add_group(table, "Mesh", mesh_rows());
+  add_group(table, "Surface", surface_rows());
+  return table;
+}
+
+}  // namespace mesamis

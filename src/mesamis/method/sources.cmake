@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+set(ROOM_HEADERS
+  available_memory.h
+  iteration.h
+  memory.h
+  mes_amis.h
+  parameters.h
+  prepare.h
+  printable.h
+  setting_table.h
+  settings.h)
+set(ROOM_SOURCES
+  available_memory.cpp
+  level.cpp
+  memory.cpp
+  mes_amis.cpp
+  parameters.cpp
+  passes.cpp
+  prepare.cpp
+  printable.cpp
+  setting_rows.cpp
+  setting_table.cpp)

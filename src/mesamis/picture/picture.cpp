@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/picture/picture.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataSetSurfaceFilter.h>
+#include <vtkImageActor.h>
+#include <vtkImageData.h>
+#include <vtkImageMapper3D.h>
+#include <vtkImageProperty.h>
+#include <vtkLookupTable.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
+#include <vtkProperty.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesamis/base/error.h"
+#include "mesamis/picture/annotation.h"
+#include "mesamis/picture/color_scale.h"
+#include "mesamis/picture/scene.h"
+#include "mesamis/picture/slice.h"
+#include "mesamis/picture/vtk_data.h"
+
+namespace mesamis {
+
+using namespace detail;
+
+namespace {
+
+constexpr double kCreaseAngleInDegrees = 40;  // sharper edges are not smoothed by the shading
+
+struct Paint {
+  double r, g, b;
+};
+constexpr Paint kBone{0.95, 0.90, 0.81};
+constexpr Paint kInside{0.70, 0.56, 0.49};  // the back faces of an open surface
+constexpr Paint kCell{0.74, 0.81, 0.90};
+constexpr Paint kEdge{0.12, 0.13, 0.18};
+constexpr Paint kOutline{1.0, 0.42, 0.05};
+
+void require_drawable(std::span<const Vec3> points, std::size_t cells) {
+  if (cells == 0) throw InputError("picture: nothing to draw, there are no cells");
+  for (const Vec3& p : points) {
+    if (!std::isfinite(p.x + p.y + p.z)) throw InputError("picture: a point is not finite");
+  }
+}
+
+/// "181 x 207 x 155 mm"
+std::string size_label(const Box& box) {
+  const Vec3 e = box.extent();
+  return short_number(e.x) + " × " + short_number(e.y) + " × " + short_number(e.z) + " mm";
+}
+
+void add_corner_label(Scene& scene, const std::string& text, int line = 0) {
+  const double unit = scene.unit();
+  add_label(scene, {text, {28 * unit, (24 + 24 * line) * unit}});
+}
+
+/// The points that polygons of a data set use.
+std::vector<Vec3> used_points(vtkPolyData& data) {
+  std::vector<Vec3> points;
+  vtkDataArray& corners = *data.GetPolys()->GetConnectivityArray();
+  for (vtkIdType i = 0; i < corners.GetNumberOfValues(); ++i) {
+    double p[3];
+    data.GetPoint(static_cast<vtkIdType>(corners.GetComponent(i, 0)), p);
+    points.push_back({p[0], p[1], p[2]});
+  }
+  return points;
+}
+
+/// Decides which cells the clip plane hides: whole cells whose centre is on the viewer's side, so
+/// that the cut is always visible.
+class Clipper {
+ public:
+  Clipper(const std::optional<Clip>& clip, const CameraAxes& axes)
+      : clip_(clip), viewer_above_(clip && axes.forward[clip->axis] < 0) {}
+  template <class Corners>
+  bool keeps(const std::vector<Vec3>& points, const Corners& corners) const {
+    if (!clip_) return true;
+    double sum = 0;
+    for (const Index p : corners) sum += points[static_cast<std::size_t>(p)][clip_->axis];
+    const double center = sum / static_cast<double>(corners.size());
+    return viewer_above_ ? center <= clip_->position : center >= clip_->position;
+  }
+
+ private:
+  std::optional<Clip> clip_;
+  bool viewer_above_;
+};
+
+[[noreturn]] void refuse_empty(const Clip& clip, const Box& box) {
+  throw InputError("picture: nothing is left beyond the clip plane " +
+                   std::string(1, "xyz"[clip.axis]) + " = " + short_number(clip.position) +
+                   " mm, the object reaches from " + short_number(box.lo[clip.axis]) + " to " +
+                   short_number(box.hi[clip.axis]) + " mm");
+}
+
+vtkSmartPointer<vtkActor> add_actor(Scene& scene, vtkPolyData* data, bool edges) {
+  const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
+  mapper->SetInputData(data);
+  mapper->ScalarVisibilityOff();
+  const auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  vtkProperty& property = *actor->GetProperty();
+  property.SetAmbient(0.14);
+  property.SetDiffuse(0.88);
+  if (edges) {
+    property.EdgeVisibilityOn();
+    property.SetEdgeColor(kEdge.r, kEdge.g, kEdge.b);
+    property.SetLineWidth(static_cast<float>(std::max(1.0, 0.75 * scene.unit())));
+  }
+  scene.renderer().AddActor(actor);
+  return actor;
+}
+
+void paint(vtkActor& actor, const Paint& paint) {
+  actor.GetProperty()->SetColor(paint.r, paint.g, paint.b);
+}
+
+// ---------------------------------------------------------------- colours
+
+vtkSmartPointer<vtkLookupTable> lookup_table(const ColorBar& bar) {
+  constexpr int kSteps = 256;
+  const auto table = vtkSmartPointer<vtkLookupTable>::New();
+  table->SetNumberOfTableValues(kSteps);
+  table->SetTableRange(bar.range.lo, bar.range.hi);
+  for (int i = 0; i < kSteps; ++i) {
+    const Rgb rgb = bar.color((i + 0.5) / kSteps);
+    table->SetTableValue(i, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+  }
+  table->SetNanColor(1, 0, 1, 1);
+  return table;
+}
+
+void color_by(vtkActor& actor, bool on_points, const ColorBar& bar) {
+  vtkMapper& mapper = *actor.GetMapper();
+  mapper.ScalarVisibilityOn();
+  if (on_points) {
+    mapper.SetScalarModeToUsePointData();
+  } else {
+    mapper.SetScalarModeToUseCellData();
+  }
+  mapper.SetLookupTable(lookup_table(bar));
+  mapper.UseLookupTableScalarRangeOn();
+  mapper.InterpolateScalarsBeforeMappingOn();
+  // Mostly ambient light, so that the colours agree with those of the bar.
+  actor.GetProperty()->SetAmbient(0.58);
+  actor.GetProperty()->SetDiffuse(0.44);
+}
+
+// ---------------------------------------------------------------- surfaces
+
+TriMesh clipped(const TriMesh& surface, const PictureOptions& options, const CameraAxes& axes) {
+  const Clipper clipper(options.clip, axes);
+  TriMesh kept{surface.points, {}};
+  for (const Triangle& t : surface.triangles) {
+    if (clipper.keeps(surface.points, t)) kept.triangles.push_back(t);
+  }
+  if (kept.triangles.empty()) refuse_empty(*options.clip, bounding_box(surface.points));
+  return kept;
+}
+
+vtkSmartPointer<vtkPolyData> with_normals(vtkPolyData* data) {
+  const auto normals = vtkSmartPointer<vtkPolyDataNormals>::New();
+  normals->SetInputData(data);
+  normals->SetFeatureAngle(kCreaseAngleInDegrees);
+  normals->ConsistencyOff();
+  normals->Update();
+  return normals->GetOutput();
+}
+
+/// @param values  one per point to colour by, or none for one colour.
+vtkSmartPointer<vtkActor> add_surface(Scene& scene, const TriMesh& surface, bool edges,
+                                      std::span<const double> values) {
+  const auto data = vtk_surface(surface);
+  if (!values.empty()) {
+    add_array(*data->GetPointData(), {"color", 1, {values.begin(), values.end()}},
+              surface.points.size(), "point");
+    data->GetPointData()->SetActiveScalars("color");
+  }
+  const auto actor = add_actor(scene, edges ? data.Get() : with_normals(data).Get(), edges);
+  paint(*actor, kBone);
+  vtkProperty& property = *actor->GetProperty();
+  const auto inside = vtkSmartPointer<vtkProperty>::New();
+  if (edges) {
+    property.SetInterpolationToFlat();
+  } else {
+    property.SetSpecular(0.12);
+    property.SetSpecularPower(18);
+  }
+  inside->DeepCopy(&property);
+  inside->SetColor(kInside.r, kInside.g, kInside.b);
+  inside->SetSpecular(0);
+  if (values.empty()) actor->SetBackfaceProperty(inside);
+  return actor;
+}
+
+// ---------------------------------------------------------------- meshes
+
+/// An array to colour by; nullptr: none.
+struct ColorArray {
+  const MeshArray* array = nullptr;
+  bool on_points = false;
+};
+
+ColorArray find_array(const MeshWithArrays& mesh, const std::string& name) {
+  std::string known;
+  for (const bool on_points : {true, false}) {
+    for (const MeshArray& array : on_points ? mesh.point_arrays : mesh.cell_arrays) {
+      if (array.name == name && array.components != 1) {
+        throw InputError("picture: array '" + name + "' has " + std::to_string(array.components) +
+                         " components, colours need one");
+      }
+      if (array.name == name) return {&array, on_points};
+      if (array.components == 1) known += (known.empty() ? "" : ", ") + array.name;
+    }
+  }
+  throw InputError("picture: no array '" + name + "' to colour by, there is " +
+                   (known.empty() ? "none" : known));
+}
+
+/// The boundary of the cells that the clip plane does not hide, with the values to colour by.
+vtkSmartPointer<vtkPolyData> visible_boundary(const MeshWithArrays& mesh,
+                                              const PictureOptions& options, const CameraAxes& axes,
+                                              const ColorArray& color) {
+  const Clipper clipper(options.clip, axes);
+  TetMesh kept{mesh.mesh.points, {}};
+  MeshArray cell_values{"color", 1, {}};
+  for (std::size_t c = 0; c < mesh.mesh.cells.size(); ++c) {
+    if (!clipper.keeps(mesh.mesh.points, mesh.mesh.cells[c])) continue;
+    kept.cells.push_back(mesh.mesh.cells[c]);
+    if (color.array && !color.on_points) cell_values.values.push_back(color.array->values[c]);
+  }
+  if (kept.cells.empty()) refuse_empty(*options.clip, bounding_box(mesh.mesh.points));
+  const auto grid = vtk_grid(kept);
+  if (color.array && color.on_points) {
+    add_array(*grid->GetPointData(), {"color", 1, color.array->values}, kept.points.size(),
+              "point");
+    grid->GetPointData()->SetActiveScalars("color");
+  } else if (color.array) {
+    add_array(*grid->GetCellData(), cell_values, kept.cells.size(), "cell");
+    grid->GetCellData()->SetActiveScalars("color");
+  }
+  const auto filter = vtkSmartPointer<vtkDataSetSurfaceFilter>::New();
+  filter->SetInputData(grid);
+  filter->Update();
+  return filter->GetOutput();
+}
+
+// ---------------------------------------------------------------- slices
+
+vtkSmartPointer<vtkImageData> slice_image(const Volume& volume, const SlicePlane& plane,
+                                          const ValueRange& window) {
+  const auto [right, up, deep] = plane.axis;
+  const std::array<Index, 2> size{volume.size[static_cast<std::size_t>(right)],
+                                  volume.size[static_cast<std::size_t>(up)]};
+  const auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(size[0], size[1], 1);
+  image->SetSpacing(volume.spacing[right], volume.spacing[up], 1);
+  image->SetOrigin(plane.sign[0] < 0 ? -(size[0] - 1) * volume.spacing[right] : 0,
+                   plane.sign[1] < 0 ? -(size[1] - 1) * volume.spacing[up] : 0, 0);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  std::array<Index, 3> voxel{};
+  voxel[static_cast<std::size_t>(deep)] = plane.index;
+  for (Index y = 0; y < size[1]; ++y) {
+    voxel[static_cast<std::size_t>(up)] = plane.sign[1] < 0 ? size[1] - 1 - y : y;
+    for (Index x = 0; x < size[0]; ++x) {
+      voxel[static_cast<std::size_t>(right)] = plane.sign[0] < 0 ? size[0] - 1 - x : x;
+      const double value = volume.at(voxel[0], voxel[1], voxel[2]);
+      const Rgb rgb =
+          grey(std::isfinite(value) ? (value - window.lo) / (window.hi - window.lo) : 0);
+      std::copy(rgb.begin(), rgb.end(),
+                static_cast<std::uint8_t*>(image->GetScalarPointer(x, y, 0)));
+    }
+  }
+  return image;
+}
+
+void add_image(Scene& scene, vtkImageData* image) {
+  const auto actor = vtkSmartPointer<vtkImageActor>::New();
+  actor->GetMapper()->SetInputData(image);
+  actor->GetProperty()->SetInterpolationTypeToLinear();
+  scene.renderer().AddActor(actor);
+}
+
+void add_outline(Scene& scene, const std::vector<std::array<Vec3, 2>>& segments) {
+  const auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  const auto lines = vtkSmartPointer<vtkCellArray>::New();
+  const double lift = scene.mm_per_pixel();  // in front of the image
+  for (const auto& [a, b] : segments) {
+    const vtkIdType ends[2] = {points->InsertNextPoint(a.x, a.y, lift),
+                               points->InsertNextPoint(b.x, b.y, lift)};
+    lines->InsertNextCell(2, ends);
+  }
+  const auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetLines(lines);
+  const auto actor = add_actor(scene, data, false);
+  paint(*actor, kOutline);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetLineWidth(static_cast<float>(1.6 * scene.unit()));
+}
+
+/// Adds the letters of the body's sides around the slice.
+void add_side_letters(Scene& scene, const SlicePlane& plane, const std::array<Vec3, 2>& corners) {
+  const auto lo = scene.to_pixel(corners[0]), hi = scene.to_pixel(corners[1]);
+  const double gap = 18 * scene.unit();
+  const double x = (lo[0] + hi[0]) / 2, y = (lo[1] + hi[1]) / 2;
+  const std::array<std::array<double, 2>, 4> places{
+      {{lo[0] - gap, y}, {hi[0] + gap, y}, {x, lo[1] - gap}, {x, hi[1] + gap}}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    add_label(scene, {std::string(1, plane.letters[i]), places[i], Align::kCenter, 20, true});
+  }
+}
+
+std::string slice_label(const Volume& volume, const SlicePlane& plane, int axis) {
+  constexpr std::array<const char*, 3> kNames{"sagittal  x = ", "coronal  y = ", "axial  z = "};
+  return kNames[static_cast<std::size_t>(axis)] + short_number(plane.position) + " mm   slice " +
+         std::to_string(plane.index + 1) + " of " +
+         std::to_string(volume.size[static_cast<std::size_t>(plane.axis[2])]);
+}
+
+}  // namespace
+
+void draw_surface(const std::filesystem::path& png, const TriMesh& surface,
+                  const PictureOptions& options, std::span<const double> values) {
+  require_drawable(surface.points, surface.triangles.size());
+  if (!options.color.empty() && values.size() != surface.points.size()) {
+    throw InputError("picture: a surface of " + std::to_string(surface.points.size()) +
+                     " points has no array '" + options.color + "' to colour by, found " +
+                     std::to_string(values.size()) + " values");
+  }
+  if (options.color.empty()) values = {};
+  const CameraAxes axes = camera_axes(options.view);
+  const TriMesh shown = clipped(surface, options, axes);
+  Scene scene(options.pixels, options.display);
+  const auto actor = add_surface(scene, shown, options.edges, values);
+  Margins margins;
+  if (!values.empty()) {
+    const ColorBar bar{options.color, percentile_range(values, 0.005, 0.995)};
+    color_by(*actor, true, bar);
+    add_color_bar(scene, bar);
+    margins.right = kColorBarMargin;
+  }
+  scene.add_lights();
+  scene.fit(axes, used_points(*vtk_surface(shown)), margins);
+  scene.zoom_in(options.zoom, options.focus);
+  add_scale_bar(scene);
+  add_corner_label(scene, size_label(bounding_box(surface.points)));
+  scene.save(png);
+}
+
+void draw_mesh(const std::filesystem::path& png, const MeshWithArrays& mesh,
+               const PictureOptions& options) {
+  require_drawable(mesh.mesh.points, mesh.mesh.cells.size());
+  const CameraAxes axes = camera_axes(options.view);
+  const ColorArray color = options.color.empty() ? ColorArray{} : find_array(mesh, options.color);
+  const auto shown = visible_boundary(mesh, options, axes, color);
+  Scene scene(options.pixels, options.display);
+  const auto actor = add_actor(scene, shown, options.edges);
+  actor->GetProperty()->SetInterpolationToFlat();
+  paint(*actor, kCell);
+  Margins margins;
+  if (color.array) {
+    const std::span<const double> values = color.array->values;
+    const ColorBar bar{options.color, percentile_range(values, 0.005, 0.995)};
+    color_by(*actor, color.on_points, bar);
+    add_color_bar(scene, bar);
+    margins.right = kColorBarMargin;
+  }
+  scene.add_lights();
+  scene.fit(axes, used_points(*shown), margins);
+  scene.zoom_in(options.zoom, options.focus);
+  add_scale_bar(scene);
+  add_corner_label(scene, size_label(bounding_box(mesh.mesh.points)) + "   " +
+                              std::to_string(mesh.mesh.cells.size()) + " cells");
+  scene.save(png);
+}
+
+void draw_slice(const std::filesystem::path& png, const Volume& volume, const TriMesh* surface,
+                const PictureOptions& options) {
+  require_usable(volume);
+  const int axis = options.clip ? options.clip->axis : 2;
+  const SlicePlane plane =
+      slice_plane(volume, axis, options.clip ? &options.clip->position : nullptr);
+  const ColorBar bar{volume.modality == "CT" ? "HU" : "value",
+                     percentile_range(std::span<const float>(volume.samples), 0.005, 0.995), grey};
+  Scene scene(options.pixels, options.display);
+  const auto image = slice_image(volume, plane, bar.range);
+  double bounds[6];
+  image->GetBounds(bounds);
+  const std::array<Vec3, 2> corners{Vec3{bounds[0], bounds[2], 0}, Vec3{bounds[1], bounds[3], 0}};
+  scene.fit({{0, 0, -1}, {0, 1, 0}}, corners, {0.05, kColorBarMargin, 0.12, 0.06});
+  add_image(scene, image);
+  if (surface != nullptr) add_outline(scene, outline(volume, plane, *surface));
+  add_side_letters(scene, plane, corners);
+  add_color_bar(scene, bar);
+  add_scale_bar(scene);
+  add_corner_label(scene, slice_label(volume, plane, axis));
+  scene.save(png);
+}
+
+}  // namespace mesamis

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+set(ROOM_HEADERS
+  picture.h)
+set(ROOM_SOURCES
+  annotation.cpp
+  color_scale.cpp
+  display.cpp
+  picture.cpp
+  scene.cpp
+  slice.cpp
+  vtk_data.cpp
+  vtk_messages.cpp)

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+set(ROOM_HEADERS
+  plot.h)
+# For the rooms above alone: not installed.
+set(ROOM_INNER_HEADERS
+  ticks.h)
+set(ROOM_SOURCES
+  axis.cpp
+  plot.cpp
+  series_style.cpp
+  svg.cpp
+  ticks.cpp)

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+set(ROOM_HEADERS
+  check_printable.h
+  child_process.h
+  gcode.h
+  print_bed.h
+  prusa_info.h
+  slice_settings.h
+  slice_surface.h
+  slicer.h)
+set(ROOM_SOURCES
+  check_printable.cpp
+  child_process.cpp
+  gcode.cpp
+  print_bed.cpp
+  prusa_info.cpp
+  slice_settings.cpp
+  slice_surface.cpp
+  slicer.cpp
+  slicer_arguments.cpp
+  slicer_log.cpp
+  temporary_folder.cpp)

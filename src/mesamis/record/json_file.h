@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "mesamis/base/types.h"
+
+namespace mesamis {
+
+/// Writes an indented JSON file, which appears whole or not at all. Numbers that are not finite
+/// become null, text that is not UTF-8 is repaired.
+/// @throws InputError  if the file cannot be written.
+void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& value);
+
+/// Reads a JSON file. O(bytes of the file).
+/// @throws InputError  if the file cannot be read or is not JSON; the message says where.
+nlohmann::json read_json(const std::filesystem::path& path);
+
+/// A point or vector as [x, y, z], in mm or whatever unit it has. Throws nothing.
+nlohmann::ordered_json vec_json(const Vec3& v);
+
+}  // namespace mesamis

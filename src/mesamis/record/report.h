@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "mesamis/base/types.h"
+#include "mesamis/delivery/mesh_output.h"
+#include "mesamis/image/volume.h"
+#include "mesamis/method/mes_amis.h"
+#include "mesamis/record/run_summary.h"
+#include "mesamis/surface/tri_mesh.h"
+
+/// The entries of reports, as docs/formats.md describes them.
+namespace mesamis {
+
+/// The scan a report is about.
+struct InputFacts {
+  std::filesystem::path path;
+  std::string format, sha256, modality;
+  std::array<Index, 3> size{0, 0, 0};  ///< voxels
+  Vec3 spacing;                        ///< mm
+  double lowest = 0, highest = 0;      ///< native units
+  std::vector<std::string> warnings;   ///< of the reader
+};
+
+/// Collects the facts of a scan that a report gives.
+/// @param volume  as it was read from the path; native units.
+/// @throws InputError  if the file cannot be read again for its sha256. O(bytes of the file).
+InputFacts facts_of(const std::filesystem::path& path, const Volume& volume,
+                    const std::string& format, const std::vector<std::string>& warnings);
+
+/// The entry "input" of a report: "path", "format", "sha256", ... of its scan. Throws nothing.
+nlohmann::ordered_json input_json(const InputFacts& input);
+
+/// The entry "program" of every report: name, version, commit. Throws nothing.
+nlohmann::ordered_json program_json();
+
+/// The entry "output": the frame of the files written, the threads used. Throws nothing.
+nlohmann::ordered_json output_json(Frame frame);
+
+/// How a solid was made printable: tolerance, triangles before, distances (mm), parts.
+/// @param tolerance  mm; infinite where there was no bound. Throws nothing.
+nlohmann::ordered_json printable_json(const PrintableReport& printable, double tolerance);
+
+/// The counts, volume and area of a surface, and whether it is closed. Throws nothing. O(1).
+nlohmann::ordered_json check_json(const TriMesh& surface, const SurfaceCheck& check);
+
+/// What a report says of a run itself: settings, chosen, given, grey, image, iterations, mesh,
+/// surface, converged, seconds_parts.
+/// @param asked  the settings the run was started with, to tell what was chosen.
+/// @throws InputError  as summarize(). Cost as there.
+nlohmann::ordered_json run_json(const Settings& asked, const Result& result,
+                                const SurfaceCheck& surface);
+
+/// The same of a run whose figures were taken before. Throws nothing. O(passes).
+nlohmann::ordered_json run_json(const Settings& asked, const RunSummary& run);
+
+/// The region of a mesh that was written, and its sets of cells. Throws nothing. O(bins).
+nlohmann::ordered_json region_json(const MeshOutput& mesh);
+
+}  // namespace mesamis

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/record/verdict.h"
+
+#include <sstream>
+
+namespace mesamis {
+namespace {
+
+std::string why_not_converged(const Result& result) {
+  const auto& passes = result.iterations;
+  for (const Iteration& pass : passes) {
+    if (!pass.amis.solver_converged) {
+      return "not converged: a linear solve ended with a relative residual of " +
+             std::to_string(pass.amis.solver_residual) + ", expected " +
+             std::to_string(pass.amis.solver_tolerance);
+    }
+  }
+  if (result.parameters.adaptations == 1) {
+    return "not converged: one adaptation cannot show that anything has settled, expected 2 or "
+           "more";
+  }
+  const Iteration& last = passes[passes.size() - 2];
+  return "not converged: after " + std::to_string(result.parameters.adaptations) +
+         " adaptations the cell count changed by " + std::to_string(last.mesh_change) +
+         " and the energy by " + std::to_string(last.energy_change) + ", expected at most " +
+         std::to_string(result.parameters.tol_mesh) + " and " +
+         std::to_string(result.parameters.tol_energy);
+}
+
+}  // namespace
+
+Verdict judge(const Result& result, const SurfaceCheck& check) {
+  const Parameters& p = result.parameters;
+  const bool solid = p.surface == SurfaceKind::kSolid;
+  const bool encloses = solid && !result.surface.triangles.empty();
+  const std::string flaws = encloses ? solid_flaws_of(check) : flaws_of(check);
+  if (!flaws.empty()) {
+    return {Outcome::kNotClosed,
+            "expected a closed 2-manifold surface that faces outward, found " + flaws};
+  }
+  if (solid && !result.printable.within(p.tolerance)) {
+    return {Outcome::kNotConverged, tolerance_unmet(p.tolerance, result.printable)};
+  }
+  if (!result.converged) return {Outcome::kNotConverged, why_not_converged(result)};
+  return {};
+}
+
+std::string tolerance_unmet(double tolerance, const PrintableReport& printable) {
+  std::ostringstream line;
+  line << "tolerance: expected distances of " << tolerance << " mm at most, found "
+       << printable.extracted_to_result << " and " << printable.result_to_extracted
+       << ": single precision is too coarse so far from the origin";
+  return line.str();
+}
+
+}  // namespace mesamis

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "mesamis/method/mes_amis.h"
+#include "mesamis/surface/tri_mesh.h"
+
+namespace mesamis {
+
+/// Whether a run kept what it promised, the worst last.
+enum class Outcome {
+  kKept,          ///< converged, closed, within the tolerance
+  kNotConverged,  ///< the loop did not settle, a solve did not converge, or the tolerance is unmet
+  kNotClosed      ///< a surface that should be closed, manifold and outward is not
+};
+
+struct Verdict {
+  Outcome outcome = Outcome::kKept;
+  std::string message;  ///< what was expected and found, on one line; empty: all was kept
+};
+
+/// Judges a run: whether its surface is closed, within the tolerance, and the run converged.
+/// @param check  of the result's surface. Throws nothing. O(passes).
+Verdict judge(const Result& result, const SurfaceCheck& check);
+
+/// Why a surface is farther off than it should be, on one line.
+/// @param tolerance  mm. Throws nothing.
+std::string tolerance_unmet(double tolerance, const PrintableReport& printable);
+
+}  // namespace mesamis

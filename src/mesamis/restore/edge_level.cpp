@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/restore/edge_level.h"
+
+#include "mesamis/restore/edge_profile.h"
+
+namespace mesamis {
+
+std::optional<double> measure_edge_level(const VolumeView& volume,
+                                         const std::vector<SurfacePoint>& points) {
+  constexpr double kMostResidual = 0.01;  // against the height
+  const PointGroup usable = with_normals(points);
+  if (usable.size() < kFewestProfilePoints) return std::nullopt;
+  const EdgeModel edge = fit_edge_model(median_profile(volume, usable));
+  if (!(edge.residual < kMostResidual * edge.height())) return std::nullopt;
+  return edge.level();
+}
+
+}  // namespace mesamis

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "mesamis/image/volume.h"
+#include "mesamis/restore/object_contrast.h"
+
+namespace mesamis {
+
+/// The level of half maximum: midway between the background and the object, both measured at the
+/// object's surface. There a symmetric blur leaves a flat surface where it is.
+struct HalfMaximumLevel {
+  double level = 0;         ///< native units
+  ObjectContrast contrast;  ///< at the surface of that level
+  double area = 0;          ///< of the smoothed image's level set, mm^2: the extent of the edges
+};
+
+struct HalfMaximumOptions {
+  /// Level whose area is measured, native units; default: the level found.
+  std::optional<double> area_at = std::nullopt;
+  /// Level from which the iteration starts, native units; default: see find_half_maximum_level().
+  std::optional<double> start = std::nullopt;
+};
+
+/// Finds the bright object of an image and its level of half maximum.
+///
+/// A fixed-point iteration: measure the contrast at the surface of the present level
+/// (measure_contrast()), move the level to the half maximum, until it changes by less than 0.005 of
+/// the contrast. It starts from 200 HU (bone) in CT; in other images from Otsu's threshold of all
+/// voxels or, if the contrast found so does not exceed the noise, from Otsu's threshold of the
+/// voxels on edges.
+/// @param volume  native values; usable, see require_usable().
+/// @return a contrast of zero if the level has no surface to measure at; the level is then the one
+///         the iteration started from.
+/// @throws nothing
+///
+/// O(voxels) per iteration, at most ten; a smoothed copy of the samples.
+HalfMaximumLevel find_half_maximum_level(const VolumeView& volume,
+                                         const HalfMaximumOptions& options = {});
+
+}  // namespace mesamis

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/restore/object_contrast.h"
+
+#include <cmath>
+
+#include "mesamis/base/median.h"
+
+namespace mesamis {
+namespace {
+
+constexpr std::size_t kFewestPoints = 10;
+
+/// mm per voxel along the unit direction d.
+double voxel_step(const VoxelGrid& grid, const Vec3& d) {
+  const Vec3& s = grid.spacing;
+  return 1 / norm({d.x / s.x, d.y / s.y, d.z / s.z});
+}
+
+}  // namespace
+
+std::optional<Vec3> place_along_normal(const VolumeView& guide, const SurfacePoint& point,
+                                       double voxels, double level) {
+  const double step = std::copysign(voxel_step(guide, point.normal), voxels);
+  const Box box = guide.box();
+  Vec3 p;
+  for (const double distance : {0.75, 1.5, 2.5}) {
+    if (distance > std::abs(voxels)) break;
+    p = point.position + distance * step * point.normal;
+    if (!box.contains(p) || (interpolate(guide, p) > level) != (voxels < 0)) return std::nullopt;
+  }
+  return p;
+}
+
+std::optional<ObjectContrast> measure_contrast(const VolumeView& volume, const VolumeView& guide,
+                                               const std::vector<SurfacePoint>& points,
+                                               double level) {
+  constexpr double kDistance = 1.5;  // voxels
+  std::vector<double> inside, outside;
+  for (const SurfacePoint& point : points) {
+    if (norm(point.normal) == 0) continue;
+    if (const auto place = place_along_normal(guide, point, -kDistance, level)) {
+      inside.push_back(interpolate(volume, *place));
+    }
+    if (const auto place = place_along_normal(guide, point, kDistance, level)) {
+      outside.push_back(interpolate(volume, *place));
+    }
+  }
+  if (inside.size() < kFewestPoints || outside.size() < kFewestPoints) return std::nullopt;
+  ObjectContrast contrast;
+  contrast.object = median(inside);
+  contrast.background = median(outside);
+  contrast.samples = inside.size() + outside.size();
+  return contrast;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "mesamis/image/volume.h"
+#include "mesamis/restore/half_maximum_level.h"
+
+namespace mesamis {
+
+/// What is known of a scan's noise and blur; what is not known is measured.
+struct RestoreOptions {
+  /// Standard deviation, native units, >= 0; default: measure_noise().
+  std::optional<double> noise = std::nullopt;
+  /// Standard deviations along the axes, voxels, 0 to kLargestBlur; default: measure_blur().
+  std::optional<std::array<double, 3>> blur = std::nullopt;
+};
+
+/// A scan without its impulses and with its blur undone, as far as the noise permits.
+struct Restored {
+  Volume volume;                 ///< native units
+  double noise = 0;              ///< standard deviation in the scan, native units
+  double noise_left = 0;         ///< standard deviation in the volume here, native units
+  std::array<double, 3> blur{};  ///< standard deviations in the scan, voxels
+  double impulses = 0;           ///< share of the voxels that were replaced, 0 to 1
+};
+
+/// Restores a scan: measures noise, impulses and blur near the object's surface, removes the
+/// impulses (remove_impulses()) and undoes the blur (deblurred()), the more gently the larger the
+/// noise is against the object's contrast.
+/// @param volume  native values; taken over, pass it with std::move() to save the copy.
+/// @param object  of this volume. Where its contrast is not positive, the volume stays as it is.
+/// @throws InputError  if an option is out of range.
+/// O(voxels); about four copies of the samples.
+Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOptions& options = {});
+
+}  // namespace mesamis

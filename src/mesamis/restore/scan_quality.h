@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesamis/image/volume.h"
+#include "mesamis/restore/level_crossings.h"
+
+/// Noise and blur of a scan, measured in the image itself at the surface of its object.
+namespace mesamis {
+
+/// Measures the standard deviation of the image's noise.
+///
+/// It is that of the differences between voxels and the mean of their 3x3x3 neighbourhood, two and
+/// a half voxels outside and inside of the object's surface, away from edges. It is robust (from
+/// medians), so that impulses do not count, and that of the quieter side: spongy bone is no noise.
+/// Noise that is correlated over many voxels is not seen.
+/// @param volume  native values.
+/// @param guide   the same image, smoothed, on the same grid: tells the sides of the level apart.
+/// @param points  of the surface {guide = level}.
+/// @param level   native units.
+/// @return native units, >= 0; 0 if there are fewer than ten places on each side.
+/// @throws nothing
+///
+/// O(points).
+double measure_noise(const VolumeView& volume, const VolumeView& guide,
+                     const std::vector<SurfacePoint>& points, double level);
+
+/// Measures the standard deviation of the image's blur along each axis.
+///
+/// For each axis, the image is averaged (median) at equal distances from the surface, along the
+/// normals of the points whose normal is nearly the axis. A Gaussian edge is fitted to either half
+/// of this profile; the sharper half counts, for the next tissue or the far side of a wall widens
+/// the other. The variances of the interpolation and of the scatter of the points (they were found
+/// in noise) are subtracted. Axes that fewer than a hundred normals follow get the profile of all
+/// points. No axis gets more than 1.5 times the median of the three axes, nor more than two voxels.
+/// The blur includes the voxels' own extent: partial volume alone is 0.29.
+/// @param volume  native values.
+/// @param points  crossing_points() of smoothed(smoothed(volume)) at the level: with less
+///                smoothing, the noise that displaces the points widens their profile.
+/// @param noise   standard deviation in the volume, native units, >= 0.
+/// @return voxels, 0 to 2; zeros if fewer than a hundred points have a normal.
+/// @throws nothing
+///
+/// O(points).
+std::array<double, 3> measure_blur(const VolumeView& volume,
+                                   const std::vector<SurfacePoint>& points, double noise);
+
+}  // namespace mesamis

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+set(ROOM_HEADERS
+  deblur.h
+  edge_level.h
+  half_maximum_level.h
+  impulses.h
+  level_crossings.h
+  object_contrast.h
+  restore.h
+  scan_quality.h
+  tissue_threshold.h)
+set(ROOM_SOURCES
+  deblur.cpp
+  edge_level.cpp
+  edge_profile.cpp
+  half_maximum_level.cpp
+  impulses.cpp
+  level_crossings.cpp
+  object_contrast.cpp
+  restore.cpp
+  scan_quality.cpp
+  tissue_threshold.cpp)

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/restore/tissue_threshold.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "mesamis/image/grey_values.h"
+
+namespace mesamis {
+namespace {
+
+/// Where the tissue around `value` ends upwards: right of its peak in the histogram, the first bin
+/// of at most a tenth of the peak.
+double upper_end_of_tissue(const VolumeView& volume, double value, double level) {
+  constexpr int kBins = 64;
+  const double width = (level - value) / (kBins / 2.0);  // the level lies in the last bin
+  std::vector<double> counts(kBins, 0);
+  for (const float sample : volume.samples) {
+    const double bin = (sample - value) / width + kBins / 2.0;
+    if (bin >= 0 && bin < kBins) ++counts[static_cast<std::size_t>(bin)];
+  }
+  auto bin = static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+  const double tenth = counts[static_cast<std::size_t>(bin)] / 10;
+  while (bin + 1 < kBins && counts[static_cast<std::size_t>(bin)] > tenth) ++bin;
+  return value + (bin - kBins / 2.0) * width;
+}
+
+}  // namespace
+
+std::optional<double> find_tissue_threshold(const VolumeView& volume,
+                                            const ObjectContrast& contrast, double level,
+                                            double noise) {
+  constexpr double kClearOfNoise = 2.5;
+  constexpr double kTwoClasses = 4;    // one class's halves are 1.6 times its noise apart
+  constexpr double kThirdClass = 0.5;  // distance of the two dark classes, against the contrast
+  if (!(contrast.difference() > 0)) return std::nullopt;
+  const OtsuSplit dark = otsu_split(volume, level);
+  const double distance = dark.mean_above - dark.mean_below;
+  if (distance < std::max(kThirdClass * contrast.difference(), kTwoClasses * noise)) {
+    return std::nullopt;
+  }
+  return std::min({upper_end_of_tissue(volume, contrast.background, level),
+                   contrast.background + 0.5 * (level - contrast.background),
+                   level - kClearOfNoise * noise});
+}
+
+}  // namespace mesamis

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mesamis/scan_files/dicom_data.h"
+
+/// Compressed pictures inside DICOM files: what their headers state, and JPEG's samples.
+namespace mesamis::detail {
+
+/// What a compressed picture states about itself. It is read before any decoder sees the data.
+struct PictureHeader {
+  int columns = 0, rows = 0, components = 0;
+  int bits = 0;  ///< precision of a sample
+};
+
+/// The start-of-frame segment of JPEG or JPEG-LS; none if there is none.
+std::optional<PictureHeader> jpeg_header(Bytes picture);
+
+/// The SIZ segment of a JPEG 2000 codestream; none if it does not come first.
+std::optional<PictureHeader> jpeg2000_header(Bytes picture);
+
+/// Whether JPEG's EOI or JPEG 2000's EOC marker ends the data; up to 16 bytes of padding may
+/// follow. Decoders fill up what is cut off and report success.
+bool has_end_marker(Bytes picture);
+
+/// Samples as they are coded, row by row.
+struct JpegSamples {
+  std::vector<std::uint16_t> values;
+  bool intact = true;  ///< false: the decoder met corrupt data and went on
+};
+
+/// Decodes a grey JPEG picture (ISO 10918-1: baseline, extended, progressive, lossless).
+///
+/// The decoders are the Independent JPEG Group's for 8, 12 and 16 bits, which GDCM brings. They
+/// are called directly and not through GDCM's classes, because those print to stderr.
+/// @param picture  from SOI to EOI.
+/// @param header   jpeg_header(picture): one component, 2 to 16 bits.
+/// @return columns * rows samples; none if the picture cannot be decoded.
+std::optional<JpegSamples> decode_jpeg(Bytes picture, const PictureHeader& header);
+
+/// decode_jpeg() for each precision: up to 8, 12 and 16 bits.
+std::optional<JpegSamples> decode_jpeg8(Bytes picture, const PictureHeader& header);
+std::optional<JpegSamples> decode_jpeg12(Bytes picture, const PictureHeader& header);
+std::optional<JpegSamples> decode_jpeg16(Bytes picture, const PictureHeader& header);
+
+}  // namespace mesamis::detail

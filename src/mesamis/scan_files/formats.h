@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/scan_files/scan_file.h"
+
+/// The formats of this room, one .cpp each. Every function throws InputError, one line.
+namespace mesamis::detail {
+
+/// NIfTI-1 and -2, one file, plain or gzip'd, either byte order. World frame: the sform if its
+/// code is above 0, else the qform, else (with a warning) method 1 of the standard: axes along
+/// RAS, origin 0. RAS is turned into LPS; lengths in m or um into mm.
+ScanFile open_nifti(const std::filesystem::path& file);
+
+/// NRRD 1 to 5 with 3 domain axes; raw, gzip or ascii; attached or one detached data file.
+/// World frame: spaces in LPS, RAS or LAS order; without a space the axes are taken as LPS.
+ScanFile open_nrrd(const std::filesystem::path& file);
+
+/// MetaImage with 3 axes and one channel; raw, zlib or ascii; LOCAL or one data file. LPS.
+ScanFile open_meta(const std::filesystem::path& file);
+
+/// InVesalius project: a tar (gzip'd or not) with main.plist and the matrix it names. The project
+/// stores x to the left, y to the front and z to the head (checked on the distribution's
+/// Cranium.inv3; the file itself does not say), and no origin: the first voxel is put at 0.
+ScanFile open_inv3(const std::filesystem::path& file);
+
+/// A TIFF whose pages are the slices; x to the left, y to the back, z to the head. Spacing from
+/// the resolution tags and from ImageJ's description (unit, spacing), 1 mm with a warning else.
+VolumeFile read_tiff(const std::filesystem::path& file);
+VolumeInfo describe_tiff(const std::filesystem::path& file);
+
+/// One DICOM series: of a directory and those below it, or the one a file belongs to.
+VolumeFile read_dicom(const std::filesystem::path& path, const std::string& series);
+std::vector<VolumeInfo> list_dicom(const std::filesystem::path& path);
+/// Whether the file begins like DICOM, with or without the preamble.
+bool looks_like_dicom(const std::filesystem::path& file);
+
+}  // namespace mesamis::detail

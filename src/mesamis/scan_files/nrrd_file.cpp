@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "mesamis/files/refuse.h"
+#include "mesamis/scan_files/formats.h"
+#include "mesamis/scan_files/text_header.h"
+
+namespace mesamis::detail {
+namespace {
+
+struct NrrdHeader {
+  std::filesystem::path file;
+  HeaderFields fields;
+  std::uint64_t size = 0;  // bytes up to the attached data
+
+  bool has(const std::string& name) const { return fields.count(name) > 0; }
+  const std::string& need(const std::string& name) const {
+    const auto field = fields.find(name);
+    if (field == fields.end()) {
+      refuse(file, say("expected the field ", in_quotes(name), " in the NRRD header, found none"));
+    }
+    return field->second;
+  }
+  std::string or_else(const std::string& name, const std::string& fallback) const {
+    const auto field = fields.find(name);
+    return field == fields.end() ? fallback : field->second;
+  }
+};
+
+// "field: value". Lines with ":=" are keys of the user and are skipped.
+void parse_line(NrrdHeader& header, const std::string& line) {
+  if (line.starts_with('#')) return;
+  const auto colon = line.find(": ");
+  const auto key = line.find(":=");
+  if (key != std::string::npos && (colon == std::string::npos || key < colon)) return;
+  const auto end = colon != std::string::npos ? colon : line.find(':');
+  if (end == std::string::npos) {
+    refuse(header.file,
+           say("expected \"field: value\" in the NRRD header, found ", in_quotes(line)));
+  }
+  std::string name = lower(trimmed(std::string_view(line).substr(0, end)));
+  // The standard's other spellings.
+  if (name == "datafile") name = "data file";
+  if (name == "lineskip") name = "line skip";
+  if (name == "byteskip") name = "byte skip";
+  header.fields.emplace(name, std::string(trimmed(std::string_view(line).substr(end + 1))));
+}
+
+NrrdHeader read_header(const std::filesystem::path& file) {
+  NrrdHeader header{file, {}, 0};
+  HeaderLines lines(file);
+  std::string line;
+  if (!lines.next(line) || !line.starts_with("NRRD000") || line.size() != 8) {
+    refuse(file, say("expected the NRRD magic NRRD000x, found ", in_quotes(line)));
+  }
+  while (lines.next(line) && !line.empty()) parse_line(header, line);
+  header.size = lines.position();
+  return header;
+}
+
+NumberType sample_type(const NrrdHeader& header) {
+  static const std::map<std::string, NumberType> kTypes{
+      {"signed char", NumberType::kInt8},
+      {"int8", NumberType::kInt8},
+      {"int8_t", NumberType::kInt8},
+      {"uchar", NumberType::kUint8},
+      {"unsigned char", NumberType::kUint8},
+      {"uint8", NumberType::kUint8},
+      {"uint8_t", NumberType::kUint8},
+      {"short", NumberType::kInt16},
+      {"short int", NumberType::kInt16},
+      {"signed short", NumberType::kInt16},
+      {"signed short int", NumberType::kInt16},
+      {"int16", NumberType::kInt16},
+      {"int16_t", NumberType::kInt16},
+      {"ushort", NumberType::kUint16},
+      {"unsigned short", NumberType::kUint16},
+      {"unsigned short int", NumberType::kUint16},
+      {"uint16", NumberType::kUint16},
+      {"uint16_t", NumberType::kUint16},
+      {"int", NumberType::kInt32},
+      {"signed int", NumberType::kInt32},
+      {"int32", NumberType::kInt32},
+      {"int32_t", NumberType::kInt32},
+      {"uint", NumberType::kUint32},
+      {"unsigned int", NumberType::kUint32},
+      {"uint32", NumberType::kUint32},
+      {"uint32_t", NumberType::kUint32},
+      {"longlong", NumberType::kInt64},
+      {"long long", NumberType::kInt64},
+      {"long long int", NumberType::kInt64},
+      {"signed long long", NumberType::kInt64},
+      {"signed long long int", NumberType::kInt64},
+      {"int64", NumberType::kInt64},
+      {"int64_t", NumberType::kInt64},
+      {"ulonglong", NumberType::kUint64},
+      {"unsigned long long", NumberType::kUint64},
+      {"uint64", NumberType::kUint64},
+      {"unsigned long long int", NumberType::kUint64},
+      {"uint64_t", NumberType::kUint64},
+      {"float", NumberType::kFloat32},
+      {"double", NumberType::kFloat64}};
+  const std::string& name = header.need("type");
+  const auto type = kTypes.find(lower(name));
+  if (type == kTypes.end()) {
+    refuse(header.file, say("expected a NRRD type of one number, found ", in_quotes(name)));
+  }
+  return type->second;
+}
+
+void require_three_domains(const NrrdHeader& header) {
+  const auto dimension = whole_numbers_of(header.file, "dimension", header.need("dimension"), 1)[0];
+  if (dimension != 3) {
+    refuse(header.file, say("expected a 3-D image, found ", dimension, " dimensions"));
+  }
+  for (const std::string& kind : words_of(header.or_else("kinds", ""))) {
+    if (kind != "domain" && kind != "space" && kind != "none" && kind != "???") {
+      refuse(header.file,
+             say("expected three axes of space, found an axis of kind ", in_quotes(kind)));
+    }
+  }
+}
+
+/// +1 or -1 per world axis: converts the file's frame to LPS.
+Vec3 signs_to_lps(const NrrdHeader& header, std::vector<std::string>& warnings) {
+  const std::string space = lower(header.or_else("space", ""));
+  if (space == "left-posterior-superior" || space == "lps") return {1, 1, 1};
+  if (space == "right-anterior-superior" || space == "ras") return {-1, -1, 1};
+  if (space == "left-anterior-superior" || space == "las") return {1, -1, 1};
+  if (space.empty() || space == "scanner-xyz" || space == "3d-right-handed") {
+    warnings.push_back("the header names no anatomical space: axes taken as LPS");
+    return {1, 1, 1};
+  }
+  refuse(header.file, say("expected the space LPS, RAS or LAS, found ", in_quotes(space)));
+}
+
+/// "(a,b,c)" as a vector of the file's frame.
+Vec3 parse_vector(const NrrdHeader& header, const std::string& field, const std::string& text) {
+  std::string numbers = text;
+  if (!numbers.starts_with('(') || !numbers.ends_with(')')) {
+    refuse(header.file, say("expected vectors (x,y,z) in the field ", in_quotes(field), ", found ",
+                            in_quotes(text)));
+  }
+  std::replace_if(
+      numbers.begin(), numbers.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+  const auto v = numbers_of(header.file, field, numbers, 3);
+  return {v[0], v[1], v[2]};
+}
+
+/// The vectors of a field; white space inside the brackets is allowed.
+std::vector<Vec3> vectors_of(const NrrdHeader& header, const std::string& field,
+                             std::size_t expected) {
+  std::vector<Vec3> vectors;
+  std::string_view text = header.need(field);
+  while (!trimmed(text).empty()) {
+    const auto end = text.find(')');
+    const auto length = end == std::string_view::npos ? text.size() : end + 1;
+    vectors.push_back(parse_vector(header, field, std::string(trimmed(text.substr(0, length)))));
+    text.remove_prefix(length);
+  }
+  if (vectors.size() != expected) {
+    refuse(header.file, say("expected ", expected, " vectors in the field ", in_quotes(field),
+                            ", found ", vectors.size()));
+  }
+  return vectors;
+}
+
+std::array<Vec3, 3> axis_steps(const NrrdHeader& header, std::vector<std::string>& warnings) {
+  if (header.has("space directions")) {
+    const auto v = vectors_of(header, "space directions", 3);
+    return {v[0], v[1], v[2]};
+  }
+  std::vector<double> spacing{1, 1, 1};
+  if (header.has("spacings")) {
+    spacing = numbers_of(header.file, "spacings", header.need("spacings"), 3);
+  } else {
+    warnings.push_back("the header gives no spacing: 1 mm taken");
+  }
+  return {Vec3{spacing[0], 0, 0}, Vec3{0, spacing[1], 0}, Vec3{0, 0, spacing[2]}};
+}
+
+void place(ScanFile& scan, const NrrdHeader& header) {
+  const Vec3 sign = signs_to_lps(header, scan.warnings);
+  const auto to_lps = [&sign](const Vec3& v) {
+    return Vec3{sign.x * v.x, sign.y * v.y, sign.z * v.z};
+  };
+  auto steps = axis_steps(header, scan.warnings);
+  for (Vec3& step : steps) step = to_lps(step);
+  set_axes(scan, steps);
+  if (header.has("space origin")) {
+    set_origin(scan, to_lps(vectors_of(header, "space origin", 1)[0]));
+  }
+}
+
+void set_encoding(SampleSource& source, const NrrdHeader& header) {
+  const std::string encoding = lower(header.need("encoding"));
+  source.text = encoding == "ascii" || encoding == "text" || encoding == "txt";
+  const bool gzip = encoding == "gzip" || encoding == "gz";
+  if (!source.text && !gzip && encoding != "raw") {
+    refuse(header.file,
+           say("expected the encoding raw, gzip or ascii, found ", in_quotes(encoding)));
+  }
+  source.packing = gzip ? Packing::kDeflated : Packing::kPlain;
+  if (source.text || byte_size(source.type) == 1) return;
+  const std::string endian = lower(header.need("endian"));
+  if (endian != "little" && endian != "big") {
+    refuse(header.file, say("expected the endian little or big, found ", in_quotes(endian)));
+  }
+  source.big_endian = endian == "big";
+}
+
+/// Where the lines that "line skip" counts end.
+std::uint64_t offset_behind_lines(const std::filesystem::path& file, std::uint64_t offset,
+                                  std::int64_t lines) {
+  ByteSource bytes(file, Packing::kPlain, offset);
+  char c = 0;
+  for (; lines > 0 && bytes.read(&c, 1) == 1; ++offset) lines -= c == '\n' ? 1 : 0;
+  if (lines > 0) refuse(file, say("the header skips ", lines, " lines more than there are"));
+  return offset;
+}
+
+void find_data(SampleSource& source, const NrrdHeader& header) {
+  const std::string name = header.or_else("data file", "");
+  if (name == "LIST" || name.starts_with("LIST ") || name.find('%') != std::string::npos) {
+    refuse(header.file, "expected one data file, found a list of them");
+  }
+  source.file = name.empty() ? header.file : header.file.parent_path() / name;
+  source.offset = name.empty() ? header.size : 0;
+  source.exact = !name.empty();
+  const auto skip = [&header](const std::string& field) {
+    return whole_numbers_of(header.file, field, header.or_else(field, "0"), 1)[0];
+  };
+  const auto lines = skip("line skip"), bytes = skip("byte skip");
+  if (lines < 0 || bytes < -1) {
+    refuse(header.file,
+           say("expected a skip of 0 or more (bytes: or -1), found ", lines < 0 ? lines : bytes));
+  }
+  source.offset = offset_behind_lines(source.file, source.offset, lines);
+  source.at_end = bytes == -1;
+  source.skip = bytes > 0 ? static_cast<std::uint64_t>(bytes) : 0;
+}
+
+}  // namespace
+
+ScanFile open_nrrd(const std::filesystem::path& file) {
+  const NrrdHeader header = read_header(file);
+  ScanFile scan{file, "NRRD", {}, {}, {}};
+  require_three_domains(header);
+  const auto sizes = whole_numbers_of(file, "sizes", header.need("sizes"), 3);
+  set_size(scan, {sizes[0], sizes[1], sizes[2]});
+  place(scan, header);
+  scan.source.type = sample_type(header);
+  set_encoding(scan.source, header);
+  find_data(scan.source, header);
+  return scan;
+}
+
+}  // namespace mesamis::detail

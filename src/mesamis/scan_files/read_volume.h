@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mesamis/image/volume.h"
+
+namespace mesamis {
+
+struct ReadOptions {
+  std::string series;  ///< DICOM: UID of the series to take; empty: the only volume there is
+};
+
+/// A volume and what its file says beside the samples.
+struct VolumeFile {
+  Volume volume;       ///< samples in native units (HU for CT); spacing and origin in mm, LPS
+  std::string format;  ///< "NIfTI", "NRRD", "MetaImage", "TIFF", "DICOM", "InVesalius"
+  std::vector<std::string> warnings;  ///< one line each: what was assumed, left out or damaged
+};
+
+/// Reads a 3D scan: .nii .nii.gz .nrrd .nhdr .mha .mhd .tif .tiff .inv3, a DICOM directory (and
+/// those below it), or one file of a DICOM series (the rest is taken from its directory).
+///
+/// The world frame is LPS, whatever the file's. Where a file states no orientation, a warning says
+/// what was assumed. NIfTI: the sform if its code is above 0, else the qform. InVesalius: x to the
+/// left, y to the front, z to the head, first voxel at the origin. TIFF: x to the left, y to the
+/// back; spacing from its resolution tags and ImageJ's description, else 1 mm with a warning. Axes
+/// that are orthogonal to a cosine of 1e-3 are made orthonormal, with a warning above 1e-5; beyond
+/// that the file is refused.
+///
+/// DICOM: slices are grouped by series, size and orientation and sorted along their normal; each
+/// is rescaled by its own slope and intercept. Localizers are left out with a warning: frames that
+/// call themselves so, and a stack across the main one that is single or at most a quarter of it.
+/// Refused are several series (unless one is named or only one is a stack), slice distances that
+/// differ by more than 2 %, missing slices, two slices at one place, tilted stacks, broken files of
+/// the series. One slice is no volume: the file cannot say how thick it is. JPEG data that are
+/// corrupt but can be decoded are read with a warning.
+///
+/// What a format with a third axis does hold (one slice, unknown samples, a constant) is read;
+/// require_usable() refuses it before any method runs.
+///
+/// Nothing is printed, and no state of the process is changed, with one exception: gdcm::Trace is
+/// off while JPEG-LS or JPEG 2000 is decoded, and restored afterwards. Several threads may read at
+/// the same time.
+///
+/// @param path     file or directory; the extension decides, DICOM is known by its content.
+/// @param options  which DICOM series to take.
+/// @return finite grid; one sample per voxel in native units (rescale slope and intercept
+///         applied), in single precision: integers of more than 24 bits are rounded.
+/// @throws InputError  one line that begins with the path: what, where, expected, found.
+///
+/// O(voxels) and, for DICOM, the bytes of all files below the directory. Memory grows with the
+/// data that are there, never with what a header claims: 4 bytes per voxel, and one file of the
+/// series or one page at a time.
+VolumeFile read_volume(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// One 3D image a path offers: what `mesamis info` lists.
+struct VolumeInfo {
+  std::string series;                  ///< DICOM series UID, else empty
+  std::string description;             ///< series description or file name
+  std::string format, modality;        ///< as VolumeFile::format; "CT", "MR", else empty
+  std::array<Index, 3> size{0, 0, 0};  ///< voxels
+  Vec3 spacing;                        ///< mm
+  std::string problem;                 ///< why read_volume would refuse it; empty if it would not
+};
+
+/// Lists what is in a file or a directory without decoding the samples: the DICOM series (of a
+/// directory and those below it, or of the directory a DICOM file lies in), then the volume files
+/// of the directory itself, in name order.
+///
+/// @param path  file or directory.
+/// @return at least one entry; a volume that read_volume() would refuse has a `problem`.
+/// @throws InputError  if the path does not exist or holds nothing that can be read.
+///
+/// O(bytes) of the headers, for DICOM of whole files; memory: one file at a time.
+std::vector<VolumeInfo> list_volumes(const std::filesystem::path& path);
+
+}  // namespace mesamis

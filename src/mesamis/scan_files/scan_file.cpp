@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/scan_files/scan_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "mesamis/files/refuse.h"
+
+namespace mesamis::detail {
+namespace {
+
+constexpr std::size_t kSamplesAtOnce = 1 << 16;
+constexpr double kRoundingSkew = 1e-5;  // rounding of orthogonal axes to single precision
+static_assert(std::endian::native == std::endian::little, "samples are swapped for little endian");
+
+std::string size_text(const Volume& grid) {
+  return say(grid.size[0], " x ", grid.size[1], " x ", grid.size[2]);
+}
+
+template <class Stored>
+void convert(std::span<const unsigned char> bytes, const SampleSource& source, float* out) {
+  const bool plain = source.slope == 1 && source.intercept == 0;
+  std::array<unsigned char, sizeof(Stored)> raw;
+  for (std::size_t n = 0; n * sizeof(Stored) < bytes.size(); ++n) {
+    std::memcpy(raw.data(), bytes.data() + n * sizeof(Stored), sizeof(Stored));
+    if (source.big_endian) std::reverse(raw.begin(), raw.end());
+    Stored stored;
+    std::memcpy(&stored, raw.data(), sizeof(Stored));
+    out[n] =
+        plain ? static_cast<float>(stored)
+              : static_cast<float>(source.slope * static_cast<double>(stored) + source.intercept);
+  }
+}
+
+void convert_any(std::span<const unsigned char> bytes, const SampleSource& source, float* out) {
+  with_number_type(source.type, [&](auto zero) { convert<decltype(zero)>(bytes, source, out); });
+}
+
+template <class Found>
+[[noreturn]] void refuse_short(const ScanFile& scan, std::uint64_t expected, const Found& found,
+                               const char* unit) {
+  refuse(scan.source.file, say("expected ", expected, " ", unit, " for ", size_text(scan.grid),
+                               " samples, found ", found));
+}
+
+void read_binary(const ScanFile& scan, ByteSource& bytes, std::vector<float>& out) {
+  const auto width = byte_size(scan.source.type);
+  const std::size_t count = scan.grid.voxel_count();
+  std::vector<unsigned char> block(kSamplesAtOnce * width);
+  while (out.size() < count) {
+    const std::size_t wanted = std::min(kSamplesAtOnce, count - out.size()) * width;
+    const std::size_t got = bytes.read(block.data(), wanted);
+    if (got < wanted) {
+      refuse_short(scan, std::uint64_t{count} * width, out.size() * width + got, "bytes");
+    }
+    append_samples({block.data(), got}, scan.source, out);
+  }
+}
+
+void append_number(const ScanFile& scan, std::string_view word, std::vector<float>& out) {
+  double value = 0;
+  if (!parse_number(word, value)) {
+    refuse(scan.source.file,
+           say("expected a number as sample ", out.size(), ", found ", in_quotes(word)));
+  }
+  out.push_back(static_cast<float>(scan.source.slope * value + scan.source.intercept));
+}
+
+void read_text(const ScanFile& scan, ByteSource& bytes, std::vector<float>& out) {
+  constexpr std::size_t kLongestNumber = 64;
+  const std::size_t count = scan.grid.voxel_count();
+  std::vector<char> block(kSamplesAtOnce);
+  std::string word;
+  for (bool more = true; more && out.size() < count;) {
+    const std::size_t got = bytes.read(block.data(), block.size());
+    more = got == block.size();
+    if (!more) block[got] = ' ';  // the end of the data ends the last number
+    for (std::size_t n = 0; n < (more ? got : got + 1) && out.size() < count; ++n) {
+      const bool blank = block[n] == ' ' || (block[n] >= '\t' && block[n] <= '\r');
+      if (!blank && word.size() < kLongestNumber) word += block[n];
+      if (!blank || word.empty()) continue;
+      append_number(scan, word, out);
+      word.clear();
+    }
+  }
+  if (out.size() < count) refuse_short(scan, count, out.size(), "numbers");
+}
+
+/// Fewest bytes (unpacked) that the samples take; a number in text needs one and a blank.
+std::uint64_t fewest_bytes(const ScanFile& scan) {
+  const std::uint64_t count = scan.grid.voxel_count();
+  return scan.source.text ? 2 * count - 1 : count * byte_size(scan.source.type);
+}
+
+std::uint64_t bytes_before_last_samples(const ScanFile& scan) {
+  ByteSource all(scan.source.file, scan.source.packing, scan.source.offset);
+  const std::uint64_t total = all.skip(std::numeric_limits<std::uint64_t>::max());
+  const std::uint64_t needed = fewest_bytes(scan);
+  if (total < needed) refuse_short(scan, needed, total, "bytes");
+  return total - needed;
+}
+
+double column_cosine(const std::array<Vec3, 3>& unit) {
+  return std::max({std::abs(dot(unit[0], unit[1])), std::abs(dot(unit[1], unit[2])),
+                   std::abs(dot(unit[2], unit[0]))});
+}
+
+/// The orthonormal matrix closest to three nearly orthonormal columns: Newton's iteration
+/// for the polar decomposition, Q <- (Q + Q^-T)/2.
+std::array<Vec3, 3> nearest_orthonormal(std::array<Vec3, 3> q) {
+  for (int step = 0; step < 6; ++step) {
+    const double det = dot(q[0], cross(q[1], q[2]));
+    const std::array<Vec3, 3> cofactor{cross(q[1], q[2]), cross(q[2], q[0]), cross(q[0], q[1])};
+    for (std::size_t a = 0; a < 3; ++a) q[a] = 0.5 * (q[a] + (1 / det) * cofactor[a]);
+  }
+  return q;
+}
+
+}  // namespace
+
+void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts) {
+  constexpr std::int64_t kMostVoxels = std::int64_t{1} << 40;
+  std::int64_t left = kMostVoxels;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (counts[a] < 1 || counts[a] > std::numeric_limits<Index>::max()) {
+      refuse(scan.file,
+             say("expected 1 to 2147483647 voxels along axis ", a, ", found ", counts[a]));
+    }
+    left /= counts[a];
+    scan.grid.size[a] = static_cast<Index>(counts[a]);
+  }
+  if (left < 1) refuse(scan.file, say("more voxels than can be read: ", size_text(scan.grid)));
+}
+
+void set_axes(ScanFile& scan, const std::array<Vec3, 3>& steps) {
+  std::array<Vec3, 3> unit;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double length = norm(steps[a]);
+    if (!(length > 0) || !std::isfinite(length)) {
+      refuse(scan.file,
+             say("expected a positive voxel spacing along axis ", a, ", found ", length, " mm"));
+    }
+    scan.grid.spacing[static_cast<int>(a)] = length;
+    unit[a] = (1 / length) * steps[a];
+  }
+  const double skew = column_cosine(unit);
+  if (!(skew <= kSkewTolerance)) {
+    refuse(scan.file, say("expected orthogonal voxel axes (cosines up to ", kSkewTolerance,
+                          "), found a cosine of ", skew));
+  }
+  if (skew > kRoundingSkew) {
+    scan.warnings.push_back(
+        say("the voxel axes are not orthogonal (cosine ", skew, "): made orthonormal"));
+  }
+  if (skew > 0) unit = nearest_orthonormal(unit);
+  for (Vec3& axis : unit) axis += Vec3{};  // -0 becomes 0
+  scan.grid.direction = transpose(Mat3{unit});
+}
+
+void set_origin(ScanFile& scan, const Vec3& origin) {
+  for (int a = 0; a < 3; ++a) {
+    if (!std::isfinite(origin[a])) {
+      refuse(scan.file, say("expected a finite origin, found ", origin[a], " along axis ", a));
+    }
+  }
+  scan.grid.origin = origin + Vec3{};  // -0 becomes 0
+}
+
+void append_samples(std::span<const unsigned char> bytes, const SampleSource& source,
+                    std::vector<float>& out) {
+  const std::size_t begin = out.size();
+  out.resize(begin + bytes.size() / byte_size(source.type));
+  convert_any(bytes, source, out.data() + begin);
+}
+
+std::vector<float> read_samples(const ScanFile& scan) {
+  const SampleSource& source = scan.source;
+  const std::uint64_t skip = source.at_end ? bytes_before_last_samples(scan) : source.skip;
+  ByteSource bytes(source.file, source.packing, source.offset);
+  const std::uint64_t needed = fewest_bytes(scan);
+  if (needed > bytes.most_bytes()) {
+    refuse_short(scan, needed,
+                 say(source.packing == Packing::kPlain ? "" : "at most ", bytes.most_bytes()),
+                 "bytes");
+  }
+  bytes.skip(skip);
+  // This reserves addresses only; the system provides memory as samples are appended.
+  std::vector<float> samples;
+  samples.reserve(scan.grid.voxel_count());
+  source.text ? read_text(scan, bytes, samples) : read_binary(scan, bytes, samples);
+  char beyond = 0;
+  if (source.exact && !source.text && bytes.read(&beyond, 1) > 0) {
+    refuse(source.file, say("expected the data to end after ", needed, " bytes for ",
+                            size_text(scan.grid), " samples, but they go on"));
+  }
+  return samples;
+}
+
+}  // namespace mesamis::detail

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesamis/files/byte_source.h"
+#include "mesamis/files/number_type.h"
+#include "mesamis/image/volume.h"
+
+/// Shared by the readers of plain arrays (NIfTI, NRRD, MetaImage, InVesalius): a header is read
+/// into a grid and the place and coding of the samples, and read_samples() reads them.
+namespace mesamis::detail {
+
+/// Where a file's samples lie and how they are coded. i runs fastest, then j, k.
+struct SampleSource {
+  std::filesystem::path file;
+  NumberType type = NumberType::kInt16;
+  bool big_endian = false;
+  bool text = false;  ///< decimal numbers between white space
+  Packing packing = Packing::kPlain;
+  std::uint64_t offset = 0;         ///< bytes before the data in the file
+  std::uint64_t skip = 0;           ///< bytes before the samples in the unpacked data
+  bool at_end = false;              ///< the samples are the last bytes, whatever comes before
+  bool exact = false;               ///< bytes after the samples are refused
+  double slope = 1, intercept = 0;  ///< native value = slope * stored + intercept
+};
+
+/// A header that was read and checked.
+struct ScanFile {
+  std::filesystem::path file;
+  std::string format;
+  Volume grid;  ///< without samples
+  SampleSource source;
+  std::vector<std::string> warnings;
+};
+
+/// Sets the grid's size. @throws InputError  if a count is below 1 or the product out of bounds.
+void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts);
+
+/// Sets spacing and direction from one step along each axis (LPS, mm).
+///
+/// Axes whose cosines are below 1e-5 are made orthonormal; up to kSkewTolerance with a warning.
+/// @throws InputError  for larger cosines, and a step of length 0 or that is not finite.
+inline constexpr double kSkewTolerance = 1e-3;
+void set_axes(ScanFile& scan, const std::array<Vec3, 3>& steps);
+
+/// Sets the origin. @throws InputError  if it is not finite.
+void set_origin(ScanFile& scan, const Vec3& origin);
+
+/// Reads the samples. Memory grows with the data that are really there: a header that promises
+/// more than the file can hold is refused before anything is allocated.
+/// @throws InputError  if the data are too short, broken or (source.exact) too long.
+std::vector<float> read_samples(const ScanFile& scan);
+
+/// Appends stored samples to `out` as native values.
+/// @param bytes  a whole number of samples.
+void append_samples(std::span<const unsigned char> bytes, const SampleSource& source,
+                    std::vector<float>& out);
+
+}  // namespace mesamis::detail

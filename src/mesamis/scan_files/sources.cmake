@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+set(ROOM_HEADERS
+  read_volume.h
+  write_volume.h)
+set(ROOM_SOURCES
+  dicom_data.cpp
+  dicom_file.cpp
+  dicom_jpeg.cpp
+  dicom_jpeg12.cpp
+  dicom_jpeg16.cpp
+  dicom_jpeg8.cpp
+  dicom_pixels.cpp
+  dicom_rle.cpp
+  dicom_series.cpp
+  dicom_slice.cpp
+  dicom_spacing.cpp
+  gdcm_picture.cpp
+  inv3_file.cpp
+  meta_file.cpp
+  nifti_file.cpp
+  nrrd_file.cpp
+  read_volume.cpp
+  scan_file.cpp
+  text_header.cpp
+  tiff_file.cpp
+  write_volume.cpp)

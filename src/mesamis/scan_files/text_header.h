@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Shared by the text headers of NRRD and MetaImage.
+namespace mesamis::detail {
+
+/// Header lines one by one; bounded, so that a binary file is not taken for a long line.
+class HeaderLines {
+ public:
+  /// @throws InputError  if the file cannot be read.
+  explicit HeaderLines(const std::filesystem::path& file);
+  /// The next line without its end (\n or \r\n); false at the end of the file.
+  /// @throws InputError  if a line or the header is longer than a header can be.
+  bool next(std::string& line);
+  /// Bytes read so far.
+  std::uint64_t position() const { return position_; }
+
+ private:
+  std::filesystem::path file_;
+  std::ifstream in_;
+  std::uint64_t position_ = 0;
+};
+
+/// Fields by lower-case name.
+using HeaderFields = std::map<std::string, std::string>;
+
+/// Words between white space.
+std::vector<std::string> words_of(std::string_view text);
+
+/// Numbers between white space. @throws InputError  naming the field if one is none or their
+/// count is not the one expected.
+std::vector<double> numbers_of(const std::filesystem::path& file, const std::string& field,
+                               std::string_view text, std::size_t expected);
+
+/// The same for whole numbers.
+std::vector<std::int64_t> whole_numbers_of(const std::filesystem::path& file,
+                                           const std::string& field, std::string_view text,
+                                           std::size_t expected);
+
+}  // namespace mesamis::detail

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "mesamis/image/volume.h"
+
+namespace mesamis {
+
+enum class SampleType {
+  kFloat,  ///< 32-bit floating point
+  kShort,  ///< 16-bit integers with a sign; samples are rounded
+};
+
+struct NrrdOptions {
+  SampleType type = SampleType::kFloat;
+  bool gzip = false;  ///< compressed by zlib, fastest level
+};
+
+/// Writes a volume as .nrrd (NRRD0004, header and samples in one file).
+///
+/// Space is left-posterior-superior; space directions and space origin are in mm. The volume's
+/// modality is not stated: the format has no field for it. The file appears whole or not at all.
+/// The same volume gives the same bytes, whatever the locale.
+/// @param path     ends with .nrrd.
+/// @param volume   one sample per voxel, native units; spacing and origin in mm, LPS.
+/// @throws InputError  for another extension, samples that are not as many as voxels, samples that
+///                     do not fit into 16 bits, or a file that cannot be written.
+///
+/// O(voxels). Memory: the file's bytes once, with gzip twice.
+void write_nrrd(const std::filesystem::path& path, const Volume& volume,
+                const NrrdOptions& options = {});
+
+}  // namespace mesamis

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <optional>
+
+#include "mesamis/files/refuse.h"
+#include "mesamis/files/xml.h"
+#include "mesamis/shape_files/polygons.h"
+#include "mesamis/shape_files/surface_formats.h"
+
+namespace mesamis::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+void append_number(std::string& out, const char* tag, double value) {
+  ((out += '<') += tag) += '>';
+  append_shortest(out, value);
+  ((out += "</") += tag) += '>';
+}
+
+void append_metadata(std::string& out, const std::string& type, const std::string& text) {
+  out += "<metadata type=\"" + xml_escaped(type) + "\">" + xml_escaped(text) + "</metadata>\n";
+}
+
+/// A grey value of 0 to 255 as an AMF colour, from 0 to 1 per channel.
+void append_color(std::string& out, double grey) {
+  const double share = std::clamp(grey / 255, 0.0, 1.0);
+  out += "<color>";
+  for (const char* channel : {"r", "g", "b"}) append_number(out, channel, share);
+  out += "</color>";
+}
+
+/// Millimetres per unit, as the root of the file names it.
+double unit_in_mm(const fs::path& file, const std::string& name) {
+  constexpr std::pair<const char*, double> kUnits[] = {{"", 1},         {"millimeter", 1},
+                                                       {"inch", 25.4},  {"feet", 304.8},
+                                                       {"meter", 1000}, {"micron", 1e-3}};
+  for (const auto& [unit, mm] : kUnits) {
+    if (name == unit) return mm;
+  }
+  refuse(file, "expected a unit of AMF, found " + in_quotes(name));
+}
+
+const XmlElement& child_of(const fs::path& file, const XmlElement& parent, const char* name) {
+  const XmlElement* child = parent.child(name);
+  if (child == nullptr)
+    refuse(file, say("expected <", name, "> in <", parent.name, ">, found none"));
+  return *child;
+}
+
+double number_in(const fs::path& file, const XmlElement& parent, const char* name) {
+  const std::string_view text = trimmed(child_of(file, parent, name).text);
+  double value = 0;
+  if (!parse_number(text, value)) {
+    refuse(file, say("expected a number in <", name, ">, found ", in_quotes(text)));
+  }
+  return value;
+}
+
+/// Gathers points and triangles as their elements end; the tree keeps neither.
+class AmfReader {
+ public:
+  explicit AmfReader(const fs::path& file) : file_(file) { sink_.emplace(file_, surface_); }
+
+  /// @return  whether the tree can do without the element.
+  bool consume(const XmlElement& element, std::string_view path) {
+    if (path == "amf/object/mesh/vertices/vertex") {
+      add_vertex(element);
+    } else if (path == "amf/object/mesh/volume/triangle") {
+      add_triangle(element);
+    } else if (path == "amf/object/mesh/vertices") {
+      has_vertices_ = true;
+    } else if (path == "amf/object/mesh") {
+      end_mesh();
+    } else {
+      return !is_part_of_item(path) && path != "amf/metadata";
+    }
+    return true;
+  }
+
+  TriMesh surface() { return std::move(surface_); }
+
+ private:
+  /// Whether the element belongs to a vertex or a triangle that has not ended.
+  static bool is_part_of_item(std::string_view path) {
+    return path.starts_with("amf/object/mesh/vertices/vertex/") ||
+           path.starts_with("amf/object/mesh/volume/triangle/");
+  }
+
+  void add_vertex(const XmlElement& vertex) {
+    const XmlElement& at = child_of(file_, vertex, "coordinates");
+    surface_.points.push_back(
+        {number_in(file_, at, "x"), number_in(file_, at, "y"), number_in(file_, at, "z")});
+  }
+
+  void add_triangle(const XmlElement& triangle) {
+    const double corners[] = {number_in(file_, triangle, "v1"), number_in(file_, triangle, "v2"),
+                              number_in(file_, triangle, "v3")};
+    sink_->add(corners, false);
+  }
+
+  void end_mesh() {
+    if (!has_vertices_) refuse(file_, "expected <vertices> in <mesh>, found none");
+    has_vertices_ = false;
+    sink_.emplace(file_, surface_);
+  }
+
+  const fs::path& file_;
+  TriMesh surface_;
+  std::optional<PolygonSink> sink_;  // of the mesh that is read
+  bool has_vertices_ = false;
+};
+
+}  // namespace
+
+SurfaceFile parse_amf(const fs::path& file, std::string_view bytes) {
+  AmfReader reader(file);
+  const auto consume = [&](const XmlElement& e, std::string_view path) {
+    return reader.consume(e, path);
+  };
+  const XmlElement root = parse_xml(file, bytes, {.consume = consume}).root;
+  if (root.name != "amf") refuse(file, "expected <amf>, found " + in_quotes(root.name));
+  const double unit = unit_in_mm(file, root.attribute("unit"));
+  SurfaceFile result{reader.surface(), std::nullopt};
+  for (Vec3& p : result.surface.points) p = unit * p;
+  for (const XmlElement& metadata : root.children) {
+    if (!result.frame) result.frame = frame_named_in(metadata.text);
+  }
+  return result;
+}
+
+std::string amf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options) {
+  std::string out =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<amf unit=\"millimeter\" version=\"1.1\">\n";
+  append_metadata(out, "description", frame_note(options.frame));
+  for (const auto& [type, text] : options.metadata) append_metadata(out, type, text);
+  out += "<object id=\"0\">\n";
+  if (!options.name.empty()) append_metadata(out, "name", options.name);
+  out += "<mesh>\n<vertices>\n";
+  for (std::size_t n = 0; n < surface.points.size(); ++n) {
+    out += "<vertex><coordinates>";
+    append_number(out, "x", surface.points[n].x);
+    append_number(out, "y", surface.points[n].y);
+    append_number(out, "z", surface.points[n].z);
+    out += "</coordinates>";
+    if (!options.grey.empty()) append_color(out, options.grey[n]);
+    out += "</vertex>\n";
+  }
+  out += "</vertices>\n<volume>\n";
+  for (const Triangle& t : surface.triangles) {
+    out += "<triangle><v1>" + std::to_string(t[0]) + "</v1><v2>" + std::to_string(t[1]) +
+           "</v2><v3>" + std::to_string(t[2]) + "</v3></triangle>\n";
+  }
+  return out += "</volume>\n</mesh>\n</object>\n</amf>\n";
+}
+
+}  // namespace mesamis::detail

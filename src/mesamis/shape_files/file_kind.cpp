@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/shape_files/file_kind.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "mesamis/files/refuse.h"
+
+namespace mesamis {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  return detail::lower(path.extension().string());
+}
+
+}  // namespace
+
+FileKind kind_of(const std::filesystem::path& path) {
+  std::error_code error;  // of a path that cannot be followed: it may be a scan
+  if (std::filesystem::is_directory(path, error)) return FileKind::kVolume;
+  std::string extension = lower_extension(path);
+  if (extension == ".gz") extension = lower_extension(path.stem());
+  constexpr std::array kSurfaces{".stl", ".ply", ".obj", ".vtp", ".3mf", ".amf", ".vtk"};
+  const bool surface = std::find(kSurfaces.begin(), kSurfaces.end(), extension) != kSurfaces.end();
+  if (surface) return FileKind::kSurface;
+  return extension == ".vtu" || extension == ".mesh" ? FileKind::kMesh : FileKind::kVolume;
+}
+
+MeshWithArrays read_mesh(const std::filesystem::path& path) {
+  if (lower_extension(path) == ".mesh") return {read_medit_mesh(path), {}, {}};
+  return read_vtu(path);
+}
+
+}  // namespace mesamis

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
+
+#include "mesamis/files/number_type.h"
+#include "mesamis/files/refuse.h"
+#include "mesamis/files/text_scan.h"
+#include "mesamis/shape_files/polygons.h"
+#include "mesamis/shape_files/surface_formats.h"
+
+namespace mesamis::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Property {
+  std::string name;
+  NumberType type = NumberType::kFloat32;
+  bool is_list = false;
+  NumberType count_type = NumberType::kUint8;  // of a list
+};
+
+struct Element {
+  std::string name;
+  std::int64_t count = 0;
+  std::vector<Property> properties;
+};
+
+enum class Format { kText, kLittle, kBig };
+
+struct Header {
+  Format format = Format::kText;
+  std::vector<Element> elements;
+  std::optional<Frame> frame;
+};
+
+struct NamedType {
+  std::string_view name, other_name;
+  NumberType type;
+};
+constexpr NamedType kTypes[] = {
+    {"char", "int8", NumberType::kInt8},        {"uchar", "uint8", NumberType::kUint8},
+    {"short", "int16", NumberType::kInt16},     {"ushort", "uint16", NumberType::kUint16},
+    {"int", "int32", NumberType::kInt32},       {"uint", "uint32", NumberType::kUint32},
+    {"float", "float32", NumberType::kFloat32}, {"double", "float64", NumberType::kFloat64}};
+
+NumberType type_named(const fs::path& file, std::string_view name) {
+  for (const NamedType& t : kTypes) {
+    if (name == t.name || name == t.other_name) return t.type;
+  }
+  refuse(file, "expected the type of a property, found " + in_quotes(name));
+}
+
+void read_format(const fs::path& file, std::string_view line, Header& header) {
+  const std::string_view name = take_word(line);
+  if (name == "ascii") {
+    header.format = Format::kText;
+  } else if (name == "binary_little_endian") {
+    header.format = Format::kLittle;
+  } else if (name == "binary_big_endian") {
+    header.format = Format::kBig;
+  } else {
+    refuse(file, "expected format ascii, binary_little_endian or binary_big_endian, found " +
+                     in_quotes(name));
+  }
+}
+
+void read_element(const fs::path& file, std::string_view line, Header& header) {
+  Element element;
+  element.name = take_word(line);
+  if (!parse_number(take_word(line), element.count) || element.count < 0) {
+    refuse(file, "expected a count after element " + in_quotes(element.name));
+  }
+  header.elements.push_back(std::move(element));
+}
+
+void read_property(const fs::path& file, std::string_view line, Header& header) {
+  if (header.elements.empty()) refuse(file, "a property comes before the first element");
+  Property property;
+  std::string_view word = take_word(line);
+  property.is_list = word == "list";
+  if (property.is_list) {
+    property.count_type = type_named(file, take_word(line));
+    word = take_word(line);
+  }
+  property.type = type_named(file, word);
+  property.name = take_word(line);
+  header.elements.back().properties.push_back(std::move(property));
+}
+
+/// Takes the header off the front of the bytes.
+Header take_header(const fs::path& file, std::string_view& bytes) {
+  Header header;
+  std::string_view line;
+  if (!take_line(bytes, line) || trimmed(line) != "ply") {
+    refuse(file, "is not a PLY file: the first line is not ply");
+  }
+  while (take_line(bytes, line)) {
+    const std::string_view keyword = take_word(line);
+    if (keyword == "end_header") return header;
+    if (keyword == "format") read_format(file, line, header);
+    if (keyword == "element") read_element(file, line, header);
+    if (keyword == "property") read_property(file, line, header);
+    if (keyword == "comment" && !header.frame) header.frame = frame_named_in(line);
+  }
+  refuse(file, "the header has no end");
+}
+
+/// The values after the header, one after another.
+class Values {
+ public:
+  Values(const fs::path& file, std::string_view bytes, Format format)
+      : file_(file), bytes_(bytes), format_(format) {}
+
+  double next(NumberType type) {
+    if (format_ == Format::kText) return next_word();
+    const std::size_t size = byte_size(type);
+    if (bytes_.size() < size) refuse(file_, "the file ends before its last value");
+    const double value = load_number(
+        bytes_.data(), type, format_ == Format::kBig ? ByteOrder::kBig : ByteOrder::kLittle);
+    bytes_.remove_prefix(size);
+    return value;
+  }
+
+  /// The entries of a list that follow. No list can be longer than the bytes that are left.
+  std::size_t next_count(NumberType type) {
+    const double count = next(type);
+    if (!(count >= 0 && count <= static_cast<double>(bytes_.size()))) {
+      refuse(file_, say("a list of ", count, " entries does not fit into the file"));
+    }
+    return static_cast<std::size_t>(count);
+  }
+
+ private:
+  double next_word() {
+    const std::string_view word = take_word(bytes_);
+    double value = 0;
+    if (word.empty()) refuse(file_, "the file ends before its last value");
+    if (!parse_number(word, value)) refuse(file_, "expected a number, found " + in_quotes(word));
+    return value;
+  }
+
+  const fs::path& file_;
+  std::string_view bytes_;
+  Format format_;
+};
+
+void skip(Values& values, const Property& property) {
+  const std::size_t count = property.is_list ? values.next_count(property.count_type) : 1;
+  for (std::size_t i = 0; i < count; ++i) values.next(property.type);
+}
+
+Vec3 read_point(Values& values, const Element& element) {
+  Vec3 p;
+  for (const Property& property : element.properties) {
+    const int axis = property.name == "x" ? 0 : property.name == "y" ? 1 : 2;
+    if (property.is_list || property.name.size() != 1 || property.name[0] != "xyz"[axis]) {
+      skip(values, property);
+    } else {
+      p[axis] = values.next(property.type);
+    }
+  }
+  return p;
+}
+
+bool names_corners(const Property& p) {
+  return p.is_list && (p.name == "vertex_indices" || p.name == "vertex_index");
+}
+
+void read_face(Values& values, const Element& element, PolygonSink& sink) {
+  std::vector<double> corners;
+  for (const Property& property : element.properties) {
+    if (!names_corners(property)) {
+      skip(values, property);
+      continue;
+    }
+    corners.resize(values.next_count(property.count_type));
+    for (double& corner : corners) corner = values.next(property.type);
+    sink.add(corners, false);
+  }
+}
+
+bool has_coordinates(const Element& element) {
+  int found = 0;
+  for (const Property& p : element.properties) {
+    found += !p.is_list && (p.name == "x" || p.name == "y" || p.name == "z");
+  }
+  return found == 3;
+}
+
+}  // namespace
+
+std::string ply_bytes(const TriMesh& surface, const SurfaceWriteOptions& options) {
+  std::string out = "ply\nformat binary_little_endian 1.0\ncomment " + frame_note(options.frame);
+  if (!options.name.empty()) out += "\ncomment " + options.name;
+  out += say("\nelement vertex ", surface.points.size(), "\nproperty double x",
+             "\nproperty double y", "\nproperty double z", "\nelement face ",
+             surface.triangles.size(), "\nproperty list uchar int vertex_indices\nend_header\n");
+  out.reserve(out.size() + 24 * surface.points.size() + 13 * surface.triangles.size());
+  for (const Vec3& p : surface.points) {
+    for (int axis = 0; axis < 3; ++axis) append(out, p[axis] + 0.0);  // no -0
+  }
+  for (const Triangle& t : surface.triangles) {
+    append(out, std::uint8_t{3});
+    for (const Index p : t) append(out, p);
+  }
+  return out;
+}
+
+SurfaceFile parse_ply(const fs::path& file, std::string_view bytes) {
+  const Header header = take_header(file, bytes);
+  Values values(file, bytes, header.format);
+  TriMesh surface;
+  PolygonSink sink(file, surface);
+  for (const Element& element : header.elements) {
+    if (element.properties.empty()) continue;  // nothing to read, however many
+    if (element.name == "vertex" && !has_coordinates(element)) {
+      refuse(file, "expected the properties x, y and z of the element vertex");
+    }
+    for (std::int64_t i = 0; i < element.count; ++i) {
+      if (element.name == "vertex") {
+        surface.points.push_back(read_point(values, element));
+      } else if (element.name == "face") {
+        read_face(values, element, sink);
+      } else {
+        for (const Property& property : element.properties) skip(values, property);
+      }
+    }
+  }
+  return {std::move(surface), header.frame};
+}
+
+}  // namespace mesamis::detail

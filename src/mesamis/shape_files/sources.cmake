@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+set(ROOM_HEADERS
+  file_kind.h
+  mesh_files.h
+  surface_files.h)
+set(ROOM_SOURCES
+  abaqus_file.cpp
+  amf_file.cpp
+  file_kind.cpp
+  frame_note.cpp
+  gmsh_file.cpp
+  medit_files.cpp
+  mesh_checks.cpp
+  obj_file.cpp
+  ply_file.cpp
+  stl_file.cpp
+  surface_files.cpp
+  threemf_file.cpp
+  vtk_file.cpp
+  vtk_xml.cpp
+  vtk_xml_writer.cpp
+  vtp_file.cpp
+  vtu_file.cpp)

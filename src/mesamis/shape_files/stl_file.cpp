@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+
+#include "mesamis/decimate/round_to_single.h"
+#include "mesamis/files/bytes.h"
+#include "mesamis/files/refuse.h"
+#include "mesamis/files/text_scan.h"
+#include "mesamis/shape_files/surface_formats.h"
+
+namespace mesamis::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kHeader = 80, kBegin = kHeader + 4, kRecord = 50;
+
+using Corner = std::array<float, 3>;
+
+/// Adding zero turns -0 into +0, so that equal numbers have equal bits.
+Corner corner(double x, double y, double z) {
+  return {static_cast<float>(x) + 0.0f, static_cast<float>(y) + 0.0f, static_cast<float>(z) + 0.0f};
+}
+
+Corner normal_of(const std::array<Corner, 3>& t) {
+  auto at = [&t](std::size_t i) { return Vec3{t[i][0], t[i][1], t[i][2]}; };
+  const Vec3 n = cross(at(1) - at(0), at(2) - at(0));
+  const double length = norm(n);
+  return length > 0 ? corner(n.x / length, n.y / length, n.z / length) : Corner{0, 0, 0};
+}
+
+/// Equal corners become one point, numbered in the order of their first use.
+TriMesh weld(const fs::path& file, const std::vector<Corner>& corners) {
+  if (corners.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
+    refuse(file, say(corners.size() / 3, " triangles exceed 32-bit indices"));
+  }
+  std::vector<Index> order(corners.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&corners](Index a, Index b) {
+    return corners[a] != corners[b] ? corners[a] < corners[b] : a < b;
+  });
+  std::vector<Index> first(corners.size());  // where the same corner is used first
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool again = i > 0 && corners[order[i]] == corners[order[i - 1]];
+    first[order[i]] = again ? first[order[i - 1]] : order[i];
+  }
+  TriMesh surface;
+  surface.triangles.resize(corners.size() / 3);
+  std::vector<Index>& point = order;  // no longer needed
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    const auto own = static_cast<Index>(c);
+    point[c] = first[c] == own ? static_cast<Index>(surface.points.size()) : point[first[c]];
+    if (first[c] == own) {
+      surface.points.push_back({corners[c][0], corners[c][1], corners[c][2]});
+    }
+    surface.triangles[c / 3][c % 3] = point[c];
+  }
+  return surface;
+}
+
+void require_finite(const fs::path& file, const std::vector<Corner>& corners) {
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    for (const float x : corners[c]) {
+      if (!std::isfinite(x))
+        refuse(file, say("triangle ", c / 3, " has a corner that is not finite"));
+    }
+  }
+}
+
+std::vector<Corner> binary_corners(const fs::path& file, std::string_view bytes) {
+  const std::uint64_t count = load<std::uint32_t>(bytes.data() + kHeader);
+  const std::uint64_t room = (bytes.size() - kBegin) / kRecord;
+  if (count > room) {
+    refuse(file, say("the header promises ", count, " triangles, the file ends after ", room));
+  }
+  std::vector<Corner> corners(3 * count);
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    // A record: normal, three corners, two bytes.
+    const char* from = bytes.data() + kBegin + c / 3 * kRecord + 12 + c % 3 * 12;
+    corners[c] = corner(load<float>(from), load<float>(from + 4), load<float>(from + 8));
+  }
+  return corners;
+}
+
+std::vector<Corner> text_corners(const fs::path& file, std::string_view bytes) {
+  std::vector<Corner> corners;
+  std::string_view line;
+  bool ended = false;
+  for (std::size_t number = 1; take_line(bytes, line); ++number) {
+    const std::string keyword = lower(take_word(line));
+    if (!keyword.empty()) ended = keyword == "endsolid";
+    if (keyword == "endloop" && corners.size() % 3 != 0) {
+      refuse(file, say("line ", number, ": expected three corners in each loop"));
+    }
+    if (keyword != "vertex") continue;
+    double x = 0, y = 0, z = 0;
+    if (!parse_number(take_word(line), x) || !parse_number(take_word(line), y) ||
+        !parse_number(take_word(line), z)) {
+      refuse(file, say("line ", number, ": expected three numbers after vertex"));
+    }
+    corners.push_back(corner(x, y, z));
+  }
+  if (!ended) refuse(file, "the file does not end with endsolid");
+  if (corners.size() % 3 != 0) refuse(file, "the last triangle has not three corners");
+  return corners;
+}
+
+/// Some binary files, too, begin with "solid": the size decides.
+bool is_binary(std::string_view bytes) {
+  if (bytes.size() < kBegin) return false;
+  const std::uint64_t count = load<std::uint32_t>(bytes.data() + kHeader);
+  if (bytes.size() == kBegin + count * kRecord) return true;
+  return !trimmed(bytes.substr(0, kHeader)).starts_with("solid");
+}
+
+}  // namespace
+
+std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options) {
+  const TriMesh single = round_to_single(surface);
+  // The header must not begin with "solid", or readers take the file for text.
+  std::string out = frame_note(options.frame) + (options.name.empty() ? "" : ", " + options.name);
+  out.resize(kHeader, '\0');
+  out.reserve(kBegin + kRecord * single.triangles.size());
+  append(out, static_cast<std::uint32_t>(single.triangles.size()));
+  for (const Triangle& k : single.triangles) {
+    std::array<Corner, 3> t;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& p = single.points[k[i]];
+      t[i] = corner(p.x, p.y, p.z);
+    }
+    for (const float x : normal_of(t)) append(out, x);
+    for (const Corner& c : t) {
+      for (const float x : c) append(out, x);
+    }
+    append(out, std::uint16_t{0});
+  }
+  return out;
+}
+
+SurfaceFile parse_stl(const fs::path& file, std::string_view bytes) {
+  const bool binary = is_binary(bytes);
+  if (!binary && !lower(trimmed(bytes.substr(0, kHeader))).starts_with("solid")) {
+    refuse(file, "is not an STL file: neither begins with solid nor holds a binary header");
+  }
+  const auto corners = binary ? binary_corners(file, bytes) : text_corners(file, bytes);
+  require_finite(file, corners);
+  const std::string_view head = bytes.substr(0, kHeader);
+  return {weld(file, corners), frame_named_in(binary ? head : head.substr(0, head.find('\n')))};
+}
+
+}  // namespace mesamis::detail

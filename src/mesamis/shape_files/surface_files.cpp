@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/shape_files/surface_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesamis/base/error.h"
+#include "mesamis/files/atomic_file.h"
+#include "mesamis/files/byte_source.h"
+#include "mesamis/files/refuse.h"
+#include "mesamis/shape_files/surface_formats.h"
+
+namespace mesamis {
+
+using namespace detail;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Parser = SurfaceFile (*)(const fs::path&, std::string_view);
+using Formatter = std::string (*)(const TriMesh&, const SurfaceWriteOptions&);
+
+constexpr auto kMostPoints = static_cast<std::size_t>(std::numeric_limits<Index>::max());
+
+struct Format {
+  const char* extension;
+  Parser parse;     // null: not read
+  Formatter bytes;  // null: not written
+  bool grey = false;
+};
+
+constexpr Format kFormats[] = {{".stl", parse_stl, stl_bytes},
+                               {".ply", parse_ply, ply_bytes},
+                               {".obj", parse_obj, obj_bytes},
+                               {".vtp", parse_vtp, vtp_bytes, true},
+                               {".3mf", parse_threemf, threemf_bytes, true},
+                               {".amf", parse_amf, amf_bytes, true},
+                               {".vtk", parse_vtk, nullptr}};
+
+[[noreturn]] void refuse_extension(const fs::path& path, const std::string& known) {
+  const std::string found = path.extension().string();
+  refuse(path, "expected a surface file (" + known + "), found " +
+                   (found.empty() ? "no extension" : "the extension " + in_quotes(found)));
+}
+
+/// In lower case, without a final .gz.
+std::string extension_of(const fs::path& path) {
+  const bool packed = lower(path.extension().string()) == ".gz";
+  return lower((packed ? path.stem() : path).extension().string());
+}
+
+Parser parser_for(const fs::path& path) {
+  const std::string extension = extension_of(path);
+  for (const Format& format : kFormats) {
+    if (extension == format.extension && format.parse != nullptr) return format.parse;
+  }
+  refuse_extension(path, ".stl .ply .obj .vtp .3mf .amf .vtk, each also with .gz");
+}
+
+/// One line, as headers and comments must be.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }, ' ');
+  return text;
+}
+
+/// Names and facts in one line each, and always a producer.
+SurfaceWriteOptions as_written(const SurfaceWriteOptions& options) {
+  SurfaceWriteOptions clean = options;
+  clean.name = one_line(options.name);
+  bool produced = false;
+  for (auto& [type, text] : clean.metadata) {
+    type = one_line(type);
+    text = one_line(text);
+    produced |= type == kProducer;
+  }
+  if (!produced) clean.metadata.insert(clean.metadata.begin(), {kProducer, "mesamis"});
+  return clean;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
+/// As many values as points, all of them finite.
+void require_values(const fs::path& path, const char* what, const std::vector<double>& values,
+                    const TriMesh& surface) {
+  if (values.size() != surface.points.size()) {
+    refuse(path, say("expected ", what, " per point (", surface.points.size(), "), found ",
+                     values.size()));
+  }
+  if (std::any_of(values.begin(), values.end(), [](double x) { return !std::isfinite(x); })) {
+    refuse(path, say(what, " is not finite"));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> written_surface_formats() {
+  std::vector<std::string> extensions;
+  for (const Format& format : kFormats) {
+    if (format.bytes != nullptr) extensions.emplace_back(format.extension);
+  }
+  return extensions;
+}
+
+bool carries_grey(const fs::path& path) {
+  const std::string extension = lower(path.extension().string());
+  return std::any_of(std::begin(kFormats), std::end(kFormats), [&](const Format& format) {
+    return extension == format.extension && format.grey;
+  });
+}
+
+void write_surface(const fs::path& path, const TriMesh& surface,
+                   const SurfaceWriteOptions& options) {
+  if (surface.triangles.empty()) refuse(path, "an empty surface is not written");
+  require_sound(surface);
+  const std::string extension = lower(path.extension().string());
+  const auto* format = std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) {
+    return extension == f.extension && f.bytes != nullptr;
+  });
+  if (format == std::end(kFormats)) refuse_extension(path, joined(written_surface_formats()));
+  if (!options.grey.empty()) require_values(path, "a grey value", options.grey, surface);
+  for (const PointArray& array : options.point_arrays) {
+    require_values(path, "an array's value", array.values, surface);
+  }
+  const bool as_given = options.frame != Frame::kRas;
+  write_file(path, format->bytes(as_given ? surface : turned(surface), as_written(options)));
+}
+
+SurfaceFile read_surface_file(const fs::path& path) {
+  const Parser parse = parser_for(path);
+  SurfaceFile file = parse(path, read_all(path));
+  const TriMesh& surface = file.surface;
+  if (surface.triangles.empty()) refuse(path, "holds no triangle");
+  if (surface.points.size() > kMostPoints) refuse(path, "its points exceed 32-bit indices");
+  try {
+    require_sound(surface);
+  } catch (const InputError& error) {
+    refuse(path, error.what());
+  }
+  return file;
+}
+
+TriMesh read_surface(const fs::path& path) { return read_surface_file(path).surface; }
+
+TriMesh turned(TriMesh surface) {
+  for (Vec3& p : surface.points) p = in_frame(p, Frame::kRas);
+  return surface;
+}
+
+TriMesh in_lps(const SurfaceFile& file) {
+  return file.frame == Frame::kRas ? turned(file.surface) : file.surface;
+}
+
+std::vector<double> read_point_array(const fs::path& path, const std::string& name) {
+  if (extension_of(path) != ".vtp") {
+    refuse(path, "has no array " + in_quotes(name) + " to colour by, only .vtp files have arrays");
+  }
+  return parse_vtp_array(path, read_all(path), name);
+}
+
+}  // namespace mesamis

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <charconv>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "mesamis/shape_files/surface_files.h"
+
+/// The formats behind surface_files.h. Writers take points as they go to the file; readers take a
+/// file's bytes, unpacked, and its path for messages, and throw InputError. What they return is not
+/// checked further: indices may be out of range.
+namespace mesamis::detail {
+
+/// "mesamis, millimetre, SPACE=LPS": 3D Slicer looks for the last part in all four formats, which
+/// is missing where no frame is stated.
+std::string frame_note(std::optional<Frame> frame);
+/// The frame that a text names in this way.
+std::optional<Frame> frame_named_in(std::string_view note);
+/// The frame of this name, see frame_name().
+std::optional<Frame> frame_named(std::string_view name);
+
+/// The type of the metadata that names the program; write_surface() makes sure that there is one.
+inline constexpr const char* kProducer = "producer";
+
+/// The shortest decimals that read back as the same double; never "-0".
+inline void append_shortest(std::string& out, double value) {
+  char text[32];
+  out.append(text, std::to_chars(text, text + sizeof text, value + 0.0).ptr);
+}
+
+/// Single precision, as the format has it, see round_to_single().
+std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// Binary or text; equal corners become one point, in the order of their first use.
+SurfaceFile parse_stl(const std::filesystem::path& file, std::string_view bytes);
+
+/// Double precision: VTK, MeshLab, CloudCompare, Blender, Open3D and Assimp read it.
+std::string ply_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// Text or binary of either order. Polygons are cut into fans.
+SurfaceFile parse_ply(const std::filesystem::path& file, std::string_view bytes);
+
+/// Shortest decimals that give the same doubles back.
+std::string obj_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// Polygons are cut into fans; everything but positions and faces is left out.
+SurfaceFile parse_obj(const std::filesystem::path& file, std::string_view bytes);
+
+/// Double precision, appended binary.
+std::string vtp_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// Polygons are cut into fans, strips into triangles; points and lines are left out.
+SurfaceFile parse_vtp(const std::filesystem::path& file, std::string_view bytes);
+std::vector<double> parse_vtp_array(const std::filesystem::path& file, std::string_view bytes,
+                                    const std::string& name);
+/// Legacy VTK, DATASET POLYDATA.
+SurfaceFile parse_vtk(const std::filesystem::path& file, std::string_view bytes);
+
+/// AMF 1.1, text; shortest decimals that give the same doubles back.
+std::string amf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// The meshes of all objects, in mm; not compressed as ZIP; constellations are left out.
+SurfaceFile parse_amf(const std::filesystem::path& file, std::string_view bytes);
+
+/// 3MF through lib3mf: single precision, six decimals; the same bytes every time.
+std::string threemf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// The meshes of the build items, each at its place, in mm.
+SurfaceFile parse_threemf(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace mesamis::detail

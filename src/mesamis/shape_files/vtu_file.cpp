@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+#include <utility>
+
+#include "mesamis/base/error.h"
+#include "mesamis/files/byte_source.h"
+#include "mesamis/files/refuse.h"
+#include "mesamis/shape_files/mesh_files.h"
+#include "mesamis/shape_files/vtk_xml.h"
+#include "mesamis/shape_files/vtk_xml_writer.h"
+
+namespace mesamis {
+
+using namespace detail;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFrameName = "SPACE";  // the field data that state the frame
+constexpr int kTetrahedronType = 10;         // VTK's number for this type of cell
+
+/// A .vtu as it lies in the file.
+struct VtuContents {
+  MeshWithArrays grid;
+  Frame frame = Frame::kLps;
+};
+
+class VtuParser {
+ public:
+  VtuParser(const fs::path& file, std::string_view bytes)
+      : file_(file), xml_(file, bytes, "UnstructuredGrid") {}
+
+  VtuContents parse() {
+    const XmlElement* piece = nullptr;
+    for (const XmlElement& child : xml_.data_set().children) {
+      if (child.name == "FieldData") read_frame(child);
+      if (child.name != "Piece") continue;
+      if (piece != nullptr) refuse(file_, "expected one piece, found several");
+      piece = &child;
+    }
+    if (piece == nullptr) refuse(file_, "holds no points");
+    MeshWithArrays& grid = contents_.grid;
+    read_points(*piece);
+    read_cells(*piece);
+    grid.point_arrays = arrays(piece->child("PointData"), grid.mesh.points.size());
+    grid.cell_arrays = arrays(piece->child("CellData"), grid.mesh.cells.size());
+    return std::move(contents_);
+  }
+
+ private:
+  void read_frame(const XmlElement& field_data) {
+    for (const XmlElement& array : field_data.children) {
+      if (array.attribute("Name") == kFrameName && xml_.text(array) == frame_name(Frame::kRas)) {
+        contents_.frame = Frame::kRas;
+      }
+    }
+  }
+
+  std::size_t index_count(const XmlElement& piece, const char* name) const {
+    const std::size_t count = count_in(file_, piece, name);
+    if (count > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
+      refuse(file_, say(name, " is ", count, ", more than 32-bit indices can name"));
+    }
+    return count;
+  }
+
+  /// The values of the array of this name, or of the first array if name is null.
+  std::vector<double> values_of(const XmlElement& piece, const char* parent, const char* name,
+                                std::size_t count) {
+    const XmlElement* element = piece.child(parent);
+    if (element != nullptr) {
+      for (const XmlElement& array : element->children) {
+        if (array.name != "DataArray") continue;
+        if (name != nullptr && array.attribute("Name") != name) continue;
+        return xml_.values(array, count);
+      }
+    }
+    refuse(file_, say("expected an array of ", name == nullptr ? parent : name, ", found none"));
+  }
+
+  void read_points(const XmlElement& piece) {
+    const std::size_t count = index_count(piece, "NumberOfPoints");
+    if (count == 0) refuse(file_, "holds no points");
+    const std::vector<double> values = values_of(piece, "Points", nullptr, 3 * count);
+    std::vector<Vec3>& points = contents_.grid.mesh.points;
+    points.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      points[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+    }
+  }
+
+  [[noreturn]] void refuse_cell(std::size_t cell, const std::string& what) const {
+    refuse(file_, say("cell ", cell, " ", what));
+  }
+
+  void read_cells(const XmlElement& piece) {
+    const std::size_t count = index_count(piece, "NumberOfCells");
+    if (count == 0) return;
+    const std::vector<double> types = values_of(piece, "Cells", "types", count);
+    for (std::size_t c = 0; c < count; ++c) {
+      if (types[c] != kTetrahedronType) {
+        refuse_cell(c, say("is of VTK type ", types[c], ", expected tetrahedra (type ",
+                           kTetrahedronType, ")"));
+      }
+    }
+    const std::vector<double> offsets = values_of(piece, "Cells", "offsets", count);
+    for (std::size_t c = 0; c < count; ++c) {
+      if (offsets[c] != 4.0 * static_cast<double>(c + 1)) refuse_cell(c, "has not four points");
+    }
+    const std::vector<double> corners = values_of(piece, "Cells", "connectivity", 4 * count);
+    TetMesh& mesh = contents_.grid.mesh;
+    const auto points = static_cast<double>(mesh.points.size());
+    mesh.cells.resize(count);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (!(corners[i] >= 0 && corners[i] < points)) refuse_cell(i / 4, "names a missing point");
+      mesh.cells[i / 4][i % 4] = static_cast<Index>(corners[i]);
+    }
+  }
+
+  std::vector<MeshArray> arrays(const XmlElement* data, std::size_t count) {
+    std::vector<MeshArray> result;
+    if (data == nullptr) return result;
+    for (const XmlElement& element : data->children) {
+      if (element.name != "DataArray") continue;  // text
+      MeshArray array;
+      array.name = element.attribute("Name");
+      const std::size_t components = components_in(file_, element);
+      array.values = xml_.values(element, count * components);
+      array.components = static_cast<int>(components);
+      result.push_back(std::move(array));
+    }
+    return result;
+  }
+
+  const fs::path& file_;
+  VtkXml xml_;
+  VtuContents contents_;
+};
+
+/// Whether half a turn about z, from LPS to RAS or back, negates this component of an array:
+/// vectors and tensors (xx yy zz xy yz xz) turn with the points.
+bool is_negated(int components, std::size_t component) {
+  return (components == 3 && component < 2) || (components == 6 && component >= 4);
+}
+
+double turned_value(const MeshArray& array, std::size_t i) {
+  const std::size_t component = i % static_cast<std::size_t>(array.components);
+  return is_negated(array.components, component) ? -array.values[i] : array.values[i];
+}
+
+void turn(MeshArray& array) {
+  for (std::size_t i = 0; i < array.values.size(); ++i) array.values[i] = turned_value(array, i);
+}
+
+void turn(std::vector<Vec3>& points) {
+  for (Vec3& p : points) p = in_frame(p, Frame::kRas);
+}
+
+void require_size(const MeshArray& array, std::size_t count, const char* kind) {
+  const std::string what = say("mesh: ", kind, " array '", array.name, "' has ");
+  if (array.components < 1 || array.components > kMostComponents) {
+    throw InputError(say(what, array.components, " components, expected 1 to ", kMostComponents));
+  }
+  if (array.values.size() != count * static_cast<std::size_t>(array.components)) {
+    throw InputError(
+        say(what, array.values.size(), " values, expected ", count, " times ", array.components));
+  }
+}
+
+VtkArrayGroup group_of(const char* element, std::span<const MeshArray> arrays, std::size_t count,
+                       const char* kind, Frame frame) {
+  VtkArrayGroup group{element, {}};
+  for (const MeshArray& array : arrays) {
+    require_size(array, count, kind);
+    group.arrays.push_back(vtk_array<double>(
+        array.name, array.components, array.values.size(), [&array, frame](std::size_t i) {
+          return frame == Frame::kRas ? turned_value(array, i) : array.values[i];
+        }));
+  }
+  return group;
+}
+
+VtkArrayGroup group_of_points(const std::vector<Vec3>& points, Frame frame) {
+  return {"Points", {vtk_array<double>("Points", 3, 3 * points.size(), [&, frame](std::size_t i) {
+            return in_frame(points[i / 3], frame)[static_cast<int>(i % 3)];
+          })}};
+}
+
+VtkArrayGroup group_of_cells(const std::vector<Cell>& cells) {
+  if (cells.size() > std::numeric_limits<std::int32_t>::max() / 4) {
+    throw InputError(say("mesh: ", cells.size(), " cells are too many for a VTK file"));
+  }
+  auto corner = [&cells](std::size_t i) { return cells[i / 4][i % 4]; };
+  auto end_of_cell = [](std::size_t c) { return 4 * (c + 1); };
+  return {"Cells",
+          {vtk_array<std::int32_t>("connectivity", 1, 4 * cells.size(), corner),
+           vtk_array<std::int32_t>("offsets", 1, cells.size(), end_of_cell),
+           vtk_array<std::uint8_t>("types", 1, cells.size(),
+                                   [](std::size_t) { return kTetrahedronType; })}};
+}
+
+}  // namespace
+
+void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const VtuOptions& options) {
+  const Frame frame = options.frame;
+  const std::size_t points = mesh.points.size(), cells = mesh.cells.size();
+  write_vtk_xml(path, {"UnstructuredGrid",
+                       {vtk_text(kFrameName, frame_name(frame)), vtk_text("LengthUnit", "mm")},
+                       {{"NumberOfPoints", points}, {"NumberOfCells", cells}},
+                       {group_of("PointData", options.point_arrays, points, "point", frame),
+                        group_of("CellData", options.cell_arrays, cells, "cell", frame),
+                        group_of_points(mesh.points, frame), group_of_cells(mesh.cells)}});
+}
+
+MeshWithArrays read_vtu(const std::filesystem::path& path) {
+  const std::string bytes = read_all(path);
+  VtuContents contents = VtuParser(path, bytes).parse();
+  MeshWithArrays& result = contents.grid;
+  if (contents.frame == Frame::kRas) {
+    turn(result.mesh.points);
+    for (MeshArray& array : result.point_arrays) turn(array);
+    for (MeshArray& array : result.cell_arrays) turn(array);
+  }
+  return std::move(result);
+}
+
+}  // namespace mesamis

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/memory.h"
+
+#include <gtest/gtest.h>
+
+namespace mesamis {
+namespace {
+
+/// Only its size counts.
+Volume empty_volume(Index nx, Index ny, Index nz, const Vec3& spacing = {1, 1, 1}) {
+  Volume volume;
+  volume.size = {nx, ny, nz};
+  volume.spacing = spacing;
+  return volume;
+}
+
+TEST(MemoryNeeded, GrowsWithVoxelsAndCellsAndFallsWithTheStride) {
+  const Volume small = empty_volume(200, 200, 200), large = empty_volume(400, 200, 200);
+  Settings settings;
+  settings.max_tets = 100'000;
+  EXPECT_NEAR(memory_needed(large, settings) / memory_needed(small, settings), 2, 0.1);
+  Settings thin = settings;
+  thin.stride = {2, 2, 1};
+  EXPECT_LT(memory_needed(small, thin), 0.5 * memory_needed(small, settings));
+  Settings part = settings;
+  part.crop.end = {200, -1, -1};
+  EXPECT_EQ(memory_needed(large, part), memory_needed(small, settings));
+  settings.max_tets = 20'000'000;
+  EXPECT_GT(memory_needed(small, settings), 2 * memory_needed(large, part));
+}
+
+TEST(MemoryNeeded, OfTheLargestScansIsWhatWasMeasured) {
+  Settings settings;
+  settings.max_tets = 3'000'000;
+  EXPECT_LT(memory_needed(empty_volume(512, 512, 400), settings), 14e9);
+  settings.stride = {2, 2, 1};
+  settings.max_tets = 1'300'000;
+  EXPECT_LT(memory_needed(empty_volume(204, 244, 304), settings), 4e9);
+}
+
+TEST(StrideThatFits, ThinsTheAxisThatIsFinest) {
+  const Volume volume = empty_volume(400, 400, 100, {0.5, 0.5, 2});
+  Settings settings;
+  settings.max_tets = 20'000;
+  const double half = 0.5 * memory_needed(volume, settings);
+  const auto stride = stride_that_fits(volume, settings, half);
+  ASSERT_TRUE(stride);
+  EXPECT_EQ((*stride)[2], 1);
+  EXPECT_GT((*stride)[0] * (*stride)[1], 1);
+  settings.stride = *stride;
+  EXPECT_LE(memory_needed(volume, settings), half);
+  EXPECT_EQ(stride_that_fits(volume, settings, half), settings.stride);
+  EXPECT_FALSE(stride_that_fits(volume, settings, 1e6));
+}
+
+}  // namespace
+}  // namespace mesamis

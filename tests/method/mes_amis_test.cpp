@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/mes_amis.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "support/ball_volume.h"
+
+namespace mesamis {
+namespace {
+
+Settings small_run() {
+  Settings settings;
+  settings.max_tets = 4000;
+  settings.adaptations = 3;
+  return settings;
+}
+
+BallVolume ball() { return {.size = 26, .noise = 10, .radius = 7}; }
+
+double mean_radius_error(const Result& result, const Vec3& center, double radius) {
+  double sum = 0;
+  for (const Vec3& p : result.surface.points) sum += std::abs(norm(p - center) - radius);
+  return sum / static_cast<double>(result.surface.points.size());
+}
+
+TEST(MesAmis, FindsABallAndClosesItsSurface) {
+  const Volume volume = make_ball(ball());
+  const Result result = mes_amis(volume, small_run());
+  const SurfaceCheck check = check_surface(result.surface);
+  EXPECT_TRUE(check.closed());
+  EXPECT_TRUE(check.manifold());
+  EXPECT_NEAR(result.parameters.level, 175, 6);
+  EXPECT_FALSE(result.parameters.grey.has_threshold());
+  const double middle = 4.0 / 3 * std::numbers::pi * std::pow(middle_radius(7, 1), 3);
+  EXPECT_NEAR(check.volume / middle, 1, 0.04);
+  EXPECT_LT(mean_radius_error(result, 0.5 * volume.box().extent(), 7), 0.25);
+}
+
+TEST(MesAmis, DeliversAValidMeshWithinTheCount) {
+  const Volume volume = make_ball(ball());
+  const Result result = mes_amis(volume, small_run());
+  EXPECT_NO_THROW(validate(result.mesh, volume.box()));
+  EXPECT_NEAR(static_cast<double>(result.mesh.cells.size()) / 4000, 1, 0.1);
+  for (const auto* field : {&result.u, &result.v, &result.f}) {
+    EXPECT_EQ(field->size(), result.mesh.points.size());
+  }
+  EXPECT_THAT(result.v, ::testing::Each(::testing::AllOf(::testing::Ge(0), ::testing::Le(1))));
+  EXPECT_EQ(result.metric.size(), result.mesh.points.size());
+  EXPECT_GT(result.fit.unit_edge_fraction, 0.8);
+}
+
+TEST(MesAmis, TellsTheGreyValueBeneathTheSurface) {
+  const Result result = mes_amis(make_ball(ball()), small_run());
+  const std::vector<double> greys = surface_grey(result, 1);
+  ASSERT_EQ(greys.size(), result.surface.points.size());
+  const double level = result.parameters.grey.to_grey(result.parameters.level);
+  const double inside = *std::max_element(result.u.begin(), result.u.end());
+  for (const double grey : greys) {
+    EXPECT_GE(grey, level - 1e-3) << "the way begins on the level";
+    EXPECT_LE(grey, inside);
+    EXPECT_GT(grey, level + 0.3 * (inside - level)) << "the ball is far thicker than the way";
+  }
+}
+
+TEST(MesAmis, TheSameBitsForAnyNumberOfThreads) {
+  const Volume volume = make_ball(ball());
+  const Result a = with_threads(1, [&] { return mes_amis(volume, small_run()); });
+  const Result b = with_threads(3, [&] { return mes_amis(volume, small_run()); });
+  EXPECT_EQ(a.mesh.points, b.mesh.points);
+  EXPECT_EQ(a.mesh.cells, b.mesh.cells);
+  EXPECT_EQ(a.u, b.u);
+  EXPECT_EQ(a.surface.points, b.surface.points);
+  EXPECT_EQ(a.surface.triangles, b.surface.triangles);
+  EXPECT_EQ(surface_grey(a, 1), surface_grey(b, 1));
+}
+
+TEST(MesAmis, AnObliqueScanGivesTheSameSurfaceTurned) {
+  Volume volume = make_ball(ball());
+  Settings settings = small_run();
+  settings.tolerance = 0;  // rounding to single precision is not turned
+  const Result straight = mes_amis(volume, settings);
+  volume.origin = {10, -20, 30};
+  volume.direction.rows = {Vec3{0, -1, 0}, Vec3{0.6, 0, -0.8}, Vec3{0.8, 0, 0.6}};
+  const Result turned = mes_amis(volume, settings);
+  ASSERT_EQ(straight.surface.points.size(), turned.surface.points.size());
+  for (std::size_t n = 0; n < turned.surface.points.size(); ++n) {
+    EXPECT_NEAR(norm(turned.surface.points[n] - volume.to_world(straight.surface.points[n])), 0,
+                1e-9);
+  }
+  EXPECT_NEAR(check_surface(turned.surface).volume / check_surface(straight.surface).volume, 1,
+              1e-9);
+}
+
+TEST(MesAmis, AMirroredScanKeepsItsOrientationOutward) {
+  Volume volume = make_ball(ball());
+  volume.direction.rows[0] = {-1, 0, 0};
+  const Result result = mes_amis(volume, small_run());
+  EXPECT_GT(check_surface(result.surface).volume, 0);
+  for (std::size_t c = 0; c < result.mesh.cells.size(); ++c) {
+    EXPECT_GT(cell_volume(result.mesh, static_cast<Index>(c)), 0);
+  }
+}
+
+TEST(MesAmis, ScalesWithTheVoxelSize) {
+  // Lengths are measured in voxels: a scan with voxels of 0.02 mm gives the same mesh, smaller.
+  BallVolume fine = ball();
+  fine.spacing = {0.02, 0.02, 0.02};
+  fine.radius *= 0.02;
+  fine.blur *= 0.02;
+  const Result a = mes_amis(make_ball(ball()), small_run());
+  const Result b = mes_amis(make_ball(fine), small_run());
+  EXPECT_NEAR(check_surface(b.surface).volume / check_surface(a.surface).volume, 8e-6, 8e-8);
+}
+
+TEST(MesAmis, ClampsSoftTissueInAThreeClassImage) {
+  const Volume volume = make_ball(
+      {.size = 32, .background = 40, .object = 900, .noise = 15, .radius = 7, .air = -1000});
+  const Result result = mes_amis(volume, small_run());
+  EXPECT_TRUE(result.parameters.grey.has_threshold());
+  EXPECT_NEAR(result.parameters.level, 470, 50);
+  EXPECT_EQ(check_surface(result.surface).components, 1);
+  EXPECT_LT(mean_radius_error(result, 0.5 * volume.box().extent(), 7), 0.3);
+}
+
+TEST(MesAmis, NoiseOfOneTissueIsNoSecondOne) {
+  Settings settings = small_run();
+  settings.adaptations = 1;
+  const Result result = mes_amis(make_ball({.size = 40, .noise = 30, .radius = 7}), settings);
+  EXPECT_FALSE(result.parameters.grey.has_threshold());
+}
+
+TEST(MesAmis, BandLiesOnBothSidesOfTheEdge) {
+  Settings settings = small_run();
+  settings.surface = SurfaceKind::kBand;
+  const Result result = mes_amis(make_ball({.size = 26, .noise = 2, .radius = 7}), settings);
+  EXPECT_TRUE(check_surface(result.surface).closed());
+  const Vec3 center{12.5, 12.5, 12.5};
+  int inside = 0, outside = 0;
+  for (const Vec3& p : result.surface.points) (norm(p - center) < 7 ? inside : outside)++;
+  EXPECT_GT(inside, 10);
+  EXPECT_GT(outside, 10);
+}
+
+TEST(MesAmis, StrideThinsTheFirstGridOnly) {
+  Settings settings = small_run();
+  settings.stride = {2, 2, 1};
+  const Volume volume = make_ball(ball());
+  const Result result = mes_amis(volume, settings);
+  EXPECT_EQ(result.iterations[0].nodes, 13 * 13 * 26);
+  EXPECT_NO_THROW(validate(result.mesh, volume.box()));
+  EXPECT_LT(mean_radius_error(result, 0.5 * volume.box().extent(), 7), 0.3);
+}
+
+TEST(MesAmis, ProgressCanStopTheRun) {
+  int calls = 0;
+  const Progress stop = [&calls](std::string_view, double share) {
+    EXPECT_GE(share, 0);
+    EXPECT_LE(share, 1);
+    return ++calls < 3;
+  };
+  EXPECT_THROW(mes_amis(make_ball(ball()), small_run(), stop), Cancelled);
+  EXPECT_EQ(calls, 3);
+}
+
+TEST(MesAmis, RefusesWhatItCannotUse) {
+  Volume constant = make_ball(ball());
+  constant.samples.assign(constant.samples.size(), 5);
+  EXPECT_THROW(mes_amis(constant, {}), InputError);
+  Volume broken = make_ball(ball());
+  broken.samples[100] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(mes_amis(broken, {}), InputError);
+  Settings settings;
+  settings.gamma = 0;
+  EXPECT_THROW(mes_amis(make_ball(ball()), settings), InputError);
+  settings = {};
+  settings.crop.begin = {25, 0, 0};
+  EXPECT_THROW(mes_amis(make_ball(ball()), settings), InputError);
+}
+
+}  // namespace
+}  // namespace mesamis

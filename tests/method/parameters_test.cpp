@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/parameters.h"
+
+#include <gtest/gtest.h>
+
+#include "mesamis/method/prepare.h"
+#include "mesamis/method/setting_table.h"
+#include "support/ball_volume.h"
+
+namespace mesamis {
+namespace {
+
+TEST(Parameters, AsSettingsTheyLeadToTheSameParameters) {
+  const Volume volume = make_ball({.size = 24, .radius = 7});
+  Settings asked;
+  asked.keep_largest = 2;
+  asked.gradation = 1.5;
+  const Parameters first = prepare_image(volume, asked).parameters;
+  const Settings repeated = settings_of(first);
+  EXPECT_NO_THROW(require_valid(repeated));
+  const Settings again = settings_of(prepare_image(volume, repeated).parameters);
+  for (const Setting& setting : setting_table()) {
+    EXPECT_EQ(setting.get(again), setting.get(repeated)) << setting.name;
+    if (setting.name == "triangles") continue;
+    EXPECT_NE(origin_of(setting, repeated), Origin::kMeasured) << setting.name;
+  }
+}
+
+TEST(Parameters, ABandHasNoLevelToRepeat) {
+  Parameters band;
+  band.surface = SurfaceKind::kBand;
+  band.level = 7;
+  EXPECT_EQ(settings_of(band).level, std::nullopt);
+}
+
+TEST(DefaultGamma, IsAPriceOfGreyValuesSquared) {
+  const double one = default_gamma(1e-3, 2, 100, 5);
+  EXPECT_NEAR(default_gamma(1e-3, 2, 300, 15), 9 * one, 1e-12);
+  EXPECT_NEAR(default_gamma(1e-3, 4, 100, 5), 2 * one, 1e-12);
+  EXPECT_GT(default_gamma(1e-3, 2, 100, 10), one);
+}
+
+TEST(DefaultMaxTets, GrowsWithTheEdgesWithinBounds) {
+  EXPECT_EQ(default_max_tets(0, {1, 1, 1}), 20'000);
+  EXPECT_EQ(default_max_tets(50'000, {1, 1, 1}), 225'000);
+  EXPECT_EQ(default_max_tets(1e9, {1, 1, 1}), 2'000'000);
+  // The same surface in voxels half as wide, and in slices four times as thick.
+  EXPECT_EQ(default_max_tets(12'500, {0.5, 0.5, 0.5}), 225'000);
+  EXPECT_EQ(default_max_tets(50'000, {1, 1, 4}), 225'000);
+  EXPECT_EQ(default_max_tets(50'000, {0.1, 0.1, 8}), 225'000);
+}
+
+}  // namespace
+}  // namespace mesamis

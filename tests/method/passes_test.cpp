@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/passes.h"
+
+#include <gtest/gtest.h>
+
+#include "mesamis/fem/mesh_space.h"
+#include "mesamis/method/prepare.h"
+#include "mesamis/method/setting_table.h"
+#include "support/ball_volume.h"
+#include "support/oracle.h"
+
+namespace mesamis {
+namespace {
+
+/// The preset as it stands, on a grid of 1 mm.
+Parameters paper_parameters() {
+  Settings settings = preset_settings("paper");
+  settings.window = Window{0, 255};
+  settings.threshold_rule = ThresholdRule::kNone;
+  return prepare_image(make_ball({.size = 16, .radius = 5}), settings).parameters;
+}
+
+/// The preset's own pass through Algorithm 1, estimator, metric and (12), against an independent
+/// implementation on a mesh of its own.
+TEST(PaperPreset, OnePassAgreesWithTheOracle) {
+  MESAMIS_REQUIRE_DATA(oracle_path());
+  const auto oracle = read_oracle();
+  const auto expected = oracle["cases"]["paper_parameters"];
+  const TetMesh mesh = oracle_mesh(oracle);
+  const MeshSpace space(mesh);
+  const Parameters p = paper_parameters();
+  const Volume unused = make_ball({.size = 16, .radius = 5});
+  const RunInput run(p, unused);
+
+  Minimum minimum;
+  minimum.f = oracle["f"].get<std::vector<double>>();
+  AmisOptions options = run.draft_options();
+  EXPECT_EQ(options.solver.tolerance, run.final_options().solver.tolerance) << "no drafts";
+  options.max_iterations = static_cast<int>(expected["steps"].size());
+  options.v_tolerance = 0;
+  options.solver.tolerance = 1e-12;
+  Iteration record;
+  minimise_on(space, options, minimum, record);
+  minimum.lumped_mass = space.lumped_mass();
+  EXPECT_NEAR(record.energy.total() / expected["steps"].back()["energy_after_v"].get<double>(), 1,
+              1e-9);
+  EXPECT_LT(relative_difference(minimum.u, expected["steps"].back()["u"]), 1e-8);
+  EXPECT_LT(relative_difference(minimum.v, expected["steps"].back()["v"]), 1e-8);
+
+  const double goal = expected["scaled"]["NMAX"];
+  const SizeControl free{1e-9, 1e9, 0};
+  const Progress no_progress;
+  const Stage stage(no_progress, "test");
+  const std::vector<Sym3> metric = mesh_metric({run, 2, stage, record}, mesh, minimum, free);
+  EXPECT_NEAR(record.estimator / expected["estimator_sum"].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(record.predicted_tets / expected["predicted_cells"].get<double>(), 1, 1e-5);
+  // (12), as the oracle scales: by the prediction (11).
+  std::vector<double> scaled, found;
+  for (const auto& node : expected["scaled"]["node_metric_xx_xy_yy_xz_yz_zz"]) {
+    for (const double entry : node) scaled.push_back(entry);
+  }
+  const double scale = std::pow(goal / record.predicted_tets, 2.0 / 3);
+  for (const Sym3& m : metric) {
+    for (const double entry : {m.xx, m.xy, m.yy, m.xz, m.yz, m.zz}) found.push_back(scale * entry);
+  }
+  EXPECT_LT(relative_difference(found, scaled), 1e-5);
+}
+
+TEST(RunInput, DraftsHaveFewerCellsAndTheLastHaveAll) {
+  Parameters p;
+  p.max_tets = 1'000'000;
+  p.drafts = true;
+  p.adaptations = 10;
+  p.solver_tolerance = 1e-6;
+  const Volume volume = make_ball({.size = 8, .radius = 2});
+  const RunInput run(p, volume);
+  std::int64_t last = 0;
+  for (int k = 1; k <= 10; ++k) {
+    EXPECT_GE(run.cells_after(k), last);
+    last = run.cells_after(k);
+  }
+  EXPECT_LT(run.cells_after(1), p.max_tets);
+  EXPECT_EQ(last, p.max_tets);
+  EXPECT_GT(run.draft_options().solver.tolerance, run.final_options().solver.tolerance);
+  p.adaptations = 1;
+  EXPECT_EQ(run.cells_after(1), p.max_tets) << "the only mesh is the one delivered";
+  p.adaptations = 10;
+  p.drafts = false;
+  EXPECT_EQ(run.cells_after(1), p.max_tets);
+  EXPECT_EQ(run.draft_options().solver.tolerance, run.final_options().solver.tolerance);
+}
+
+Iteration pass_with(double mesh_change, double energy_change, bool bounded = false) {
+  Iteration pass;
+  pass.mesh_change = mesh_change;
+  pass.energy_change = energy_change;
+  pass.bounded = bounded;
+  return pass;
+}
+
+TEST(HasSettled, WantsBothByDefaultAndOneAsPrinted) {
+  Parameters p;
+  p.drafts = false;
+  p.adaptations = 10;
+  p.tol_mesh = p.tol_energy = 0.01;
+  const Volume volume = make_ball({.size = 8, .radius = 2});
+  const RunInput run(p, volume);
+  const auto settled = [&run](const Iteration& last) {
+    return has_settled(run, {pass_with(1, 1), pass_with(1, 1), last});
+  };
+  EXPECT_TRUE(settled(pass_with(0.005, 0.005)));
+  EXPECT_FALSE(settled(pass_with(0.005, 0.02)));
+  EXPECT_FALSE(settled(pass_with(0.03, 0.005)));
+  EXPECT_TRUE(settled(pass_with(0.03, 0.005, true))) << "a count that max_tets holds may waver";
+  EXPECT_FALSE(settled(pass_with(0.2, 0.005, true)));
+  p.stop_at_first = true;
+  EXPECT_TRUE(settled(pass_with(0.005, 0.02)));
+  EXPECT_TRUE(settled(pass_with(0.03, 0.005)));
+  EXPECT_FALSE(settled(pass_with(0.03, 0.02)));
+  // The first energy change compares the grid with a mesh.
+  EXPECT_FALSE(has_settled(run, {pass_with(1, 1), pass_with(0.5, 0.001)}));
+}
+
+TEST(Stage, StopsWhereProgressSaysSo) {
+  std::vector<double> shares;
+  const Progress progress = [&shares](std::string_view name, double share) {
+    EXPECT_EQ(name, "work");
+    shares.push_back(share);
+    return share < 0.5;
+  };
+  const Stage stage(progress, "work");
+  stage.advance(0.25);
+  EXPECT_THROW(stage.advance(0.75), Cancelled);
+  EXPECT_EQ(shares, (std::vector<double>{0, 0.25, 0.75}));
+}
+
+}  // namespace
+}  // namespace mesamis

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/prepare.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/ball_volume.h"
+#include "support/throws.h"
+
+namespace mesamis {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(FirstGridSize, KeepsTwoNodesAtLeast) {
+  EXPECT_EQ(first_grid_size({9, 10, 3}, {2, 3, 100}), (std::array<Index, 3>{5, 4, 2}));
+}
+
+TEST(PrepareImage, WhatIsGivenIsNotMeasured) {
+  Settings settings;
+  settings.window = Window{100, 250};
+  settings.noise = 6;
+  settings.blur = {0.5, 0, 0};
+  settings.gamma = 0.3;
+  settings.max_tets = 5000;
+  settings.level = 160;
+  settings.min_volume = 2;
+  settings.tolerance = 0.25;
+  settings.h_max = 4;
+  settings.eta = 1e-4;
+  const Parameters p = prepare_image(make_ball({.size = 24, .radius = 7}), settings).parameters;
+  EXPECT_EQ(p.grey.low, 100);
+  EXPECT_EQ(p.grey.high, 250);
+  EXPECT_EQ(p.noise, 6);
+  EXPECT_EQ(p.blur, (std::array<double, 3>{0.5, 0, 0}));
+  EXPECT_EQ(p.functional.gamma, 0.3);
+  EXPECT_EQ(p.functional.eta, 1e-4);
+  EXPECT_EQ(p.max_tets, 5000);
+  EXPECT_EQ(p.level, 160);
+  EXPECT_EQ(p.min_volume, 2);
+  EXPECT_EQ(p.tolerance, 0.25);
+  EXPECT_EQ(p.h_max, 4);
+}
+
+TEST(PrepareImage, MeasuresWhatIsLeftOpen) {
+  const Prepared prepared = prepare_image(make_ball({.size = 32, .noise = 8, .radius = 9}), {});
+  const Parameters& p = prepared.parameters;
+  EXPECT_NEAR(p.noise, 8, 2);
+  EXPECT_NEAR(prepared.first_level, 175, 8);
+  EXPECT_EQ(p.unit_mm, 1);
+  EXPECT_EQ(p.functional.eta, 1e-6);
+  EXPECT_EQ(p.h_max, 31.0 / 4);
+  EXPECT_EQ(p.min_volume, 4);
+  EXPECT_EQ(p.tolerance, 0.1);
+  EXPECT_GE(p.max_tets, kFewestTets);
+  EXPECT_GT(p.functional.gamma, 0);
+  EXPECT_FALSE(p.grey.has_threshold()) << "two classes need no T";
+}
+
+TEST(PrepareImage, LengthsFollowTheUnit) {
+  BallVolume fine{.size = 24, .radius = 7 * 0.2};
+  fine.spacing = {0.2, 0.2, 0.2};
+  fine.blur = 0.2;
+  const Volume volume = make_ball(fine);
+  EXPECT_NEAR(prepare_image(volume, {}).parameters.unit_mm, 0.2, 1e-12);
+  Settings mm;
+  mm.length_unit = LengthUnit::kMm;
+  EXPECT_EQ(prepare_image(volume, mm).parameters.unit_mm, 1);
+}
+
+TEST(PrepareImage, WithoutRestoringTheImageIsTheOneThatCame) {
+  const Volume volume = make_ball({.size = 24, .noise = 5, .radius = 7});
+  Settings settings;
+  settings.restore = false;
+  settings.window = Window{0, 255};
+  settings.threshold_rule = ThresholdRule::kNone;
+  const Prepared prepared = prepare_image(volume, settings);
+  EXPECT_EQ(prepared.grey.samples, volume.samples);
+  EXPECT_EQ(prepared.impulses, 0);
+  EXPECT_NEAR(prepared.parameters.noise, 5, 1.5) << "the noise is measured all the same";
+  EXPECT_EQ(prepared.parameters.blur, (std::array<double, 3>{}));
+}
+
+TEST(PrepareImage, ThePapersThresholdIsAGreyValue) {
+  Settings settings;
+  settings.threshold_rule = ThresholdRule::kPaper;
+  settings.window = Window{100, 355};
+  const Prepared prepared =
+      prepare_image(make_ball({.size = 24, .object = 350, .radius = 7}), settings);
+  EXPECT_EQ(prepared.parameters.grey.threshold, 240);
+  for (const float grey : prepared.grey.samples) EXPECT_GE(grey, 140);
+}
+
+TEST(PrepareImage, ATrianglesGoalLiftsTheTolerance) {
+  Settings settings;
+  settings.triangles = 500;
+  const Volume volume = make_ball({.size = 24, .radius = 7});
+  EXPECT_TRUE(std::isinf(prepare_image(volume, settings).parameters.tolerance));
+  settings.tolerance = 0.2;
+  EXPECT_EQ(prepare_image(volume, settings).parameters.tolerance, 0.2);
+}
+
+TEST(PrepareImage, RefusesSettingsThatLeaveNothingToSee) {
+  const Volume volume = make_ball({.size = 24, .radius = 7});
+  Settings settings;
+  settings.window = Window{900, 990};
+  EXPECT_REFUSED(prepare_image(volume, settings), HasSubstr("window: expected one that holds"));
+  settings.window = Window{100, 250};
+  settings.level = 300;
+  EXPECT_REFUSED(prepare_image(volume, settings), HasSubstr("level: expected a value between"));
+}
+
+}  // namespace
+}  // namespace mesamis

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/record/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "mesamis/method/setting_table.h"
+#include "support/ball_volume.h"
+#include "support/temp_folder.h"
+
+namespace mesamis {
+namespace {
+
+TEST(RunJson, HoldsTheValuesUsedAndWhereTheyCameFrom) {
+  Settings asked;
+  asked.max_tets = 3000;
+  asked.adaptations = 2;
+  const Result result = mes_amis(make_ball({.size = 20, .radius = 6}), asked);
+  const auto report = run_json(asked, result, check_surface(result.surface));
+  for (const auto& [name, value] : report["settings"].items()) {
+    if (name == "triangles") continue;
+    EXPECT_NE(value, "auto") << name;
+  }
+  EXPECT_EQ(report["given"], (nlohmann::json{"max_tets", "adaptations"}));
+  EXPECT_EQ(report["settings"]["level"], report["surface"]["level_native"]);
+  for (const Setting& setting : setting_table()) {
+    const bool measured = origin_of(setting, asked) == Origin::kMeasured;
+    EXPECT_EQ(report["chosen"].contains(setting.name), measured) << setting.name;
+    if (!measured) continue;
+    EXPECT_EQ(report["chosen"][setting.name], setting.automatic);
+  }
+  EXPECT_EQ(report["iterations"].size(), result.iterations.size());
+  EXPECT_TRUE(report["iterations"][0]["energy_change"].is_null()) << "nothing to compare with";
+  EXPECT_EQ(report["surface"]["closed"], true);
+}
+
+TEST(PrintableJson, NoBoundIsNull) {
+  const PrintableReport printable;
+  EXPECT_TRUE(
+      printable_json(printable, std::numeric_limits<double>::infinity())["tolerance_mm"].is_null());
+  EXPECT_EQ(printable_json(printable, 0.25)["tolerance_mm"], 0.25);
+  EXPECT_TRUE(printable_json(printable, 0.25)["parts"].is_null());
+}
+
+TEST(FactsOf, AreThoseOfTheScan) {
+  const TempFolder folder;
+  write_bytes(folder / "a", "abc");
+  Volume volume = make_ball({.size = 8, .radius = 2});
+  volume.modality = "CT";
+  const auto json = input_json(facts_of(folder / "a", volume, "NRRD", {"odd"}));
+  EXPECT_EQ(json["sha256"], "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(json["size"], (nlohmann::json{8, 8, 8}));
+  EXPECT_EQ(json["modality"], "CT");
+  EXPECT_EQ(json["warnings"], nlohmann::json{"odd"});
+  EXPECT_LT(json["range"][0], json["range"][1]);
+}
+
+TEST(ProgramJson, NamesTheProgramAndItsCommit) {
+  EXPECT_EQ(program_json()["name"], "mesamis");
+  EXPECT_THAT(program_json()["version"].get<std::string>(), testing::MatchesRegex("[0-9.]+"));
+}
+
+}  // namespace
+}  // namespace mesamis

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/record/verdict.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+
+namespace mesamis {
+namespace {
+
+using testing::HasSubstr;
+
+/// A run that kept every promise, and the pieces to break one.
+struct Case {
+  Case() {
+    result.surface = cube();
+    result.converged = true;
+    result.parameters.tolerance = 0.1;
+    result.parameters.adaptations = 2;
+    result.iterations.resize(3);
+  }
+  Verdict verdict() const { return judge(result, check_surface(result.surface)); }
+  Result result;
+};
+
+TEST(Verdict, ARunThatKeptItsPromisesHasNothingToSay) {
+  const Verdict verdict = Case().verdict();
+  EXPECT_EQ(verdict.outcome, Outcome::kKept);
+  EXPECT_EQ(verdict.message, "");
+}
+
+TEST(Verdict, AnOpenSurfaceIsTheWorst) {
+  Case broken;
+  broken.result.surface.triangles.pop_back();
+  broken.result.converged = false;
+  EXPECT_EQ(broken.verdict().outcome, Outcome::kNotClosed);
+  EXPECT_THAT(broken.verdict().message, HasSubstr("expected a closed 2-manifold surface"));
+}
+
+TEST(Verdict, AnUnmetToleranceCountsForSolidsAlone) {
+  Case far;
+  far.result.printable.extracted_to_result = 0.2;
+  EXPECT_EQ(far.verdict().outcome, Outcome::kNotConverged);
+  EXPECT_THAT(far.verdict().message, HasSubstr("tolerance: expected distances of 0.1 mm"));
+  far.result.parameters.surface = SurfaceKind::kBand;
+  EXPECT_EQ(far.verdict().outcome, Outcome::kKept);
+}
+
+TEST(Verdict, SaysWhyARunHasNotConverged) {
+  Case unsettled;
+  unsettled.result.converged = false;
+  unsettled.result.iterations[1].mesh_change = 0.3;
+  EXPECT_EQ(unsettled.verdict().outcome, Outcome::kNotConverged);
+  EXPECT_THAT(unsettled.verdict().message, HasSubstr("the cell count changed by 0.3"));
+  unsettled.result.parameters.adaptations = 1;
+  EXPECT_THAT(unsettled.verdict().message, HasSubstr("expected 2 or more"));
+  unsettled.result.iterations[1].amis.solver_converged = false;
+  EXPECT_THAT(unsettled.verdict().message, HasSubstr("a linear solve ended"));
+}
+
+}  // namespace
+}  // namespace mesamis

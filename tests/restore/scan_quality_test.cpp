@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/restore/scan_quality.h"
+
+#include <gtest/gtest.h>
+
+#include "mesamis/image/grey_values.h"
+#include "mesamis/phantom/degrade.h"
+#include "mesamis/phantom/phantom.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kLevel = 175;
+
+Volume scan_of(const char* phantom, const DegradeOptions& faults) {
+  return degrade(sample_phantom(make_phantom(phantom)), faults);
+}
+
+TEST(MeasureNoise, FindsWhatWasAdded) {
+  for (const char* phantom : {"sphere", "fracture"}) {
+    for (const double noise : {5.0, 15.0, 30.0}) {
+      const Volume scan = scan_of(phantom, {.blur = 1, .noise = noise});
+      const Volume guide = smoothed(scan);
+      const auto points = crossing_points(guide, kLevel, 100'000);
+      EXPECT_NEAR(measure_noise(scan, guide, points, kLevel), noise, 1 + 0.05 * noise) << phantom;
+    }
+  }
+}
+
+TEST(MeasureNoise, IsNothingWithoutPlaces) {
+  const Volume scan = scan_of("sphere", {});
+  EXPECT_EQ(measure_noise(scan, scan, {}, kLevel), 0);
+}
+
+TEST(MeasureBlur, FindsTheBlurOfEachAxis) {
+  const double voxel = 1.0 / 12;  // variance of a voxel's own extent
+  for (const double noise : {0.0, 15.0, 30.0}) {
+    for (const double blur : {0.6, 1.0, 1.5}) {
+      const Volume scan = scan_of("sphere", {.blur = blur, .noise = noise});
+      const auto points = crossing_points(smoothed(smoothed(scan)), kLevel, 100'000);
+      for (const double found : measure_blur(scan, points, noise)) {
+        // Noise makes it fall short, never the other way: too much undone is worse.
+        const double truth = std::sqrt(blur * blur + voxel);
+        EXPECT_LT(found, truth + 0.15) << blur << " " << noise;
+        EXPECT_GT(found, truth * (0.9 - noise / 300)) << blur << " " << noise;
+      }
+    }
+  }
+}
+
+TEST(MeasureBlur, TellsAxesApart) {
+  // Layers twice as thick: half as many voxels of blur across them, seen in mm.
+  const Volume fine = scan_of("sphere", {.blur = 1.4});
+  Volume scan = subsample(fine, {1, 1, 2});
+  const auto points = crossing_points(smoothed(smoothed(scan)), kLevel, 100'000);
+  const auto blur = measure_blur(scan, points, 0);
+  EXPECT_NEAR(blur[0], 1.4, 0.15);
+  EXPECT_NEAR(blur[1], 1.4, 0.15);
+  EXPECT_NEAR(blur[2], 0.7, 0.15);
+}
+
+TEST(MeasureBlur, IsNothingWithoutPoints) {
+  EXPECT_EQ(measure_blur(scan_of("sphere", {}), {}, 0), (std::array<double, 3>{}));
+}
+
+}  // namespace
+}  // namespace mesamis

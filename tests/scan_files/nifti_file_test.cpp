@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "mesamis/scan_files/read_volume.h"
+#include "support/expect_near.h"
+#include "support/read_scan.h"
+#include "support/scan_bytes.h"
+#include "support/temp_folder.h"
+
+namespace mesamis {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double kFloat = 1e-7;  // of directions the header gives in single precision
+
+TEST(Nifti, TurnsRasIntoLpsAndStreamsSamples) {
+  const TempFolder folder;
+  const std::string bytes = NiftiBytes{}.header() + bytes_of_all(kRamp);
+  for (const std::string name : {"a.nii", "a.nii.gz", "B.NII"}) {
+    const bool gz = name.ends_with(".gz");
+    const VolumeFile file = read(folder, name, gz ? packed(bytes) : bytes);
+    expect_ramp(file.volume);
+    EXPECT_EQ(file.format, "NIfTI");
+    EXPECT_THAT(file.warnings, IsEmpty());
+    expect_near(file.volume.spacing, {0.5, 1.25, 2});
+    expect_near(file.volume.origin, {-10, -20, 30});
+    expect_near(file.volume.to_world({1, 0, 0}), {-11, -20, 30});
+    expect_near(file.volume.to_world({0, 0, 1}), {-10, -20, 31});
+  }
+}
+
+TEST(Nifti, ReadsEveryTypeOfOneNumberInBothByteOrders) {
+  const TempFolder folder;
+  const auto check = [&](auto number, std::int16_t code) {
+    using Number = decltype(number);
+    const int first = std::is_signed_v<Number> ? -40 : 0;
+    for (const bool big_endian : {false, true}) {
+      NiftiBytes nifti;
+      nifti.datatype = code;
+      nifti.big_endian = big_endian;
+      const auto values = ramp<Number>(60, first);
+      const VolumeFile file =
+          read(folder, "a.nii", nifti.header() + bytes_of_all(values, big_endian));
+      for (std::size_t n = 0; n < 60; ++n) {
+        ASSERT_EQ(file.volume.samples[n], static_cast<float>(values[n])) << code;
+      }
+    }
+  };
+  check(std::uint8_t{}, 2), check(std::int16_t{}, 4), check(std::int32_t{}, 8);
+  check(float{}, 16), check(double{}, 64), check(std::int8_t{}, 256);
+  check(std::uint16_t{}, 512), check(std::uint32_t{}, 768);
+  check(std::int64_t{}, 1024), check(std::uint64_t{}, 1280);
+}
+
+TEST(Nifti, AppliesTheScale) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.slope = 0.5f, nifti.intercept = 100;
+  expect_ramp(read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).volume, 5, 0.5, 100);
+  nifti.slope = std::numeric_limits<float>::quiet_NaN();
+  expect_ramp(read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).volume);
+}
+
+TEST(Nifti, TakesTheSformBeforeTheQformBeforeNeither) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  // A quarter turn about z: the first axis points to A, the second to L.
+  const float half = std::sqrt(0.5f);
+  nifti.quatern = {0, 0, half, 1, 2, 3};
+  nifti.qform_code = 1;
+  const std::string data = bytes_of_all(kRamp);
+  expect_near(read(folder, "a.nii", nifti.header() + data).volume.origin, {-10, -20, 30});
+  nifti.sform_code = 0;
+  Volume volume = read(folder, "a.nii", nifti.header() + data).volume;
+  expect_near(volume.origin, {-1, -2, 3});
+  expect_near(volume.direction * Vec3{1, 0, 0}, {0, -1, 0}, kFloat);
+  expect_near(volume.direction * Vec3{0, 1, 0}, {1, 0, 0}, kFloat);
+  nifti.pixdim[0] = -1;  // qfac: the third axis is turned over
+  volume = read(folder, "a.nii", nifti.header() + data).volume;
+  expect_near(volume.direction * Vec3{0, 0, 1}, {0, 0, -1});
+  nifti.qform_code = 0;
+  const VolumeFile file = read(folder, "a.nii", nifti.header() + data);
+  expect_near(file.volume.direction * Vec3{1, 0, 0}, {-1, 0, 0});
+  EXPECT_THAT(file.warnings, testing::Contains(HasSubstr("no orientation")));
+}
+
+TEST(Nifti, MakesASlightlySkewedSformOrthonormalAndRefusesASkewedOne) {
+  const TempFolder folder;
+  const std::string data = bytes_of_all(kRamp);
+  NiftiBytes nifti;
+  nifti.srow[1] = 1.25f * 5e-4f;  // the second axis leans by a cosine of 5e-4
+  const VolumeFile file = read(folder, "a.nii", nifti.header() + data);
+  EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("cosine 0.0005")));
+  EXPECT_NO_THROW(require_usable(file.volume));
+  expect_near(file.volume.direction * Vec3{0, 1, 0}, {0, -1, 0}, 1e-3);
+  nifti.srow[1] = 1.25f * 0.02f;
+  EXPECT_THAT(complaint(folder, "a.nii", nifti.header() + data), HasSubstr("a cosine of 0.0199"));
+}
+
+TEST(Nifti, HonoursObliqueDirectionsAndUnits) {
+  const TempFolder folder;
+  const float c = std::cos(0.3f), s = std::sin(0.3f);
+  NiftiBytes nifti;
+  nifti.srow = {0.5f * c, -1.25f * s, 0, 0, 0.5f * s, 1.25f * c, 0, 0, 0, 0, 2, 0};
+  nifti.units = 3;  // micrometres
+  const Volume volume = read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).volume;
+  expect_near(volume.spacing, {0.0005, 0.00125, 0.002}, 1e-9);
+  expect_near(volume.direction * Vec3{1, 0, 0}, {-std::cos(0.3), -std::sin(0.3), 0}, kFloat);
+  EXPECT_NO_THROW(require_usable(volume));
+}
+
+TEST(Nifti, RefusesWhatIsNoVolume) {
+  const TempFolder folder;
+  const auto spoilt = [&](auto&& change) {
+    NiftiBytes nifti;
+    change(nifti);
+    return complaint(folder, "a.nii", nifti.header() + bytes_of_all(kRamp));
+  };
+  EXPECT_THAT(spoilt([](auto& n) { n.dim = {4, 2, 3, 5, 2, 1, 1, 1}; }), HasSubstr("4-D"));
+  EXPECT_THAT(spoilt([](auto& n) { n.dim[0] = 2; }), HasSubstr("2 dimensions"));
+  EXPECT_THAT(spoilt([](auto& n) { n.dim[0] = -1; }), HasSubstr("-1 dimensions"));
+  EXPECT_THAT(spoilt([](auto& n) { n.dim[2] = 0; }), HasSubstr("found 0"));
+  EXPECT_THAT(spoilt([](auto& n) { n.dim[2] = -7; }), HasSubstr("found -7"));
+  EXPECT_THAT(spoilt([](auto& n) { n.datatype = 128; }), HasSubstr("RGB"));
+  EXPECT_THAT(spoilt([](auto& n) { n.datatype = 32; }), HasSubstr("complex"));
+  EXPECT_THAT(spoilt([](auto& n) { n.datatype = 9999; }), HasSubstr("9999"));
+  EXPECT_THAT(spoilt([](auto& n) { n.vox_offset = 1; }), HasSubstr("vox_offset 1"));
+  EXPECT_THAT(spoilt([](auto& n) { n.vox_offset = NAN; }), HasSubstr("vox_offset nan"));
+  EXPECT_THAT(spoilt([](auto& n) { n.srow[0] = NAN; }), HasSubstr("axis 0, found nan"));
+  EXPECT_THAT(spoilt([](auto& n) { n.srow.fill(0); }), HasSubstr("found 0 mm"));
+  EXPECT_THAT(spoilt([](auto& n) { n.srow[3] = INFINITY; }), HasSubstr("origin"));
+  EXPECT_THAT(spoilt([](auto& n) { n.magic = "ni1"; }), HasSubstr("magic"));
+  EXPECT_THAT(complaint(folder, "a.nii", "hello"), HasSubstr("found 5"));
+  EXPECT_THAT(complaint(folder, "a.nii", ""), HasSubstr("found 0"));
+  EXPECT_THAT(complaint(folder, "a.nii", std::string(600, 'x')), HasSubstr("found neither"));
+}
+
+TEST(Nifti, AcceptsAFourthDimensionOfOne) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.dim[0] = 4;
+  expect_ramp(read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).volume);
+}
+
+}  // namespace
+}  // namespace mesamis

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/scan_files/scan_file.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/bytes_span.h"
+#include "support/expect_near.h"
+#include "support/scan_bytes.h"
+#include "support/temp_folder.h"
+#include "support/throws.h"
+
+namespace mesamis::detail {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+ScanFile scan_named(const std::string& name) {
+  ScanFile scan;
+  scan.file = scan.source.file = name;
+  return scan;
+}
+
+/// Two samples along x, coded as the source says.
+ScanFile two_samples(const TempFolder& folder, const std::string& bytes, NumberType type) {
+  write_bytes(folder / "a.raw", bytes);
+  ScanFile scan = scan_named(folder / "a.raw");
+  set_size(scan, {2, 1, 1});
+  scan.source.type = type;
+  return scan;
+}
+
+TEST(ScanFile, SizesAreCheckedBeforeAnythingIsAllocated) {
+  ScanFile scan = scan_named("a");
+  set_size(scan, {4, 3, 5});
+  EXPECT_EQ(scan.grid.voxel_count(), 60u);
+  EXPECT_REFUSED(set_size(scan, {4, 0, 5}), HasSubstr("a: expected 1 to 2147483647 voxels"));
+  EXPECT_REFUSED(set_size(scan, {std::int64_t{1} << 31, 1, 1}), HasSubstr("axis 0"));
+  EXPECT_REFUSED(set_size(scan, {1 << 20, 1 << 20, 2}), HasSubstr("more voxels"));
+}
+
+TEST(ScanFile, AxesGiveSpacingAndDirection) {
+  ScanFile scan = scan_named("a");
+  set_axes(scan, {Vec3{0, 2, 0}, Vec3{0, 0, 3}, Vec3{-0.5, 0, 0}});
+  expect_near(scan.grid.spacing, {2, 3, 0.5});
+  expect_near(scan.grid.direction.rows[0], {0, 0, -1});
+  expect_near(scan.grid.direction.rows[1], {1, 0, 0});
+  expect_near(scan.grid.direction.rows[2], {0, 1, 0});
+  EXPECT_THAT(scan.warnings, IsEmpty());
+}
+
+/// Below 1e-5 silently, up to 1e-3 with a warning, beyond it not at all.
+TEST(ScanFile, SkewedAxesAreMadeOrthonormalWithinATolerance) {
+  for (const double skew : {5e-6, 5e-4}) {
+    ScanFile scan = scan_named("a");
+    set_axes(scan, {Vec3{1, 0, 0}, Vec3{skew, 1, 0}, Vec3{0, 0, 1}});
+    EXPECT_EQ(scan.warnings.size(), skew > 1e-5 ? 1u : 0u);
+    const auto& rows = scan.grid.direction.rows;
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t b = 0; b < 3; ++b) EXPECT_NEAR(dot(rows[a], rows[b]), a == b, 1e-14);
+    }
+  }
+  ScanFile scan = scan_named("a");
+  EXPECT_REFUSED(set_axes(scan, {Vec3{1, 0, 0}, Vec3{0.002, 1, 0}, Vec3{0, 0, 1}}),
+                 HasSubstr("expected orthogonal voxel axes"));
+}
+
+TEST(ScanFile, AxesWithoutLengthAndOriginsThatAreNotFiniteAreRefused) {
+  ScanFile scan = scan_named("a");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_REFUSED(set_axes(scan, {Vec3{1, 0, 0}, Vec3{0, 0, 0}, Vec3{0, 0, 1}}),
+                 HasSubstr("spacing along axis 1, found 0 mm"));
+  EXPECT_REFUSED(set_axes(scan, {Vec3{nan, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}),
+                 HasSubstr("axis 0"));
+  EXPECT_REFUSED(set_origin(scan, {0, 0, nan}), HasSubstr("expected a finite origin"));
+  set_origin(scan, {-0.0, 1, 2});
+  EXPECT_FALSE(std::signbit(scan.grid.origin.x));
+}
+
+TEST(ScanFile, SamplesAreReadInEitherByteOrderAndRescaled) {
+  const TempFolder folder;
+  for (const bool big_endian : {false, true}) {
+    ScanFile scan = two_samples(
+        folder, bytes_of_all(std::vector<std::int16_t>{-300, 1}, big_endian), NumberType::kInt16);
+    scan.source.big_endian = big_endian;
+    EXPECT_THAT(read_samples(scan), ElementsAre(-300, 1));
+    scan.source.slope = 0.5;
+    scan.source.intercept = 10;
+    EXPECT_THAT(read_samples(scan), ElementsAre(-140, 10.5F));
+  }
+}
+
+TEST(ScanFile, TextAndPackedSamplesAndThoseAtTheEnd) {
+  const TempFolder folder;
+  ScanFile text = two_samples(folder, " 1.5e1\n-2", NumberType::kInt16);
+  text.source.text = true;
+  EXPECT_THAT(read_samples(text), ElementsAre(15, -2));
+  ScanFile zipped = two_samples(folder, packed("skip" + std::string("\1\2", 2)), NumberType::kInt8);
+  zipped.source.packing = Packing::kDeflated;
+  zipped.source.skip = 4;
+  EXPECT_THAT(read_samples(zipped), ElementsAre(1, 2));
+  ScanFile end = two_samples(folder, "any header\x07\x08", NumberType::kInt8);
+  end.source.at_end = true;
+  EXPECT_THAT(read_samples(end), ElementsAre(7, 8));
+}
+
+TEST(ScanFile, TooFewAndWhereItMattersTooManyBytesAreRefused) {
+  const TempFolder folder;
+  EXPECT_REFUSED(read_samples(two_samples(folder, "abc", NumberType::kInt16)),
+                 HasSubstr("expected 4 bytes for 2 x 1 x 1 samples, found 3"));
+  ScanFile longer = two_samples(folder, "abcde", NumberType::kInt16);
+  EXPECT_NO_THROW(read_samples(longer));
+  longer.source.exact = true;
+  EXPECT_REFUSED(read_samples(longer), HasSubstr("go on"));
+}
+
+TEST(ScanFile, SamplesAreAppended) {
+  std::vector<float> samples{9};
+  SampleSource source;
+  source.type = NumberType::kUint8;
+  append_samples(bytes_in("\x01\xff"), source, samples);
+  EXPECT_THAT(samples, ElementsAre(9, 1, 255));
+}
+
+}  // namespace
+}  // namespace mesamis::detail

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/scan_files/text_header.h"
+
+#include <gmock/gmock.h>
+
+#include "support/temp_folder.h"
+#include "support/throws.h"
+
+namespace mesamis::detail {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(TextHeader, LinesEndAsOnUnixOrOnWindows) {
+  const TempFolder folder;
+  write_bytes(folder / "a", "one\r\n\ntwo\nlast");
+  HeaderLines lines(folder / "a");
+  std::vector<std::string> all;
+  for (std::string line; lines.next(line);) all.push_back(line);
+  EXPECT_THAT(all, ElementsAre("one", "", "two", "last"));
+  EXPECT_EQ(lines.position(), 14u);
+}
+
+TEST(TextHeader, ThePositionIsThatBehindTheLine) {
+  const TempFolder folder;
+  write_bytes(folder / "a", "one\r\n\1\2\3");
+  HeaderLines lines(folder / "a");
+  std::string line;
+  EXPECT_TRUE(lines.next(line));
+  EXPECT_EQ(lines.position(), 5u) << "where the samples begin";
+}
+
+TEST(TextHeader, ABinaryFileIsNoEndlessLine) {
+  const TempFolder folder;
+  write_bytes(folder / "a", std::string((1 << 20) + 1, 'x'));
+  HeaderLines lines(folder / "a");
+  std::string line;
+  EXPECT_REFUSED(lines.next(line), HasSubstr("expected a header of at most 1048576 bytes"));
+  EXPECT_REFUSED(HeaderLines(folder / "none"), HasSubstr("cannot be read"));
+}
+
+TEST(TextHeader, WordsAndNumbersStandBetweenWhiteSpace) {
+  EXPECT_THAT(words_of(" a\tb  c\n"), ElementsAre("a", "b", "c"));
+  EXPECT_THAT(words_of(" "), IsEmpty());
+  EXPECT_THAT(numbers_of("a", "spacing", "0.5 -1e3", 2), ElementsAre(0.5, -1000));
+  EXPECT_THAT(whole_numbers_of("a", "sizes", "4 3 5", 3), ElementsAre(4, 3, 5));
+}
+
+TEST(TextHeader, NumbersThatAreNoneAreNamedWithTheirField) {
+  EXPECT_REFUSED(numbers_of("a", "spacing", "1 wide", 2),
+                 AllOf(HasSubstr("a: "), HasSubstr("\"spacing\""), HasSubstr("\"wide\"")));
+  EXPECT_REFUSED(numbers_of("a", "spacing", "1 2 3", 2), HasSubstr("expected 2 numbers"));
+  EXPECT_REFUSED(whole_numbers_of("a", "sizes", "4 2.5", 2), HasSubstr("\"2.5\""));
+}
+
+}  // namespace
+}  // namespace mesamis::detail

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "mesamis/scan_files/read_volume.h"
+#include "support/expect_near.h"
+#include "support/read_scan.h"
+#include "support/scan_bytes.h"
+#include "support/temp_folder.h"
+
+namespace mesamis {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::vector<TiffPage> five_pages() {
+  std::vector<TiffPage> pages(5);
+  for (std::size_t k = 0; k < 5; ++k) {
+    pages[k].pixels = bytes_of_all(ramp<std::int16_t>(12, -40 + 12 * static_cast<int>(k)));
+  }
+  return pages;
+}
+
+TEST(Tiff, ReadsPagesAsSlices) {
+  const TempFolder folder;
+  const VolumeFile file = read(folder, "a.tif", tiff_bytes(five_pages()));
+  expect_ramp(file.volume);
+  expect_near(file.volume.spacing, {0.5, 0.5, 1});
+  EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("between slices")));
+}
+
+TEST(Tiff, TakesTheSliceDistanceOfImageJ) {
+  const TempFolder folder;
+  auto pages = five_pages();
+  pages[0].description = "ImageJ=1.53\nimages=5\nslices=5\nunit=mm\nspacing=2.5\n";
+  const VolumeFile file = read(folder, "a.tiff", tiff_bytes(pages));
+  expect_near(file.volume.spacing, {0.05, 0.05, 2.5});  // 20 pixels per mm
+  EXPECT_THAT(file.warnings, IsEmpty());
+}
+
+TEST(Tiff, TheUnitOfImageJComesBeforeTheTag) {
+  const TempFolder folder;
+  const auto spacing = [&folder](const std::string& unit) {
+    auto pages = five_pages();
+    pages[0].description = "ImageJ=1.53\nunit=" + unit + "\nspacing=4\n";
+    return read(folder, "a.tif", tiff_bytes(pages)).volume.spacing;
+  };
+  // 20 pixels per unit; the tag says centimetre.
+  expect_near(spacing("mm"), {0.05, 0.05, 4});
+  expect_near(spacing("cm"), {0.5, 0.5, 40});
+  expect_near(spacing("micron"), {5e-5, 5e-5, 4e-3});
+  expect_near(spacing("um"), {5e-5, 5e-5, 4e-3});
+  expect_near(spacing("parsec"), {0.5, 0.5, 40});
+}
+
+TEST(Tiff, WithoutResolutionOneMillimetreIsTakenWithWarnings) {
+  const TempFolder folder;
+  auto pages = five_pages();
+  for (TiffPage& page : pages) page.pixels_per_cm = 0;
+  const VolumeFile file = read(folder, "a.tif", tiff_bytes(pages));
+  expect_near(file.volume.spacing, {1, 1, 1});
+  EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("gives no resolution: 1 mm"),
+                                         HasSubstr("between slices: 1 mm")));
+}
+
+TEST(Tiff, ReadsEveryTypeOfGreySamples) {
+  const TempFolder folder;
+  const auto first = [&folder](TiffPage page) {
+    page.width = 2;
+    page.height = 1;
+    return read(folder, "a.tif", tiff_bytes({page, page})).volume.samples[0];
+  };
+  constexpr std::uint16_t kUnsigned = 1, kSigned = 2, kReal = 3;
+  const auto page = [](std::uint16_t bits, std::uint16_t format, const std::string& sample) {
+    TiffPage made;
+    made.bits = bits;
+    made.format = format;
+    made.pixels = sample + sample;
+    return made;
+  };
+  EXPECT_EQ(first(page(8, kUnsigned, "\xc8")), 200);
+  EXPECT_EQ(first(page(8, kSigned, "\xff")), -1);
+  EXPECT_EQ(first(page(16, kUnsigned, bytes_of(std::uint16_t{40000}))), 40000);
+  EXPECT_EQ(first(page(32, kSigned, bytes_of(std::int32_t{-70000}))), -70000);
+  EXPECT_EQ(first(page(32, kReal, bytes_of(0.25F))), 0.25F);
+  EXPECT_EQ(first(page(64, kReal, bytes_of(-1e10))), -1e10F);
+}
+
+TEST(Tiff, KeepsTheValuesOfInvertedPagesAndWarns) {
+  const TempFolder folder;
+  auto pages = five_pages();
+  for (TiffPage& page : pages) page.photometric = 0;
+  const VolumeFile file = read(folder, "a.tif", tiff_bytes(pages));
+  expect_ramp(file.volume);
+  EXPECT_THAT(file.warnings, testing::Contains(HasSubstr("shown white")));
+}
+
+TEST(Tiff, NothingIsPrintedForBrokenFiles) {
+  const TempFolder folder;
+  std::string broken = tiff_bytes(five_pages());
+  broken[broken.size() - 20] ^= 0x55;
+  testing::internal::CaptureStderr();
+  complaint(folder, "a.tif", broken);
+  complaint(folder, "b.tif", broken.substr(0, broken.size() - 30));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Tiff, RefusesColourMixedPagesAndCutOffFiles) {
+  const TempFolder folder;
+  auto pages = five_pages();
+  pages[3].width = 3;
+  EXPECT_THAT(complaint(folder, "a.tif", tiff_bytes(pages)), HasSubstr("page 3"));
+  pages = five_pages();
+  for (TiffPage& page : pages) page.photometric = 8;
+  EXPECT_THAT(complaint(folder, "b.tif", tiff_bytes(pages)), HasSubstr("photometric 8"));
+  TiffPage rgb{2, 2, 8, 3, 1, 2, 0, "", std::string(12, 'x')};
+  EXPECT_THAT(complaint(folder, "c.tif", tiff_bytes({rgb, rgb})), HasSubstr("3 channels"));
+  const std::string whole = tiff_bytes(five_pages());
+  EXPECT_THAT(complaint(folder, "d.tif", whole.substr(0, whole.size() / 2)), HasSubstr("cut off"));
+  EXPECT_THAT(complaint(folder, "e.tif", whole.substr(0, 9)), HasSubstr("TIFF"));
+}
+
+}  // namespace
+}  // namespace mesamis

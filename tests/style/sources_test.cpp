@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every source of the library has a test of its own name: src/mesamis/ROOM/FILE.cpp is tested by
+// tests/ROOM/FILE_test.cpp, or the table below says which file tests it and why.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "style/rooms.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TestedBy {
+  const char *source, *test, *reason;
+};
+
+constexpr std::array kTestedElsewhere{
+    TestedBy{"baseline/itk_absent", "baseline/geodesic_contour_test.cpp",
+             "the stand-in of itk_level_set where ITK is missing"},
+    TestedBy{"method/setting_rows", "method/setting_table_test.cpp",
+             "the rows of the table: each is set, read and written there"},
+    TestedBy{"scan_files/dicom_jpeg12", "scan_files/dicom_jpeg_test.cpp",
+             "decode_jpeg() for 9 to 12 bits"},
+    TestedBy{"scan_files/dicom_jpeg16", "scan_files/dicom_jpeg_test.cpp",
+             "decode_jpeg() for 13 to 16 bits"},
+    TestedBy{"scan_files/dicom_jpeg8", "scan_files/dicom_jpeg_test.cpp",
+             "decode_jpeg() for 2 to 8 bits"},
+};
+
+bool is_tested(const std::string& source) {
+  const fs::path tests = fs::path(MESAMIS_SOURCE_DIR) / "tests";
+  if (fs::exists(tests / (source + "_test.cpp"))) return true;
+  return std::any_of(kTestedElsewhere.begin(), kTestedElsewhere.end(), [&](const TestedBy& row) {
+    return row.source == source && fs::exists(tests / row.test);
+  });
+}
+
+TEST(Sources, HaveATestOfTheirName) {
+  for (const auto& [room, files] : read_rooms()) {
+    for (const auto& file : project_files("src/mesamis/" + room, {".cpp"})) {
+      const std::string source = room + "/" + file.stem().string();
+      EXPECT_TRUE(is_tested(source)) << "src/mesamis/" << source << ".cpp has no tests/" << source
+                                     << "_test.cpp, and the table names no other test";
+    }
+  }
+}
+
+TEST(Sources, OfTheTableExistAndHaveNoTestOfTheirName) {
+  const fs::path root(MESAMIS_SOURCE_DIR);
+  for (const auto& [source, test, reason] : kTestedElsewhere) {
+    EXPECT_TRUE(fs::exists(root / "src/mesamis" / (std::string(source) + ".cpp"))) << source;
+    EXPECT_TRUE(fs::exists(root / "tests" / test)) << test;
+    EXPECT_FALSE(fs::exists(root / "tests" / (std::string(source) + "_test.cpp"))) << source;
+  }
+}
+
+}  // namespace
+}  // namespace mesamis

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/triangle_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "surface/random_surfaces.h"
+
+namespace mesamis {
+namespace {
+
+TEST(SquaredDistance, IsRightInEachRegionOfATriangle) {
+  const Corners triangle{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}};
+  const std::vector<std::pair<Vec3, double>> cases{
+      {{1, 1, 3}, 9},  {{1, 1, -3}, 9},  {{-3, -4, 0}, 25}, {{-3, -4, 12}, 169},
+      {{7, 0, 4}, 25}, {{2, -5, 0}, 25}, {{4, 4, 0}, 8},    {{-1, 2, 1}, 2},
+      {{0, 9, 0}, 25}, {{1, 1, 0}, 0},   {{8, -3, 0}, 25}};
+  for (const auto& [p, expected] : cases) {
+    EXPECT_NEAR(squared_distance(p, triangle), expected, 1e-13) << p.x << ' ' << p.y << ' ' << p.z;
+  }
+}
+
+TEST(SquaredDistance, ToATriangleWithoutAreaIsThatToItsEdges) {
+  const Vec3 a{0, 0, 0}, b{10, 0, 0}, m{5, 0, 0};
+  for (const Corners& t :
+       {Corners{a, b, m}, Corners{b, m, a}, Corners{m, a, b}, Corners{a, a, b}}) {
+    EXPECT_NEAR(squared_distance({5, 3, 4}, t), 25, 1e-13);
+    EXPECT_NEAR(squared_distance({13, 4, 0}, t), 25, 1e-13);
+  }
+  EXPECT_NEAR(squared_distance({3, 4, 0}, {a, a, a}), 25, 1e-13);
+}
+
+double nearest_of_all(const Vec3& p, const TriMesh& surface) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : surface.triangles) {
+    nearest = std::min(nearest, squared_distance(p, {surface.points[t[0]], surface.points[t[1]],
+                                                     surface.points[t[2]]}));
+  }
+  return nearest;
+}
+
+TEST(TriangleTree, FindsTheNearestOfTrianglesOfEveryKind) {
+  const TriMesh surface = mixed_triangles(3000);
+  const TriangleTree tree(surface);
+  std::size_t hint = 0;
+  for (const Vec3& p : random_points(300, {-3, -3, -3}, {3, 3, 3}, 10)) {
+    EXPECT_EQ(tree.squared_distance_to(p, hint), nearest_of_all(p, surface));
+  }
+}
+
+TEST(TriangleTree, FindsTheNearestAtLengthRatiosOfAThousand) {
+  for (const Vec3& stretch : {Vec3{1000, 1, 1}, Vec3{1, 1000, 1000}}) {
+    const TriMesh surface = random_triangles(1000, stretch);
+    const TriangleTree tree(surface);
+    std::size_t hint = 0;
+    for (const Vec3& p : random_points(200, -0.2 * stretch, 1.2 * stretch, 11)) {
+      EXPECT_EQ(tree.squared_distance_to(p, hint), nearest_of_all(p, surface));
+    }
+  }
+}
+
+TEST(TriangleTree, TheHintChangesNoDistanceAndNamesTheNearestTriangle) {
+  const TriMesh surface = random_triangles(500, {1, 1, 1});
+  const TriangleTree tree(surface);
+  std::size_t warm = 0;
+  for (const Vec3& p : random_points(200, {-1, -1, -1}, {2, 2, 2}, 12)) {
+    std::size_t cold = 0;
+    const double distance = tree.squared_distance_to(p, warm);
+    EXPECT_EQ(tree.squared_distance_to(p, cold), distance);
+    EXPECT_EQ(squared_distance(p, tree.triangle(warm)), distance);
+    EXPECT_EQ(squared_distance(p, tree.triangle(cold)), distance);
+  }
+}
+
+TEST(TriangleTree, OfOneTriangleOrManyEqualOnes) {
+  for (const std::size_t count : {1u, 1000u}) {
+    const TriMesh surface{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                          std::vector<Triangle>(count, {0, 1, 2})};
+    std::size_t hint = 0;
+    EXPECT_EQ(TriangleTree(surface).squared_distance_to({0.2, 0.2, 2}, hint), 4);
+  }
+}
+
+}  // namespace
+}  // namespace mesamis
