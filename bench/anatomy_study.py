@@ -3,7 +3,7 @@
 """Distances from the truth on degraded real scans, simulated scans, phantoms and thin walls.
 
     bench/anatomy_study.py FOLDER --data DATA [--groups abcd] [--cases NAME,...] [--half tuning]
-                           [--tag TAG] [--options "--gamma 10"]
+                           [--tag TAG] [--options "--gamma 10"] [--restored PATTERN]
 
 DATA is the tests' data folder; the groups are told in study_cases.py. Half of the cases is set aside:
 settings are tuned by the others (--half tuning, the default), and judged once by these (--half judging).
@@ -13,6 +13,9 @@ sinc with usual settings at the level midway. Each surface counts by the sum of 
 to surface and back, in voxels (the geometric mean of the spacing). `at our level` compares with the
 isosurface of the best width at the level that `segment` chose. Missed and invented: per cent of the
 truth's and the surface's area further than a voxel from the other one, ours / the best rival's.
+
+--restored PATTERN adds a line where the file PATTERN is, {name} being the case: the isosurface of that
+restored image, on the scan's grid, at our level, decimated by quadrics to our count of triangles.
 
 Scans, truths and the tuned rivals stay in FOLDER; ours too, per TAG. `mesamis` is the one in
 build/release, or that of the variable MESAMIS. Needs numpy, scipy and vtk.
@@ -29,7 +32,7 @@ import numpy as np
 import wall_bins
 from distances import Judge, read_surface, triangles_of
 from mesamis_runs import MESAMIS
-from rivals import Tuner, best_of, label
+from rivals import Tuner, best_of, decimated, label
 from study_cases import JUDGING, NOTHING, WALLS, all_cases
 from volumes import isosurface, read_nrrd, upsampled
 
@@ -109,9 +112,29 @@ def study(case, arguments):
     return ratios
 
 
+def study_restored(case, arguments):
+    """Prints what a plain way to the surface makes of the restored image."""
+    path = pathlib.Path(arguments.restored.format(name=case.name))
+    if not path.exists():
+        return
+    done, mine, rivals = measured(case, arguments)
+    image = read_nrrd(path)
+    surface = decimated(isosurface(image, done["level"]), mine["ours"]["triangles"])
+    found = Judge(read_surface(case.truth), image, case.margin).measure(surface)
+    best = best_of(rivals)[1]
+    row([f"{case.name}, restored", f"{found['sum']:.3f}", f"{best['sum']:.3f}", "",
+         f"**{found['sum'] / best['sum']:.2f}**", "", "", "",
+         per_cent(found["missed"], best["missed"]), per_cent(found["invented"], best["invented"]),
+         str(found["triangles"])])
+
+
 def study_group(cases, arguments):
     print("\n| " + " | ".join(HEAD) + " |\n|" + "---|" * len(HEAD))
-    found = [study(case, arguments) for case in cases]
+    found = []
+    for case in cases:
+        found.append(study(case, arguments))
+        if arguments.restored and found[-1]:
+            study_restored(case, arguments)
     ratios = np.array([r for r in found if r is not None])
     if len(ratios):
         means = [f"{m:.2f}" for m in np.exp(np.log(ratios).mean(0))]
@@ -162,6 +185,7 @@ def parsed():
     parser.add_argument("--half", choices=("tuning", "judging", "both"), default="tuning")
     parser.add_argument("--tag", default="ours", help="results of ours are kept under this name")
     parser.add_argument("--options", default="", help="for segment")
+    parser.add_argument("--restored", default="", help="restored images: a path with {name} in it")
     parser.add_argument("--list", action="store_true", help="names of the cases, and end")
     return parser.parse_args()
 

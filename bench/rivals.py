@@ -28,6 +28,18 @@ def sinc(surface, pass_band, iterations=20):
     return smoother.GetOutput()
 
 
+def decimated(surface, triangles):
+    """By quadrics to that many triangles."""
+    share = 1 - triangles / max(surface.GetNumberOfPolys(), 1)
+    if share <= 0:
+        return surface
+    decimation = vtk.vtkQuadricDecimation()
+    decimation.SetInputData(surface)
+    decimation.SetTargetReduction(share)
+    decimation.Update()
+    return decimation.GetOutput()
+
+
 class Tuner:
     """One scan, its truth, and the surfaces that were tried."""
 

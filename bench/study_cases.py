@@ -7,6 +7,7 @@ c: the phantoms of mesamis
 d: a wall that grows thin, and scans with nothing or a ball alone in them
 """
 import dataclasses
+import pathlib
 
 import numpy as np
 
@@ -15,7 +16,7 @@ import wall_bins
 from distances import read_surface, write_surface
 from exact_shapes import exact_surface, fine_grid
 from mesamis_runs import run
-from volumes import (SPECK, Volume, cropped, isosurface, noisy, read_nifti, read_nrrd, smoothed,
+from volumes import (SPECK, cropped, isosurface, noisy, read_nifti, read_nrrd, smoothed,
                      thinned, upsampled, write_nrrd)
 
 # Set aside: no setting of mesamis may be chosen by these.
@@ -28,7 +29,7 @@ JUDGING = """
 """.split()
 
 MARGIN = 2.5  # voxels at the box that real objects leave: nothing is measured there
-TRUTH_SPECK = 16 * SPECK  # of the doubled grid: half of a voxel of a scan thinned by two, fourfold
+TRUTH_SPECK = 16 * SPECK  # of the doubled grid: a voxel of a scan thinned by two
 
 
 @dataclasses.dataclass
@@ -78,8 +79,8 @@ GROUPS = {"a": REAL, "b": SIMULATED, "c": PHANTOMS, "d": WALLS + NOTHING}
 class Case:
     name: str
     group: str
-    folder: object  # of the cache
-    data: object  # of the tests' scans, or None
+    folder: pathlib.Path  # of the cache
+    data: pathlib.Path | None  # of the tests' scans
 
     @property
     def scan(self):
@@ -104,7 +105,7 @@ class Case:
 
     def prepare(self):
         """Writes scan and truth if they are not there."""
-        if not self.scan.exists():
+        if not self.scan.exists():  # it is written last
             {"a": make_real, "b": make_simulated, "c": make_phantom, "d": make_wall}[self.group](self)
 
 
@@ -150,16 +151,16 @@ def make_phantom(case):
     grid = ["--size", SIZES[design]] if design in SIZES else []
     if kind == "thick":
         grid = ["--size", THICK_SIZES[design], "--spacing", "1,1,2.5"]
-    truth = case.truth.with_suffix(".ply")
-    run("phantom", design, "-o", case.scan, "--truth", truth, "--blur", blur, "--noise",
+    raw, truth = (case.folder / f"{case.name}.raw{end}" for end in (".nrrd", ".ply"))
+    run("phantom", design, "-o", raw, "--truth", truth, "--blur", blur, "--noise",
         noise_of(case.name), *grid)
     write_surface(case.truth, read_surface(truth))
-    truth.unlink()
-    scan = read_nrrd(case.scan)
+    scan = read_nrrd(raw)
     if kind == "inverted":
-        write_nrrd(case.scan, Volume(350 - scan.values, scan.spacing, scan.origin))
-    elif kind == "bias":
-        write_nrrd(case.scan, bias(scan))
+        scan = dataclasses.replace(scan, values=sum(PHANTOM_VALUES) - scan.values)
+    write_nrrd(case.scan, bias(scan) if kind == "bias" else scan)
+    raw.unlink()
+    truth.unlink()
 
 
 def make_wall(case):
