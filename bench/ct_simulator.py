@@ -59,9 +59,9 @@ def plane(line):
 def aperture_mean(fine, step):
     """Bins of the detector from fine ones: the mean over the aperture at each place."""
     ends = np.concatenate([np.zeros((1, fine.shape[1])), np.cumsum(fine, axis=0)])
-    edges = np.arange(len(fine) + 1) * step - HALF_DETECTOR
+
     def primitive(t):
-        at = np.clip((t - edges[0]) / step, 0, len(fine) - 1e-9)
+        at = np.clip((t + HALF_DETECTOR) / step, 0, len(fine) - 1e-9)
         low = at.astype(int)
         return ends[low] + (at - low)[:, None] * (ends[low + 1] - ends[low])
     t = bins(STEP)

@@ -28,7 +28,7 @@ JUDGING = """
     wall_b0.6_n15 wall_b1_n4 noise_2 ball_n60
 """.split()
 
-MARGIN = 2.5  # voxels at the box that real objects leave: nothing is measured there
+MARGIN = 2.5  # voxels at the box where what is bright leaves it: nothing is measured there
 TRUTH_SPECK = 16 * SPECK  # of the doubled grid: a voxel of a scan thinned by two
 
 
@@ -92,7 +92,7 @@ class Case:
 
     @property
     def margin(self):
-        return MARGIN if self.group == "a" else 0
+        return MARGIN if self.group == "a" or "inverted" in self.name else 0
 
     @property
     def values(self):
