@@ -18,8 +18,8 @@ truth's and the surface's area further than a voxel from the other one, ours / t
 restored image, on the scan's grid, at our level, decimated by quadrics to our count of triangles.
 
 Scans, truths and the tuned rivals stay in FOLDER; ours too, per TAG. What is there is not made again:
-take a new TAG for a new build or other options, and a new FOLDER after a change of the cases. `mesamis` is the one in
-build/release, or that of the variable MESAMIS. Needs numpy, scipy and vtk.
+take a new TAG for a new build or other options, and a new FOLDER after a change of the cases. `mesamis`
+is the one in build/release, or that of the variable MESAMIS. Needs numpy, scipy and vtk.
 """
 import argparse
 import json

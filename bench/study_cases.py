@@ -41,7 +41,8 @@ class Source:
     values: tuple
 
 
-# Values: what lies beside the edges at full resolution, so that the level midway is half of the step.
+# Values: what lies beside the edges at full resolution; the level midway is the one that `mesamis baseline`
+# chooses there.
 SOURCES = {
     "template": Source("mouse_skull/ct_template.nii.gz", ((0, 130), (23, 183), (0, 114)), 0, (2, 31)),
     "aj": Source("mouse_skull/ct_A_J.nii.gz", ((2, 162), (2, 162), (0, 133)), 0.5, (6, 89)),
