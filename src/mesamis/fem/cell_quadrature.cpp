@@ -125,10 +125,10 @@ class FixedSamples {
 /// A cell in voxel coordinates, with its barycentric coordinates as linear functions.
 class CellInVoxels {
  public:
-  CellInVoxels(const VolumeView& image, const std::array<Vec3, 4>& points) : image_(image) {
+  CellInVoxels(const SplineImage& image, const std::array<Vec3, 4>& points) : image_(image) {
+    const Vec3& spacing = image.grid.spacing;
     for (std::size_t i = 0; i < 4; ++i) {
-      p_[i] = {points[i].x / image.spacing.x, points[i].y / image.spacing.y,
-               points[i].z / image.spacing.z};
+      p_[i] = {points[i].x / spacing.x, points[i].y / spacing.y, points[i].z / spacing.z};
     }
     for (std::size_t i = 0; i < 4; ++i) {
       const auto& [a, b, c] = kCellFaces[i];
@@ -161,7 +161,7 @@ class CellInVoxels {
         if (!clip_row(q, low, high)) continue;
         const Index begin = first(low), count = last(high) - begin + 1;
         if (count <= 0) continue;
-        const GridLine<float> line = line_through(q);
+        SplineLine line(image_, q.y, q.z);
         double sum = 0, moment = 0;
         for (Index k = 0; k < count; ++k) {
           const double value = line.at(coordinate(begin + k));
@@ -180,15 +180,11 @@ class CellInVoxels {
     static const FixedSamples samples;
     return samples.fit([this](const Vec4& l) {
       const Vec3 q = l[0] * p_[0] + l[1] * p_[1] + l[2] * p_[2] + l[3] * p_[3];
-      return line_through(q).at(q.x);
+      return SplineLine(image_, q.y, q.z).at(q.x);
     });
   }
 
  private:
-  GridLine<float> line_through(const Vec3& q) const {
-    return {image_.samples, image_.size, q.y, q.z};
-  }
-
   /// Of the barycentric coordinates, from sample to sample.
   Vec4 slopes_along_x(int density) const {
     return {slope_[0].x / density, slope_[1].x / density, slope_[2].x / density,
@@ -217,7 +213,7 @@ class CellInVoxels {
     return low <= high;
   }
 
-  const VolumeView& image_;
+  const SplineImage& image_;
   std::array<Vec3, 4> p_, slope_;
   std::array<Vec3, 4> crossing_{};  // where a row meets face i: x = this . (1, y, z)
   Vec4 base_{};
@@ -226,7 +222,7 @@ class CellInVoxels {
 
 }  // namespace
 
-std::array<double, 4> fit_image_on_cell(const VolumeView& image,
+std::array<double, 4> fit_image_on_cell(const SplineImage& image,
                                         const std::array<Vec3, 4>& points) {
   const CellInVoxels cell(image, points);
   Vec4 fit{};

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "mesamis/image/volume.h"
+#include "mesamis/image/spline_image.h"
 
 namespace mesamis {
 
@@ -16,6 +16,7 @@ namespace mesamis {
 /// @param points  the cell's vertices in the image's own axes, mm, positively oriented.
 /// @return the function's values at the four vertices, in the image's unit.
 /// O(voxels in the cell).
-std::array<double, 4> fit_image_on_cell(const VolumeView& image, const std::array<Vec3, 4>& points);
+std::array<double, 4> fit_image_on_cell(const SplineImage& image,
+                                        const std::array<Vec3, 4>& points);
 
 }  // namespace mesamis

@@ -57,7 +57,7 @@ std::array<Vec3, 4> corners_in_image(const VoxelGrid& image, const TetMesh& mesh
 
 }  // namespace
 
-ProjectedImage project_image(const VolumeView& image, const MeshSpace& space,
+ProjectedImage project_image(const SplineImage& image, const MeshSpace& space,
                              const ProjectionOptions& options) {
   const TetMesh& mesh = space.mesh();
   std::vector<std::array<double, 4>> loads(mesh.cells.size());
@@ -115,11 +115,12 @@ std::vector<double> project_image(const VolumeView& image, const KuhnGrid& grid)
 ImageMeans average_image(const VolumeView& image, const TetMesh& mesh) {
   std::vector<std::array<double, 4>> fits(mesh.cells.size());
   const bool mirrored = determinant(image.direction) < 0;
+  const SplineImage spline = interpolating_spline(copy_volume(image));
   parallel_blocks(mesh.cells.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       std::array<Vec3, 4> corners = corners_in_image(image, mesh, mesh.cells[c]);
       if (mirrored) std::swap(corners[2], corners[3]);
-      fits[c] = fit_image_on_cell(image, corners);
+      fits[c] = fit_image_on_cell(spline, corners);
       if (mirrored) std::swap(fits[c][2], fits[c][3]);
     }
   });

@@ -8,6 +8,7 @@
 #include "mesamis/fem/grid_space.h"
 #include "mesamis/fem/mesh_space.h"
 #include "mesamis/fem/solve.h"
+#include "mesamis/image/spline_image.h"
 #include "mesamis/image/volume.h"
 
 /// Transfer of fields to a mesh: of the image by projection or averaging, of u and v by
@@ -28,7 +29,7 @@ struct ProjectedImage {
 
 /// Computes Q_h, the L2 projection of the image onto the P1 functions of a mesh.
 ///
-/// The image is the piecewise linear interpolant of the voxel values. The quadrature uses every
+/// The image is the cubic spline through the voxel values. The quadrature uses every
 /// voxel: a cell is sampled on a lattice of one to four points per voxel and direction, so that a
 /// large cell averages all its voxels, which removes noise; a cell too small for that is sampled on
 /// a fixed lattice of its own. The linear fit of a cell's samples gives its exact load
@@ -41,7 +42,7 @@ struct ProjectedImage {
 ///
 /// O(voxels + cells) and one solve with the consistent mass matrix. The same bits for any number of
 /// threads.
-ProjectedImage project_image(const VolumeView& image, const MeshSpace& space,
+ProjectedImage project_image(const SplineImage& image, const MeshSpace& space,
                              const ProjectionOptions& options = {});
 
 /// Averages the image onto a (coarser) grid over the same box: each node is the mean of the voxels

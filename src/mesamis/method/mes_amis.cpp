@@ -9,7 +9,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/stopwatch.h"
-#include "mesamis/method/level.h"
+#include "mesamis/method/follow_image.h"
 #include "mesamis/method/passes.h"
 #include "mesamis/method/prepare.h"
 #include "mesamis/method/setting_table.h"
@@ -63,9 +63,19 @@ bool has_converged(const Loop& loop) {
   return loop.settled && std::all_of(loop.passes.begin(), loop.passes.end(), solved);
 }
 
-TriMesh extract_surface(const Parameters& p, const TetMesh& mesh, const Minimum& minimum) {
-  if (p.surface == SurfaceKind::kBand) return extract_band(mesh, minimum.v, p.band_threshold);
-  return extract_solid(mesh, minimum.u, p.grey.to_grey(p.level));
+/// The solid follows the image where that is more exact than the mesh.
+/// @param noise  left in the image, native units.
+TriMesh extract_surface(const RunInput& run, const Loop& loop, double noise) {
+  const Parameters& p = run.parameters;
+  const TetMesh& mesh = loop.state.mesh;
+  if (p.surface == SurfaceKind::kBand) {
+    return extract_band(mesh, loop.minimum.v, p.band_threshold);
+  }
+  const double level = p.grey.to_grey(p.level);
+  const TriMesh extracted = extract_solid(mesh, loop.minimum.u, level);
+  if (!p.follow) return extracted;
+  const double grey_per_native = p.grey.to_grey(1) - p.grey.to_grey(0);
+  return follow_image(extracted, run.image, {level, noise * grey_per_native, p.unit_mm});
 }
 
 /// From length units in the grid's axes to mm in the world frame.
@@ -132,17 +142,14 @@ Result run_on(const VolumeView& volume, const Settings& settings, const Progress
   result.image = {prepared.noise_left, prepared.impulses};
   result.seconds.prepare = watch.lap();
 
-  const RunInput run(p, prepared.grey);
+  const RunInput run(prepared);
   Loop loop = run_loop(run, progress);
   result.converged = has_converged(loop);
   result.fit = measure_fit(loop.state.mesh, loop.state.metric);
 
   watch.lap();
   (void)Stage(progress, "surface");
-  if (p.surface == SurfaceKind::kSolid) {
-    p.level = choose_level(volume, settings, p, {loop.state.mesh, loop.minimum.u});
-  }
-  result.surface = extract_surface(p, loop.state.mesh, loop.minimum);
+  result.surface = extract_surface(run, loop, prepared.noise_left);
   result.seconds.surface = watch.lap();
   deliver(run, std::move(loop), result);
   watch.lap();

@@ -37,6 +37,7 @@ Settings settings_of(const Parameters& p) {
   s.h_max = p.h_max;
   s.surface = p.surface;
   if (p.surface == SurfaceKind::kSolid) s.level = p.level;
+  s.follow = p.follow;
   s.band_threshold = p.band_threshold;
   s.min_volume = p.min_volume;
   s.keep_largest = p.keep_largest;
@@ -52,6 +53,12 @@ std::int64_t default_max_tets(double area, const Vec3& spacing) {
   const double side = std::max(shortest, longest / kThickest);
   return std::llround(
       std::clamp<double>(kCellsPerSquare * area / (side * side), kFewestTets, kMostTets));
+}
+
+double default_tolerance(double voxel, double contrast, double noise) {
+  constexpr double kMost = 0.1, kLeast = 0.03, kNoise = 0.08;
+  if (!(contrast > 0)) return kMost * voxel;
+  return voxel * std::clamp(kMost * noise / (kNoise * contrast), kLeast, kMost);
 }
 
 double default_gamma(double epsilon, double beta, double contrast, double noise) {

@@ -43,6 +43,7 @@ struct Parameters {
   // The surface.
   SurfaceKind surface = SurfaceKind::kSolid;
   double level = 0;               ///< of the solid, native units
+  bool follow = false;            ///< the solid is moved on to the image's level set
   double band_threshold = 0;      ///< TOLth
   double min_volume = 0;          ///< of islands and cavities that stay, mm^3
   std::int64_t keep_largest = 0;  ///< islands; 0: all
@@ -73,6 +74,17 @@ inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
 ///
 /// O(1).
 std::int64_t default_max_tets(double area, const Vec3& spacing);
+
+/// The default of tolerance: a tenth of a voxel where the noise is 8 % of the contrast or more, in
+/// proportion to it below, but no less than 0.03 voxel: the surface is then that exact.
+/// @param voxel     geometric mean of the spacing, mm, > 0.
+/// @param contrast  of the object, >= 0; 0 (unknown) counts as noise enough.
+/// @param noise     left in the image, in the unit of the contrast, >= 0.
+/// @return mm.
+/// @throws nothing
+///
+/// O(1).
+double default_tolerance(double voxel, double contrast, double noise);
 
 /// The default of gamma, 4 epsilon beta (0.07 c + 0.25 n)^2.
 ///

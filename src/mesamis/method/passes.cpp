@@ -17,7 +17,6 @@
 #include "mesamis/fem/transfer.h"
 #include "mesamis/mesh/gradation.h"
 #include "mesamis/mesh/metric_field.h"
-#include "mesamis/method/prepare.h"
 #include "mesamis/remesh/remesh.h"
 
 namespace mesamis {
@@ -116,10 +115,11 @@ State remeshed(const Pass& pass, const TetMesh& start, const MetricField& field,
 
 }  // namespace
 
-RunInput::RunInput(const Parameters& run_parameters, const Volume& grey_image)
-    : parameters(run_parameters),
-      grey(grey_image),
-      box{{0, 0, 0}, (1 / run_parameters.unit_mm) * grey_image.box().extent()} {}
+RunInput::RunInput(const Prepared& prepared)
+    : parameters(prepared.parameters),
+      grey(prepared.grey),
+      image(prepared.image),
+      box{{0, 0, 0}, (1 / parameters.unit_mm) * grey.box().extent()} {}
 
 AmisOptions RunInput::final_options() const {
   AmisOptions options;
@@ -212,7 +212,7 @@ Minimum minimise(const Pass& pass, const State& state, const AmisOptions& option
   record.tets = std::ssize(state.mesh.cells);
   record.nodes = std::ssize(state.mesh.points);
   ProjectedImage projection =
-      project_image(run.grey, space, {run.parameters.unit_mm, options.solver});
+      project_image(run.image, space, {run.parameters.unit_mm, options.solver});
   Minimum m;
   m.f = std::move(projection.values);
   m.u = state.u;

@@ -11,6 +11,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/method/iteration.h"
 #include "mesamis/method/parameters.h"
+#include "mesamis/method/prepare.h"
 #include "mesamis/remesh/remesh.h"
 #include "mesamis/segment/amis.h"
 
@@ -38,10 +39,11 @@ class Stage {
 /// What all passes of a run share.
 struct RunInput {
   const Parameters& parameters;
-  const Volume& grey;  ///< the image, restored, in grey values
-  Box box;             ///< of the voxel centres, length units
+  const Volume& grey;        ///< the image, restored, in grey values
+  const SplineImage& image;  ///< the same between the voxels
+  Box box;                   ///< of the voxel centres, length units
 
-  RunInput(const Parameters& run_parameters, const Volume& grey_image);
+  explicit RunInput(const Prepared& prepared);
   /// How exactly Algorithm 1 is solved on the delivered mesh, and on those before it.
   AmisOptions final_options() const;
   AmisOptions draft_options() const;

@@ -9,14 +9,14 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/restore/half_maximum_level.h"
+#include "mesamis/restore/level_crossings.h"
+#include "mesamis/restore/object_edge.h"
 #include "mesamis/restore/restore.h"
 #include "mesamis/restore/tissue_threshold.h"
 
 namespace mesamis {
 namespace {
 
-/// Of the voxel size (geometric mean of the spacing).
-constexpr double kDefaultTolerance = 0.1;
 /// Voxels: what is smaller cannot be told from noise.
 constexpr double kDefaultMinVolume = 4;
 /// The paper's T of (13), of 255 grey values.
@@ -47,8 +47,6 @@ Volume clamped(const VolumeView& scan, const Window& window) {
 Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
   const Vec3& voxel = volume.spacing;
   const double unit_mm = s.length_unit == LengthUnit::kMm ? 1 : volume.voxel_size();
-  const double tolerance = s.triangles ? std::numeric_limits<double>::infinity()
-                                       : kDefaultTolerance * volume.voxel_size();
   Parameters p;
   p.crop = s.crop;
   p.stride = s.stride;
@@ -71,11 +69,12 @@ Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
   p.h_min = s.h_min;
   p.h_max = s.h_max.value_or(std::max(s.h_min, default_h_max(volume, unit_mm)));
   p.surface = s.surface;
+  p.follow = s.follow;
   p.band_threshold = s.band_threshold;
   p.min_volume = s.min_volume.value_or(kDefaultMinVolume * voxel.x * voxel.y * voxel.z);
   p.keep_largest = s.keep_largest;
   p.fill_cavities = s.fill_cavities;
-  p.tolerance = s.tolerance.value_or(tolerance);
+  p.tolerance = s.tolerance.value_or(std::numeric_limits<double>::infinity());
   p.triangles = s.triangles.value_or(0);
   return p;
 }
@@ -109,6 +108,13 @@ double choose_threshold(const Settings& settings, const GreyMap& map,
   return measured && *measured < level ? std::max(map.low, *measured) : map.low;
 }
 
+/// The level of the object's edge. Where T lies above it, T is the background that is left: midway
+/// between T and the object.
+double level_above(const GreyMap& map, const HalfMaximumLevel& object) {
+  if (!map.has_threshold() || object.level > map.threshold) return object.level;
+  return (map.threshold + object.contrast.object) / 2;
+}
+
 /// See default_gamma(); the paper's value where there is no object to tell the contrast from.
 double choose_gamma(const Parameters& p, double native_contrast, double native_noise) {
   constexpr double kPaper = 0.1;
@@ -119,8 +125,20 @@ double choose_gamma(const Parameters& p, double native_contrast, double native_n
                        native_noise * grey_per_native);
 }
 
+/// The restored image between its voxels, in grey values. It is bounded after it is interpolated: T
+/// and the window's ends cut edges, whose place would move if only the samples were bounded.
+SplineImage spline_image(const GreyMap& map, const VolumeView& restored) {
+  Volume grey = copy_volume(restored);
+  for (float& x : grey.samples) x = static_cast<float>(map.to_grey(x));
+  SplineImage image = interpolating_spline(std::move(grey));
+  image.low = static_cast<float>(std::max(0.0, map.to_grey(map.threshold)));
+  image.high = 255;
+  return image;
+}
+
 /// Settings that leave nothing to see, or nothing at the level, are refused.
-void require_contrast(const VolumeView& volume, const Parameters& p, double level) {
+void require_contrast(const VolumeView& volume, const Parameters& p) {
+  const double level = p.level;
   const double low = p.grey.threshold, high = p.grey.high;
   const auto [least, most] = std::minmax_element(volume.samples.begin(), volume.samples.end());
   const bool sees_samples = *least<high&& * most> low;
@@ -153,23 +171,32 @@ Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
   const Window window = settings.window.value_or(
       choose_window(volume, seen.contrast, settings.level.value_or(seen.level)));
   p.grey = {window.low, window.high, window.low};
+  Volume scan = clamped(volume, window);
+  const HalfMaximumLevel object = find_object_edge(scan, seen);
 
-  Restored restored = restore_if_asked(clamped(volume, window), seen, settings);
+  Restored restored = restore_if_asked(std::move(scan), object, settings);
   p.noise = restored.noise;
   p.blur = restored.blur;
   prepared.noise_left = restored.noise_left;
   prepared.impulses = restored.impulses;
 
-  const HalfMaximumLevel object =
-      find_half_maximum_level(restored.volume, {.area_at = settings.level, .start = seen.level});
-  prepared.first_level = p.level = settings.level.value_or(object.level);
-  if (!settings.max_tets) p.max_tets = default_max_tets(object.area, volume.spacing);
   const auto measured = find_tissue_threshold(volume, seen.contrast, seen.level, restored.noise);
-  p.grey.threshold = choose_threshold(settings, p.grey, measured, prepared.first_level);
-  if (!settings.gamma) {
-    p.functional.gamma = choose_gamma(p, object.contrast.difference(), restored.noise_left);
+  p.grey.threshold =
+      choose_threshold(settings, p.grey, measured, settings.level.value_or(object.level));
+  p.level = settings.level.value_or(level_above(p.grey, object));
+  if (!settings.max_tets) {
+    p.max_tets = default_max_tets(level_area(smoothed(restored.volume), p.level), volume.spacing);
   }
-  require_contrast(restored.volume, p, prepared.first_level);
+  const double contrast = object.contrast.difference();
+  if (!settings.tolerance && !settings.triangles) {
+    p.tolerance =
+        contrast > 0 ? default_tolerance(volume.voxel_size(), contrast, restored.noise_left) : 0;
+  }
+  if (!settings.gamma) {
+    p.functional.gamma = choose_gamma(p, contrast, restored.noise_left);
+  }
+  require_contrast(restored.volume, p);
+  prepared.image = spline_image(p.grey, restored.volume);
   prepared.grey = apply(p.grey, std::move(restored.volume));
   return prepared;
 }

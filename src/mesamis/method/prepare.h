@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "mesamis/image/spline_image.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/settings.h"
@@ -11,11 +12,12 @@ namespace mesamis {
 
 /// The image as the method works on it, and what was chosen for the run.
 struct Prepared {
-  Parameters parameters;   ///< all but the level, which is still first_level
-  double first_level = 0;  ///< the level asked for, or an estimate from the voxels; native units
-  double noise_left = 0;   ///< standard deviation in the image below, native units
-  double impulses = 0;     ///< share of the voxels that were replaced, 0 to 1
-  Volume grey;             ///< the volume, restored, in grey values
+  Parameters parameters;
+  double noise_left = 0;  ///< standard deviation in the image below, native units
+  double impulses = 0;    ///< share of the voxels that were replaced, 0 to 1
+  Volume grey;            ///< the volume, restored, in grey values
+  /// The same between the voxels: the spline through what the bounds have not cut yet.
+  SplineImage image;
 };
 
 /// Counts the nodes of the first grid along each axis: every stride-th voxel, at least two.
@@ -27,8 +29,8 @@ std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
 
 /// Chooses what the settings leave open from the volume, restores it, and maps it to grey values.
 ///
-/// The order is that of need: the object's edges give the window, the clamped image its noise and
-/// blur, the restored image the level, the number of cells and the price of edges.
+/// The order is that of need: the object's edges give the window, the clamped image the level, its
+/// noise and blur, the restored image the number of cells and the price of edges.
 /// @param volume    native units, see require_usable().
 /// @param settings  valid, see require_valid().
 /// @throws InputError  if the window holds none of the samples, or does not hold the level.

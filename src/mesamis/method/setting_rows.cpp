@@ -180,7 +180,8 @@ std::vector<Setting> image_rows() {
     blur_row({.name = "blur", .form = "X,Y,Z", .count = 3, .low = 0, .high = kLargestBlur,
               .words = {"auto", "none"}, .unit = "voxels",
               .help = "Blur to undo, standard deviation along each axis",
-              .automatic = "from the median profile of the object's edges; none without restore"}),
+              .automatic = "from the slopes of the object's edges where it is thickest; none without "
+                  "restore"}),
   };
 }
 
@@ -256,8 +257,11 @@ std::vector<Setting> surface_rows() {
                "cells where v is small", .paper = "band"}, &Settings::surface),
     bound({.name = "level", .form = "X", .count = 1, .low = -kLargestValue, .high = kLargestValue,
            .words = {"auto"}, .unit = "native", .help = "Value of the solid surface",
-           .automatic = "half maximum of the object's edge, fitted to the image along the normals "
-               "of the surface itself"}, &Settings::level),
+           .automatic = "half maximum of the object's edge, fitted to the image where the object "
+               "is thickest; above T"}, &Settings::level),
+    bound({.name = "follow", .form = "yes|no",
+           .help = "Move the solid surface on to the image where that is more exact than the mesh",
+           .paper = "no"}, &Settings::follow),
     bound({.name = "band_threshold", .form = "X", .count = 1, .low = 0, .high = 1,
            .help = "TOLth: the band's cells have v below this"}, &Settings::band_threshold),
     bound({.name = "min_volume", .form = "X", .count = 1, .low = 0, .high = 1e12,
@@ -272,7 +276,8 @@ std::vector<Setting> surface_rows() {
                    .words = {"auto", "none"}, .unit = "mm",
                    .help = "Decimation keeps the solid surface within this distance; 0: no "
                        "decimation; none: no bound",
-                   .automatic = "0.1 voxel; none where triangles says where to stop"}),
+                   .automatic = "0.1 voxel, down to 0.03 where there is little noise; none where "
+                       "triangles says where to stop"}),
     bound({.name = "triangles", .form = "N", .count = 1, .whole = true, .low = 4, .high = 2e9,
            .words = {"auto"}, .help = "Decimation stops at this many triangles",
            .automatic = "as few as the tolerance permits"}, &Settings::triangles),

@@ -11,7 +11,7 @@ set(ROOM_HEADERS
   settings.h)
 set(ROOM_SOURCES
   available_memory.cpp
-  level.cpp
+  follow_image.cpp
   memory.cpp
   mes_amis.cpp
   parameters.cpp

@@ -5,14 +5,14 @@
 
 namespace mesamis {
 
-std::optional<double> measure_edge_level(const VolumeView& volume,
-                                         const std::vector<SurfacePoint>& points) {
-  constexpr double kMostResidual = 0.01;  // against the height
+std::optional<EdgeModel> measure_edge(const VolumeView& volume,
+                                      const std::vector<SurfacePoint>& points) {
+  constexpr double kMostResidual = 0.02;  // against the height; a sharp kernel overshoots
   const PointGroup usable = with_normals(points);
   if (usable.size() < kFewestProfilePoints) return std::nullopt;
   const EdgeModel edge = fit_edge_model(median_profile(volume, usable));
   if (!(edge.residual < kMostResidual * edge.height())) return std::nullopt;
-  return edge.level();
+  return edge;
 }
 
 }  // namespace mesamis

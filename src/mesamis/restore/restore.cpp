@@ -9,6 +9,8 @@
 #include "mesamis/restore/deblur.h"
 #include "mesamis/restore/impulses.h"
 #include "mesamis/restore/scan_quality.h"
+#include "mesamis/restore/thick_places.h"
+#include "mesamis/restore/thin_sheets.h"
 
 namespace mesamis {
 namespace {
@@ -52,11 +54,25 @@ Guide make_guide(const VolumeView& volume, double level) {
   return guide;
 }
 
+/// Undoes the blur that was found, also in thin sheets.
+/// @param guide  the scan, smoothed.
+void undo_blur(Restored& restored, const Volume& guide, const ObjectContrast& contrast) {
+  const double largest = *std::max_element(restored.blur.begin(), restored.blur.end());
+  if (!(largest > 0)) return;
+  SheetOptions sheets{contrast, restored.blur, std::nullopt, restored.noise};
+  if (largest > kSharp) {
+    sheets.regularization =
+        choose_regularization(restored.noise, contrast.difference(), restored.blur);
+    restored.volume = deblurred(restored.volume, restored.blur, *sheets.regularization);
+  }
+  lift_thin_sheets(restored.volume, guide, sheets);
+}
+
 }  // namespace
 
 Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOptions& options) {
   Restored restored{std::move(volume), options.noise.value_or(0), 0,
-                    options.blur.value_or(std::array<double, 3>{}), 0};
+                    options.blur.value_or(std::array<double, 3>{})};
   const double contrast = object.contrast.difference();
   if (!(contrast > 0)) return restored;
   Guide guide = make_guide(restored.volume, object.level);
@@ -74,13 +90,10 @@ Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOpt
     if (!options.noise) restored.noise = noise_now();
   }
   if (!options.blur) {
-    const auto points = crossing_points(smoothed(guide.image), object.level, kMostPoints);
-    restored.blur = measure_blur(restored.volume, points, restored.noise);
+    restored.blur = measure_blur(
+        restored.volume, thick_places(guide.image, guide.points, object.level), restored.noise);
   }
-  if (*std::max_element(restored.blur.begin(), restored.blur.end()) > kSharp) {
-    restored.volume = deblurred(restored.volume, restored.blur,
-                                choose_regularization(restored.noise, contrast, restored.blur));
-  }
+  undo_blur(restored, guide.image, object.contrast);
   restored.noise_left = noise_now();
   return restored;
 }

@@ -28,9 +28,11 @@ struct Restored {
 
 /// Restores a scan: measures noise, impulses and blur near the object's surface, removes the
 /// impulses (remove_impulses()) and undoes the blur (deblurred()), the more gently the larger the
-/// noise is against the object's contrast.
+/// noise is against the object's contrast. What the blur still hides, walls and gaps thinner than
+/// itself, is corrected (lift_thin_sheets()).
 /// @param volume  native values; taken over, pass it with std::move() to save the copy.
-/// @param object  of this volume. Where its contrast is not positive, the volume stays as it is.
+/// @param object  of this volume, see find_object_edge(). Where its contrast is not positive, the
+/// volume stays as it is.
 /// @throws InputError  if an option is out of range.
 /// O(voxels); about four copies of the samples.
 Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOptions& options = {});

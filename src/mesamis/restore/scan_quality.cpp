@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
 #include "mesamis/base/median.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/image/spline_image.h"
 #include "mesamis/restore/edge_profile.h"
 #include "mesamis/restore/object_contrast.h"
 
@@ -40,72 +40,36 @@ double deviation_at(const VolumeView& volume, const std::array<Index, 3>& voxel)
   return std::abs(volume.at(voxel[0], voxel[1], voxel[2]) - sum / 27);
 }
 
-/// Half a profile, from the surface to one side: its rise after each step, up to where it rises no
-/// more (a thin wall ends).
-std::vector<double> rise(const Profile& profile, int direction) {
-  std::vector<double> heights;
-  double highest = 0;
-  for (int n = 1; n <= kProfileHalf; ++n) {
-    const auto at = static_cast<std::size_t>(std::ptrdiff_t{kProfileHalf} + direction * n);
-    const double height = direction * (profile[at] - profile[kProfileHalf]);
-    if (height < highest) break;
-    heights.push_back(highest = height);
-  }
-  return heights;
+/// The slope that a quarter of the points exceed, native units per voxel, less what noise adds to
+/// it: gradual places (a lighter tissue begins, a wall bends) are not the blur's.
+double steep_slope(std::vector<double> slopes, double noise) {
+  constexpr double kSteeper = 0.25;
+  // 0.674 standard deviations is the upper quarter of a normal distribution; a spline passes on
+  // 0.75 of the noise per voxel.
+  constexpr double kOfNoise = 0.674 * 0.75;
+  const auto at =
+      static_cast<std::ptrdiff_t>((1 - kSteeper) * static_cast<double>(slopes.size() - 1));
+  std::nth_element(slopes.begin(), slopes.begin() + at, slopes.end());
+  return slopes[static_cast<std::size_t>(at)] - kOfNoise * noise;
 }
 
-/// A Gaussian edge of one side: of deviation sigma, voxels, and height h it is h erf(t / sqrt(2)
-/// sigma) after t voxels.
-struct HalfEdge {
-  double sigma = 0, height = 0;
-};
-HalfEdge fit_half(const std::vector<double>& heights) {
-  constexpr double kNarrowest = 0.2, kWidest = 3.5, kStep = 0.01;
-  HalfEdge best;
-  double least = std::numeric_limits<double>::infinity();
-  for (double sigma = kNarrowest; sigma <= kWidest; sigma += kStep) {
-    double ee = 0, eh = 0, hh = 0;
-    for (std::size_t n = 0; n < heights.size(); ++n) {
-      const double t = static_cast<double>(n + 1) * kProfileStep;
-      const double e = std::erf(t / (std::sqrt(2) * sigma));
-      ee += e * e, eh += e * heights[n], hh += heights[n] * heights[n];
-    }
-    const double misfit = hh - eh * eh / ee;
-    if (misfit < least) {
-      least = misfit;
-      best = {sigma, 2 * eh / ee};
+/// Slopes along the normals, native units per voxel: of the points whose normal is nearly an axis,
+/// for each axis, and of all points.
+std::array<std::vector<double>, 4> slopes_by_axis(const VolumeView& volume,
+                                                  const PointGroup& points) {
+  constexpr double kAlongAxis = 0.85;
+  const SplineImage spline = interpolating_spline(copy_volume(volume));
+  std::array<std::vector<double>, 4> slopes;
+  for (const SurfacePoint* point : points) {
+    const Vec3 d = voxel_direction(volume, point->normal), &s = volume.spacing;
+    const Vec3 step{d.x * s.x, d.y * s.y, d.z * s.z};
+    const double slope = -dot(spline_at(spline, point->position).gradient, step);
+    slopes[3].push_back(slope);
+    for (int a = 0; a < 3; ++a) {
+      if (std::abs(d[a]) > kAlongAxis) slopes[static_cast<std::size_t>(a)].push_back(slope);
     }
   }
-  return best;
-}
-
-/// The sharper of the two halves: the next tissue widens one of them. Where a half rises for two
-/// voxels, shorter ones do not count: the far side of a wall cuts them off.
-HalfEdge sharper_half(const Profile& profile) {
-  constexpr std::size_t kWhole = 8, kFewest = 4;  // samples: two voxels, one
-  const std::array<std::vector<double>, 2> sides{rise(profile, -1), rise(profile, 1)};
-  const std::size_t longest = std::max(sides[0].size(), sides[1].size());
-  HalfEdge best;
-  for (const auto& heights : sides) {
-    if (heights.size() < (longest < kWhole ? kFewest : kWhole)) continue;
-    const HalfEdge edge = fit_half(heights);
-    if (best.sigma == 0 || edge.sigma < best.sigma) best = edge;
-  }
-  return best;
-}
-
-/// The blur of the image from that of the profile: less the variances of the interpolation and of
-/// the scatter of the points.
-double image_blur(const HalfEdge& edge, double noise) {
-  constexpr double kInterpolation = 1.0 / 6;  // variance of the hat function
-  constexpr double kGuideBlur = 1;            // variance of smoothed(smoothed()), per axis
-  const double kGuideNoise = std::pow(70.0 / 256, 1.5);  // white noise it leaves
-  if (!(edge.height > 0)) return 0;
-  const double square = edge.sigma * edge.sigma - kInterpolation;
-  const double slope =
-      edge.height / std::sqrt(2 * std::numbers::pi * (std::max(square, 0.0) + kGuideBlur));
-  const double scatter = kGuideNoise * noise / slope;
-  return std::sqrt(std::max(0.0, square - scatter * scatter));
+  return slopes;
 }
 
 }  // namespace
@@ -132,20 +96,17 @@ double measure_noise(const VolumeView& volume, const VolumeView& guide,
 
 std::array<double, 3> measure_blur(const VolumeView& volume,
                                    const std::vector<SurfacePoint>& points, double noise) {
-  constexpr double kAlongAxis = 0.9, kMostOfMiddle = 1.5, kMostBlur = 2;
+  constexpr double kMostOfMiddle = 1.5, kMostBlur = 2;
   const PointGroup usable = with_normals(points);
-  std::array<PointGroup, 3> along;
-  for (const SurfacePoint* point : usable) {
-    const Vec3 d = voxel_direction(volume, point->normal);
-    for (int a = 0; a < 3; ++a) {
-      if (std::abs(d[a]) > kAlongAxis) along[static_cast<std::size_t>(a)].push_back(point);
-    }
-  }
   std::array<double, 3> blur{};
   if (usable.size() < kFewestProfilePoints) return blur;
+  const Profile profile = median_profile(volume, usable);
+  const auto [least, most] = std::minmax_element(profile.begin(), profile.end());
+  const auto slopes = slopes_by_axis(volume, usable);
   for (std::size_t a = 0; a < 3; ++a) {
-    const auto& group = along[a].size() < kFewestOfAnAxis ? usable : along[a];
-    blur[a] = image_blur(sharper_half(median_profile(volume, group)), noise);
+    const double slope =
+        steep_slope(slopes[a].size() < kFewestOfAnAxis ? slopes[3] : slopes[a], noise);
+    blur[a] = slope > 0 ? (*most - *least) / (std::sqrt(2 * std::numbers::pi) * slope) : kMostBlur;
   }
   // Surfaces across one axis may be no plain edges (a table, thin walls): its blur is bounded.
   std::array<double, 3> sorted = blur;

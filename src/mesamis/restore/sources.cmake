@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   deblur.h
-  edge_level.h
   half_maximum_level.h
   impulses.h
   level_crossings.h
   object_contrast.h
+  object_edge.h
   restore.h
   scan_quality.h
   tissue_threshold.h)
@@ -17,6 +17,9 @@ set(ROOM_SOURCES
   impulses.cpp
   level_crossings.cpp
   object_contrast.cpp
+  object_edge.cpp
   restore.cpp
   scan_quality.cpp
+  thick_places.cpp
+  thin_sheets.cpp
   tissue_threshold.cpp)

@@ -10,6 +10,7 @@ set(ROOM_HEADERS
   sampling.h
   select_parts.h
   self_intersections.h
+  split_edges.h
   tri_mesh.h
   unused_points.h)
 # For the rooms above alone: not installed.
@@ -35,6 +36,7 @@ set(ROOM_SOURCES
   sampling.cpp
   select_parts.cpp
   self_intersections.cpp
+  split_edges.cpp
   tri_mesh.cpp
   triangle_intersection.cpp
   triangle_tree.cpp

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/image/spline_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mesamis/base/parallel.h"
+
+namespace mesamis {
+namespace {
+
+/// Rows of samples one after the other along an axis; each sample of a row belongs to a line of its
+/// own.
+struct Rows {
+  float* first;
+  std::size_t stride, width;
+  Index count;
+
+  float* row(Index k) const { return first + static_cast<std::size_t>(k) * stride; }
+};
+
+/// Solves c[k - 1] + 4 c[k] + c[k + 1] = 6 s[k] along the axis, with c = s at both ends (the second
+/// derivative is zero there, so that linear images are reproduced), in place. The rows are
+/// eliminated downwards, then solved upwards.
+void solve_along(const Rows& rows) {
+  const auto last = static_cast<std::size_t>(rows.count) - 1;
+  std::vector<float> pivot(last + 1, 0);
+  for (std::size_t k = 1; k < last; ++k) {
+    pivot[k] = 1 / (4 - pivot[k - 1]);
+    float* row = rows.row(static_cast<Index>(k));
+    const float* before = rows.row(static_cast<Index>(k) - 1);
+    for (std::size_t x = 0; x < rows.width; ++x) row[x] = (6 * row[x] - before[x]) * pivot[k];
+  }
+  for (std::size_t k = last; k-- > 1;) {
+    float* row = rows.row(static_cast<Index>(k));
+    const float* next = rows.row(static_cast<Index>(k) + 1);
+    for (std::size_t x = 0; x < rows.width; ++x) row[x] -= pivot[k] * next[x];
+  }
+}
+
+/// The cubic B-spline's weights for the four coefficients around a fraction of a voxel.
+std::array<double, 4> spline_weights(double t) {
+  const double s = 1 - t;
+  return {s * s * s / 6, 2.0 / 3 - t * t * (2 - t) / 2, 2.0 / 3 - s * s * (2 - s) / 2,
+          t * t * t / 6};
+}
+
+/// Their derivatives, per voxel.
+std::array<double, 4> spline_slopes(double t) {
+  const double s = 1 - t;
+  return {-s * s / 2, t * (1.5 * t - 2), s * (2 - 1.5 * s), t * t / 2};
+}
+
+/// Where a coordinate falls: the voxel below it and the rest.
+struct Place {
+  Place(double x, Index size) {
+    const double inside = x > 0 ? std::min<double>(x, size - 1) : 0;  // NaN goes to 0
+    cell = std::min(static_cast<Index>(inside), size - 2);
+    fraction = inside - cell;
+  }
+  /// The n-th of the four coefficients; the ends stand in for those beyond them.
+  Index tap(std::size_t n, Index size) const {
+    return std::clamp(cell - 1 + static_cast<Index>(n), 0, size - 1);
+  }
+  Index cell;
+  double fraction;
+};
+
+/// Beyond the ends, c[-1] = 2 c[0] - c[1]: the weights that this puts on the coefficients there
+/// are.
+std::array<double, 4> folded(std::array<double, 4> w, const Place& place, Index size) {
+  const double below = place.cell == 0 ? w[0] : 0, above = place.cell == size - 2 ? w[3] : 0;
+  return {w[0] + below, w[1] - above, w[2] - below, w[3] + above};
+}
+
+}  // namespace
+
+SplineImage interpolating_spline(Volume volume) {
+  SplineImage image{volume, std::move(volume.samples), 0, 0};
+  std::vector<float>& c = image.coefficients;
+  const auto [least, most] = std::minmax_element(c.begin(), c.end());
+  image.low = *least;
+  image.high = *most;
+  const auto& size = image.grid.size;
+  const auto nx = static_cast<std::size_t>(size[0]), ny = static_cast<std::size_t>(size[1]);
+  parallel_for_each(static_cast<std::size_t>(size[2]), [&](std::size_t k) {
+    float* slice = c.data() + k * nx * ny;
+    for (std::size_t j = 0; j < ny; ++j) solve_along({slice + j * nx, 1, 1, size[0]});
+    solve_along({slice, nx, nx, size[1]});
+  });
+  parallel_for_each(ny, [&](std::size_t j) {
+    solve_along({c.data() + j * nx, nx * ny, nx, size[2]});
+  });
+  return image;
+}
+
+ImageValue spline_at(const SplineImage& image, const Vec3& p) {
+  const VoxelGrid& grid = image.grid;
+  std::array<std::array<double, 4>, 3> weights, slopes;
+  std::array<std::array<Index, 4>, 3> index;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<int>(a);
+    const Place place(p[axis] / grid.spacing[axis], grid.size[a]);
+    weights[a] = folded(spline_weights(place.fraction), place, grid.size[a]);
+    slopes[a] = folded(spline_slopes(place.fraction), place, grid.size[a]);
+    for (std::size_t n = 0; n < 4; ++n) index[a][n] = place.tap(n, grid.size[a]);
+  }
+  ImageValue sum;
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      const float* row = image.coefficients.data() + grid.offset(0, index[1][j], index[2][k]);
+      double value = 0, slope = 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double coefficient = row[index[0][i]];
+        value += weights[0][i] * coefficient;
+        slope += slopes[0][i] * coefficient;
+      }
+      sum.value += weights[1][j] * weights[2][k] * value;
+      sum.gradient.x += weights[1][j] * weights[2][k] * slope;
+      sum.gradient.y += slopes[1][j] * weights[2][k] * value;
+      sum.gradient.z += weights[1][j] * slopes[2][k] * value;
+    }
+  }
+  for (int a = 0; a < 3; ++a) sum.gradient[a] /= grid.spacing[a];
+  return sum;
+}
+
+SplineLine::SplineLine(const SplineImage& image, double y, double z) : image_(image) {
+  const VoxelGrid& grid = image.grid;
+  const Place in_y(y, grid.size[1]), in_z(z, grid.size[2]);
+  const auto wy = folded(spline_weights(in_y.fraction), in_y, grid.size[1]);
+  const auto wz = folded(spline_weights(in_z.fraction), in_z, grid.size[2]);
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      rows_[4 * k + j] = image.coefficients.data() +
+                         grid.offset(0, in_y.tap(j, grid.size[1]), in_z.tap(k, grid.size[2]));
+      weights_[4 * k + j] = wy[j] * wz[k];
+    }
+  }
+}
+
+double SplineLine::column(Index i) const {
+  const Index at = std::clamp(i, 0, image_.grid.size[0] - 1);
+  double sum = 0;
+  for (std::size_t n = 0; n < rows_.size(); ++n) sum += weights_[n] * rows_[n][at];
+  return sum;
+}
+
+double SplineLine::at(double x) {
+  const Place place(x, image_.grid.size[0]);
+  while (cell_ < place.cell && cell_ > place.cell - 4) {
+    std::rotate(columns_.begin(), columns_.begin() + 1, columns_.end());
+    columns_[3] = column(++cell_ + 2);
+  }
+  if (cell_ != place.cell) {
+    cell_ = place.cell;
+    for (std::size_t n = 0; n < 4; ++n) columns_[n] = column(cell_ - 1 + static_cast<Index>(n));
+  }
+  const auto w = folded(spline_weights(place.fraction), place, image_.grid.size[0]);
+  const double value =
+      w[0] * columns_[0] + w[1] * columns_[1] + w[2] * columns_[2] + w[3] * columns_[3];
+  return std::clamp<double>(value, image_.low, image_.high);
+}
+
+}  // namespace mesamis

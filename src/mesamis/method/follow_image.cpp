@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/follow_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "mesamis/base/median.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/surface/normals.h"
+#include "mesamis/surface/self_intersections.h"
+#include "mesamis/surface/split_edges.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kLongestEdge = 1;  // voxels
+constexpr double kMostMove = 0.7;   // voxels
+/// Voxels of noise beyond which the image tells nothing that the mesh does not.
+constexpr double kMostNoise = 0.3;
+/// Of the noise at the voxels, what the spline passes on between them, and a margin.
+constexpr double kNoiseMargin = 1.1;
+constexpr double kNoiseOfMean = 0.2;                // variance left in a local mean
+constexpr double kLeastSlope = 8, kFullSlope = 20;  // grey values per voxel
+constexpr int kSweepsOfMean = 10, kSweepsOfNormals = 3;
+
+/// The neighbours of each point of a surface: those of point p from start[p] to start[p + 1].
+struct Neighbors {
+  explicit Neighbors(const TriMesh& surface) : start(surface.points.size() + 1, 0) {
+    for (const Triangle& t : surface.triangles) {
+      for (const Index p : t) ++start[static_cast<std::size_t>(p) + 1];
+    }
+    for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
+    std::vector<std::size_t> next(start.begin(), start.end() - 1);
+    points.resize(start.back());
+    for (const Triangle& t : surface.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        points[next[static_cast<std::size_t>(t[i])]++] = t[(i + 1) % 3];
+      }
+    }
+  }
+  std::vector<std::size_t> start;
+  std::vector<Index> points;
+};
+
+/// Means over the neighbourhood: each sweep halves the way to the neighbours' weighted mean.
+template <class Value>
+std::vector<Value> smoothed_along(const Neighbors& neighbors, const std::vector<double>& weights,
+                                  std::vector<Value> values, int sweeps) {
+  std::vector<Value> next(values.size());
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    parallel_for(values.size(), [&](std::size_t p) {
+      const auto count = static_cast<double>(neighbors.start[p + 1] - neighbors.start[p]);
+      double weight = weights[p] * count;
+      Value sum = weight * values[p];
+      for (std::size_t n = neighbors.start[p]; n < neighbors.start[p + 1]; ++n) {
+        const Index other = neighbors.points[n];
+        weight += weights[other];
+        sum = sum + weights[other] * values[other];
+      }
+      next[p] = weight > 0 ? (1 / weight) * sum : values[p];
+    });
+    std::swap(values, next);
+  }
+  return values;
+}
+
+/// What the image tells at the points; voxels.
+struct Offsets {
+  std::vector<double> distance;  ///< to the level set, outwards along the normal
+  std::vector<double> noise;     ///< standard deviation of the distance
+  std::vector<double> weight;    ///< 0: the image tells nothing
+};
+
+class Follower {
+ public:
+  Follower(const TriMesh& surface, const SplineImage& image, const FollowOptions& options)
+      : image_(image),
+        options_(options),
+        voxel_(image.grid.voxel_size() / options.point_scale),
+        box_(box_of(image, options)),
+        surface_(surface) {}
+
+  /// Whether the noise leaves anything to be told, at the points as they are.
+  bool is_worthwhile() const {
+    const Offsets offsets = measure(vertex_normals(surface_));
+    std::vector<double> noise;
+    for (std::size_t p = 0; p < offsets.noise.size(); ++p) {
+      if (offsets.weight[p] > 0) noise.push_back(offsets.noise[p]);
+    }
+    return !noise.empty() && median(noise) < kMostNoise;
+  }
+
+  TriMesh run() {
+    surface_ = split_long_edges(std::move(surface_), kLongestEdge,
+                                (1 / options_.point_scale) * image_.grid.spacing);
+    const Neighbors neighbors(surface_);
+    const std::vector<double> ones(surface_.points.size(), 1);
+    const std::vector<Vec3> normals =
+        unit_vectors(smoothed_along(neighbors, ones, vertex_normals(surface_), kSweepsOfNormals));
+    const std::vector<double> moves = filtered(measure(normals), neighbors);
+    std::vector<Vec3> shifts(moves.size());
+    for (std::size_t p = 0; p < moves.size(); ++p) {
+      shifts[p] = (std::clamp(moves[p], -kMostMove, kMostMove) * voxel_) * normals[p];
+    }
+    return moved_without_folds(std::move(shifts));
+  }
+
+ private:
+  static Box box_of(const SplineImage& image, const FollowOptions& options) {
+    return {{0, 0, 0}, (1 / options.point_scale) * image.grid.box().extent()};
+  }
+
+  static std::vector<Vec3> unit_vectors(std::vector<Vec3> vectors) {
+    for (Vec3& v : vectors) {
+      const double length = norm(v);
+      v = length > 0 ? (1 / length) * v : Vec3{};
+    }
+    return vectors;
+  }
+
+  bool on_box(const Vec3& p) const {
+    const double slack = 1e-6 * voxel_;
+    for (int a = 0; a < 3; ++a) {
+      if (p[a] <= box_.lo[a] + slack || p[a] >= box_.hi[a] - slack) return true;
+    }
+    return false;
+  }
+
+  Offsets measure(const std::vector<Vec3>& normals) const {
+    const std::size_t count = surface_.points.size();
+    Offsets offsets{std::vector<double>(count), std::vector<double>(count),
+                    std::vector<double>(count)};
+    parallel_for(count, [&](std::size_t p) {
+      if (on_box(surface_.points[p])) return;
+      const ImageValue here = spline_at(image_, options_.point_scale * surface_.points[p]);
+      const double slope = -dot(here.gradient, normals[p]) * image_.grid.voxel_size();
+      if (!(slope >= kLeastSlope)) return;
+      offsets.distance[p] =
+          std::clamp((here.value - options_.level) / slope, -kMostMove, kMostMove);
+      offsets.noise[p] = kNoiseMargin * options_.noise / slope;
+      offsets.weight[p] = std::min(1.0, slope * slope / (kFullSlope * kFullSlope));
+    });
+    return offsets;
+  }
+
+  /// What of the distances is not noise.
+  static std::vector<double> filtered(const Offsets& offsets, const Neighbors& neighbors) {
+    const std::vector<double>& d = offsets.distance;
+    std::vector<double> squares(d.size());
+    for (std::size_t p = 0; p < d.size(); ++p) squares[p] = d[p] * d[p];
+    const auto mean = smoothed_along(neighbors, offsets.weight, d, kSweepsOfMean);
+    const auto mean_square =
+        smoothed_along(neighbors, offsets.weight, std::move(squares), kSweepsOfMean);
+    std::vector<double> moves(d.size());
+    for (std::size_t p = 0; p < d.size(); ++p) {
+      if (offsets.weight[p] == 0) continue;
+      const double m = mean[p], noise = offsets.noise[p] * offsets.noise[p];
+      const double variance = mean_square[p] - m * m;
+      const double k = variance > noise ? 1 - noise / variance : 0;
+      const double a = m * m > kNoiseOfMean * noise ? 1 - kNoiseOfMean * noise / (m * m) : 0;
+      moves[p] = a * m + k * (d[p] - m);
+    }
+    return moves;
+  }
+
+  /// Moves all points, then takes moves back, first half, then whole, where triangles meet. In the
+  /// end, where the surface was not moved at all, none do.
+  TriMesh moved_without_folds(std::vector<Vec3> shifts) const {
+    constexpr int kHalvings = 2, kMostRounds = 40;
+    std::vector<int> taken_back(shifts.size(), 0);
+    TriMesh moved = surface_;
+    for (int round = 0; round < kMostRounds; ++round) {
+      for (std::size_t p = 0; p < shifts.size(); ++p) {
+        moved.points[p] = surface_.points[p] + shifts[p];
+      }
+      const auto pairs = find_self_intersections(moved);
+      if (pairs.empty()) return moved;
+      std::vector<Index> meeting;
+      for (const auto& pair : pairs) {
+        for (const Index t : pair) {
+          meeting.insert(meeting.end(), moved.triangles[t].begin(), moved.triangles[t].end());
+        }
+      }
+      std::sort(meeting.begin(), meeting.end());
+      meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
+      for (const Index p : meeting) {
+        shifts[static_cast<std::size_t>(p)] =
+            (taken_back[static_cast<std::size_t>(p)]++ < kHalvings ? 0.5 : 0.0) *
+            shifts[static_cast<std::size_t>(p)];
+      }
+    }
+    return surface_;
+  }
+
+  const SplineImage& image_;
+  FollowOptions options_;
+  double voxel_;  // in the surface's unit
+  Box box_;
+  TriMesh surface_;
+};
+
+}  // namespace
+
+TriMesh follow_image(const TriMesh& surface, const SplineImage& image,
+                     const FollowOptions& options) {
+  if (surface.triangles.empty()) return surface;
+  Follower follower(surface, image, options);
+  return follower.is_worthwhile() ? follower.run() : surface;
+}
+
+}  // namespace mesamis

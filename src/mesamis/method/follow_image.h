@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mesamis/image/spline_image.h"
+#include "mesamis/surface/tri_mesh.h"
+
+namespace mesamis {
+
+/// What follow_image() has to know.
+struct FollowOptions {
+  double level = 0;        ///< of the surface, grey values
+  double noise = 0;        ///< standard deviation in the image, grey values, >= 0
+  double point_scale = 1;  ///< mm per unit of the surface's coordinates, > 0
+};
+
+/// Moves a surface that was extracted from a mesh towards the level set of the image, as far as the
+/// image's noise can be told from what the mesh's cells could not follow.
+///
+/// Where a scan has little noise, cells of several voxels are the larger error: they cut bends and
+/// fine structures. Edges are split down to a voxel; each point's distance d to the level set
+/// along the normal is (I - level) / slope, the noise's share of it N = noise / slope. With the
+/// local mean m and variance V of d along the surface (Lee 1980), the point moves by
+///   a m + k (d - m),   k = max(0, 1 - N^2 / V),   a = max(0, 1 - 0.2 N^2 / m^2),
+/// by no more than 0.7 voxels. Points where the image is too flat to tell stay, as do those on the
+/// image's box. Moves that would make the surface meet itself are taken back.
+/// @param surface  in the grid's own axes; without self-intersections.
+/// @param image    in grey values; its bounds do not count here.
+/// @return the surface as it was, where noise outweighs everything that the image could tell.
+/// @throws InputError  as require_sound().
+///
+/// O(n log n) for n points after splitting, about two per square voxel of the surface.
+TriMesh follow_image(const TriMesh& surface, const SplineImage& image,
+                     const FollowOptions& options);
+
+}  // namespace mesamis

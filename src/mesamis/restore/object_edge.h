@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mesamis/image/volume.h"
+#include "mesamis/restore/half_maximum_level.h"
+
+namespace mesamis {
+
+/// Measures an object's level and contrast where it is thick.
+///
+/// Medians over the whole surface (find_half_maximum_level()) mix thick parts with walls so thin
+/// that the blur keeps them from their own value: the level then depends on how much of the surface
+/// is thin, and on the crop. Here the edge is fitted (measure_edge()) at the thickest quarter of
+/// the surface (thick_places()), and once more at the level found, until the level changes by less
+/// than 0.005 of the contrast.
+/// @param volume  native values, as they came: a restored image overshoots.
+/// @param seen    of this volume: where to start.
+/// @return level and contrast are the edge's (background and shell), the rest as seen; all as seen
+///         where no edge can be fitted.
+/// @throws nothing
+///
+/// O(voxels) per iteration, at most three; a smoothed copy of the samples.
+HalfMaximumLevel find_object_edge(const VolumeView& volume, const HalfMaximumLevel& seen);
+
+}  // namespace mesamis

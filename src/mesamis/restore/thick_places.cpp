@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/restore/thick_places.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "mesamis/base/parallel.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kClear = 2.5;  // voxels without object, outwards
+constexpr double kStep = 0.5;   // voxels
+constexpr int kMostSteps = 12;
+
+/// How far the guide stays on one side of the level, voxels; 0 where the image ends before.
+/// @param voxel  the direction, one voxel long, mm.
+double way_on_one_side(const VolumeView& guide, const SurfacePoint& from, const Vec3& voxel,
+                       double level) {
+  const bool inside = dot(voxel, from.normal) < 0;
+  const Box box = guide.box();
+  for (int n = 2; n <= kMostSteps; ++n) {
+    const Vec3 p = from.position + kStep * n * voxel;
+    if (!box.contains(p)) return 0;
+    if ((interpolate(guide, p) > level) != inside) return kStep * (n - 1);
+  }
+  return kStep * kMostSteps;
+}
+
+/// How thick the object is below a point, voxels; 0 where it cannot be told.
+double thickness_below(const VolumeView& guide, const SurfacePoint& point, double level) {
+  const Vec3 &n = point.normal, &s = guide.spacing;
+  if (norm(n) == 0) return 0;
+  const Vec3 voxel = (1 / norm({n.x / s.x, n.y / s.y, n.z / s.z})) * n;
+  if (way_on_one_side(guide, point, voxel, level) < kClear) return 0;
+  return way_on_one_side(guide, point, -1.0 * voxel, level);
+}
+
+}  // namespace
+
+std::vector<SurfacePoint> thick_places(const VolumeView& guide,
+                                       const std::vector<SurfacePoint>& points, double level) {
+  constexpr double kThinner = 0.75;  // of the points
+  constexpr std::size_t kFewest = 100;
+  std::vector<double> thickness(points.size());
+  parallel_for(points.size(),
+               [&](std::size_t n) { thickness[n] = thickness_below(guide, points[n], level); });
+  std::vector<double> sorted;
+  std::copy_if(thickness.begin(), thickness.end(), std::back_inserter(sorted),
+               [](double t) { return t > 0; });
+  if (sorted.size() < kFewest) return points;
+  const auto at = static_cast<std::ptrdiff_t>(kThinner * static_cast<double>(sorted.size() - 1));
+  std::nth_element(sorted.begin(), sorted.begin() + at, sorted.end());
+  const double least = sorted[static_cast<std::size_t>(at)];
+  std::vector<SurfacePoint> thick;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    if (thickness[n] >= least) thick.push_back(points[n]);
+  }
+  return thick;
+}
+
+}  // namespace mesamis

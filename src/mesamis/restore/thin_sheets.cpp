@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/restore/thin_sheets.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mesamis/base/parallel.h"
+#include "mesamis/image/spline_image.h"
+#include "mesamis/restore/level_crossings.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kLeastPeak = 0.15;  // of the contrast
+constexpr double kMostPeak = 0.97;   // thicker sheets need no lift
+/// Peaks of noise in the guide reach five of its deviations; a sheet must exceed them clearly.
+constexpr double kPeakOfNoise = 9;
+/// On both sides of a sheet the guide falls below this share of the peak.
+constexpr double kFall = 0.6;
+/// Where it is looked for, in deviations of the guide's blur, and the steps towards the peak.
+constexpr double kReach = 2.5, kStep = 0.2;
+/// The gradients around agree if the second main direction has less than this share of the first.
+constexpr double kLeastPlanar = 0.5, kPlanar = 0.7;
+
+double normal_distribution(double t) { return 0.5 * std::erfc(-t / std::numbers::sqrt2); }
+
+/// The t of 2 Phi(t / 2) - 1 = peak: thickness of a sheet in deviations of its blur.
+double thickness_of(double peak) {
+  double low = 0, high = 6;
+  for (int n = 0; n < 30; ++n) {
+    const double t = (low + high) / 2;
+    (2 * normal_distribution(t / 2) - 1 < peak ? low : high) = t;
+  }
+  return low;
+}
+
+/// E(t): the restored image's value at the faces of a sheet, of the contrast.
+class FaceValues {
+ public:
+  explicit FaceValues(const std::optional<double>& regularization) {
+    for (std::size_t n = 0; n < kCount; ++n) {
+      values_[n] = compute(static_cast<double>(n) * kSpacing, regularization);
+    }
+  }
+  /// @param t  in deviations of the scan's blur, >= 0.
+  double at(double t) const {
+    const auto n = static_cast<std::size_t>(t / kSpacing);
+    if (n + 1 >= kCount) return 0.5;
+    const double share = t / kSpacing - static_cast<double>(n);
+    return (1 - share) * values_[n] + share * values_[n + 1];
+  }
+
+ private:
+  static constexpr std::size_t kCount = 101;
+  static constexpr double kSpacing = 0.06;
+
+  /// A box of width t, seen at its edge through the blur g and the filter W of deblurred():
+  /// (1 / pi) times the integral of g W sin(k t) / k over the frequencies k.
+  static double compute(double t, const std::optional<double>& regularization) {
+    constexpr double kEnd = 12, kDelta = 0.01;
+    double sum = 0;
+    for (double k = kDelta / 2; k < kEnd; k += kDelta) {
+      const double lambda = k * k, g = std::exp(-lambda / 2);
+      const double seen = regularization ? g * g / (g * g + *regularization * lambda * lambda) : g;
+      sum += seen * std::sin(k * t) / k * kDelta;
+    }
+    return sum / std::numbers::pi;
+  }
+
+  std::array<double, kCount> values_{};
+};
+
+/// The main direction of the gradients around a voxel and how well they agree.
+struct Direction {
+  Vec3 normal;
+  double planarity;  ///< 0 to 1
+};
+
+Direction direction_at(const VolumeView& guide, const std::array<Index, 3>& voxel) {
+  Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
+  std::array<Index, 3> low, high;
+  for (std::size_t a = 0; a < 3; ++a) {
+    low[a] = std::max(0, voxel[a] - 1);
+    high[a] = std::min(guide.size[a] - 1, voxel[a] + 1);
+  }
+  for (Index k = low[2]; k <= high[2]; ++k) {
+    for (Index j = low[1]; j <= high[1]; ++j) {
+      for (Index i = low[0]; i <= high[0]; ++i) {
+        const Vec3 g = gradient_at(guide, i, j, k);
+        const Eigen::Vector3d v(g.x, g.y, g.z);
+        tensor += v * v.transpose();
+      }
+    }
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(tensor);
+  const auto& values = solver.eigenvalues();
+  if (!(values[2] > 0)) return {{0, 0, 0}, 0};
+  const Eigen::Vector3d v = solver.eigenvectors().col(2);
+  return {{v[0], v[1], v[2]}, (values[2] - std::max(0.0, values[1])) / values[2]};
+}
+
+/// A sheet of the object, or of the background within it.
+enum class SheetKind { kWall, kGap };
+
+/// The highest value of a sheet along its normal.
+struct Peak {
+  double height = 0;    ///< of the contrast; 0: there is none
+  double distance = 0;  ///< of the place looked at from it, mm
+};
+
+class Lifter {
+ public:
+  Lifter(const VolumeView& guide, const SheetOptions& options)
+      : guide_(guide),
+        spline_(interpolating_spline(copy_volume(guide))),
+        options_(options),
+        faces_(options.regularization),
+        contrast_(options.contrast.difference()) {
+    const double left = std::pow(70.0 / 256, 1.5);  // of white noise, in the guide
+    least_ = std::max(kLeastPeak, kPeakOfNoise * left * options.noise / contrast_);
+  }
+
+  /// What is added to a voxel of the restored image, native units.
+  double lift_at(const std::array<Index, 3>& voxel) const {
+    const double share =
+        (guide_.at(voxel[0], voxel[1], voxel[2]) - options_.contrast.background) / contrast_;
+    if (share < kFlank * least_ || share > 1 - kFlank * least_) return 0;
+    const Direction way = direction_at(guide_, voxel);
+    const double agree =
+        std::clamp((way.planarity - kLeastPlanar) / (kPlanar - kLeastPlanar), 0.0, 1.0);
+    if (agree == 0) return 0;
+    const Vec3& s = guide_.spacing;
+    const Vec3 p{voxel[0] * s.x, voxel[1] * s.y, voxel[2] * s.z};
+    return agree * contrast_ *
+           (lift(p, way.normal, SheetKind::kWall) - lift(p, way.normal, SheetKind::kGap));
+  }
+
+ private:
+  static constexpr double kFlank = 0.3;  // of the least peak: lower values belong to no sheet
+
+  /// Deviations of the blur along a direction, mm.
+  struct Blur {
+    double scan, guide;
+  };
+
+  Blur blur_along(const Vec3& n) const {
+    constexpr double kOfGuide = 0.5;  // variance of smoothed(), voxels
+    double scan = 0, guide = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto axis = static_cast<int>(a);
+      const double length = n[axis] * guide_.spacing[axis], blur = options_.blur[a];
+      scan += length * length * blur * blur;
+      guide += length * length * (blur * blur + kOfGuide);
+    }
+    return {std::sqrt(scan), std::sqrt(guide)};
+  }
+
+  /// The guide's share of the contrast; in gaps what is missing of it.
+  double share_at(const Vec3& p, SheetKind kind) const {
+    const double share = (spline_at(spline_, p).value - options_.contrast.background) / contrast_;
+    return kind == SheetKind::kWall ? share : 1 - share;
+  }
+
+  double lift(const Vec3& p, const Vec3& normal, SheetKind kind) const {
+    const Blur blur = blur_along(normal);
+    const Peak peak = find_peak(p, normal, kStep * blur.guide, kind);
+    if (peak.height < least_ || peak.height > kMostPeak) return 0;
+    const double thickness = thickness_of(peak.height) * blur.guide;
+    const double face = faces_.at(thickness / std::max(blur.scan, 0.05 * blur.guide));
+    const double significant = std::clamp((peak.height - least_) / (0.3 * least_), 0.0, 1.0);
+    return std::max(0.0, 0.5 - face) * significant *
+           taper((peak.distance - thickness / 2) / blur.guide);
+  }
+
+  /// 1 within a sheet and at its faces, then down to 0.
+  static double taper(double beyond) {
+    constexpr double kWhole = 0.3, kNone = 1.8;  // deviations of the guide's blur
+    const double share = std::clamp((beyond - kWhole) / (kNone - kWhole), 0.0, 1.0);
+    return 0.5 + 0.5 * std::cos(std::numbers::pi * share);
+  }
+
+  /// Uphill to the peak, which counts if the guide falls off on both sides.
+  Peak find_peak(const Vec3& p, const Vec3& normal, double step, SheetKind kind) const {
+    constexpr int kMostSteps = 16;
+    const double up = share_at(p + step * normal, kind), down = share_at(p - step * normal, kind);
+    const Vec3 way = up >= down ? normal : -1.0 * normal;
+    double before = std::min(up, down), here = share_at(p, kind), next = std::max(up, down);
+    int steps = 0;
+    while (next > here) {
+      if (++steps > kMostSteps) return {};
+      before = here;
+      here = next;
+      next = share_at(p + (steps + 1) * step * way, kind);
+    }
+    if (here < least_) return {};
+    // The vertex of the parabola through the three highest.
+    const double bend = before - 2 * here + next;
+    const double beside = bend < 0 ? std::clamp(0.5 * (before - next) / bend, -0.5, 0.5) : 0;
+    const double distance = (steps + beside) * step;
+    const Vec3 ridge = p + distance * way, reach = (kReach / kStep) * step * way;
+    const bool falls = falls_off(ridge, reach, kFall * here, kind) &&
+                       falls_off(ridge, -1.0 * reach, kFall * here, kind);
+    return falls ? Peak{here, std::abs(distance)} : Peak{};
+  }
+
+  bool falls_off(const Vec3& ridge, const Vec3& reach, double below, SheetKind kind) const {
+    for (const double share : {0.5, 0.75, 1.0}) {
+      if (share_at(ridge + share * reach, kind) <= below) return true;
+    }
+    return false;
+  }
+
+  const VolumeView guide_;
+  SplineImage spline_;
+  SheetOptions options_;
+  FaceValues faces_;
+  double contrast_, least_;
+};
+
+}  // namespace
+
+void lift_thin_sheets(Volume& restored, const VolumeView& guide, const SheetOptions& options) {
+  const Lifter lifter(guide, options);
+  const auto& size = restored.size;
+  parallel_for_each(static_cast<std::size_t>(size[2]), [&](std::size_t slice) {
+    const auto k = static_cast<Index>(slice);
+    for (Index j = 0; j < size[1]; ++j) {
+      for (Index i = 0; i < size[0]; ++i) {
+        restored.samples[restored.offset(i, j, k)] += static_cast<float>(lifter.lift_at({i, j, k}));
+      }
+    }
+  });
+}
+
+}  // namespace mesamis
