@@ -17,6 +17,7 @@ double linear(const Vec3& p) { return 10 + 3 * p.x - 2 * p.y + 0.5 * p.z; }
 
 TEST(CellQuadrature, LinearImagesAreExactForCellsOfAnyShape) {
   const Volume image = sampled_volume({21, 19, 17}, {1, 0.5, 2}, linear);
+  const SplineImage spline = interpolating_spline(image);
   const Vec3 extent = image.box().extent();
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -38,7 +39,7 @@ TEST(CellQuadrature, LinearImagesAreExactForCellsOfAnyShape) {
     if (volume < 0) std::swap(p[2], p[3]);
     if (std::abs(volume) < 1e-9 * size * size * size) continue;
     ++tried;
-    const auto fit = fit_image_on_cell(image, p);
+    const auto fit = fit_image_on_cell(spline, p);
     for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(fit[i], linear(p[i]), 2e-4);
   }
 }
@@ -81,15 +82,19 @@ int density_for(double volume) {
   return 0;
 }
 
-Values slow_fit(const Volume& image, const std::array<Vec3, 4>& p, int density) {
+Values slow_fit(const SplineImage& spline, const std::array<Vec3, 4>& p, int density) {
   const double whole = six_volume(p[0], p[1], p[2], p[3]);
+  const VoxelGrid& image = spline.grid;
+  const auto value_at = [&spline](const Vec3& q) {
+    return std::clamp<double>(spline_at(spline, q).value, spline.low, spline.high);
+  };
   SlowFit fit;
   if (density == 0) {
     for (int n = 0; n < 5 * 5 * 5; ++n) {
       const int a = n / 25, b = n / 5 % 5, c = n % 5;
       if (a + b + c > 4) continue;
       const Values l{(a + 0.5) / 6, (b + 0.5) / 6, (c + 0.5) / 6, (4 - a - b - c + 0.5) / 6};
-      fit.add(l, interpolate(image, l[0] * p[0] + l[1] * p[1] + l[2] * p[2] + l[3] * p[3]));
+      fit.add(l, value_at(l[0] * p[0] + l[1] * p[1] + l[2] * p[2] + l[3] * p[3]));
     }
     return fit.solve();
   }
@@ -102,7 +107,7 @@ Values slow_fit(const Volume& image, const std::array<Vec3, 4>& p, int density) 
         const Values l{
             six_volume(q, p[1], p[2], p[3]) / whole, six_volume(p[0], q, p[2], p[3]) / whole,
             six_volume(p[0], p[1], q, p[3]) / whole, six_volume(p[0], p[1], p[2], q) / whole};
-        if (*std::min_element(l.begin(), l.end()) >= 0) fit.add(l, interpolate(image, q));
+        if (*std::min_element(l.begin(), l.end()) >= 0) fit.add(l, value_at(q));
       }
     }
   }
@@ -118,6 +123,7 @@ TEST(CellQuadrature, AgreesWithASumOverAllSamples) {
                                       std::pair{std::array<Index, 3>{13, 9, 2}, Vec3{1, 1, 4}}}) {
     const Volume image =
         sampled_volume(size, spacing, [&](const Vec3&) { return 100 * uniform(generator); });
+    const SplineImage spline = interpolating_spline(image);
     const Vec3 extent = image.box().extent();
     std::array<int, 5> tried{};
     int next_taken = 0;
@@ -137,9 +143,9 @@ TEST(CellQuadrature, AgreesWithASumOverAllSamples) {
           six_volume(p[0], p[1], p[2], p[3]) / 6 / (spacing.x * spacing.y * spacing.z);
       const int density = density_for(voxels);
       ++tried[static_cast<std::size_t>(density)];
-      const Values found = fit_image_on_cell(image, p);
+      const Values found = fit_image_on_cell(spline, p);
       auto agrees_at = [&](int d) {
-        const Values expected = slow_fit(image, p, d);
+        const Values expected = slow_fit(spline, p, d);
         return std::equal(found.begin(), found.end(), expected.begin(),
                           [](double a, double b) { return std::abs(a - b) < 1e-7; });
       };
@@ -161,8 +167,9 @@ TEST(CellQuadrature, ALargeCellAveragesAllItsVoxels) {
   std::normal_distribution<double> noise(100, 10);
   const Volume image =
       sampled_volume({41, 41, 41}, {1, 1, 1}, [&](const Vec3&) { return noise(generator); });
+  const SplineImage spline = interpolating_spline(image);
   const auto fit =
-      fit_image_on_cell(image, {Vec3{0, 0, 0}, Vec3{40, 0, 0}, Vec3{0, 40, 0}, Vec3{0, 0, 40}});
+      fit_image_on_cell(spline, {Vec3{0, 0, 0}, Vec3{40, 0, 0}, Vec3{0, 40, 0}, Vec3{0, 0, 40}});
   for (const double value : fit) EXPECT_NEAR(value, 100, 1.5);
 }
 
@@ -174,7 +181,8 @@ TEST(CellQuadrature, EveryVoxelIsSeen) {
     for (Index j = 1; j + k < 10; ++j) {
       for (Index i = 1; i + j + k < 11; ++i) {
         image.samples[image.offset(i, j, k)] = 1;
-        const auto fit = fit_image_on_cell(image, cell);
+        const SplineImage spline = interpolating_spline(image);
+        const auto fit = fit_image_on_cell(spline, cell);
         const double mean = (fit[0] + fit[1] + fit[2] + fit[3]) / 4;
         EXPECT_NEAR(mean * 288, 1, 0.75);
         image.samples[image.offset(i, j, k)] = 0;

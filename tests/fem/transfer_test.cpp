@@ -26,8 +26,8 @@ TEST(ProjectImage, ReproducesLinearImagesOnAnyMesh) {
   for (const std::array<Index, 3> n : {std::array<Index, 3>{2, 3, 2}, {20, 14, 25}}) {
     const TetMesh mesh = perturbed_box({{0, 0, 0}, extent}, n, 0.25);
     const MeshSpace space(mesh);
-    const ProjectedImage projected =
-        project_image(image, space, {.point_scale = unit, .solver = {1e-12, 500, 500}});
+    const ProjectedImage projected = project_image(
+        interpolating_spline(image), space, {.point_scale = unit, .solver = {1e-12, 500, 500}});
     EXPECT_TRUE(projected.solve.converged);
     const std::vector<double>& f = projected.values;
     for (std::size_t i = 0; i < f.size(); ++i)
@@ -43,7 +43,8 @@ TEST(ProjectImage, KeepsTheMean) {
   }
   const TetMesh mesh = perturbed_box({{0, 0, 0}, {16, 16, 16}}, {16, 16, 16}, 0.0);
   const MeshSpace space(mesh);
-  const auto f = project_image(image, space, {.solver = {1e-12, 500, 500}}).values;
+  const auto f =
+      project_image(interpolating_spline(image), space, {.solver = {1e-12, 500, 500}}).values;
   double projected = 0, exact = 0;
   for (std::size_t n = 0; n < f.size(); ++n) {
     projected += space.lumped_mass()[n] * f[n];

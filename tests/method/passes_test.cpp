@@ -13,11 +13,11 @@ namespace mesamis {
 namespace {
 
 /// The preset as it stands, on a grid of 1 mm.
-Parameters paper_parameters() {
+Prepared prepared_by_the_paper() {
   Settings settings = preset_settings("paper");
   settings.window = Window{0, 255};
   settings.threshold_rule = ThresholdRule::kNone;
-  return prepare_image(make_ball({.size = 16, .radius = 5}), settings).parameters;
+  return prepare_image(make_ball({.size = 16, .radius = 5}), settings);
 }
 
 /// The preset's own pass through Algorithm 1, estimator, metric and (12), against an independent
@@ -28,9 +28,8 @@ TEST(PaperPreset, OnePassAgreesWithTheOracle) {
   const auto expected = oracle["cases"]["paper_parameters"];
   const TetMesh mesh = oracle_mesh(oracle);
   const MeshSpace space(mesh);
-  const Parameters p = paper_parameters();
-  const Volume unused = make_ball({.size = 16, .radius = 5});
-  const RunInput run(p, unused);
+  const Prepared prepared = prepared_by_the_paper();
+  const RunInput run(prepared);
 
   Minimum minimum;
   minimum.f = oracle["f"].get<std::vector<double>>();
@@ -67,13 +66,15 @@ TEST(PaperPreset, OnePassAgreesWithTheOracle) {
 }
 
 TEST(RunInput, DraftsHaveFewerCellsAndTheLastHaveAll) {
-  Parameters p;
+  Prepared prepared;
+  Parameters& p = prepared.parameters;
+  p.unit_mm = 1;
   p.max_tets = 1'000'000;
   p.drafts = true;
   p.adaptations = 10;
   p.solver_tolerance = 1e-6;
-  const Volume volume = make_ball({.size = 8, .radius = 2});
-  const RunInput run(p, volume);
+  prepared.grey = make_ball({.size = 8, .radius = 2});
+  const RunInput run(prepared);
   std::int64_t last = 0;
   for (int k = 1; k <= 10; ++k) {
     EXPECT_GE(run.cells_after(k), last);
@@ -99,12 +100,14 @@ Iteration pass_with(double mesh_change, double energy_change, bool bounded = fal
 }
 
 TEST(HasSettled, WantsBothByDefaultAndOneAsPrinted) {
-  Parameters p;
+  Prepared prepared;
+  Parameters& p = prepared.parameters;
+  p.unit_mm = 1;
   p.drafts = false;
   p.adaptations = 10;
   p.tol_mesh = p.tol_energy = 0.01;
-  const Volume volume = make_ball({.size = 8, .radius = 2});
-  const RunInput run(p, volume);
+  prepared.grey = make_ball({.size = 8, .radius = 2});
+  const RunInput run(prepared);
   const auto settled = [&run](const Iteration& last) {
     return has_settled(run, {pass_with(1, 1), pass_with(1, 1), last});
   };

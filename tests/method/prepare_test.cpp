@@ -48,12 +48,13 @@ TEST(PrepareImage, MeasuresWhatIsLeftOpen) {
   const Prepared prepared = prepare_image(make_ball({.size = 32, .noise = 8, .radius = 9}), {});
   const Parameters& p = prepared.parameters;
   EXPECT_NEAR(p.noise, 8, 2);
-  EXPECT_NEAR(prepared.first_level, 175, 8);
+  EXPECT_NEAR(p.level, 175, 8);
   EXPECT_EQ(p.unit_mm, 1);
   EXPECT_EQ(p.functional.eta, 1e-6);
   EXPECT_EQ(p.h_max, 31.0 / 4);
   EXPECT_EQ(p.min_volume, 4);
-  EXPECT_EQ(p.tolerance, 0.1);
+  EXPECT_GE(p.tolerance, 0.03);
+  EXPECT_LE(p.tolerance, 0.1);
   EXPECT_GE(p.max_tets, kFewestTets);
   EXPECT_GT(p.functional.gamma, 0);
   EXPECT_FALSE(p.grey.has_threshold()) << "two classes need no T";
@@ -91,6 +92,16 @@ TEST(PrepareImage, ThePapersThresholdIsAGreyValue) {
       prepare_image(make_ball({.size = 24, .object = 350, .radius = 7}), settings);
   EXPECT_EQ(prepared.parameters.grey.threshold, 240);
   for (const float grey : prepared.grey.samples) EXPECT_GE(grey, 140);
+}
+
+TEST(PrepareImage, ALevelBelowTheThresholdMovesAboveIt) {
+  const Volume ball = make_ball({.size = 32, .radius = 9});
+  Settings settings;
+  settings.threshold_rule = ThresholdRule::kValue;
+  settings.threshold = 190;  // above the half maximum of 175
+  EXPECT_NEAR(prepare_image(ball, settings).parameters.level, (190 + 230) / 2.0, 5);
+  settings.threshold = 140;
+  EXPECT_NEAR(prepare_image(ball, settings).parameters.level, 175, 5);
 }
 
 TEST(PrepareImage, ATrianglesGoalLiftsTheTolerance) {

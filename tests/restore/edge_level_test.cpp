@@ -29,9 +29,9 @@ TEST(EdgeLevel, IsMidwayToAShellTooThinToBeSeen) {
       points.push_back({seen - (depth(seen) - 0.3) * normal, -1.0 * normal});  // 0.3 too deep
     }
   }
-  const auto level = measure_edge_level(scan, points);
-  ASSERT_TRUE(level);
-  EXPECT_NEAR(*level, kLevel, 4);
+  const auto edge = measure_edge(scan, points);
+  ASSERT_TRUE(edge);
+  EXPECT_NEAR(edge->level(), kLevel, 4);
   const auto contrast = measure_contrast(scan, scan, points, kLevel);
   ASSERT_TRUE(contrast);
   EXPECT_LT(contrast->half_maximum(), kLevel - 5);
@@ -39,24 +39,24 @@ TEST(EdgeLevel, IsMidwayToAShellTooThinToBeSeen) {
 
 TEST(EdgeLevel, IsTheHalfMaximumWithoutAShell) {
   const Volume scan = make_ball({.noise = 0, .radius = 14});
-  const auto level = measure_edge_level(scan, crossing_points(scan, 170, 100'000));
-  ASSERT_TRUE(level);
+  const auto edge = measure_edge(scan, crossing_points(scan, 170, 100'000));
+  ASSERT_TRUE(edge);
   // sigma^2 / radius: the blur moves the half maximum of a ball inwards by that.
-  EXPECT_NEAR(*level, kLevel, 110 * 0.05);
+  EXPECT_NEAR(edge->level(), kLevel, 110 * 0.05);
 }
 
 TEST(EdgeLevel, IsNothingWithoutPointsOrNormals) {
   const Volume scan = make_ball({.noise = 0});
-  EXPECT_FALSE(measure_edge_level(scan, {}));
+  EXPECT_FALSE(measure_edge(scan, {}));
   auto points = crossing_points(scan, kLevel, 100'000);
   for (SurfacePoint& point : points) point.normal = {};
-  EXPECT_FALSE(measure_edge_level(scan, points));
+  EXPECT_FALSE(measure_edge(scan, points));
 }
 
 TEST(EdgeLevel, IsNothingWhereTheImageIsNoEdge) {
   const Volume ramp = sampled_volume({30, 30, 30}, {1, 1, 1},
                                      [](const Vec3& p) { return 100 + std::sin(2 * p.x) * 50; });
-  EXPECT_FALSE(measure_edge_level(ramp, crossing_points(ramp, 100, 100'000)));
+  EXPECT_FALSE(measure_edge(ramp, crossing_points(ramp, 100, 100'000)));
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST(MeasureBlur, FindsTheBlurOfEachAxis) {
     for (const double blur : {0.6, 1.0, 1.5}) {
       const Volume scan = scan_of("sphere", {.blur = blur, .noise = noise});
       const auto points = crossing_points(smoothed(smoothed(scan)), kLevel, 100'000);
-      for (const double found : measure_blur(scan, points, noise)) {
+      for (const double found : measure_blur(scan, points)) {
         // Noise makes it fall short, never the other way: too much undone is worse.
         const double truth = std::sqrt(blur * blur + voxel);
         EXPECT_LT(found, truth + 0.15) << blur << " " << noise;
@@ -53,14 +53,14 @@ TEST(MeasureBlur, TellsAxesApart) {
   const Volume fine = scan_of("sphere", {.blur = 1.4});
   Volume scan = subsample(fine, {1, 1, 2});
   const auto points = crossing_points(smoothed(smoothed(scan)), kLevel, 100'000);
-  const auto blur = measure_blur(scan, points, 0);
+  const auto blur = measure_blur(scan, points);
   EXPECT_NEAR(blur[0], 1.4, 0.15);
   EXPECT_NEAR(blur[1], 1.4, 0.15);
   EXPECT_NEAR(blur[2], 0.7, 0.15);
 }
 
 TEST(MeasureBlur, IsNothingWithoutPoints) {
-  EXPECT_EQ(measure_blur(scan_of("sphere", {}), {}, 0), (std::array<double, 3>{}));
+  EXPECT_EQ(measure_blur(scan_of("sphere", {}), {}), (std::array<double, 3>{}));
 }
 
 }  // namespace

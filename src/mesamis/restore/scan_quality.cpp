@@ -40,19 +40,6 @@ double deviation_at(const VolumeView& volume, const std::array<Index, 3>& voxel)
   return std::abs(volume.at(voxel[0], voxel[1], voxel[2]) - sum / 27);
 }
 
-/// The slope that a quarter of the points exceed, native units per voxel, less what noise adds to
-/// it: gradual places (a lighter tissue begins, a wall bends) are not the blur's.
-double steep_slope(std::vector<double> slopes, double noise) {
-  constexpr double kSteeper = 0.25;
-  // 0.674 standard deviations is the upper quarter of a normal distribution; a spline passes on
-  // 0.75 of the noise per voxel.
-  constexpr double kOfNoise = 0.674 * 0.75;
-  const auto at =
-      static_cast<std::ptrdiff_t>((1 - kSteeper) * static_cast<double>(slopes.size() - 1));
-  std::nth_element(slopes.begin(), slopes.begin() + at, slopes.end());
-  return slopes[static_cast<std::size_t>(at)] - kOfNoise * noise;
-}
-
 /// Slopes along the normals, native units per voxel: of the points whose normal is nearly an axis,
 /// for each axis, and of all points.
 std::array<std::vector<double>, 4> slopes_by_axis(const VolumeView& volume,
@@ -95,17 +82,16 @@ double measure_noise(const VolumeView& volume, const VolumeView& guide,
 }
 
 std::array<double, 3> measure_blur(const VolumeView& volume,
-                                   const std::vector<SurfacePoint>& points, double noise) {
+                                   const std::vector<SurfacePoint>& points) {
   constexpr double kMostOfMiddle = 1.5, kMostBlur = 2;
   const PointGroup usable = with_normals(points);
   std::array<double, 3> blur{};
   if (usable.size() < kFewestProfilePoints) return blur;
   const Profile profile = median_profile(volume, usable);
   const auto [least, most] = std::minmax_element(profile.begin(), profile.end());
-  const auto slopes = slopes_by_axis(volume, usable);
+  auto slopes = slopes_by_axis(volume, usable);
   for (std::size_t a = 0; a < 3; ++a) {
-    const double slope =
-        steep_slope(slopes[a].size() < kFewestOfAnAxis ? slopes[3] : slopes[a], noise);
+    const double slope = median(slopes[a].size() < kFewestOfAnAxis ? slopes[3] : slopes[a]);
     blur[a] = slope > 0 ? (*most - *least) / (std::sqrt(2 * std::numbers::pi) * slope) : kMostBlur;
   }
   // Surfaces across one axis may be no plain edges (a table, thin walls): its blur is bounded.

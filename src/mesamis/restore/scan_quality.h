@@ -30,19 +30,17 @@ double measure_noise(const VolumeView& volume, const VolumeView& guide,
 /// Measures the standard deviation of the image's blur along each axis.
 ///
 /// A step c seen through a Gaussian of deviation s has the slope c / (sqrt(2 pi) s). The step is
-/// that of the median profile along the normals of the points; the slope is that of the spline
-/// through the samples along the normal, exceeded by a quarter of the points whose normal is nearly
-/// the axis, less what noise of that size adds to it. Axes that fewer than a hundred normals follow
-/// get the slope of all points. No axis gets more than 1.5 times the median of the three axes, nor
+/// that of the median profile along the normals of the points; the slope is the median of the
+/// slopes, along their normals, of the spline through the samples, over the points whose normal is
+/// nearly the axis. Axes that fewer than a hundred normals follow get the slope of all points. No axis gets more than 1.5 times the median of the three axes, nor
 /// more than two voxels. The blur includes the voxels' own extent: partial volume alone is 0.29.
 /// @param volume  native values.
 /// @param points  thick_places() of the surface: thin walls never show their whole step.
-/// @param noise   standard deviation in the volume, native units, >= 0.
 /// @return voxels, 0 to 2; zeros if fewer than a hundred points have a normal.
 /// @throws nothing
 ///
 /// O(points), and a spline of the volume.
 std::array<double, 3> measure_blur(const VolumeView& volume,
-                                   const std::vector<SurfacePoint>& points, double noise);
+                                   const std::vector<SurfacePoint>& points);
 
 }  // namespace mesamis

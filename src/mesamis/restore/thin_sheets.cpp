@@ -119,6 +119,8 @@ class Lifter {
         options_(options),
         faces_(options.regularization),
         contrast_(options.contrast.difference()) {
+    // The guide averages less at the border: there its noise is larger.
+    within_ = {guide.spacing, guide.box().extent() - guide.spacing};
     const double left = std::pow(70.0 / 256, 1.5);  // of white noise, in the guide
     least_ = std::max(kLeastPeak, kPeakOfNoise * left * options.noise / contrast_);
   }
@@ -201,6 +203,7 @@ class Lifter {
     const double beside = bend < 0 ? std::clamp(0.5 * (before - next) / bend, -0.5, 0.5) : 0;
     const double distance = (steps + beside) * step;
     const Vec3 ridge = p + distance * way, reach = (kReach / kStep) * step * way;
+    if (!within_.contains(ridge)) return {};
     const bool falls = falls_off(ridge, reach, kFall * here, kind) &&
                        falls_off(ridge, -1.0 * reach, kFall * here, kind);
     return falls ? Peak{here, std::abs(distance)} : Peak{};
@@ -218,6 +221,7 @@ class Lifter {
   SheetOptions options_;
   FaceValues faces_;
   double contrast_, least_;
+  Box within_;
 };
 
 }  // namespace

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/follow_image.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "mesamis/base/parallel.h"
+#include "mesamis/surface/self_intersections.h"
+#include "support/ball_volume.h"
+#include "support/level_set.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kRadius = 11, kLevel = 175;
+const Vec3 kCenter{19.5, 19.5, 19.5};
+
+/// A ball of few triangles, five voxels long, whose corners alone lie on the sphere.
+TriMesh coarse_ball(double radius) {
+  return level_set({{0, 0, 0}, {39, 39, 39}}, {8, 8, 8},
+                   [radius](const Vec3& p) { return radius - norm(p - kCenter); });
+}
+
+SplineImage ball_image(double noise) {
+  return interpolating_spline(make_ball({.noise = noise, .radius = kRadius}));
+}
+
+/// Root mean square distance of the points and the middles of the triangles from a sphere.
+double misfit(const TriMesh& surface, double radius) {
+  double sum = 0;
+  for (const Triangle& t : surface.triangles) {
+    const Vec3 middle =
+        (1.0 / 3) * (surface.points[t[0]] + surface.points[t[1]] + surface.points[t[2]]);
+    sum += std::pow(norm(middle - kCenter) - radius, 2);
+  }
+  return std::sqrt(sum / static_cast<double>(surface.triangles.size()));
+}
+
+TEST(FollowImage, ComesToTheLevelSetWithoutNoise) {
+  const TriMesh coarse = coarse_ball(kRadius);
+  const TriMesh followed = follow_image(coarse, ball_image(0), {.level = kLevel, .noise = 0.1});
+  const double seen = middle_radius(kRadius, 1);
+  EXPECT_GT(misfit(coarse, seen), 0.2);
+  EXPECT_LT(misfit(followed, seen), 0.03);
+  const SurfaceCheck check = check_surface(followed);
+  EXPECT_EQ(check.open_edges + check.nonmanifold_edges + check.misoriented_edges, 0);
+  EXPECT_TRUE(find_self_intersections(followed).empty());
+}
+
+TEST(FollowImage, LeavesASurfaceThatNoiseExplains) {
+  // A surface that is right stays nearly so, though the image's level set is rough.
+  const double seen = middle_radius(kRadius, 1);
+  const TriMesh fine = level_set({{0, 0, 0}, {39, 39, 39}}, {39, 39, 39},
+                                 [seen](const Vec3& p) { return seen - norm(p - kCenter); });
+  const TriMesh followed = follow_image(fine, ball_image(12), {.level = kLevel, .noise = 12});
+  EXPECT_LT(misfit(followed, seen), 0.08) << "the image's own level set is 0.2 off";
+  // And where there is more noise than could ever help, nothing is touched.
+  const TriMesh same = follow_image(fine, ball_image(40), {.level = kLevel, .noise = 40});
+  EXPECT_EQ(same.triangles, fine.triangles);
+}
+
+TEST(FollowImage, DoesNotMakeASurfaceMeetItself) {
+  // Noise that it is not told of, and a surface that is far off.
+  const TriMesh followed =
+      follow_image(coarse_ball(kRadius - 0.6), ball_image(25), {.level = kLevel, .noise = 1});
+  EXPECT_TRUE(find_self_intersections(followed).empty());
+  EXPECT_EQ(check_surface(followed).open_edges, 0);
+}
+
+TEST(FollowImage, KeepsWhatLiesOnTheBox) {
+  const TriMesh half = level_set({{0, 0, 0}, {39, 39, 39}}, {8, 8, 8},
+                                 [](const Vec3& p) { return 19.5 + 0.2 * p.y - p.x; });
+  SplineImage image = interpolating_spline(make_ball({.noise = 0}));
+  const TriMesh followed = follow_image(half, image, {.level = kLevel, .noise = 1});
+  const Box box = bounding_box(followed.points), before = bounding_box(half.points);
+  EXPECT_EQ(norm(box.lo - before.lo), 0);
+  EXPECT_NEAR(check_surface(followed).volume, check_surface(half).volume,
+              0.05 * check_surface(half).volume);
+}
+
+TEST(FollowImage, TheUnitOfTheSurfaceDoesNotMatter) {
+  const FollowOptions mm{.level = kLevel, .noise = 3};
+  const SplineImage image = ball_image(3);
+  const TriMesh coarse = coarse_ball(kRadius);
+  TriMesh halved = coarse;
+  for (Vec3& p : halved.points) p = 0.5 * p;
+  const TriMesh expected = follow_image(coarse, image, mm);
+  const TriMesh found = follow_image(halved, image, {kLevel, 3, 2});
+  ASSERT_EQ(found.triangles, expected.triangles);
+  for (std::size_t p = 0; p < found.points.size(); ++p) {
+    EXPECT_LT(norm(2 * found.points[p] - expected.points[p]), 1e-9);
+  }
+}
+
+TEST(FollowImage, SameBitsForAnyNumberOfThreads) {
+  const SplineImage image = ball_image(6);
+  const TriMesh coarse = coarse_ball(kRadius);
+  const FollowOptions options{.level = kLevel, .noise = 6};
+  const auto follow = [&] { return follow_image(coarse, image, options); };
+  const TriMesh one = with_threads(1, follow), three = with_threads(3, follow);
+  ASSERT_EQ(one.points.size(), three.points.size());
+  for (std::size_t p = 0; p < one.points.size(); ++p) EXPECT_EQ(one.points[p], three.points[p]);
+}
+
+}  // namespace
+}  // namespace mesamis

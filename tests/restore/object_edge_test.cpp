@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/restore/object_edge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesamis/image/gaussian.h"
+#include "support/ball_volume.h"
+#include "support/sampled_volume.h"
+
+namespace mesamis {
+namespace {
+
+/// A ball, and many plates so thin that they reach half of the ball's value.
+Volume ball_and_plates(double plates_to) {
+  Volume volume = sampled_volume({64, 48, 48}, {1, 1, 1}, [plates_to](const Vec3& p) {
+    const bool ball = norm(p - Vec3{14, 24, 24}) < 10;
+    const bool plate = p.x > 29.5 && p.x < plates_to && std::fmod(p.x, 6) < 1;
+    return ball || plate ? 230.0 : 120.0;
+  });
+  return gaussian_smoothed(std::move(volume), 0.8);
+}
+
+TEST(ObjectEdge, IsThatOfTheThickPart) {
+  const Volume volume = ball_and_plates(60);
+  const HalfMaximumLevel seen = find_half_maximum_level(volume);
+  const HalfMaximumLevel object = find_object_edge(volume, seen);
+  EXPECT_NEAR(object.level, 175, 0.03 * 110);
+  EXPECT_NEAR(object.contrast.background, 120, 3);
+  EXPECT_NEAR(object.contrast.object, 230, 6);
+}
+
+TEST(ObjectEdge, DoesNotDependOnTheCrop) {
+  const Volume whole = ball_and_plates(60);
+  const Volume part = crop(whole, {{0, 4, 2}, {47, 46, 48}});
+  const double in_whole = find_object_edge(whole, find_half_maximum_level(whole)).level;
+  const double in_part = find_object_edge(part, find_half_maximum_level(part)).level;
+  EXPECT_NEAR(in_part, in_whole, 0.02 * 110);
+}
+
+TEST(ObjectEdge, IsAsSeenWhereThereIsNone) {
+  const Volume flat = sampled_volume({12, 12, 12}, {1, 1, 1}, [](const Vec3&) { return 7; });
+  const HalfMaximumLevel seen = find_half_maximum_level(flat);
+  EXPECT_EQ(find_object_edge(flat, seen).level, seen.level);
+}
+
+TEST(ObjectEdge, HoldsInNoise) {
+  for (const double noise : {4.0, 15.0, 30.0}) {
+    const Volume ball = make_ball({.size = 48, .noise = noise, .radius = 15});
+    EXPECT_NEAR(find_object_edge(ball, find_half_maximum_level(ball)).level, 175, 0.04 * 110)
+        << noise;
+  }
+}
+
+}  // namespace
+}  // namespace mesamis
