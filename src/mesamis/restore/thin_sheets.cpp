@@ -21,6 +21,9 @@ constexpr double kPeakOfNoise = 9;
 constexpr double kFall = 0.6;
 /// Where it is looked for, in deviations of the guide's blur, and the steps towards the peak.
 constexpr double kReach = 2.5, kStep = 0.2;
+/// How far the middle of a sheet rises above its faces, of the contrast: a flatter one would be
+/// lost in noise, and to a level that is slightly off.
+constexpr double kRise = 0.25, kMostGain = 2;
 /// The gradients around agree if the second main direction has less than this share of the first.
 constexpr double kLeastPlanar = 0.5, kPlanar = 0.7;
 
@@ -36,20 +39,28 @@ double thickness_of(double peak) {
   return low;
 }
 
-/// E(t): the restored image's value at the faces of a sheet, of the contrast.
-class FaceValues {
+/// The restored image of a sheet of thickness t, of the contrast.
+struct SheetProfile {
+  double face = 0.5;  ///< E(t), at the faces
+  double middle = 1;  ///< halfway between them
+};
+
+class SheetProfiles {
  public:
-  explicit FaceValues(const std::optional<double>& regularization) {
+  explicit SheetProfiles(const std::optional<double>& regularization) {
     for (std::size_t n = 0; n < kCount; ++n) {
-      values_[n] = compute(static_cast<double>(n) * kSpacing, regularization);
+      const double t = static_cast<double>(n) * kSpacing;
+      profiles_[n] = {seen_edge(t, regularization), 2 * seen_edge(t / 2, regularization)};
     }
   }
   /// @param t  in deviations of the scan's blur, >= 0.
-  double at(double t) const {
+  SheetProfile at(double t) const {
     const auto n = static_cast<std::size_t>(t / kSpacing);
-    if (n + 1 >= kCount) return 0.5;
+    if (n + 1 >= kCount) return {};
     const double share = t / kSpacing - static_cast<double>(n);
-    return (1 - share) * values_[n] + share * values_[n + 1];
+    const auto between = [share](double a, double b) { return (1 - share) * a + share * b; };
+    return {between(profiles_[n].face, profiles_[n + 1].face),
+            between(profiles_[n].middle, profiles_[n + 1].middle)};
   }
 
  private:
@@ -58,7 +69,7 @@ class FaceValues {
 
   /// A box of width t, seen at its edge through the blur g and the filter W of deblurred():
   /// (1 / pi) times the integral of g W sin(k t) / k over the frequencies k.
-  static double compute(double t, const std::optional<double>& regularization) {
+  static double seen_edge(double t, const std::optional<double>& regularization) {
     constexpr double kEnd = 12, kDelta = 0.01;
     double sum = 0;
     for (double k = kDelta / 2; k < kEnd; k += kDelta) {
@@ -69,7 +80,13 @@ class FaceValues {
     return sum / std::numbers::pi;
   }
 
-  std::array<double, kCount> values_{};
+  std::array<SheetProfile, kCount> profiles_{};
+};
+
+/// What becomes of a voxel: the distance from the half maximum, after the lift, times the gain.
+struct Lift {
+  double lift = 0;  ///< of the contrast
+  double gain = 1;
 };
 
 /// The main direction of the gradients around a voxel and how well they agree.
@@ -117,7 +134,7 @@ class Lifter {
       : guide_(guide),
         spline_(interpolating_spline(copy_volume(guide))),
         options_(options),
-        faces_(options.regularization),
+        profiles_(options.regularization),
         contrast_(options.contrast.difference()) {
     // The guide averages less at the border: there its noise is larger.
     within_ = {guide.spacing, guide.box().extent() - guide.spacing};
@@ -125,23 +142,32 @@ class Lifter {
     least_ = std::max(kLeastPeak, kPeakOfNoise * left * options.noise / contrast_);
   }
 
-  /// What is added to a voxel of the restored image, native units.
-  double lift_at(const std::array<Index, 3>& voxel) const {
-    const double share =
-        (guide_.at(voxel[0], voxel[1], voxel[2]) - options_.contrast.background) / contrast_;
-    if (share < kFlank * least_ || share > 1 - kFlank * least_) return 0;
-    const Direction way = direction_at(guide_, voxel);
-    const double agree =
-        std::clamp((way.planarity - kLeastPlanar) / (kPlanar - kLeastPlanar), 0.0, 1.0);
-    if (agree == 0) return 0;
-    const Vec3& s = guide_.spacing;
-    const Vec3 p{voxel[0] * s.x, voxel[1] * s.y, voxel[2] * s.z};
-    return agree * contrast_ *
-           (lift(p, way.normal, SheetKind::kWall) - lift(p, way.normal, SheetKind::kGap));
+  /// What becomes of a voxel of the restored image.
+  /// @param value  what it was, native units.
+  double lifted(const std::array<Index, 3>& voxel, double value) const {
+    const Lift l = lift_at(voxel);
+    if (l.lift == 0) return value;
+    const double half = options_.contrast.half_maximum();
+    return half + l.gain * (value + contrast_ * l.lift - half);
   }
 
  private:
   static constexpr double kFlank = 0.3;  // of the least peak: lower values belong to no sheet
+
+  Lift lift_at(const std::array<Index, 3>& voxel) const {
+    const double share =
+        (guide_.at(voxel[0], voxel[1], voxel[2]) - options_.contrast.background) / contrast_;
+    if (share < kFlank * least_ || share > 1 - kFlank * least_) return {};
+    const Direction way = direction_at(guide_, voxel);
+    const double agree =
+        std::clamp((way.planarity - kLeastPlanar) / (kPlanar - kLeastPlanar), 0.0, 1.0);
+    if (agree == 0) return {};
+    const Vec3& s = guide_.spacing;
+    const Vec3 p{voxel[0] * s.x, voxel[1] * s.y, voxel[2] * s.z};
+    const Lift wall = lift(p, way.normal, SheetKind::kWall);
+    const Lift gap = lift(p, way.normal, SheetKind::kGap);
+    return {agree * (wall.lift - gap.lift), 1 + agree * (std::max(wall.gain, gap.gain) - 1)};
+  }
 
   /// Deviations of the blur along a direction, mm.
   struct Blur {
@@ -166,15 +192,16 @@ class Lifter {
     return kind == SheetKind::kWall ? share : 1 - share;
   }
 
-  double lift(const Vec3& p, const Vec3& normal, SheetKind kind) const {
+  Lift lift(const Vec3& p, const Vec3& normal, SheetKind kind) const {
     const Blur blur = blur_along(normal);
     const Peak peak = find_peak(p, normal, kStep * blur.guide, kind);
-    if (peak.height < least_ || peak.height > kMostPeak) return 0;
+    if (peak.height < least_ || peak.height > kMostPeak) return {};
     const double thickness = thickness_of(peak.height) * blur.guide;
-    const double face = faces_.at(thickness / std::max(blur.scan, 0.05 * blur.guide));
-    const double significant = std::clamp((peak.height - least_) / (0.3 * least_), 0.0, 1.0);
-    return std::max(0.0, 0.5 - face) * significant *
-           taper((peak.distance - thickness / 2) / blur.guide);
+    const SheetProfile seen = profiles_.at(thickness / std::max(blur.scan, 0.05 * blur.guide));
+    const double share = std::clamp((peak.height - least_) / (0.3 * least_), 0.0, 1.0) *
+                         taper((peak.distance - thickness / 2) / blur.guide);
+    const double gain = std::clamp(kRise / std::max(seen.middle - seen.face, 1e-3), 1.0, kMostGain);
+    return {std::max(0.0, 0.5 - seen.face) * share, 1 + (gain - 1) * share};
   }
 
   /// 1 within a sheet and at its faces, then down to 0.
@@ -219,7 +246,7 @@ class Lifter {
   const VolumeView guide_;
   SplineImage spline_;
   SheetOptions options_;
-  FaceValues faces_;
+  SheetProfiles profiles_;
   double contrast_, least_;
   Box within_;
 };
@@ -233,7 +260,8 @@ void lift_thin_sheets(Volume& restored, const VolumeView& guide, const SheetOpti
     const auto k = static_cast<Index>(slice);
     for (Index j = 0; j < size[1]; ++j) {
       for (Index i = 0; i < size[0]; ++i) {
-        restored.samples[restored.offset(i, j, k)] += static_cast<float>(lifter.lift_at({i, j, k}));
+        float& sample = restored.samples[restored.offset(i, j, k)];
+        sample = static_cast<float>(lifter.lifted({i, j, k}, sample));
       }
     }
   });
