@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mesamis/base/parallel.h"
 #include "mesamis/surface/self_intersections.h"
 #include "mesamis/surface/tri_mesh.h"
 #include "support/shapes.h"
@@ -20,38 +21,45 @@ double longest_edge(const TriMesh& surface) {
   return most;
 }
 
-TEST(SplitLongEdges, LeavesNoneAndTheSurfaceWhereItIs) {
+SplitRule longer_than(double longest) {
+  return [longest](const Vec3& a, const Vec3& b) { return norm(a - b) > longest; };
+}
+
+TEST(SplitEdges, LeavesNoneThatTheRuleAsksForAndTheSurfaceWhereItIs) {
   for (const double longest : {2.0, 0.8, 0.3, 0.07}) {
-    const TriMesh split = split_long_edges(cube(), longest, {1, 1, 1});
+    const TriMesh split = split_edges(cube(), longer_than(longest));
     EXPECT_LE(longest_edge(split), longest);
-    const SurfaceCheck report = check_surface(split);
-    EXPECT_EQ(report.open_edges + report.nonmanifold_edges + report.misoriented_edges, 0);
-    EXPECT_NEAR(report.area, 6, 1e-12);
-    EXPECT_NEAR(report.volume, 1, 1e-12);
+    const SurfaceCheck check = check_surface(split);
+    EXPECT_EQ(check.open_edges + check.nonmanifold_edges + check.misoriented_edges, 0);
+    EXPECT_NEAR(check.area, 6, 1e-12);
+    EXPECT_NEAR(check.volume, 1, 1e-12);
     EXPECT_TRUE(find_self_intersections(split).empty());
   }
 }
 
-TEST(SplitLongEdges, MeasuresEdgesInUnits) {
-  // Where the unit is long along z, edges along z stay long.
-  const TriMesh split = split_long_edges(cube(), 0.3, {1, 1, 10});
-  double along_z = 0, along_x = 0;
-  for (const Triangle& t : split.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 d = split.points[t[i]] - split.points[t[(i + 1) % 3]];
-      along_x = std::max(along_x, std::abs(d.x));
-      along_z = std::max(along_z, std::abs(d.z));
-    }
-  }
-  EXPECT_LE(along_x, 0.3);
-  EXPECT_GT(along_z, 0.9);
+TEST(SplitEdges, SplitsOnlyWhereTheRuleAsks) {
+  // Edges near one corner of the cube only: triangles with one and two split edges come about.
+  const TriMesh split = split_edges(cube(), [](const Vec3& a, const Vec3& b) {
+    return norm(a - b) > 0.2 && norm(0.5 * (a + b)) < 0.4;
+  });
+  EXPECT_GT(split.triangles.size(), 12u);
+  const SurfaceCheck check = check_surface(split);
+  EXPECT_EQ(check.open_edges + check.nonmanifold_edges + check.misoriented_edges, 0);
+  EXPECT_NEAR(check.volume, 1, 1e-12);
+  EXPECT_LT(split.triangles.size(), split_edges(cube(), longer_than(0.2)).triangles.size() / 2);
 }
 
-TEST(SplitLongEdges, LeavesShortEdgesAlone) {
+TEST(SplitEdges, LeavesTheOthersAlone) {
   const TriMesh before = cube();
-  const TriMesh after = split_long_edges(before, 2, {1, 1, 1});
+  const TriMesh after = split_edges(before, longer_than(2));
   EXPECT_EQ(after.triangles, before.triangles);
   EXPECT_EQ(after.points.size(), before.points.size());
+}
+
+TEST(SplitEdges, SameBitsForAnyNumberOfThreads) {
+  const auto split = [] { return split_edges(cube(), longer_than(0.05)); };
+  const TriMesh one = with_threads(1, split), three = with_threads(3, split);
+  EXPECT_EQ(one.triangles, three.triangles);
 }
 
 }  // namespace

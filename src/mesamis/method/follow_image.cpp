@@ -2,7 +2,9 @@
 #include "mesamis/method/follow_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "mesamis/base/median.h"
@@ -14,8 +16,9 @@
 namespace mesamis {
 namespace {
 
-constexpr double kLongestEdge = 1;  // voxels
-constexpr double kMostMove = 0.7;   // voxels
+constexpr double kShortestEdge = 1;  // voxels: shorter ones are not split
+constexpr double kLeastBend = 0.03;  // voxels between an edge and the level set that are worth it
+constexpr double kMostMove = 0.7;    // voxels
 /// Voxels of noise beyond which the image tells nothing that the mesh does not.
 constexpr double kMostNoise = 0.3;
 /// Of the noise at the voxels, what the spline passes on between them, and a margin.
@@ -92,8 +95,8 @@ class Follower {
   }
 
   TriMesh run() {
-    surface_ = split_long_edges(std::move(surface_), kLongestEdge,
-                                (1 / options_.point_scale) * image_.grid.spacing);
+    surface_ = split_edges(std::move(surface_),
+                           [this](const Vec3& a, const Vec3& b) { return is_bent(a, b); });
     const Neighbors neighbors(surface_);
     const std::vector<double> ones(surface_.points.size(), 1);
     const std::vector<Vec3> normals =
@@ -117,6 +120,27 @@ class Follower {
       v = length > 0 ? (1 / length) * v : Vec3{};
     }
     return vectors;
+  }
+
+  /// Distance to the level set along the gradient, voxels, and the noise's share of it; nothing
+  /// where the image is flat.
+  std::optional<std::array<double, 2>> distance_at(const Vec3& p) const {
+    const ImageValue here = spline_at(image_, options_.point_scale * p);
+    const double slope = norm(here.gradient) * image_.grid.voxel_size();
+    if (!(slope >= kLeastSlope)) return std::nullopt;
+    const double distance = (here.value - options_.level) / slope;
+    return std::array{std::clamp(distance, -kMostMove, kMostMove),
+                      kNoiseMargin * options_.noise / slope};
+  }
+
+  /// Whether the level set leaves an edge between its ends by more than noise.
+  bool is_bent(const Vec3& a, const Vec3& b) const {
+    const Vec3 d = options_.point_scale * (a - b), &s = image_.grid.spacing;
+    if (norm({d.x / s.x, d.y / s.y, d.z / s.z}) <= kShortestEdge) return false;
+    const auto at_a = distance_at(a), at_b = distance_at(b), between = distance_at(0.5 * (a + b));
+    if (!at_a || !at_b || !between) return false;
+    const double bend = std::abs((*between)[0] - ((*at_a)[0] + (*at_b)[0]) / 2);
+    return bend > std::max(kLeastBend, (*between)[1]);
   }
 
   bool on_box(const Vec3& p) const {

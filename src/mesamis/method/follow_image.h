@@ -17,9 +17,10 @@ struct FollowOptions {
 /// image's noise can be told from what the mesh's cells could not follow.
 ///
 /// Where a scan has little noise, cells of several voxels are the larger error: they cut bends and
-/// fine structures. Edges are split down to a voxel; each point's distance d to the level set
-/// along the normal is (I - level) / slope, the noise's share of it N = noise / slope. With the
-/// local mean m and variance V of d along the surface (Lee 1980), the point moves by
+/// fine structures. Edges of more than a voxel are split where the level set leaves them by more
+/// than the noise (and 0.03 voxel); each point's distance d to the level set along the normal is (I
+/// - level) / slope, the noise's share of it N = noise / slope. With the local mean m and variance
+/// V of d along the surface (Lee 1980), the point moves by
 ///   a m + k (d - m),   k = max(0, 1 - N^2 / V),   a = max(0, 1 - 0.2 N^2 / m^2),
 /// by no more than 0.7 voxels. Points where the image is too flat to tell stay, as do those on the
 /// image's box. Moves that would make the surface meet itself are taken back.
@@ -28,7 +29,7 @@ struct FollowOptions {
 /// @return the surface as it was, where noise outweighs everything that the image could tell.
 /// @throws InputError  as require_sound().
 ///
-/// O(n log n) for n points after splitting, about two per square voxel of the surface.
+/// O(n log n) for n points after splitting, at most about two per square voxel of the surface.
 TriMesh follow_image(const TriMesh& surface, const SplineImage& image,
                      const FollowOptions& options);
 

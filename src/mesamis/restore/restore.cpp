@@ -90,8 +90,8 @@ Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOpt
     if (!options.noise) restored.noise = noise_now();
   }
   if (!options.blur) {
-    restored.blur = measure_blur(restored.volume,
-                                 thick_places(guide.image, guide.points, object.level));
+    restored.blur =
+        measure_blur(restored.volume, thick_places(guide.image, guide.points, object.level));
   }
   undo_blur(restored, guide.image, object.contrast);
   restored.noise_left = noise_now();

@@ -32,8 +32,9 @@ double measure_noise(const VolumeView& volume, const VolumeView& guide,
 /// A step c seen through a Gaussian of deviation s has the slope c / (sqrt(2 pi) s). The step is
 /// that of the median profile along the normals of the points; the slope is the median of the
 /// slopes, along their normals, of the spline through the samples, over the points whose normal is
-/// nearly the axis. Axes that fewer than a hundred normals follow get the slope of all points. No axis gets more than 1.5 times the median of the three axes, nor
-/// more than two voxels. The blur includes the voxels' own extent: partial volume alone is 0.29.
+/// nearly the axis. Axes that fewer than a hundred normals follow get the slope of all points. No
+/// axis gets more than 1.5 times the median of the three axes, nor more than two voxels. The blur
+/// includes the voxels' own extent: partial volume alone is 0.29.
 /// @param volume  native values.
 /// @param points  thick_places() of the surface: thin walls never show their whole step.
 /// @return voxels, 0 to 2; zeros if fewer than a hundred points have a normal.

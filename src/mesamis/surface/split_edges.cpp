@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "mesamis/base/parallel.h"
 #include "mesamis/surface/half_edges.h"
 
 namespace mesamis {
@@ -29,10 +32,9 @@ struct SplitTriangle {
 
 class Splitter {
  public:
-  Splitter(TriMesh& surface, double longest, const Vec3& unit)
-      : surface_(surface), longest_(longest), unit_(unit) {}
+  Splitter(TriMesh& surface, const SplitRule& rule) : surface_(surface), rule_(rule) {}
 
-  /// Splits every triangle's longest edge that is too long. @return false if there was none.
+  /// Splits every edge that the rule asks for. @return false if there was none.
   bool round() {
     std::vector<SplitTriangle> split = find_middles();
     if (split.empty()) return false;
@@ -44,45 +46,49 @@ class Splitter {
   }
 
  private:
-  double length(Index a, Index b) const {
-    const Vec3 d = surface_.points[a] - surface_.points[b];
-    return norm({d.x / unit_.x, d.y / unit_.y, d.z / unit_.z});
-  }
+  double length(Index a, Index b) const { return norm(surface_.points[a] - surface_.points[b]); }
 
-  /// The corner from which the triangle's longest edge runs, or none if that is short enough.
+  /// The corner from which a triangle's longest edge runs.
   int longest_edge(const Triangle& t) const {
-    int found = -1;
-    double most = longest_;
-    for (int i = 0; i < 3; ++i) {
-      const double l =
-          length(t[static_cast<std::size_t>(i)], t[static_cast<std::size_t>((i + 1) % 3)]);
-      if (l > most) most = l, found = i;
-    }
-    return found;
+    const std::array<double, 3> lengths{length(t[0], t[1]), length(t[1], t[2]), length(t[2], t[0])};
+    return static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
   }
 
   /// Adds the points and tells the triangles of them; empty if nothing is to be split.
   std::vector<SplitTriangle> find_middles() {
-    const auto edges = sorted_half_edges(surface_.triangles, surface_.points.size());
-    std::vector<int> longest(surface_.triangles.size());
-    for (std::size_t t = 0; t < longest.size(); ++t)
-      longest[t] = longest_edge(surface_.triangles[t]);
-    std::vector<SplitTriangle> split;
-    for (const Triangle& t : surface_.triangles) split.push_back({t});
-    const std::size_t before = surface_.points.size();
-    for_each_edge(edges, [&](std::span<const HalfEdge> edge) {
-      const bool asked = std::any_of(edge.begin(), edge.end(), [&](const HalfEdge& h) {
-        return longest[static_cast<std::size_t>(h.triangle)] == h.corner;
+    const auto half_edges = sorted_half_edges(surface_.triangles, surface_.points.size());
+    std::vector<std::span<const HalfEdge>> edges;
+    for_each_edge(half_edges, [&edges](std::span<const HalfEdge> edge) { edges.push_back(edge); });
+    std::vector<char> wanted(edges.size()), asked(edges.size());
+    parallel_for(edges.size(), [&](std::size_t e) {
+      const HalfEdge& edge = edges[e][0];
+      wanted[e] = rule_(surface_.points[edge.lo], surface_.points[edge.hi]) ? 1 : 0;
+    });
+    // A triangle is split at its longest edge, whichever is wanted: others would make needles.
+    std::vector<char> triangle_wanted(surface_.triangles.size());
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      if (wanted[e] == 0) continue;
+      for (const HalfEdge& h : edges[e]) triangle_wanted[static_cast<std::size_t>(h.triangle)] = 1;
+    }
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      asked[e] = std::any_of(edges[e].begin(), edges[e].end(), [&](const HalfEdge& h) {
+        return triangle_wanted[static_cast<std::size_t>(h.triangle)] != 0 &&
+               h.corner == longest_edge(surface_.triangles[static_cast<std::size_t>(h.triangle)]);
       });
-      if (!asked) return;
+    }
+    std::vector<SplitTriangle> split;
+    if (std::find(asked.begin(), asked.end(), 1) == asked.end()) return split;
+    for (const Triangle& t : surface_.triangles) split.push_back({t});
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      if (asked[e] == 0) continue;
+      const HalfEdge& edge = edges[e][0];
       const auto middle = static_cast<Index>(surface_.points.size());
-      surface_.points.push_back(0.5 * (surface_.points[edge[0].lo] + surface_.points[edge[0].hi]));
-      for (const HalfEdge& h : edge) {
+      surface_.points.push_back(0.5 * (surface_.points[edge.lo] + surface_.points[edge.hi]));
+      for (const HalfEdge& h : edges[e]) {
         split[static_cast<std::size_t>(h.triangle)].middles[static_cast<std::size_t>(h.corner)] =
             middle;
       }
-    });
-    if (surface_.points.size() == before) split.clear();
+    }
     return split;
   }
 
@@ -109,15 +115,14 @@ class Splitter {
   }
 
   TriMesh& surface_;
-  double longest_;
-  Vec3 unit_;
+  const SplitRule& rule_;
 };
 
 }  // namespace
 
-TriMesh split_long_edges(TriMesh surface, double longest, const Vec3& unit) {
+TriMesh split_edges(TriMesh surface, const SplitRule& rule) {
   require_sound(surface);
-  Splitter splitter(surface, longest, unit);
+  Splitter splitter(surface, rule);
   while (splitter.round()) {
   }
   return surface;

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {
 
-/// Splits the edges of a surface at their middles until none is longer than a length. The surface
-/// stays where it is: new points lie on its triangles. A closed surface stays closed.
+/// Whether the edge between two points is to be split; called from several threads.
+using SplitRule = std::function<bool(const Vec3&, const Vec3&)>;
+
+/// Splits edges of a surface at their middles, and the edges that come about, as long as a rule
+/// asks for it. The surface stays where it is: new points lie on its triangles. A closed surface
+/// stays closed.
 /// @param surface  n points, mm or any unit.
-/// @param longest  > 0, in multiples of `unit`.
-/// @param unit     lengths along the axes that count as one, > 0, in the surface's unit: the sides
-///                 of a voxel make edges count in voxels.
+/// @param rule     must refuse short edges, or the splitting does not end. Sees the end points in
+///                 either order.
+/// @return the points of the surface first, in their order.
 /// @throws InputError  as require_sound().
 ///
-/// O(m log m) for m triangles in the end.
-TriMesh split_long_edges(TriMesh surface, double longest, const Vec3& unit);
+/// O(m log m) for m triangles in the end, and one call of the rule per edge and round.
+TriMesh split_edges(TriMesh surface, const SplitRule& rule);
 
 }  // namespace mesamis
