@@ -11,6 +11,8 @@
 namespace mesamis {
 namespace {
 
+constexpr int kRounds = 30;  // enough for all
+
 double longest_edge(const TriMesh& surface) {
   double most = 0;
   for (const Triangle& t : surface.triangles) {
@@ -27,7 +29,7 @@ SplitRule longer_than(double longest) {
 
 TEST(SplitEdges, LeavesNoneThatTheRuleAsksForAndTheSurfaceWhereItIs) {
   for (const double longest : {2.0, 0.8, 0.3, 0.07}) {
-    const TriMesh split = split_edges(cube(), longer_than(longest));
+    const TriMesh split = split_edges(cube(), longer_than(longest), kRounds);
     EXPECT_LE(longest_edge(split), longest);
     const SurfaceCheck check = check_surface(split);
     EXPECT_EQ(check.open_edges + check.nonmanifold_edges + check.misoriented_edges, 0);
@@ -39,25 +41,34 @@ TEST(SplitEdges, LeavesNoneThatTheRuleAsksForAndTheSurfaceWhereItIs) {
 
 TEST(SplitEdges, SplitsOnlyWhereTheRuleAsks) {
   // Edges near one corner of the cube only: triangles with one and two split edges come about.
-  const TriMesh split = split_edges(cube(), [](const Vec3& a, const Vec3& b) {
-    return norm(a - b) > 0.2 && norm(0.5 * (a + b)) < 0.4;
-  });
+  const TriMesh split = split_edges(
+      cube(),
+      [](const Vec3& a, const Vec3& b) { return norm(a - b) > 0.2 && norm(0.5 * (a + b)) < 0.6; },
+      kRounds);
   EXPECT_GT(split.triangles.size(), 12u);
   const SurfaceCheck check = check_surface(split);
   EXPECT_EQ(check.open_edges + check.nonmanifold_edges + check.misoriented_edges, 0);
   EXPECT_NEAR(check.volume, 1, 1e-12);
-  EXPECT_LT(split.triangles.size(), split_edges(cube(), longer_than(0.2)).triangles.size() / 2);
+  EXPECT_LT(split.triangles.size(),
+            split_edges(cube(), longer_than(0.2), kRounds).triangles.size() / 2);
+}
+
+TEST(SplitEdges, EndsAfterItsRounds) {
+  const auto always = [](const Vec3&, const Vec3&) { return true; };
+  EXPECT_EQ(split_edges(cube(), always, 0).triangles, cube().triangles);
+  EXPECT_EQ(split_edges(cube(), always, 1).triangles.size(), 24u);
+  EXPECT_GT(split_edges(cube(), always, 3).triangles.size(), 60u);
 }
 
 TEST(SplitEdges, LeavesTheOthersAlone) {
   const TriMesh before = cube();
-  const TriMesh after = split_edges(before, longer_than(2));
+  const TriMesh after = split_edges(before, longer_than(2), kRounds);
   EXPECT_EQ(after.triangles, before.triangles);
   EXPECT_EQ(after.points.size(), before.points.size());
 }
 
 TEST(SplitEdges, SameBitsForAnyNumberOfThreads) {
-  const auto split = [] { return split_edges(cube(), longer_than(0.05)); };
+  const auto split = [] { return split_edges(cube(), longer_than(0.05), kRounds); };
   const TriMesh one = with_threads(1, split), three = with_threads(3, split);
   EXPECT_EQ(one.triangles, three.triangles);
 }

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kShortestEdge = 1;  // voxels: shorter ones are not split
 constexpr double kLeastBend = 0.03;  // voxels between an edge and the level set that are worth it
+constexpr int kMostRounds = 8;       // of splitting: two cut an edge to a half
 constexpr double kMostMove = 0.7;    // voxels
 /// Voxels of noise beyond which the image tells nothing that the mesh does not.
 constexpr double kMostNoise = 0.3;
@@ -95,8 +96,9 @@ class Follower {
   }
 
   TriMesh run() {
-    surface_ = split_edges(std::move(surface_),
-                           [this](const Vec3& a, const Vec3& b) { return is_bent(a, b); });
+    surface_ = split_edges(
+        std::move(surface_), [this](const Vec3& a, const Vec3& b) { return is_bent(a, b); },
+        kMostRounds);
     const Neighbors neighbors(surface_);
     const std::vector<double> ones(surface_.points.size(), 1);
     const std::vector<Vec3> normals =
@@ -191,10 +193,10 @@ class Follower {
   /// Moves all points, then takes moves back, first half, then whole, where triangles meet. In the
   /// end, where the surface was not moved at all, none do.
   TriMesh moved_without_folds(std::vector<Vec3> shifts) const {
-    constexpr int kHalvings = 2, kMostRounds = 40;
+    constexpr int kHalvings = 2, kMostTrials = 40;
     std::vector<int> taken_back(shifts.size(), 0);
     TriMesh moved = surface_;
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMostTrials; ++round) {
       for (std::size_t p = 0; p < shifts.size(); ++p) {
         moved.points[p] = surface_.points[p] + shifts[p];
       }

@@ -120,10 +120,10 @@ class Splitter {
 
 }  // namespace
 
-TriMesh split_edges(TriMesh surface, const SplitRule& rule) {
+TriMesh split_edges(TriMesh surface, const SplitRule& rule, int rounds) {
   require_sound(surface);
   Splitter splitter(surface, rule);
-  while (splitter.round()) {
+  for (int n = 0; n < rounds && splitter.round(); ++n) {
   }
   return surface;
 }

@@ -10,16 +10,16 @@ namespace mesamis {
 /// Whether the edge between two points is to be split; called from several threads.
 using SplitRule = std::function<bool(const Vec3&, const Vec3&)>;
 
-/// Splits edges of a surface at their middles, and the edges that come about, as long as a rule
-/// asks for it. The surface stays where it is: new points lie on its triangles. A closed surface
-/// stays closed.
+/// Splits edges of a surface at their middles, round by round, where a rule asks for it. Each round
+/// splits the longest edge of every triangle that has an edge to split. The surface stays where it
+/// is: new points lie on its triangles. A closed surface stays closed.
 /// @param surface  n points, mm or any unit.
-/// @param rule     must refuse short edges, or the splitting does not end. Sees the end points in
-///                 either order.
+/// @param rule     sees the end points in either order.
+/// @param rounds   at most: a rule that never refuses, or needles, would be split for ever.
 /// @return the points of the surface first, in their order.
 /// @throws InputError  as require_sound().
 ///
 /// O(m log m) for m triangles in the end, and one call of the rule per edge and round.
-TriMesh split_edges(TriMesh surface, const SplitRule& rule);
+TriMesh split_edges(TriMesh surface, const SplitRule& rule, int rounds);
 
 }  // namespace mesamis
