@@ -55,10 +55,9 @@ std::int64_t default_max_tets(double area, const Vec3& spacing) {
       std::clamp<double>(kCellsPerSquare * area / (side * side), kFewestTets, kMostTets));
 }
 
-double default_tolerance(double voxel, double contrast, double noise) {
-  constexpr double kMost = 0.1, kLeast = 0.03, kNoise = 0.08;
-  if (!(contrast > 0)) return kMost * voxel;
-  return voxel * std::clamp(kMost * noise / (kNoise * contrast), kLeast, kMost);
+double default_tolerance(double voxel, double edge_noise) {
+  constexpr double kLeast = 0.03, kMost = 0.1;
+  return voxel * std::clamp(edge_noise, kLeast, kMost);
 }
 
 double default_gamma(double epsilon, double beta, double contrast, double noise) {

@@ -75,16 +75,15 @@ inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
 /// O(1).
 std::int64_t default_max_tets(double area, const Vec3& spacing);
 
-/// The default of tolerance: a tenth of a voxel where the noise is 8 % of the contrast or more, in
-/// proportion to it below, but no less than 0.03 voxel: the surface is then that exact.
-/// @param voxel     geometric mean of the spacing, mm, > 0.
-/// @param contrast  of the object, >= 0; 0 (unknown) counts as noise enough.
-/// @param noise     left in the image, in the unit of the contrast, >= 0.
+/// The default of tolerance: by how much the noise moves an edge at a voxel, but no less than 0.03
+/// and no more than 0.1 voxel. A surface that is kept closer would keep noise.
+/// @param voxel       geometric mean of the spacing, mm, > 0.
+/// @param edge_noise  left in the image, against the slope of the object's edges, voxels, >= 0.
 /// @return mm.
 /// @throws nothing
 ///
 /// O(1).
-double default_tolerance(double voxel, double contrast, double noise);
+double default_tolerance(double voxel, double edge_noise);
 
 /// The default of gamma, 4 epsilon beta (0.07 c + 0.25 n)^2.
 ///

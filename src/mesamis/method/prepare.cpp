@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <sstream>
 
@@ -20,6 +21,8 @@ namespace {
 /// Voxels: what is smaller cannot be told from noise.
 constexpr double kDefaultMinVolume = 4;
 /// The paper's T of (13), of 255 grey values.
+/// Voxels: what an edge is blurred by at least, by the extent of the voxels.
+constexpr double kSharpest = 0.3;
 constexpr double kPaperThreshold = 140;
 
 /// A quarter of the box's longest side, in length units.
@@ -77,6 +80,13 @@ Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
   p.tolerance = s.tolerance.value_or(std::numeric_limits<double>::infinity());
   p.triangles = s.triangles.value_or(0);
   return p;
+}
+
+/// By how much the noise that is left moves an edge of this blur, voxels.
+double edge_noise(const Restored& restored, double contrast) {
+  const auto [x, y, z] = restored.blur;
+  const double blur = std::max(kSharpest, std::cbrt(x * y * z));
+  return std::sqrt(2 * std::numbers::pi) * blur * restored.noise_left / contrast;
 }
 
 /// What restore() makes of the image; where restoring is off, the image as it is, with its noise.
@@ -188,9 +198,8 @@ Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
     p.max_tets = default_max_tets(level_area(smoothed(restored.volume), p.level), volume.spacing);
   }
   const double contrast = object.contrast.difference();
-  if (!settings.tolerance && !settings.triangles) {
-    p.tolerance =
-        contrast > 0 ? default_tolerance(volume.voxel_size(), contrast, restored.noise_left) : 0;
+  if (!settings.tolerance && !settings.triangles && contrast > 0) {
+    p.tolerance = default_tolerance(volume.voxel_size(), edge_noise(restored, contrast));
   }
   if (!settings.gamma) {
     p.functional.gamma = choose_gamma(p, contrast, restored.noise_left);

@@ -137,6 +137,9 @@ void require_range(const char* name, double value, double low, double high) {
   throw InputError(message.str());
 }
 
+/// The fourth-order second difference of a wave with this angle per voxel, negative.
+double symbol_at(double angle) { return (15 - 16 * std::cos(angle) + std::cos(2 * angle)) / 6; }
+
 }  // namespace
 
 Volume deblurred(const VolumeView& volume, const std::array<double, 3>& blur,
@@ -166,6 +169,26 @@ Volume deblurred(const VolumeView& volume, const std::array<double, 3>& blur,
     add(result.samples, c[n], present);
   }
   return result;
+}
+
+double noise_gain(const std::array<double, 3>& blur, double regularization) {
+  constexpr int kAngles = 32;  // along each axis, at the middles of as many parts of [0, pi]
+  std::array<double, kAngles> symbols;
+  for (int n = 0; n < kAngles; ++n) {
+    symbols[static_cast<std::size_t>(n)] = symbol_at((n + 0.5) * std::numbers::pi / kAngles);
+  }
+  const auto [x, y, z] = blur;
+  double sum = 0;
+  for (const double along_z : symbols) {
+    for (const double along_y : symbols) {
+      const double across = z * z * along_z + y * y * along_y;
+      for (const double along_x : symbols) {
+        const double w = filter_at(across + x * x * along_x, regularization);
+        sum += w * w;
+      }
+    }
+  }
+  return std::sqrt(sum / (kAngles * kAngles * kAngles));
 }
 
 }  // namespace mesamis

@@ -29,6 +29,15 @@ namespace mesamis {
 Volume deblurred(const VolumeView& volume, const std::array<double, 3>& blur,
                  double regularization);
 
+/// Finds by how much deblurred() changes white noise: the root mean square of W over all
+/// frequencies of the grid.
+/// @param blur, regularization  as deblurred() takes them.
+/// @return deviation of the noise after it, per deviation before; > 0.
+/// @throws nothing
+///
+/// O(1).
+double noise_gain(const std::array<double, 3>& blur, double regularization);
+
 inline constexpr double kLargestBlur = 3;  ///< voxels
 
 }  // namespace mesamis

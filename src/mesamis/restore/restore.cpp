@@ -64,6 +64,7 @@ void undo_blur(Restored& restored, const Volume& guide, const ObjectContrast& co
     sheets.regularization =
         choose_regularization(restored.noise, contrast.difference(), restored.blur);
     restored.volume = deblurred(restored.volume, restored.blur, *sheets.regularization);
+    restored.noise_left *= noise_gain(restored.blur, *sheets.regularization);
   }
   lift_thin_sheets(restored.volume, guide, sheets);
 }
@@ -93,8 +94,8 @@ Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOpt
     restored.blur =
         measure_blur(restored.volume, thick_places(guide.image, guide.points, object.level));
   }
+  restored.noise_left = restored.noise;
   undo_blur(restored, guide.image, object.contrast);
-  restored.noise_left = noise_now();
   return restored;
 }
 

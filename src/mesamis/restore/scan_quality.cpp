@@ -29,15 +29,20 @@ std::optional<std::array<Index, 3>> voxel_at(const VoxelGrid& grid, const Vec3& 
   return voxel;
 }
 
-/// How far a voxel is from the mean of the 3x3x3 around it.
+/// How far a voxel is from the quadratic polynomial that fits the 3x3x3 around it best.
 double deviation_at(const VolumeView& volume, const std::array<Index, 3>& voxel) {
-  double sum = 0;
+  // Weights by the number of axes along which a neighbour is off the middle.
+  constexpr std::array<double, 4> kWeights{7.0 / 27, 4.0 / 27, 1.0 / 27, -2.0 / 27};
+  double fitted = 0;
   for (Index k = -1; k <= 1; ++k) {
     for (Index j = -1; j <= 1; ++j) {
-      for (Index i = -1; i <= 1; ++i) sum += volume.at(voxel[0] + i, voxel[1] + j, voxel[2] + k);
+      for (Index i = -1; i <= 1; ++i) {
+        const auto axes = static_cast<std::size_t>(std::abs(i) + std::abs(j) + std::abs(k));
+        fitted += kWeights[axes] * volume.at(voxel[0] + i, voxel[1] + j, voxel[2] + k);
+      }
     }
   }
-  return std::abs(volume.at(voxel[0], voxel[1], voxel[2]) - sum / 27);
+  return std::abs(volume.at(voxel[0], voxel[1], voxel[2]) - fitted);
 }
 
 /// Slopes along the normals, native units per voxel: of the points whose normal is nearly an axis,
@@ -63,8 +68,7 @@ std::array<std::vector<double>, 4> slopes_by_axis(const VolumeView& volume,
 
 double measure_noise(const VolumeView& volume, const VolumeView& guide,
                      const std::vector<SurfacePoint>& points, double level) {
-  const double share =
-      std::sqrt(26.0 / 27);  // left of white noise without its neighbourhood's mean
+  const double share = std::sqrt(20.0 / 27);  // of white noise, left by the fit
   std::optional<double> quieter;
   for (const double distance : {-2.5, 2.5}) {  // voxels
     std::vector<double> deviations;

@@ -12,10 +12,11 @@ namespace mesamis {
 
 /// Measures the standard deviation of the image's noise.
 ///
-/// It is that of the differences between voxels and the mean of their 3x3x3 neighbourhood, two and
-/// a half voxels outside and inside of the object's surface, away from edges. It is robust (from
-/// medians), so that impulses do not count, and that of the quieter side: spongy bone is no noise.
-/// Noise that is correlated over many voxels is not seen.
+/// It is that of the differences between voxels and the quadratic polynomial through their 3x3x3
+/// neighbourhood, two and a half voxels outside and inside of the object's surface: fine structure,
+/// blurred over a voxel or more, is no noise. It is robust (from medians), so that impulses do not
+/// count, and that of the quieter side: spongy bone is no noise either. Noise that is correlated
+/// over many voxels is not seen.
 /// @param volume  native values.
 /// @param guide   the same image, smoothed, on the same grid: tells the sides of the level apart.
 /// @param points  of the surface {guide = level}.
