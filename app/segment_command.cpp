@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +39,7 @@ struct SegmentOptions {
   std::string series;
   std::string name = "mesamis surface";  // never the scan's, which may be the patient's
   Frame frame = Frame::kLps;
+  bool error = false;
   MeshOptions mesh;
   SettingsArguments settings;
 };
@@ -64,15 +66,24 @@ SurfaceWriteOptions surface_options(const SegmentOptions& options, const Result&
                                     double voxel) {
   const bool grey = std::any_of(options.surfaces.begin(), options.surfaces.end(), carries_grey);
   const std::string program = std::string("mesamis ") + version() + " (" + commit() + ")";
-  return {options.frame,
-          options.name,
-          grey ? surface_grey(result, voxel) : std::vector<double>{},
-          {{"producer", program}, {"settings", to_json(settings_of(result.parameters)).dump()}}};
+  SurfaceWriteOptions as{
+      options.frame,
+      options.name,
+      grey ? surface_grey(result, voxel) : std::vector<double>{},
+      {{"producer", program}, {"settings", to_json(settings_of(result.parameters)).dump()}}};
+  if (options.error && !result.expected_error.empty()) {
+    as.point_arrays.push_back({"expected_error_mm", result.expected_error});
+  }
+  return as;
 }
 
 void require_outputs(const SegmentOptions& options) {
   for (const fs::path& path : options.surfaces) {
     require_output(path, written_surface_formats(), "--output");
+  }
+  if (options.error &&
+      std::none_of(options.surfaces.begin(), options.surfaces.end(), carries_arrays)) {
+    throw CLI::ValidationError("--error", "expected a .vtp or .ply among --output, found none");
   }
   for (const fs::path& path : options.meshes) {
     require_output(path, written_mesh_formats(), "--mesh");
@@ -138,6 +149,9 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   command->add_option("input", options->input, "Volume file, DICOM directory or file")->required();
   command->add_option("-o,--output", options->surfaces,
                       listed("Surface:", written_surface_formats()));
+  command->add_flag("--error", options->error,
+                    "Write the error expected at each point, mm, into --output .vtp and .ply, as "
+                    "expected_error_mm");
   add_mesh_options(*command, options);
   command->add_option("--report", options->report, "Report: .json");
   command->add_option("--series", options->series, "DICOM series UID");

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -168,6 +169,23 @@ TEST(SegmentCommand, WritesTheObjectAloneInBinsTheSameForAnyNumberOfThreads) {
   for (std::size_t b = 0; b < 6; ++b) EXPECT_EQ(region["bins"][b]["cells"], counts[b]);
 }
 
+TEST(SegmentCommand, WritesTheErrorItExpects) {
+  const TempFolder folder;
+  write_ball(folder, 24);
+  const ProgramRun run = run_program(
+      folder, {"segment", folder / "ball.nrrd", "-o", folder / "a.vtp", "-o", folder / "a.ply",
+               "--error", "--report", folder / "a.json", "--max-tets", "10000", "--quiet"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const auto errors = read_point_array(folder / "a.vtp", "expected_error_mm");
+  EXPECT_EQ(errors, read_point_array(folder / "a.ply", "expected_error_mm"));
+  const auto told = report_of(folder, "a")["surface"]["expected_error_mm"];
+  const auto [least, most] = std::minmax_element(errors.begin(), errors.end());
+  EXPECT_GT(*least, 0);
+  EXPECT_LT(*least, told["mean"]);
+  EXPECT_LE(told["mean"], told["percentile_90"]);
+  EXPECT_LE(told["percentile_90"], *most);
+}
+
 TEST(SegmentCommand, GivesTheScansOwnValuesBeyondTheWindow) {
   const TempFolder folder;
   write_ball(folder, 20);  // 230 inside, 120 outside
@@ -215,6 +233,8 @@ TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
     EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--bins", bins})), 2,
                  "--bins");
   }
+  EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--error"})), 2,
+               "--error: expected a .vtp or .ply among --output, found none");
   EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--mesh-region", "ball"})), 2,
                "ball not in {box,object}");
   EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a",

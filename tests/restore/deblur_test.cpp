@@ -60,17 +60,19 @@ TEST(Deblur, EveryWaveIsScaledByTheFilter) {
 }
 
 TEST(Deblur, NoiseGrowsByItsGain) {
-  const Volume flat = sampled_volume({40, 48, 44}, {1, 1, 1}, [](const Vec3&) { return 100; });
+  const Volume flat = sampled_volume({64, 72, 68}, {1, 1, 1}, [](const Vec3&) { return 100; });
   const Volume noise = degrade(flat, {.noise = 10});
-  const auto deviation = [](const Volume& volume) {
+  const auto deviation = [](const Volume& volume) {  // away from the borders, which mirror it
+    const CropRange inner{{10, 10, 10}, {54, 62, 58}};
+    const std::vector<float> samples = crop(volume, inner).samples;
     double squares = 0;
-    for (const float x : volume.samples) squares += (x - 100) * (x - 100);
-    return std::sqrt(squares / static_cast<double>(volume.samples.size()));
+    for (const float x : samples) squares += (x - 100) * (x - 100);
+    return std::sqrt(squares / static_cast<double>(samples.size()));
   };
   for (const double regularization : {0.002, 0.05, 1.0}) {
     const double gain = noise_gain(kUnequal, regularization);
     EXPECT_NEAR(deviation(deblurred(noise, kUnequal, regularization)) / deviation(noise), gain,
-                0.02 * gain);
+                0.03 * gain);
   }
   EXPECT_DOUBLE_EQ(noise_gain({0, 0, 0}, kRegularization), 1);
 }

@@ -30,6 +30,22 @@ TEST(Ply, ReadsTextWithMoreThanItNeeds) {
   EXPECT_EQ(surface.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 4}}));
 }
 
+TEST(Ply, ArraysOnItsPointsAreReadBackByName) {
+  const TempFolder folder;
+  const TriMesh surface{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  const std::vector<double> one{0.5, -1, 1e-300}, two{3, 4, 1.0 / 3};
+  write_surface(folder / "a.ply", surface, {.point_arrays = {{"one", one}, {"two", two}}});
+  EXPECT_EQ(read_surface(folder / "a.ply").points, surface.points);
+  EXPECT_EQ(read_surface(folder / "a.ply").triangles, surface.triangles);
+  EXPECT_EQ(read_point_array(folder / "a.ply", "one"), one);
+  EXPECT_EQ(read_point_array(folder / "a.ply", "two"), two);
+  EXPECT_REFUSED(read_point_array(folder / "a.ply", "three"), HasSubstr("there is x, y, z, one"));
+  write_bytes(folder / "b.ply", kTextPly);
+  EXPECT_EQ(read_point_array(folder / "b.ply", "red"), std::vector<double>(5, 9));
+  write_bytes(folder / "b.ply", std::string(kTextPly).substr(0, 300));
+  EXPECT_REFUSED(read_point_array(folder / "b.ply", "red"), HasSubstr("b.ply"));
+}
+
 TEST(Ply, ReadsBigEndian) {
   const TempFolder folder;
   std::string bytes =

@@ -40,13 +40,15 @@ TEST(Vtp, ArraysOnItsPointsAreReadBackByName) {
   EXPECT_REFUSED(read_point_array(folder / "a.vtp", "three"), HasSubstr("there is one, two"));
   write_surface(folder / "b.vtp", surface);
   EXPECT_REFUSED(read_point_array(folder / "b.vtp", "one"), HasSubstr("there is none"));
-  write_surface(folder / "c.ply", surface);
-  EXPECT_REFUSED(read_point_array(folder / "c.ply", "one"), HasSubstr("only .vtp"));
+  write_surface(folder / "c.stl", surface);
+  EXPECT_REFUSED(read_point_array(folder / "c.stl", "one"), HasSubstr("only .vtp and .ply"));
   EXPECT_REFUSED(write_surface(folder / "d.vtp", surface, {.point_arrays = {{"short", {1, 2}}}}),
                  HasSubstr("per point (8), found 2"));
   EXPECT_REFUSED(write_surface(folder / "d.vtp", surface,
                                {.point_arrays = {{"x", std::vector<double>(8, std::nan(""))}}}),
                  HasSubstr("not finite"));
+  EXPECT_REFUSED(write_surface(folder / "d.vtp", surface, {.point_arrays = {{"a b", values}}}),
+                 HasSubstr("one word"));
   EXPECT_FALSE(std::filesystem::exists(folder / "d.vtp"));
 }
 

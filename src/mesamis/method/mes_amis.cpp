@@ -9,6 +9,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/stopwatch.h"
+#include "mesamis/method/expected_error.h"
 #include "mesamis/method/follow_image.h"
 #include "mesamis/method/passes.h"
 #include "mesamis/method/prepare.h"
@@ -121,6 +122,14 @@ void deliver(const RunInput& run, Loop loop, Result& result) {
   result.iterations = std::move(loop.passes);
 }
 
+std::vector<double> error_of(const RunInput& run, const Result& result) {
+  const Parameters& p = result.parameters;
+  const double grey_per_native = p.grey.to_grey(1) - p.grey.to_grey(0);
+  return expected_error(
+      result.surface, run.image,
+      {result.image.noise_left * grey_per_native, result.image.contrast * grey_per_native, p.blur});
+}
+
 /// The solid is made printable; the paper's band is delivered as it is.
 void finish_surface(const Progress& progress, Result& result) {
   const Parameters& p = result.parameters;
@@ -139,7 +148,7 @@ Result run_on(const VolumeView& volume, const Settings& settings, const Progress
   (void)Stage(progress, "preparation");
   const Prepared prepared = prepare_image(volume, settings);
   p = prepared.parameters;
-  result.image = {prepared.noise_left, prepared.impulses};
+  result.image = {prepared.noise_left, prepared.impulses, prepared.contrast};
   result.seconds.prepare = watch.lap();
 
   const RunInput run(prepared);
@@ -154,6 +163,7 @@ Result run_on(const VolumeView& volume, const Settings& settings, const Progress
   deliver(run, std::move(loop), result);
   watch.lap();
   finish_surface(progress, result);
+  if (p.surface == SurfaceKind::kSolid) result.expected_error = error_of(run, result);
   result.seconds.printable = watch.lap();
   return result;
 }

@@ -22,6 +22,7 @@ struct Result {
   struct Image {
     double noise_left = 0;  ///< standard deviation after restoring, native units
     double impulses = 0;    ///< share of the voxels that were replaced, 0 to 1
+    double contrast = 0;    ///< of the object, native units
   } image;
 
   TetMesh mesh;
@@ -29,6 +30,9 @@ struct Result {
   std::vector<Sym3> metric;     ///< that the mesh was made for, at the nodes, 1/mm^2
   MeshFit fit;                  ///< how well the mesh fits it
   TriMesh surface;
+  /// How far the points of a solid are expected to lie from the truth, mm, see expected_error();
+  /// empty for a band.
+  std::vector<double> expected_error;
   PrintableReport printable;  ///< which parts of the surface were dropped, how it was decimated
 
   std::vector<Iteration> iterations;  ///< the last one is the final minimisation

@@ -21,9 +21,9 @@ namespace {
 /// Voxels: what is smaller cannot be told from noise.
 constexpr double kDefaultMinVolume = 4;
 /// The paper's T of (13), of 255 grey values.
+constexpr double kPaperThreshold = 140;
 /// Voxels: what an edge is blurred by at least, by the extent of the voxels.
 constexpr double kSharpest = 0.3;
-constexpr double kPaperThreshold = 140;
 
 /// A quarter of the box's longest side, in length units.
 double default_h_max(const VoxelGrid& volume, double unit_mm) {
@@ -197,7 +197,7 @@ Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
   if (!settings.max_tets) {
     p.max_tets = default_max_tets(level_area(smoothed(restored.volume), p.level), volume.spacing);
   }
-  const double contrast = object.contrast.difference();
+  const double contrast = prepared.contrast = object.contrast.difference();
   if (!settings.tolerance && !settings.triangles && contrast > 0) {
     p.tolerance = default_tolerance(volume.voxel_size(), edge_noise(restored, contrast));
   }

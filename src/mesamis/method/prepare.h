@@ -15,6 +15,7 @@ struct Prepared {
   Parameters parameters;
   double noise_left = 0;  ///< standard deviation in the image below, native units
   double impulses = 0;    ///< share of the voxels that were replaced, 0 to 1
+  double contrast = 0;    ///< of the object, native units; not positive: none was found
   Volume grey;            ///< the volume, restored, in grey values
   /// The same between the voxels: the spline through what the bounds have not cut yet.
   SplineImage image;

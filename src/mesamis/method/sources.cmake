@@ -11,6 +11,7 @@ set(ROOM_HEADERS
   settings.h)
 set(ROOM_SOURCES
   available_memory.cpp
+  expected_error.cpp
   follow_image.cpp
   memory.cpp
   mes_amis.cpp

@@ -84,6 +84,8 @@ ordered_json surface_json(const RunSummary& run) {
   if (solid) {
     j["level_native"] = p.level;
     j["level_grey"] = p.grey.to_grey(p.level);
+    j["expected_error_mm"] = {{"mean", run.expected_error.mean},
+                              {"percentile_90", run.expected_error.percentile90}};
     j.update(printable_json(run.printable, p.tolerance));
   }
   j.update(check_json(run.triangles, run.vertices, run.check));
@@ -173,7 +175,9 @@ ordered_json run_json(const Settings& asked, const RunSummary& run) {
   report["chosen"] = chosen_json(asked);
   report["given"] = given_json(asked);
   report["grey"] = grey_json(run.parameters);
-  report["image"] = {{"noise_left", run.image.noise_left}, {"impulse_share", run.image.impulses}};
+  report["image"] = {{"noise_left", run.image.noise_left},
+                     {"impulse_share", run.image.impulses},
+                     {"contrast", run.image.contrast}};
   report["iterations"] = ordered_json::array();
   const std::size_t passes = run.iterations.size();
   for (std::size_t i = 0; i < passes; ++i) {

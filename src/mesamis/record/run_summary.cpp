@@ -30,6 +30,9 @@ RunSummary summarize(const Result& result, const SurfaceCheck& check) {
   summary.vertices = count(result.surface.points);
   summary.check = check;
   summary.self_intersections = count(find_self_intersections(result.surface));
+  if (!result.expected_error.empty()) {
+    summary.expected_error = summarize_error(result.surface, result.expected_error);
+  }
   summary.printable = result.printable;
   summary.converged = result.converged;
   summary.seconds = result.seconds;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesamis/method/expected_error.h"
 #include "mesamis/method/mes_amis.h"
 #include "mesamis/surface/tri_mesh.h"
 
@@ -20,6 +21,7 @@ struct RunSummary {
   std::int64_t vertices = 0;            ///< of the surface delivered
   SurfaceCheck check;                   ///< of the surface delivered
   std::int64_t self_intersections = 0;  ///< pairs of triangles of the surface delivered
+  ErrorSummary expected_error;          ///< of the surface delivered; zeros for a band
   PrintableReport printable;
   bool converged = false;
   Result::Seconds seconds;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdint>
 
 #include "mesamis/files/number_type.h"
@@ -179,6 +180,29 @@ void read_face(Values& values, const Element& element, PolygonSink& sink) {
   }
 }
 
+/// One property of every vertex.
+std::vector<double> read_array(const fs::path& file, Values& values, const Element& element,
+                               const std::string& name) {
+  const auto is_wanted = [&name](const Property& p) { return !p.is_list && p.name == name; };
+  if (std::none_of(element.properties.begin(), element.properties.end(), is_wanted)) {
+    std::string known;
+    for (const Property& p : element.properties) known += (known.empty() ? "" : ", ") + p.name;
+    refuse(file, "has no array " + in_quotes(name) + " to colour by; there is " +
+                     (known.empty() ? "none" : known));
+  }
+  std::vector<double> array;
+  for (std::int64_t i = 0; i < element.count; ++i) {
+    for (const Property& property : element.properties) {
+      if (!is_wanted(property)) {
+        skip(values, property);
+      } else {
+        array.push_back(values.next(property.type));
+      }
+    }
+  }
+  return array;
+}
+
 bool has_coordinates(const Element& element) {
   int found = 0;
   for (const Property& p : element.properties) {
@@ -193,11 +217,15 @@ std::string ply_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
   std::string out = "ply\nformat binary_little_endian 1.0\ncomment " + frame_note(options.frame);
   if (!options.name.empty()) out += "\ncomment " + options.name;
   out += say("\nelement vertex ", surface.points.size(), "\nproperty double x",
-             "\nproperty double y", "\nproperty double z", "\nelement face ",
-             surface.triangles.size(), "\nproperty list uchar int vertex_indices\nend_header\n");
-  out.reserve(out.size() + 24 * surface.points.size() + 13 * surface.triangles.size());
-  for (const Vec3& p : surface.points) {
-    for (int axis = 0; axis < 3; ++axis) append(out, p[axis] + 0.0);  // no -0
+             "\nproperty double y", "\nproperty double z");
+  for (const PointArray& array : options.point_arrays) out += "\nproperty double " + array.name;
+  out += say("\nelement face ", surface.triangles.size(),
+             "\nproperty list uchar int vertex_indices\nend_header\n");
+  const std::size_t bytes_per_point = 8 * (3 + options.point_arrays.size());
+  out.reserve(out.size() + bytes_per_point * surface.points.size() + 13 * surface.triangles.size());
+  for (std::size_t n = 0; n < surface.points.size(); ++n) {
+    for (int axis = 0; axis < 3; ++axis) append(out, surface.points[n][axis] + 0.0);  // no -0
+    for (const PointArray& array : options.point_arrays) append(out, array.values[n]);
   }
   for (const Triangle& t : surface.triangles) {
     append(out, std::uint8_t{3});
@@ -227,6 +255,19 @@ SurfaceFile parse_ply(const fs::path& file, std::string_view bytes) {
     }
   }
   return {std::move(surface), header.frame};
+}
+
+std::vector<double> parse_ply_array(const fs::path& file, std::string_view bytes,
+                                    const std::string& name) {
+  const Header header = take_header(file, bytes);
+  Values values(file, bytes, header.format);
+  for (const Element& element : header.elements) {
+    if (element.name == "vertex") return read_array(file, values, element, name);
+    for (std::int64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
+      for (const Property& property : element.properties) skip(values, property);
+    }
+  }
+  refuse(file, "has no element vertex");
 }
 
 }  // namespace mesamis::detail

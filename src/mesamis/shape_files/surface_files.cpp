@@ -98,6 +98,14 @@ void require_values(const fs::path& path, const char* what, const std::vector<do
   }
 }
 
+/// As headers of .ply have it.
+void require_one_word(const fs::path& path, const std::string& name) {
+  const auto is_blank = [](char c) { return static_cast<unsigned char>(c) <= 32; };
+  if (name.empty() || std::any_of(name.begin(), name.end(), is_blank)) {
+    refuse(path, "expected one word as the name of an array, found " + in_quotes(name));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> written_surface_formats() {
@@ -115,6 +123,11 @@ bool carries_grey(const fs::path& path) {
   });
 }
 
+bool carries_arrays(const fs::path& path) {
+  const std::string extension = lower(path.extension().string());
+  return extension == ".vtp" || extension == ".ply";
+}
+
 void write_surface(const fs::path& path, const TriMesh& surface,
                    const SurfaceWriteOptions& options) {
   if (surface.triangles.empty()) refuse(path, "an empty surface is not written");
@@ -127,6 +140,7 @@ void write_surface(const fs::path& path, const TriMesh& surface,
   if (!options.grey.empty()) require_values(path, "a grey value", options.grey, surface);
   for (const PointArray& array : options.point_arrays) {
     require_values(path, "an array's value", array.values, surface);
+    require_one_word(path, array.name);
   }
   const bool as_given = options.frame != Frame::kRas;
   write_file(path, format->bytes(as_given ? surface : turned(surface), as_written(options)));
@@ -158,10 +172,11 @@ TriMesh in_lps(const SurfaceFile& file) {
 }
 
 std::vector<double> read_point_array(const fs::path& path, const std::string& name) {
-  if (extension_of(path) != ".vtp") {
-    refuse(path, "has no array " + in_quotes(name) + " to colour by, only .vtp files have arrays");
-  }
-  return parse_vtp_array(path, read_all(path), name);
+  const std::string extension = extension_of(path);
+  if (extension == ".vtp") return parse_vtp_array(path, read_all(path), name);
+  if (extension == ".ply") return parse_ply_array(path, read_all(path), name);
+  refuse(path,
+         "has no array " + in_quotes(name) + " to colour by, only .vtp and .ply files have arrays");
 }
 
 }  // namespace mesamis

@@ -14,7 +14,7 @@ namespace mesamis {
 
 /// A named array with one value per point of a surface.
 struct PointArray {
-  std::string name;
+  std::string name;            ///< one word
   std::vector<double> values;  ///< finite
 };
 
@@ -28,7 +28,7 @@ struct SurfaceWriteOptions {
   /// .3mf, .amf: metadata as type and text; "producer" is the program. Nothing about the patient
   /// belongs here.
   std::vector<std::pair<std::string, std::string>> metadata{};
-  std::vector<PointArray> point_arrays{};  ///< .vtp: arrays to colour by; names differ
+  std::vector<PointArray> point_arrays{};  ///< .vtp, .ply: arrays to colour by; names differ
 };
 
 /// Writes a surface in the format of the extension. The file appears whole or not at all.
@@ -49,7 +49,8 @@ struct SurfaceWriteOptions {
 /// @param options  values that the format has no place for are left out.
 /// @throws InputError  for another extension; an empty surface; an index out of range or a
 ///                     coordinate that is not finite; grey values or arrays of another size than n
-///                     or not finite; two arrays of the same name; a file that cannot be written.
+///                     or not finite; an array's name that is not one word, or two arrays of the
+///                     same name; a file that cannot be written.
 ///
 /// O(n + m). Memory: the file's bytes, and for RAS a copy of the surface.
 void write_surface(const std::filesystem::path& path, const TriMesh& surface,
@@ -62,6 +63,10 @@ std::vector<std::string> written_surface_formats();
 /// Whether the format of this extension has a place for SurfaceWriteOptions::grey.
 /// @throws nothing
 bool carries_grey(const std::filesystem::path& path);
+
+/// Whether the format of this extension has a place for SurfaceWriteOptions::point_arrays.
+/// @throws nothing
+bool carries_arrays(const std::filesystem::path& path);
 
 /// Reads a surface: .stl .ply .obj (text or binary where there are both), .vtp, .3mf, .amf (not
 /// zipped), legacy .vtk, each also compressed by gzip (.gz). Equal points of an STL become one;
@@ -107,11 +112,12 @@ TriMesh turned(TriMesh surface);
 /// O(n), a copy of the surface.
 TriMesh in_lps(const SurfaceFile& file);
 
-/// Reads one array on the points of a .vtp of one piece.
+/// Reads one array on the points of a .vtp of one piece, or one property of the vertices of a .ply.
 ///
 /// @param name  of an array of one component.
 /// @return one value per point, in the order of read_surface(); any unit, as the file has them.
-/// @throws InputError  if the file is not a .vtp, has several pieces, or has no such array of one
+/// @throws InputError  if the file is neither .vtp nor .ply, has several pieces, or has no such
+/// array of one
 ///                     component; the message names those it has.
 ///
 /// O(size of the file).

@@ -39,6 +39,8 @@ SurfaceFile parse_stl(const std::filesystem::path& file, std::string_view bytes)
 std::string ply_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
 /// Text or binary of either order. Polygons are cut into fans.
 SurfaceFile parse_ply(const std::filesystem::path& file, std::string_view bytes);
+std::vector<double> parse_ply_array(const std::filesystem::path& file, std::string_view bytes,
+                                    const std::string& name);
 
 /// Shortest decimals that give the same doubles back.
 std::string obj_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/expected_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mesamis/base/parallel.h"
+#include "mesamis/surface/measure.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kOfNoise = 0.67, kOfBends = 0.18, kOfLevelAndBlur = 0.018, kOfLevel = 0.0085;
+constexpr double kMost = 2;           // voxels
+constexpr double kLeastSlope = 1;     // grey values per voxel: less tells of no edge
+constexpr double kMostCurvature = 2;  // per voxel
+
+Vec3 direction_of(const Vec3& gradient) {
+  const double length = norm(gradient);
+  return length > 0 ? (1 / length) * gradient : Vec3{};
+}
+
+/// How fast the direction of the image's gradient turns around a point, per voxel.
+double curvature_at(const SplineImage& image, const Vec3& p) {
+  const double voxel = image.grid.voxel_size();
+  double squares = 0;
+  for (const Vec3& step : {Vec3{voxel, 0, 0}, Vec3{0, voxel, 0}, Vec3{0, 0, voxel}}) {
+    const Vec3 turn = direction_of(spline_at(image, p + step).gradient) -
+                      direction_of(spline_at(image, p - step).gradient);
+    squares += dot(turn, turn) / 4;
+  }
+  return std::min(std::sqrt(squares), kMostCurvature);
+}
+
+}  // namespace
+
+std::vector<double> expected_error(const TriMesh& surface, const SplineImage& image,
+                                   const ErrorOptions& options) {
+  require_sound(surface);
+  const double voxel = image.grid.voxel_size();
+  const auto [x, y, z] = options.blur;
+  const double blur = (x * x + y * y + z * z) / 3;
+  std::vector<double> errors(surface.points.size());
+  parallel_for(errors.size(), [&](std::size_t n) {
+    const Vec3 p = image.grid.to_grid(surface.points[n]);
+    const double slope = norm(spline_at(image, p).gradient) * voxel;
+    const double noise = options.noise / std::max(slope, kLeastSlope);
+    const double level = options.contrast / std::max(slope, kLeastSlope);
+    const double error =
+        std::hypot(std::hypot(kOfNoise * noise, kOfLevel * level),
+                   kOfBends * blur * curvature_at(image, p), kOfLevelAndBlur * blur * level);
+    errors[n] = std::min(error, kMost) * voxel;
+  });
+  return errors;
+}
+
+ErrorSummary summarize_error(const TriMesh& surface, const std::vector<double>& values) {
+  require_sound(surface);
+  std::vector<std::pair<double, double>> parts;  // value and area of each triangle
+  double area = 0, sum = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Triangle& k = surface.triangles[t];
+    const double value = (values[k[0]] + values[k[1]] + values[k[2]]) / 3;
+    parts.emplace_back(value, triangle_area(surface, t));
+    area += parts.back().second;
+    sum += value * parts.back().second;
+  }
+  if (!(area > 0)) return {};
+  std::sort(parts.begin(), parts.end());
+  double below = 0;
+  const auto at = std::find_if(parts.begin(), parts.end(), [&](const auto& part) {
+    below += part.second;
+    return below >= 0.9 * area;
+  });
+  return {sum / area, at == parts.end() ? parts.back().first : at->first};
+}
+
+}  // namespace mesamis

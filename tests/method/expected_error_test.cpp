@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/expected_error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesamis/method/mes_amis.h"
+#include "mesamis/phantom/degrade.h"
+#include "mesamis/phantom/phantom.h"
+#include "mesamis/phantom/phantom_truth.h"
+#include "mesamis/surface/distance.h"
+#include "support/ball_volume.h"
+#include "support/level_set.h"
+
+namespace mesamis {
+namespace {
+
+const Vec3 kCenter{19.5, 19.5, 19.5};
+
+TriMesh ball() {
+  return level_set({{0, 0, 0}, {39, 39, 39}}, {20, 20, 20},
+                   [](const Vec3& p) { return 11 - norm(p - kCenter); });
+}
+
+ErrorSummary summary_of(const ErrorOptions& options) {
+  const SplineImage image = interpolating_spline(make_ball({.noise = 0, .radius = 11}));
+  const TriMesh surface = ball();
+  return summarize_error(surface, expected_error(surface, image, options));
+}
+
+TEST(ExpectedError, GrowsWithNoiseBlurAndContrast) {
+  const ErrorOptions usual{.noise = 5, .contrast = 110, .blur = {1, 1, 1}};
+  const double mean = summary_of(usual).mean;
+  EXPECT_GT(mean, 0);
+  EXPECT_GT(summary_of({10, 110, {1, 1, 1}}).mean, mean);
+  EXPECT_GT(summary_of({5, 220, {1, 1, 1}}).mean, mean);
+  EXPECT_GT(summary_of({5, 110, {1.5, 1.5, 1.5}}).mean, mean);
+  EXPECT_GE(summary_of(usual).percentile90, mean);
+  EXPECT_LE(summary_of({1e9, 110, {1, 1, 1}}).mean, 2 + 1e-9) << "two voxels at most";
+  EXPECT_EQ(summary_of({}).mean, 0);
+}
+
+TEST(ExpectedError, SummarizesOverTheArea) {
+  const TriMesh surface = ball();
+  const std::vector<double> same(surface.points.size(), 0.25);
+  EXPECT_NEAR(summarize_error(surface, same).mean, 0.25, 1e-12);
+  EXPECT_NEAR(summarize_error(surface, same).percentile90, 0.25, 1e-12);
+  std::vector<double> height(surface.points.size());
+  std::transform(surface.points.begin(), surface.points.end(), height.begin(),
+                 [](const Vec3& p) { return p.z; });
+  // A sphere has the same area in every slab of the same height (Archimedes).
+  EXPECT_NEAR(summarize_error(surface, height).mean, 19.5, 0.1);
+  EXPECT_NEAR(summarize_error(surface, height).percentile90, 19.5 + 0.8 * 11, 0.4);
+  EXPECT_EQ(summarize_error({}, {}).mean, 0);
+}
+
+TEST(ExpectedError, IsWithinAFactorOfTwoOfTheRealOne) {
+  const Phantom phantom = make_phantom("femur", {48, 48, 48});
+  const TriMesh truth = make_truth(phantom).surface;
+  for (const double noise : {4.0, 15.0}) {
+    const Result result =
+        mes_amis(degrade(sample_phantom(phantom), {.blur = 1, .noise = noise}), {});
+    const double found = summarize_error(result.surface, result.expected_error).mean;
+    const auto distances = distances_to_surface(result.surface.points, truth);
+    const double real = summarize_error(result.surface, distances).mean;
+    EXPECT_LT(found, 2 * real) << noise;
+    EXPECT_GT(found, real / 2) << noise;
+  }
+}
+
+}  // namespace
+}  // namespace mesamis
