@@ -200,23 +200,38 @@ class Follower {
       for (std::size_t p = 0; p < shifts.size(); ++p) {
         moved.points[p] = surface_.points[p] + shifts[p];
       }
-      const auto pairs = find_self_intersections(moved);
-      if (pairs.empty()) return moved;
-      std::vector<Index> meeting;
-      for (const auto& pair : pairs) {
-        for (const Index t : pair) {
-          meeting.insert(meeting.end(), moved.triangles[t].begin(), moved.triangles[t].end());
-        }
-      }
-      std::sort(meeting.begin(), meeting.end());
-      meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
-      for (const Index p : meeting) {
-        shifts[static_cast<std::size_t>(p)] =
-            (taken_back[static_cast<std::size_t>(p)]++ < kHalvings ? 0.5 : 0.0) *
-            shifts[static_cast<std::size_t>(p)];
+      const std::vector<Index> meeting = points_that_meet(moved);
+      if (meeting.empty()) return moved;
+      for (const Index point : meeting) {
+        const auto p = static_cast<std::size_t>(point);
+        shifts[p] = (taken_back[p]++ < kHalvings ? 0.5 : 0.0) * shifts[p];
       }
     }
     return surface_;
+  }
+
+  /// The corners of triangles that intersect others, here or once the surface is in a file, which
+  /// holds single precision.
+  std::vector<Index> points_that_meet(const TriMesh& moved) const {
+    auto pairs = find_self_intersections(moved);
+    if (pairs.empty()) pairs = find_self_intersections(as_in_a_file(moved));
+    std::vector<Index> meeting;
+    for (const auto& pair : pairs) {
+      for (const Index t : pair) {
+        meeting.insert(meeting.end(), moved.triangles[t].begin(), moved.triangles[t].end());
+      }
+    }
+    std::sort(meeting.begin(), meeting.end());
+    meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
+    return meeting;
+  }
+
+  TriMesh as_in_a_file(TriMesh moved) const {
+    parallel_for(moved.points.size(), [&](std::size_t n) {
+      const Vec3 p = image_.grid.to_world(options_.point_scale * moved.points[n]);
+      for (int a = 0; a < 3; ++a) moved.points[n][a] = static_cast<float>(p[a]);
+    });
+    return moved;
   }
 
   const SplineImage& image_;
