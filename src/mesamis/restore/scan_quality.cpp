@@ -37,8 +37,9 @@ double deviation_at(const VolumeView& volume, const std::array<Index, 3>& voxel)
   for (Index k = -1; k <= 1; ++k) {
     for (Index j = -1; j <= 1; ++j) {
       for (Index i = -1; i <= 1; ++i) {
-        const auto axes = static_cast<std::size_t>(std::abs(i) + std::abs(j) + std::abs(k));
-        fitted += kWeights[axes] * volume.at(voxel[0] + i, voxel[1] + j, voxel[2] + k);
+        const Index axes = std::abs(i) + std::abs(j) + std::abs(k);
+        fitted += kWeights[static_cast<std::size_t>(axes)] *
+                  volume.at(voxel[0] + i, voxel[1] + j, voxel[2] + k);
       }
     }
   }
