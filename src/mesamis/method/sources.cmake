@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   available_memory.h
+  expected_error.h
   iteration.h
   memory.h
   mes_amis.h

@@ -32,7 +32,7 @@ Volume deblurred(const VolumeView& volume, const std::array<double, 3>& blur,
 /// Finds by how much deblurred() changes white noise: the root mean square of W over all
 /// frequencies of the grid.
 /// @param blur, regularization  as deblurred() takes them.
-/// @return deviation of the noise after it, per deviation before; > 0.
+/// @return deviation of the noise after it, per deviation before (no unit); > 0.
 /// @throws nothing
 ///
 /// O(1).
