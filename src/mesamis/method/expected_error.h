@@ -42,7 +42,7 @@ struct ErrorSummary {
 };
 
 /// Summarizes values on the points of a surface over its area.
-/// @param values  n, one per point.
+/// @param values  n, one per point, mm.
 /// @return zeros for a surface without area.
 /// @throws InputError  as require_sound().
 ///
