@@ -130,7 +130,8 @@ void add_picture_command(CLI::App& app, CommonOptions&, Action& action) {
   command->add_option_function<std::string>(
       "--clip", [options](const std::string& text) { options->picture.clip = parse_clip(text); },
       "AXIS,MM: cut the object open there; of a volume, the slice (default: the middle along z)");
-  command->add_option("--color", options->picture.color, "Array to colour by, of a mesh, a .vtp or a .ply");
+  command->add_option("--color", options->picture.color,
+                      "Array to colour by, of a mesh, a .vtp or a .ply");
   command->add_option_function<std::string>(
       "--size",
       [options](const std::string& text) {
