@@ -41,13 +41,16 @@ TEST(DefaultGamma, IsAPriceOfGreyValuesSquared) {
 }
 
 TEST(DefaultMaxTets, GrowsWithTheEdgesWithinBounds) {
-  EXPECT_EQ(default_max_tets(0, {1, 1, 1}), 20'000);
-  EXPECT_EQ(default_max_tets(50'000, {1, 1, 1}), 225'000);
-  EXPECT_EQ(default_max_tets(1e9, {1, 1, 1}), 2'000'000);
+  EXPECT_EQ(default_max_tets(0, 0, {1, 1, 1}), 20'000);
+  EXPECT_EQ(default_max_tets(50'000, 0, {1, 1, 1}), 225'000);
+  EXPECT_EQ(default_max_tets(1e9, 0, {1, 1, 1}), 2'000'000);
   // The same surface in voxels half as wide, and in slices four times as thick.
-  EXPECT_EQ(default_max_tets(12'500, {0.5, 0.5, 0.5}), 225'000);
-  EXPECT_EQ(default_max_tets(50'000, {1, 1, 4}), 225'000);
-  EXPECT_EQ(default_max_tets(50'000, {0.1, 0.1, 8}), 225'000);
+  EXPECT_EQ(default_max_tets(12'500, 0, {0.5, 0.5, 0.5}), 225'000);
+  EXPECT_EQ(default_max_tets(50'000, 0, {1, 1, 4}), 225'000);
+  EXPECT_EQ(default_max_tets(50'000, 0, {0.1, 0.1, 8}), 225'000);
+  // Thin walls and gaps take four times as many.
+  EXPECT_EQ(default_max_tets(50'000, 1, {1, 1, 1}), 900'000);
+  EXPECT_EQ(default_max_tets(50'000, 0.5, {1, 1, 1}), 562'500);
 }
 
 }  // namespace

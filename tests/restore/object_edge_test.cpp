@@ -39,6 +39,28 @@ TEST(ObjectEdge, DoesNotDependOnTheCrop) {
   EXPECT_NEAR(in_part, in_whole, 0.02 * 110);
 }
 
+TEST(ObjectEdge, GoesTowardsTheWholeSurfaceWhereTheObjectVaries) {
+  for (const double spread : {0.0, 25.0}) {
+    const Volume blocks = gaussian_smoothed(
+        sampled_volume({72, 40, 40}, {1, 1, 1},
+                       [spread](const Vec3& p) {
+                         const int at = static_cast<int>(p.x / 18);
+                         const double x = p.x - 18 * at;
+                         return x > 3.5 && x < 14.5 ? 230 + spread * (at - 1.5) : 120;
+                       }),
+        0.8);
+    const HalfMaximumLevel seen = find_half_maximum_level(blocks);
+    HalfMaximumLevel lower = seen;
+    lower.level -= 10;  // as if more of the surface were thin
+    lower.contrast.object -= 20;
+    const HalfMaximumLevel object = find_object_edge(blocks, seen);
+    const HalfMaximumLevel with_thin = find_object_edge(blocks, lower);
+    const double share = spread > 0 ? 0.5 : 0;
+    EXPECT_NEAR(object.level - with_thin.level, share * 10, 0.5) << spread;
+    EXPECT_NEAR(object.contrast.object - with_thin.contrast.object, share * 20, 1) << spread;
+  }
+}
+
 TEST(ObjectEdge, IsAsSeenWhereThereIsNone) {
   const Volume flat = sampled_volume({12, 12, 12}, {1, 1, 1}, [](const Vec3&) { return 7; });
   const HalfMaximumLevel seen = find_half_maximum_level(flat);

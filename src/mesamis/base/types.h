@@ -59,6 +59,12 @@ inline Vec3 operator*(const Sym3& a, const Vec3& v) {
   return {a.xx * v.x + a.xy * v.y + a.xz * v.z, a.xy * v.x + a.yy * v.y + a.yz * v.z,
           a.xz * v.x + a.yz * v.y + a.zz * v.z};
 }
+/// The vector of length 1 in the direction of v (no unit); zero where v is.
+inline Vec3 unit_or_zero(const Vec3& v) noexcept {
+  const double length = norm(v);
+  return length > 0 ? (1 / length) * v : Vec3{};
+}
+
 /// The outer product v v^T, in the square of the unit of v.
 inline Sym3 outer(const Vec3& v) noexcept {
   return {v.x * v.x, v.x * v.y, v.x * v.z, v.y * v.y, v.y * v.z, v.z * v.z};

@@ -18,6 +18,8 @@ struct GreyMap {
   double to_grey(double native) const noexcept { return 255 * (native - low) / (high - low); }
   /// The native value of a grey value.
   double to_native(double grey) const noexcept { return low + grey / 255 * (high - low); }
+  /// Grey values per native unit: what noise and contrasts are multiplied by.
+  double grey_per_native() const noexcept { return to_grey(1) - to_grey(0); }
   /// Whether T acts.
   bool has_threshold() const noexcept { return threshold > low; }
 };

@@ -16,18 +16,13 @@ constexpr double kMost = 2;           // voxels
 constexpr double kLeastSlope = 1;     // grey values per voxel: less tells of no edge
 constexpr double kMostCurvature = 2;  // per voxel
 
-Vec3 direction_of(const Vec3& gradient) {
-  const double length = norm(gradient);
-  return length > 0 ? (1 / length) * gradient : Vec3{};
-}
-
 /// How fast the direction of the image's gradient turns around a point, per voxel.
 double curvature_at(const SplineImage& image, const Vec3& p) {
   const double voxel = image.grid.voxel_size();
   double squares = 0;
   for (const Vec3& step : {Vec3{voxel, 0, 0}, Vec3{0, voxel, 0}, Vec3{0, 0, voxel}}) {
-    const Vec3 turn = direction_of(spline_at(image, p + step).gradient) -
-                      direction_of(spline_at(image, p - step).gradient);
+    const Vec3 turn = unit_or_zero(spline_at(image, p + step).gradient) -
+                      unit_or_zero(spline_at(image, p - step).gradient);
     squares += dot(turn, turn) / 4;
   }
   return std::min(std::sqrt(squares), kMostCurvature);
@@ -44,9 +39,8 @@ std::vector<double> expected_error(const TriMesh& surface, const SplineImage& im
   std::vector<double> errors(surface.points.size());
   parallel_for(errors.size(), [&](std::size_t n) {
     const Vec3 p = image.grid.to_grid(surface.points[n]);
-    const double slope = norm(spline_at(image, p).gradient) * voxel;
-    const double noise = options.noise / std::max(slope, kLeastSlope);
-    const double level = options.contrast / std::max(slope, kLeastSlope);
+    const double slope = std::max(norm(spline_at(image, p).gradient) * voxel, kLeastSlope);
+    const double noise = options.noise / slope, level = options.contrast / slope;
     const double error =
         std::hypot(std::hypot(kOfNoise * noise, kOfLevel * level),
                    kOfBends * blur * curvature_at(image, p), kOfLevelAndBlur * blur * level);

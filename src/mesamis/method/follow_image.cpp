@@ -2,7 +2,6 @@
 #include "mesamis/method/follow_image.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -18,7 +17,7 @@ namespace {
 
 constexpr double kShortestEdge = 1;  // voxels: shorter ones are not split
 constexpr double kLeastBend = 0.03;  // voxels between an edge and the level set that are worth it
-constexpr int kMostRounds = 8;       // of splitting: two cut an edge to a half
+constexpr int kMostRounds = 8;       // of splitting: about two halve every edge of a triangle
 constexpr double kMostMove = 0.7;    // voxels
 /// Voxels of noise beyond which the image tells nothing that the mesh does not.
 constexpr double kMostNoise = 0.3;
@@ -101,8 +100,9 @@ class Follower {
         kMostRounds);
     const Neighbors neighbors(surface_);
     const std::vector<double> ones(surface_.points.size(), 1);
-    const std::vector<Vec3> normals =
-        unit_vectors(smoothed_along(neighbors, ones, vertex_normals(surface_), kSweepsOfNormals));
+    std::vector<Vec3> normals =
+        smoothed_along(neighbors, ones, vertex_normals(surface_), kSweepsOfNormals);
+    for (Vec3& normal : normals) normal = unit_or_zero(normal);
     const std::vector<double> moves = filtered(measure(normals), neighbors);
     std::vector<Vec3> shifts(moves.size());
     for (std::size_t p = 0; p < moves.size(); ++p) {
@@ -116,33 +116,34 @@ class Follower {
     return {{0, 0, 0}, (1 / options.point_scale) * image.grid.box().extent()};
   }
 
-  static std::vector<Vec3> unit_vectors(std::vector<Vec3> vectors) {
-    for (Vec3& v : vectors) {
-      const double length = norm(v);
-      v = length > 0 ? (1 / length) * v : Vec3{};
-    }
-    return vectors;
+  /// What the image tells at a place; voxels.
+  struct Offset {
+    double distance;  ///< to the level set
+    double noise;     ///< standard deviation of the distance
+  };
+
+  /// @param slope  of the image, grey values per voxel.
+  /// @return nothing where the image is flat.
+  std::optional<Offset> offset_of(double value, double slope) const {
+    if (!(slope >= kLeastSlope)) return std::nullopt;
+    return Offset{std::clamp((value - options_.level) / slope, -kMostMove, kMostMove),
+                  kNoiseMargin * options_.noise / slope};
   }
 
-  /// Distance to the level set along the gradient, voxels, and the noise's share of it; nothing
-  /// where the image is flat.
-  std::optional<std::array<double, 2>> distance_at(const Vec3& p) const {
+  /// Along the gradient.
+  std::optional<Offset> offset_at(const Vec3& p) const {
     const ImageValue here = spline_at(image_, options_.point_scale * p);
-    const double slope = norm(here.gradient) * image_.grid.voxel_size();
-    if (!(slope >= kLeastSlope)) return std::nullopt;
-    const double distance = (here.value - options_.level) / slope;
-    return std::array{std::clamp(distance, -kMostMove, kMostMove),
-                      kNoiseMargin * options_.noise / slope};
+    return offset_of(here.value, norm(here.gradient) * image_.grid.voxel_size());
   }
 
   /// Whether the level set leaves an edge between its ends by more than noise.
   bool is_bent(const Vec3& a, const Vec3& b) const {
     const Vec3 d = options_.point_scale * (a - b), &s = image_.grid.spacing;
     if (norm({d.x / s.x, d.y / s.y, d.z / s.z}) <= kShortestEdge) return false;
-    const auto at_a = distance_at(a), at_b = distance_at(b), between = distance_at(0.5 * (a + b));
+    const auto at_a = offset_at(a), at_b = offset_at(b), between = offset_at(0.5 * (a + b));
     if (!at_a || !at_b || !between) return false;
-    const double bend = std::abs((*between)[0] - ((*at_a)[0] + (*at_b)[0]) / 2);
-    return bend > std::max(kLeastBend, (*between)[1]);
+    const double bend = std::abs(between->distance - (at_a->distance + at_b->distance) / 2);
+    return bend > std::max(kLeastBend, between->noise);
   }
 
   bool on_box(const Vec3& p) const {
@@ -161,10 +162,10 @@ class Follower {
       if (on_box(surface_.points[p])) return;
       const ImageValue here = spline_at(image_, options_.point_scale * surface_.points[p]);
       const double slope = -dot(here.gradient, normals[p]) * image_.grid.voxel_size();
-      if (!(slope >= kLeastSlope)) return;
-      offsets.distance[p] =
-          std::clamp((here.value - options_.level) / slope, -kMostMove, kMostMove);
-      offsets.noise[p] = kNoiseMargin * options_.noise / slope;
+      const auto offset = offset_of(here.value, slope);
+      if (!offset) return;
+      offsets.distance[p] = offset->distance;
+      offsets.noise[p] = offset->noise;
       offsets.weight[p] = std::min(1.0, slope * slope / (kFullSlope * kFullSlope));
     });
     return offsets;

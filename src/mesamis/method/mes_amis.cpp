@@ -75,8 +75,7 @@ TriMesh extract_surface(const RunInput& run, const Loop& loop, double noise) {
   const double level = p.grey.to_grey(p.level);
   const TriMesh extracted = extract_solid(mesh, loop.minimum.u, level);
   if (!p.follow) return extracted;
-  const double grey_per_native = p.grey.to_grey(1) - p.grey.to_grey(0);
-  return follow_image(extracted, run.image, {level, noise * grey_per_native, p.unit_mm});
+  return follow_image(extracted, run.image, {level, noise * p.grey.grey_per_native(), p.unit_mm});
 }
 
 /// From length units in the grid's axes to mm in the world frame.
@@ -124,7 +123,7 @@ void deliver(const RunInput& run, Loop loop, Result& result) {
 
 std::vector<double> error_of(const RunInput& run, const Result& result) {
   const Parameters& p = result.parameters;
-  const double grey_per_native = p.grey.to_grey(1) - p.grey.to_grey(0);
+  const double grey_per_native = p.grey.grey_per_native();
   return expected_error(
       result.surface, run.image,
       {result.image.noise_left * grey_per_native, result.image.contrast * grey_per_native, p.blur});

@@ -47,12 +47,13 @@ Settings settings_of(const Parameters& p) {
   return s;
 }
 
-std::int64_t default_max_tets(double area, const Vec3& spacing) {
-  constexpr double kCellsPerSquare = 4.5, kThickest = 8;
+std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing) {
+  constexpr double kCells = 4.5, kCellsWhereThin = 18, kThickest = 8;
   const auto [shortest, longest] = std::minmax({spacing.x, spacing.y, spacing.z});
   const double side = std::max(shortest, longest / kThickest);
+  const double per_square = kCells + thin_share * (kCellsWhereThin - kCells);
   return std::llround(
-      std::clamp<double>(kCellsPerSquare * area / (side * side), kFewestTets, kMostTets));
+      std::clamp<double>(per_square * area / (side * side), kFewestTets, kMostTets));
 }
 
 double default_tolerance(double voxel, double edge_noise) {

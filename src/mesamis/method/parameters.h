@@ -67,13 +67,17 @@ inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
 /// The count grows with the extent of the edges, not with the empty space around them. Thick slices
 /// do not lower it, because the mesh has to hold the shape between them; only where slices are
 /// thicker than eight of the shortest sides, an eighth of the thickness counts instead.
-/// @param area     of the object's surface, mm^2, >= 0, see HalfMaximumLevel::area.
-/// @param spacing  of the voxels, mm, > 0.
+///
+/// A wall or a gap thinner than two voxels has both its faces within a cell or two: there it takes
+/// four times as many, or the mesh closes the gap and tears the wall.
+/// @param area        of the object's surface, mm^2, >= 0, see measure_extent().
+/// @param thin_share  of the area: walls and gaps thinner than two voxels, 0 to 1.
+/// @param spacing     of the voxels, mm, > 0.
 /// @return cells.
 /// @throws nothing
 ///
 /// O(1).
-std::int64_t default_max_tets(double area, const Vec3& spacing);
+std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing);
 
 /// The default of tolerance: by how much the noise moves an edge at a voxel, but no less than 0.03
 /// and no more than 0.1 voxel. A surface that is kept closer would keep noise.

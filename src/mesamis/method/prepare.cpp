@@ -10,9 +10,9 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/restore/half_maximum_level.h"
-#include "mesamis/restore/level_crossings.h"
 #include "mesamis/restore/object_edge.h"
 #include "mesamis/restore/restore.h"
+#include "mesamis/restore/surface_extent.h"
 #include "mesamis/restore/tissue_threshold.h"
 
 namespace mesamis {
@@ -89,6 +89,14 @@ double edge_noise(const Restored& restored, double contrast) {
   return std::sqrt(2 * std::numbers::pi) * blur * restored.noise_left / contrast;
 }
 
+/// How much surface the restored image has. Where its noise would make surface of its own, it is
+/// smoothed before, and nothing thin can be told from noise.
+SurfaceExtent extent_of(const Restored& restored, double contrast, double level) {
+  constexpr double kQuiet = 0.1;  // of the contrast: noise reaches the level at five deviations
+  if (restored.noise_left < kQuiet * contrast) return measure_extent(restored.volume, level);
+  return {measure_extent(smoothed(restored.volume), level).area, 0};
+}
+
 /// What restore() makes of the image; where restoring is off, the image as it is, with its noise.
 Restored restore_if_asked(Volume image, const HalfMaximumLevel& object, const Settings& settings) {
   if (settings.restore) return restore(std::move(image), object, {settings.noise, settings.blur});
@@ -128,7 +136,7 @@ double level_above(const GreyMap& map, const HalfMaximumLevel& object) {
 /// See default_gamma(); the paper's value where there is no object to tell the contrast from.
 double choose_gamma(const Parameters& p, double native_contrast, double native_noise) {
   constexpr double kPaper = 0.1;
-  const double grey_per_native = p.grey.to_grey(1) - p.grey.to_grey(0);
+  const double grey_per_native = p.grey.grey_per_native();
   const double contrast = native_contrast * grey_per_native;
   if (!(contrast > 0)) return kPaper;
   return default_gamma(p.functional.epsilon, p.functional.beta, contrast,
@@ -194,10 +202,11 @@ Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
   p.grey.threshold =
       choose_threshold(settings, p.grey, measured, settings.level.value_or(object.level));
   p.level = settings.level.value_or(level_above(p.grey, object));
-  if (!settings.max_tets) {
-    p.max_tets = default_max_tets(level_area(smoothed(restored.volume), p.level), volume.spacing);
-  }
   const double contrast = prepared.contrast = object.contrast.difference();
+  if (!settings.max_tets) {
+    const SurfaceExtent extent = extent_of(restored, contrast, p.level);
+    p.max_tets = default_max_tets(extent.area, extent.thin_share, volume.spacing);
+  }
   if (!settings.tolerance && !settings.triangles && contrast > 0) {
     p.tolerance = default_tolerance(volume.voxel_size(), edge_noise(restored, contrast));
   }

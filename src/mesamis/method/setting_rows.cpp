@@ -219,7 +219,7 @@ std::vector<Setting> mesh_rows() {
     bound({.name = "max_tets", .form = "N", .count = 1, .whole = true, .low = 100, .high = 2e8,
            .words = {"auto"}, .help = "NMAX: cells of the mesh at most",
            .automatic = "4.5 for each square of the object's surface with the voxel's shortest "
-               "side, 20 000 to 2 000 000", .paper = "1300000"}, &Settings::max_tets),
+               "side, 18 in walls and gaps thinner than two voxels, 20 000 to 2 000 000", .paper = "1300000"}, &Settings::max_tets),
     bound({.name = "tau", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
            .help = "Tolerance on the error estimator"}, &Settings::tau),
     bound({.name = "adaptations", .form = "N", .count = 1, .whole = true, .low = 1, .high = 100,

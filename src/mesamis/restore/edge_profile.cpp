@@ -12,12 +12,6 @@ namespace {
 
 double normal_distribution(double t) { return 0.5 * std::erfc(-t / std::sqrt(2)); }
 
-/// A vector in voxels, in mm.
-Vec3 in_mm(const VoxelGrid& grid, const Vec3& voxels) {
-  const Vec3& s = grid.spacing;
-  return {voxels.x * s.x, voxels.y * s.y, voxels.z * s.z};
-}
-
 /// The parameters in which the model is not linear.
 struct Shape {
   double sigma, thickness, shift;
@@ -89,6 +83,11 @@ Vec3 voxel_direction(const VoxelGrid& grid, const Vec3& n) {
   return (1 / norm(d)) * d;
 }
 
+Vec3 voxel_step(const VoxelGrid& grid, const Vec3& n) {
+  const Vec3& s = grid.spacing;
+  return (1 / norm({n.x / s.x, n.y / s.y, n.z / s.z})) * n;
+}
+
 Profile median_profile(const VolumeView& volume, const PointGroup& points) {
   Profile profile;
   parallel_for_each(profile.size(), [&](std::size_t n) {
@@ -96,7 +95,7 @@ Profile median_profile(const VolumeView& volume, const PointGroup& points) {
     std::vector<double> values;
     values.reserve(points.size());
     for (const SurfacePoint* point : points) {
-      const Vec3 step = in_mm(volume, voxel_direction(volume, point->normal));
+      const Vec3 step = voxel_step(volume, point->normal);
       values.push_back(interpolate(volume, point->position - offset * step));
     }
     profile[n] = median(values);

@@ -26,6 +26,9 @@ PointGroup with_normals(const std::vector<SurfacePoint>& points);
 /// The unit direction n in voxels: one step along it is one voxel long.
 Vec3 voxel_direction(const VoxelGrid& grid, const Vec3& n);
 
+/// A step along the unit direction n, one voxel long; mm.
+Vec3 voxel_step(const VoxelGrid& grid, const Vec3& n);
+
 /// Medians over the points of the image along their normals.
 /// @param points  at least one, with normals.
 /// O(points).

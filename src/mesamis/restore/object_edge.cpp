@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/restore/object_edge.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mesamis/image/grey_values.h"
 #include "mesamis/restore/edge_level.h"
+#include "mesamis/restore/scan_quality.h"
 #include "mesamis/restore/thick_places.h"
+#include "mesamis/restore/value_variation.h"
 
 namespace mesamis {
+namespace {
 
-HalfMaximumLevel find_object_edge(const VolumeView& volume, const HalfMaximumLevel& seen) {
+constexpr std::size_t kMostPoints = 200'000;
+
+/// The edge at thick places.
+/// @param guide  the volume, smoothed.
+HalfMaximumLevel edge_of_thick_places(const VolumeView& volume, const VolumeView& guide,
+                                      const HalfMaximumLevel& seen) {
   constexpr int kMostIterations = 3;
-  constexpr std::size_t kMostPoints = 200'000;
   constexpr double kTolerance = 0.005;  // change of the level, against the contrast
-  if (!(seen.contrast.difference() > 0)) return seen;
-  const Volume guide = smoothed(volume);
   HalfMaximumLevel object = seen;
   for (int n = 0; n < kMostIterations; ++n) {
     const auto points =
@@ -26,6 +32,35 @@ HalfMaximumLevel find_object_edge(const VolumeView& volume, const HalfMaximumLev
     object.contrast = {edge->background, edge->shell, points.size()};
     if (change < kTolerance * edge->height()) break;
   }
+  return object;
+}
+
+/// How far the level is moved from that of thick places to that of the whole surface: not at all
+/// for one material, half of the way where the object's value varies by an eighth of the contrast.
+double share_of_whole_surface(const VolumeView& volume, const VolumeView& guide,
+                              const HalfMaximumLevel& thick) {
+  constexpr double kOneMaterial = 0.06, kVaries = 0.12, kMost = 0.5;
+  const auto points = crossing_points(guide, thick.level, kMostPoints);
+  const double noise = measure_noise(volume, guide, points, thick.level);
+  const double variation =
+      measure_variation(volume, thick_places(guide, points, thick.level), noise);
+  const double share = variation / thick.contrast.difference();
+  return kMost * std::clamp((share - kOneMaterial) / (kVaries - kOneMaterial), 0.0, 1.0);
+}
+
+}  // namespace
+
+HalfMaximumLevel find_object_edge(const VolumeView& volume, const HalfMaximumLevel& seen) {
+  if (!(seen.contrast.difference() > 0)) return seen;
+  const Volume guide = smoothed(volume);
+  HalfMaximumLevel object = edge_of_thick_places(volume, guide, seen);
+  const double share = share_of_whole_surface(volume, guide, object);
+  const auto between = [share](double thick, double whole) {
+    return thick + share * (whole - thick);
+  };
+  object.level = between(object.level, seen.level);
+  object.contrast.background = between(object.contrast.background, seen.contrast.background);
+  object.contrast.object = between(object.contrast.object, seen.contrast.object);
   return object;
 }
 

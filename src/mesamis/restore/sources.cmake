@@ -8,6 +8,7 @@ set(ROOM_HEADERS
   object_edge.h
   restore.h
   scan_quality.h
+  surface_extent.h
   tissue_threshold.h)
 set(ROOM_SOURCES
   deblur.cpp
@@ -20,6 +21,8 @@ set(ROOM_SOURCES
   object_edge.cpp
   restore.cpp
   scan_quality.cpp
+  surface_extent.cpp
   thick_places.cpp
   thin_sheets.cpp
-  tissue_threshold.cpp)
+  tissue_threshold.cpp
+  value_variation.cpp)

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/restore/edge_profile.h"
 
 namespace mesamis {
 namespace {
@@ -13,8 +14,16 @@ constexpr double kClear = 2.5;  // voxels without object, outwards
 constexpr double kStep = 0.5;   // voxels
 constexpr int kMostSteps = 12;
 
-/// How far the guide stays on one side of the level, voxels; 0 where the image ends before.
-/// @param voxel  the direction, one voxel long, mm.
+/// How thick the object is below a point, voxels; 0 where it cannot be told.
+double thickness_below(const VolumeView& guide, const SurfacePoint& point, double level) {
+  if (norm(point.normal) == 0) return 0;
+  const Vec3 voxel = voxel_step(guide, point.normal);
+  if (way_on_one_side(guide, point, voxel, level) < kClear) return 0;
+  return way_on_one_side(guide, point, -1.0 * voxel, level);
+}
+
+}  // namespace
+
 double way_on_one_side(const VolumeView& guide, const SurfacePoint& from, const Vec3& voxel,
                        double level) {
   const bool inside = dot(voxel, from.normal) < 0;
@@ -26,17 +35,6 @@ double way_on_one_side(const VolumeView& guide, const SurfacePoint& from, const 
   }
   return kStep * kMostSteps;
 }
-
-/// How thick the object is below a point, voxels; 0 where it cannot be told.
-double thickness_below(const VolumeView& guide, const SurfacePoint& point, double level) {
-  const Vec3 &n = point.normal, &s = guide.spacing;
-  if (norm(n) == 0) return 0;
-  const Vec3 voxel = (1 / norm({n.x / s.x, n.y / s.y, n.z / s.z})) * n;
-  if (way_on_one_side(guide, point, voxel, level) < kClear) return 0;
-  return way_on_one_side(guide, point, -1.0 * voxel, level);
-}
-
-}  // namespace
 
 std::vector<SurfacePoint> thick_places(const VolumeView& guide,
                                        const std::vector<SurfacePoint>& points, double level) {

@@ -8,6 +8,16 @@
 
 namespace mesamis {
 
+/// Measures how far an image stays on one side of a level along a straight way from a point of the
+/// surface, looked at every half voxel from one voxel on.
+/// @param step  the direction, one voxel long (voxel_step()), mm.
+/// @return voxels, 0.5 to 6; 0 where the image ends before.
+/// @throws nothing
+///
+/// O(1).
+double way_on_one_side(const VolumeView& image, const SurfacePoint& from, const Vec3& step,
+                       double level);
+
 /// Chooses the points of a surface where the object is thickest: there the image reaches the
 /// object's own value, which thin walls never show through the blur.
 ///

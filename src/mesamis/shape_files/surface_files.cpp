@@ -20,21 +20,23 @@ namespace {
 namespace fs = std::filesystem;
 
 using Parser = SurfaceFile (*)(const fs::path&, std::string_view);
+using ArrayParser = std::vector<double> (*)(const fs::path&, std::string_view, const std::string&);
 using Formatter = std::string (*)(const TriMesh&, const SurfaceWriteOptions&);
 
 constexpr auto kMostPoints = static_cast<std::size_t>(std::numeric_limits<Index>::max());
 
 struct Format {
   const char* extension;
-  Parser parse;     // null: not read
+  Parser parse;
   Formatter bytes;  // null: not written
   bool grey = false;
+  ArrayParser parse_array = nullptr;  // null: no arrays
 };
 
 constexpr Format kFormats[] = {{".stl", parse_stl, stl_bytes},
-                               {".ply", parse_ply, ply_bytes},
+                               {".ply", parse_ply, ply_bytes, false, parse_ply_array},
                                {".obj", parse_obj, obj_bytes},
-                               {".vtp", parse_vtp, vtp_bytes, true},
+                               {".vtp", parse_vtp, vtp_bytes, true, parse_vtp_array},
                                {".3mf", parse_threemf, threemf_bytes, true},
                                {".amf", parse_amf, amf_bytes, true},
                                {".vtk", parse_vtk, nullptr}};
@@ -51,11 +53,22 @@ std::string extension_of(const fs::path& path) {
   return lower((packed ? path.stem() : path).extension().string());
 }
 
+/// Null if there is none; all formats are read.
+const Format* format_named(const std::string& extension) {
+  const auto* format = std::find_if(std::begin(kFormats), std::end(kFormats),
+                                    [&](const Format& f) { return extension == f.extension; });
+  return format == std::end(kFormats) ? nullptr : format;
+}
+
+/// Null if no format of this extension is written; .gz is none.
+const Format* written_format(const fs::path& path) {
+  const Format* format = format_named(lower(path.extension().string()));
+  return format != nullptr && format->bytes != nullptr ? format : nullptr;
+}
+
 Parser parser_for(const fs::path& path) {
-  const std::string extension = extension_of(path);
-  for (const Format& format : kFormats) {
-    if (extension == format.extension && format.parse != nullptr) return format.parse;
-  }
+  const Format* format = format_named(extension_of(path));
+  if (format != nullptr) return format->parse;
   refuse_extension(path, ".stl .ply .obj .vtp .3mf .amf .vtk, each also with .gz");
 }
 
@@ -117,26 +130,21 @@ std::vector<std::string> written_surface_formats() {
 }
 
 bool carries_grey(const fs::path& path) {
-  const std::string extension = lower(path.extension().string());
-  return std::any_of(std::begin(kFormats), std::end(kFormats), [&](const Format& format) {
-    return extension == format.extension && format.grey;
-  });
+  const Format* format = written_format(path);
+  return format != nullptr && format->grey;
 }
 
 bool carries_arrays(const fs::path& path) {
-  const std::string extension = lower(path.extension().string());
-  return extension == ".vtp" || extension == ".ply";
+  const Format* format = written_format(path);
+  return format != nullptr && format->parse_array != nullptr;
 }
 
 void write_surface(const fs::path& path, const TriMesh& surface,
                    const SurfaceWriteOptions& options) {
   if (surface.triangles.empty()) refuse(path, "an empty surface is not written");
   require_sound(surface);
-  const std::string extension = lower(path.extension().string());
-  const auto* format = std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) {
-    return extension == f.extension && f.bytes != nullptr;
-  });
-  if (format == std::end(kFormats)) refuse_extension(path, joined(written_surface_formats()));
+  const Format* format = written_format(path);
+  if (format == nullptr) refuse_extension(path, joined(written_surface_formats()));
   if (!options.grey.empty()) require_values(path, "a grey value", options.grey, surface);
   for (const PointArray& array : options.point_arrays) {
     require_values(path, "an array's value", array.values, surface);
@@ -172,9 +180,10 @@ TriMesh in_lps(const SurfaceFile& file) {
 }
 
 std::vector<double> read_point_array(const fs::path& path, const std::string& name) {
-  const std::string extension = extension_of(path);
-  if (extension == ".vtp") return parse_vtp_array(path, read_all(path), name);
-  if (extension == ".ply") return parse_ply_array(path, read_all(path), name);
+  const Format* format = format_named(extension_of(path));
+  if (format != nullptr && format->parse_array != nullptr) {
+    return format->parse_array(path, read_all(path), name);
+  }
   refuse(path,
          "has no array " + in_quotes(name) + " to colour by, only .vtp and .ply files have arrays");
 }

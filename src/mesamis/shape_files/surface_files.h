@@ -117,8 +117,7 @@ TriMesh in_lps(const SurfaceFile& file);
 /// @param name  of an array of one component.
 /// @return one value per point, in the order of read_surface(); any unit, as the file has them.
 /// @throws InputError  if the file is neither .vtp nor .ply, has several pieces, or has no such
-/// array of one
-///                     component; the message names those it has.
+///                     array of one component; the message names those it has.
 ///
 /// O(size of the file).
 std::vector<double> read_point_array(const std::filesystem::path& path, const std::string& name);

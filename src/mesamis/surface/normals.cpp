@@ -12,10 +12,7 @@ std::vector<Vec3> vertex_normals(const TriMesh& surface) {
     const Vec3 weighted = area_vector(surface, t);
     for (const Index p : surface.triangles[t]) normals[p] += weighted;
   }
-  for (Vec3& n : normals) {
-    const double length = norm(n);
-    n = length > 0 ? (1 / length) * n : Vec3{};
-  }
+  for (Vec3& n : normals) n = unit_or_zero(n);
   return normals;
 }
 

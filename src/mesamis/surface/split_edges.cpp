@@ -30,6 +30,9 @@ struct SplitTriangle {
   }
 };
 
+/// The half edges that run along one edge.
+using Edge = std::span<const HalfEdge>;
+
 class Splitter {
  public:
   Splitter(TriMesh& surface, const SplitRule& rule) : surface_(surface), rule_(rule) {}
@@ -46,6 +49,8 @@ class Splitter {
   }
 
  private:
+  static constexpr int kNone = -1;
+
   double length(Index a, Index b) const { return norm(surface_.points[a] - surface_.points[b]); }
 
   /// The corner from which a triangle's longest edge runs.
@@ -54,41 +59,47 @@ class Splitter {
     return static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
   }
 
+  /// Of each triangle the corner from which the edge to split runs, or none. That is the longest
+  /// edge, whichever the rule asks for: others would make needles.
+  std::vector<int> edges_to_split(const std::vector<Edge>& edges) const {
+    std::vector<char> asked(edges.size());
+    parallel_for(edges.size(), [&](std::size_t e) {
+      const HalfEdge& edge = edges[e][0];
+      asked[e] = rule_(surface_.points[edge.lo], surface_.points[edge.hi]) ? 1 : 0;
+    });
+    std::vector<int> corners(surface_.triangles.size(), kNone);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      if (asked[e] == 0) continue;
+      for (const HalfEdge& h : edges[e]) {
+        const auto t = static_cast<std::size_t>(h.triangle);
+        corners[t] = longest_edge(surface_.triangles[t]);
+      }
+    }
+    return corners;
+  }
+
   /// Adds the points and tells the triangles of them; empty if nothing is to be split.
   std::vector<SplitTriangle> find_middles() {
     const auto half_edges = sorted_half_edges(surface_.triangles, surface_.points.size());
-    std::vector<std::span<const HalfEdge>> edges;
-    for_each_edge(half_edges, [&edges](std::span<const HalfEdge> edge) { edges.push_back(edge); });
-    std::vector<char> wanted(edges.size()), asked(edges.size());
-    parallel_for(edges.size(), [&](std::size_t e) {
-      const HalfEdge& edge = edges[e][0];
-      wanted[e] = rule_(surface_.points[edge.lo], surface_.points[edge.hi]) ? 1 : 0;
-    });
-    // A triangle is split at its longest edge, whichever is wanted: others would make needles.
-    std::vector<char> triangle_wanted(surface_.triangles.size());
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      if (wanted[e] == 0) continue;
-      for (const HalfEdge& h : edges[e]) triangle_wanted[static_cast<std::size_t>(h.triangle)] = 1;
-    }
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      asked[e] = std::any_of(edges[e].begin(), edges[e].end(), [&](const HalfEdge& h) {
-        return triangle_wanted[static_cast<std::size_t>(h.triangle)] != 0 &&
-               h.corner == longest_edge(surface_.triangles[static_cast<std::size_t>(h.triangle)]);
-      });
-    }
+    std::vector<Edge> edges;
+    for_each_edge(half_edges, [&edges](Edge edge) { edges.push_back(edge); });
+    const std::vector<int> corners = edges_to_split(edges);
+    const std::size_t before = surface_.points.size();
     std::vector<SplitTriangle> split;
-    if (std::find(asked.begin(), asked.end(), 1) == asked.end()) return split;
     for (const Triangle& t : surface_.triangles) split.push_back({t});
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      if (asked[e] == 0) continue;
-      const HalfEdge& edge = edges[e][0];
+    for (const Edge edge : edges) {
+      const bool asked = std::any_of(edge.begin(), edge.end(), [&](const HalfEdge& h) {
+        return corners[static_cast<std::size_t>(h.triangle)] == h.corner;
+      });
+      if (!asked) continue;
       const auto middle = static_cast<Index>(surface_.points.size());
-      surface_.points.push_back(0.5 * (surface_.points[edge.lo] + surface_.points[edge.hi]));
-      for (const HalfEdge& h : edges[e]) {
+      surface_.points.push_back(0.5 * (surface_.points[edge[0].lo] + surface_.points[edge[0].hi]));
+      for (const HalfEdge& h : edge) {
         split[static_cast<std::size_t>(h.triangle)].middles[static_cast<std::size_t>(h.corner)] =
             middle;
       }
     }
+    if (surface_.points.size() == before) split.clear();
     return split;
   }
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mesamis/image/volume.h"
+
+namespace mesamis {
+
+/// How much surface an object has.
+struct SurfaceExtent {
+  double area = 0;        ///< mm^2
+  double thin_share = 0;  ///< of the area: walls and gaps thinner than two voxels, 0 to 1
+};
+
+/// Measures the extent of a level set without a mesh, see level_area(). What is thin is counted at
+/// crossings with the grid lines: there the image leaves the level's side again within two voxels
+/// along the normal, inwards or outwards.
+/// @param image  at least 2 voxels along each axis.
+/// @param level  native units.
+/// @throws nothing
+///
+/// O(voxels).
+SurfaceExtent measure_extent(const VolumeView& image, double level);
+
+}  // namespace mesamis
