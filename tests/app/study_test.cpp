@@ -112,8 +112,9 @@ TEST(StudyCommand, TablesSayWhatCompareSaysOfTheSurfacesLeftBehind) {
 TEST(StudyCommand, MarksWhatHasNotConvergedAndWritesAllTheSame) {
   const TempFolder folder;
   make_ball(folder);
-  const ProgramRun run = study(folder, {"--subsample", "2", "--adaptations", "2", "--tol-energy",
-                                        "0", "--tol-mesh", "0", "--gamma", "0.2"});
+  const ProgramRun run =
+      study(folder, {"--subsample", "2", "--adaptations", "2", "--until", "energy", "--tol-energy",
+                     "0", "--tol-mesh", "0", "--gamma", "0.2"});
   EXPECT_EQ(run.status, 4);
   EXPECT_EQ(run.error_lines(), 1u) << run.err;
   EXPECT_THAT(run.err, HasSubstr("s2: not converged"));

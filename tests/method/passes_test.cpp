@@ -99,12 +99,13 @@ Iteration pass_with(double mesh_change, double energy_change, bool bounded = fal
   return pass;
 }
 
-TEST(HasSettled, WantsBothByDefaultAndOneAsPrinted) {
+TEST(HasSettled, WantsBothByEnergyAndOneAsPrinted) {
   Prepared prepared;
   Parameters& p = prepared.parameters;
   p.unit_mm = 1;
   p.drafts = false;
   p.adaptations = 10;
+  p.until = StopRule::kEnergy;
   p.tol_mesh = p.tol_energy = 0.01;
   prepared.grey = make_ball({.size = 8, .radius = 2});
   const RunInput run(prepared);
@@ -116,12 +117,36 @@ TEST(HasSettled, WantsBothByDefaultAndOneAsPrinted) {
   EXPECT_FALSE(settled(pass_with(0.03, 0.005)));
   EXPECT_TRUE(settled(pass_with(0.03, 0.005, true))) << "a count that max_tets holds may waver";
   EXPECT_FALSE(settled(pass_with(0.2, 0.005, true)));
-  p.stop_at_first = true;
+  p.until = StopRule::kEither;
   EXPECT_TRUE(settled(pass_with(0.005, 0.02)));
   EXPECT_TRUE(settled(pass_with(0.03, 0.005)));
   EXPECT_FALSE(settled(pass_with(0.03, 0.02)));
   // The first energy change compares the grid with a mesh.
   EXPECT_FALSE(has_settled(run, {pass_with(1, 1), pass_with(0.5, 0.001)}));
+}
+
+TEST(HasSettled, WantsTheSurfaceToMoveByNoMoreThanItsError) {
+  Prepared prepared;
+  Parameters& p = prepared.parameters;
+  p.unit_mm = 1;
+  p.drafts = false;
+  p.adaptations = 10;
+  prepared.grey = make_ball({.size = 8, .spacing = {2, 2, 2}, .radius = 4});
+  const RunInput run(prepared);
+  const auto settled = [&run](double change, double error) {
+    Iteration last = pass_with(1, 1);
+    last.surface_change = change;
+    last.expected_error = error;
+    return has_settled(run, {pass_with(1, 1), pass_with(1, 1), last});
+  };
+  EXPECT_TRUE(settled(0.5, 0.6));
+  EXPECT_FALSE(settled(0.5, 0.4));
+  p.follow = true;
+  EXPECT_TRUE(settled(0.39, 0.1)) << "a fifth of a voxel is made up for by following the image";
+  EXPECT_FALSE(settled(0.41, 0.1));
+  EXPECT_FALSE(has_settled(run, {pass_with(0, 0), pass_with(0, 0)})) << "three meshes at least";
+  p.surface = SurfaceKind::kBand;
+  EXPECT_FALSE(settled(0, 1)) << "a band goes by mesh and energy";
 }
 
 TEST(Stage, StopsWhereProgressSaysSo) {

@@ -200,7 +200,7 @@ TEST(Presets, PaperIsTheMethodAsPrinted) {
   EXPECT_EQ(paper.max_tets, 1'300'000);
   EXPECT_EQ(paper.threshold_rule, ThresholdRule::kPaper);
   EXPECT_EQ(paper.surface, SurfaceKind::kBand);
-  EXPECT_TRUE(paper.stop_at_first);
+  EXPECT_EQ(paper.until, StopRule::kEither);
   EXPECT_FALSE(paper.restore);
   EXPECT_FALSE(paper.drafts);
 }

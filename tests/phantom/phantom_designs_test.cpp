@@ -101,6 +101,23 @@ TEST(PhantomDesigns, PlateHasTheVolumeOfItsSides) {
   EXPECT_NEAR(volume_of(design("plate"), 0.4) / exact, 1, 0.01);
 }
 
+TEST(PhantomDesigns, WallGrowsThinAtAKnownRate) {
+  const PhantomDesign& d = design("wall");
+  // Through the wall, in its own frame: turned by 0.3 about z, then by 0.2 about y.
+  const auto thickness = [&d](double x) {
+    double sum = 0;
+    for (double y = -4; y < 4; y += 0.002) {
+      const double cy = std::cos(0.2), sy = std::sin(0.2), cz = std::cos(0.3), sz = std::sin(0.3);
+      const Vec3 q{cy * x, y, -sy * x};
+      sum += d.inside({cz * q.x - sz * q.y, 9 + sz * q.x + cz * q.y, q.z}) > 0 ? 0.002 : 0;
+    }
+    return sum;
+  };
+  for (const double x : {-20.0, -10.0, 0.0, 10.0, 20.0}) {
+    EXPECT_NEAR(thickness(x), 0.3 + (x + 26) / 52 * 2.7, 0.01) << x;
+  }
+}
+
 TEST(PhantomDesigns, FractureHasAGapThatNarrows) {
   const PhantomDesign& d = design("fracture");
   // Across the gap, in its own frame: turned by 0.12 about y.

@@ -48,6 +48,7 @@ Loop run_loop(const RunInput& run, const Progress& progress) {
     const Pass pass{run, k, stage, loop.passes.emplace_back()};
     const Minimum minimum = minimise(pass, loop.state, run.draft_options());
     record_energy_change(loop.passes);
+    record_surface(pass, loop.state, minimum);
     loop.state = adapt(pass, loop.state, minimum);
     loop.settled = has_settled(run, loop.passes);
   }
@@ -55,6 +56,7 @@ Loop run_loop(const RunInput& run, const Progress& progress) {
   const Pass pass{run, p.adaptations, last, loop.passes.emplace_back()};
   loop.minimum = minimise(pass, loop.state, run.final_options());
   record_energy_change(loop.passes);
+  record_surface(pass, loop.state, loop.minimum);
   return loop;
 }
 
@@ -65,8 +67,7 @@ bool has_converged(const Loop& loop) {
 }
 
 /// The solid follows the image where that is more exact than the mesh.
-/// @param noise  left in the image, native units.
-TriMesh extract_surface(const RunInput& run, const Loop& loop, double noise) {
+TriMesh extract_surface(const RunInput& run, const Loop& loop) {
   const Parameters& p = run.parameters;
   const TetMesh& mesh = loop.state.mesh;
   if (p.surface == SurfaceKind::kBand) {
@@ -75,20 +76,7 @@ TriMesh extract_surface(const RunInput& run, const Loop& loop, double noise) {
   const double level = p.grey.to_grey(p.level);
   const TriMesh extracted = extract_solid(mesh, loop.minimum.u, level);
   if (!p.follow) return extracted;
-  return follow_image(extracted, run.image, {level, noise * p.grey.grey_per_native(), p.unit_mm});
-}
-
-/// From length units in the grid's axes to mm in the world frame.
-void bring_to_world(const RunInput& run, std::vector<Vec3>& points) {
-  const Vec3 extent = run.grey.box().extent();
-  parallel_for(points.size(), [&](std::size_t n) {
-    Vec3 p = run.parameters.unit_mm * points[n];
-    for (int a = 0; a < 3; ++a) {
-      // Round-off must not move the box: what lay on it lies on the voxels' own box.
-      if (points[n][a] == run.box.hi[a] || p[a] > extent[a]) p[a] = extent[a];
-    }
-    points[n] = run.grey.to_world(p);
-  });
+  return follow_image(extracted, run.image, {level, run.error.noise, p.unit_mm});
 }
 
 /// D M D' / unit^2 with D the direction cosines.
@@ -121,14 +109,6 @@ void deliver(const RunInput& run, Loop loop, Result& result) {
   result.iterations = std::move(loop.passes);
 }
 
-std::vector<double> error_of(const RunInput& run, const Result& result) {
-  const Parameters& p = result.parameters;
-  const double grey_per_native = p.grey.grey_per_native();
-  return expected_error(
-      result.surface, run.image,
-      {result.image.noise_left * grey_per_native, result.image.contrast * grey_per_native, p.blur});
-}
-
 /// The solid is made printable; the paper's band is delivered as it is.
 void finish_surface(const Progress& progress, Result& result) {
   const Parameters& p = result.parameters;
@@ -157,12 +137,14 @@ Result run_on(const VolumeView& volume, const Settings& settings, const Progress
 
   watch.lap();
   (void)Stage(progress, "surface");
-  result.surface = extract_surface(run, loop, prepared.noise_left);
+  result.surface = extract_surface(run, loop);
   result.seconds.surface = watch.lap();
   deliver(run, std::move(loop), result);
   watch.lap();
   finish_surface(progress, result);
-  if (p.surface == SurfaceKind::kSolid) result.expected_error = error_of(run, result);
+  if (p.surface == SurfaceKind::kSolid) {
+    result.expected_error = expected_error(result.surface, run.image, run.error);
+  }
   result.seconds.printable = watch.lap();
   return result;
 }

@@ -29,7 +29,7 @@ Settings settings_of(const Parameters& p) {
   s.adaptations = p.adaptations;
   s.tol_mesh = p.tol_mesh;
   s.tol_energy = p.tol_energy;
-  s.stop_at_first = p.stop_at_first;
+  s.until = p.until;
   s.drafts = p.drafts;
   s.max_stretch = p.max_stretch;
   s.gradation = p.gradation;

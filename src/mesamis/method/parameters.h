@@ -34,7 +34,7 @@ struct Parameters {
   double tau = 0;                       ///< tolerance on the estimator
   int adaptations = 0;                  ///< at most
   double tol_mesh = 0, tol_energy = 0;  ///< relative changes that count as settled
-  bool stop_at_first = false;           ///< one of the two suffices
+  StopRule until = StopRule::kSurface;  ///< what ends the loop
   bool drafts = false;                  ///< meshes before the last are cheaper
   double max_stretch = 0;               ///< longest to shortest size of a cell
   double gradation = 0;                 ///< growth of sizes from edge to edge; 0: any

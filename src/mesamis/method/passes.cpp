@@ -17,7 +17,9 @@
 #include "mesamis/fem/transfer.h"
 #include "mesamis/mesh/gradation.h"
 #include "mesamis/mesh/metric_field.h"
+#include "mesamis/method/surface_change.h"
 #include "mesamis/remesh/remesh.h"
+#include "mesamis/surface/extract.h"
 
 namespace mesamis {
 namespace {
@@ -28,10 +30,12 @@ constexpr int kSmoothingSweeps = 3;
 /// All meshes but the last are there to find the next one: their fields need not be exact.
 constexpr double kDraftTolerance = 1e-3;
 constexpr int kDraftAlternations = 4;
-/// Cells of the meshes against max_tets, one after the other; with fewer adaptations than
-/// kToGrow the first are left out.
-constexpr std::array kShares{0.25, 0.35, 0.6, 1.0};
-constexpr int kToGrow = 6;
+/// Cells of the meshes against max_tets, one after the other; with fewer adaptations the first are
+/// left out.
+constexpr std::array kShares{0.3, 0.6, 1.0};
+constexpr int kMeshes = kShares.size();
+/// Voxels: following the image makes up for meshes that are so far from it.
+constexpr double kFollowed = 0.2;
 
 /// The first grid: every stride-th voxel, spread so that it fills the whole box.
 KuhnGrid first_grid(const RunInput& run) {
@@ -119,7 +123,9 @@ RunInput::RunInput(const Prepared& prepared)
     : parameters(prepared.parameters),
       grey(prepared.grey),
       image(prepared.image),
-      box{{0, 0, 0}, (1 / parameters.unit_mm) * grey.box().extent()} {}
+      box{{0, 0, 0}, (1 / parameters.unit_mm) * grey.box().extent()},
+      error{prepared.noise_left * parameters.grey.grey_per_native(),
+            prepared.contrast * parameters.grey.grey_per_native(), parameters.blur} {}
 
 AmisOptions RunInput::final_options() const {
   AmisOptions options;
@@ -140,8 +146,8 @@ AmisOptions RunInput::draft_options() const {
 
 std::int64_t RunInput::cells_after(int k) const {
   if (!parameters.drafts) return parameters.max_tets;
-  const int left_out = std::max(0, kToGrow - parameters.adaptations);
-  const int place = std::min(k - 1 + left_out, static_cast<int>(kShares.size()) - 1);
+  const int left_out = std::max(0, kMeshes - parameters.adaptations);
+  const int place = std::min(k - 1 + left_out, kMeshes - 1);
   const double share = kShares[static_cast<std::size_t>(place)];
   return std::min(parameters.max_tets,
                   std::max<std::int64_t>(
@@ -246,19 +252,61 @@ State adapt(const Pass& pass, const State& state, const Minimum& minimum) {
   return next;
 }
 
-bool has_settled(const RunInput& run, const std::vector<Iteration>& passes) {
+void bring_to_world(const RunInput& run, std::vector<Vec3>& points) {
+  const Vec3 extent = run.grey.box().extent();
+  parallel_for(points.size(), [&](std::size_t n) {
+    Vec3 p = run.parameters.unit_mm * points[n];
+    for (int a = 0; a < 3; ++a) {
+      // Round-off must not move the box: what lay on it lies on the voxels' own box.
+      if (points[n][a] == run.box.hi[a] || p[a] > extent[a]) p[a] = extent[a];
+    }
+    points[n] = run.grey.to_world(p);
+  });
+}
+
+void record_surface(const Pass& pass, const State& state, const Minimum& minimum) {
+  const auto& [run, number, stage, record] = pass;
   const Parameters& p = run.parameters;
+  if (p.surface != SurfaceKind::kSolid) return;
+  const double level = p.grey.to_grey(p.level), voxel = run.grey.voxel_size() / p.unit_mm;
+  record.surface_change =
+      p.unit_mm * level_set_change(state.mesh, state.u, minimum.u, {level, voxel});
+  TriMesh surface = extract_solid(state.mesh, minimum.u, level);
+  bring_to_world(run, surface.points);
+  record.expected_error =
+      summarize_error(surface, expected_error(surface, run.image, run.error)).mean;
+}
+
+namespace {
+
+/// What the surface may still move by, mm.
+double surface_tolerance(const RunInput& run, const Iteration& last) {
+  const double followed = run.parameters.follow ? kFollowed * run.grey.voxel_size() : 0;
+  return std::max(last.expected_error, followed);
+}
+
+bool has_settled_by_energy(const Parameters& p, const std::vector<Iteration>& passes) {
   const Iteration& last = passes.back();
-  // While the count is still to grow nothing has settled.
-  if (run.cells_after(static_cast<int>(passes.size())) != p.max_tets) return false;
   // Energies on the grid and on adapted meshes are not compared: the first Ei means nothing.
   const bool energy_settled = passes.size() > 2 && last.energy_change <= p.tol_energy;
   const bool mesh_stagnates = last.mesh_change <= p.tol_mesh;
-  if (p.stop_at_first) return mesh_stagnates || energy_settled;
+  if (p.until == StopRule::kEither) return mesh_stagnates || energy_settled;
   // A count that max_tets holds wavers by what the remesher's steering leaves.
   constexpr double kSteeringSlack = 0.06;
   const bool mesh_settled = mesh_stagnates || (last.bounded && last.mesh_change <= kSteeringSlack);
   return mesh_settled && energy_settled;
+}
+
+}  // namespace
+
+bool has_settled(const RunInput& run, const std::vector<Iteration>& passes) {
+  const Parameters& p = run.parameters;
+  if (run.cells_after(static_cast<int>(passes.size())) != p.max_tets) return false;
+  const bool solid = p.surface == SurfaceKind::kSolid;
+  if (p.until != StopRule::kSurface || !solid) return has_settled_by_energy(p, passes);
+  const Iteration& last = passes.back();
+  const auto needed = std::min<std::ptrdiff_t>(kMeshes, p.adaptations);
+  return std::ssize(passes) >= needed && last.surface_change <= surface_tolerance(run, last);
 }
 
 }  // namespace mesamis

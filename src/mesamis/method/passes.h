@@ -9,6 +9,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/progress.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/method/expected_error.h"
 #include "mesamis/method/iteration.h"
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/prepare.h"
@@ -42,6 +43,7 @@ struct RunInput {
   const Volume& grey;        ///< the image, restored, in grey values
   const SplineImage& image;  ///< the same between the voxels
   Box box;                   ///< of the voxel centres, length units
+  ErrorOptions error;        ///< what is known of the image, grey values
 
   explicit RunInput(const Prepared& prepared);
   /// How exactly Algorithm 1 is solved on the delivered mesh, and on those before it.
@@ -95,8 +97,15 @@ Minimum minimise(const Pass& pass, const State& state, const AmisOptions& option
 /// mesh_change beside what minimise() has recorded.
 State adapt(const Pass& pass, const State& state, const Minimum& minimum);
 
-/// Whether mesh and energy (or one of them, see Parameters::stop_at_first) stood still in the last
-/// of these passes.
+/// From length units in the grid's axes to mm in the world frame.
+void bring_to_world(const RunInput& run, std::vector<Vec3>& points);
+
+/// Records what the minimisation has done to the solid's surface; nothing for a band.
+void record_surface(const Pass& pass, const State& state, const Minimum& minimum);
+
+/// Whether, by Parameters::until, no further mesh is needed after the last of these passes. While
+/// the number of cells is still to grow, it is; three meshes are made if as many are allowed, for
+/// the first tell how many cells the remesher makes of a metric.
 bool has_settled(const RunInput& run, const std::vector<Iteration>& passes);
 
 }  // namespace mesamis

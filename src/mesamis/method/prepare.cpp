@@ -65,7 +65,7 @@ Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
   p.adaptations = s.adaptations;
   p.tol_mesh = s.tol_mesh;
   p.tol_energy = s.tol_energy;
-  p.stop_at_first = s.stop_at_first;
+  p.until = s.until;
   p.drafts = s.drafts;
   p.max_stretch = s.max_stretch;
   p.gradation = s.gradation;

@@ -230,9 +230,11 @@ std::vector<Setting> mesh_rows() {
     bound({.name = "tol_energy", .form = "X", .count = 1, .low = 0, .high = kHuge,
            .help = "The energy has settled when it changes by less, relatively"},
           &Settings::tol_energy),
-    bound({.name = "stop_at_first", .form = "yes|no",
-           .help = "Stop when mesh or energy has settled, not both",
-           .paper = "yes"}, &Settings::stop_at_first),
+    bound({.name = "until", .form = "surface|energy|either", .words = {"surface", "energy", "either"},
+           .help = "The loop ends when the last mesh has moved the surface by less than its expected "
+               "error (a fifth of a voxel, if it then follows the image); when mesh and energy have "
+               "settled; when mesh or energy has",
+           .paper = "either"}, &Settings::until),
     bound({.name = "drafts", .form = "yes|no",
            .help = "Meshes before the last have fewer cells and approximate fields",
            .paper = "no"}, &Settings::drafts),

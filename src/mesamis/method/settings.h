@@ -19,6 +19,11 @@ enum class SurfaceKind {
   kSolid,  ///< level set of u, closed
   kBand    ///< the paper's Sigma_h: boundary of the cells where v is small
 };
+enum class StopRule {
+  kSurface,  ///< a further mesh would move the surface by less than its expected error
+  kEnergy,   ///< mesh and energy have settled
+  kEither    ///< mesh or energy has settled, as the paper prints it
+};
 enum class ThresholdRule {
   kAuto,   ///< from the histogram, see find_tissue_threshold()
   kNone,   ///< no threshold
@@ -58,7 +63,7 @@ struct Settings {
   int adaptations = 10;
   double tol_mesh = 1e-2;
   double tol_energy = 1e-2;
-  bool stop_at_first = false;
+  StopRule until = StopRule::kSurface;
   bool drafts = true;
   double max_stretch = 10;
   double gradation = 0;

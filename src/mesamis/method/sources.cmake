@@ -21,4 +21,5 @@ set(ROOM_SOURCES
   prepare.cpp
   printable.cpp
   setting_rows.cpp
-  setting_table.cpp)
+  setting_table.cpp
+  surface_change.cpp)

@@ -20,6 +20,15 @@ double sphere(const Vec3& p) { return ball(p, {0, 0, 0}, 20); }
 
 double plate(const Vec3& p) { return round_box(turned(p, 0.35, 0.25), {22, 18, 1}, 0.6); }
 
+/// A wall that grows thin, beside a ball of the same value. The wall is 3 mm thick at one end and
+/// 0.3 mm at the other one, 52 mm further.
+double wall(const Vec3& p) {
+  const Vec3 q = turned(p - Vec3{0, 9, 0}, 0.3, 0.2);
+  const double taper = tapered_profile(std::abs(q.y), 26 - q.x, {1.5, 0.15, 52});
+  const double sheet = smooth_intersection(taper, 24 - std::abs(q.z), 0.3);
+  return std::max(sheet, ball(p, {0, -16, 0}, 12));
+}
+
 /// The wedge that is missing runs along y; it is 5 mm wide where it begins and 0.5 mm at its tip.
 double fracture(const Vec3& p) {
   const Vec3 q = turned(p, 0, 0.12);
@@ -61,6 +70,13 @@ const std::vector<PhantomDesign>& phantom_designs() {
   static const std::vector<PhantomDesign> designs{
       {"sphere", "a ball of radius 20 mm", {64, 64, 64}, 1, {}, sphere, nullptr},
       {"plate", "a thin wall, 44 x 36 x 2 mm, askew", {64, 64, 64}, 0.8, {}, plate, nullptr},
+      {"wall",
+       "a wall that grows thin, 3 to 0.3 mm, beside a ball",
+       {72, 72, 72},
+       0.25,
+       {},
+       wall,
+       nullptr},
       {"femur",
        "the upper end of a femur: dense shell, spongy core",
        {64, 64, 96},

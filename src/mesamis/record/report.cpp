@@ -31,6 +31,8 @@ ordered_json iteration_json(const Iteration& i, bool is_first, bool is_last) {
           {"energy", i.energy.total()},
           {"energy_parts", energy_json(i.energy)},
           {"energy_change", known(!is_first, i.energy_change)},
+          {"surface_change_mm", known(!is_first, i.surface_change)},
+          {"expected_error_mm", known(!is_first, i.expected_error)},
           {"mesh_change", known(!is_first && !is_last, i.mesh_change)},
           {"amis_iterations", i.amis.iterations},
           {"v_change", i.amis.v_change},

@@ -20,6 +20,13 @@ std::string why_not_converged(const Result& result) {
            "more";
   }
   const Iteration& last = passes[passes.size() - 2];
+  if (result.parameters.until == StopRule::kSurface &&
+      result.parameters.surface == SurfaceKind::kSolid) {
+    return "not converged: after " + std::to_string(result.parameters.adaptations) +
+           " adaptations the last mesh moved the surface by " +
+           std::to_string(last.surface_change) + " mm, expected at most the error of " +
+           std::to_string(last.expected_error) + " mm";
+  }
   return "not converged: after " + std::to_string(result.parameters.adaptations) +
          " adaptations the cell count changed by " + std::to_string(last.mesh_change) +
          " and the energy by " + std::to_string(last.energy_change) + ", expected at most " +
