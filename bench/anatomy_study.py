@@ -14,6 +14,9 @@ to surface and back, in voxels (the geometric mean of the spacing). `at our leve
 isosurface of the best width at the level that `segment` chose. Missed and invented: per cent of the
 truth's and the surface's area further than a voxel from the other one, ours / the best rival's.
 
+The error that `segment` expects is compared with the real one on the cases whose truth is exact, as a
+whole and by tenths of the surface.
+
 --restored PATTERN adds a line where the file PATTERN is, {name} being the case: the isosurface of that
 restored image, on the scan's grid, at our level, decimated by quadrics to our count of triangles.
 
@@ -50,10 +53,10 @@ def cached(path, make):
 
 def segmented(case, tag, options):
     """Runs `segment`: its exit status and message, the level, seconds of the wall and of the user."""
-    surface, report = (case.folder / f"{case.name}.{tag}{end}" for end in (".ply", ".report.json"))
+    surface, report = (case.folder / f"{case.name}.{tag}{end}" for end in (".vtp", ".report.json"))
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     done = subprocess.run([MESAMIS, "segment", case.scan, "-o", surface, "--report", report, "--quiet",
-                           *options], capture_output=True, text=True)
+                           "--error", *options], capture_output=True, text=True)
     user = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
     found = {"status": done.returncode, "user": user, "message": done.stderr.strip()[:200]}
     if done.returncode in (0, 4):
@@ -67,7 +70,7 @@ def ours(case, arguments):
     path = case.folder / f"{case.name}.{arguments.tag}.run.json"
     done = cached(path, lambda: segmented(case, arguments.tag, shlex.split(arguments.options)))
     found = done["status"] in (0, 4)
-    return done, read_surface(case.folder / f"{case.name}.{arguments.tag}.ply") if found else None
+    return done, read_surface(case.folder / f"{case.name}.{arguments.tag}.vtp") if found else None
 
 
 def measured(case, arguments):
@@ -78,7 +81,8 @@ def measured(case, arguments):
 
     def our_distances():
         tuning = tuner()
-        return {"ours": tuning.judge.measure(surface), "level": tuning.at_level(done["level"])}
+        return {"ours": tuning.judge.measure(surface), "level": tuning.at_level(done["level"]),
+                "errors": tuning.judge.expected_and_real(surface, "expected_error_mm").tolist()}
 
     found = cached(case.folder / f"{case.name}.rivals.json", lambda: tuner().all())
     done, surface = ours(case, arguments)
@@ -143,6 +147,19 @@ def study_group(cases, arguments):
              *means])
 
 
+def errors(cases, arguments):
+    """The error that `segment` expects against the real one, from the surface to the truth, voxels."""
+    print("\n| case | real | expected | ratio | tenths within a factor of two |\n|---|---|---|---|---|")
+    for case in cases:
+        _, mine, _ = measured(case, arguments)
+        if mine is None:
+            continue
+        expected, real = np.array(mine["errors"])
+        by_tenth = expected / real
+        row([case.name, f"{real.mean():.3f}", f"{expected.mean():.3f}",
+             f"{expected.mean() / real.mean():.2f}", str(np.sum((by_tenth > 0.5) & (by_tenth < 2)))])
+
+
 def walls(cases, arguments):
     """Per bin of the true thickness, voxels: the share found and the mean error of the thickness."""
     bins = [f"{a}-{b}" for a, b in zip(wall_bins.BINS, wall_bins.BINS[1:])]
@@ -204,6 +221,9 @@ def main():
         of_group = [c for c in cases if c.group == group]
         if of_group:
             study_group(of_group, arguments)
+    exact = [c for c in cases if c.group in "bc"]
+    if exact:
+        errors(exact, arguments)
     for names, what in ((WALLS, walls), (NOTHING, nothing)):
         of_kind = [c for c in cases if c.name in names]
         if of_kind:

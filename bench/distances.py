@@ -2,6 +2,7 @@
 """Distances between two surfaces in process, by points spread evenly over the area of each."""
 import numpy as np
 import vtk
+from scipy.spatial import cKDTree
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 READERS = {".ply": vtk.vtkPLYReader, ".vtp": vtk.vtkXMLPolyDataReader}
@@ -69,6 +70,16 @@ class Judge:
     def samples(self, surface, count):
         points = area_samples(surface, count)
         return points[np.all((points > self.box[0]) & (points < self.box[1]), axis=1)]
+
+    def expected_and_real(self, surface, name, count=SAMPLES):
+        """Mean distances by tenths of the area, voxels: as an array of the surface's points tells
+        them, by which the area is sorted, and to the truth."""
+        points = self.samples(surface, count)
+        nearest = cKDTree(triangles_of(surface)[0]).query(points)[1]
+        expected = vtk_to_numpy(surface.GetPointData().GetArray(name))[nearest] / self.voxel
+        real, order = self.truth.distances(points) / self.voxel, np.argsort(expected, kind="stable")
+        return np.array([[part.mean() for part in np.array_split(d[order], 10)]
+                         for d in (expected, real)])
 
     def measure(self, surface, count=SAMPLES):
         """Mean distances truth to surface and back, and the shares further than a voxel."""
