@@ -74,6 +74,8 @@ class Judge:
     def expected_and_real(self, surface, name, count=SAMPLES):
         """Mean distances by tenths of the area, voxels: as an array of the surface's points tells
         them, by which the area is sorted, and to the truth."""
+        if not surface.GetNumberOfPolys():
+            return np.full((2, 10), np.nan)
         points = self.samples(surface, count)
         nearest = cKDTree(triangles_of(surface)[0]).query(points)[1]
         expected = vtk_to_numpy(surface.GetPointData().GetArray(name))[nearest] / self.voxel

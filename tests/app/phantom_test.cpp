@@ -71,7 +71,7 @@ TEST(PhantomCommand, RefusesInOneLineAndWritesNothing) {
     return run_program(folder, options);
   };
   const std::string out = folder / "a.nrrd";
-  EXPECT_FAILS(phantom({"ball", "-o", out}), 2, "sphere, plate, femur, fracture, hemipelvis");
+  EXPECT_FAILS(phantom({"ball", "-o", out}), 2, "sphere, plate, wall, femur, fracture, hemipelvis");
   EXPECT_FAILS(phantom({"-o", out}), 2, "--list");
   EXPECT_FAILS(phantom({"sphere"}), 2, "--output");
   EXPECT_FAILS(phantom({"sphere", "-o", folder / "a.nii"}), 2, ".nrrd");

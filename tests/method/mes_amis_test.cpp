@@ -55,6 +55,19 @@ TEST(MesAmis, DeliversAValidMeshWithinTheCount) {
   EXPECT_GT(result.fit.unit_edge_fraction, 0.8);
 }
 
+TEST(MesAmis, RecordsHowFarEachMeshMovesTheSurface) {
+  const Result result = mes_amis(make_ball(ball()), small_run());
+  ASSERT_EQ(result.iterations.size(), 4u) << "three adaptations and the final minimisation";
+  EXPECT_TRUE(result.converged);
+  EXPECT_EQ(result.iterations[0].surface_change, 0) << "nothing to compare with";
+  for (std::size_t k = 1; k < 4; ++k) {
+    EXPECT_GT(result.iterations[k].surface_change, 0) << k;
+    EXPECT_LT(result.iterations[k].surface_change, 0.5) << k;
+    EXPECT_NEAR(result.iterations[k].surface_tolerance, 0.2, 1e-12) << "a fifth of a voxel";
+  }
+  EXPECT_LT(result.iterations[3].surface_change, result.iterations[1].surface_change);
+}
+
 TEST(MesAmis, TellsTheGreyValueBeneathTheSurface) {
   const Result result = mes_amis(make_ball(ball()), small_run());
   const std::vector<double> greys = surface_grey(result, 1);

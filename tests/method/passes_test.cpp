@@ -133,17 +133,21 @@ TEST(HasSettled, WantsTheSurfaceToMoveByNoMoreThanItsError) {
   p.adaptations = 10;
   prepared.grey = make_ball({.size = 8, .spacing = {2, 2, 2}, .radius = 4});
   const RunInput run(prepared);
-  const auto settled = [&run](double change, double error) {
+  const auto settled = [&run](double change, double tolerance) {
     Iteration last = pass_with(1, 1);
     last.surface_change = change;
-    last.expected_error = error;
+    last.surface_tolerance = tolerance;
     return has_settled(run, {pass_with(1, 1), pass_with(1, 1), last});
   };
   EXPECT_TRUE(settled(0.5, 0.6));
   EXPECT_FALSE(settled(0.5, 0.4));
-  p.follow = true;
-  EXPECT_TRUE(settled(0.39, 0.1)) << "a fifth of a voxel is made up for by following the image";
-  EXPECT_FALSE(settled(0.41, 0.1));
+  p.drafts = true;
+  p.max_tets = 1'000'000;
+  EXPECT_TRUE(settled(0.5, 0.6)) << "the third mesh has all cells";
+  EXPECT_FALSE(has_settled(run, {pass_with(1, 1), pass_with(0, 0)})) << "the second has not";
+  p.adaptations = 2;
+  EXPECT_TRUE(has_settled(run, {pass_with(1, 1), pass_with(0, 0)})) << "no more are allowed";
+  p.adaptations = 10;
   EXPECT_FALSE(has_settled(run, {pass_with(0, 0), pass_with(0, 0)})) << "three meshes at least";
   p.surface = SurfaceKind::kBand;
   EXPECT_FALSE(settled(0, 1)) << "a band goes by mesh and energy";

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "mesamis/mesh/tet_mesh.h"
 
 namespace mesamis {
@@ -51,6 +54,8 @@ TEST(SurfaceChange, IsWeightedByArea) {
 TEST(SurfaceChange, OfNothingIsZero) {
   const auto flat = sampled(mesh(), [](const Vec3&) { return 1; });
   EXPECT_EQ(level_set_change(mesh(), flat, flat, {0, 5}), 0);
+  const auto plane = sampled(mesh(), [](const Vec3& p) { return p.x - 5.1; });
+  EXPECT_EQ(level_set_change(mesh(), plane, flat, {0, 5}), 5) << "it has gone";
 }
 
 }  // namespace

@@ -150,7 +150,8 @@ TEST(Phantom, SameBytesOnAnyNumberOfThreads) {
 }
 
 TEST(Phantom, RefusesWhatItCannotMake) {
-  EXPECT_REFUSED(make_phantom("ball"), HasSubstr("sphere, plate, wall, femur, fracture, hemipelvis"));
+  EXPECT_REFUSED(make_phantom("ball"),
+                 HasSubstr("sphere, plate, wall, femur, fracture, hemipelvis"));
   EXPECT_REFUSED(make_phantom("sphere", {64, 7, 64}), HasSubstr("size: expected 8 to 4096"));
   EXPECT_REFUSED(make_phantom("sphere", {64, 64, 5000}), HasSubstr("found 5000"));
   EXPECT_REFUSED(make_phantom("sphere", {4096, 4096, 4096}), HasSubstr("2^31"));

@@ -50,6 +50,15 @@ TEST(Verdict, AnUnmetToleranceCountsForSolidsAlone) {
 TEST(Verdict, SaysWhyARunHasNotConverged) {
   Case unsettled;
   unsettled.result.converged = false;
+  unsettled.result.iterations[1].surface_change = 0.7;
+  unsettled.result.iterations[1].surface_tolerance = 0.4;
+  EXPECT_THAT(
+      unsettled.verdict().message,
+      HasSubstr("a mesh still moved the surface by 0.700000 mm, expected at most 0.400000"));
+  unsettled.result.parameters.surface = SurfaceKind::kBand;
+  EXPECT_THAT(unsettled.verdict().message, HasSubstr("the cell count changed by")) << "no solid";
+  unsettled.result.parameters.surface = SurfaceKind::kSolid;
+  unsettled.result.parameters.until = StopRule::kEnergy;
   unsettled.result.iterations[1].mesh_change = 0.3;
   EXPECT_EQ(unsettled.verdict().outcome, Outcome::kNotConverged);
   EXPECT_THAT(unsettled.verdict().message, HasSubstr("the cell count changed by 0.3"));

@@ -29,9 +29,24 @@ TEST(SurfaceExtent, OfABallIsItsAreaAndNothingIsThin) {
 
 TEST(SurfaceExtent, ThinWallsAndGapsCountInVoxels) {
   for (const bool wall : {true, false}) {
-    EXPECT_EQ(measure_extent(slab(8.1, 8.9, wall), 175).thin_share, 1) << wall;   // 1.6 voxels
-    EXPECT_EQ(measure_extent(slab(8.1, 10.1, wall), 175).thin_share, 0) << wall;  // 4 voxels
+    EXPECT_EQ(measure_extent(slab(8.1, 8.9, wall), 175).thin_share, 1) << wall;   // one sample
+    EXPECT_EQ(measure_extent(slab(8.1, 10.1, wall), 175).thin_share, 0) << wall;  // four samples
   }
+}
+
+TEST(SurfaceExtent, CountsByAreaWhateverTheVoxels) {
+  // A thin wall across x and a thick block across z, with faces of 24 x 40 mm and 24 x 40 mm.
+  const Volume volume = gaussian_smoothed(sampled_volume({40, 48, 20}, {0.5, 0.5, 2},
+                                                         [](const Vec3& p) {
+                                                           const bool wall = p.x > 2.1 && p.x < 2.9;
+                                                           const bool block =
+                                                               p.x > 6.1 && p.z > 12.2 && p.z < 27;
+                                                           return wall || block ? 230.0 : 120.0;
+                                                         }),
+                                          0.4);
+  // Thin: 2 x 23.5 x 38; else: 2 x 23.5 x 13.4 and a side of 23.5 x 14.8 mm.
+  const double thin = 2 * 38, thick = 2 * 13.4 + 14.8;
+  EXPECT_NEAR(measure_extent(volume, 175).thin_share, thin / (thin + thick), 0.04);
 }
 
 TEST(SurfaceExtent, OfNothingIsNothing) {

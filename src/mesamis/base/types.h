@@ -59,6 +59,7 @@ inline Vec3 operator*(const Sym3& a, const Vec3& v) {
   return {a.xx * v.x + a.xy * v.y + a.xz * v.z, a.xy * v.x + a.yy * v.y + a.yz * v.z,
           a.xz * v.x + a.yz * v.y + a.zz * v.z};
 }
+
 /// The vector of length 1 in the direction of v (no unit); zero where v is.
 inline Vec3 unit_or_zero(const Vec3& v) noexcept {
   const double length = norm(v);

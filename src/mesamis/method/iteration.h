@@ -16,9 +16,9 @@ struct Iteration {
   double mesh_change = 0;            ///< Em: relative change of the cell count by adapting
   bool bounded = false;              ///< max_tets acted on the metric of this pass
   /// By how much the minimisation moved the solid's level set from where the mesh before had it,
-  /// and the error to expect of it (expected_error()), means, mm; 0 in the first, and without a
-  /// solid.
-  double surface_change = 0, expected_error = 0;
+  /// in the mean, and by how much it may when the loop ends (Settings::until), mm; 0 in the first
+  /// and for a band.
+  double surface_change = 0, surface_tolerance = 0;
   AmisReport amis;
   double estimator = 0;                               ///< zeta, the sum over the cells
   double predicted_tets = 0;                          ///< (11) for tau, before max_tets acts

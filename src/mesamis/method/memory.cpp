@@ -29,7 +29,7 @@ double memory_needed(const VoxelGrid& volume, const Settings& settings) {
   const std::array<Index, 3> size = cropped_size(volume, settings.crop);
   const double voxels = product(size), nodes = product(first_grid_size(size, settings.stride));
   const double cells = settings.max_tets ? static_cast<double>(*settings.max_tets)
-                                         : std::min<double>(kMostTets, 3 * voxels);
+                                         : std::min<double>(kMostTets, 12 * voxels);
   return kBytesOfProgram + kBytesPerVoxel * voxels +
          std::max({kBytesToPrepare * voxels, kBytesPerNode * nodes, kBytesPerCell * cells});
 }

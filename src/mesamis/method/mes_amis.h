@@ -36,14 +36,14 @@ struct Result {
   PrintableReport printable;  ///< which parts of the surface were dropped, how it was decimated
 
   std::vector<Iteration> iterations;  ///< the last one is the final minimisation
-  bool converged = false;             ///< mesh and energy settled, every solve converged
+  bool converged = false;             ///< the loop has settled, every solve converged
   struct Seconds {
     double prepare = 0, surface = 0, printable = 0, total = 0;
   } seconds;
 };
 
-/// Algorithm 2 (MES AMIS). Minimises on the voxel grid, then on adapted meshes, until both the
-/// number of cells and the energy settle; extracts the surface.
+/// Algorithm 2 (MES AMIS). Minimises on the voxel grid, then on adapted meshes, until the loop has
+/// settled (Settings::until); extracts the surface.
 ///
 /// Deviations from the paper: the voxel grid is never stored as cells; the first adapted mesh is
 /// refined from a coarse box; after the last adaptation the functional is minimised once more, so

@@ -69,7 +69,8 @@ inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
 /// thicker than eight of the shortest sides, an eighth of the thickness counts instead.
 ///
 /// A wall or a gap thinner than two voxels has both its faces within a cell or two: there it takes
-/// four times as many, or the mesh closes the gap and tears the wall.
+/// four times as many, or the mesh closes the gap and tears the wall. Between thick slices that is
+/// more than it needs.
 /// @param area        of the object's surface, mm^2, >= 0, see measure_extent().
 /// @param thin_share  of the area: walls and gaps thinner than two voxels, 0 to 1.
 /// @param spacing     of the voxels, mm, > 0.

@@ -268,22 +268,17 @@ void record_surface(const Pass& pass, const State& state, const Minimum& minimum
   const auto& [run, number, stage, record] = pass;
   const Parameters& p = run.parameters;
   if (p.surface != SurfaceKind::kSolid) return;
-  const double level = p.grey.to_grey(p.level), voxel = run.grey.voxel_size() / p.unit_mm;
+  const double level = p.grey.to_grey(p.level), voxel = run.grey.voxel_size();
   record.surface_change =
-      p.unit_mm * level_set_change(state.mesh, state.u, minimum.u, {level, voxel});
-  TriMesh surface = extract_solid(state.mesh, minimum.u, level);
+      p.unit_mm * level_set_change(state.mesh, state.u, minimum.u, {level, voxel / p.unit_mm});
+  // Where the box cuts the object there is no edge that could be off.
+  TriMesh surface = extract_solid(state.mesh, minimum.u, level, {.close_at_box = false});
   bring_to_world(run, surface.points);
-  record.expected_error =
-      summarize_error(surface, expected_error(surface, run.image, run.error)).mean;
+  const double error = summarize_error(surface, expected_error(surface, run.image, run.error)).mean;
+  record.surface_tolerance = std::max(error, p.follow ? kFollowed * voxel : 0);
 }
 
 namespace {
-
-/// What the surface may still move by, mm.
-double surface_tolerance(const RunInput& run, const Iteration& last) {
-  const double followed = run.parameters.follow ? kFollowed * run.grey.voxel_size() : 0;
-  return std::max(last.expected_error, followed);
-}
 
 bool has_settled_by_energy(const Parameters& p, const std::vector<Iteration>& passes) {
   const Iteration& last = passes.back();
@@ -306,7 +301,7 @@ bool has_settled(const RunInput& run, const std::vector<Iteration>& passes) {
   if (p.until != StopRule::kSurface || !solid) return has_settled_by_energy(p, passes);
   const Iteration& last = passes.back();
   const auto needed = std::min<std::ptrdiff_t>(kMeshes, p.adaptations);
-  return std::ssize(passes) >= needed && last.surface_change <= surface_tolerance(run, last);
+  return std::ssize(passes) >= needed && last.surface_change <= last.surface_tolerance;
 }
 
 }  // namespace mesamis

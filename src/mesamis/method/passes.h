@@ -100,12 +100,13 @@ State adapt(const Pass& pass, const State& state, const Minimum& minimum);
 /// From length units in the grid's axes to mm in the world frame.
 void bring_to_world(const RunInput& run, std::vector<Vec3>& points);
 
-/// Records what the minimisation has done to the solid's surface; nothing for a band.
+/// Records how far the minimisation has moved the solid's surface, and how far it may; nothing for
+/// a band.
 void record_surface(const Pass& pass, const State& state, const Minimum& minimum);
 
-/// Whether, by Parameters::until, no further mesh is needed after the last of these passes. While
-/// the number of cells is still to grow, it is; three meshes are made if as many are allowed, for
-/// the first tell how many cells the remesher makes of a metric.
+/// Whether, by Parameters::until, no mesh is needed after the one that the last of these passes has
+/// made. While the number of cells is still to grow, one is. Where the surface decides, three are
+/// made if as many are allowed: the first tell how many cells the remesher makes of a metric.
 bool has_settled(const RunInput& run, const std::vector<Iteration>& passes);
 
 }  // namespace mesamis

@@ -10,6 +10,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/restore/half_maximum_level.h"
+#include "mesamis/restore/level_crossings.h"
 #include "mesamis/restore/object_edge.h"
 #include "mesamis/restore/restore.h"
 #include "mesamis/restore/surface_extent.h"
@@ -94,7 +95,7 @@ double edge_noise(const Restored& restored, double contrast) {
 SurfaceExtent extent_of(const Restored& restored, double contrast, double level) {
   constexpr double kQuiet = 0.1;  // of the contrast: noise reaches the level at five deviations
   if (restored.noise_left < kQuiet * contrast) return measure_extent(restored.volume, level);
-  return {measure_extent(smoothed(restored.volume), level).area, 0};
+  return {level_area(smoothed(restored.volume), level), 0};
 }
 
 /// What restore() makes of the image; where restoring is off, the image as it is, with its noise.

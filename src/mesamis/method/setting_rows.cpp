@@ -231,9 +231,9 @@ std::vector<Setting> mesh_rows() {
            .help = "The energy has settled when it changes by less, relatively"},
           &Settings::tol_energy),
     bound({.name = "until", .form = "surface|energy|either", .words = {"surface", "energy", "either"},
-           .help = "The loop ends when the last mesh has moved the surface by less than its expected "
-               "error (a fifth of a voxel, if it then follows the image); when mesh and energy have "
-               "settled; when mesh or energy has",
+           .help = "surface: the loop ends when a mesh has moved the solid by less than its expected "
+               "error, or a fifth of a voxel, if that is more and the solid then follows the image; "
+               "energy, and for a band: when mesh and energy have settled; either: when one has",
            .paper = "either"}, &Settings::until),
     bound({.name = "drafts", .form = "yes|no",
            .help = "Meshes before the last have fewer cells and approximate fields",

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/mesh_space.h"
@@ -59,7 +60,10 @@ double level_set_change(const TetMesh& mesh, std::span<const double> before,
     area += change.area;
     moved += change.area * change.distance;
   }
-  return area > 0 ? moved / area : 0;
+  if (area > 0) return moved / area;
+  const auto [least, greatest] = std::minmax_element(before.begin(), before.end());
+  const bool was_there = !before.empty() && *least <= options.level && *greatest > options.level;
+  return was_there ? options.most : 0;
 }
 
 }  // namespace mesamis

@@ -21,7 +21,8 @@ struct LevelSetOptions {
 /// the area of the cell's level sets, |grad now| volume / (greatest - least value), from the coarea
 /// formula.
 /// @param before, now  nodal values of the same field on two occasions.
-/// @return the mean distance, in the mesh's unit of length; 0 where nothing is cut.
+/// @return the mean distance, in the mesh's unit of length; options.most if there was a level set
+///         before and is none now, 0 if there was none.
 /// @throws nothing
 ///
 /// O(cells). The same bits for any number of threads.

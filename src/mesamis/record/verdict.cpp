@@ -23,9 +23,8 @@ std::string why_not_converged(const Result& result) {
   if (result.parameters.until == StopRule::kSurface &&
       result.parameters.surface == SurfaceKind::kSolid) {
     return "not converged: after " + std::to_string(result.parameters.adaptations) +
-           " adaptations the last mesh moved the surface by " +
-           std::to_string(last.surface_change) + " mm, expected at most the error of " +
-           std::to_string(last.expected_error) + " mm";
+           " adaptations a mesh still moved the surface by " + std::to_string(last.surface_change) +
+           " mm, expected at most " + std::to_string(last.surface_tolerance) + " mm";
   }
   return "not converged: after " + std::to_string(result.parameters.adaptations) +
          " adaptations the cell count changed by " + std::to_string(last.mesh_change) +

@@ -84,8 +84,8 @@ Vec3 voxel_direction(const VoxelGrid& grid, const Vec3& n) {
 }
 
 Vec3 voxel_step(const VoxelGrid& grid, const Vec3& n) {
-  const Vec3& s = grid.spacing;
-  return (1 / norm({n.x / s.x, n.y / s.y, n.z / s.z})) * n;
+  const Vec3 d = voxel_direction(grid, n), &s = grid.spacing;
+  return {d.x * s.x, d.y * s.y, d.z * s.z};
 }
 
 Profile median_profile(const VolumeView& volume, const PointGroup& points) {

@@ -42,8 +42,7 @@ SurfacePoint crossing(const VolumeView& volume, double level, std::array<Index, 
   point.position[axis] += t * volume.spacing[axis];
   const Vec3 g = (1 - t) * gradient_at(volume, at[0], at[1], at[2]) +
                  t * gradient_at(volume, next[0], next[1], next[2]);
-  const double length = norm(g);
-  if (length > 0) point.normal = (-1 / length) * g;
+  point.normal = -1.0 * unit_or_zero(g);
   return point;
 }
 

@@ -36,7 +36,7 @@ HalfMaximumLevel edge_of_thick_places(const VolumeView& volume, const VolumeView
 }
 
 /// How far the level is moved from that of thick places to that of the whole surface: not at all
-/// for one material, half of the way where the object's value varies by an eighth of the contrast.
+/// for one material, half of the way where the object's value varies by 0.12 of the contrast.
 double share_of_whole_surface(const VolumeView& volume, const VolumeView& guide,
                               const HalfMaximumLevel& thick) {
   constexpr double kOneMaterial = 0.06, kVaries = 0.12, kMost = 0.5;

@@ -15,12 +15,13 @@ namespace mesamis {
 /// than 0.005 of the contrast.
 ///
 /// Where the object is not of one material (measure_variation() of more than 0.06 of the contrast),
-/// thin parts have another value than thick ones, and the blur hides which. Level and contrast then
-/// go over to the mean of those at thick places and those seen, which they are from a variation of
-/// 0.12 on.
+/// thin parts have another value than thick ones, and the blur hides which. Between variations of
+/// 0.06 and 0.12 level and contrast move linearly from those at thick places to the mean of these
+/// and of those seen.
 /// @param volume  native values, as they came: a restored image overshoots.
 /// @param seen    of this volume: where to start.
-/// @return level and contrast are the edge's (background and shell), the rest as seen; all as seen
+/// @return level and contrast are the edge's (background and shell), or mixed with those seen; all
+/// as seen
 ///         where no edge can be fitted.
 /// @throws nothing
 ///

@@ -54,9 +54,9 @@ std::array<std::vector<double>, 4> slopes_by_axis(const VolumeView& volume,
   const SplineImage spline = interpolating_spline(copy_volume(volume));
   std::array<std::vector<double>, 4> slopes;
   for (const SurfacePoint* point : points) {
-    const Vec3 d = voxel_direction(volume, point->normal), &s = volume.spacing;
-    const Vec3 step{d.x * s.x, d.y * s.y, d.z * s.z};
-    const double slope = -dot(spline_at(spline, point->position).gradient, step);
+    const Vec3 d = voxel_direction(volume, point->normal);
+    const double slope =
+        -dot(spline_at(spline, point->position).gradient, voxel_step(volume, point->normal));
     slopes[3].push_back(slope);
     for (int a = 0; a < 3; ++a) {
       if (std::abs(d[a]) > kAlongAxis) slopes[static_cast<std::size_t>(a)].push_back(slope);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/restore/surface_extent.h"
 
-#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "mesamis/base/parallel.h"
@@ -17,6 +17,13 @@ constexpr double kThin = 2;  // voxels
 /// Ways that end at the box tell nothing: they are 0.
 bool is_thin(double way) { return way > 0 && way < kThin; }
 
+/// The area for which a crossing stands, mm^2. A surface of the normal n has |n_a| / A_a crossings
+/// per area with the grid lines along the axis a, A_a being the voxel's face across it.
+double area_of_crossing(const VoxelGrid& grid, const Vec3& n) {
+  const Vec3& s = grid.spacing;
+  return s.x * s.y * s.z / (std::abs(n.x) * s.x + std::abs(n.y) * s.y + std::abs(n.z) * s.z);
+}
+
 }  // namespace
 
 SurfaceExtent measure_extent(const VolumeView& image, double level) {
@@ -29,8 +36,13 @@ SurfaceExtent measure_extent(const VolumeView& image, double level) {
     thin[n] = is_thin(way_on_one_side(image, *usable[n], step, level)) ||
               is_thin(way_on_one_side(image, *usable[n], -1.0 * step, level));
   });
-  const auto count = static_cast<double>(std::count(thin.begin(), thin.end(), 1));
-  return {level_area(image, level), thin.empty() ? 0 : count / static_cast<double>(thin.size())};
+  double of_thin = 0, of_all = 0;
+  for (std::size_t n = 0; n < usable.size(); ++n) {
+    const double area = area_of_crossing(image, usable[n]->normal);
+    of_all += area;
+    if (thin[n] != 0) of_thin += area;
+  }
+  return {level_area(image, level), of_all > 0 ? of_thin / of_all : 0};
 }
 
 }  // namespace mesamis

@@ -24,14 +24,14 @@ double thickness_below(const VolumeView& guide, const SurfacePoint& point, doubl
 
 }  // namespace
 
-double way_on_one_side(const VolumeView& guide, const SurfacePoint& from, const Vec3& voxel,
+double way_on_one_side(const VolumeView& image, const SurfacePoint& from, const Vec3& step,
                        double level) {
-  const bool inside = dot(voxel, from.normal) < 0;
-  const Box box = guide.box();
+  const bool inside = dot(step, from.normal) < 0;
+  const Box box = image.box();
   for (int n = 2; n <= kMostSteps; ++n) {
-    const Vec3 p = from.position + kStep * n * voxel;
+    const Vec3 p = from.position + kStep * n * step;
     if (!box.contains(p)) return 0;
-    if ((interpolate(guide, p) > level) != inside) return kStep * (n - 1);
+    if ((interpolate(image, p) > level) != inside) return kStep * (n - 1);
   }
   return kStep * kMostSteps;
 }

@@ -93,6 +93,10 @@ constexpr Column<IterationRow> kIterationColumns[] = {
     {"energy", [](const IterationRow& row) { return text(row.iteration.energy.total()); }},
     {"energy_change",
      [](const IterationRow& row) { return row.is_first ? "" : text(row.iteration.energy_change); }},
+    {"surface_change_mm",
+     [](const IterationRow& row) {
+       return row.iteration.surface_tolerance > 0 ? text(row.iteration.surface_change) : "";
+     }},
     {"mesh_change",
      [](const IterationRow& row) {
        return row.is_first || row.is_last ? "" : text(row.iteration.mesh_change);
