@@ -123,5 +123,16 @@ TEST(PrepareImage, RefusesSettingsThatLeaveNothingToSee) {
   EXPECT_REFUSED(prepare_image(volume, settings), HasSubstr("level: expected a value between"));
 }
 
+TEST(PrepareImage, RefusesNoiseAloneUnlessALevelIsGiven) {
+  const Volume noise = make_ball({.size = 40, .object = 120, .noise = 15, .seed = 5});
+  Settings settings;
+  EXPECT_REFUSED(prepare_image(noise, settings), HasSubstr("stands out of the noise"));
+  settings.level = 130;
+  EXPECT_NO_THROW(prepare_image(noise, settings));
+  settings.level.reset();
+  settings.surface = SurfaceKind::kBand;
+  EXPECT_NO_THROW(prepare_image(noise, settings)) << "a band has no level";
+}
+
 }  // namespace
 }  // namespace mesamis

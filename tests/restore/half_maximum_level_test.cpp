@@ -9,6 +9,7 @@
 #include <string>
 
 #include "mesamis/phantom/degrade.h"
+#include "mesamis/phantom/phantom.h"
 #include "support/ball_volume.h"
 #include "support/sampled_volume.h"
 
@@ -79,6 +80,28 @@ TEST(HalfMaximumLevel, StaysAtAStartWithoutASurface) {
   EXPECT_EQ(object.level, 900);
   EXPECT_EQ(object.contrast.difference(), 0);
   EXPECT_EQ(object.area, 0);
+}
+
+TEST(HalfMaximumLevel, FindsThinPlatesInNoise) {
+  // Two voxels of 230 in 120, 2 % of the volume, seen through the blur.
+  for (const std::uint64_t seed : {2, 3, 4, 5}) {
+    const Phantom plate = make_phantom("plate", {64, 64, 26}, {1, 1, 2.5});
+    const Volume scan = degrade(sample_phantom(plate), {.blur = 1, .noise = 15, .seed = seed});
+    const HalfMaximumLevel object = find_half_maximum_level(scan);
+    EXPECT_FALSE(object.in_noise) << seed;
+    EXPECT_GT(object.level, 120 + 0.1 * 110) << seed;
+    EXPECT_LT(object.level, 175) << seed;
+  }
+}
+
+TEST(HalfMaximumLevel, TellsObjectsFromNoise) {
+  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
+    BallVolume noise{.size = 48, .object = 120, .noise = 15, .seed = seed};
+    const HalfMaximumLevel nothing = find_half_maximum_level(make_ball(noise));
+    EXPECT_TRUE(nothing.in_noise || nothing.contrast.difference() == 0) << seed;
+    BallVolume ball{.size = 48, .noise = 60, .radius = 14, .seed = seed};
+    EXPECT_FALSE(find_half_maximum_level(make_ball(ball)).in_noise) << seed;
+  }
 }
 
 }  // namespace

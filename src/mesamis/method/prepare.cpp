@@ -187,6 +187,9 @@ Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
   Parameters& p = prepared.parameters = parameters_from_grid(volume, settings);
 
   const HalfMaximumLevel seen = find_half_maximum_level(volume);
+  if (seen.in_noise && !settings.level && settings.surface == SurfaceKind::kSolid) {
+    throw InputError("level: found no object that stands out of the noise; expected --level");
+  }
   const Window window = settings.window.value_or(
       choose_window(volume, seen.contrast, settings.level.value_or(seen.level)));
   p.grey = {window.low, window.high, window.low};

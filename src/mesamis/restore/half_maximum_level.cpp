@@ -63,21 +63,37 @@ HalfMaximumLevel iterate_from(double level, const VolumeView& volume, const Volu
   return object;
 }
 
-/// Whether the contrast is larger than the noise alone would make it.
-bool exceeds_noise(const HalfMaximumLevel& object, const VolumeView& volume,
+/// Whether the contrast exceeds so many deviations of the noise.
+bool exceeds_noise(const HalfMaximumLevel& object, double deviations, const VolumeView& volume,
                    const VolumeView& guide) {
-  constexpr double kOfNoise = 2.5;
   const auto points = crossing_points(guide, object.level, kMostPoints);
   return object.contrast.difference() >
-         kOfNoise * measure_noise(volume, guide, points, object.level);
+         deviations * measure_noise(volume, guide, points, object.level);
+}
+
+/// Whether what is hidden in noise is more than noise, whose own crests have 1.0 to 1.3 of its
+/// deviation for contrast. An object that fills more than half of the image is not hidden.
+bool is_more_than_noise(const HalfMaximumLevel& object, const VolumeView& volume,
+                        const VolumeView& guide) {
+  constexpr double kOfNoise = 1.4;
+  return object.level > quantiles(guide, {0.5})[0] &&
+         exceeds_noise(object, kOfNoise, volume, guide);
 }
 
 HalfMaximumLevel iterate_from_histogram(const VolumeView& volume, const VolumeView& guide) {
+  constexpr double kPlain = 2.5;   // deviations of the noise
+  constexpr double kBelow = 0.98;  // share of the voxels, where the object is small
   const bool has_bone = is_hounsfield(volume) && quantiles(volume, {0.999})[0] > kBoneHu;
   if (has_bone) return iterate_from(kBoneHu, volume, guide);
   const HalfMaximumLevel object = iterate_from(otsu_split(volume).threshold, volume, guide);
-  if (exceeds_noise(object, volume, guide)) return object;
-  return iterate_from(otsu_threshold_on_edges(smoothed(guide)), volume, guide);
+  if (exceeds_noise(object, kPlain, volume, guide)) return object;
+  const HalfMaximumLevel on_edges =
+      iterate_from(otsu_threshold_on_edges(smoothed(guide)), volume, guide);
+  if (is_more_than_noise(on_edges, volume, guide)) return on_edges;
+  HalfMaximumLevel small = iterate_from(quantiles(guide, {kBelow})[0], volume, guide);
+  if (!(small.contrast.difference() > 0)) return on_edges;
+  small.in_noise = !is_more_than_noise(small, volume, guide);
+  return small;
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ struct HalfMaximumLevel {
   double level = 0;         ///< native units
   ObjectContrast contrast;  ///< at the surface of that level
   double area = 0;          ///< of the smoothed image's level set, mm^2: the extent of the edges
+  bool in_noise = false;    ///< nothing was found that stands out of the noise
 };
 
 struct HalfMaximumOptions {
@@ -28,8 +29,10 @@ struct HalfMaximumOptions {
 /// A fixed-point iteration: measure the contrast at the surface of the present level
 /// (measure_contrast()), move the level to the half maximum, until it changes by less than 0.005 of
 /// the contrast. It starts from 200 HU (bone) in CT; in other images from Otsu's threshold of all
-/// voxels or, if the contrast found so does not exceed the noise, from Otsu's threshold of the
-/// voxels on edges.
+/// voxels. If the contrast found so is less than 2.5 deviations of the noise, it starts again from
+/// Otsu's threshold of the voxels on edges. If that finds less than 1.4 deviations (noise alone
+/// makes 1.0 to 1.3), or more than half of the voxels, it starts from the value that 2 % of the
+/// smoothed image exceed: thin objects are a small part of it.
 /// @param volume  native values; usable, see require_usable().
 /// @return a contrast of zero if the level has no surface to measure at; the level is then the one
 ///         the iteration started from.
