@@ -4,11 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/method/expected_error.h"
 #include "support/ball_volume.h"
 
 namespace mesamis {
@@ -66,6 +68,19 @@ TEST(MesAmis, RecordsHowFarEachMeshMovesTheSurface) {
     EXPECT_NEAR(result.iterations[k].surface_tolerance, 0.2, 1e-12) << "a fifth of a voxel";
   }
   EXPECT_LT(result.iterations[3].surface_change, result.iterations[1].surface_change);
+}
+
+TEST(MesAmis, DecimatesNoCloserThanTheSurfaceIsKnown) {
+  const Volume volume = make_ball(ball());
+  Settings settings = small_run();
+  const Result result = mes_amis(volume, settings);
+  const double tolerance = result.parameters.tolerance;
+  EXPECT_GE(tolerance, 0.03);
+  EXPECT_LE(tolerance, 0.1);
+  const double expected = summarize_error(result.surface, result.expected_error).mean;
+  EXPECT_NEAR(tolerance, std::clamp(expected, 0.03, 0.1), 0.01) << "told of the surface before";
+  settings.tolerance = 0.05;
+  EXPECT_EQ(mes_amis(volume, settings).parameters.tolerance, 0.05);
 }
 
 TEST(MesAmis, TellsTheGreyValueBeneathTheSurface) {

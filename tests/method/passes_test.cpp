@@ -65,15 +65,21 @@ TEST(PaperPreset, OnePassAgreesWithTheOracle) {
   EXPECT_LT(relative_difference(found, scaled), 1e-5);
 }
 
-TEST(RunInput, DraftsHaveFewerCellsAndTheLastHaveAll) {
+/// Of a small ball, for ten adaptations without drafts.
+Prepared ball_in_voxels_of(double voxel) {
   Prepared prepared;
+  prepared.parameters.unit_mm = 1;
+  prepared.parameters.adaptations = 10;
+  prepared.grey = make_ball({.size = 8, .spacing = {voxel, voxel, voxel}, .radius = 2 * voxel});
+  return prepared;
+}
+
+TEST(RunInput, DraftsHaveFewerCellsAndTheLastHaveAll) {
+  Prepared prepared = ball_in_voxels_of(1);
   Parameters& p = prepared.parameters;
-  p.unit_mm = 1;
   p.max_tets = 1'000'000;
   p.drafts = true;
-  p.adaptations = 10;
   p.solver_tolerance = 1e-6;
-  prepared.grey = make_ball({.size = 8, .radius = 2});
   const RunInput run(prepared);
   std::int64_t last = 0;
   for (int k = 1; k <= 10; ++k) {
@@ -100,14 +106,10 @@ Iteration pass_with(double mesh_change, double energy_change, bool bounded = fal
 }
 
 TEST(HasSettled, WantsBothByEnergyAndOneAsPrinted) {
-  Prepared prepared;
+  Prepared prepared = ball_in_voxels_of(1);
   Parameters& p = prepared.parameters;
-  p.unit_mm = 1;
-  p.drafts = false;
-  p.adaptations = 10;
   p.until = StopRule::kEnergy;
   p.tol_mesh = p.tol_energy = 0.01;
-  prepared.grey = make_ball({.size = 8, .radius = 2});
   const RunInput run(prepared);
   const auto settled = [&run](const Iteration& last) {
     return has_settled(run, {pass_with(1, 1), pass_with(1, 1), last});
@@ -126,12 +128,8 @@ TEST(HasSettled, WantsBothByEnergyAndOneAsPrinted) {
 }
 
 TEST(HasSettled, WantsTheSurfaceToMoveByNoMoreThanItsError) {
-  Prepared prepared;
+  Prepared prepared = ball_in_voxels_of(2);
   Parameters& p = prepared.parameters;
-  p.unit_mm = 1;
-  p.drafts = false;
-  p.adaptations = 10;
-  prepared.grey = make_ball({.size = 8, .spacing = {2, 2, 2}, .radius = 4});
   const RunInput run(prepared);
   const auto settled = [&run](double change, double tolerance) {
     Iteration last = pass_with(1, 1);

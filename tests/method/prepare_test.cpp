@@ -53,8 +53,7 @@ TEST(PrepareImage, MeasuresWhatIsLeftOpen) {
   EXPECT_EQ(p.functional.eta, 1e-6);
   EXPECT_EQ(p.h_max, 31.0 / 4);
   EXPECT_EQ(p.min_volume, 4);
-  EXPECT_GE(p.tolerance, 0.03);
-  EXPECT_LE(p.tolerance, 0.1);
+  EXPECT_TRUE(std::isinf(p.tolerance)) << "it follows from the surface";
   EXPECT_GE(p.max_tets, kFewestTets);
   EXPECT_GT(p.functional.gamma, 0);
   EXPECT_FALSE(p.grey.has_threshold()) << "two classes need no T";
@@ -111,6 +110,16 @@ TEST(PrepareImage, ATrianglesGoalLiftsTheTolerance) {
   EXPECT_TRUE(std::isinf(prepare_image(volume, settings).parameters.tolerance));
   settings.tolerance = 0.2;
   EXPECT_EQ(prepare_image(volume, settings).parameters.tolerance, 0.2);
+}
+
+TEST(PrepareImage, TheLevelDependsOnNeitherStrideNorCells) {
+  const Volume volume = make_ball({.size = 32, .noise = 8, .radius = 9});
+  const double level = prepare_image(volume, {}).parameters.level;
+  Settings settings;
+  settings.stride = {2, 2, 2};
+  EXPECT_EQ(prepare_image(volume, settings).parameters.level, level);
+  settings.max_tets = 100'000;
+  EXPECT_EQ(prepare_image(volume, settings).parameters.level, level);
 }
 
 TEST(PrepareImage, RefusesSettingsThatLeaveNothingToSee) {

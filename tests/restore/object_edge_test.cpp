@@ -39,6 +39,20 @@ TEST(ObjectEdge, DoesNotDependOnTheCrop) {
   EXPECT_NEAR(in_part, in_whole, 0.02 * 110);
 }
 
+TEST(ObjectEdge, IsMidwayForAShellWhoseBackIsSeen) {
+  // The back is no lighter core: a shell 3.4 voxels thick, and one that is hardly thicker than the
+  // blur lets it show.
+  for (const double thickness : {2.6, 3.4}) {
+    const Volume ball = sampled_volume({48, 48, 48}, {1, 1, 1}, [thickness](const Vec3& p) {
+      const double r = norm(p - Vec3{23.6, 23.8, 24.1});
+      return r < 18 && r > 18 - thickness ? 230.0 : 120.0;
+    });
+    const Volume scan = gaussian_smoothed(ball, 0.8);
+    EXPECT_NEAR(find_object_edge(scan, find_half_maximum_level(scan)).level, 175, 0.03 * 110)
+        << thickness;
+  }
+}
+
 TEST(ObjectEdge, GoesTowardsTheWholeSurfaceWhereTheObjectVaries) {
   for (const double spread : {0.0, 25.0}) {
     const Volume blocks = gaussian_smoothed(

@@ -53,7 +53,7 @@ TEST(Restore, LeavesAConstantImage) {
   const Volume flat = sampled_volume({12, 10, 9}, {1, 1, 2}, [](const Vec3&) { return 40; });
   EXPECT_EQ(restore(flat, find_half_maximum_level(flat)).volume.samples, flat.samples);
   // Also where it is told of an object that is not there.
-  const HalfMaximumLevel object{50, {10, 90, 100}, 1};
+  const HalfMaximumLevel object{50, {10, 90, 100}};
   const Restored restored = restore(flat, object, {.noise = 1, .blur = {{1, 1, 1}}});
   for (const float x : restored.volume.samples) EXPECT_NEAR(x, 40, 0.01);
   EXPECT_EQ(restored.impulses, 0);
@@ -64,12 +64,20 @@ TEST(Restore, ScalesWithTheImage) {
   const Volume scan = degrade(make_ball({.noise = 0}), {.noise = 6});
   Volume scaled = scan;
   for (float& x : scaled.samples) x = 4 * x - 300;
-  const HalfMaximumLevel object{175, {120, 230, 1000}, 1500}, other{400, {180, 620, 1000}, 1500};
+  const HalfMaximumLevel object{175, {120, 230, 1000}}, other{400, {180, 620, 1000}};
   const Volume a = restore(scan, object, {.noise = 6, .blur = {{1, 1, 1}}}).volume;
   const Volume b = restore(scaled, other, {.noise = 24, .blur = {{1, 1, 1}}}).volume;
   for (std::size_t n = 0; n < a.samples.size(); ++n) {
     ASSERT_NEAR(b.samples[n], 4 * a.samples[n] - 300, 0.05);
   }
+}
+
+TEST(Restore, LeavesABlurThatSamplesCannotShow) {
+  const Volume scan = make_ball({.noise = 3});
+  const HalfMaximumLevel object{175, {120, 230, 1000}};
+  const Restored restored = restore(scan, object, {.noise = 3, .blur = {{0.35, 0.3, 0.2}}});
+  EXPECT_EQ(restored.noise_left, 3);
+  EXPECT_EQ(restored.volume.samples, scan.samples) << "a ball has no thin walls either";
 }
 
 TEST(Restore, SameBitsForAnyNumberOfThreads) {

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "mesamis/image/grey_values.h"
 #include "mesamis/phantom/degrade.h"
 #include "mesamis/phantom/phantom.h"
+#include "support/sampled_volume.h"
 
 namespace mesamis {
 namespace {
@@ -57,6 +60,25 @@ TEST(MeasureBlur, TellsAxesApart) {
   EXPECT_NEAR(blur[0], 1.4, 0.15);
   EXPECT_NEAR(blur[1], 1.4, 0.15);
   EXPECT_NEAR(blur[2], 0.7, 0.15);
+}
+
+TEST(MeasureBlur, OfThickSlicesIsNotThatOfThePixels) {
+  const Volume scan = subsample(scan_of("sphere", {.blur = 1.4}), {1, 1, 4});
+  const auto points = crossing_points(smoothed(scan), kLevel, 100'000);
+  const auto blur = measure_blur(scan, points);
+  EXPECT_NEAR(blur[0], 1.4, 0.15);
+  EXPECT_EQ(blur[0], blur[1]) << "one plane";
+  EXPECT_NEAR(blur[2], 0.35, 0.15);
+}
+
+TEST(MeasureBlur, IsThatOfTheOthersWhereNoEdgeTells) {
+  const Volume rod = sampled_volume({32, 32, 20}, {1, 1, 2}, [](const Vec3& p) {
+    const double d = 9 - std::hypot(p.x - 15.7, p.y - 15.4);
+    return 120 + 110 * 0.5 * std::erfc(-d / std::sqrt(2.0) / 1.3);
+  });
+  const auto blur = measure_blur(rod, crossing_points(rod, kLevel, 100'000));
+  EXPECT_NEAR(blur[0], 1.3, 0.1);
+  EXPECT_NEAR(blur[2], 1.3 / 2, 0.05) << "as many mm";
 }
 
 TEST(MeasureBlur, IsNothingWithoutPoints) {

@@ -25,9 +25,10 @@ TEST(ThickPlaces, AreOnTheThickPartAlone) {
   const Volume guide = smoothed(volume);
   const auto points = crossing_points(guide, kLevel, 100'000);
   const auto thick = thick_places(guide, points, kLevel);
-  EXPECT_GT(thick.size(), points.size() / 8);
-  EXPECT_LT(thick.size(), points.size());
-  for (const SurfacePoint& point : thick) EXPECT_GT(point.position.x, 15);
+  EXPECT_GT(thick.points.size(), points.size() / 8);
+  EXPECT_LT(thick.points.size(), points.size());
+  EXPECT_EQ(thick.least, 6);
+  for (const SurfacePoint& point : thick.points) EXPECT_GT(point.position.x, 15);
 }
 
 TEST(ThickPlaces, AreNotBesideAnotherPart) {
@@ -37,7 +38,7 @@ TEST(ThickPlaces, AreNotBesideAnotherPart) {
     return first || second ? 230.0 : 120.0;
   });
   const Volume guide = smoothed(volume);
-  const auto thick = thick_places(guide, crossing_points(guide, kLevel, 100'000), kLevel);
+  const auto thick = thick_places(guide, crossing_points(guide, kLevel, 100'000), kLevel).points;
   ASSERT_FALSE(thick.empty());
   for (const SurfacePoint& point : thick) {
     EXPECT_TRUE(point.position.x < 8 || point.position.x > 29) << point.position.x;
@@ -48,7 +49,9 @@ TEST(ThickPlaces, AreAllWhereFewCanBeJudged) {
   const Volume ball = make_ball({.size = 12, .noise = 0, .radius = 2});
   auto points = crossing_points(ball, kLevel, 100'000);
   points.resize(std::min<std::size_t>(points.size(), 40));
-  EXPECT_EQ(thick_places(ball, points, kLevel).size(), points.size());
+  const ThickPlaces found = thick_places(ball, points, kLevel);
+  EXPECT_EQ(found.points.size(), points.size());
+  EXPECT_EQ(found.least, 0);
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ Volume slab(double thickness, double around, double within, double noise = 0) {
 }
 
 Volume lifted(Volume scan, double noise = 0) {
-  SheetOptions options{{kOutside, kInside, 1000}, {kBlur, kBlur, kBlur}, std::nullopt, noise};
+  const SheetOptions options{
+      .contrast = {kOutside, kInside, 1000}, .blur = {kBlur, kBlur, kBlur}, .noise = noise};
   const Volume guide = smoothed(scan);
   lift_thin_sheets(scan, guide, options);
   return scan;

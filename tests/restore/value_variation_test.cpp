@@ -18,7 +18,7 @@ constexpr double kLevel = 175;
 double variation_of(const Volume& volume) {
   const Volume guide = smoothed(volume);
   const auto points = crossing_points(guide, kLevel, 100'000);
-  return measure_variation(volume, thick_places(guide, points, kLevel),
+  return measure_variation(volume, thick_places(guide, points, kLevel).points,
                            measure_noise(volume, guide, points, kLevel));
 }
 

@@ -19,6 +19,8 @@ struct Iteration {
   /// in the mean, and by how much it may when the loop ends (Settings::until), mm; 0 in the first
   /// and for a band.
   double surface_change = 0, surface_tolerance = 0;
+  /// Whether the movement of the level set was measured.
+  bool has_surface() const noexcept { return surface_tolerance > 0; }
   AmisReport amis;
   double estimator = 0;                               ///< zeta, the sum over the cells
   double predicted_tets = 0;                          ///< (11) for tau, before max_tets acts

@@ -109,11 +109,20 @@ void deliver(const RunInput& run, Loop loop, Result& result) {
   result.iterations = std::move(loop.passes);
 }
 
+double mean_expected_error(const RunInput& run, const TriMesh& surface) {
+  return summarize_error(surface, expected_error(surface, run.image, run.error)).mean;
+}
+
 /// The solid is made printable; the paper's band is delivered as it is.
-void finish_surface(const Progress& progress, Result& result) {
-  const Parameters& p = result.parameters;
+void finish_surface(const RunInput& run, const Settings& settings, const Progress& progress,
+                    Result& result) {
+  Parameters& p = result.parameters;
   result.printable.triangles_extracted = std::ssize(result.surface.triangles);
   if (p.surface == SurfaceKind::kBand) return;
+  if (!settings.tolerance && !settings.triangles && run.error.contrast > 0) {
+    p.tolerance =
+        default_tolerance(run.grey.voxel_size(), mean_expected_error(run, result.surface));
+  }
   result.surface = make_printable(
       result.surface,
       {p.min_volume, p.keep_largest, p.fill_cavities, p.tolerance, p.triangles, progress},
@@ -141,7 +150,7 @@ Result run_on(const VolumeView& volume, const Settings& settings, const Progress
   result.seconds.surface = watch.lap();
   deliver(run, std::move(loop), result);
   watch.lap();
-  finish_surface(progress, result);
+  finish_surface(run, settings, progress, result);
   if (p.surface == SurfaceKind::kSolid) {
     result.expected_error = expected_error(result.surface, run.image, run.error);
   }

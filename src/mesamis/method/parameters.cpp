@@ -56,9 +56,9 @@ std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacin
       std::clamp<double>(per_square * area / (side * side), kFewestTets, kMostTets));
 }
 
-double default_tolerance(double voxel, double edge_noise) {
-  constexpr double kLeast = 0.03, kMost = 0.1;
-  return voxel * std::clamp(edge_noise, kLeast, kMost);
+double default_tolerance(double voxel, double expected_error) {
+  constexpr double kLeast = 0.03, kMost = 0.1;  // voxels
+  return std::clamp(expected_error, kLeast * voxel, kMost * voxel);
 }
 
 double default_gamma(double epsilon, double beta, double contrast, double noise) {

@@ -48,7 +48,9 @@ struct Parameters {
   double min_volume = 0;          ///< of islands and cavities that stay, mm^3
   std::int64_t keep_largest = 0;  ///< islands; 0: all
   bool fill_cavities = false;     ///< every cavity
-  double tolerance = 0;        ///< of decimation, mm, both ways; 0: none done; infinite: no bound
+  /// Of decimation, mm, both ways; 0: none done; infinite: no bound. The default, see
+  /// default_tolerance(), is set when there is a surface; before, it is infinite.
+  double tolerance = 0;
   std::int64_t triangles = 0;  ///< where decimation stops; 0: nowhere
 };
 
@@ -80,15 +82,15 @@ inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
 /// O(1).
 std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing);
 
-/// The default of tolerance: by how much the noise moves an edge at a voxel, but no less than 0.03
-/// and no more than 0.1 voxel. A surface that is kept closer would keep noise.
-/// @param voxel       geometric mean of the spacing, mm, > 0.
-/// @param edge_noise  left in the image, against the slope of the object's edges, voxels, >= 0.
+/// The default of tolerance: how far the surface is expected to be from the truth, but no less than
+/// 0.03 and no more than 0.1 voxel. A surface that is kept closer keeps what is not true of it.
+/// @param voxel           geometric mean of the spacing, mm, > 0.
+/// @param expected_error  in the mean over the surface, see expected_error(), mm, >= 0.
 /// @return mm.
 /// @throws nothing
 ///
 /// O(1).
-double default_tolerance(double voxel, double edge_noise);
+double default_tolerance(double voxel, double expected_error);
 
 /// The default of gamma, 4 epsilon beta (0.07 c + 0.25 n)^2.
 ///

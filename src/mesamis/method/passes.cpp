@@ -117,6 +117,18 @@ State remeshed(const Pass& pass, const TetMesh& start, const MetricField& field,
   return next;
 }
 
+bool has_settled_by_energy(const Parameters& p, const std::vector<Iteration>& passes) {
+  const Iteration& last = passes.back();
+  // Energies on the grid and on adapted meshes are not compared: the first Ei means nothing.
+  const bool energy_settled = passes.size() > 2 && last.energy_change <= p.tol_energy;
+  const bool mesh_stagnates = last.mesh_change <= p.tol_mesh;
+  if (p.until == StopRule::kEither) return mesh_stagnates || energy_settled;
+  // A count that max_tets holds wavers by what the remesher's steering leaves.
+  constexpr double kSteeringSlack = 0.06;
+  const bool mesh_settled = mesh_stagnates || (last.bounded && last.mesh_change <= kSteeringSlack);
+  return mesh_settled && energy_settled;
+}
+
 }  // namespace
 
 RunInput::RunInput(const Prepared& prepared)
@@ -277,22 +289,6 @@ void record_surface(const Pass& pass, const State& state, const Minimum& minimum
   const double error = summarize_error(surface, expected_error(surface, run.image, run.error)).mean;
   record.surface_tolerance = std::max(error, p.follow ? kFollowed * voxel : 0);
 }
-
-namespace {
-
-bool has_settled_by_energy(const Parameters& p, const std::vector<Iteration>& passes) {
-  const Iteration& last = passes.back();
-  // Energies on the grid and on adapted meshes are not compared: the first Ei means nothing.
-  const bool energy_settled = passes.size() > 2 && last.energy_change <= p.tol_energy;
-  const bool mesh_stagnates = last.mesh_change <= p.tol_mesh;
-  if (p.until == StopRule::kEither) return mesh_stagnates || energy_settled;
-  // A count that max_tets holds wavers by what the remesher's steering leaves.
-  constexpr double kSteeringSlack = 0.06;
-  const bool mesh_settled = mesh_stagnates || (last.bounded && last.mesh_change <= kSteeringSlack);
-  return mesh_settled && energy_settled;
-}
-
-}  // namespace
 
 bool has_settled(const RunInput& run, const std::vector<Iteration>& passes) {
   const Parameters& p = run.parameters;

@@ -83,13 +83,6 @@ Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
   return p;
 }
 
-/// By how much the noise that is left moves an edge of this blur, voxels.
-double edge_noise(const Restored& restored, double contrast) {
-  const auto [x, y, z] = restored.blur;
-  const double blur = std::max(kSharpest, std::cbrt(x * y * z));
-  return std::sqrt(2 * std::numbers::pi) * blur * restored.noise_left / contrast;
-}
-
 /// How much surface the restored image has. Where its noise would make surface of its own, it is
 /// smoothed before, and nothing thin can be told from noise.
 SurfaceExtent extent_of(const Restored& restored, double contrast, double level) {
@@ -210,9 +203,6 @@ Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
   if (!settings.max_tets) {
     const SurfaceExtent extent = extent_of(restored, contrast, p.level);
     p.max_tets = default_max_tets(extent.area, extent.thin_share, volume.spacing);
-  }
-  if (!settings.tolerance && !settings.triangles && contrast > 0) {
-    p.tolerance = default_tolerance(volume.voxel_size(), edge_noise(restored, contrast));
   }
   if (!settings.gamma) {
     p.functional.gamma = choose_gamma(p, contrast, restored.noise_left);

@@ -278,8 +278,8 @@ std::vector<Setting> surface_rows() {
                    .words = {"auto", "none"}, .unit = "mm",
                    .help = "Decimation keeps the solid surface within this distance; 0: no "
                        "decimation; none: no bound",
-                   .automatic = "by how much the noise moves an edge, 0.03 to 0.1 voxel; none where "
-                       "triangles says where to stop"}),
+                   .automatic = "the error to expect, 0.03 to 0.1 voxel; none where triangles says where "
+                                "to stop"}),
     bound({.name = "triangles", .form = "N", .count = 1, .whole = true, .low = 4, .high = 2e9,
            .words = {"auto"}, .help = "Decimation stops at this many triangles",
            .automatic = "as few as the tolerance permits"}, &Settings::triangles),

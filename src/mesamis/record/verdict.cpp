@@ -19,18 +19,17 @@ std::string why_not_converged(const Result& result) {
     return "not converged: one adaptation cannot show that anything has settled, expected 2 or "
            "more";
   }
+  const Parameters& p = result.parameters;
   const Iteration& last = passes[passes.size() - 2];
-  if (result.parameters.until == StopRule::kSurface &&
-      result.parameters.surface == SurfaceKind::kSolid) {
-    return "not converged: after " + std::to_string(result.parameters.adaptations) +
-           " adaptations a mesh still moved the surface by " + std::to_string(last.surface_change) +
+  const std::string when =
+      "not converged: after " + std::to_string(p.adaptations) + " adaptations ";
+  if (p.until == StopRule::kSurface && p.surface == SurfaceKind::kSolid) {
+    return when + "a mesh still moved the surface by " + std::to_string(last.surface_change) +
            " mm, expected at most " + std::to_string(last.surface_tolerance) + " mm";
   }
-  return "not converged: after " + std::to_string(result.parameters.adaptations) +
-         " adaptations the cell count changed by " + std::to_string(last.mesh_change) +
+  return when + "the cell count changed by " + std::to_string(last.mesh_change) +
          " and the energy by " + std::to_string(last.energy_change) + ", expected at most " +
-         std::to_string(result.parameters.tol_mesh) + " and " +
-         std::to_string(result.parameters.tol_energy);
+         std::to_string(p.tol_mesh) + " and " + std::to_string(p.tol_energy);
 }
 
 }  // namespace

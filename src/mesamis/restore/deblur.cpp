@@ -142,13 +142,17 @@ double symbol_at(double angle) { return (15 - 16 * std::cos(angle) + std::cos(2 
 
 }  // namespace
 
+void require_valid_blur(const std::array<double, 3>& blur) {
+  for (const double b : blur) require_range("blur in voxels", b, 0, kLargestBlur);
+}
+
 Volume deblurred(const VolumeView& volume, const std::array<double, 3>& blur,
                  double regularization) {
   require_range("regularization", regularization, 1e-6, 1e6);
+  require_valid_blur(blur);
   std::array<double, 3> squares;
   double end = 0;
   for (std::size_t a = 0; a < 3; ++a) {
-    require_range("blur in voxels", blur[a], 0, kLargestBlur);
     squares[a] = blur[a] * blur[a];
     end += kLargestSymbol * squares[a];
   }

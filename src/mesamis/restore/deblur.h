@@ -29,6 +29,11 @@ namespace mesamis {
 Volume deblurred(const VolumeView& volume, const std::array<double, 3>& blur,
                  double regularization);
 
+/// Checks a blur.
+/// @param blur  standard deviations per axis, voxels, 0 to kLargestBlur.
+/// @throws InputError  naming the first value out of range.
+void require_valid_blur(const std::array<double, 3>& blur);
+
 /// Finds by how much deblurred() changes white noise: the root mean square of W over all
 /// frequencies of the grid.
 /// @param blur, regularization  as deblurred() takes them.

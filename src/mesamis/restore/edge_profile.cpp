@@ -77,15 +77,9 @@ PointGroup with_normals(const std::vector<SurfacePoint>& points) {
   return group;
 }
 
-Vec3 voxel_direction(const VoxelGrid& grid, const Vec3& n) {
-  const Vec3& s = grid.spacing;
-  const Vec3 d{n.x / s.x, n.y / s.y, n.z / s.z};
-  return (1 / norm(d)) * d;
-}
-
 Vec3 voxel_step(const VoxelGrid& grid, const Vec3& n) {
-  const Vec3 d = voxel_direction(grid, n), &s = grid.spacing;
-  return {d.x * s.x, d.y * s.y, d.z * s.z};
+  const Vec3& s = grid.spacing;
+  return (1 / norm({n.x / s.x, n.y / s.y, n.z / s.z})) * n;
 }
 
 Profile median_profile(const VolumeView& volume, const PointGroup& points) {
@@ -107,10 +101,10 @@ double EdgeModel::level() const {
   return (background + shell) / 2 + (core - shell) * normal_distribution(-thickness / sigma);
 }
 
-EdgeModel fit_edge_model(const Profile& profile) {
+EdgeModel fit_edge_model(const Profile& profile, double thickest) {
   // Nested searches: the three parameters compensate for each other, so that a descent along one
   // of them at a time would get stuck.
-  const Fit best = least(1, 2.5, [&](double thickness) {
+  const Fit best = least(1, thickest, [&](double thickness) {
     return least(0.2, 2.6, [&](double sigma) {
       return least(-1, 1, [&](double shift) {
         return fit_values(profile, {sigma, thickness, shift});

@@ -23,9 +23,6 @@ using PointGroup = std::vector<const SurfacePoint*>;
 /// The points that have a normal. The points must outlive the group.
 PointGroup with_normals(const std::vector<SurfacePoint>& points);
 
-/// The unit direction n in voxels: one step along it is one voxel long.
-Vec3 voxel_direction(const VoxelGrid& grid, const Vec3& n);
-
 /// A step along the unit direction n, one voxel long; mm.
 Vec3 voxel_step(const VoxelGrid& grid, const Vec3& n);
 
@@ -52,10 +49,14 @@ struct EdgeModel {
   double level() const;
 };
 
+/// Cortical bone is seldom thicker, voxels.
+inline constexpr double kThickestShell = 2.5;
+
 /// Fits the model to a profile by least squares. The blur hides whether a shell is thin and bright
-/// or thick and less bright; the thickness is therefore bounded to 1 to 2.5 voxels, and a penalty
-/// on the shell's contrast to background and core keeps a shell that explains no more than noise at
-/// zero.
-EdgeModel fit_edge_model(const Profile& profile);
+/// or thick and less bright; the thickness is therefore bounded, and a penalty on the shell's
+/// contrast to background and core keeps a shell that explains no more than noise at zero.
+/// @param thickest  bound of the shell's thickness from above, voxels, more than 1; from below it
+///                  is 1.
+EdgeModel fit_edge_model(const Profile& profile, double thickest = kThickestShell);
 
 }  // namespace mesamis

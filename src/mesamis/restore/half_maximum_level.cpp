@@ -101,10 +101,8 @@ HalfMaximumLevel iterate_from_histogram(const VolumeView& volume, const VolumeVi
 HalfMaximumLevel find_half_maximum_level(const VolumeView& volume,
                                          const HalfMaximumOptions& options) {
   const Volume guide = smoothed(volume);
-  HalfMaximumLevel object = options.start ? iterate_from(*options.start, volume, guide)
-                                          : iterate_from_histogram(volume, guide);
-  object.area = level_area(guide, options.area_at.value_or(object.level));
-  return object;
+  return options.start ? iterate_from(*options.start, volume, guide)
+                       : iterate_from_histogram(volume, guide);
 }
 
 }  // namespace mesamis

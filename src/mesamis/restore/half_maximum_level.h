@@ -13,13 +13,10 @@ namespace mesamis {
 struct HalfMaximumLevel {
   double level = 0;         ///< native units
   ObjectContrast contrast;  ///< at the surface of that level
-  double area = 0;          ///< of the smoothed image's level set, mm^2: the extent of the edges
   bool in_noise = false;    ///< nothing was found that stands out of the noise
 };
 
 struct HalfMaximumOptions {
-  /// Level whose area is measured, native units; default: the level found.
-  std::optional<double> area_at = std::nullopt;
   /// Level from which the iteration starts, native units; default: see find_half_maximum_level().
   std::optional<double> start = std::nullopt;
 };

@@ -4,28 +4,23 @@
 #include <cmath>
 
 #include "mesamis/base/median.h"
+#include "mesamis/restore/edge_profile.h"
 
 namespace mesamis {
 namespace {
 
 constexpr std::size_t kFewestPoints = 10;
 
-/// mm per voxel along the unit direction d.
-double voxel_step(const VoxelGrid& grid, const Vec3& d) {
-  const Vec3& s = grid.spacing;
-  return 1 / norm({d.x / s.x, d.y / s.y, d.z / s.z});
-}
-
 }  // namespace
 
 std::optional<Vec3> place_along_normal(const VolumeView& guide, const SurfacePoint& point,
                                        double voxels, double level) {
-  const double step = std::copysign(voxel_step(guide, point.normal), voxels);
+  const Vec3 step = std::copysign(1.0, voxels) * voxel_step(guide, point.normal);
   const Box box = guide.box();
   Vec3 p;
   for (const double distance : {0.75, 1.5, 2.5}) {
     if (distance > std::abs(voxels)) break;
-    p = point.position + distance * step * point.normal;
+    p = point.position + distance * step;
     if (!box.contains(p) || (interpolate(guide, p) > level) != (voxels < 0)) return std::nullopt;
   }
   return p;

@@ -15,6 +15,14 @@ namespace {
 
 constexpr std::size_t kMostPoints = 200'000;
 
+/// Bound of the shell's thickness where the object is at least this thick, voxels. Where the way
+/// through it was seen to end, what is behind the shell may be the back of a wall.
+double thickest_shell(double thickness) {
+  constexpr double kOneStepMore = 0.75;  // the way is looked at every half voxel
+  return thickness < kLongestWay ? std::max(kThickestShell, thickness + kOneStepMore)
+                                 : kThickestShell;
+}
+
 /// The edge at thick places.
 /// @param guide  the volume, smoothed.
 HalfMaximumLevel edge_of_thick_places(const VolumeView& volume, const VolumeView& guide,
@@ -23,9 +31,9 @@ HalfMaximumLevel edge_of_thick_places(const VolumeView& volume, const VolumeView
   constexpr double kTolerance = 0.005;  // change of the level, against the contrast
   HalfMaximumLevel object = seen;
   for (int n = 0; n < kMostIterations; ++n) {
-    const auto points =
+    const auto [points, thickness] =
         thick_places(guide, crossing_points(guide, object.level, kMostPoints), object.level);
-    const auto edge = measure_edge(volume, points);
+    const auto edge = measure_edge(volume, points, thickest_shell(thickness));
     if (!edge || !(edge->height() > 0)) break;
     const double change = std::abs(edge->level() - object.level);
     object.level = edge->level();
@@ -41,9 +49,10 @@ double share_of_whole_surface(const VolumeView& volume, const VolumeView& guide,
                               const HalfMaximumLevel& thick) {
   constexpr double kOneMaterial = 0.06, kVaries = 0.12, kMost = 0.5;
   const auto points = crossing_points(guide, thick.level, kMostPoints);
+  const ThickPlaces places = thick_places(guide, points, thick.level);
+  if (places.least == 0) return 0;  // through the blur thin walls vary by themselves
   const double noise = measure_noise(volume, guide, points, thick.level);
-  const double variation =
-      measure_variation(volume, thick_places(guide, points, thick.level), noise);
+  const double variation = measure_variation(volume, places.points, noise);
   const double share = variation / thick.contrast.difference();
   return kMost * std::clamp((share - kOneMaterial) / (kVaries - kOneMaterial), 0.0, 1.0);
 }

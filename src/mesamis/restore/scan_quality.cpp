@@ -46,23 +46,76 @@ double deviation_at(const VolumeView& volume, const std::array<Index, 3>& voxel)
   return std::abs(volume.at(voxel[0], voxel[1], voxel[2]) - fitted);
 }
 
-/// Slopes along the normals, native units per voxel: of the points whose normal is nearly an axis,
-/// for each axis, and of all points.
-std::array<std::vector<double>, 4> slopes_by_axis(const VolumeView& volume,
-                                                  const PointGroup& points) {
-  constexpr double kAlongAxis = 0.85;
+/// The axes that share one blur. Two of equal spacing beside a third that differs are the plane of
+/// a scanner's slices: both belong to the group of the first.
+std::array<int, 3> groups_of_axes(const Vec3& spacing) {
+  const auto equal = [&](int a, int b) {
+    return std::abs(spacing[a] - spacing[b]) < 0.01 * spacing[a];
+  };
+  if (equal(0, 1) && equal(1, 2)) return {0, 1, 2};
+  return {0, equal(0, 1) ? 0 : 1, equal(0, 2) ? 0 : equal(1, 2) ? 1 : 2};
+}
+
+/// The axis with the finest samples.
+std::size_t finest_axis(const Vec3& spacing) {
+  std::size_t finest = 0;
+  for (const std::size_t a : {1UL, 2UL}) {
+    if (spacing[static_cast<int>(a)] < spacing[static_cast<int>(finest)]) finest = a;
+  }
+  return finest;
+}
+
+/// The median slope of the edges across the axes of one group, native units per mm; nothing if few
+/// edges follow them. An edge across n is blurred by the root of sum n_a^2 s_a^2 along the axes a:
+/// what the other axes add to it is left.
+std::optional<double> slope_of_group(const std::vector<std::array<double, 3>>& shares,
+                                     const std::vector<double>& slopes, std::size_t group) {
+  for (const double least : {0.72, 0.5}) {  // within 32 degrees of the group; 45, if these are few
+    std::vector<double> of_group;
+    for (std::size_t n = 0; n < slopes.size(); ++n) {
+      if (shares[n][group] > least) of_group.push_back(slopes[n]);
+    }
+    if (of_group.size() < kFewestOfAnAxis) continue;
+    const double slope = median(of_group);
+    if (slope > 0) return slope;
+  }
+  return std::nullopt;
+}
+
+/// Blur along each axis, mm, of a step of this height; zeros if none is known. Axes that few edges
+/// follow are taken to be blurred as the others are in the mean, but not less than thick slices
+/// are.
+std::array<double, 3> blur_of_axes(const VolumeView& volume, const PointGroup& points,
+                                   double height) {
+  constexpr double kUsualOfSlices = 0.45;  // voxels: found in real scans; 0.29 is the least
+  const std::array<int, 3> groups = groups_of_axes(volume.spacing);
   const SplineImage spline = interpolating_spline(copy_volume(volume));
-  std::array<std::vector<double>, 4> slopes;
+  std::vector<double> slopes;
+  std::vector<std::array<double, 3>> shares;  // of the normal's square, by groups
   for (const SurfacePoint* point : points) {
-    const Vec3 d = voxel_direction(volume, point->normal);
-    const double slope =
-        -dot(spline_at(spline, point->position).gradient, voxel_step(volume, point->normal));
-    slopes[3].push_back(slope);
+    const Vec3& n = point->normal;
+    slopes.push_back(-dot(spline_at(spline, point->position).gradient, n));
+    shares.emplace_back();
     for (int a = 0; a < 3; ++a) {
-      if (std::abs(d[a]) > kAlongAxis) slopes[static_cast<std::size_t>(a)].push_back(slope);
+      shares.back()[static_cast<std::size_t>(groups[static_cast<std::size_t>(a)])] += n[a] * n[a];
     }
   }
-  return slopes;
+  std::array<double, 3> blur{};
+  double sum = 0;
+  int known = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto slope = slope_of_group(shares, slopes, static_cast<std::size_t>(groups[a]));
+    if (!slope) continue;
+    blur[a] = height / (std::sqrt(2 * std::numbers::pi) * *slope);
+    sum += blur[a];
+    ++known;
+  }
+  if (known == 0) return blur;
+  for (int a = 0; a < 3; ++a) {
+    double& b = blur[static_cast<std::size_t>(a)];
+    if (b == 0) b = std::max(sum / known, kUsualOfSlices * volume.spacing[a]);
+  }
+  return blur;
 }
 
 }  // namespace
@@ -89,20 +142,25 @@ double measure_noise(const VolumeView& volume, const VolumeView& guide,
 std::array<double, 3> measure_blur(const VolumeView& volume,
                                    const std::vector<SurfacePoint>& points) {
   constexpr double kMostOfMiddle = 1.5, kMostBlur = 2;
+  const double partial_volume = 1 / std::sqrt(12.0);  // of a voxel
   const PointGroup usable = with_normals(points);
   std::array<double, 3> blur{};
   if (usable.size() < kFewestProfilePoints) return blur;
   const Profile profile = median_profile(volume, usable);
   const auto [least, most] = std::minmax_element(profile.begin(), profile.end());
-  auto slopes = slopes_by_axis(volume, usable);
+  const std::array<double, 3> mm = blur_of_axes(volume, usable, *most - *least);
   for (std::size_t a = 0; a < 3; ++a) {
-    const double slope = median(slopes[a].size() < kFewestOfAnAxis ? slopes[3] : slopes[a]);
-    blur[a] = slope > 0 ? (*most - *least) / (std::sqrt(2 * std::numbers::pi) * slope) : kMostBlur;
+    blur[a] = std::max(mm[a] / volume.spacing[static_cast<int>(a)], partial_volume);
   }
   // Surfaces across one axis may be no plain edges (a table, thin walls): its blur is bounded.
   std::array<double, 3> sorted = blur;
   std::sort(sorted.begin(), sorted.end());
-  for (double& b : blur) b = std::min({b, kMostOfMiddle * sorted[1], kMostBlur});
+  const std::size_t fine = finest_axis(volume.spacing);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const bool coarse =
+        volume.spacing[static_cast<int>(a)] > 1.01 * volume.spacing[static_cast<int>(fine)];
+    blur[a] = std::min({blur[a], coarse ? blur[fine] : kMostOfMiddle * sorted[1], kMostBlur});
+  }
   return blur;
 }
 

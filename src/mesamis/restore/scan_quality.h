@@ -33,9 +33,11 @@ double measure_noise(const VolumeView& volume, const VolumeView& guide,
 /// A step c seen through a Gaussian of deviation s has the slope c / (sqrt(2 pi) s). The step is
 /// that of the median profile along the normals of the points; the slope is the median of the
 /// slopes, along their normals, of the spline through the samples, over the points whose normal is
-/// nearly the axis. Axes that fewer than a hundred normals follow get the slope of all points. No
-/// axis gets more than 1.5 times the median of the three axes, nor more than two voxels. The blur
-/// includes the voxels' own extent: partial volume alone is 0.29.
+/// nearly the axis. Two axes of equal spacing beside one that differs are the plane of a scanner's
+/// slices and share one blur. An axis that fewer than a hundred normals follow is taken to be
+/// blurred over as many mm as the others, but over 0.45 voxels at least. No axis gets less than
+/// partial volume alone makes, 0.29 voxels, nor more than two voxels; coarser axes get no more
+/// voxels than the finest, and others no more than 1.5 times the median of the three.
 /// @param volume  native values.
 /// @param points  thick_places() of the surface: thin walls never show their whole step.
 /// @return voxels, 0 to 2; zeros if fewer than a hundred points have a normal.

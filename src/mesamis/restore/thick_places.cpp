@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kClear = 2.5;  // voxels without object, outwards
 constexpr double kStep = 0.5;   // voxels
-constexpr int kMostSteps = 12;
+constexpr int kMostSteps = static_cast<int>(kLongestWay / kStep);
 
 /// How thick the object is below a point, voxels; 0 where it cannot be told.
 double thickness_below(const VolumeView& guide, const SurfacePoint& point, double level) {
@@ -36,8 +36,8 @@ double way_on_one_side(const VolumeView& image, const SurfacePoint& from, const 
   return kStep * kMostSteps;
 }
 
-std::vector<SurfacePoint> thick_places(const VolumeView& guide,
-                                       const std::vector<SurfacePoint>& points, double level) {
+ThickPlaces thick_places(const VolumeView& guide, const std::vector<SurfacePoint>& points,
+                         double level) {
   constexpr double kThinner = 0.75;  // of the points
   constexpr std::size_t kFewest = 100;
   std::vector<double> thickness(points.size());
@@ -46,13 +46,12 @@ std::vector<SurfacePoint> thick_places(const VolumeView& guide,
   std::vector<double> sorted;
   std::copy_if(thickness.begin(), thickness.end(), std::back_inserter(sorted),
                [](double t) { return t > 0; });
-  if (sorted.size() < kFewest) return points;
+  if (sorted.size() < kFewest) return {points, 0};
   const auto at = static_cast<std::ptrdiff_t>(kThinner * static_cast<double>(sorted.size() - 1));
   std::nth_element(sorted.begin(), sorted.begin() + at, sorted.end());
-  const double least = sorted[static_cast<std::size_t>(at)];
-  std::vector<SurfacePoint> thick;
+  ThickPlaces thick{{}, sorted[static_cast<std::size_t>(at)]};
   for (std::size_t n = 0; n < points.size(); ++n) {
-    if (thickness[n] >= least) thick.push_back(points[n]);
+    if (thickness[n] >= thick.least) thick.points.push_back(points[n]);
   }
   return thick;
 }

@@ -47,10 +47,10 @@ struct SheetProfile {
 
 class SheetProfiles {
  public:
-  explicit SheetProfiles(const std::optional<double>& regularization) {
+  explicit SheetProfiles(const SheetOptions& options) {
     for (std::size_t n = 0; n < kCount; ++n) {
       const double t = static_cast<double>(n) * kSpacing;
-      profiles_[n] = {seen_edge(t, regularization), 2 * seen_edge(t / 2, regularization)};
+      profiles_[n] = {seen_edge(t, options), 2 * seen_edge(t / 2, options)};
     }
   }
   /// @param t  in deviations of the scan's blur, >= 0.
@@ -69,15 +69,21 @@ class SheetProfiles {
 
   /// A box of width t, seen at its edge through the blur g and the filter W of deblurred():
   /// (1 / pi) times the integral of g W sin(k t) / k over the frequencies k.
-  static double seen_edge(double t, const std::optional<double>& regularization) {
+  static double seen_edge(double t, const SheetOptions& options) {
     constexpr double kEnd = 12, kDelta = 0.01;
     double sum = 0;
     for (double k = kDelta / 2; k < kEnd; k += kDelta) {
-      const double lambda = k * k, g = std::exp(-lambda / 2);
-      const double seen = regularization ? g * g / (g * g + *regularization * lambda * lambda) : g;
-      sum += seen * std::sin(k * t) / k * kDelta;
+      const double g = std::exp(-k * k / 2);
+      sum += g * filter_at(options.undone * k, options) * std::sin(k * t) / k * kDelta;
     }
     return sum / std::numbers::pi;
+  }
+
+  /// W, at a frequency in units of the blur that was undone.
+  static double filter_at(double k, const SheetOptions& options) {
+    if (!options.regularization) return 1;
+    const double lambda = k * k, g = std::exp(-lambda / 2);
+    return g / (g * g + *options.regularization * lambda * lambda);
   }
 
   std::array<SheetProfile, kCount> profiles_{};
@@ -134,7 +140,7 @@ class Lifter {
       : guide_(guide),
         spline_(interpolating_spline(copy_volume(guide))),
         options_(options),
-        profiles_(options.regularization),
+        profiles_(options),
         contrast_(options.contrast.difference()) {
     // The guide averages less at the border: there its noise is larger.
     within_ = {guide.spacing, guide.box().extent() - guide.spacing};

@@ -15,7 +15,8 @@ struct SheetOptions {
   std::array<double, 3> blur{};  ///< of the scan, standard deviations, voxels, >= 0
   /// With which the blur was undone, see deblurred(); nothing: it was not.
   std::optional<double> regularization = std::nullopt;
-  double noise = 0;  ///< of the scan, standard deviation, native units, >= 0
+  double undone = 1;  ///< the deviation that was undone, against that of the blur, 0 to 1
+  double noise = 0;   ///< of the scan, standard deviation, native units, >= 0
 };
 
 /// Corrects a restored image where a sheet of the object (a thin wall) or a sheet of its background

@@ -95,7 +95,7 @@ constexpr Column<IterationRow> kIterationColumns[] = {
      [](const IterationRow& row) { return row.is_first ? "" : text(row.iteration.energy_change); }},
     {"surface_change_mm",
      [](const IterationRow& row) {
-       return row.iteration.surface_tolerance > 0 ? text(row.iteration.surface_change) : "";
+       return row.iteration.has_surface() ? text(row.iteration.surface_change) : "";
      }},
     {"mesh_change",
      [](const IterationRow& row) {
