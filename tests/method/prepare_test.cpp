@@ -78,7 +78,7 @@ TEST(PrepareImage, WithoutRestoringTheImageIsTheOneThatCame) {
   settings.threshold_rule = ThresholdRule::kNone;
   const Prepared prepared = prepare_image(volume, settings);
   EXPECT_EQ(prepared.grey.samples, volume.samples);
-  EXPECT_EQ(prepared.impulses, 0);
+  EXPECT_EQ(prepared.measured.impulses, 0);
   EXPECT_NEAR(prepared.parameters.noise, 5, 1.5) << "the noise is measured all the same";
   EXPECT_EQ(prepared.parameters.blur, (std::array<double, 3>{}));
 }

@@ -47,6 +47,18 @@ TEST(Verdict, AnUnmetToleranceCountsForSolidsAlone) {
   EXPECT_EQ(far.verdict().outcome, Outcome::kKept);
 }
 
+TEST(Verdict, AnAccuracyThatTheScanDoesNotPermitIsUnmet) {
+  Case coarse;
+  coarse.result.expected_error.assign(coarse.result.surface.points.size(), 0.3);
+  EXPECT_EQ(coarse.verdict().outcome, Outcome::kKept) << "none was asked for";
+  coarse.result.parameters.accuracy = 0.5;
+  EXPECT_EQ(coarse.verdict().outcome, Outcome::kKept);
+  coarse.result.parameters.accuracy = 0.2;
+  EXPECT_EQ(coarse.verdict().outcome, Outcome::kNotConverged);
+  EXPECT_THAT(coarse.verdict().message,
+              HasSubstr("expected 0.2 mm in the mean at most, found 0.3"));
+}
+
 TEST(Verdict, SaysWhyARunHasNotConverged) {
   Case unsettled;
   unsettled.result.converged = false;

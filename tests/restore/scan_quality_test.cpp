@@ -8,6 +8,7 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/phantom/degrade.h"
 #include "mesamis/phantom/phantom.h"
+#include "support/ball_volume.h"
 #include "support/sampled_volume.h"
 
 namespace mesamis {
@@ -28,6 +29,24 @@ TEST(MeasureNoise, FindsWhatWasAdded) {
       EXPECT_NEAR(measure_noise(scan, guide, points, kLevel), noise, 1 + 0.05 * noise) << phantom;
     }
   }
+}
+
+TEST(MeasureNoiseCorrelation, TellsWhatNeighboursShare) {
+  Volume scan = make_ball({.size = 64, .noise = 15, .radius = 22});
+  const Volume guide = smoothed(scan);
+  const auto points = crossing_points(guide, kLevel, 100'000);
+  for (const double white : measure_noise_correlation(scan, guide, points, kLevel)) {
+    EXPECT_NEAR(white, 0, 0.1);
+  }
+  // Noise that is the mean of two neighbours along x has half in common with the next.
+  const Volume noise = degrade(scan, {.noise = 30, .seed = 5});
+  for (std::size_t n = scan.samples.size(); n-- > 1;) {
+    scan.samples[n] +=
+        (noise.samples[n] + noise.samples[n - 1] - scan.samples[n] - scan.samples[n - 1]) / 2;
+  }
+  const auto shared = measure_noise_correlation(scan, guide, points, kLevel);
+  EXPECT_NEAR(shared[0], 0.5 * 450 / (450 + 225), 0.1);
+  EXPECT_NEAR(shared[1], 0, 0.1);
 }
 
 TEST(MeasureNoise, IsNothingWithoutPlaces) {

@@ -120,8 +120,9 @@ void finish_surface(const RunInput& run, const Settings& settings, const Progres
   result.printable.triangles_extracted = std::ssize(result.surface.triangles);
   if (p.surface == SurfaceKind::kBand) return;
   if (!settings.tolerance && !settings.triangles && run.error.contrast > 0) {
-    p.tolerance =
-        default_tolerance(run.grey.voxel_size(), mean_expected_error(run, result.surface));
+    p.tolerance = p.accuracy > 0 ? p.accuracy / 2
+                                 : default_tolerance(run.grey.voxel_size(),
+                                                     mean_expected_error(run, result.surface));
   }
   result.surface = make_printable(
       result.surface,
@@ -136,7 +137,7 @@ Result run_on(const VolumeView& volume, const Settings& settings, const Progress
   (void)Stage(progress, "preparation");
   const Prepared prepared = prepare_image(volume, settings);
   p = prepared.parameters;
-  result.image = {prepared.noise_left, prepared.impulses, prepared.contrast};
+  result.image = prepared.measured;
   result.seconds.prepare = watch.lap();
 
   const RunInput run(prepared);

@@ -8,6 +8,7 @@
 #include "mesamis/mesh/metric.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/method/iteration.h"
+#include "mesamis/method/measured_image.h"
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/printable.h"
 #include "mesamis/method/settings.h"
@@ -19,11 +20,7 @@ namespace mesamis {
 /// What a run delivers. Points are in the world frame (LPS), in mm.
 struct Result {
   Parameters parameters;  ///< what the run used, the level of the surface included
-  struct Image {
-    double noise_left = 0;  ///< standard deviation after restoring, native units
-    double impulses = 0;    ///< share of the voxels that were replaced, 0 to 1
-    double contrast = 0;    ///< of the object, native units
-  } image;
+  MeasuredImage image;
 
   TetMesh mesh;
   std::vector<double> u, v, f;  ///< nodal: grey values (u, f) and edge indicator

@@ -42,18 +42,24 @@ Settings settings_of(const Parameters& p) {
   s.min_volume = p.min_volume;
   s.keep_largest = p.keep_largest;
   s.fill_cavities = p.fill_cavities;
+  if (p.accuracy > 0) s.accuracy = p.accuracy;
   s.tolerance = p.tolerance;
   if (p.triangles > 0) s.triangles = p.triangles;
   return s;
 }
 
-std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing) {
+std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing,
+                              double accuracy) {
   constexpr double kCells = 4.5, kCellsWhereThin = 18, kThickest = 8;
+  constexpr double kUsual = 0.1, kMostFiner = 4;  // voxels; times the usual number
   const auto [shortest, longest] = std::minmax({spacing.x, spacing.y, spacing.z});
   const double side = std::max(shortest, longest / kThickest);
   const double per_square = kCells + thin_share * (kCellsWhereThin - kCells);
+  const double voxel = std::cbrt(spacing.x * spacing.y * spacing.z);
+  const double finer =
+      accuracy > 0 ? std::clamp(kUsual * voxel / accuracy, 1 / kMostFiner, kMostFiner) : 1;
   return std::llround(
-      std::clamp<double>(per_square * area / (side * side), kFewestTets, kMostTets));
+      std::clamp<double>(finer * per_square * area / (side * side), kFewestTets, kMostTets));
 }
 
 double default_tolerance(double voxel, double expected_error) {

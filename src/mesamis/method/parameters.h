@@ -48,6 +48,7 @@ struct Parameters {
   double min_volume = 0;          ///< of islands and cavities that stay, mm^3
   std::int64_t keep_largest = 0;  ///< islands; 0: all
   bool fill_cavities = false;     ///< every cavity
+  double accuracy = 0;            ///< asked for, mm; 0: none was
   /// Of decimation, mm, both ways; 0: none done; infinite: no bound. The default, see
   /// default_tolerance(), is set when there is a surface; before, it is infinite.
   double tolerance = 0;
@@ -55,7 +56,8 @@ struct Parameters {
 };
 
 /// Makes the settings that repeat a run with these parameters: none of them is "auto" but the level
-/// of a band, which has none, and a number of triangles that the user did not limit.
+/// of a band, which has none, and a number of triangles and an accuracy that the user did not ask
+/// for.
 /// @throws nothing
 Settings settings_of(const Parameters& parameters);
 
@@ -73,14 +75,19 @@ inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
 /// A wall or a gap thinner than two voxels has both its faces within a cell or two: there it takes
 /// four times as many, or the mesh closes the gap and tears the wall. Between thick slices that is
 /// more than it needs.
+///
+/// A cell of size h leaves a bend by h^2: the number goes with the inverse of the distance that is
+/// asked for, within a quarter and four times the usual.
 /// @param area        of the object's surface, mm^2, >= 0, see measure_extent().
 /// @param thin_share  of the area: walls and gaps thinner than two voxels, 0 to 1.
 /// @param spacing     of the voxels, mm, > 0.
+/// @param accuracy    mean distance to the truth that is asked for, mm, >= 0; 0: the usual.
 /// @return cells.
 /// @throws nothing
 ///
 /// O(1).
-std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing);
+std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing,
+                              double accuracy = 0);
 
 /// The default of tolerance: how far the surface is expected to be from the truth, but no less than
 /// 0.03 and no more than 0.1 voxel. A surface that is kept closer keeps what is not true of it.

@@ -136,8 +136,8 @@ RunInput::RunInput(const Prepared& prepared)
       grey(prepared.grey),
       image(prepared.image),
       box{{0, 0, 0}, (1 / parameters.unit_mm) * grey.box().extent()},
-      error{prepared.noise_left * parameters.grey.grey_per_native(),
-            prepared.contrast * parameters.grey.grey_per_native(), parameters.blur} {}
+      error{prepared.measured.noise_left * parameters.grey.grey_per_native(),
+            prepared.measured.contrast * parameters.grey.grey_per_native(), parameters.blur} {}
 
 AmisOptions RunInput::final_options() const {
   AmisOptions options;

@@ -79,6 +79,7 @@ Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
   p.keep_largest = s.keep_largest;
   p.fill_cavities = s.fill_cavities;
   p.tolerance = s.tolerance.value_or(std::numeric_limits<double>::infinity());
+  p.accuracy = s.accuracy.value_or(0);
   p.triangles = s.triangles.value_or(0);
   return p;
 }
@@ -192,17 +193,17 @@ Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
   Restored restored = restore_if_asked(std::move(scan), object, settings);
   p.noise = restored.noise;
   p.blur = restored.blur;
-  prepared.noise_left = restored.noise_left;
-  prepared.impulses = restored.impulses;
 
   const auto measured = find_tissue_threshold(volume, seen.contrast, seen.level, restored.noise);
   p.grey.threshold =
       choose_threshold(settings, p.grey, measured, settings.level.value_or(object.level));
   p.level = settings.level.value_or(level_above(p.grey, object));
-  const double contrast = prepared.contrast = object.contrast.difference();
+  const double contrast = object.contrast.difference();
+  prepared.measured = {restored.noise_left, restored.noise_correlation, restored.impulses, contrast,
+                       settings.level ? 0 : object.uncertainty};
   if (!settings.max_tets) {
     const SurfaceExtent extent = extent_of(restored, contrast, p.level);
-    p.max_tets = default_max_tets(extent.area, extent.thin_share, volume.spacing);
+    p.max_tets = default_max_tets(extent.area, extent.thin_share, volume.spacing, p.accuracy);
   }
   if (!settings.gamma) {
     p.functional.gamma = choose_gamma(p, contrast, restored.noise_left);

@@ -5,6 +5,7 @@
 
 #include "mesamis/image/spline_image.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/method/measured_image.h"
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/settings.h"
 
@@ -13,10 +14,8 @@ namespace mesamis {
 /// The image as the method works on it, and what was chosen for the run.
 struct Prepared {
   Parameters parameters;
-  double noise_left = 0;  ///< standard deviation in the image below, native units
-  double impulses = 0;    ///< share of the voxels that were replaced, 0 to 1
-  double contrast = 0;    ///< of the object, native units; not positive: none was found
-  Volume grey;            ///< the volume, restored, in grey values
+  MeasuredImage measured;
+  Volume grey;  ///< the volume, restored, in grey values
   /// The same between the voxels: the spline through what the bounds have not cut yet.
   SplineImage image;
 };

@@ -78,6 +78,7 @@ struct Settings {
   std::optional<double> min_volume;
   std::int64_t keep_largest = 0;
   bool fill_cavities = false;
+  std::optional<double> accuracy;
   std::optional<double> tolerance;
   std::optional<std::int64_t> triangles;
 };

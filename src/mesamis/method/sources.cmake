@@ -3,6 +3,7 @@ set(ROOM_HEADERS
   available_memory.h
   expected_error.h
   iteration.h
+  measured_image.h
   memory.h
   mes_amis.h
   parameters.h

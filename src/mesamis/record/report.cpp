@@ -178,8 +178,10 @@ ordered_json run_json(const Settings& asked, const RunSummary& run) {
   report["given"] = given_json(asked);
   report["grey"] = grey_json(run.parameters);
   report["image"] = {{"noise_left", run.image.noise_left},
+                     {"noise_correlation", run.image.noise_correlation},
                      {"impulse_share", run.image.impulses},
-                     {"contrast", run.image.contrast}};
+                     {"contrast", run.image.contrast},
+                     {"level_uncertainty", run.image.level_uncertainty}};
   report["iterations"] = ordered_json::array();
   const std::size_t passes = run.iterations.size();
   for (std::size_t i = 0; i < passes; ++i) {

@@ -13,7 +13,7 @@ namespace mesamis {
 /// The figures of a run that reports and tables give, without its meshes and fields.
 struct RunSummary {
   Parameters parameters;  ///< what the run used
-  Result::Image image;
+  MeasuredImage image;
   std::vector<Iteration> iterations;    ///< one at least; the last is the final minimisation
   std::int64_t tets = 0, nodes = 0;     ///< of the adapted mesh
   MeshFit fit;                          ///< of that mesh to its metric

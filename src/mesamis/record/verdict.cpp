@@ -3,6 +3,8 @@
 
 #include <sstream>
 
+#include "mesamis/method/expected_error.h"
+
 namespace mesamis {
 namespace {
 
@@ -32,6 +34,13 @@ std::string why_not_converged(const Result& result) {
          std::to_string(p.tol_mesh) + " and " + std::to_string(p.tol_energy);
 }
 
+std::string accuracy_unmet(double accuracy, double expected) {
+  std::ostringstream line;
+  line << "accuracy: expected " << accuracy << " mm in the mean at most, found " << expected
+       << " mm: noise and blur of the scan permit no less";
+  return line.str();
+}
+
 }  // namespace
 
 Verdict judge(const Result& result, const SurfaceCheck& check) {
@@ -47,6 +56,12 @@ Verdict judge(const Result& result, const SurfaceCheck& check) {
     return {Outcome::kNotConverged, tolerance_unmet(p.tolerance, result.printable)};
   }
   if (!result.converged) return {Outcome::kNotConverged, why_not_converged(result)};
+  if (solid && p.accuracy > 0) {
+    const double expected = summarize_error(result.surface, result.expected_error).mean;
+    if (expected > p.accuracy) {
+      return {Outcome::kNotConverged, accuracy_unmet(p.accuracy, expected)};
+    }
+  }
   return {};
 }
 

@@ -10,8 +10,8 @@ namespace mesamis {
 
 /// Whether a run kept what it promised, the worst last.
 enum class Outcome {
-  kKept,          ///< converged, closed, within the tolerance
-  kNotConverged,  ///< the loop did not settle, a solve did not converge, or the tolerance is unmet
+  kKept,          ///< converged, closed, within the tolerance, as accurate as was asked for
+  kNotConverged,  ///< the loop did not settle, a solve did not converge, or a distance is unmet
   kNotClosed      ///< a surface that should be closed, manifold and outward is not
 };
 
@@ -20,11 +20,12 @@ struct Verdict {
   std::string message;  ///< what was expected and found, on one line; empty: all was kept
 };
 
-/// Judges a run: whether its surface is closed, within the tolerance, and the run converged.
-/// @param check  of the result's surface. Throws nothing. O(passes).
+/// Judges a run: whether its surface is closed, within the tolerance, the run converged, and the
+/// expected error is no more than was asked for.
+/// @param check  of the result's surface. Throws nothing. O(n log n) for n triangles.
 Verdict judge(const Result& result, const SurfaceCheck& check);
 
-/// Why a surface is farther off than it should be, on one line.
+/// Why a surface is farther from the extracted one than it should be, on one line.
 /// @param tolerance  mm. Throws nothing.
 std::string tolerance_unmet(double tolerance, const PrintableReport& printable);
 

@@ -13,7 +13,10 @@ namespace mesamis {
 struct HalfMaximumLevel {
   double level = 0;         ///< native units
   ObjectContrast contrast;  ///< at the surface of that level
-  bool in_noise = false;    ///< nothing was found that stands out of the noise
+  /// How surely it is known, native units: half of the way from the level of thick places to that
+  /// of the whole surface. 0 unless find_object_edge() found it.
+  double uncertainty = 0;
+  bool in_noise = false;  ///< nothing was found that stands out of the noise
 };
 
 struct HalfMaximumOptions {

@@ -67,6 +67,7 @@ HalfMaximumLevel find_object_edge(const VolumeView& volume, const HalfMaximumLev
   const auto between = [share](double thick, double whole) {
     return thick + share * (whole - thick);
   };
+  object.uncertainty = std::abs(object.level - seen.level) / 2;
   object.level = between(object.level, seen.level);
   object.contrast.background = between(object.contrast.background, seen.contrast.background);
   object.contrast.object = between(object.contrast.object, seen.contrast.object);

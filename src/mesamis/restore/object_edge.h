@@ -21,8 +21,7 @@ namespace mesamis {
 /// @param volume  native values, as they came: a restored image overshoots.
 /// @param seen    of this volume: where to start.
 /// @return level and contrast are the edge's (background and shell), or mixed with those seen; all
-/// as seen
-///         where no edge can be fitted.
+///         as seen where no edge can be fitted.
 /// @throws nothing
 ///
 /// O(voxels) per iteration, at most three; a smoothed copy of the samples.

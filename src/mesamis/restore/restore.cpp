@@ -86,8 +86,10 @@ void undo_blur(Restored& restored, const Volume& guide, const ObjectContrast& co
 }  // namespace
 
 Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOptions& options) {
-  Restored restored{std::move(volume), options.noise.value_or(0), 0,
-                    options.blur.value_or(std::array<double, 3>{})};
+  Restored restored;
+  restored.volume = std::move(volume);
+  restored.noise = options.noise.value_or(0);
+  restored.blur = options.blur.value_or(std::array<double, 3>{});
   require_valid_blur(restored.blur);
   const double contrast = object.contrast.difference();
   if (!(contrast > 0)) return restored;
@@ -105,6 +107,8 @@ Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOpt
     guide = make_guide(restored.volume, object.level);
     if (!options.noise) restored.noise = noise_now();
   }
+  restored.noise_correlation =
+      measure_noise_correlation(restored.volume, guide.image, guide.points, object.level);
   if (!options.blur) {
     restored.blur =
         measure_blur(restored.volume, thick_places(guide.image, guide.points, object.level).points);

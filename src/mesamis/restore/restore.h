@@ -19,8 +19,10 @@ struct RestoreOptions {
 
 /// A scan without its impulses and with its blur undone, as far as the noise permits.
 struct Restored {
-  Volume volume;                 ///< native units
-  double noise = 0;              ///< standard deviation in the scan, native units
+  Volume volume;     ///< native units
+  double noise = 0;  ///< standard deviation in the scan, native units
+  /// Of the noise in neighbours along each axis, see measure_noise_correlation().
+  std::array<double, 3> noise_correlation{};
   double noise_left = 0;         ///< standard deviation in the volume here, native units
   std::array<double, 3> blur{};  ///< standard deviations in the scan, voxels
   double impulses = 0;           ///< share of the voxels that were replaced, 0 to 1

@@ -16,7 +16,8 @@ namespace mesamis {
 namespace {
 
 constexpr std::size_t kFewestPlaces = 10, kFewestOfAnAxis = 100;
-constexpr double kMadToDeviation = 1.4826;  // of a normal distribution
+constexpr std::array<double, 2> kBeside{-2.5, 2.5};  // voxels from the surface
+constexpr double kMadToDeviation = 1.4826;           // of a normal distribution
 
 /// The voxel nearest to a place, or nothing within one voxel of the border.
 std::optional<std::array<Index, 3>> voxel_at(const VoxelGrid& grid, const Vec3& p) {
@@ -44,6 +45,44 @@ double deviation_at(const VolumeView& volume, const std::array<Index, 3>& voxel)
     }
   }
   return std::abs(volume.at(voxel[0], voxel[1], voxel[2]) - fitted);
+}
+
+/// A voxel beside the surface, and the normal of the surface there.
+struct Beside {
+  std::array<Index, 3> voxel;
+  Vec3 normal;
+};
+
+/// Voxels at a distance from the surface, voxels, outwards.
+std::vector<Beside> voxels_beside(const VolumeView& guide, const std::vector<SurfacePoint>& points,
+                                  double distance, double level) {
+  std::vector<Beside> found;
+  for (const SurfacePoint& point : points) {
+    if (norm(point.normal) == 0) continue;
+    const auto place = place_along_normal(guide, point, distance, level);
+    const auto voxel = place ? voxel_at(guide, *place) : std::nullopt;
+    if (voxel) found.push_back({*voxel, point.normal});
+  }
+  return found;
+}
+
+/// Median square of the differences to the voxel `apart` steps along an axis that runs beside the
+/// surface; nothing if there are few.
+std::optional<double> median_square(const VolumeView& volume, const std::vector<Beside>& places,
+                                    std::size_t axis, Index apart) {
+  constexpr double kAlongSurface = 0.4;
+  std::vector<double> squares;
+  for (const auto& [voxel, normal] : places) {
+    std::array<Index, 3> other = voxel;
+    other[axis] += apart;
+    if (std::abs(normal[static_cast<int>(axis)]) > kAlongSurface) continue;
+    if (other[axis] >= volume.size[axis]) continue;
+    const double d = double{volume.at(voxel[0], voxel[1], voxel[2])} -
+                     double{volume.at(other[0], other[1], other[2])};
+    squares.push_back(d * d);
+  }
+  if (squares.size() < kFewestPlaces) return std::nullopt;
+  return median(squares);
 }
 
 /// The axes that share one blur. Two of equal spacing beside a third that differs are the plane of
@@ -124,19 +163,34 @@ double measure_noise(const VolumeView& volume, const VolumeView& guide,
                      const std::vector<SurfacePoint>& points, double level) {
   const double share = std::sqrt(20.0 / 27);  // of white noise, left by the fit
   std::optional<double> quieter;
-  for (const double distance : {-2.5, 2.5}) {  // voxels
+  for (const double distance : kBeside) {
     std::vector<double> deviations;
-    for (const SurfacePoint& point : points) {
-      if (norm(point.normal) == 0) continue;
-      const auto place = place_along_normal(guide, point, distance, level);
-      const auto voxel = place ? voxel_at(volume, *place) : std::nullopt;
-      if (voxel) deviations.push_back(deviation_at(volume, *voxel));
+    for (const Beside& place : voxels_beside(guide, points, distance, level)) {
+      deviations.push_back(deviation_at(volume, place.voxel));
     }
     if (deviations.size() < kFewestPlaces) continue;
     const double deviation = kMadToDeviation * median(deviations) / share;
     quieter = std::min(deviation, quieter.value_or(deviation));
   }
   return quieter.value_or(0);
+}
+
+std::array<double, 3> measure_noise_correlation(const VolumeView& volume, const VolumeView& guide,
+                                                const std::vector<SurfacePoint>& points,
+                                                double level) {
+  std::array<double, 3> correlation{}, quietest{};
+  for (const double distance : kBeside) {
+    const auto places = voxels_beside(guide, points, distance, level);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto near = median_square(volume, places, a, 1),
+                 far = median_square(volume, places, a, 2);
+      if (!near || !far || !(*far > 0)) continue;
+      if (quietest[a] > 0 && *far > quietest[a]) continue;
+      quietest[a] = *far;
+      correlation[a] = std::max(-1.0, 1 - *near / *far);
+    }
+  }
+  return correlation;
 }
 
 std::array<double, 3> measure_blur(const VolumeView& volume,

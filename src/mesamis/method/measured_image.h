@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+namespace mesamis {
+
+/// What was found out about a scan beside the parameters that follow from it.
+struct MeasuredImage {
+  double noise_left = 0;  ///< standard deviation after restoring, native units
+  std::array<double, 3>
+      noise_correlation{};       ///< of neighbours in the scan, along each axis, -1 to 1
+  double impulses = 0;           ///< share of the voxels that were replaced, 0 to 1
+  double contrast = 0;           ///< of the object, native units; not positive: none was found
+  double level_uncertainty = 0;  ///< see HalfMaximumLevel::uncertainty, native units
+};
+
+}  // namespace mesamis
