@@ -95,12 +95,15 @@ TEST(HalfMaximumLevel, FindsThinPlatesInNoise) {
 }
 
 TEST(HalfMaximumLevel, TellsObjectsFromNoise) {
-  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
+  for (unsigned seed = 1; seed <= 16; ++seed) {
     BallVolume noise{.size = 48, .object = 120, .noise = 15, .seed = seed};
     const HalfMaximumLevel nothing = find_half_maximum_level(make_ball(noise));
     EXPECT_TRUE(nothing.in_noise || nothing.contrast.difference() == 0) << seed;
     BallVolume ball{.size = 48, .noise = 60, .radius = 14, .seed = seed};
     EXPECT_FALSE(find_half_maximum_level(make_ball(ball)).in_noise) << seed;
+    BallVolume hole = ball;  // what is around fills more than half
+    std::swap(hole.background, hole.object);
+    EXPECT_FALSE(find_half_maximum_level(make_ball(hole)).in_noise) << seed;
   }
 }
 

@@ -71,12 +71,13 @@ bool exceeds_noise(const HalfMaximumLevel& object, double deviations, const Volu
          deviations * measure_noise(volume, guide, points, object.level);
 }
 
-/// Whether what is hidden in noise is more than noise, whose own crests have 1.0 to 1.3 of its
-/// deviation for contrast. An object that fills more than half of the image is not hidden.
+/// Whether what is hidden in noise is more than noise: its own crests have 1.0 to 1.4 of its
+/// deviation for contrast, and higher ones are rarer than any object worth the name.
 bool is_more_than_noise(const HalfMaximumLevel& object, const VolumeView& volume,
                         const VolumeView& guide) {
-  constexpr double kOfNoise = 1.4;
-  return object.level > quantiles(guide, {0.5})[0] &&
+  constexpr double kOfNoise = 1.45, kLeastShare = 0.002;  // of the voxels, on either side
+  const auto side = quantiles(guide, {kLeastShare, 1 - kLeastShare});
+  return object.level > side[0] && object.level < side[1] &&
          exceeds_noise(object, kOfNoise, volume, guide);
 }
 
