@@ -186,6 +186,25 @@ TEST(SegmentCommand, WritesTheErrorItExpects) {
   EXPECT_LE(told["percentile_90"], *most);
 }
 
+TEST(SegmentCommand, IsAsFineAsWasAskedForOrSaysThatTheScanIsNot) {
+  const TempFolder folder;
+  write_ball(folder, 32);
+  const auto run_for = [&](const std::string& name, const std::string& accuracy) {
+    return run_program(folder,
+                       segment_arguments(folder, name, {"--accuracy", accuracy, "--quiet"}));
+  };
+  EXPECT_EQ(run_for("coarse", "1").status, 0);
+  EXPECT_EQ(run_for("fine", "0.2").status, 0);
+  const auto coarse = report_of(folder, "coarse"), fine = report_of(folder, "fine");
+  EXPECT_LT(coarse["surface"]["triangles"], fine["surface"]["triangles"]);
+  EXPECT_EQ(coarse["settings"]["tolerance"], 0.5);
+  EXPECT_EQ(fine["given"], nlohmann::json{"accuracy"});
+  const ProgramRun unmet = run_for("unmet", "0.001");
+  EXPECT_EQ(unmet.status, 4);
+  EXPECT_THAT(unmet.err, HasSubstr("accuracy: expected 0.001 mm in the mean at most, found 0."));
+  EXPECT_EQ(report_of(folder, "unmet")["surface"]["closed"], true) << "written all the same";
+}
+
 TEST(SegmentCommand, GivesTheScansOwnValuesBeyondTheWindow) {
   const TempFolder folder;
   write_ball(folder, 20);  // 230 inside, 120 outside
@@ -213,7 +232,7 @@ TEST(SegmentCommand, GivesTheScansOwnValuesBeyondTheWindow) {
 
 TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
   const TempFolder folder;
-  write_ball(folder, 8);
+  write_ball(folder, 18);
   EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--gamma", "-1"})), 2,
                "gamma: expected 1e-12 to 1e+12, found -1");
   EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--frame", "up"})), 2,

@@ -12,6 +12,7 @@ namespace mesamis {
 namespace {
 
 constexpr double kOfNoise = 0.67, kOfBends = 0.18, kOfLevelAndBlur = 0.018, kOfLevel = 0.0085;
+constexpr double kOfDecimation = 0.25;
 constexpr double kMost = 2;           // voxels
 constexpr double kLeastSlope = 1;     // grey values per voxel: less tells of no edge
 constexpr double kMostCurvature = 2;  // per voxel
@@ -44,7 +45,7 @@ std::vector<double> expected_error(const TriMesh& surface, const SplineImage& im
     const double error =
         std::hypot(std::hypot(kOfNoise * noise, kOfLevel * level),
                    kOfBends * blur * curvature_at(image, p), kOfLevelAndBlur * blur * level);
-    errors[n] = std::min(error, kMost) * voxel;
+    errors[n] = std::hypot(std::min(error, kMost) * voxel, kOfDecimation * options.decimated);
   });
   return errors;
 }

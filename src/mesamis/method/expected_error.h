@@ -14,6 +14,7 @@ struct ErrorOptions {
   double noise = 0;              ///< left in the image, standard deviation, grey values, >= 0
   double contrast = 0;           ///< of the object, grey values, >= 0
   std::array<double, 3> blur{};  ///< of the scan before it was undone, voxels, >= 0
+  double decimated = 0;          ///< greatest distance by which decimation moved it, mm, >= 0
 };
 
 /// Estimates how far a surface lies from the truth, at each of its points.
@@ -23,7 +24,8 @@ struct ErrorOptions {
 /// curvature K of the image's level set; and a level that is slightly off, L = contrast / slope,
 /// more so the larger the blur. The mean distance expected is
 ///   e^2 = (0.67 N)^2 + (0.18 s^2 K)^2 + (0.018 s^2 L)^2 + (0.0085 L)^2,
-/// no more than two voxels. The factors are least squares over the distances measured on phantoms
+/// no more than two voxels; and decimation a quarter of its greatest distance, whose square is
+/// added. The factors are least squares over the distances measured on phantoms
 /// and simulated CT (docs/accuracy.md). Walls and gaps that the surface has missed are not seen,
 /// nor is a level that was chosen for another tissue.
 /// @param surface  n points, world frame, mm.

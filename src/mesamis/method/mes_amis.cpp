@@ -153,7 +153,10 @@ Result run_on(const VolumeView& volume, const Settings& settings, const Progress
   watch.lap();
   finish_surface(run, settings, progress, result);
   if (p.surface == SurfaceKind::kSolid) {
-    result.expected_error = expected_error(result.surface, run.image, run.error);
+    ErrorOptions delivered = run.error;
+    delivered.decimated =
+        std::max(result.printable.extracted_to_result, result.printable.result_to_extracted);
+    result.expected_error = expected_error(result.surface, run.image, delivered);
   }
   result.seconds.printable = watch.lap();
   return result;
