@@ -3,7 +3,7 @@
 """Distances from the truth on degraded real scans, simulated scans, phantoms and thin walls.
 
     bench/anatomy_study.py FOLDER --data DATA [--groups abcd] [--cases NAME,...] [--half tuning]
-                           [--tag TAG] [--options "--gamma 10"] [--restored PATTERN]
+                           [--tag TAG] [--options "--gamma 10"] [--restored]
 
 DATA is the tests' data folder; the groups are told in study_cases.py. Half of the cases is set aside:
 settings are tuned by the others (--half tuning, the default), and judged once by these (--half judging).
@@ -17,8 +17,9 @@ truth's and the surface's area further than a voxel from the other one, ours / t
 The error that `segment` expects is compared with the real one on the cases whose truth is exact, as a
 whole and by tenths of the surface.
 
---restored PATTERN adds a line where the file PATTERN is, {name} being the case: the isosurface of that
-restored image, on the scan's grid, at our level, decimated by quadrics to our count of triangles.
+--restored adds a line per case: the isosurface of the image that `segment` works on (bench_restored_image,
+beside `mesamis`), of its grid or the doubled one, at our level, decimated by quadrics to our count of
+triangles. It tells what the adapted mesh buys.
 
 Scans, truths and the tuned rivals stay in FOLDER; ours too, per TAG. What is there is not made again:
 take a new TAG for a new build or other options, and a new FOLDER after a change of the cases. `mesamis`
@@ -35,7 +36,7 @@ import numpy as np
 
 import wall_bins
 from distances import Judge, read_surface, triangles_of
-from mesamis_runs import MESAMIS
+from mesamis_runs import MESAMIS, RESTORED_IMAGE
 from rivals import Tuner, best_of, decimated, label
 from study_cases import JUDGING, NOTHING, WALLS, all_cases
 from volumes import isosurface, read_nrrd, upsampled
@@ -117,34 +118,45 @@ def study(case, arguments):
     return ratios
 
 
+def restored_distances(case, arguments, level, triangles):
+    """Of the isosurfaces of our restored image and of its doubled grid, decimated: the nearer one."""
+    path = case.folder / f"{case.name}.{arguments.tag}.restored.nrrd"
+    if not path.exists():
+        subprocess.run([RESTORED_IMAGE, case.scan, path], check=True)
+    image = read_nrrd(path)
+    judge = Judge(read_surface(case.truth), image, case.margin)
+    return min((judge.measure(decimated(isosurface(grid, level), triangles))
+                for grid in (image, upsampled(image))), key=lambda found: found["sum"])
+
+
 def study_restored(case, arguments):
     """Prints what a plain way to the surface makes of the restored image."""
-    path = pathlib.Path(arguments.restored.format(name=case.name))
-    if not path.exists():
-        return
     done, mine, rivals = measured(case, arguments)
-    image = read_nrrd(path)
-    surface = decimated(isosurface(image, done["level"]), mine["ours"]["triangles"])
-    found = Judge(read_surface(case.truth), image, case.margin).measure(surface)
+    found = cached(case.folder / f"{case.name}.{arguments.tag}.plain.json",
+                   lambda: restored_distances(case, arguments, done["level"],
+                                              mine["ours"]["triangles"]))
     best = best_of(rivals)[1]
     row([f"{case.name}, restored", f"{found['sum']:.3f}", f"{best['sum']:.3f}", "",
          f"**{found['sum'] / best['sum']:.2f}**", "", "", "",
          per_cent(found["missed"], best["missed"]), per_cent(found["invented"], best["invented"]),
          str(found["triangles"])])
+    return mine["ours"]["sum"] / found["sum"]
 
 
 def study_group(cases, arguments):
     print("\n| " + " | ".join(HEAD) + " |\n|" + "---|" * len(HEAD))
-    found = []
+    found, bought = [], []
     for case in cases:
         found.append(study(case, arguments))
         if arguments.restored and found[-1]:
-            study_restored(case, arguments)
+            bought.append(study_restored(case, arguments))
     ratios = np.array([r for r in found if r is not None])
     if len(ratios):
         means = [f"{m:.2f}" for m in np.exp(np.log(ratios).mean(0))]
         row([f"geometric mean of {len(ratios)}, {len(found) - len(ratios)} missing", "", "", "",
              *means])
+    if bought:
+        print(f"\nours against the isosurface of our restored image: {np.exp(np.log(bought).mean()):.2f}")
 
 
 def errors(cases, arguments):
@@ -203,7 +215,8 @@ def parsed():
     parser.add_argument("--half", choices=("tuning", "judging", "both"), default="tuning")
     parser.add_argument("--tag", default="ours", help="results of ours are kept under this name")
     parser.add_argument("--options", default="", help="for segment")
-    parser.add_argument("--restored", default="", help="restored images: a path with {name} in it")
+    parser.add_argument("--restored", action="store_true",
+                        help="also the isosurface of our restored image")
     parser.add_argument("--list", action="store_true", help="names of the cases, and end")
     return parser.parse_args()
 

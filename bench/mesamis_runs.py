@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 MESAMIS = os.environ.get("MESAMIS", str(pathlib.Path(__file__).parent / "../build/release/mesamis"))
+RESTORED_IMAGE = str(pathlib.Path(MESAMIS).parent / "bench/bench_restored_image")
 
 
 def run(*arguments):
