@@ -24,7 +24,7 @@ from volumes import (SPECK, cropped, isosurface, noisy, read_nifti, read_nrrd, s
 JUDGING = """
     spine_f2_n2 template_f2_n8 aj_f2_n2 trabecular_f3_n2 cranium_f3_n8 skull_f2_n8
     ct_femur_fine ct_fracture_fine ct_plates_thick ct_shell_thick ct_wing_fine
-    femur_b0.5_n15 femur_thick_n30 plate_b0.5_n15 hemipelvis_b2_n15 fracture_inverted_n60
+    femur_b0.5_n15 femur_thick_n30 plate_b0.5_n15 hemipelvis_b2_n15
     wall_b0.8_n8 noise_3 ball_n45
 """.split()
 

@@ -47,6 +47,19 @@ TEST(ExpectedError, GrowsWithNoiseBlurAndContrast) {
   EXPECT_LT(summary_of(decimated).mean, mean + 0.2);
 }
 
+TEST(ExpectedError, LeavesOutWhereTheBoxCutsTheObject) {
+  const SplineImage image = interpolating_spline(make_ball({.noise = 0, .radius = 11}));
+  TriMesh surface = ball();
+  const ErrorOptions usual{.noise = 5, .contrast = 110, .blur = {1, 1, 1}};
+  const double mean = summarize_error(surface, expected_error(surface, image, usual)).mean;
+  const auto first = static_cast<int>(surface.points.size());
+  for (const Vec3& p : {Vec3{0, 5, 5}, Vec3{0, 30, 5}, Vec3{0, 5, 30}}) surface.points.push_back(p);
+  surface.triangles.push_back({first, first + 1, first + 2});
+  const auto errors = expected_error(surface, image, usual);
+  EXPECT_EQ(errors.back(), 0);
+  EXPECT_EQ(summarize_error(surface, errors).mean, mean);
+}
+
 TEST(ExpectedError, SummarizesOverTheArea) {
   const TriMesh surface = ball();
   const std::vector<double> same(surface.points.size(), 0.25);

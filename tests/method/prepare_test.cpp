@@ -112,16 +112,6 @@ TEST(PrepareImage, ATrianglesGoalLiftsTheTolerance) {
   EXPECT_EQ(prepare_image(volume, settings).parameters.tolerance, 0.2);
 }
 
-TEST(PrepareImage, TheLevelDependsOnNeitherStrideNorCells) {
-  const Volume volume = make_ball({.size = 32, .noise = 8, .radius = 9});
-  const double level = prepare_image(volume, {}).parameters.level;
-  Settings settings;
-  settings.stride = {2, 2, 2};
-  EXPECT_EQ(prepare_image(volume, settings).parameters.level, level);
-  settings.max_tets = 100'000;
-  EXPECT_EQ(prepare_image(volume, settings).parameters.level, level);
-}
-
 TEST(PrepareImage, RefusesSettingsThatLeaveNothingToSee) {
   const Volume volume = make_ball({.size = 24, .radius = 7});
   Settings settings;

@@ -82,12 +82,12 @@ TEST(MeasureBlur, TellsAxesApart) {
 }
 
 TEST(MeasureBlur, OfThickSlicesIsNotThatOfThePixels) {
-  const Volume scan = subsample(scan_of("sphere", {.blur = 1.4}), {1, 1, 4});
+  const Volume scan = subsample(scan_of("sphere", {.blur = 1.8}), {1, 1, 3});
   const auto points = crossing_points(smoothed(scan), kLevel, 100'000);
   const auto blur = measure_blur(scan, points);
-  EXPECT_NEAR(blur[0], 1.4, 0.15);
+  EXPECT_NEAR(blur[0], 1.8, 0.15);
   EXPECT_EQ(blur[0], blur[1]) << "one plane";
-  EXPECT_NEAR(blur[2], 0.35, 0.15);
+  EXPECT_NEAR(blur[2], 0.6, 0.08);
 }
 
 TEST(MeasureBlur, IsThatOfTheOthersWhereNoEdgeTells) {

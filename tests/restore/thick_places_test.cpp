@@ -27,7 +27,7 @@ TEST(ThickPlaces, AreOnTheThickPartAlone) {
   const auto thick = thick_places(guide, points, kLevel);
   EXPECT_GT(thick.points.size(), points.size() / 8);
   EXPECT_LT(thick.points.size(), points.size());
-  EXPECT_EQ(thick.least, 6);
+  EXPECT_EQ(thick.least, kLongestWay);
   for (const SurfacePoint& point : thick.points) EXPECT_GT(point.position.x, 15);
 }
 

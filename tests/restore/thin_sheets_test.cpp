@@ -9,6 +9,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/image/grey_values.h"
 #include "mesamis/image/spline_image.h"
+#include "mesamis/restore/deblur.h"
 #include "support/ball_volume.h"
 #include "support/sampled_volume.h"
 
@@ -62,6 +63,33 @@ TEST(LiftThinSheets, WallsAndGapsGetTheirThickness) {
     }
     EXPECT_NEAR(thickness_at_middle(lifted(wall), 1), thickness, 0.25) << thickness;
     EXPECT_NEAR(thickness_at_middle(lifted(gap), -1), thickness, 0.25) << thickness;
+  }
+}
+
+TEST(LiftThinSheets, KnowsWhatWasUndoneAlongTheNormal) {
+  // Across x 0.7 voxels of blur were undone, across z none: each wall gets its thickness.
+  for (const int axis : {0, 2}) {
+    constexpr double kOfX = 0.8, kOfZ = 0.35, kThickness = 0.9;
+    const double blur = axis == 0 ? kOfX : kOfZ;
+    const Volume scan = sampled_volume({31, 31, 31}, {1, 1, 1}, [&](const Vec3& p) {
+      const double d = p[axis] - 15.2, scale = 1 / (blur * std::sqrt(2));
+      return kOutside +
+             55 * (std::erf((d + kThickness / 2) * scale) - std::erf((d - kThickness / 2) * scale));
+    });
+    const SheetOptions options{.contrast = {kOutside, kInside, 1000},
+                               .blur = {kOfX, kOfX, kOfZ},
+                               .regularization = 0.01,
+                               .undone = {0.7, 0.7, 0}};
+    Volume lifted = deblurred(scan, options.undone, *options.regularization);
+    lift_thin_sheets(lifted, smoothed(scan), options);
+    const SplineImage image = interpolating_spline(lifted);
+    double sum = 0;
+    for (double d = -4; d < 4; d += 0.01) {
+      Vec3 p{15.3, 15.1, 14.8};
+      p[axis] = 15.2 + d;
+      if (spline_at(image, p).value > (kOutside + kInside) / 2) sum += 0.01;
+    }
+    EXPECT_NEAR(sum, kThickness, 0.25) << axis;
   }
 }
 

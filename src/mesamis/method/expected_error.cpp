@@ -37,9 +37,13 @@ std::vector<double> expected_error(const TriMesh& surface, const SplineImage& im
   const double voxel = image.grid.voxel_size();
   const auto [x, y, z] = options.blur;
   const double blur = (x * x + y * y + z * z) / 3;
+  const double at_box = 1e-3 * voxel;  // single precision does not hit it
+  const Vec3 margin{at_box, at_box, at_box};
+  const Box inner{margin, image.grid.box().extent() - margin};
   std::vector<double> errors(surface.points.size());
   parallel_for(errors.size(), [&](std::size_t n) {
     const Vec3 p = image.grid.to_grid(surface.points[n]);
+    if (!inner.contains(p)) return;
     const double slope = std::max(norm(spline_at(image, p).gradient) * voxel, kLeastSlope);
     const double noise = options.noise / slope, level = options.contrast / slope;
     const double error =
@@ -57,6 +61,7 @@ ErrorSummary summarize_error(const TriMesh& surface, const std::vector<double>& 
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const Triangle& k = surface.triangles[t];
     const double value = (values[k[0]] + values[k[1]] + values[k[2]]) / 3;
+    if (value == 0) continue;
     parts.emplace_back(value, triangle_area(surface, t));
     area += parts.back().second;
     sum += value * parts.back().second;

@@ -25,7 +25,8 @@ struct ErrorOptions {
 /// more so the larger the blur. The mean distance expected is
 ///   e^2 = (0.67 N)^2 + (0.18 s^2 K)^2 + (0.018 s^2 L)^2 + (0.0085 L)^2,
 /// no more than two voxels; and decimation a quarter of its greatest distance, whose square is
-/// added. The factors are least squares over the distances measured on phantoms
+/// added. Where the image's box cuts the object there is no edge that could be off: 0. The factors
+/// are least squares over the distances measured on phantoms
 /// and simulated CT (docs/accuracy.md). Walls and gaps that the surface has missed are not seen,
 /// nor is a level that was chosen for another tissue.
 /// @param surface  n points, world frame, mm.
@@ -43,9 +44,10 @@ struct ErrorSummary {
   double percentile90 = 0;  ///< nine tenths of the area have less
 };
 
-/// Summarizes values on the points of a surface over its area.
+/// Summarizes values on the points of a surface over its area, without the triangles whose values
+/// are all 0.
 /// @param values  n, one per point, mm.
-/// @return zeros for a surface without area.
+/// @return zeros if nothing is left.
 /// @throws InputError  as require_sound().
 ///
 /// O(n log n).

@@ -12,7 +12,7 @@ struct MeasuredImage {
       noise_correlation{};       ///< of neighbours in the scan, along each axis, -1 to 1
   double impulses = 0;           ///< share of the voxels that were replaced, 0 to 1
   double contrast = 0;           ///< of the object, native units; not positive: none was found
-  double level_uncertainty = 0;  ///< see HalfMaximumLevel::uncertainty, native units
+  double level_uncertainty = 0;  ///< see HalfMaximumLevel, native units; 0: not known
 };
 
 }  // namespace mesamis

@@ -119,10 +119,9 @@ void finish_surface(const RunInput& run, const Settings& settings, const Progres
   Parameters& p = result.parameters;
   result.printable.triangles_extracted = std::ssize(result.surface.triangles);
   if (p.surface == SurfaceKind::kBand) return;
-  if (!settings.tolerance && !settings.triangles && run.error.contrast > 0) {
-    p.tolerance = p.accuracy > 0 ? p.accuracy / 2
-                                 : default_tolerance(run.grey.voxel_size(),
-                                                     mean_expected_error(run, result.surface));
+  if (!settings.tolerance && !settings.triangles) {
+    p.tolerance = default_tolerance(run.grey.voxel_size(), mean_expected_error(run, result.surface),
+                                    p.accuracy);
   }
   result.surface = make_printable(
       result.surface,

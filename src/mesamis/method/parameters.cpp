@@ -62,8 +62,9 @@ std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacin
       std::clamp<double>(finer * per_square * area / (side * side), kFewestTets, kMostTets));
 }
 
-double default_tolerance(double voxel, double expected_error) {
-  constexpr double kLeast = 0.03, kMost = 0.1;  // voxels
+double default_tolerance(double voxel, double expected_error, double accuracy) {
+  constexpr double kLeast = 0.03, kMost = 0.1, kFinest = 0.01;  // voxels
+  if (accuracy > 0) return std::max(accuracy / 2, kFinest * voxel);
   return std::clamp(expected_error, kLeast * voxel, kMost * voxel);
 }
 

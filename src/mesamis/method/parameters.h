@@ -77,7 +77,7 @@ inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
 /// more than it needs.
 ///
 /// A cell of size h leaves a bend by h^2: the number goes with the inverse of the distance that is
-/// asked for, within a quarter and four times the usual.
+/// asked for, from a quarter of the usual to four times it. The bounds hold after that.
 /// @param area        of the object's surface, mm^2, >= 0, see measure_extent().
 /// @param thin_share  of the area: walls and gaps thinner than two voxels, 0 to 1.
 /// @param spacing     of the voxels, mm, > 0.
@@ -90,14 +90,16 @@ std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacin
                               double accuracy = 0);
 
 /// The default of tolerance: how far the surface is expected to be from the truth, but no less than
-/// 0.03 and no more than 0.1 voxel. A surface that is kept closer keeps what is not true of it.
+/// 0.03 and no more than 0.1 voxel: a surface that is kept closer keeps detail smaller than its
+/// error. Half of the accuracy, if that is asked for, but no less than 0.01 voxel.
 /// @param voxel           geometric mean of the spacing, mm, > 0.
 /// @param expected_error  in the mean over the surface, see expected_error(), mm, >= 0.
+/// @param accuracy        mean distance to the truth that is asked for, mm, >= 0; 0: none.
 /// @return mm.
 /// @throws nothing
 ///
 /// O(1).
-double default_tolerance(double voxel, double expected_error);
+double default_tolerance(double voxel, double expected_error, double accuracy);
 
 /// The default of gamma, 4 epsilon beta (0.07 c + 0.25 n)^2.
 ///

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <sstream>
 
@@ -23,8 +22,6 @@ namespace {
 constexpr double kDefaultMinVolume = 4;
 /// The paper's T of (13), of 255 grey values.
 constexpr double kPaperThreshold = 140;
-/// Voxels: what an edge is blurred by at least, by the extent of the voxels.
-constexpr double kSharpest = 0.3;
 
 /// A quarter of the box's longest side, in length units.
 double default_h_max(const VoxelGrid& volume, double unit_mm) {

@@ -219,8 +219,8 @@ std::vector<Setting> mesh_rows() {
     bound({.name = "max_tets", .form = "N", .count = 1, .whole = true, .low = 100, .high = 2e8,
            .words = {"auto"}, .help = "NMAX: cells of the mesh at most",
            .automatic = "4.5 for each square of the object's surface with the voxel's shortest "
-               "side, 18 in walls and gaps thinner than two voxels, 20 000 to 2 000 000; times a tenth of "
-               "a voxel over accuracy, if that is asked for, a quarter to four", .paper = "1300000"}, &Settings::max_tets),
+               "side, 18 in walls and gaps thinner than two voxels, times a tenth of a voxel over accuracy, "
+               "a quarter to four, if that is asked for; 20 000 to 2 000 000 in all", .paper = "1300000"}, &Settings::max_tets),
     bound({.name = "tau", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
            .help = "Tolerance on the error estimator"}, &Settings::tau),
     bound({.name = "adaptations", .form = "N", .count = 1, .whole = true, .low = 1, .high = 100,
@@ -277,14 +277,14 @@ std::vector<Setting> surface_rows() {
            .help = "Fill every cavity of the solid"}, &Settings::fill_cavities),
     bound({.name = "accuracy", .form = "MM", .count = 1, .low = kTiny, .high = kHuge,
            .words = {"auto"}, .unit = "mm",
-           .help = "Mean distance to the truth that is asked for: chooses max-tets and tolerance where "
-               "they are auto",
-           .automatic = "as near as the scan permits"}, &Settings::accuracy),
+           .help = "Mean distance of the solid to the truth that is asked for: chooses max-tets and "
+               "tolerance where they are auto",
+           .automatic = "none is asked for: the usual cells and tolerance"}, &Settings::accuracy),
     tolerance_row({.name = "tolerance", .form = "X", .count = 1, .low = 0, .high = kHuge,
                    .words = {"auto", "none"}, .unit = "mm",
                    .help = "Decimation keeps the solid surface within this distance; 0: no "
                        "decimation; none: no bound",
-                   .automatic = "the error to expect, 0.03 to 0.1 voxel, or half of accuracy; none where "
+                   .automatic = "the error to expect, 0.03 to 0.1 voxel, or half of accuracy, if that is asked for; none where "
                                 "triangles says where to stop"}),
     bound({.name = "triangles", .form = "N", .count = 1, .whole = true, .low = 4, .high = 2e9,
            .words = {"auto"}, .help = "Decimation stops at this many triangles",

@@ -22,10 +22,12 @@ ordered_json energy_json(const Energy& e) {
       {"total", e.total()}, {"fidelity", e.fidelity}, {"smoothing", e.smoothing}, {"edge", e.edge}};
 }
 
+/// What was not measured is null.
+json known(bool is_known, double value) { return is_known ? json(value) : json(); }
+
 /// What a pass has not measured is null: the first has no energy before it, the last leads to no
 /// other mesh.
 ordered_json iteration_json(const Iteration& i, bool is_first, bool is_last) {
-  auto known = [](bool is_known, double value) { return is_known ? json(value) : json(); };
   return {{"tets", i.tets},
           {"nodes", i.nodes},
           {"energy", i.energy.total()},
@@ -177,11 +179,12 @@ ordered_json run_json(const Settings& asked, const RunSummary& run) {
   report["chosen"] = chosen_json(asked);
   report["given"] = given_json(asked);
   report["grey"] = grey_json(run.parameters);
-  report["image"] = {{"noise_left", run.image.noise_left},
-                     {"noise_correlation", run.image.noise_correlation},
-                     {"impulse_share", run.image.impulses},
-                     {"contrast", run.image.contrast},
-                     {"level_uncertainty", run.image.level_uncertainty}};
+  report["image"] = {
+      {"noise_left", run.image.noise_left},
+      {"noise_correlation", run.image.noise_correlation},
+      {"impulse_share", run.image.impulses},
+      {"contrast", run.image.contrast},
+      {"level_uncertainty", known(run.image.level_uncertainty > 0, run.image.level_uncertainty)}};
   report["iterations"] = ordered_json::array();
   const std::size_t passes = run.iterations.size();
   for (std::size_t i = 0; i < passes; ++i) {

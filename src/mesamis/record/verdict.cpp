@@ -37,7 +37,7 @@ std::string why_not_converged(const Result& result) {
 std::string accuracy_unmet(double accuracy, double expected) {
   std::ostringstream line;
   line << "accuracy: expected " << accuracy << " mm in the mean at most, found " << expected
-       << " mm: noise and blur of the scan permit no less";
+       << " mm to expect";
   return line.str();
 }
 

@@ -14,7 +14,7 @@ struct HalfMaximumLevel {
   double level = 0;         ///< native units
   ObjectContrast contrast;  ///< at the surface of that level
   /// How surely it is known, native units: half of the way from the level of thick places to that
-  /// of the whole surface. 0 unless find_object_edge() found it.
+  /// of the whole surface. 0: not known.
   double uncertainty = 0;
   bool in_noise = false;  ///< nothing was found that stands out of the noise
 };
@@ -30,9 +30,11 @@ struct HalfMaximumOptions {
 /// (measure_contrast()), move the level to the half maximum, until it changes by less than 0.005 of
 /// the contrast. It starts from 200 HU (bone) in CT; in other images from Otsu's threshold of all
 /// voxels. If the contrast found so is less than 2.5 deviations of the noise, it starts again from
-/// Otsu's threshold of the voxels on edges. If that finds less than 1.4 deviations (noise alone
-/// makes 1.0 to 1.3), or more than half of the voxels, it starts from the value that 2 % of the
-/// smoothed image exceed: thin objects are a small part of it.
+/// Otsu's threshold of the voxels on edges. If that finds less than 1.45 deviations (noise alone
+/// makes 1.0 to 1.4), or less than 0.002 of the voxels on one side of the level, it starts from the
+/// value that 2 % of the smoothed image exceed: thin objects are a small part of it. If that finds
+/// no more, there is nothing but noise; an object smaller than 0.002 of a noisy image counts as
+/// such.
 /// @param volume  native values; usable, see require_usable().
 /// @return a contrast of zero if the level has no surface to measure at; the level is then the one
 ///         the iteration started from.

@@ -74,7 +74,7 @@ void undo_blur(Restored& restored, const Volume& guide, const ObjectContrast& co
   const std::array<double, 3> undone = undoable(restored.blur);
   const double undone_square = mean_square(undone);
   if (undone_square > kWorthwhile) {
-    sheets.undone = std::sqrt(undone_square / square);
+    sheets.undone = undone;
     sheets.regularization = power_ratio(restored.noise, contrast.difference()) * square /
                             (undone_square * undone_square);
     restored.volume = deblurred(restored.volume, undone, *sheets.regularization);

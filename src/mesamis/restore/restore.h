@@ -21,7 +21,7 @@ struct RestoreOptions {
 struct Restored {
   Volume volume;     ///< native units
   double noise = 0;  ///< standard deviation in the scan, native units
-  /// Of the noise in neighbours along each axis, see measure_noise_correlation().
+  /// Of the noise between neighbours along each axis, see measure_noise_correlation().
   std::array<double, 3> noise_correlation{};
   double noise_left = 0;         ///< standard deviation in the volume here, native units
   std::array<double, 3> blur{};  ///< standard deviations in the scan, voxels
@@ -30,9 +30,9 @@ struct Restored {
 
 /// Restores a scan: measures noise, impulses and blur near the object's surface, removes the
 /// impulses (remove_impulses()) and undoes the blur (deblurred()), the more gently the larger the
-/// noise is against the object's contrast. A blur of 0.35 voxels is left: it is about what samples
-/// can show. What the blur still hides, walls and gaps thinner than itself, is corrected
-/// (lift_thin_sheets()).
+/// noise is against the object's contrast. A blur of 0.35 voxels is left along each axis (in
+/// squares): it is about what samples can show. What the blur still hides, walls and gaps thinner
+/// than itself, is corrected (lift_thin_sheets()).
 /// @param volume  native values; taken over, pass it with std::move() to save the copy.
 /// @param object  of this volume, see find_object_edge(). Where its contrast is not positive, the
 /// volume stays as it is.

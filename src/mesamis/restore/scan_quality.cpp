@@ -104,9 +104,14 @@ std::size_t finest_axis(const Vec3& spacing) {
   return finest;
 }
 
+bool is_coarse(const Vec3& spacing, std::size_t axis) {
+  const double finest = spacing[static_cast<int>(finest_axis(spacing))];
+  return spacing[static_cast<int>(axis)] > 1.01 * finest;
+}
+
 /// The median slope of the edges across the axes of one group, native units per mm; nothing if few
 /// edges follow them. An edge across n is blurred by the root of sum n_a^2 s_a^2 along the axes a:
-/// what the other axes add to it is left.
+/// what the other axes add to it is not subtracted.
 std::optional<double> slope_of_group(const std::vector<std::array<double, 3>>& shares,
                                      const std::vector<double>& slopes, std::size_t group) {
   for (const double least : {0.72, 0.5}) {  // within 32 degrees of the group; 45, if these are few
@@ -203,17 +208,17 @@ std::array<double, 3> measure_blur(const VolumeView& volume,
   const Profile profile = median_profile(volume, usable);
   const auto [least, most] = std::minmax_element(profile.begin(), profile.end());
   const std::array<double, 3> mm = blur_of_axes(volume, usable, *most - *least);
+  if (mm == std::array<double, 3>{}) return blur;
   for (std::size_t a = 0; a < 3; ++a) {
     blur[a] = std::max(mm[a] / volume.spacing[static_cast<int>(a)], partial_volume);
   }
   // Surfaces across one axis may be no plain edges (a table, thin walls): its blur is bounded.
   std::array<double, 3> sorted = blur;
   std::sort(sorted.begin(), sorted.end());
-  const std::size_t fine = finest_axis(volume.spacing);
+  for (double& b : blur) b = std::min({b, kMostOfMiddle * sorted[1], kMostBlur});
+  const double finest = blur[finest_axis(volume.spacing)];
   for (std::size_t a = 0; a < 3; ++a) {
-    const bool coarse =
-        volume.spacing[static_cast<int>(a)] > 1.01 * volume.spacing[static_cast<int>(fine)];
-    blur[a] = std::min({blur[a], coarse ? blur[fine] : kMostOfMiddle * sorted[1], kMostBlur});
+    if (is_coarse(volume.spacing, a)) blur[a] = std::min(blur[a], finest);
   }
   return blur;
 }

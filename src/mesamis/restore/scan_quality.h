@@ -33,10 +33,12 @@ double measure_noise(const VolumeView& volume, const VolumeView& guide,
 ///
 /// With the median squares d1 of the differences between neighbours and d2 of those between voxels
 /// two apart, it is 1 - d1 / d2, at the places at which measure_noise() looks, where the axis runs
-/// beside the surface, and on the side where d2 is smaller. A scanner's soft kernel gives more than
-/// 0, a sharp one less.
+/// beside the surface, and on the side where d2 is smaller. Noise two voxels apart counts as
+/// independent: where it is not, as through a soft kernel, the figure is too low. A scanner's soft
+/// kernel gives more than 0, a sharp one less.
 /// @param volume, guide, points, level  as measure_noise() takes them.
-/// @return no unit, -1 to 1; zeros if there are fewer than ten places on each side.
+/// @return no unit, -1 to 1; 0 for an axis with fewer than ten places on each side, or where
+///         neighbours do not differ.
 /// @throws nothing
 ///
 /// O(points).
@@ -49,14 +51,16 @@ std::array<double, 3> measure_noise_correlation(const VolumeView& volume, const 
 /// A step c seen through a Gaussian of deviation s has the slope c / (sqrt(2 pi) s). The step is
 /// that of the median profile along the normals of the points; the slope is the median of the
 /// slopes, along their normals, of the spline through the samples, over the points whose normal is
-/// nearly the axis. Two axes of equal spacing beside one that differs are the plane of a scanner's
-/// slices and share one blur. An axis that fewer than a hundred normals follow is taken to be
-/// blurred over as many mm as the others, but over 0.45 voxels at least. No axis gets less than
-/// partial volume alone makes, 0.29 voxels, nor more than two voxels; coarser axes get no more
-/// voxels than the finest, and others no more than 1.5 times the median of the three.
+/// within 32 degrees of the axis, or within 45 if those are fewer than a hundred. Two axes of equal
+/// spacing beside one that differs are the plane of a scanner's slices and share one blur. An axis
+/// that fewer than a hundred normals follow is taken to be blurred over as many mm as the others,
+/// but over 0.45 voxels at least. No axis gets less than partial volume alone makes, 0.29 voxels,
+/// more than 1.5 times the median of the three, nor more than two voxels, and coarser axes get no
+/// more voxels than the finest.
 /// @param volume  native values.
 /// @param points  thick_places() of the surface: thin walls never show their whole step.
-/// @return voxels, 0 to 2; zeros if fewer than a hundred points have a normal.
+/// @return voxels, 0.29 to 2; zeros if fewer than a hundred points have a normal, or no axis can be
+///         told.
 /// @throws nothing
 ///
 /// O(points), and a spline of the volume.

@@ -45,48 +45,72 @@ struct SheetProfile {
   double middle = 1;  ///< halfway between them
 };
 
+/// Between two tabulated values.
+struct Between {
+  std::size_t below;
+  double share;  ///< of the one above
+
+  /// @param x  in steps of the table; the last entry holds for what is beyond.
+  Between(double x, std::size_t count)
+      : below(static_cast<std::size_t>(x)), share(x - std::floor(x)) {
+    if (below + 1 < count) return;
+    below = count - 2;
+    share = 1;
+  }
+  SheetProfile operator()(const SheetProfile& a, const SheetProfile& b) const {
+    return {(1 - share) * a.face + share * b.face, (1 - share) * a.middle + share * b.middle};
+  }
+};
+
+/// Profiles of sheets by their thickness and by the share of the blur's deviation that was undone,
+/// which depends on the direction.
 class SheetProfiles {
  public:
-  explicit SheetProfiles(const SheetOptions& options) {
-    for (std::size_t n = 0; n < kCount; ++n) {
-      const double t = static_cast<double>(n) * kSpacing;
-      profiles_[n] = {seen_edge(t, options), 2 * seen_edge(t / 2, options)};
+  explicit SheetProfiles(const std::optional<double>& regularization) {
+    for (std::size_t m = 0; m < kShares; ++m) {
+      const double undone = static_cast<double>(m) / (kShares - 1);
+      for (std::size_t n = 0; n < kCount; ++n) {
+        const double t = static_cast<double>(n) * kSpacing;
+        tables_[m][n] = {seen_edge(t, undone, regularization),
+                         2 * seen_edge(t / 2, undone, regularization)};
+      }
+      tables_[m][kCount - 1] = {};  // so thick that the blur hides nothing
     }
   }
   /// @param t  in deviations of the scan's blur, >= 0.
-  SheetProfile at(double t) const {
-    const auto n = static_cast<std::size_t>(t / kSpacing);
-    if (n + 1 >= kCount) return {};
-    const double share = t / kSpacing - static_cast<double>(n);
-    const auto between = [share](double a, double b) { return (1 - share) * a + share * b; };
-    return {between(profiles_[n].face, profiles_[n + 1].face),
-            between(profiles_[n].middle, profiles_[n + 1].middle)};
+  /// @param undone  share of the blur's deviation, 0 to 1.
+  SheetProfile at(double t, double undone) const {
+    const Between by_thickness(t / kSpacing, kCount), by_share(undone * (kShares - 1), kShares);
+    const auto in_table = [&](std::size_t m) {
+      return by_thickness(tables_[m][by_thickness.below], tables_[m][by_thickness.below + 1]);
+    };
+    return by_share(in_table(by_share.below), in_table(by_share.below + 1));
   }
 
  private:
-  static constexpr std::size_t kCount = 101;
+  static constexpr std::size_t kCount = 101, kShares = 9;
   static constexpr double kSpacing = 0.06;
 
   /// A box of width t, seen at its edge through the blur g and the filter W of deblurred():
   /// (1 / pi) times the integral of g W sin(k t) / k over the frequencies k.
-  static double seen_edge(double t, const SheetOptions& options) {
-    constexpr double kEnd = 12, kDelta = 0.01;
+  static double seen_edge(double t, double undone, const std::optional<double>& regularization) {
+    constexpr double kEnd = 12, kDelta = 0.02;
     double sum = 0;
     for (double k = kDelta / 2; k < kEnd; k += kDelta) {
       const double g = std::exp(-k * k / 2);
-      sum += g * filter_at(options.undone * k, options) * std::sin(k * t) / k * kDelta;
+      sum += g * filter_at(undone * k, regularization) * std::sin(k * t) / k * kDelta;
     }
     return sum / std::numbers::pi;
   }
 
   /// W, at a frequency in units of the blur that was undone.
-  static double filter_at(double k, const SheetOptions& options) {
-    if (!options.regularization) return 1;
+  static double filter_at(double k, const std::optional<double>& regularization) {
+    if (!regularization) return 1;
     const double lambda = k * k, g = std::exp(-lambda / 2);
-    return g / (g * g + *options.regularization * lambda * lambda);
+    return g / (g * g + *regularization * lambda * lambda);
   }
 
-  std::array<SheetProfile, kCount> profiles_{};
+  std::array<std::array<SheetProfile, kCount>, kShares> tables_{};
 };
 
 /// What becomes of a voxel: the distance from the half maximum, after the lift, times the gain.
@@ -140,7 +164,7 @@ class Lifter {
       : guide_(guide),
         spline_(interpolating_spline(copy_volume(guide))),
         options_(options),
-        profiles_(options),
+        profiles_(options.regularization),
         contrast_(options.contrast.difference()) {
     // The guide averages less at the border: there its noise is larger.
     within_ = {guide.spacing, guide.box().extent() - guide.spacing};
@@ -177,19 +201,20 @@ class Lifter {
 
   /// Deviations of the blur along a direction, mm.
   struct Blur {
-    double scan, guide;
+    double scan, undone, guide;
   };
 
   Blur blur_along(const Vec3& n) const {
     constexpr double kOfGuide = 0.5;  // variance of smoothed(), voxels
-    double scan = 0, guide = 0;
+    double scan = 0, undone = 0, guide = 0;
     for (std::size_t a = 0; a < 3; ++a) {
       const auto axis = static_cast<int>(a);
       const double length = n[axis] * guide_.spacing[axis], blur = options_.blur[a];
       scan += length * length * blur * blur;
+      undone += length * length * options_.undone[a] * options_.undone[a];
       guide += length * length * (blur * blur + kOfGuide);
     }
-    return {std::sqrt(scan), std::sqrt(guide)};
+    return {std::sqrt(scan), std::sqrt(undone), std::sqrt(guide)};
   }
 
   /// The guide's share of the contrast; in gaps what is missing of it.
@@ -203,7 +228,8 @@ class Lifter {
     const Peak peak = find_peak(p, normal, kStep * blur.guide, kind);
     if (peak.height < least_ || peak.height > kMostPeak) return {};
     const double thickness = thickness_of(peak.height) * blur.guide;
-    const SheetProfile seen = profiles_.at(thickness / std::max(blur.scan, 0.05 * blur.guide));
+    const double scan = std::max(blur.scan, 0.05 * blur.guide);
+    const SheetProfile seen = profiles_.at(thickness / scan, std::min(blur.undone / scan, 1.0));
     const double share = std::clamp((peak.height - least_) / (0.3 * least_), 0.0, 1.0) *
                          taper((peak.distance - thickness / 2) / blur.guide);
     const double gain = std::clamp(kRise / std::max(seen.middle - seen.face, 1e-3), 1.0, kMostGain);

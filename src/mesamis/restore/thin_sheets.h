@@ -15,8 +15,8 @@ struct SheetOptions {
   std::array<double, 3> blur{};  ///< of the scan, standard deviations, voxels, >= 0
   /// With which the blur was undone, see deblurred(); nothing: it was not.
   std::optional<double> regularization = std::nullopt;
-  double undone = 1;  ///< the deviation that was undone, against that of the blur, 0 to 1
-  double noise = 0;   ///< of the scan, standard deviation, native units, >= 0
+  std::array<double, 3> undone{};  ///< deviations that were undone of it, voxels, 0 to blur
+  double noise = 0;                ///< of the scan, standard deviation, native units, >= 0
 };
 
 /// Corrects a restored image where a sheet of the object (a thin wall) or a sheet of its background
