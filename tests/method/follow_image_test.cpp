@@ -80,6 +80,19 @@ TEST(FollowImage, KeepsWhatLiesOnTheBox) {
               0.05 * check_surface(half).volume);
 }
 
+TEST(FollowImage, StaysInTheBox) {
+  // A ball that the box cuts off by a third of a voxel, and a surface that ends short of that.
+  const TriMesh inside = coarse_ball(19.3);
+  const SplineImage image = interpolating_spline(make_ball({.noise = 0, .radius = 19.8}));
+  const TriMesh followed = follow_image(inside, image, {.level = kLevel, .noise = 0.1});
+  const Box found = bounding_box(followed.points), image_box = image.grid.box();
+  EXPECT_GT(misfit(followed, 19.3), 0.1);
+  for (int a = 0; a < 3; ++a) {
+    EXPECT_GT(found.lo[a], image_box.lo[a]);
+    EXPECT_LT(found.hi[a], image_box.hi[a]);
+  }
+}
+
 TEST(FollowImage, TheUnitOfTheSurfaceDoesNotMatter) {
   const FollowOptions mm{.level = kLevel, .noise = 3};
   const SplineImage image = ball_image(3);

@@ -24,11 +24,11 @@ struct ErrorOptions {
 /// curvature K of the image's level set; and a level that is slightly off, L = contrast / slope,
 /// more so the larger the blur. The mean distance expected is
 ///   e^2 = (0.67 N)^2 + (0.18 s^2 K)^2 + (0.018 s^2 L)^2 + (0.0085 L)^2,
-/// no more than two voxels; and decimation a quarter of its greatest distance, whose square is
-/// added. Where the image's box cuts the object there is no edge that could be off: 0. The factors
-/// are least squares over the distances measured on phantoms
-/// and simulated CT (docs/accuracy.md). Walls and gaps that the surface has missed are not seen,
-/// nor is a level that was chosen for another tissue.
+/// no more than two voxels. The factors are least squares over the distances measured on phantoms
+/// and simulated CT (docs/accuracy.md). Decimation adds the square of a quarter of its greatest
+/// distance. Where the image's box cuts the object there is no edge that could be off: 0. Walls and
+/// gaps that the surface has missed are not seen, nor is a level that was chosen for another
+/// tissue.
 /// @param surface  n points, world frame, mm.
 /// @param image    the restored image, grey values.
 /// @return n values, mm.

@@ -106,7 +106,8 @@ class Follower {
     const std::vector<double> moves = filtered(measure(normals), neighbors);
     std::vector<Vec3> shifts(moves.size());
     for (std::size_t p = 0; p < moves.size(); ++p) {
-      shifts[p] = (std::clamp(moves[p], -kMostMove, kMostMove) * voxel_) * normals[p];
+      const double move = std::clamp(moves[p], -kMostMove, kMostMove) * voxel_;
+      shifts[p] = within_box(surface_.points[p], move * normals[p]);
     }
     return moved_without_folds(std::move(shifts));
   }
@@ -152,6 +153,16 @@ class Follower {
       if (p[a] <= box_.lo[a] + slack || p[a] >= box_.hi[a] - slack) return true;
     }
     return false;
+  }
+
+  /// The move, shortened to at most half the way to the box where it would leave it.
+  Vec3 within_box(const Vec3& p, const Vec3& move) const {
+    double part = 1;
+    for (int a = 0; a < 3; ++a) {
+      const double room = move[a] < 0 ? p[a] - box_.lo[a] : box_.hi[a] - p[a];
+      if (std::abs(move[a]) > room) part = std::min(part, room / (2 * std::abs(move[a])));
+    }
+    return part * move;
   }
 
   Offsets measure(const std::vector<Vec3>& normals) const {

@@ -109,11 +109,7 @@ void deliver(const RunInput& run, Loop loop, Result& result) {
   result.iterations = std::move(loop.passes);
 }
 
-double mean_expected_error(const RunInput& run, const TriMesh& surface) {
-  return summarize_error(surface, expected_error(surface, run.image, run.error)).mean;
-}
-
-/// The solid is made printable; the paper's band is delivered as it is.
+/// The solid is made printable, and its error told; the paper's band is delivered as it is.
 void finish_surface(const RunInput& run, const Settings& settings, const Progress& progress,
                     Result& result) {
   Parameters& p = result.parameters;
@@ -127,6 +123,10 @@ void finish_surface(const RunInput& run, const Settings& settings, const Progres
       result.surface,
       {p.min_volume, p.keep_largest, p.fill_cavities, p.tolerance, p.triangles, progress},
       &result.printable);
+  ErrorOptions delivered = run.error;
+  delivered.decimated =
+      std::max(result.printable.extracted_to_result, result.printable.result_to_extracted);
+  result.expected_error = expected_error(result.surface, run.image, delivered);
 }
 
 Result run_on(const VolumeView& volume, const Settings& settings, const Progress& progress) {
@@ -151,12 +151,6 @@ Result run_on(const VolumeView& volume, const Settings& settings, const Progress
   deliver(run, std::move(loop), result);
   watch.lap();
   finish_surface(run, settings, progress, result);
-  if (p.surface == SurfaceKind::kSolid) {
-    ErrorOptions delivered = run.error;
-    delivered.decimated =
-        std::max(result.printable.extracted_to_result, result.printable.result_to_extracted);
-    result.expected_error = expected_error(result.surface, run.image, delivered);
-  }
   result.seconds.printable = watch.lap();
   return result;
 }

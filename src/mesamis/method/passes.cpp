@@ -276,6 +276,10 @@ void bring_to_world(const RunInput& run, std::vector<Vec3>& points) {
   });
 }
 
+double mean_expected_error(const RunInput& run, const TriMesh& surface) {
+  return summarize_error(surface, expected_error(surface, run.image, run.error)).mean;
+}
+
 void record_surface(const Pass& pass, const State& state, const Minimum& minimum) {
   const auto& [run, number, stage, record] = pass;
   const Parameters& p = run.parameters;
@@ -283,10 +287,9 @@ void record_surface(const Pass& pass, const State& state, const Minimum& minimum
   const double level = p.grey.to_grey(p.level), voxel = run.grey.voxel_size();
   record.surface_change =
       p.unit_mm * level_set_change(state.mesh, state.u, minimum.u, {level, voxel / p.unit_mm});
-  // Where the box cuts the object there is no edge that could be off.
-  TriMesh surface = extract_solid(state.mesh, minimum.u, level, {.close_at_box = false});
+  TriMesh surface = extract_solid(state.mesh, minimum.u, level);
   bring_to_world(run, surface.points);
-  const double error = summarize_error(surface, expected_error(surface, run.image, run.error)).mean;
+  const double error = mean_expected_error(run, surface);
   record.surface_tolerance = std::max(error, p.follow ? kFollowed * voxel : 0);
 }
 

@@ -33,13 +33,15 @@ double impulse_height(double noise, double contrast) {
   return std::max(kImpulseOfNoise * noise, kImpulseOfContrast * contrast);
 }
 
-/// The noise's spectrum against that of the object's surfaces, where the frequency is one per voxel
-/// and the blur has a deviation of a voxel: the square of noise over contrast, as in every Wiener
-/// filter. The factor was found on phantoms and scans thinned from their full resolution. Times the
-/// blur's square and over the fourth power of what is undone, it is the r of deblurred().
-double power_ratio(double noise, double contrast) {
+/// The r of deblurred(): the noise's spectrum against that of the object's surfaces, which goes
+/// with the square of noise over contrast, as in every Wiener filter. The filter counts frequencies
+/// in units of what it undoes; the noise depends neither on that nor on the blur. The factor was
+/// found on phantoms and scans thinned from their full resolution.
+/// @param blur, undone  mean squares over the axes: of the scan's blur, and of what is undone.
+double choose_regularization(double noise, double contrast, double blur, double undone) {
   constexpr double kFactor = 2, kLeast = 0.002, kMost = 2;
-  return std::clamp(kFactor * (noise / contrast) * (noise / contrast), kLeast, kMost);
+  const double power = std::clamp(kFactor * (noise / contrast) * (noise / contrast), kLeast, kMost);
+  return power * blur / (undone * undone);
 }
 
 /// The smoothed image and the points of its surface: what measurements are guided by.
@@ -75,8 +77,8 @@ void undo_blur(Restored& restored, const Volume& guide, const ObjectContrast& co
   const double undone_square = mean_square(undone);
   if (undone_square > kWorthwhile) {
     sheets.undone = undone;
-    sheets.regularization = power_ratio(restored.noise, contrast.difference()) * square /
-                            (undone_square * undone_square);
+    sheets.regularization =
+        choose_regularization(restored.noise, contrast.difference(), square, undone_square);
     restored.volume = deblurred(restored.volume, undone, *sheets.regularization);
     restored.noise_left *= noise_gain(undone, *sheets.regularization);
   }

@@ -85,14 +85,16 @@ std::optional<double> median_square(const VolumeView& volume, const std::vector<
   return median(squares);
 }
 
-/// The axes that share one blur. Two of equal spacing beside a third that differs are the plane of
-/// a scanner's slices: both belong to the group of the first.
-std::array<int, 3> groups_of_axes(const Vec3& spacing) {
+/// The first of the axes that share one blur, for each axis. Two of equal spacing beside a third
+/// that differs are the plane of a scanner's slices.
+std::array<std::size_t, 3> groups_of_axes(const Vec3& spacing) {
   const auto equal = [&](int a, int b) {
     return std::abs(spacing[a] - spacing[b]) < 0.01 * spacing[a];
   };
   if (equal(0, 1) && equal(1, 2)) return {0, 1, 2};
-  return {0, equal(0, 1) ? 0 : 1, equal(0, 2) ? 0 : equal(1, 2) ? 1 : 2};
+  const std::size_t of_y = equal(0, 1) ? 0 : 1;
+  if (equal(0, 2)) return {0, of_y, 0};
+  return {0, of_y, equal(1, 2) ? std::size_t{1} : std::size_t{2}};
 }
 
 /// The axis with the finest samples.
@@ -104,20 +106,48 @@ std::size_t finest_axis(const Vec3& spacing) {
   return finest;
 }
 
-bool is_coarse(const Vec3& spacing, std::size_t axis) {
-  const double finest = spacing[static_cast<int>(finest_axis(spacing))];
-  return spacing[static_cast<int>(axis)] > 1.01 * finest;
+/// Bounds the blur, voxels: surfaces across one axis may be no plain edges (a table, thin walls).
+void bound_blur(const Vec3& spacing, std::array<double, 3>& blur) {
+  constexpr double kMostOfMiddle = 1.5, kMostBlur = 2;
+  std::array<double, 3> sorted = blur;
+  std::sort(sorted.begin(), sorted.end());
+  for (double& b : blur) b = std::min({b, kMostOfMiddle * sorted[1], kMostBlur});
+  const std::size_t finest = finest_axis(spacing);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const bool coarse = spacing[static_cast<int>(a)] > 1.01 * spacing[static_cast<int>(finest)];
+    if (coarse) blur[a] = std::min(blur[a], blur[finest]);
+  }
+}
+
+/// An edge of the object, seen along its normal.
+struct Edge {
+  double slope;                  ///< of the spline through the samples, native units per mm
+  std::array<double, 3> shares;  ///< squares of the normal's components, summed by groups of axes
+};
+
+std::vector<Edge> edges_at(const VolumeView& volume, const PointGroup& points,
+                           const std::array<std::size_t, 3>& groups) {
+  const SplineImage spline = interpolating_spline(copy_volume(volume));
+  std::vector<Edge> edges;
+  for (const SurfacePoint* point : points) {
+    const Vec3& n = point->normal;
+    Edge edge{-dot(spline_at(spline, point->position).gradient, n), {}};
+    for (std::size_t a = 0; a < 3; ++a) {
+      edge.shares[groups[a]] += n[static_cast<int>(a)] * n[static_cast<int>(a)];
+    }
+    edges.push_back(edge);
+  }
+  return edges;
 }
 
 /// The median slope of the edges across the axes of one group, native units per mm; nothing if few
 /// edges follow them. An edge across n is blurred by the root of sum n_a^2 s_a^2 along the axes a:
 /// what the other axes add to it is not subtracted.
-std::optional<double> slope_of_group(const std::vector<std::array<double, 3>>& shares,
-                                     const std::vector<double>& slopes, std::size_t group) {
+std::optional<double> slope_of_group(const std::vector<Edge>& edges, std::size_t group) {
   for (const double least : {0.72, 0.5}) {  // within 32 degrees of the group; 45, if these are few
     std::vector<double> of_group;
-    for (std::size_t n = 0; n < slopes.size(); ++n) {
-      if (shares[n][group] > least) of_group.push_back(slopes[n]);
+    for (const Edge& edge : edges) {
+      if (edge.shares[group] > least) of_group.push_back(edge.slope);
     }
     if (of_group.size() < kFewestOfAnAxis) continue;
     const double slope = median(of_group);
@@ -132,32 +162,22 @@ std::optional<double> slope_of_group(const std::vector<std::array<double, 3>>& s
 std::array<double, 3> blur_of_axes(const VolumeView& volume, const PointGroup& points,
                                    double height) {
   constexpr double kUsualOfSlices = 0.45;  // voxels: found in real scans; 0.29 is the least
-  const std::array<int, 3> groups = groups_of_axes(volume.spacing);
-  const SplineImage spline = interpolating_spline(copy_volume(volume));
-  std::vector<double> slopes;
-  std::vector<std::array<double, 3>> shares;  // of the normal's square, by groups
-  for (const SurfacePoint* point : points) {
-    const Vec3& n = point->normal;
-    slopes.push_back(-dot(spline_at(spline, point->position).gradient, n));
-    shares.emplace_back();
-    for (int a = 0; a < 3; ++a) {
-      shares.back()[static_cast<std::size_t>(groups[static_cast<std::size_t>(a)])] += n[a] * n[a];
+  const auto groups = groups_of_axes(volume.spacing);
+  const std::vector<Edge> edges = edges_at(volume, points, groups);
+  std::array<double, 3> blur{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (groups[a] < a) {
+      blur[a] = blur[groups[a]];
+    } else if (const auto slope = slope_of_group(edges, a)) {
+      blur[a] = height / (std::sqrt(2 * std::numbers::pi) * *slope);
     }
   }
-  std::array<double, 3> blur{};
-  double sum = 0;
-  int known = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto slope = slope_of_group(shares, slopes, static_cast<std::size_t>(groups[a]));
-    if (!slope) continue;
-    blur[a] = height / (std::sqrt(2 * std::numbers::pi) * *slope);
-    sum += blur[a];
-    ++known;
-  }
-  if (known == 0) return blur;
+  const auto unknown = std::count(blur.begin(), blur.end(), 0.0);
+  if (unknown == 3) return blur;
+  const double mean = (blur[0] + blur[1] + blur[2]) / static_cast<double>(3 - unknown);
   for (int a = 0; a < 3; ++a) {
     double& b = blur[static_cast<std::size_t>(a)];
-    if (b == 0) b = std::max(sum / known, kUsualOfSlices * volume.spacing[a]);
+    if (b == 0) b = std::max(mean, kUsualOfSlices * volume.spacing[a]);
   }
   return blur;
 }
@@ -200,7 +220,6 @@ std::array<double, 3> measure_noise_correlation(const VolumeView& volume, const 
 
 std::array<double, 3> measure_blur(const VolumeView& volume,
                                    const std::vector<SurfacePoint>& points) {
-  constexpr double kMostOfMiddle = 1.5, kMostBlur = 2;
   const double partial_volume = 1 / std::sqrt(12.0);  // of a voxel
   const PointGroup usable = with_normals(points);
   std::array<double, 3> blur{};
@@ -212,14 +231,7 @@ std::array<double, 3> measure_blur(const VolumeView& volume,
   for (std::size_t a = 0; a < 3; ++a) {
     blur[a] = std::max(mm[a] / volume.spacing[static_cast<int>(a)], partial_volume);
   }
-  // Surfaces across one axis may be no plain edges (a table, thin walls): its blur is bounded.
-  std::array<double, 3> sorted = blur;
-  std::sort(sorted.begin(), sorted.end());
-  for (double& b : blur) b = std::min({b, kMostOfMiddle * sorted[1], kMostBlur});
-  const double finest = blur[finest_axis(volume.spacing)];
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (is_coarse(volume.spacing, a)) blur[a] = std::min(blur[a], finest);
-  }
+  bound_blur(volume.spacing, blur);
   return blur;
 }
 
