@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/triangle_intersection.h"
@@ -47,12 +48,19 @@ float ModFlatness::collapse_priority(const CollapseInfo& collapse) {
   return LEGAL_COLLAPSE;
 }
 
-void ModHausdorff::set_task(const DecimateTask& task) {
+void ModHausdorff::set_task(const DecimateTask& task, const TriMesh& surface,
+                            std::vector<std::vector<Index>> originals) {
   task_ = &task;
-  if (std::isinf(task.tolerance)) return;
-  hint_.assign(task.surface.points.size(), 0);
-  of_face_.resize(task.surface.triangles.size());
-  for (std::size_t t = 0; t < of_face_.size(); ++t) of_face_[t] = {static_cast<Index>(t)};
+  surface_ = &surface;
+  of_face_ = std::move(originals);
+  hint_.assign(surface.points.size(), 0);
+}
+
+std::vector<Index> ModHausdorff::originals_of(OpenMesh::FaceHandle f) const {
+  std::vector<Index> originals = of_face_[index(f)];
+  std::sort(originals.begin(), originals.end());
+  originals.erase(std::unique(originals.begin(), originals.end()), originals.end());
+  return originals;
 }
 
 float ModHausdorff::collapse_priority(const CollapseInfo& collapse) {
@@ -105,7 +113,7 @@ void ModHausdorff::list(Index t, const Vec3& p) {
 
 /// The cheapest test.
 bool ModHausdorff::removed_is_near(const CollapseInfo& collapse, const Star& star) const {
-  const Vec3& p = task_->surface.points[index(collapse.v0)];
+  const Vec3& p = surface_->points[index(collapse.v0)];
   return std::any_of(star.after.begin(), star.after.end(), [&](const Triangle& t) {
     return squared_distance(p, shape(t)) <= task_->tolerance * task_->tolerance;
   });

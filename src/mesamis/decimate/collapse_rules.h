@@ -36,8 +36,8 @@ class ModFlatness : public CollapseRule {
 };
 
 /// Hausdorff distance in both directions, over whole triangles: of the new ones to the original,
-/// and of the original ones near them to the new. Each original triangle is listed with the new
-/// ones that are nearest to its corners and its centroid; decimate() checks the rest of it
+/// and of the original ones that they stand for to the new. New triangles stand for the originals
+/// to whose corners or centroids they are nearest; decimate_patch() checks the rest of these
 /// afterwards.
 ///
 /// OpenMesh's own ModHausdorff measures the second direction only, at points only, and accepts any
@@ -45,14 +45,21 @@ class ModFlatness : public CollapseRule {
 class ModHausdorff : public CollapseRule {
  public:
   explicit ModHausdorff(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}
-  void set_task(const DecimateTask& task);
+  /// @param surface    of the half-edges.
+  /// @param originals  that each of its triangles stands for.
+  void set_task(const DecimateTask& task, const TriMesh& surface,
+                std::vector<std::vector<Index>> originals);
+  /// The originals that a triangle stands for now.
+  std::vector<Index> originals_of(OpenMesh::FaceHandle f) const;
   float collapse_priority(const CollapseInfo& collapse) override;
   void preprocess_collapse(const CollapseInfo& collapse) override;
   void postprocess_collapse(const CollapseInfo& collapse) override;
 
  private:
-  Corners shape(const Triangle& t) const { return corners_of(task_->surface, t); }
-  Corners original(Index t) const { return shape(task_->surface.triangles[t]); }
+  Corners shape(const Triangle& t) const { return corners_of(*surface_, t); }
+  Corners original(Index t) const {
+    return corners_of(task_->surface, task_->surface.triangles[t]);
+  }
   Enough enough() const { return {task_->tolerance, task_->tolerance}; }
 
   std::vector<Index> listed_around(const CollapseInfo& collapse);
@@ -64,6 +71,7 @@ class ModHausdorff : public CollapseRule {
   TriMesh surroundings(const CollapseInfo& collapse, const Star& star);
 
   const DecimateTask* task_ = nullptr;
+  const TriMesh* surface_ = nullptr;
   std::vector<std::vector<Index>> of_face_;
   std::vector<Index> waiting_;
   Star star_;

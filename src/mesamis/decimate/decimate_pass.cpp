@@ -26,26 +26,26 @@ constexpr double kMaxNormalChange = 75;  // degrees, of a triangle in one collap
 /// once. Their number depends on the surface, never on the machine.
 class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
  public:
-  LateDecimater(Mesh& mesh, const DecimateTask& task)
+  LateDecimater(Mesh& mesh, const DecimateTask& task, const TriMesh& surface,
+                const std::vector<std::vector<Index>>& originals)
       : BaseDecimaterT<Mesh>(mesh),
         mesh_(mesh),
-        points_(task.surface.points),
+        points_(surface.points),
         points_left_(static_cast<std::int64_t>(mesh.n_vertices())) {
     const Vec3 extent = bounding_box(points_).extent();
     negligible_ = 1e-14 * dot(extent, extent);
     OpenMesh::Decimater::ModNormalFlippingT<Mesh>::Handle flips;
     ModuleHandle<ModFlatness> flatness;
-    ModuleHandle<ModHausdorff> hausdorff;
     add(quadric_);
     add(flips);
     add(flatness);
-    add(hausdorff);
+    add(hausdorff_);
     add(intersection_);
     module(quadric_).unset_max_err();
     module(flips).set_max_normal_deviation(kMaxNormalChange);
-    module(flatness).set_surface(task.surface);
-    module(hausdorff).set_task(task);
-    module(intersection_).set_surface(task.surface);
+    module(flatness).set_surface(surface);
+    module(hausdorff_).set_task(task, surface, originals);
+    module(intersection_).set_surface(surface);
     initialize();
   }
 
@@ -80,6 +80,15 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
         progress(done);
       }
     }
+  }
+
+  /// What is left.
+  Cover cover() {
+    Cover left{remaining_triangles(mesh_), {}};
+    for (const auto f : mesh_.faces()) {
+      if (!mesh_.status(f).deleted()) left.originals.push_back(module(hausdorff_).originals_of(f));
+    }
+    return left;
   }
 
  private:
@@ -244,6 +253,7 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
   std::int64_t points_left_;
   double negligible_;  // error, per squared length of the edge
   OpenMesh::Decimater::ModQuadricT<Mesh>::Handle quadric_;
+  ModuleHandle<ModHausdorff> hausdorff_;
   ModuleHandle<ModIntersection> intersection_;
   std::priority_queue<Candidate> queue_;
   std::vector<Index> stamps_;
@@ -259,18 +269,21 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
 
 }  // namespace
 
-std::vector<Triangle> decimate_pass(const DecimateTask& task, const std::vector<char>& held) {
-  // Near the origin quadrics lose less to round-off; all else works with the original's points.
-  const Box box = bounding_box(task.surface.points);
+Cover decimate_pass(const DecimateTask& task, const Patch& patch) {
+  TriMesh surface{{}, patch.cover.triangles};
+  for (const Index p : patch.points) surface.points.push_back(task.surface.points[p]);
+  // Near the origin quadrics lose less to round-off; all else works with the points as they are.
+  const Box box = bounding_box(surface.points);
   HalfedgeMesh mesh;
-  build_halfedges(task.surface, 0.5 * (box.lo + box.hi), mesh);
+  build_halfedges(surface, 0.5 * (box.lo + box.hi), mesh);
   mesh.request_face_normals();
   mesh.update_face_normals();
-  for (std::size_t v = 0; v < held.size(); ++v) {
-    mesh.status(OpenMesh::VertexHandle(static_cast<int>(v))).set_locked(held[v] != 0);
+  for (std::size_t v = 0; v < patch.held.size(); ++v) {
+    mesh.status(OpenMesh::VertexHandle(static_cast<int>(v))).set_locked(patch.held[v] != 0);
   }
-  LateDecimater(mesh, task).run(task.triangles, task.progress);
-  return remaining_triangles(mesh);
+  LateDecimater decimater(mesh, task, surface, patch.cover.originals);
+  decimater.run(task.triangles, task.progress);
+  return decimater.cover();
 }
 
 }  // namespace mesamis

@@ -5,6 +5,9 @@ set(ROOM_HEADERS
   round_to_single.h)
 set(ROOM_SOURCES
   collapse_rules.cpp
+  cover.cpp
   decimate.cpp
   decimate_pass.cpp
+  decimate_patch.cpp
+  patchwork.cpp
   round_to_single.cpp)

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/decimate/cover.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace mesamis {
+namespace {
+
+using Box3 = std::array<Index, 3>;
+
+/// The number of the patch of each triangle; patches are numbered in the order of their boxes.
+std::vector<Index> patch_numbers(const std::vector<Vec3>& points, const Cover& cover, double side,
+                                 double shift) {
+  std::vector<Box3> boxes;
+  for (const Triangle& t : cover.triangles) {
+    const Vec3 center = (1.0 / 3) * (points[t[0]] + points[t[1]] + points[t[2]]);
+    Box3 box{};
+    for (int a = 0; a < 3; ++a) {
+      box[static_cast<std::size_t>(a)] = static_cast<Index>(std::floor(center[a] / side + shift));
+    }
+    boxes.push_back(box);
+  }
+  std::map<Box3, Index> number;
+  for (const Box3& box : boxes) number[box] = 0;
+  Index next = 0;
+  for (auto& [box, n] : number) n = next++;
+  std::vector<Index> numbers;
+  for (const Box3& box : boxes) numbers.push_back(number[box]);
+  return numbers;
+}
+
+/// The patches that each point is in, as pairs of point and patch, sorted.
+using Places = std::vector<std::pair<Index, Index>>;
+
+Places places_of(const Cover& cover, const std::vector<Index>& numbers) {
+  Places places;
+  for (std::size_t t = 0; t < numbers.size(); ++t) {
+    for (const Index p : cover.triangles[t]) places.emplace_back(p, numbers[t]);
+  }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
+}
+
+/// Of each point 1 if it is in several patches.
+std::vector<char> shared_points(const Places& places, std::size_t points) {
+  std::vector<char> shared(points, 0);
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    if (places[i].first == places[i - 1].first) shared[places[i].first] = 1;
+  }
+  return shared;
+}
+
+class Cutter {
+ public:
+  Cutter(const std::vector<Vec3>& points, const Cover& cover, const std::vector<Index>& numbers)
+      : places_(places_of(cover, numbers)), shared_(shared_points(places_, points.size())) {
+    const Index count = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + 1;
+    patches_.resize(static_cast<std::size_t>(count));
+    // The places come in the order of the points.
+    for (const auto& [point, patch] : places_) patches_[patch].points.push_back(point);
+    for (Patch& patch : patches_) patch.held.assign(patch.points.size(), 0);
+  }
+
+  std::vector<Patch> cut(Cover cover, const std::vector<Index>& numbers) {
+    for (std::size_t t = 0; t < numbers.size(); ++t) {
+      const Triangle& corners = cover.triangles[t];
+      Patch& patch = patches_[numbers[t]];
+      Triangle local;
+      for (std::size_t i = 0; i < 3; ++i) local[i] = place_in(patch, corners[i]);
+      patch.cover.triangles.push_back(local);
+      patch.cover.originals.push_back(std::move(cover.originals[t]));
+      for (const Index p : corners) {
+        if (shared_[p] == 0) continue;
+        for (const Index corner : local) patch.held[corner] = 1;
+        tell_others(p, numbers[t], corners);
+      }
+    }
+    for (Patch& patch : patches_) {
+      auto& around = patch.around;
+      std::sort(around.begin(), around.end());
+      around.erase(std::unique(around.begin(), around.end()), around.end());
+    }
+    return std::move(patches_);
+  }
+
+ private:
+  static Index place_in(const Patch& patch, Index point) {
+    const auto found = std::lower_bound(patch.points.begin(), patch.points.end(), point);
+    return static_cast<Index>(found - patch.points.begin());
+  }
+
+  /// A triangle at a shared point lies around the point's other patches.
+  void tell_others(Index point, Index own, const Triangle& triangle) {
+    auto place = std::lower_bound(places_.begin(), places_.end(), std::pair{point, Index{0}});
+    for (; place != places_.end() && place->first == point; ++place) {
+      if (place->second != own) patches_[place->second].around.push_back(triangle);
+    }
+  }
+
+  Places places_;
+  std::vector<char> shared_;
+  std::vector<Patch> patches_;
+};
+
+}  // namespace
+
+void choose_rings(const std::vector<Triangle>& triangles, int rings, std::vector<char>& chosen) {
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<char> before = chosen;
+    for (const Triangle& t : triangles) {
+      if (before[t[0]] + before[t[1]] + before[t[2]] == 0) continue;
+      for (const Index p : t) chosen[p] = 1;
+    }
+  }
+}
+
+std::vector<Patch> cut_into_patches(const std::vector<Vec3>& points, Cover cover, double side,
+                                    double shift) {
+  const std::vector<Index> numbers =
+      std::isinf(side) ? std::vector<Index>(cover.triangles.size(), 0)
+                       : patch_numbers(points, cover, side, shift);
+  return Cutter(points, cover, numbers).cut(std::move(cover), numbers);
+}
+
+}  // namespace mesamis

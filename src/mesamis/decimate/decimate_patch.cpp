@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/decimate/decimate_patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mesamis/base/parallel.h"
+#include "mesamis/surface/farthest.h"
+
+namespace mesamis {
+namespace {
+
+/// After so many passes a patch stays as it was.
+constexpr int kMostPasses = 24;
+/// From this pass on, wider and wider rings are held.
+constexpr int kPatience = 6;
+
+constexpr std::size_t kTrianglesPerBlock = 256;
+
+/// Increasing, each once.
+void sort_once(std::vector<Index>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// Those of n triangles that reach farther than the tolerance.
+template <class CornersOf>
+std::vector<Index> triangles_beyond(std::size_t n, CornersOf corners_at, const TriangleTree& to,
+                                    double tolerance) {
+  std::vector<char> beyond(n, 0);
+  parallel_blocks(n, kTrianglesPerBlock, [&](std::size_t begin, std::size_t end) {
+    std::size_t hint = 0;
+    for (std::size_t t = begin; t < end; ++t) {
+      beyond[t] =
+          farthest_distance(corners_at(t), to, {tolerance, tolerance}, hint) > tolerance ? 1 : 0;
+    }
+  });
+  std::vector<Index> found;
+  for (std::size_t t = 0; t < n; ++t) {
+    if (beyond[t] != 0) found.push_back(static_cast<Index>(t));
+  }
+  return found;
+}
+
+/// Repeats passes over a patch.
+class Decimation {
+ public:
+  Decimation(const DecimateTask& task, Patch patch) : task_(task), patch_(std::move(patch)) {
+    for (const auto& of_triangle : patch_.cover.originals) {
+      originals_.insert(originals_.end(), of_triangle.begin(), of_triangle.end());
+    }
+    sort_once(originals_);
+  }
+
+  DecimatedPatch run() {
+    const auto before = held();
+    DecimatedPatch done;
+    while (++done.passes < kMostPasses) {
+      done.cover = decimate_pass(task_, patch_);
+      if (std::isinf(task_.tolerance) || !hold_what_is_too_far(done)) break;
+    }
+    if (done.passes == kMostPasses) done.cover = std::move(patch_.cover);
+    done.points_held = held() - before;
+    return done;
+  }
+
+ private:
+  std::int64_t held() const { return std::count(patch_.held.begin(), patch_.held.end(), 1); }
+
+  const Vec3& point(Index p) const { return task_.surface.points[patch_.points[p]]; }
+
+  Corners original(Index t) const {
+    return corners_of(task_.surface, task_.surface.triangles[t]);
+  }
+
+  /// Triangles over the patch's points, and what touches the patch.
+  TriMesh in_its_place(const std::vector<Triangle>& triangles) const {
+    TriMesh surface{{}, triangles};
+    for (Index p = 0; p < std::ssize(patch_.points); ++p) surface.points.push_back(point(p));
+    for (const Triangle& t : patch_.around) {
+      const auto first = static_cast<Index>(surface.points.size());
+      for (const Index p : t) surface.points.push_back(task_.surface.points[p]);
+      surface.triangles.push_back({first, first + 1, first + 2});
+    }
+    return surface;
+  }
+
+  /// Those of the originals that reach too far from a surface.
+  std::vector<Index> originals_beyond(const std::vector<Index>& originals,
+                                      const TriMesh& surface) const {
+    std::vector<Index> beyond = triangles_beyond(
+        originals.size(), [&](std::size_t i) { return original(originals[i]); },
+        TriangleTree(surface), task_.tolerance);
+    for (Index& t : beyond) t = originals[t];
+    return beyond;
+  }
+
+  /// Which originals are too far from the result. What was so before is none of the patch's.
+  std::vector<Index> lost_originals(const TriMesh& result, std::vector<Index>& in_part) {
+    std::vector<Index> lost = originals_beyond(originals_, result);
+    if (lost.empty()) return lost;
+    const auto before = originals_beyond(lost, in_its_place(patch_.cover.triangles));
+    in_part.insert(in_part.end(), before.begin(), before.end());
+    const auto is_among = [](const std::vector<Index>& few) {
+      return [&few](Index t) { return std::binary_search(few.begin(), few.end(), t); };
+    };
+    std::erase_if(lost, is_among(before));
+    std::erase_if(originals_, is_among(before));
+    return lost;
+  }
+
+  /// A triangle whose corners are all held is never removed; a point whose triangles are all held
+  /// gets no new triangle.
+  /// @return whether any triangle was too far.
+  bool hold_what_is_too_far(DecimatedPatch& done) {
+    const TriMesh placed = in_its_place(done.cover.triangles);
+    std::vector<Index> lost = lost_originals(placed, done.in_part);
+    const std::vector<Index> strayed = triangles_beyond(
+        done.cover.triangles.size(),
+        [&](std::size_t t) { return corners_of(placed, placed.triangles[t]); }, task_.tree,
+        task_.tolerance);
+    for (const Index t : strayed) {
+      lost.insert(lost.end(), done.cover.originals[t].begin(), done.cover.originals[t].end());
+    }
+    sort_once(lost);
+    hold_what_stands_for(patch_, lost, 1 + std::max(0, done.passes - kPatience));
+    return !lost.empty();
+  }
+
+  const DecimateTask& task_;
+  Patch patch_;
+  std::vector<Index> originals_;  // that the patch stands for
+};
+
+}  // namespace
+
+DecimatedPatch decimate_patch(const DecimateTask& task, const Patch& patch) {
+  return Decimation(task, patch).run();
+}
+
+void hold_what_stands_for(Patch& patch, const std::vector<Index>& originals, int rings) {
+  if (originals.empty()) return;
+  std::vector<char> chosen(patch.held.size(), 0);
+  for (std::size_t t = 0; t < patch.cover.triangles.size(); ++t) {
+    const auto& own = patch.cover.originals[t];
+    const bool stands = std::any_of(own.begin(), own.end(), [&](Index original) {
+      return std::binary_search(originals.begin(), originals.end(), original);
+    });
+    if (!stands) continue;
+    for (const Index p : patch.cover.triangles[t]) chosen[p] = 1;
+  }
+  choose_rings(patch.cover.triangles, rings, chosen);
+  for (std::size_t p = 0; p < chosen.size(); ++p) patch.held[p] |= chosen[p];
+}
+
+}  // namespace mesamis

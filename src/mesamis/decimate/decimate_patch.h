@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mesamis/decimate/decimate_pass.h"
+
+namespace mesamis {
+
+/// A patch that has been decimated.
+struct DecimatedPatch {
+  Cover cover;                   ///< over the points of the patch
+  int passes = 0;                ///< that it took
+  std::int64_t points_held = 0;  ///< to keep distances within the tolerance
+  /// Originals that the patch stands for only in part: they were too far from it before. The rest
+  /// of the surface must show that they are near.
+  std::vector<Index> in_part;
+};
+
+/// Decimates a patch within the tolerance. Passes are repeated from the start, each with more
+/// points held, until no triangle is too far; what cannot be decimated so stays as it was.
+DecimatedPatch decimate_patch(const DecimateTask& task, const Patch& patch);
+
+/// Holds the corners of the triangles that stand for any of these originals, and so many rings of
+/// points around them.
+/// @param originals  increasing.
+void hold_what_stands_for(Patch& patch, const std::vector<Index>& originals, int rings);
+
+}  // namespace mesamis

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "mesamis/decimate/decimate_patch.h"
+
+namespace mesamis {
+
+/// What a cover made of patches has taken.
+struct PatchworkReport {
+  int passes = 0;                ///< over one patch, at most
+  std::int64_t points_held = 0;  ///< to keep distances within the tolerance
+};
+
+/// Decimates patches of one cover, in threads, and joins them. Patches do not see each other: those
+/// that have come to intersect are made anew, with more points held, as are those that an original
+/// lies too far from which several stand for. In the end patches stay as they were.
+/// @param task     its progress is called from several threads, but never by two at once.
+/// @param patches  of cut_into_patches(). One alone works in all threads.
+/// @return over the points of the original. The same for any number of threads.
+Cover decimate_patchwork(const DecimateTask& task, std::vector<Patch> patches,
+                         PatchworkReport& report);
+
+}  // namespace mesamis
