@@ -30,7 +30,10 @@ struct Pass {
   explicit Pass(double tolerance, std::int64_t triangles = 0)
       : tree(surface), task{surface, tree, tolerance, triangles, [](double) {}} {}
   TriMesh run(const std::vector<char>& held) const {
-    return {surface.points, decimate_pass(task, held)};
+    std::vector<Patch> one =
+        cut_into_patches(surface.points, cover_of(surface), kInfinity);
+    one[0].held = held;
+    return {surface.points, decimate_pass(task, one[0]).triangles};
   }
   std::vector<char> none() const { return std::vector<char>(surface.points.size(), 0); }
 

@@ -55,6 +55,24 @@ TEST(SelfIntersections, AgreeWithBruteForce) {
   with_threads(3, [&] { EXPECT_EQ(find_self_intersections(surface), expected); });
 }
 
+TEST(SelfIntersections, AreFoundAgainWhereTrianglesMove) {
+  TriMesh surface = random_triangles(300, {3, 3, 3});
+  SelfIntersections search(surface);
+  const Pairs before = search.all();
+  // Triangles of the random surface have no common points: the first hundred go elsewhere.
+  std::vector<Index> moved;
+  for (Index t = 0; t < 100; ++t) {
+    moved.push_back(t);
+    for (const Index p : surface.triangles[t]) surface.points[p] = surface.points[p] + Vec3{1, 0, 0};
+  }
+  Pairs expected = find_self_intersections(surface);
+  EXPECT_NE(expected, before);
+  std::erase_if(expected, [](const TrianglePair& pair) { return pair[0] >= 100; });
+  EXPECT_GT(expected.size(), 20u);
+  EXPECT_EQ(search.after_move_of(moved), expected);
+  with_threads(3, [&] { EXPECT_EQ(search.after_move_of(moved), expected); });
+}
+
 TEST(SelfIntersections, RefuseWhatIsNoSurface) {
   EXPECT_THROW(find_self_intersections({{{0, 0, 0}}, {{0, 1, 2}}}), InputError);
 }

@@ -13,14 +13,14 @@ namespace {
 using Box3 = std::array<Index, 3>;
 
 /// The number of the patch of each triangle; patches are numbered in the order of their boxes.
-std::vector<Index> patch_numbers(const std::vector<Vec3>& points, const Cover& cover, double side,
-                                 double shift) {
+std::vector<Index> patch_numbers(const std::vector<Vec3>& points, const Cover& cover,
+                                 double side) {
   std::vector<Box3> boxes;
   for (const Triangle& t : cover.triangles) {
     const Vec3 center = (1.0 / 3) * (points[t[0]] + points[t[1]] + points[t[2]]);
     Box3 box{};
     for (int a = 0; a < 3; ++a) {
-      box[static_cast<std::size_t>(a)] = static_cast<Index>(std::floor(center[a] / side + shift));
+      box[static_cast<std::size_t>(a)] = static_cast<Index>(std::floor(center[a] / side));
     }
     boxes.push_back(box);
   }
@@ -119,11 +119,10 @@ void choose_rings(const std::vector<Triangle>& triangles, int rings, std::vector
   }
 }
 
-std::vector<Patch> cut_into_patches(const std::vector<Vec3>& points, Cover cover, double side,
-                                    double shift) {
-  const std::vector<Index> numbers =
-      std::isinf(side) ? std::vector<Index>(cover.triangles.size(), 0)
-                       : patch_numbers(points, cover, side, shift);
+std::vector<Patch> cut_into_patches(const std::vector<Vec3>& points, Cover cover, double side) {
+  const std::vector<Index> numbers = std::isinf(side)
+                                         ? std::vector<Index>(cover.triangles.size(), 0)
+                                         : patch_numbers(points, cover, side);
   return Cutter(points, cover, numbers).cut(std::move(cover), numbers);
 }
 

@@ -39,10 +39,8 @@ void choose_rings(const std::vector<Triangle>& triangles, int rings, std::vector
 /// two patches share, and their neighbours, are held in both: what touches a shared point stays.
 /// @param points  of the original.
 /// @param side    of the boxes, mm, > 0; infinity: one patch, nothing held.
-/// @param shift   of the lattice, in boxes.
 ///
 /// O(n log n) for n triangles.
-std::vector<Patch> cut_into_patches(const std::vector<Vec3>& points, Cover cover, double side,
-                                    double shift);
+std::vector<Patch> cut_into_patches(const std::vector<Vec3>& points, Cover cover, double side);
 
 }  // namespace mesamis

@@ -18,6 +18,7 @@
 namespace mesamis {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Triangles of a patch, about. Smaller surfaces are one patch.
 constexpr double kTrianglesPerPatch = 40'000;
 void require_decimatable(const TriMesh& surface, const DecimateOptions& options) {
@@ -40,36 +41,40 @@ double patch_side(const TriMesh& surface, const DecimateOptions& options) {
   const auto triangles = static_cast<double>(surface.triangles.size());
   // The order of the collapses decides which triangles are left when their number is given.
   const bool is_one = triangles < 2 * kTrianglesPerPatch || options.triangles > 0;
-  if (is_one) return std::numeric_limits<double>::infinity();
+  if (is_one) return kInfinity;
   return std::sqrt(check_surface(surface).area / triangles * kTrianglesPerPatch / 2);
 }
 
-/// A surface is decimated patch by patch; then once more with other patches, where the first ones
-/// touch.
+/// A surface is decimated patch by patch; then, as a whole, where these touch.
 class Decimation {
  public:
   Decimation(const TriMesh& surface, const DecimateOptions& options)
-      : surface_(surface), options_(options), tree_(surface), side_(patch_side(surface, options)) {}
+      : surface_(surface), options_(options), tree_(surface) {}
 
   TriMesh run() {
     Cover cover = cover_of(surface_);
-    std::vector<Patch> patches = cut_into_patches(surface_.points, std::move(cover), side_, 0);
-    if (patches.size() == 1) {
-      cover = decimate_patchwork(task(0, 1), std::move(patches), report_);
-    } else {
-      const std::vector<char> seams = seams_of(patches);
-      cover = decimate_patchwork(task(0, kShareOfFirst), std::move(patches), report_);
-      patches = cut_into_patches(surface_.points, std::move(cover), side_, 0.5);
-      for (Patch& patch : patches) hold_what_is_no_seam(patch, seams);
-      cover = decimate_patchwork(task(kShareOfFirst, 1), std::move(patches), report_);
+    const double side = patch_side(surface_, options_);
+    std::vector<char> open(surface_.points.size(), 1);  // of each point 1 if it may go
+    if (!std::isinf(side)) {
+      std::vector<Patch> patches = cut_into_patches(surface_.points, std::move(cover), side);
+      open = held_in(patches);
+      cover = decimate_patchwork(task(0, kShareOfPatches), std::move(patches), report_);
+      choose_rings(cover.triangles, kRingsAtSeams, open);
     }
+    std::vector<Patch> whole = cut_into_patches(surface_.points, std::move(cover), kInfinity);
+    for (std::size_t p = 0; p < whole[0].points.size(); ++p) {
+      whole[0].held[p] = open[whole[0].points[p]] == 0 ? 1 : 0;
+    }
+    const double begin = std::isinf(side) ? 0 : kShareOfPatches;
+    cover = decimate_patchwork(task(begin, 1), std::move(whole), report_);
     return {surface_.points, std::move(cover.triangles)};
   }
 
   const PatchworkReport& report() const { return report_; }
 
  private:
-  static constexpr double kShareOfFirst = 0.9;  // of the work
+  static constexpr double kShareOfPatches = 0.85;  // of the work
+  static constexpr int kRingsAtSeams = 4;
 
   /// @param begin, end  shares of the work.
   DecimateTask task(double begin, double end) const {
@@ -81,29 +86,17 @@ class Decimation {
   }
 
   /// Of each point of the original 1 if patches hold it because they touch there.
-  std::vector<char> seams_of(const std::vector<Patch>& patches) const {
-    std::vector<char> seams(surface_.points.size(), 0);
+  std::vector<char> held_in(const std::vector<Patch>& patches) const {
+    std::vector<char> held(surface_.points.size(), 0);
     for (const Patch& patch : patches) {
-      for (std::size_t p = 0; p < patch.points.size(); ++p) seams[patch.points[p]] |= patch.held[p];
+      for (std::size_t p = 0; p < patch.points.size(); ++p) held[patch.points[p]] |= patch.held[p];
     }
-    return seams;
-  }
-
-  /// What is away from the seams has been decimated already.
-  static void hold_what_is_no_seam(Patch& patch, const std::vector<char>& seams) {
-    constexpr int kRings = 4;
-    std::vector<char> chosen;
-    for (const Index p : patch.points) chosen.push_back(seams[p]);
-    choose_rings(patch.cover.triangles, kRings, chosen);
-    for (std::size_t p = 0; p < chosen.size(); ++p) {
-      if (chosen[p] == 0) patch.held[p] = 1;
-    }
+    return held;
   }
 
   const TriMesh& surface_;
   const DecimateOptions& options_;
   TriangleTree tree_;
-  double side_;  // of a patch's box, mm
   PatchworkReport report_;
 };
 

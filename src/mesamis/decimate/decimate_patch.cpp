@@ -86,36 +86,15 @@ class Decimation {
     return surface;
   }
 
-  /// Those of the originals that reach too far from a surface.
-  std::vector<Index> originals_beyond(const std::vector<Index>& originals,
-                                      const TriMesh& surface) const {
-    std::vector<Index> beyond = triangles_beyond(
-        originals.size(), [&](std::size_t i) { return original(originals[i]); },
-        TriangleTree(surface), task_.tolerance);
-    for (Index& t : beyond) t = originals[t];
-    return beyond;
-  }
-
-  /// Which originals are too far from the result. What was so before is none of the patch's.
-  std::vector<Index> lost_originals(const TriMesh& result, std::vector<Index>& in_part) {
-    std::vector<Index> lost = originals_beyond(originals_, result);
-    if (lost.empty()) return lost;
-    const auto before = originals_beyond(lost, in_its_place(patch_.cover.triangles));
-    in_part.insert(in_part.end(), before.begin(), before.end());
-    const auto is_among = [](const std::vector<Index>& few) {
-      return [&few](Index t) { return std::binary_search(few.begin(), few.end(), t); };
-    };
-    std::erase_if(lost, is_among(before));
-    std::erase_if(originals_, is_among(before));
-    return lost;
-  }
-
   /// A triangle whose corners are all held is never removed; a point whose triangles are all held
   /// gets no new triangle.
   /// @return whether any triangle was too far.
   bool hold_what_is_too_far(DecimatedPatch& done) {
     const TriMesh placed = in_its_place(done.cover.triangles);
-    std::vector<Index> lost = lost_originals(placed, done.in_part);
+    std::vector<Index> lost = triangles_beyond(
+        originals_.size(), [&](std::size_t i) { return original(originals_[i]); },
+        TriangleTree(placed), task_.tolerance);
+    for (Index& t : lost) t = originals_[t];
     const std::vector<Index> strayed = triangles_beyond(
         done.cover.triangles.size(),
         [&](std::size_t t) { return corners_of(placed, placed.triangles[t]); }, task_.tree,

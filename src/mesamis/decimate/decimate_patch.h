@@ -10,12 +10,10 @@ struct DecimatedPatch {
   Cover cover;                   ///< over the points of the patch
   int passes = 0;                ///< that it took
   std::int64_t points_held = 0;  ///< to keep distances within the tolerance
-  /// Originals that the patch stands for only in part: they were too far from it before. The rest
-  /// of the surface must show that they are near.
-  std::vector<Index> in_part;
 };
 
-/// Decimates a patch within the tolerance. Passes are repeated from the start, each with more
+/// Decimates a patch within the tolerance of the originals that it stands for, which must be near it
+/// before. Passes are repeated from the start, each with more
 /// points held, until no triangle is too far; what cannot be decimated so stays as it was.
 DecimatedPatch decimate_patch(const DecimateTask& task, const Patch& patch);
 

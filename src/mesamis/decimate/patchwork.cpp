@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "mesamis/base/parallel.h"
-#include "mesamis/surface/farthest.h"
 #include "mesamis/surface/self_intersections.h"
 
 namespace mesamis {
@@ -28,7 +27,7 @@ class Patchwork {
     std::iota(open.begin(), open.end(), std::size_t{0});
     for (int round = 0; !open.empty(); ++round) {
       decimate(open);
-      open = patches_.size() > 1 ? hold_what_does_not_fit(round) : std::vector<std::size_t>{};
+      open = patches_.size() > 1 ? hold_what_meets(round) : std::vector<std::size_t>{};
       if (round < kMostRounds) continue;
       for (std::size_t k = 0; k < patches_.size(); ++k) done_[k].cover = patches_[k].cover;
       break;
@@ -75,22 +74,6 @@ class Patchwork {
     return cover;
   }
 
-  /// @return the patches to make anew.
-  std::vector<std::size_t> hold_what_does_not_fit(int round) {
-    const TriMesh surface{task_.surface.points, joined().triangles};
-    std::vector<std::vector<Index>> unfit(patches_.size());  // originals
-    find_what_meets(surface, unfit);
-    find_what_is_too_far(surface, unfit);
-    std::vector<std::size_t> open;
-    for (std::size_t k = 0; k < patches_.size(); ++k) {
-      if (unfit[k].empty()) continue;
-      std::sort(unfit[k].begin(), unfit[k].end());
-      hold_what_stands_for(patches_[k], unfit[k], 1 + round);
-      open.push_back(k);
-    }
-    return open;
-  }
-
   static bool is_new(const Triangle& t, const Patch& patch) {
     const auto is_same = [&t](const Triangle& before) {
       return std::is_permutation(t.begin(), t.end(), before.begin());
@@ -98,9 +81,10 @@ class Patchwork {
     return std::none_of(patch.cover.triangles.begin(), patch.cover.triangles.end(), is_same);
   }
 
-  /// New triangles that intersect those of other patches.
-  void find_what_meets(const TriMesh& surface, std::vector<std::vector<Index>>& unfit) const {
-    std::vector<std::size_t> ends;  // of the patches' triangles in the surface
+  /// The originals that new triangles stand for which intersect those of other patches; of each
+  /// patch.
+  std::vector<std::vector<Index>> find_what_meets() const {
+    std::vector<std::size_t> ends;  // of the patches' triangles in the joined surface
     for (const DecimatedPatch& done : done_) {
       ends.push_back((ends.empty() ? 0 : ends.back()) + done.cover.triangles.size());
     }
@@ -108,34 +92,31 @@ class Patchwork {
       return static_cast<std::size_t>(
           std::upper_bound(ends.begin(), ends.end(), static_cast<std::size_t>(t)) - ends.begin());
     };
-    for (const auto& pair : find_self_intersections(surface)) {
-      if (patch_of(pair[0]) == patch_of(pair[1])) continue;  // the patch has seen it: it was so before
+    std::vector<std::vector<Index>> meeting(patches_.size());
+    for (const auto& pair : find_self_intersections({task_.surface.points, joined().triangles})) {
+      if (patch_of(pair[0]) == patch_of(pair[1])) continue;  // seen there: it was so before
       for (const Index t : pair) {
         const std::size_t k = patch_of(t);
         const Cover& cover = done_[k].cover;
         const std::size_t n = static_cast<std::size_t>(t) + cover.triangles.size() - ends[k];
         if (!is_new(cover.triangles[n], patches_[k])) continue;
-        unfit[k].insert(unfit[k].end(), cover.originals[n].begin(), cover.originals[n].end());
+        meeting[k].insert(meeting[k].end(), cover.originals[n].begin(), cover.originals[n].end());
       }
     }
+    return meeting;
   }
 
-  /// Originals that several patches stand for.
-  void find_what_is_too_far(const TriMesh& surface, std::vector<std::vector<Index>>& unfit) const {
-    const bool any = std::any_of(done_.begin(), done_.end(),
-                                 [](const DecimatedPatch& done) { return !done.in_part.empty(); });
-    if (!any) return;
-    const TriangleTree tree(surface);
-    std::size_t hint = 0;
-    for (std::size_t k = 0; k < done_.size(); ++k) {
-      for (const Index t : done_[k].in_part) {
-        const Corners corners = corners_of(task_.surface, task_.surface.triangles[t]);
-        const Enough enough{task_.tolerance, task_.tolerance};
-        if (farthest_distance(corners, tree, enough, hint) > task_.tolerance) {
-          unfit[k].push_back(t);
-        }
-      }
+  /// @return the patches to make anew.
+  std::vector<std::size_t> hold_what_meets(int round) {
+    std::vector<std::vector<Index>> meeting = find_what_meets();
+    std::vector<std::size_t> open;
+    for (std::size_t k = 0; k < patches_.size(); ++k) {
+      if (meeting[k].empty()) continue;
+      std::sort(meeting[k].begin(), meeting[k].end());
+      hold_what_stands_for(patches_[k], meeting[k], 1 + round);
+      open.push_back(k);
     }
+    return open;
   }
 
   const DecimateTask& task_;

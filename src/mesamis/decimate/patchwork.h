@@ -14,8 +14,8 @@ struct PatchworkReport {
 };
 
 /// Decimates patches of one cover, in threads, and joins them. Patches do not see each other: those
-/// that have come to intersect are made anew, with more points held, as are those that an original
-/// lies too far from which several stand for. In the end patches stay as they were.
+/// that have come to intersect are made anew, with more points held; in the end all stay as they
+/// were.
 /// @param task     its progress is called from several threads, but never by two at once.
 /// @param patches  of cut_into_patches(). One alone works in all threads.
 /// @return over the points of the original. The same for any number of threads.

@@ -202,48 +202,65 @@ class Follower {
     return moves;
   }
 
-  /// Moves all points, then takes moves back, first half, then whole, where triangles meet. In the
-  /// end, where the surface was not moved at all, none do.
+  /// Moves all points, then takes moves back, first half, then whole, where triangles meet, here or
+  /// once the surface is in a file, which holds single precision. In the end, where the surface was
+  /// not moved at all, none do.
   TriMesh moved_without_folds(std::vector<Vec3> shifts) const {
     constexpr int kHalvings = 2, kMostTrials = 40;
     std::vector<int> taken_back(shifts.size(), 0);
     TriMesh moved = surface_;
-    for (int round = 0; round < kMostTrials; ++round) {
+    for (std::size_t p = 0; p < shifts.size(); ++p) moved.points[p] += shifts[p];
+    TriMesh filed = as_in_a_file(moved);
+    SelfIntersections here(moved), in_file(filed);
+    std::vector<char> meeting = corners_of_pairs(here.all(), in_file.all());
+    for (int trial = 0; trial < kMostTrials; ++trial) {
+      const std::vector<Index> concerned = triangles_at(meeting);
+      if (concerned.empty()) return moved;
       for (std::size_t p = 0; p < shifts.size(); ++p) {
-        moved.points[p] = surface_.points[p] + shifts[p];
-      }
-      const std::vector<Index> meeting = points_that_meet(moved);
-      if (meeting.empty()) return moved;
-      for (const Index point : meeting) {
-        const auto p = static_cast<std::size_t>(point);
+        if (meeting[p] == 0) continue;
         shifts[p] = (taken_back[p]++ < kHalvings ? 0.5 : 0.0) * shifts[p];
+        moved.points[p] = surface_.points[p] + shifts[p];
+        filed.points[p] = as_in_a_file(moved.points[p]);
       }
+      meeting = corners_of_pairs(here.after_move_of(concerned), in_file.after_move_of(concerned));
     }
     return surface_;
   }
 
-  /// The corners of triangles that intersect others, here or once the surface is in a file, which
-  /// holds single precision.
-  std::vector<Index> points_that_meet(const TriMesh& moved) const {
-    auto pairs = find_self_intersections(moved);
-    if (pairs.empty()) pairs = find_self_intersections(as_in_a_file(moved));
-    std::vector<Index> meeting;
-    for (const auto& pair : pairs) {
-      for (const Index t : pair) {
-        meeting.insert(meeting.end(), moved.triangles[t].begin(), moved.triangles[t].end());
+  /// Of each point 1 if it is a corner of one of these triangles.
+  std::vector<char> corners_of_pairs(const std::vector<TrianglePair>& some,
+                                     const std::vector<TrianglePair>& others) const {
+    std::vector<char> corners(surface_.points.size(), 0);
+    for (const auto* pairs : {&some, &others}) {
+      for (const TrianglePair& pair : *pairs) {
+        for (const Index t : pair) {
+          for (const Index p : surface_.triangles[t]) corners[p] = 1;
+        }
       }
     }
-    std::sort(meeting.begin(), meeting.end());
-    meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
-    return meeting;
+    return corners;
   }
 
-  TriMesh as_in_a_file(TriMesh moved) const {
-    parallel_for(moved.points.size(), [&](std::size_t n) {
-      const Vec3 p = image_.grid.to_world(options_.point_scale * moved.points[n]);
-      for (int a = 0; a < 3; ++a) moved.points[n][a] = static_cast<float>(p[a]);
-    });
-    return moved;
+  /// The triangles at points that are chosen, increasing.
+  std::vector<Index> triangles_at(const std::vector<char>& chosen) const {
+    std::vector<Index> triangles;
+    for (Index t = 0; t < std::ssize(surface_.triangles); ++t) {
+      const Triangle& k = surface_.triangles[t];
+      if (chosen[k[0]] + chosen[k[1]] + chosen[k[2]] > 0) triangles.push_back(t);
+    }
+    return triangles;
+  }
+
+  Vec3 as_in_a_file(const Vec3& point) const {
+    Vec3 p = image_.grid.to_world(options_.point_scale * point);
+    for (int a = 0; a < 3; ++a) p[a] = static_cast<float>(p[a]);
+    return p;
+  }
+
+  TriMesh as_in_a_file(TriMesh surface) const {
+    parallel_for(surface.points.size(),
+                 [&](std::size_t p) { surface.points[p] = as_in_a_file(surface.points[p]); });
+    return surface;
   }
 
   const SplineImage& image_;

@@ -2,45 +2,87 @@
 #include "mesamis/surface/self_intersections.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/tet_mesh.h"
-#include "mesamis/surface/box_tree.h"
 #include "mesamis/surface/triangle_intersection.h"
 
 namespace mesamis {
+namespace {
 
-std::vector<std::array<Index, 2>> find_self_intersections(const TriMesh& surface) {
+Box box_of_triangle(const TriMesh& surface, const Triangle& t) {
+  return bounding_box(
+      std::array<Vec3, 3>{surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]});
+}
+
+std::vector<Box> boxes_of(const TriMesh& surface) {
   require_sound(surface);
-  const std::size_t count = surface.triangles.size();
-  std::vector<Box> boxes(count);
-  parallel_for(count, [&](std::size_t t) {
-    const Triangle& k = surface.triangles[t];
-    boxes[t] = bounding_box(
-        std::array<Vec3, 3>{surface.points[k[0]], surface.points[k[1]], surface.points[k[2]]});
+  std::vector<Box> boxes(surface.triangles.size());
+  parallel_for(boxes.size(),
+               [&](std::size_t t) { boxes[t] = box_of_triangle(surface, surface.triangles[t]); });
+  return boxes;
+}
+
+/// Each once, in ascending order.
+std::vector<TrianglePair> sorted_once(std::vector<std::vector<TrianglePair>> blocks) {
+  std::vector<TrianglePair> pairs;
+  for (const auto& block : blocks) pairs.insert(pairs.end(), block.begin(), block.end());
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<TrianglePair> find_self_intersections(const TriMesh& surface) {
+  return SelfIntersections(surface).all();
+}
+
+SelfIntersections::SelfIntersections(const TriMesh& surface)
+    : surface_(surface), tree_(boxes_of(surface)) {}
+
+Box SelfIntersections::box_of(Index t) const {
+  return box_of_triangle(surface_, surface_.triangles[t]);
+}
+
+/// Calls visit(other) for each triangle from `first` on that t meets; t itself if it has no area.
+template <class Visit>
+void SelfIntersections::for_each_met(Index t, Index first, Visit&& visit) const {
+  const Triangle& own = surface_.triangles[t];
+  if (!has_area(surface_.points, own)) visit(t);
+  tree_.for_each_overlap(box_of(t), [&](std::size_t found) {
+    const auto other = static_cast<Index>(found);
+    const bool is_other = other >= first && other != t;
+    if (is_other && intersect(surface_.points, own, surface_.triangles[other])) visit(other);
+    return true;
   });
-  const BoxTree tree(boxes);
-  std::vector<std::vector<std::array<Index, 2>>> blocks((count + kBlock - 1) / kBlock);
+}
+
+std::vector<TrianglePair> SelfIntersections::all() const {
+  const std::size_t count = surface_.triangles.size();
+  std::vector<std::vector<TrianglePair>> blocks((count + kBlock - 1) / kBlock);
   parallel_blocks(count, kBlock, [&](std::size_t begin, std::size_t end) {
     auto& found = blocks[begin / kBlock];
-    for (std::size_t t = begin; t < end; ++t) {
-      const Triangle& own = surface.triangles[t];
-      const auto first = found.size();
-      if (!has_area(surface.points, own)) {
-        found.push_back({static_cast<Index>(t), static_cast<Index>(t)});
-      }
-      tree.for_each_overlap(boxes[t], [&](std::size_t other) {
-        if (other > t && intersect(surface.points, own, surface.triangles[other])) {
-          found.push_back({static_cast<Index>(t), static_cast<Index>(other)});
-        }
-        return true;
-      });
-      std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end());
+    for (auto t = static_cast<Index>(begin); t < static_cast<Index>(end); ++t) {
+      for_each_met(t, t, [&](Index other) { found.push_back({t, other}); });
     }
   });
-  std::vector<std::array<Index, 2>> pairs;
-  for (const auto& block : blocks) pairs.insert(pairs.end(), block.begin(), block.end());
-  return pairs;
+  return sorted_once(std::move(blocks));
+}
+
+std::vector<TrianglePair> SelfIntersections::after_move_of(std::span<const Index> triangles) {
+  for (const Index t : triangles) tree_.update(static_cast<std::size_t>(t), box_of(t));
+  std::vector<std::vector<TrianglePair>> blocks((triangles.size() + kBlock - 1) / kBlock);
+  parallel_blocks(triangles.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index t = triangles[i];
+      for_each_met(t, 0, [&](Index other) {
+        blocks[begin / kBlock].push_back({std::min(t, other), std::max(t, other)});
+      });
+    }
+  });
+  return sorted_once(std::move(blocks));
 }
 
 }  // namespace mesamis

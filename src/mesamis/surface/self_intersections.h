@@ -2,11 +2,16 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
+#include "mesamis/surface/box_tree.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {
+
+/// Two triangles of a surface, the smaller index first.
+using TrianglePair = std::array<Index, 2>;
 
 /// Finds the pairs of triangles that share a point of space other than a common corner or side.
 ///
@@ -15,10 +20,38 @@ namespace mesamis {
 /// rounding, see exact_predicates.h.
 ///
 /// @param surface  n triangles.
-/// @return each pair once, the smaller index first, in ascending order.
+/// @return each pair once, in ascending order.
 /// @throws InputError  as require_sound().
 ///
 /// O(n log n) for a surface that rarely meets itself.
-std::vector<std::array<Index, 2>> find_self_intersections(const TriMesh& surface);
+std::vector<TrianglePair> find_self_intersections(const TriMesh& surface);
+
+/// Finds self-intersections again and again while a few points of the surface move.
+class SelfIntersections {
+ public:
+  /// @param surface  n triangles; read where it is, also later.
+  /// @throws InputError  as require_sound().
+  ///
+  /// O(n log n).
+  explicit SelfIntersections(const TriMesh& surface);
+
+  /// All pairs, as find_self_intersections().
+  std::vector<TrianglePair> all() const;
+
+  /// The pairs that these triangles, whose points have moved, take part in now.
+  /// @param triangles  indices, increasing.
+  /// @return each pair once, in ascending order.
+  ///
+  /// O(log n) for each of them where the surface rarely meets itself.
+  std::vector<TrianglePair> after_move_of(std::span<const Index> triangles);
+
+ private:
+  Box box_of(Index t) const;
+  template <class Visit>
+  void for_each_met(Index t, Index first, Visit&& visit) const;
+
+  const TriMesh& surface_;
+  BoxTree tree_;
+};
 
 }  // namespace mesamis

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/decimate/cover.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "support/level_set.h"
+
+namespace mesamis {
+namespace {
+
+TriMesh sphere() {
+  return level_set({{-1, -1, -1}, {1, 1, 1}}, {12, 12, 12},
+                   [](const Vec3& p) { return 0.8 - norm(p); });
+}
+
+/// The corners in the original, beginning with the smallest.
+Triangle in_the_original(const Patch& patch, Triangle t) {
+  for (Index& p : t) p = patch.points[p];
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
+std::multiset<Triangle> triangles_of(const std::vector<Patch>& patches) {
+  std::multiset<Triangle> all;
+  for (const Patch& patch : patches) {
+    for (const Triangle& t : patch.cover.triangles) all.insert(in_the_original(patch, t));
+  }
+  return all;
+}
+
+TEST(CutIntoPatches, KeepsEveryTriangleOnce) {
+  const TriMesh surface = sphere();
+  const auto whole = cut_into_patches(surface.points, cover_of(surface),
+                                      std::numeric_limits<double>::infinity());
+  ASSERT_EQ(whole.size(), 1u);
+  const auto cut = cut_into_patches(surface.points, cover_of(surface), 0.5);
+  EXPECT_GT(cut.size(), 20u);
+  EXPECT_EQ(triangles_of(whole).size(), surface.triangles.size());
+  EXPECT_EQ(triangles_of(cut), triangles_of(whole));
+  for (const Patch& patch : cut) {
+    ASSERT_EQ(patch.cover.originals.size(), patch.cover.triangles.size());
+    for (std::size_t t = 0; t < patch.cover.triangles.size(); ++t) {
+      ASSERT_EQ(patch.cover.originals[t].size(), 1u);
+      Triangle original = surface.triangles[patch.cover.originals[t][0]];
+      std::rotate(original.begin(), std::min_element(original.begin(), original.end()),
+                  original.end());
+      EXPECT_EQ(in_the_original(patch, patch.cover.triangles[t]), original);
+    }
+  }
+}
+
+TEST(CutIntoPatches, HoldsNothingInAWhole) {
+  const TriMesh surface = sphere();
+  const auto whole = cut_into_patches(surface.points, cover_of(surface),
+                                      std::numeric_limits<double>::infinity());
+  EXPECT_EQ(std::count(whole[0].held.begin(), whole[0].held.end(), 1), 0);
+  EXPECT_TRUE(whole[0].around.empty());
+}
+
+TEST(CutIntoPatches, HoldsWhatTouchesASharedPoint) {
+  const TriMesh surface = sphere();
+  const auto cut = cut_into_patches(surface.points, cover_of(surface), 0.5);
+  std::vector<int> patches_at(surface.points.size(), 0);
+  for (const Patch& patch : cut) {
+    for (const Index p : patch.points) ++patches_at[p];
+  }
+  for (const Patch& patch : cut) {
+    std::vector<char> expected(patch.points.size(), 0);
+    for (const Triangle& t : patch.cover.triangles) {
+      const bool touches = std::any_of(t.begin(), t.end(),
+                                       [&](Index p) { return patches_at[patch.points[p]] > 1; });
+      for (const Index p : t) expected[p] |= touches ? 1 : 0;
+    }
+    EXPECT_EQ(patch.held, expected);
+    for (const Triangle& t : patch.around) {
+      EXPECT_TRUE(std::any_of(t.begin(), t.end(), [&](Index p) {
+        return std::binary_search(patch.points.begin(), patch.points.end(), p);
+      }));
+    }
+  }
+}
+
+TEST(ChooseRings, AddsNeighboursRingByRing) {
+  const TriMesh surface = sphere();
+  std::vector<char> chosen(surface.points.size(), 0);
+  chosen[0] = 1;
+  std::vector<char> two = chosen;
+  choose_rings(surface.triangles, 1, chosen);
+  std::set<Index> neighbours;
+  for (const Triangle& t : surface.triangles) {
+    if (std::count(t.begin(), t.end(), 0) > 0) neighbours.insert(t.begin(), t.end());
+  }
+  EXPECT_EQ(std::count(chosen.begin(), chosen.end(), 1), std::ssize(neighbours));
+  choose_rings(surface.triangles, 1, chosen);
+  choose_rings(surface.triangles, 2, two);
+  EXPECT_EQ(two, chosen);
+}
+
+}  // namespace
+}  // namespace mesamis
