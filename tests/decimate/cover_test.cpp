@@ -34,8 +34,8 @@ std::multiset<Triangle> triangles_of(const std::vector<Patch>& patches) {
 
 TEST(CutIntoPatches, KeepsEveryTriangleOnce) {
   const TriMesh surface = sphere();
-  const auto whole = cut_into_patches(surface.points, cover_of(surface),
-                                      std::numeric_limits<double>::infinity());
+  const auto whole =
+      cut_into_patches(surface.points, cover_of(surface), std::numeric_limits<double>::infinity());
   ASSERT_EQ(whole.size(), 1u);
   const auto cut = cut_into_patches(surface.points, cover_of(surface), 0.5);
   EXPECT_GT(cut.size(), 20u);
@@ -55,8 +55,8 @@ TEST(CutIntoPatches, KeepsEveryTriangleOnce) {
 
 TEST(CutIntoPatches, HoldsNothingInAWhole) {
   const TriMesh surface = sphere();
-  const auto whole = cut_into_patches(surface.points, cover_of(surface),
-                                      std::numeric_limits<double>::infinity());
+  const auto whole =
+      cut_into_patches(surface.points, cover_of(surface), std::numeric_limits<double>::infinity());
   EXPECT_EQ(std::count(whole[0].held.begin(), whole[0].held.end(), 1), 0);
   EXPECT_TRUE(whole[0].around.empty());
 }
@@ -71,8 +71,8 @@ TEST(CutIntoPatches, HoldsWhatTouchesASharedPoint) {
   for (const Patch& patch : cut) {
     std::vector<char> expected(patch.points.size(), 0);
     for (const Triangle& t : patch.cover.triangles) {
-      const bool touches = std::any_of(t.begin(), t.end(),
-                                       [&](Index p) { return patches_at[patch.points[p]] > 1; });
+      const bool touches =
+          std::any_of(t.begin(), t.end(), [&](Index p) { return patches_at[patch.points[p]] > 1; });
       for (const Index p : t) expected[p] |= touches ? 1 : 0;
     }
     EXPECT_EQ(patch.held, expected);

@@ -30,8 +30,7 @@ struct Pass {
   explicit Pass(double tolerance, std::int64_t triangles = 0)
       : tree(surface), task{surface, tree, tolerance, triangles, [](double) {}} {}
   TriMesh run(const std::vector<char>& held) const {
-    std::vector<Patch> one =
-        cut_into_patches(surface.points, cover_of(surface), kInfinity);
+    std::vector<Patch> one = cut_into_patches(surface.points, cover_of(surface), kInfinity);
     one[0].held = held;
     return {surface.points, decimate_pass(task, one[0]).triangles};
   }

@@ -40,8 +40,8 @@ struct Work {
       : surface(std::move(s)), task{surface, tree, tolerance, 0, [](double) {}} {}
 
   Cover run(double side) {
-    return decimate_patchwork(
-        task, cut_into_patches(surface.points, cover_of(surface), side), report);
+    return decimate_patchwork(task, cut_into_patches(surface.points, cover_of(surface), side),
+                              report);
   }
 
   void expect_promises_kept(const Cover& cover) const {

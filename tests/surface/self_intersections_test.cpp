@@ -63,7 +63,8 @@ TEST(SelfIntersections, AreFoundAgainWhereTrianglesMove) {
   std::vector<Index> moved;
   for (Index t = 0; t < 100; ++t) {
     moved.push_back(t);
-    for (const Index p : surface.triangles[t]) surface.points[p] = surface.points[p] + Vec3{1, 0, 0};
+    for (const Index p : surface.triangles[t])
+      surface.points[p] = surface.points[p] + Vec3{1, 0, 0};
   }
   Pairs expected = find_self_intersections(surface);
   EXPECT_NE(expected, before);

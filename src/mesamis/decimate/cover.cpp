@@ -13,8 +13,7 @@ namespace {
 using Box3 = std::array<Index, 3>;
 
 /// The number of the patch of each triangle; patches are numbered in the order of their boxes.
-std::vector<Index> patch_numbers(const std::vector<Vec3>& points, const Cover& cover,
-                                 double side) {
+std::vector<Index> patch_numbers(const std::vector<Vec3>& points, const Cover& cover, double side) {
   std::vector<Box3> boxes;
   for (const Triangle& t : cover.triangles) {
     const Vec3 center = (1.0 / 3) * (points[t[0]] + points[t[1]] + points[t[2]]);

@@ -70,9 +70,7 @@ class Decimation {
 
   const Vec3& point(Index p) const { return task_.surface.points[patch_.points[p]]; }
 
-  Corners original(Index t) const {
-    return corners_of(task_.surface, task_.surface.triangles[t]);
-  }
+  Corners original(Index t) const { return corners_of(task_.surface, task_.surface.triangles[t]); }
 
   /// Triangles over the patch's points, and what touches the patch.
   TriMesh in_its_place(const std::vector<Triangle>& triangles) const {

@@ -12,9 +12,9 @@ struct DecimatedPatch {
   std::int64_t points_held = 0;  ///< to keep distances within the tolerance
 };
 
-/// Decimates a patch within the tolerance of the originals that it stands for, which must be near it
-/// before. Passes are repeated from the start, each with more
-/// points held, until no triangle is too far; what cannot be decimated so stays as it was.
+/// Decimates a patch within the tolerance of the originals that it stands for, which must be near
+/// it before. Passes are repeated from the start, each with more points held, until no triangle is
+/// too far; what cannot be decimated so stays as it was.
 DecimatedPatch decimate_patch(const DecimateTask& task, const Patch& patch);
 
 /// Holds the corners of the triangles that stand for any of these originals, and so many rings of

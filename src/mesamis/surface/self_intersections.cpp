@@ -6,6 +6,7 @@
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/surface/box_tree.h"
 #include "mesamis/surface/triangle_intersection.h"
 
 namespace mesamis {
@@ -40,7 +41,9 @@ std::vector<TrianglePair> find_self_intersections(const TriMesh& surface) {
 }
 
 SelfIntersections::SelfIntersections(const TriMesh& surface)
-    : surface_(surface), tree_(boxes_of(surface)) {}
+    : surface_(surface), tree_(std::make_unique<BoxTree>(boxes_of(surface))) {}
+
+SelfIntersections::~SelfIntersections() = default;
 
 Box SelfIntersections::box_of(Index t) const {
   return box_of_triangle(surface_, surface_.triangles[t]);
@@ -51,7 +54,7 @@ template <class Visit>
 void SelfIntersections::for_each_met(Index t, Index first, Visit&& visit) const {
   const Triangle& own = surface_.triangles[t];
   if (!has_area(surface_.points, own)) visit(t);
-  tree_.for_each_overlap(box_of(t), [&](std::size_t found) {
+  tree_->for_each_overlap(box_of(t), [&](std::size_t found) {
     const auto other = static_cast<Index>(found);
     const bool is_other = other >= first && other != t;
     if (is_other && intersect(surface_.points, own, surface_.triangles[other])) visit(other);
@@ -72,7 +75,7 @@ std::vector<TrianglePair> SelfIntersections::all() const {
 }
 
 std::vector<TrianglePair> SelfIntersections::after_move_of(std::span<const Index> triangles) {
-  for (const Index t : triangles) tree_.update(static_cast<std::size_t>(t), box_of(t));
+  for (const Index t : triangles) tree_->update(static_cast<std::size_t>(t), box_of(t));
   std::vector<std::vector<TrianglePair>> blocks((triangles.size() + kBlock - 1) / kBlock);
   parallel_blocks(triangles.size(), kBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

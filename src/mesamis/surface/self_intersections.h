@@ -2,13 +2,15 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "mesamis/surface/box_tree.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {
+
+class BoxTree;
 
 /// Two triangles of a surface, the smaller index first.
 using TrianglePair = std::array<Index, 2>;
@@ -34,13 +36,19 @@ class SelfIntersections {
   ///
   /// O(n log n).
   explicit SelfIntersections(const TriMesh& surface);
+  ~SelfIntersections();
 
-  /// All pairs, as find_self_intersections().
+  /// All pairs.
+  /// @return as find_self_intersections().
+  /// @throws nothing
+  ///
+  /// O(n log n) for a surface that rarely meets itself.
   std::vector<TrianglePair> all() const;
 
   /// The pairs that these triangles, whose points have moved, take part in now.
   /// @param triangles  indices, increasing.
   /// @return each pair once, in ascending order.
+  /// @throws nothing
   ///
   /// O(log n) for each of them where the surface rarely meets itself.
   std::vector<TrianglePair> after_move_of(std::span<const Index> triangles);
@@ -51,7 +59,7 @@ class SelfIntersections {
   void for_each_met(Index t, Index first, Visit&& visit) const;
 
   const TriMesh& surface_;
-  BoxTree tree_;
+  std::unique_ptr<BoxTree> tree_;  // of the triangles
 };
 
 }  // namespace mesamis
