@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/distance.h"
@@ -23,11 +25,15 @@ TriMesh torus() {
   });
 }
 
-/// A shell that is thinner than the tolerance: each side must see the other.
-TriMesh thin_shell() {
-  TriMesh inner = level_set(kBox, {14, 14, 14}, [](const Vec3& p) { return 0.79 - norm(p); });
-  for (Triangle& t : inner.triangles) std::swap(t[1], t[2]);
-  return joined(level_set(kBox, {13, 13, 13}, [](const Vec3& p) { return 0.82 - norm(p); }), inner);
+/// One of two bodies with a wavy gap between them that is narrower than the tolerance below: the
+/// lower one (-1) or the upper one (1).
+TriMesh neighbours(int which) {
+  const Index n = which > 0 ? 23 : 21;
+  return level_set(kBox, {n, n, n}, [which](const Vec3& p) {
+    const double wave = 0.15 * std::sin(8 * p.x) * std::cos(7 * p.y);
+    return std::min({0.8 - std::abs(p.x), 0.8 - std::abs(p.y), 0.5 - std::abs(p.z),
+                     which * (p.z - wave) - 0.02});
+  });
 }
 
 struct Work {
@@ -62,11 +68,41 @@ TEST(Patchwork, KeepsThePromisesOfDecimation) {
   EXPECT_LT(cover.triangles.size(), work.surface.triangles.size() / 2);
 }
 
+/// The patch of the triangles over some consecutive points, which share none with others.
+Patch part(const TriMesh& surface, Index begin, Index end) {
+  Patch patch;
+  for (Index p = begin; p < end; ++p) patch.points.push_back(p);
+  patch.held.assign(patch.points.size(), 0);
+  for (Index t = 0; t < std::ssize(surface.triangles); ++t) {
+    const Triangle& k = surface.triangles[t];
+    if (k[0] < begin || k[0] >= end) continue;
+    patch.cover.triangles.push_back({k[0] - begin, k[1] - begin, k[2] - begin});
+    patch.cover.originals.push_back({t});
+  }
+  return patch;
+}
+
 TEST(Patchwork, PatchesThatWouldMeetAreMadeAnew) {
-  Work work(thin_shell(), 0.1);
+  const TriMesh lower = neighbours(-1);
+  const Work work(joined(lower, neighbours(1)), 0.4);
   ASSERT_TRUE(find_self_intersections(work.surface).empty());
-  // Boxes that part the two sides of the shell here and there.
-  work.expect_promises_kept(work.run(0.55));
+  const auto first = static_cast<Index>(lower.points.size());
+  const auto end = static_cast<Index>(work.surface.points.size());
+  const std::vector<Patch> patches{part(work.surface, 0, first), part(work.surface, first, end)};
+  // Each for itself, they meet.
+  TriMesh apart{work.surface.points, {}};
+  for (const Patch& patch : patches) {
+    for (Triangle t : decimate_patch(work.task, patch).cover.triangles) {
+      for (Index& p : t) p = patch.points[p];
+      apart.triangles.push_back(t);
+    }
+  }
+  EXPECT_FALSE(find_self_intersections(apart).empty());
+  PatchworkReport report;
+  const Cover cover = decimate_patchwork(work.task, patches, report);
+  work.expect_promises_kept(cover);
+  EXPECT_GT(report.rounds, 0);
+  EXPECT_LT(cover.triangles.size(), work.surface.triangles.size() * 3 / 4);
 }
 
 TEST(Patchwork, IsTheSameForAnyNumberOfThreads) {

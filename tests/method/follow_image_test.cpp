@@ -93,6 +93,16 @@ TEST(FollowImage, StaysInTheBox) {
   }
 }
 
+TEST(FollowImage, LeavesWhatLiesOutsideTheBox) {
+  TriMesh across = coarse_ball(kRadius);
+  for (Vec3& p : across.points) p.x += 19.5 + 9;  // beyond the box by a voxel and a half
+  const TriMesh followed = follow_image(across, ball_image(0), {.level = kLevel, .noise = 0.1});
+  for (std::size_t p = 0; p < across.points.size(); ++p) {
+    if (across.points[p].x < 39) continue;
+    EXPECT_EQ(followed.points[p], across.points[p]);
+  }
+}
+
 TEST(FollowImage, TheUnitOfTheSurfaceDoesNotMatter) {
   const FollowOptions mm{.level = kLevel, .noise = 3};
   const SplineImage image = ball_image(3);

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "mesamis/method/parameters.h"
+
 namespace mesamis {
 namespace {
 
@@ -14,13 +18,16 @@ Volume empty_volume(Index nx, Index ny, Index nz, const Vec3& spacing = {1, 1, 1
   return volume;
 }
 
+constexpr std::array<Index, 3> kEveryVoxel{1, 1, 1};
+
 TEST(MemoryNeeded, GrowsWithVoxelsAndCellsAndFallsWithTheStride) {
   const Volume small = empty_volume(200, 200, 200), large = empty_volume(400, 200, 200);
   Settings settings;
+  settings.stride = kEveryVoxel;
   settings.max_tets = 100'000;
   EXPECT_NEAR(memory_needed(large, settings) / memory_needed(small, settings), 2, 0.1);
   Settings thin = settings;
-  thin.stride = {2, 2, 1};
+  thin.stride = std::array<Index, 3>{2, 2, 1};
   EXPECT_LT(memory_needed(small, thin), 0.5 * memory_needed(small, settings));
   Settings part = settings;
   part.crop.end = {200, -1, -1};
@@ -31,16 +38,28 @@ TEST(MemoryNeeded, GrowsWithVoxelsAndCellsAndFallsWithTheStride) {
 
 TEST(MemoryNeeded, OfTheLargestScansIsWhatWasMeasured) {
   Settings settings;
+  settings.stride = kEveryVoxel;
   settings.max_tets = 3'000'000;
   EXPECT_LT(memory_needed(empty_volume(512, 512, 400), settings), 14e9);
-  settings.stride = {2, 2, 1};
+  settings.stride = std::array<Index, 3>{2, 2, 1};
   settings.max_tets = 1'300'000;
   EXPECT_LT(memory_needed(empty_volume(204, 244, 304), settings), 4e9);
+}
+
+TEST(MemoryNeeded, KnowsTheStrideThatIsChosen) {
+  const Volume volume = empty_volume(400, 400, 100, {0.5, 0.5, 2});
+  Settings chosen, asked;
+  chosen.max_tets = asked.max_tets = 20'000;
+  asked.stride = default_stride(volume.size, volume.spacing);
+  EXPECT_EQ(memory_needed(volume, chosen), memory_needed(volume, asked));
+  asked.stride = kEveryVoxel;
+  EXPECT_LT(memory_needed(volume, chosen), memory_needed(volume, asked));
 }
 
 TEST(StrideThatFits, ThinsTheAxisThatIsFinest) {
   const Volume volume = empty_volume(400, 400, 100, {0.5, 0.5, 2});
   Settings settings;
+  settings.stride = kEveryVoxel;
   settings.max_tets = 20'000;
   const double half = 0.5 * memory_needed(volume, settings);
   const auto stride = stride_that_fits(volume, settings, half);

@@ -89,7 +89,7 @@ TEST(MesAmis, TheLevelDependsOnNeitherStrideNorCells) {
   const Volume volume = make_ball(ball());
   Settings settings = small_run();
   const double level = mes_amis(volume, settings).parameters.level;
-  settings.stride = {2, 2, 2};
+  settings.stride = std::array<Index, 3>{2, 2, 2};
   EXPECT_EQ(mes_amis(volume, settings).parameters.level, level);
   settings.max_tets = 8000;
   EXPECT_EQ(mes_amis(volume, settings).parameters.level, level);
@@ -189,7 +189,7 @@ TEST(MesAmis, BandLiesOnBothSidesOfTheEdge) {
 
 TEST(MesAmis, StrideThinsTheFirstGridOnly) {
   Settings settings = small_run();
-  settings.stride = {2, 2, 1};
+  settings.stride = std::array<Index, 3>{2, 2, 1};
   const Volume volume = make_ball(ball());
   const Result result = mes_amis(volume, settings);
   EXPECT_EQ(result.iterations[0].nodes, 13 * 13 * 26);

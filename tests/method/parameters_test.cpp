@@ -58,5 +58,14 @@ TEST(DefaultMaxTets, GrowsWithTheEdgesWithinBounds) {
   EXPECT_EQ(default_max_tets(50'000, 0.5, {1, 1, 1}), 562'500);
 }
 
+TEST(DefaultStride, ThinsTheGridsOfLargeVolumes) {
+  using Stride = std::array<Index, 3>;
+  EXPECT_EQ(default_stride({100, 100, 100}, {1, 1, 1}), (Stride{1, 1, 1}));
+  EXPECT_EQ(default_stride({101, 100, 100}, {1, 1, 1}), (Stride{2, 2, 2}));
+  EXPECT_EQ(default_stride({256, 256, 108}, {0.957, 0.957, 1.5}), (Stride{2, 2, 1}));
+  EXPECT_EQ(default_stride({256, 108, 256}, {0.3, 5, 0.3}), (Stride{2, 1, 2}));
+  EXPECT_EQ(default_stride({200, 200, 200}, {0.0333333, 0.0333334, 0.0333333}), (Stride{2, 2, 2}));
+}
+
 }  // namespace
 }  // namespace mesamis

@@ -152,7 +152,7 @@ TEST(SettingTable, RefusesTextThatIsNoValue) {
     EXPECT_REFUSED(set_setting(settings, find_setting(name), parse_value(find_setting(name), text)),
                    ::testing::HasSubstr(why));
   };
-  refused("stride", "1,1", "expected X,Y,Z, found '1,1'");
+  refused("stride", "1,1", "expected X,Y,Z|auto, found '1,1'");
   refused("stride", "1,1,1,", "expected X,Y,Z");
   refused("stride", "0", "stride: expected 1 to 1000, found 0");
   refused("stride", "1.5", "expected a whole number, found 1.5");

@@ -29,7 +29,7 @@ TEST(SettingsJson, HasOneEntryPerSettingInTheTablesOrder) {
   auto row = setting_table().begin();
   for (const auto& [name, value] : object.items()) EXPECT_EQ(name, (row++)->name);
   EXPECT_EQ(object["crop"].dump(), "[[0,-1],[0,-1],[0,-1]]");
-  EXPECT_EQ(object["stride"].dump(), "[1,1,1]");
+  EXPECT_EQ(object["stride"], "auto");
   EXPECT_EQ(object["gamma"], "auto");
   EXPECT_EQ(object["beta"].dump(), "2.0");
   EXPECT_EQ(object["adaptations"].dump(), "10");

@@ -39,7 +39,7 @@ TEST(SubsamplingExperiment, CropsOnce) {
 
 TEST(RegionExperiment, BeginsWithTheBaselineAtFullResolution) {
   Settings settings;
-  settings.stride = {2, 2, 2};
+  settings.stride = std::array<Index, 3>{2, 2, 2};
   settings.crop = {{0, 0, 0}, {3, 3, 3}};
   const CropRange region{{1, 1, 1}, {11, 11, 11}};
   const Experiment experiment = region_experiment(small_ball(), region, settings, kSteps);

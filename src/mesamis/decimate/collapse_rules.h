@@ -11,7 +11,7 @@
 #include "mesamis/surface/farthest.h"
 
 /// The rules that forbid a collapse, as binary modules of OpenMesh's decimater. Their tests read
-/// the original's points and the connectivity, and write only the data of the point to be removed:
+/// the patch's points and the connectivity, and write only the data of the point to be removed:
 /// collapses that share no triangle may be tested at once, in threads.
 namespace mesamis {
 

@@ -7,28 +7,27 @@
 #include <map>
 #include <utility>
 
+#include "mesamis/mesh/tet_mesh.h"
+
 namespace mesamis {
 namespace {
 
-using Box3 = std::array<Index, 3>;
-
 /// The number of the patch of each triangle; patches are numbered in the order of their boxes.
 std::vector<Index> patch_numbers(const std::vector<Vec3>& points, const Cover& cover, double side) {
-  std::vector<Box3> boxes;
+  using Place = std::array<double, 3>;  // of a box: whole numbers
+  const Vec3 origin = bounding_box(points).lo;
+  std::vector<Place> boxes;
   for (const Triangle& t : cover.triangles) {
-    const Vec3 center = (1.0 / 3) * (points[t[0]] + points[t[1]] + points[t[2]]);
-    Box3 box{};
-    for (int a = 0; a < 3; ++a) {
-      box[static_cast<std::size_t>(a)] = static_cast<Index>(std::floor(center[a] / side));
-    }
-    boxes.push_back(box);
+    const Vec3 center = (1.0 / 3) * (points[t[0]] + points[t[1]] + points[t[2]]) - origin;
+    boxes.push_back(
+        {std::floor(center.x / side), std::floor(center.y / side), std::floor(center.z / side)});
   }
-  std::map<Box3, Index> number;
-  for (const Box3& box : boxes) number[box] = 0;
+  std::map<Place, Index> number;
+  for (const Place& box : boxes) number[box] = 0;
   Index next = 0;
   for (auto& [box, n] : number) n = next++;
   std::vector<Index> numbers;
-  for (const Box3& box : boxes) numbers.push_back(number[box]);
+  for (const Place& box : boxes) numbers.push_back(number[box]);
   return numbers;
 }
 

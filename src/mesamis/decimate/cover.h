@@ -7,8 +7,9 @@
 
 namespace mesamis {
 
-/// A surface on its way: triangles over points of the original. Each stands for some triangles of
-/// the original, which lie nearest to it; every one of these is stood for.
+/// A surface on its way: triangles over points of the original. With a tolerance, each stands for
+/// some triangles of the original, parts of which lie nearest to it, or for none; every original
+/// is stood for.
 struct Cover {
   std::vector<Triangle> triangles;
   std::vector<std::vector<Index>> originals;  ///< of each triangle, increasing
@@ -36,7 +37,8 @@ struct Patch {
 void choose_rings(const std::vector<Triangle>& triangles, int rings, std::vector<char>& chosen);
 
 /// Cuts a cover into patches: the triangles whose centres lie in one box of a lattice. Points that
-/// two patches share, and their neighbours, are held in both: what touches a shared point stays.
+/// patches share are held in all of them, as are their neighbours: what touches a shared point
+/// stays.
 /// @param points  of the original.
 /// @param side    of the boxes, mm, > 0; infinity: one patch, nothing held.
 ///

@@ -207,7 +207,7 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
   /// Reserves the corners of the triangles around the point to be removed: the test of a collapse
   /// reads the triangles around them, so no two collapses of a turn may share one. OpenMesh's
   /// ModNormalFlipping even moves the mesh's own point v0 during its test; the other modules here
-  /// read the original's points alone.
+  /// read the patch's points alone.
   /// @return false if one of them is taken for this turn.
   bool reserve(const Info& collapse) {
     std::vector<Mesh::VertexHandle> corners = ring_of(collapse.v0);

@@ -18,12 +18,6 @@ constexpr int kPatience = 6;
 
 constexpr std::size_t kTrianglesPerBlock = 256;
 
-/// Increasing, each once.
-void sort_once(std::vector<Index>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
 /// Those of n triangles that reach farther than the tolerance.
 template <class CornersOf>
 std::vector<Index> triangles_beyond(std::size_t n, CornersOf corners_at, const TriangleTree& to,
@@ -50,7 +44,8 @@ class Decimation {
     for (const auto& of_triangle : patch_.cover.originals) {
       originals_.insert(originals_.end(), of_triangle.begin(), of_triangle.end());
     }
-    sort_once(originals_);
+    std::sort(originals_.begin(), originals_.end());
+    originals_.erase(std::unique(originals_.begin(), originals_.end()), originals_.end());
   }
 
   DecimatedPatch run() {
@@ -84,24 +79,16 @@ class Decimation {
     return surface;
   }
 
-  /// A triangle whose corners are all held is never removed; a point whose triangles are all held
-  /// gets no new triangle.
-  /// @return whether any triangle was too far.
+  /// The pass has made sure that new triangles are near the original, but not all of the reverse. A
+  /// triangle whose corners are all held is never removed.
+  /// @return whether any original was too far.
   bool hold_what_is_too_far(DecimatedPatch& done) {
     const TriMesh placed = in_its_place(done.cover.triangles);
     std::vector<Index> lost = triangles_beyond(
         originals_.size(), [&](std::size_t i) { return original(originals_[i]); },
         TriangleTree(placed), task_.tolerance);
     for (Index& t : lost) t = originals_[t];
-    const std::vector<Index> strayed = triangles_beyond(
-        done.cover.triangles.size(),
-        [&](std::size_t t) { return corners_of(placed, placed.triangles[t]); }, task_.tree,
-        task_.tolerance);
-    for (const Index t : strayed) {
-      lost.insert(lost.end(), done.cover.originals[t].begin(), done.cover.originals[t].end());
-    }
-    sort_once(lost);
-    hold_what_stands_for(patch_, lost, 1 + std::max(0, done.passes - kPatience));
+    hold(patch_, {}, lost, 1 + std::max(0, done.passes - kPatience));
     return !lost.empty();
   }
 
@@ -116,9 +103,10 @@ DecimatedPatch decimate_patch(const DecimateTask& task, const Patch& patch) {
   return Decimation(task, patch).run();
 }
 
-void hold_what_stands_for(Patch& patch, const std::vector<Index>& originals, int rings) {
-  if (originals.empty()) return;
+void hold(Patch& patch, const std::vector<Index>& points, const std::vector<Index>& originals,
+          int rings) {
   std::vector<char> chosen(patch.held.size(), 0);
+  for (const Index p : points) chosen[p] = 1;
   for (std::size_t t = 0; t < patch.cover.triangles.size(); ++t) {
     const auto& own = patch.cover.originals[t];
     const bool stands = std::any_of(own.begin(), own.end(), [&](Index original) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "mesamis/decimate/decimate_pass.h"
 
 namespace mesamis {
@@ -17,9 +20,11 @@ struct DecimatedPatch {
 /// too far; what cannot be decimated so stays as it was.
 DecimatedPatch decimate_patch(const DecimateTask& task, const Patch& patch);
 
-/// Holds the corners of the triangles that stand for any of these originals, and so many rings of
-/// points around them.
+/// Holds points of a patch, the corners of the triangles that stand for any of these originals, and
+/// so many rings of points around all these.
+/// @param points     of the patch, in any order.
 /// @param originals  increasing.
-void hold_what_stands_for(Patch& patch, const std::vector<Index>& originals, int rings);
+void hold(Patch& patch, const std::vector<Index>& points, const std::vector<Index>& originals,
+          int rings);
 
 }  // namespace mesamis

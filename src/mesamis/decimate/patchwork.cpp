@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <iterator>
 #include <mutex>
 #include <numeric>
 #include <utility>
@@ -25,12 +24,14 @@ class Patchwork {
   Cover run(PatchworkReport& report) {
     std::vector<std::size_t> open(patches_.size());
     std::iota(open.begin(), open.end(), std::size_t{0});
-    for (int round = 0; !open.empty(); ++round) {
-      decimate(open);
-      open = patches_.size() > 1 ? hold_what_meets(round) : std::vector<std::size_t>{};
-      if (round < kMostRounds) continue;
-      for (std::size_t k = 0; k < patches_.size(); ++k) done_[k].cover = patches_[k].cover;
-      break;
+    decimate(open);
+    for (int round = 1; !(open = hold_what_meets(round)).empty(); ++round) {
+      ++report.rounds;
+      if (round <= kMostRounds) {
+        decimate(open);
+      } else {
+        for (const std::size_t k : open) done_[k].cover = patches_[k].cover;
+      }
     }
     for (const DecimatedPatch& done : done_) {
       report.passes = std::max(report.passes, done.passes);
@@ -81,9 +82,8 @@ class Patchwork {
     return std::none_of(patch.cover.triangles.begin(), patch.cover.triangles.end(), is_same);
   }
 
-  /// The originals that new triangles stand for which intersect those of other patches; of each
-  /// patch.
-  std::vector<std::vector<Index>> find_what_meets() const {
+  /// New triangles of each patch that intersect those of others.
+  std::vector<std::vector<std::size_t>> find_what_meets() const {
     std::vector<std::size_t> ends;  // of the patches' triangles in the joined surface
     for (const DecimatedPatch& done : done_) {
       ends.push_back((ends.empty() ? 0 : ends.back()) + done.cover.triangles.size());
@@ -92,28 +92,35 @@ class Patchwork {
       return static_cast<std::size_t>(
           std::upper_bound(ends.begin(), ends.end(), static_cast<std::size_t>(t)) - ends.begin());
     };
-    std::vector<std::vector<Index>> meeting(patches_.size());
+    std::vector<std::vector<std::size_t>> meeting(patches_.size());
     for (const auto& pair : find_self_intersections({task_.surface.points, joined().triangles})) {
       if (patch_of(pair[0]) == patch_of(pair[1])) continue;  // seen there: it was so before
       for (const Index t : pair) {
         const std::size_t k = patch_of(t);
-        const Cover& cover = done_[k].cover;
-        const std::size_t n = static_cast<std::size_t>(t) + cover.triangles.size() - ends[k];
-        if (!is_new(cover.triangles[n], patches_[k])) continue;
-        meeting[k].insert(meeting[k].end(), cover.originals[n].begin(), cover.originals[n].end());
+        const auto& triangles = done_[k].cover.triangles;
+        const std::size_t n = static_cast<std::size_t>(t) + triangles.size() - ends[k];
+        if (is_new(triangles[n], patches_[k])) meeting[k].push_back(n);
       }
     }
     return meeting;
   }
 
+  /// A new triangle whose corners are held with a ring around them cannot come back.
   /// @return the patches to make anew.
   std::vector<std::size_t> hold_what_meets(int round) {
-    std::vector<std::vector<Index>> meeting = find_what_meets();
     std::vector<std::size_t> open;
+    if (patches_.size() == 1) return open;
+    const auto meeting = find_what_meets();
     for (std::size_t k = 0; k < patches_.size(); ++k) {
       if (meeting[k].empty()) continue;
-      std::sort(meeting[k].begin(), meeting[k].end());
-      hold_what_stands_for(patches_[k], meeting[k], 1 + round);
+      std::vector<Index> corners, originals;
+      for (const std::size_t n : meeting[k]) {
+        const Cover& cover = done_[k].cover;
+        corners.insert(corners.end(), cover.triangles[n].begin(), cover.triangles[n].end());
+        originals.insert(originals.end(), cover.originals[n].begin(), cover.originals[n].end());
+      }
+      std::sort(originals.begin(), originals.end());
+      hold(patches_[k], corners, originals, round);
       open.push_back(k);
     }
     return open;

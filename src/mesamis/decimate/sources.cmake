@@ -9,5 +9,6 @@ set(ROOM_SOURCES
   decimate.cpp
   decimate_pass.cpp
   decimate_patch.cpp
+  decimation.cpp
   patchwork.cpp
   round_to_single.cpp)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "mesamis/base/median.h"
@@ -159,7 +160,7 @@ class Follower {
   Vec3 within_box(const Vec3& p, const Vec3& move) const {
     double part = 1;
     for (int a = 0; a < 3; ++a) {
-      const double room = move[a] < 0 ? p[a] - box_.lo[a] : box_.hi[a] - p[a];
+      const double room = std::max(0.0, move[a] < 0 ? p[a] - box_.lo[a] : box_.hi[a] - p[a]);
       if (std::abs(move[a]) > room) part = std::min(part, room / (2 * std::abs(move[a])));
     }
     return part * move;
@@ -203,8 +204,7 @@ class Follower {
   }
 
   /// Moves all points, then takes moves back, first half, then whole, where triangles meet, here or
-  /// once the surface is in a file, which holds single precision. In the end, where the surface was
-  /// not moved at all, none do.
+  /// once the surface is in a file, which holds single precision.
   TriMesh moved_without_folds(std::vector<Vec3> shifts) const {
     constexpr int kHalvings = 2, kMostTrials = 40;
     std::vector<int> taken_back(shifts.size(), 0);
@@ -212,7 +212,7 @@ class Follower {
     for (std::size_t p = 0; p < shifts.size(); ++p) moved.points[p] += shifts[p];
     TriMesh filed = as_in_a_file(moved);
     SelfIntersections here(moved), in_file(filed);
-    std::vector<char> meeting = corners_of_pairs(here.all(), in_file.all());
+    std::vector<char> meeting = moved_corners(shifts, here.all(), in_file.all());
     for (int trial = 0; trial < kMostTrials; ++trial) {
       const std::vector<Index> concerned = triangles_at(meeting);
       if (concerned.empty()) return moved;
@@ -222,20 +222,27 @@ class Follower {
         moved.points[p] = surface_.points[p] + shifts[p];
         filed.points[p] = as_in_a_file(moved.points[p]);
       }
-      meeting = corners_of_pairs(here.after_move_of(concerned), in_file.after_move_of(concerned));
+      meeting =
+          moved_corners(shifts, here.after_move_of(concerned), in_file.after_move_of(concerned));
     }
-    return surface_;
+    return triangles_at(meeting).empty() ? moved : surface_;
   }
 
-  /// Of each point 1 if it is a corner of one of these triangles.
-  std::vector<char> corners_of_pairs(const std::vector<TrianglePair>& some,
-                                     const std::vector<TrianglePair>& others) const {
+  /// Of each point 1 if it is a corner of a pair of which any corner is still moved. Others met
+  /// before: needles, in single precision.
+  std::vector<char> moved_corners(const std::vector<Vec3>& shifts,
+                                  const std::vector<TrianglePair>& some,
+                                  const std::vector<TrianglePair>& others) const {
     std::vector<char> corners(surface_.points.size(), 0);
+    const auto is_moved = [&](Index t) {
+      const Triangle& k = surface_.triangles[t];
+      return std::any_of(k.begin(), k.end(), [&](Index p) { return norm(shifts[p]) > 0; });
+    };
     for (const auto* pairs : {&some, &others}) {
-      for (const TrianglePair& pair : *pairs) {
-        for (const Index t : pair) {
-          for (const Index p : surface_.triangles[t]) corners[p] = 1;
-        }
+      for (const auto& [a, b] : *pairs) {
+        if (!is_moved(a) && !is_moved(b)) continue;
+        for (const Index p : surface_.triangles[a]) corners[p] = 1;
+        for (const Index p : surface_.triangles[b]) corners[p] = 1;
       }
     }
     return corners;

@@ -19,6 +19,11 @@ constexpr double kBytesPerNode = 112;   // of the first grid
 constexpr double kBytesPerCell = 450;   // of the adapted meshes
 constexpr double kBytesOfProgram = 5e7;
 
+std::array<Index, 3> stride_of(const VoxelGrid& volume, const Settings& settings) {
+  return settings.stride.value_or(
+      default_stride(cropped_size(volume, settings.crop), volume.spacing));
+}
+
 double product(const std::array<Index, 3>& n) {
   return static_cast<double>(n[0]) * static_cast<double>(n[1]) * static_cast<double>(n[2]);
 }
@@ -27,7 +32,8 @@ double product(const std::array<Index, 3>& n) {
 
 double memory_needed(const VoxelGrid& volume, const Settings& settings) {
   const std::array<Index, 3> size = cropped_size(volume, settings.crop);
-  const double voxels = product(size), nodes = product(first_grid_size(size, settings.stride));
+  const double voxels = product(size),
+               nodes = product(first_grid_size(size, stride_of(volume, settings)));
   const double cells = settings.max_tets ? static_cast<double>(*settings.max_tets)
                                          : std::min<double>(kMostTets, 12 * voxels);
   return kBytesOfProgram + kBytesPerVoxel * voxels +
@@ -37,19 +43,20 @@ double memory_needed(const VoxelGrid& volume, const Settings& settings) {
 std::optional<std::array<Index, 3>> stride_that_fits(const VoxelGrid& volume, Settings settings,
                                                      double bytes) {
   constexpr Index kMostStride = 8;
+  auto& stride = settings.stride.emplace(stride_of(volume, settings));
   while (memory_needed(volume, settings) > bytes) {
     std::size_t shortest = 3;
     for (std::size_t a = 0; a < 3; ++a) {
-      if (settings.stride[a] >= kMostStride) continue;
+      if (stride[a] >= kMostStride) continue;
       const auto length = [&](std::size_t n) {
-        return settings.stride[n] * volume.spacing[static_cast<int>(n)];
+        return stride[n] * volume.spacing[static_cast<int>(n)];
       };
       if (shortest == 3 || length(a) < length(shortest)) shortest = a;
     }
     if (shortest == 3) return std::nullopt;
-    ++settings.stride[shortest];
+    ++stride[shortest];
   }
-  return settings.stride;
+  return stride;
 }
 
 void require_memory(const VoxelGrid& volume, const Settings& settings, double limit_gb) {

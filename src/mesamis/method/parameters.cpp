@@ -62,6 +62,15 @@ std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacin
       std::clamp<double>(finer * per_square * area / (side * side), kFewestTets, kMostTets));
 }
 
+std::array<Index, 3> default_stride(const std::array<Index, 3>& voxels, const Vec3& spacing) {
+  constexpr double kMostFine = 1e6, kSlack = 1.01;  // the latter for spacings that are rounded
+  const double count = static_cast<double>(voxels[0]) * voxels[1] * voxels[2];
+  if (count <= kMostFine) return {1, 1, 1};
+  const double mean = std::cbrt(spacing.x * spacing.y * spacing.z);
+  const auto along = [mean](double side) { return side <= kSlack * mean ? 2 : 1; };
+  return {along(spacing.x), along(spacing.y), along(spacing.z)};
+}
+
 double default_tolerance(double voxel, double expected_error, double accuracy) {
   constexpr double kLeast = 0.03, kMost = 0.1, kFinest = 0.01;  // voxels
   if (accuracy > 0) return std::max(accuracy / 2, kFinest * voxel);

@@ -89,6 +89,18 @@ inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
 std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing,
                               double accuracy = 0);
 
+/// The default of stride: every voxel is a node of the first grid, but in more than a million
+/// voxels every second one, along each axis where two voxels are no longer than twice the geometric
+/// mean of the spacing. The first grid leads to the first mesh alone, and its nodes take the mean
+/// of the voxels around them.
+/// @param voxels   of the volume along each axis.
+/// @param spacing  of the voxels, mm, > 0.
+/// @return voxels per node, 1 or 2.
+/// @throws nothing
+///
+/// O(1).
+std::array<Index, 3> default_stride(const std::array<Index, 3>& voxels, const Vec3& spacing);
+
 /// The default of tolerance: how far the surface is expected to be from the truth, but no less than
 /// 0.03 and no more than 0.1 voxel: a surface that is kept closer keeps detail smaller than its
 /// error. Half of the accuracy, if that is asked for, but no less than 0.01 voxel.

@@ -50,7 +50,7 @@ Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
   const double unit_mm = s.length_unit == LengthUnit::kMm ? 1 : volume.voxel_size();
   Parameters p;
   p.crop = s.crop;
-  p.stride = s.stride;
+  p.stride = s.stride.value_or(default_stride(volume.size, voxel));
   p.restore = s.restore;
   p.length_unit = s.length_unit;
   p.unit_mm = unit_mm;

@@ -158,7 +158,9 @@ std::vector<Setting> image_rows() {
            .help = "Part of the volume to use, ends excluded; nothing, or -1 as an end: the "
                "volume's own bound"}, &Settings::crop),
     bound({.name = "stride", .form = "X,Y,Z", .count = 3, .whole = true, .low = 1, .high = 1000,
-           .unit = "voxels", .help = "Voxels per node of the first grid"}, &Settings::stride),
+           .words = {"auto"}, .unit = "voxels", .help = "Voxels per node of the first grid",
+           .automatic = "1; 2 in volumes of more than a million voxels, along the axes where that is no "
+               "more than twice the voxels' mean size", .paper = "1,1,1"}, &Settings::stride),
     bound({.name = "window", .form = "LO,HI", .count = 2, .low = -kLargestValue,
            .high = kLargestValue, .words = {"auto"}, .unit = "native",
            .help = "Values that become grey values 0 and 255",

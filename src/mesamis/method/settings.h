@@ -39,7 +39,7 @@ enum class ThresholdRule {
 struct Settings {
   // The image.
   CropRange crop;
-  std::array<Index, 3> stride{1, 1, 1};
+  std::optional<std::array<Index, 3>> stride;
   std::optional<Window> window;
   ThresholdRule threshold_rule = ThresholdRule::kAuto;
   double threshold = 0;

@@ -38,7 +38,7 @@ Experiment region_experiment(const Volume& scan, const CropRange& region, const 
                              std::span<const int> s) {
   Experiment experiment{"region", "region_", crop(scan, region), true, settings, {}};
   experiment.settings.crop = {};
-  experiment.settings.stride = {1, 1, 1};
+  experiment.settings.stride = std::array<Index, 3>{1, 1, 1};
   experiment.runs.push_back({"region_full", 1, {1, 1, 1}, true});
   for (const int step : s) {
     experiment.runs.push_back(

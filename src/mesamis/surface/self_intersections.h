@@ -38,7 +38,7 @@ class SelfIntersections {
   explicit SelfIntersections(const TriMesh& surface);
   ~SelfIntersections();
 
-  /// All pairs.
+  /// All pairs, of the points as they were when the search was last told of them.
   /// @return as find_self_intersections().
   /// @throws nothing
   ///

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mesamis/decimate/decimate.h"
+#include "mesamis/decimate/patchwork.h"
+
+namespace mesamis {
+
+/// Decimates a surface patch by patch; then, as a whole, where these touch. Where the number of
+/// triangles is given, and for less than two patches, there is one patch: the order of all
+/// collapses decides then.
+/// @param surface              closed, 2-manifold.
+/// @param options              valid; the tolerance is not 0. Progress grows, and is never called
+/// by
+///                             two threads at once.
+/// @param triangles_per_patch  about, > 0.
+/// @return over the points of the surface; some are not used. The same bits for any number of
+///         threads.
+/// @throws Cancelled  if progress returns false.
+///
+/// As decimate().
+TriMesh decimate_surface(const TriMesh& surface, const DecimateOptions& options,
+                         double triangles_per_patch, PatchworkReport& report);
+
+}  // namespace mesamis
