@@ -17,6 +17,7 @@ std::vector<Index> patch_numbers(const std::vector<Vec3>& points, const Cover& c
   using Place = std::array<double, 3>;  // of a box: whole numbers
   const Vec3 origin = bounding_box(points).lo;
   std::vector<Place> boxes;
+  boxes.reserve(cover.triangles.size());
   for (const Triangle& t : cover.triangles) {
     const Vec3 center = (1.0 / 3) * (points[t[0]] + points[t[1]] + points[t[2]]) - origin;
     boxes.push_back(
@@ -27,6 +28,7 @@ std::vector<Index> patch_numbers(const std::vector<Vec3>& points, const Cover& c
   Index next = 0;
   for (auto& [box, n] : number) n = next++;
   std::vector<Index> numbers;
+  numbers.reserve(boxes.size());
   for (const Place& box : boxes) numbers.push_back(number[box]);
   return numbers;
 }
@@ -121,7 +123,8 @@ std::vector<Patch> cut_into_patches(const std::vector<Vec3>& points, Cover cover
   const std::vector<Index> numbers = std::isinf(side)
                                          ? std::vector<Index>(cover.triangles.size(), 0)
                                          : patch_numbers(points, cover, side);
-  return Cutter(points, cover, numbers).cut(std::move(cover), numbers);
+  Cutter cutter(points, cover, numbers);
+  return cutter.cut(std::move(cover), numbers);
 }
 
 }  // namespace mesamis

@@ -2,7 +2,6 @@
 #include "mesamis/surface/self_intersections.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/tet_mesh.h"
@@ -26,7 +25,7 @@ std::vector<Box> boxes_of(const TriMesh& surface) {
 }
 
 /// Each once, in ascending order.
-std::vector<TrianglePair> sorted_once(std::vector<std::vector<TrianglePair>> blocks) {
+std::vector<TrianglePair> sorted_once(const std::vector<std::vector<TrianglePair>>& blocks) {
   std::vector<TrianglePair> pairs;
   for (const auto& block : blocks) pairs.insert(pairs.end(), block.begin(), block.end());
   std::sort(pairs.begin(), pairs.end());
@@ -71,7 +70,7 @@ std::vector<TrianglePair> SelfIntersections::all() const {
       for_each_met(t, t, [&](Index other) { found.push_back({t, other}); });
     }
   });
-  return sorted_once(std::move(blocks));
+  return sorted_once(blocks);
 }
 
 std::vector<TrianglePair> SelfIntersections::after_move_of(std::span<const Index> triangles) {
@@ -85,7 +84,7 @@ std::vector<TrianglePair> SelfIntersections::after_move_of(std::span<const Index
       });
     }
   });
-  return sorted_once(std::move(blocks));
+  return sorted_once(blocks);
 }
 
 }  // namespace mesamis
