@@ -28,7 +28,7 @@ TriMesh torus() {
 /// One of two bodies with a wavy gap between them that is narrower than the tolerance below: the
 /// lower one (-1) or the upper one (1).
 TriMesh neighbours(int which) {
-  const Index n = which > 0 ? 23 : 21;
+  const Index n = which > 0 ? 17 : 15;
   return level_set(kBox, {n, n, n}, [which](const Vec3& p) {
     const double wave = 0.15 * std::sin(8 * p.x) * std::cos(7 * p.y);
     return std::min({0.8 - std::abs(p.x), 0.8 - std::abs(p.y), 0.5 - std::abs(p.z),
