@@ -147,7 +147,7 @@ TEST(ModHausdorff, AgreesWithTheDistanceOfTheWholeSurfaces) {
   const DecimateTask task{surface, tree, 0.04, 0, {}};
   Collapses collapses(surface);
   ModHausdorff rule(collapses.mesh());
-  rule.set_task(task, surface, cover_of(surface).originals);
+  rule.set_task(task, surface, cover_of(surface));
   int refused = 0, allowed = 0;
   collapses.for_each(5, [&](const CollapseInfo& collapse, const TriMesh& after) {
     const double distance =
@@ -171,7 +171,7 @@ TEST(ModHausdorff, AllowsAllWithoutATolerance) {
   const DecimateTask task{surface, tree, kInfinity, 0, {}};
   Collapses collapses(surface);
   ModHausdorff rule(collapses.mesh());
-  rule.set_task(task, surface, cover_of(surface).originals);
+  rule.set_task(task, surface, cover_of(surface));
   collapses.for_each(7, [&](const CollapseInfo& collapse, const TriMesh&) {
     EXPECT_TRUE(is_legal(rule, collapse));
   });

@@ -87,6 +87,22 @@ TEST(Decimate, FewerTrianglesForALooserTolerance) {
   }
 }
 
+TEST(Decimate, QuicklyKeepsItsPromisesWithMoreTriangles) {
+  for (const TriMesh& surface : {sphere(), torus()}) {
+    for (const double tolerance : {0.003, 0.01, 0.03, 0.1}) {
+      DecimateReport report, searched;
+      const TriMesh result = decimate(surface, {.tolerance = tolerance, .quick = true}, &report);
+      expect_promises_kept(surface, result, report, tolerance);
+      decimate(surface, {.tolerance = tolerance}, &searched);
+      EXPECT_LE(report.triangles_after, 3 * searched.triangles_after) << tolerance;
+    }
+  }
+}
+
+TEST(Decimate, QuicklyNeedsATolerance) {
+  EXPECT_THROW(decimate(sphere(), {.triangles = 40, .quick = true}), InputError);
+}
+
 TEST(Decimate, ATorusKeepsItsHole) {
   for (const double tolerance : {0.01, 0.05, 0.3, 1.0}) expect_decimated(torus(), tolerance);
 }

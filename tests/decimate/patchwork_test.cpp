@@ -78,6 +78,7 @@ Patch part(const TriMesh& surface, Index begin, Index end) {
     if (k[0] < begin || k[0] >= end) continue;
     patch.cover.triangles.push_back({k[0] - begin, k[1] - begin, k[2] - begin});
     patch.cover.originals.push_back({t});
+    patch.cover.drift.push_back(0);
   }
   return patch;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesamis/decimate/fan_distance.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/triangle_intersection.h"
 
@@ -48,11 +49,11 @@ float ModFlatness::collapse_priority(const CollapseInfo& collapse) {
   return LEGAL_COLLAPSE;
 }
 
-void ModHausdorff::set_task(const DecimateTask& task, const TriMesh& surface,
-                            std::vector<std::vector<Index>> originals) {
+void ModHausdorff::set_task(const DecimateTask& task, const TriMesh& surface, const Cover& cover) {
   task_ = &task;
   surface_ = &surface;
-  of_face_ = std::move(originals);
+  of_face_ = cover.originals;
+  drift_ = cover.drift;
   hint_.assign(surface.points.size(), 0);
 }
 
@@ -63,27 +64,48 @@ std::vector<Index> ModHausdorff::originals_of(OpenMesh::FaceHandle f) const {
   return originals;
 }
 
+double ModHausdorff::drift_of(OpenMesh::FaceHandle f) const { return drift_[index(f)]; }
+
 float ModHausdorff::collapse_priority(const CollapseInfo& collapse) {
   if (std::isinf(task_->tolerance)) return LEGAL_COLLAPSE;
   const Star star = star_of(mesh(), collapse);
-  const bool near = removed_is_near(collapse, star) && old_are_near(collapse, star) &&
-                    new_are_near(collapse, star);
+  if (!removed_is_near(collapse, star)) return ILLEGAL_COLLAPSE;
+  const bool near = drift_after(collapse) <= task_->tolerance ||
+                    (!task_->quick && old_are_near(collapse, star) && new_are_near(collapse, star));
   return near ? LEGAL_COLLAPSE : ILLEGAL_COLLAPSE;
 }
 
 void ModHausdorff::preprocess_collapse(const CollapseInfo& collapse) {
   if (std::isinf(task_->tolerance)) return;
-  waiting_ = listed_around(collapse);
+  if (!task_->quick) waiting_ = listed_around(collapse);
+  next_drift_ = drift_after(collapse);
   for (auto f = mesh().cvf_iter(collapse.v0); f.is_valid(); ++f) of_face_[index(*f)].clear();
   star_ = star_of(mesh(), collapse);
 }
 
 void ModHausdorff::postprocess_collapse(const CollapseInfo&) {
   if (std::isinf(task_->tolerance)) return;
+  for (const auto f : star_.faces) drift_[index(f)] = next_drift_;
   for (const Index t : waiting_) {
     const Corners c = original(t);
     for (const Vec3& p : {c[0], c[1], c[2], (1.0 / 3) * (c[0] + c[1] + c[2])}) list(t, p);
   }
+}
+
+/// How far the new triangles will have drifted at most. The fans before and after lie above each
+/// other: as far as they are apart comes on top of what the triangles before have drifted.
+double ModHausdorff::drift_after(const CollapseInfo& collapse) {
+  std::vector<Vec3> ring;
+  double before = 0;
+  auto h = collapse.v0v1;
+  do {
+    ring.push_back(surface_->points[index(mesh().to_vertex_handle(h))]);
+    before = std::max(before, drift_[index(mesh().face_handle(h))]);
+    h = mesh().ccw_rotated_halfedge_handle(h);
+  } while (h != collapse.v0v1);
+  if (std::isinf(before)) return before;
+  const double drift = before + fan_distance(surface_->points[index(collapse.v0)], ring);
+  return kDistanceSlack * drift <= task_->tolerance ? drift : kFar;
 }
 
 /// The originals listed around the point to be removed, each once.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "mesamis/decimate/cover.h"
 #include "mesamis/decimate/decimate_pass.h"
 #include "mesamis/decimate/openmesh.h"
 #include "mesamis/surface/box_tree.h"
@@ -45,12 +46,12 @@ class ModFlatness : public CollapseRule {
 class ModHausdorff : public CollapseRule {
  public:
   explicit ModHausdorff(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}
-  /// @param surface    of the half-edges.
-  /// @param originals  that each of its triangles stands for.
-  void set_task(const DecimateTask& task, const TriMesh& surface,
-                std::vector<std::vector<Index>> originals);
+  /// @param surface  of the half-edges, its triangles those of the cover.
+  void set_task(const DecimateTask& task, const TriMesh& surface, const Cover& cover);
   /// The originals that a triangle stands for now.
   std::vector<Index> originals_of(OpenMesh::FaceHandle f) const;
+  /// See Cover.
+  double drift_of(OpenMesh::FaceHandle f) const;
   float collapse_priority(const CollapseInfo& collapse) override;
   void preprocess_collapse(const CollapseInfo& collapse) override;
   void postprocess_collapse(const CollapseInfo& collapse) override;
@@ -62,6 +63,7 @@ class ModHausdorff : public CollapseRule {
   }
   Enough enough() const { return {task_->tolerance, task_->tolerance}; }
 
+  double drift_after(const CollapseInfo& collapse);
   std::vector<Index> listed_around(const CollapseInfo& collapse);
   void list(Index t, const Vec3& p);
   bool removed_is_near(const CollapseInfo& collapse, const Star& star) const;
@@ -73,6 +75,8 @@ class ModHausdorff : public CollapseRule {
   const DecimateTask* task_ = nullptr;
   const TriMesh* surface_ = nullptr;
   std::vector<std::vector<Index>> of_face_;
+  std::vector<double> drift_;  // of each triangle
+  double next_drift_ = 0;
   std::vector<Index> waiting_;
   Star star_;
   std::vector<std::size_t> hint_;  // of each point, where the last search for its triangles ended

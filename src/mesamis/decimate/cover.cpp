@@ -74,6 +74,7 @@ class Cutter {
       for (std::size_t i = 0; i < 3; ++i) local[i] = place_in(patch, corners[i]);
       patch.cover.triangles.push_back(local);
       patch.cover.originals.push_back(std::move(cover.originals[t]));
+      patch.cover.drift.push_back(cover.drift[t]);
       for (const Index p : corners) {
         if (shared_[p] == 0) continue;
         for (const Index corner : local) patch.held[corner] = 1;

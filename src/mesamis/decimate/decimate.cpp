@@ -24,6 +24,9 @@ void require_decimatable(const TriMesh& surface, const DecimateOptions& options)
     throw InputError("decimate: expected 0 or more triangles, found " +
                      std::to_string(options.triangles));
   }
+  if (options.quick && std::isinf(options.tolerance)) {
+    throw InputError("decimate: expected a finite tolerance where it is to be quick, found none");
+  }
   if (surface.triangles.empty()) throw InputError("decimate: the surface has no triangle");
   const std::string flaws = flaws_of(check_surface(surface));
   if (flaws.empty()) return;
@@ -46,7 +49,9 @@ TriMesh decimate(const TriMesh& surface, const DecimateOptions& options, Decimat
   counts.passes = work.passes;
   counts.points_held = work.points_held;
   counts.triangles_after = static_cast<std::int64_t>(result.triangles.size());
-  if (report) {
+  if (options.quick) {
+    counts.original_to_result = counts.result_to_original = work.drift;
+  } else if (report) {
     const double fine = fine_enough(surface, options.tolerance);
     counts.original_to_result = max_distance(surface, result, fine);
     counts.result_to_original = max_distance(result, surface, fine);

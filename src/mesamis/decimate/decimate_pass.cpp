@@ -26,8 +26,7 @@ constexpr double kMaxNormalChange = 75;  // degrees, of a triangle in one collap
 /// once. Their number depends on the surface, never on the machine.
 class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
  public:
-  LateDecimater(Mesh& mesh, const DecimateTask& task, const TriMesh& surface,
-                const std::vector<std::vector<Index>>& originals)
+  LateDecimater(Mesh& mesh, const DecimateTask& task, const TriMesh& surface, const Cover& cover)
       : BaseDecimaterT<Mesh>(mesh),
         mesh_(mesh),
         points_(surface.points),
@@ -44,7 +43,7 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
     module(quadric_).unset_max_err();
     module(flips).set_max_normal_deviation(kMaxNormalChange);
     module(flatness).set_surface(surface);
-    module(hausdorff_).set_task(task, surface, originals);
+    module(hausdorff_).set_task(task, surface, cover);
     module(intersection_).set_surface(surface);
     initialize();
   }
@@ -84,9 +83,11 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
 
   /// What is left.
   Cover cover() {
-    Cover left{remaining_triangles(mesh_), {}};
+    Cover left{remaining_triangles(mesh_), {}, {}};
     for (const auto f : mesh_.faces()) {
-      if (!mesh_.status(f).deleted()) left.originals.push_back(module(hausdorff_).originals_of(f));
+      if (mesh_.status(f).deleted()) continue;
+      left.originals.push_back(module(hausdorff_).originals_of(f));
+      left.drift.push_back(module(hausdorff_).drift_of(f));
     }
     return left;
   }
@@ -281,7 +282,7 @@ Cover decimate_pass(const DecimateTask& task, const Patch& patch) {
   for (std::size_t v = 0; v < patch.held.size(); ++v) {
     mesh.status(OpenMesh::VertexHandle(static_cast<int>(v))).set_locked(patch.held[v] != 0);
   }
-  LateDecimater decimater(mesh, task, surface, patch.cover.originals);
+  LateDecimater decimater(mesh, task, surface, patch.cover);
   decimater.run(task.triangles, task.progress);
   return decimater.cover();
 }

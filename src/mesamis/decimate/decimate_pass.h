@@ -15,6 +15,8 @@ struct DecimateTask {
   double tolerance;          ///< mm; infinity: none
   std::int64_t triangles;    ///< a pass stops at so many
   std::function<void(double)> progress;
+  bool quick = false;  ///< only the drift proves that triangles are near; what they stand for is
+                       ///< not kept
 };
 
 /// Makes one pass over a patch: collapses in the order of the quadrics while the guarantees of

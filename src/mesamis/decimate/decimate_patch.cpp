@@ -53,7 +53,8 @@ class Decimation {
     DecimatedPatch done;
     while (++done.passes < kMostPasses) {
       done.cover = decimate_pass(task_, patch_);
-      if (std::isinf(task_.tolerance) || !hold_what_is_too_far(done)) break;
+      const bool proved = std::isinf(task_.tolerance) || task_.quick;
+      if (proved || !hold_what_is_too_far(done)) break;
     }
     if (done.passes == kMostPasses) done.cover = std::move(patch_.cover);
     done.points_held = held() - before;

@@ -45,6 +45,7 @@ class Decimation {
     }
     const double begin = std::isinf(side) ? 0 : kShareOfPatches;
     cover = decimate_patchwork(task(begin, 1, 1), std::move(whole), report_);
+    for (const double drift : cover.drift) report_.drift = std::max(report_.drift, drift);
     return {surface_.points, std::move(cover.triangles)};
   }
 
@@ -61,7 +62,7 @@ class Decimation {
       if (options_.progress && !options_.progress("decimation", told_)) throw Cancelled();
     };
     const double tolerance = options_.tolerance / (kDistanceSlack * strictness);
-    return {surface_, tree_, tolerance, options_.triangles, tell};
+    return {surface_, tree_, tolerance, options_.triangles, tell, options_.quick};
   }
 
   /// Of each point of the original 1 if patches hold it because they touch there.

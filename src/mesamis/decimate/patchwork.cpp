@@ -71,6 +71,8 @@ class Patchwork {
       }
       const auto& originals = done_[k].cover.originals;
       cover.originals.insert(cover.originals.end(), originals.begin(), originals.end());
+      const auto& drift = done_[k].cover.drift;
+      cover.drift.insert(cover.drift.end(), drift.begin(), drift.end());
     }
     return cover;
   }

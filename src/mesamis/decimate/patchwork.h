@@ -13,6 +13,7 @@ struct PatchworkReport {
   int passes = 0;                ///< over one patch, at most
   std::int64_t points_held = 0;  ///< to keep distances within the tolerance
   int rounds = 0;                ///< in which patches were made anew because they met
+  double drift = 0;              ///< of the result at most, see Cover, mm
 };
 
 /// Decimates patches of one cover, in threads, and joins them. Patches do not see each other: those

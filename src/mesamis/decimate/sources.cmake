@@ -10,5 +10,6 @@ set(ROOM_SOURCES
   decimate_pass.cpp
   decimate_patch.cpp
   decimation.cpp
+  fan_distance.cpp
   patchwork.cpp
   round_to_single.cpp)

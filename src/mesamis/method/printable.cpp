@@ -2,6 +2,7 @@
 #include "mesamis/method/printable.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "mesamis/decimate/decimate.h"
@@ -14,14 +15,27 @@ namespace {
 
 /// First rounded, then decimated: what is left is where it was, so that what decimation promises
 /// is true of every file.
-TriMesh decimated(const TriMesh& surface, const PrintableOptions& printable) {
+TriMesh decimated(const TriMesh& surface, const PrintableOptions& printable,
+                  PrintableReport& report) {
   RoundReport rounding;
   const TriMesh rounded = round_to_single(surface, &rounding);
   DecimateOptions options;
   options.tolerance = std::max(0.0, printable.tolerance - rounding.shift);
   options.triangles = printable.triangles;
   options.progress = printable.progress;
-  return decimate(rounded, options);
+  options.quick = printable.quick && std::isfinite(options.tolerance);
+  if (!options.quick) {
+    TriMesh result = decimate(rounded, options);
+    const double fine = fine_enough(surface, printable.tolerance);
+    report.extracted_to_result = max_distance(surface, result, fine);
+    report.result_to_extracted = max_distance(result, surface, fine);
+    return result;
+  }
+  DecimateReport decimation;
+  TriMesh result = decimate(rounded, options, &decimation);
+  report.extracted_to_result = decimation.original_to_result + rounding.shift;
+  report.result_to_extracted = decimation.result_to_original + rounding.shift;
+  return result;
 }
 
 }  // namespace
@@ -37,11 +51,7 @@ TriMesh make_printable(const TriMesh& extracted, const PrintableOptions& options
   TriMesh parts = select_parts(extracted, wanted, &done.parts.emplace());
   done.triangles_extracted = std::ssize(parts.triangles);
   if (parts.triangles.empty() || options.tolerance == 0) return parts;
-  TriMesh result = decimated(parts, options);
-  const double fine = fine_enough(parts, options.tolerance);
-  done.extracted_to_result = max_distance(parts, result, fine);
-  done.result_to_extracted = max_distance(result, parts, fine);
-  return result;
+  return decimated(parts, options, done);
 }
 
 }  // namespace mesamis

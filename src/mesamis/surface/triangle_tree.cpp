@@ -20,6 +20,22 @@ double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) 
   return squared_norm(ap - (along / whole) * ab);
 }
 
+/// The distance of a point that lies above or below the triangle, not beside it.
+double squared_distance_to_side(const Vec3& p, const Corners& t) {
+  // A triangle this low, relative to its length, has no normal to speak of.
+  constexpr double kFlat = 1e-8;
+  const Vec3 ab = t[1] - t[0], bc = t[2] - t[1], ca = t[0] - t[2];
+  const Vec3 n = cross(ca, ab);
+  const double longest = std::max({squared_norm(ab), squared_norm(bc), squared_norm(ca)});
+  if (squared_norm(n) > kFlat * kFlat * longest * longest) {
+    const double height = dot(n, p - t[0]);
+    return height * height / squared_norm(n);
+  }
+  return std::min({squared_distance_to_segment(p, t[0], t[1]),
+                   squared_distance_to_segment(p, t[1], t[2]),
+                   squared_distance_to_segment(p, t[2], t[0])});
+}
+
 void extend(Box& box, const Vec3& p) {
   for (int axis = 0; axis < 3; ++axis) {
     box.lo[axis] = std::min(box.lo[axis], p[axis]);
@@ -37,24 +53,33 @@ int longest_axis(const Box& box) {
 
 }  // namespace
 
+// Finds the corner, edge or side that the nearest point is on from dot products alone (Ericson:
+// Real-time collision detection, 5.1.5). Most distances of a search are to corners and edges, which
+// need no normal.
 double squared_distance(const Vec3& p, const Corners& t) {
-  // A triangle this low, relative to its length, has no normal to speak of.
-  constexpr double kFlat = 1e-8;
-  const Vec3 ab = t[1] - t[0], bc = t[2] - t[1], ca = t[0] - t[2];
-  const Vec3 n = cross(ca, ab);
-  const double longest = std::max({squared_norm(ab), squared_norm(bc), squared_norm(ca)});
-  const bool flat = squared_norm(n) <= kFlat * kFlat * longest * longest;
-  double nearest = kInfinity;
-  // Beyond which edges does p lie? The nearest point is on one of these.
-  const std::array<Vec3, 3> edges{ab, bc, ca};
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (flat || dot(cross(n, edges[i]), p - t[i]) <= 0) {
-      nearest = std::min(nearest, squared_distance_to_segment(p, t[i], t[(i + 1) % 3]));
-    }
+  const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
+  const double ab_ap = dot(ab, ap), ac_ap = dot(ac, ap);
+  if (ab_ap <= 0 && ac_ap <= 0) return squared_norm(ap);
+  const Vec3 bp = p - t[1];
+  const double ab_bp = dot(ab, bp), ac_bp = dot(ac, bp);
+  if (ab_bp >= 0 && ac_bp <= ab_bp) return squared_norm(bp);
+  const double beyond_ab = ab_ap * ac_bp - ab_bp * ac_ap;
+  if (beyond_ab <= 0 && ab_ap >= 0 && ab_bp <= 0 && ab_ap > ab_bp) {
+    return squared_norm(ap - (ab_ap / (ab_ap - ab_bp)) * ab);
   }
-  if (nearest < kInfinity) return nearest;
-  const double height = dot(n, p - t[0]);
-  return height * height / squared_norm(n);
+  const Vec3 cp = p - t[2];
+  const double ab_cp = dot(ab, cp), ac_cp = dot(ac, cp);
+  if (ac_cp >= 0 && ab_cp <= ac_cp) return squared_norm(cp);
+  const double beyond_ac = ab_cp * ac_ap - ab_ap * ac_cp;
+  if (beyond_ac <= 0 && ac_ap >= 0 && ac_cp <= 0 && ac_ap > ac_cp) {
+    return squared_norm(ap - (ac_ap / (ac_ap - ac_cp)) * ac);
+  }
+  const double beyond_bc = ab_bp * ac_cp - ab_cp * ac_bp;
+  const double from_b = ac_bp - ab_bp, from_c = ab_cp - ac_cp;
+  if (beyond_bc <= 0 && from_b >= 0 && from_c >= 0 && from_b + from_c > 0) {
+    return squared_norm(bp - (from_b / (from_b + from_c)) * (t[2] - t[1]));
+  }
+  return squared_distance_to_side(p, t);
 }
 
 struct TriangleTree::Item {
