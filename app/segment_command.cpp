@@ -64,15 +64,16 @@ void add_mesh_options(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
 
 SurfaceWriteOptions surface_options(const SegmentOptions& options, const Result& result,
                                     double voxel) {
-  const bool grey = std::any_of(options.surfaces.begin(), options.surfaces.end(), carries_grey);
+  const bool grey = !result.mesh.cells.empty() &&
+                    std::any_of(options.surfaces.begin(), options.surfaces.end(), carries_grey);
   const std::string program = std::string("mesamis ") + version() + " (" + commit() + ")";
   SurfaceWriteOptions as{
       options.frame,
-      options.name,
+      options.name + (result.parameters.preview ? " (preview)" : ""),
       grey ? surface_grey(result, voxel) : std::vector<double>{},
       {{"producer", program}, {"settings", to_json(settings_of(result.parameters)).dump()}}};
   if (options.error && !result.expected_error.empty()) {
-    as.point_arrays.push_back({"expected_error_mm", result.expected_error});
+    as.point_arrays.push_back({"expected_error", result.expected_error});
   }
   return as;
 }
@@ -90,6 +91,14 @@ void require_outputs(const SegmentOptions& options) {
   }
   for (const fs::path& path : options.band_meshes) require_output(path, {".vtu"}, "--band-mesh");
   if (!options.report.empty()) require_output(options.report, {".json"}, "--report");
+}
+
+/// A preview makes no mesh, and without one there are no grey values below the surface.
+void require_mesh_for(const SegmentOptions& options, const Settings& settings) {
+  if (!settings.preview) return;
+  if (!options.meshes.empty() || !options.band_meshes.empty()) {
+    throw CLI::ValidationError("--preview", "expected neither --mesh nor --band-mesh, found one");
+  }
 }
 
 /// There must be something to write; which bound left nothing is what the user can change.
@@ -113,6 +122,7 @@ void require_surface(const Result& result) {
 int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   const Settings settings = settings_of(options.settings);
   require_outputs(options);
+  require_mesh_for(options, settings);
   const VolumeFile file = read_scan(options.input, options.series);
   require_memory(file.volume, settings, common.memory_gb);
   ProgressDisplay display(common.quiet);
@@ -151,7 +161,7 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
                       listed("Surface:", written_surface_formats()));
   command->add_flag("--error", options->error,
                     "Write the error expected at each point, mm, into --output .vtp and .ply, as "
-                    "expected_error_mm");
+                    "expected_error");
   add_mesh_options(*command, options);
   command->add_option("--report", options->report, "Report: .json");
   command->add_option("--series", options->series, "DICOM series UID");

@@ -83,7 +83,7 @@ def measured(case, arguments):
     def our_distances():
         tuning = tuner()
         return {"ours": tuning.judge.measure(surface), "level": tuning.at_level(done["level"]),
-                "errors": tuning.judge.expected_and_real(surface, "expected_error_mm").tolist()}
+                "errors": tuning.judge.expected_and_real(surface, "expected_error").tolist()}
 
     found = cached(case.folder / f"{case.name}.rivals.json", lambda: tuner().all())
     done, surface = ours(case, arguments)

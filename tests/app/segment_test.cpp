@@ -176,14 +176,15 @@ TEST(SegmentCommand, WritesTheErrorItExpects) {
       folder, {"segment", folder / "ball.nrrd", "-o", folder / "a.vtp", "-o", folder / "a.ply",
                "--error", "--report", folder / "a.json", "--max-tets", "10000", "--quiet"});
   EXPECT_EQ(run.status, 0) << run.err;
-  const auto errors = read_point_array(folder / "a.vtp", "expected_error_mm");
-  EXPECT_EQ(errors, read_point_array(folder / "a.ply", "expected_error_mm"));
-  const auto told = report_of(folder, "a")["surface"]["expected_error_mm"];
+  const auto errors = read_point_array(folder / "a.vtp", "expected_error");
+  EXPECT_EQ(errors, read_point_array(folder / "a.ply", "expected_error"));
+  const auto told = report_of(folder, "a")["quality"]["expected_error_mm"];
   const auto [least, most] = std::minmax_element(errors.begin(), errors.end());
   EXPECT_GT(*least, 0);
   EXPECT_LT(*least, told["mean"]);
-  EXPECT_LE(told["mean"], told["percentile_90"]);
-  EXPECT_LE(told["percentile_90"], *most);
+  EXPECT_LE(told["mean"], told["p95"]);
+  EXPECT_LE(told["p95"], told["max"]);
+  EXPECT_LE(told["max"], *most);
 }
 
 TEST(SegmentCommand, IsAsFineAsWasAskedForOrSaysThatTheScanIsNot) {
@@ -203,6 +204,23 @@ TEST(SegmentCommand, IsAsFineAsWasAskedForOrSaysThatTheScanIsNot) {
   EXPECT_EQ(unmet.status, 4);
   EXPECT_THAT(unmet.err, HasSubstr("accuracy: expected 0.001 mm in the mean at most, found 0."));
   EXPECT_EQ(report_of(folder, "unmet")["surface"]["closed"], true) << "written all the same";
+}
+
+TEST(SegmentCommand, PreviewsWithoutAMesh) {
+  const TempFolder folder;
+  write_ball(folder, 24);
+  const ProgramRun run =
+      run_program(folder, {"segment", folder / "ball.nrrd", "--preview", "-o", folder / "a.stl",
+                           "-o", folder / "a.vtp", "--report", folder / "a.json", "--quiet"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(read_bytes(folder / "a.stl").substr(0, 80), HasSubstr("preview"));
+  const auto report = report_of(folder, "a");
+  EXPECT_EQ(report["settings"]["preview"], true);
+  EXPECT_EQ(report["surface"]["closed"], true);
+  EXPECT_EQ(report["mesh"]["tets"], 0);
+  EXPECT_EQ(report["iterations"].size(), 1U);
+  EXPECT_FAILS(run_program(folder, segment_arguments(folder, "b", {"--preview"})), 2,
+               "--preview: expected neither --mesh nor --band-mesh, found one");
 }
 
 TEST(SegmentCommand, GivesTheScansOwnValuesBeyondTheWindow) {

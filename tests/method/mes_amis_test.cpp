@@ -44,6 +44,25 @@ TEST(MesAmis, FindsABallAndClosesItsSurface) {
   EXPECT_LT(mean_radius_error(result, 0.5 * volume.box().extent(), 7), 0.25);
 }
 
+TEST(MesAmis, PreviewsTheSolidWithoutAMesh) {
+  const Volume volume = make_ball(ball());
+  Settings settings;
+  settings.preview = true;
+  const Result result = mes_amis(volume, settings);
+  EXPECT_TRUE(result.parameters.preview);
+  EXPECT_TRUE(result.converged);
+  EXPECT_EQ(result.iterations.size(), 1U);
+  EXPECT_TRUE(result.mesh.cells.empty());
+  EXPECT_EQ(flaws_of(check_surface(result.surface)), "");
+  EXPECT_LT(mean_radius_error(result, 0.5 * volume.box().extent(), 7), 0.25);
+  EXPECT_LT(std::ssize(result.surface.triangles), result.printable.triangles_extracted);
+  EXPECT_TRUE(result.printable.within(result.parameters.tolerance));
+  EXPECT_EQ(result.expected_error.size(), result.surface.points.size());
+  const Result again =
+      with_threads(1, [&] { return mes_amis(volume, settings_of(result.parameters)); });
+  EXPECT_EQ(again.surface.points, result.surface.points);
+}
+
 TEST(MesAmis, DeliversAValidMeshWithinTheCount) {
   const Volume volume = make_ball(ball());
   const Result result = mes_amis(volume, small_run());

@@ -67,5 +67,17 @@ TEST(DefaultStride, ThinsTheGridsOfLargeVolumes) {
   EXPECT_EQ(default_stride({200, 200, 200}, {0.0333333, 0.0333334, 0.0333333}), (Stride{2, 2, 2}));
 }
 
+TEST(PreviewStride, HasAtMostThreeMillionNodes) {
+  using Sizes = std::array<Index, 3>;
+  EXPECT_EQ(preview_stride({100, 100, 100}, {1, 1, 1}), (Sizes{1, 1, 1}));
+  EXPECT_EQ(preview_stride({204, 244, 304}, {1, 1, 1}), (Sizes{2, 2, 2}));
+  // Where slices are thick, only within them.
+  EXPECT_EQ(preview_stride({512, 512, 40}, {0.5, 0.5, 5}), (Sizes{2, 2, 1}));
+  for (const Index n : {150, 300, 1000}) {
+    const auto [x, y, z] = preview_stride({n, n, 2 * n}, {0.4, 0.5, 0.7});
+    EXPECT_LE(2.0 * n * n * n / x / y / z, 3e6) << n;
+  }
+}
+
 }  // namespace
 }  // namespace mesamis

@@ -47,6 +47,11 @@ TEST(Settings, ARefusedValueNamesItsRange) {
   settings = {};
   settings.window = Window{3, 3};
   EXPECT_EQ(refusal(settings), "window: expected low below high, found 3,3");
+  settings = {};
+  settings.preview = true;
+  EXPECT_EQ(refusal(settings), "");
+  settings.surface = SurfaceKind::kBand;
+  EXPECT_EQ(refusal(settings), "preview: expected surface solid, found band");
 }
 
 TEST(Settings, NothingThatIsNotANumberPasses) {

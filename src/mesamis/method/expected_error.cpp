@@ -71,9 +71,9 @@ ErrorSummary summarize_error(const TriMesh& surface, const std::vector<double>& 
   double below = 0;
   const auto at = std::find_if(parts.begin(), parts.end(), [&](const auto& part) {
     below += part.second;
-    return below >= 0.9 * area;
+    return below >= 0.95 * area;
   });
-  return {sum / area, at == parts.end() ? parts.back().first : at->first};
+  return {sum / area, at == parts.end() ? parts.back().first : at->first, parts.back().first};
 }
 
 }  // namespace mesamis

@@ -41,7 +41,8 @@ std::vector<double> expected_error(const TriMesh& surface, const SplineImage& im
 /// The expected error of a surface as a whole; mm.
 struct ErrorSummary {
   double mean = 0;          ///< over the area
-  double percentile90 = 0;  ///< nine tenths of the area have less
+  double percentile95 = 0;  ///< nineteen twentieths of the area have less
+  double most = 0;          ///< of any triangle
 };
 
 /// Summarizes values on the points of a surface over its area, without the triangles whose values

@@ -20,8 +20,9 @@ constexpr double kBytesPerCell = 450;   // of the adapted meshes
 constexpr double kBytesOfProgram = 5e7;
 
 std::array<Index, 3> stride_of(const VoxelGrid& volume, const Settings& settings) {
-  return settings.stride.value_or(
-      default_stride(cropped_size(volume, settings.crop), volume.spacing));
+  const std::array<Index, 3> size = cropped_size(volume, settings.crop);
+  return settings.stride.value_or(settings.preview ? preview_stride(size, volume.spacing)
+                                                   : default_stride(size, volume.spacing));
 }
 
 double product(const std::array<Index, 3>& n) {
@@ -34,8 +35,9 @@ double memory_needed(const VoxelGrid& volume, const Settings& settings) {
   const std::array<Index, 3> size = cropped_size(volume, settings.crop);
   const double voxels = product(size),
                nodes = product(first_grid_size(size, stride_of(volume, settings)));
-  const double cells = settings.max_tets ? static_cast<double>(*settings.max_tets)
-                                         : std::min<double>(kMostTets, 12 * voxels);
+  const double cells = settings.preview    ? 0
+                       : settings.max_tets ? static_cast<double>(*settings.max_tets)
+                                           : std::min<double>(kMostTets, 12 * voxels);
   return kBytesOfProgram + kBytesPerVoxel * voxels +
          std::max({kBytesToPrepare * voxels, kBytesPerNode * nodes, kBytesPerCell * cells});
 }

@@ -13,6 +13,7 @@
 #include "mesamis/method/follow_image.h"
 #include "mesamis/method/passes.h"
 #include "mesamis/method/prepare.h"
+#include "mesamis/method/preview.h"
 #include "mesamis/method/setting_table.h"
 #include "mesamis/surface/depth_maximum.h"
 #include "mesamis/surface/extract.h"
@@ -67,16 +68,19 @@ bool has_converged(const Loop& loop) {
 }
 
 /// The solid follows the image where that is more exact than the mesh.
+TriMesh followed(const RunInput& run, TriMesh extracted) {
+  const Parameters& p = run.parameters;
+  if (!p.follow) return extracted;
+  return follow_image(extracted, run.image, {p.grey.to_grey(p.level), run.error.noise, p.unit_mm});
+}
+
 TriMesh extract_surface(const RunInput& run, const Loop& loop) {
   const Parameters& p = run.parameters;
   const TetMesh& mesh = loop.state.mesh;
   if (p.surface == SurfaceKind::kBand) {
     return extract_band(mesh, loop.minimum.v, p.band_threshold);
   }
-  const double level = p.grey.to_grey(p.level);
-  const TriMesh extracted = extract_solid(mesh, loop.minimum.u, level);
-  if (!p.follow) return extracted;
-  return follow_image(extracted, run.image, {level, run.error.noise, p.unit_mm});
+  return followed(run, extract_solid(mesh, loop.minimum.u, p.grey.to_grey(p.level)));
 }
 
 /// D M D' / unit^2 with D the direction cosines.
@@ -119,14 +123,39 @@ void finish_surface(const RunInput& run, const Settings& settings, const Progres
     p.tolerance = default_tolerance(run.grey.voxel_size(), mean_expected_error(run, result.surface),
                                     p.accuracy);
   }
-  result.surface = make_printable(
-      result.surface,
-      {p.min_volume, p.keep_largest, p.fill_cavities, p.tolerance, p.triangles, progress},
-      &result.printable);
+  result.surface = make_printable(result.surface,
+                                  {p.min_volume, p.keep_largest, p.fill_cavities, p.tolerance,
+                                   p.triangles, progress, p.preview},
+                                  &result.printable);
   ErrorOptions delivered = run.error;
   delivered.decimated =
       std::max(result.printable.extracted_to_result, result.printable.result_to_extracted);
   result.expected_error = expected_error(result.surface, run.image, delivered);
+}
+
+/// All passes, and the surface that comes of them.
+void run_full(const RunInput& run, const Progress& progress, Result& result) {
+  Loop loop = run_loop(run, progress);
+  result.converged = has_converged(loop);
+  result.fit = measure_fit(loop.state.mesh, loop.state.metric);
+  Stopwatch watch;
+  (void)Stage(progress, "surface");
+  result.surface = extract_surface(run, loop);
+  result.seconds.surface = watch.lap();
+  deliver(run, std::move(loop), result);
+}
+
+/// The first pass alone, on the grid. It has converged where its solves have.
+void run_preview(const RunInput& run, const Progress& progress, Result& result) {
+  Loop loop;
+  const Stage first(progress, "preview, on the voxel grid");
+  TriMesh extracted = preview_surface({run, 1, first, loop.passes.emplace_back()});
+  result.converged = loop.passes.back().amis.solver_converged;
+  Stopwatch watch;
+  (void)Stage(progress, "surface");
+  result.surface = followed(run, std::move(extracted));
+  result.seconds.surface = watch.lap();
+  deliver(run, std::move(loop), result);
 }
 
 Result run_on(const VolumeView& volume, const Settings& settings, const Progress& progress) {
@@ -140,15 +169,7 @@ Result run_on(const VolumeView& volume, const Settings& settings, const Progress
   result.seconds.prepare = watch.lap();
 
   const RunInput run(prepared);
-  Loop loop = run_loop(run, progress);
-  result.converged = has_converged(loop);
-  result.fit = measure_fit(loop.state.mesh, loop.state.metric);
-
-  watch.lap();
-  (void)Stage(progress, "surface");
-  result.surface = extract_surface(run, loop);
-  result.seconds.surface = watch.lap();
-  deliver(run, std::move(loop), result);
+  (p.preview ? run_preview : run_full)(run, progress, result);
   watch.lap();
   finish_surface(run, settings, progress, result);
   result.seconds.printable = watch.lap();

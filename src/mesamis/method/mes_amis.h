@@ -22,7 +22,7 @@ struct Result {
   Parameters parameters;  ///< what the run used, the level of the surface included
   MeasuredImage image;
 
-  TetMesh mesh;
+  TetMesh mesh;                 ///< empty for a preview, as are its fields
   std::vector<double> u, v, f;  ///< nodal: grey values (u, f) and edge indicator
   std::vector<Sym3> metric;     ///< that the mesh was made for, at the nodes, 1/mm^2
   MeshFit fit;                  ///< how well the mesh fits it

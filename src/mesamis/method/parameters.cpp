@@ -24,7 +24,7 @@ Settings settings_of(const Parameters& p) {
   s.amis_iterations = p.amis_iterations;
   s.tol_v = p.tol_v;
   s.solver_tolerance = p.solver_tolerance;
-  s.max_tets = p.max_tets;
+  if (p.max_tets > 0) s.max_tets = p.max_tets;
   s.tau = p.tau;
   s.adaptations = p.adaptations;
   s.tol_mesh = p.tol_mesh;
@@ -45,6 +45,7 @@ Settings settings_of(const Parameters& p) {
   if (p.accuracy > 0) s.accuracy = p.accuracy;
   s.tolerance = p.tolerance;
   if (p.triangles > 0) s.triangles = p.triangles;
+  s.preview = p.preview;
   return s;
 }
 
@@ -69,6 +70,25 @@ std::array<Index, 3> default_stride(const std::array<Index, 3>& voxels, const Ve
   const double mean = std::cbrt(spacing.x * spacing.y * spacing.z);
   const auto along = [mean](double side) { return side <= kSlack * mean ? 2 : 1; };
   return {along(spacing.x), along(spacing.y), along(spacing.z)};
+}
+
+std::array<Index, 3> preview_stride(const std::array<Index, 3>& voxels, const Vec3& spacing) {
+  constexpr double kMostNodes = 3e6;
+  std::array<Index, 3> stride{1, 1, 1};
+  const auto nodes = [&] {
+    double product = 1;
+    for (std::size_t a = 0; a < 3; ++a) product *= static_cast<double>(voxels[a]) / stride[a];
+    return product;
+  };
+  while (nodes() > kMostNodes) {
+    int shortest = 0;
+    for (int a = 1; a < 3; ++a) {
+      const auto step = [&](int b) { return stride[static_cast<std::size_t>(b)] * spacing[b]; };
+      if (step(a) < step(shortest)) shortest = a;
+    }
+    ++stride[static_cast<std::size_t>(shortest)];
+  }
+  return stride;
 }
 
 double default_tolerance(double voxel, double expected_error, double accuracy) {

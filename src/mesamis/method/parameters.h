@@ -53,11 +53,13 @@ struct Parameters {
   /// default_tolerance(), is set when there is a surface; before, it is infinite.
   double tolerance = 0;
   std::int64_t triangles = 0;  ///< where decimation stops; 0: nowhere
+
+  bool preview = false;  ///< the solid of the first grid; no mesh is made
 };
 
 /// Makes the settings that repeat a run with these parameters: none of them is "auto" but the level
-/// of a band, which has none, and a number of triangles and an accuracy that the user did not ask
-/// for.
+/// of a band, which has none, the number of cells of a preview, which makes none, and a number of
+/// triangles and an accuracy that the user did not ask for.
 /// @throws nothing
 Settings settings_of(const Parameters& parameters);
 
@@ -100,6 +102,15 @@ std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacin
 ///
 /// O(1).
 std::array<Index, 3> default_stride(const std::array<Index, 3>& voxels, const Vec3& spacing);
+
+/// The default of stride for a preview: along the axes where the steps are shortest every second
+/// voxel, or fewer, until the grid has no more than three million nodes.
+/// @param voxels, spacing  as for default_stride().
+/// @return voxels per node, at least 1.
+/// @throws nothing
+///
+/// O(1).
+std::array<Index, 3> preview_stride(const std::array<Index, 3>& voxels, const Vec3& spacing);
 
 /// The default of tolerance: how far the surface is expected to be from the truth, but no less than
 /// 0.03 and no more than 0.1 voxel: a surface that is kept closer keeps detail smaller than its

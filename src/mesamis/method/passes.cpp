@@ -194,20 +194,28 @@ std::vector<Sym3> mesh_metric(const Pass& pass, const TetMesh& mesh, const Minim
   return metric;
 }
 
-State adapt_from_grid(const Pass& pass) {
+GridMinimum minimise_on_grid(const Pass& pass) {
   const auto& [run, number, stage, record] = pass;
   Stopwatch watch;
-  const KuhnGrid grid = first_grid(run);
-  const GridSpace space(grid);
+  GridMinimum found{GridSpace(first_grid(run)), {}};
+  const KuhnGrid& grid = found.space.grid();
   record.tets = grid.cell_count();
   record.nodes = static_cast<std::int64_t>(grid.node_count());
-  Minimum m;
-  m.f = project_image(run.grey, grid);
+  found.minimum.f = project_image(run.grey, grid);
   record.seconds.project = watch.lap();
-  minimise_on(space, run.draft_options(), m, record);
+  minimise_on(found.space, run.draft_options(), found.minimum, record);
   stage.advance(0.2);
   record.seconds.amis = watch.lap();
+  // One brick's cells are those of all the others.
+  record_aspects(box_mesh({{0, 0, 0}, grid.spacing}, {1, 1, 1}), record);
+  return found;
+}
 
+State adapt_from_grid(const Pass& pass) {
+  const auto& [run, number, stage, record] = pass;
+  const auto& [space, m] = minimise_on_grid(pass);
+  const KuhnGrid& grid = space.grid();
+  Stopwatch watch;
   const Sizes sizes = sizes_of(pass, kCellsPerComplexity);
   const GridMetricField field = grid_metric(pass, space, m, sizes.control);
   record.seconds.estimate = watch.lap();
@@ -218,8 +226,6 @@ State adapt_from_grid(const Pass& pass) {
   next.u = std::move(fields[0]);
   next.v = std::move(fields[1]);
   record.seconds.transfer = watch.lap();
-  // One brick's cells are those of all the others.
-  record_aspects(box_mesh({{0, 0, 0}, grid.spacing}, {1, 1, 1}), record);
   return next;
 }
 

@@ -8,6 +8,7 @@
 #include "mesamis/adapt/size_control.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/progress.h"
+#include "mesamis/fem/grid_space.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/method/expected_error.h"
 #include "mesamis/method/iteration.h"
@@ -75,6 +76,16 @@ struct Pass {
   const Stage& stage;
   Iteration& record;
 };
+
+/// The fields on the voxel grid.
+struct GridMinimum {
+  GridSpace space;
+  Minimum minimum;  ///< without its lumped mass, which the space has
+};
+
+/// Projects the image onto the first grid and minimises there. Records the pass but for what comes
+/// of the estimator.
+GridMinimum minimise_on_grid(const Pass& pass);
 
 /// Adaptation 1: minimises on the voxel grid, estimates, and refines the first mesh from a box.
 State adapt_from_grid(const Pass& pass);

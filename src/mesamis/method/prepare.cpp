@@ -50,7 +50,8 @@ Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
   const double unit_mm = s.length_unit == LengthUnit::kMm ? 1 : volume.voxel_size();
   Parameters p;
   p.crop = s.crop;
-  p.stride = s.stride.value_or(default_stride(volume.size, voxel));
+  p.stride = s.stride.value_or(s.preview ? preview_stride(volume.size, voxel)
+                                         : default_stride(volume.size, voxel));
   p.restore = s.restore;
   p.length_unit = s.length_unit;
   p.unit_mm = unit_mm;
@@ -78,6 +79,7 @@ Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
   p.tolerance = s.tolerance.value_or(std::numeric_limits<double>::infinity());
   p.accuracy = s.accuracy.value_or(0);
   p.triangles = s.triangles.value_or(0);
+  p.preview = s.preview;
   return p;
 }
 
@@ -198,7 +200,7 @@ Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
   const double contrast = object.contrast.difference();
   prepared.measured = {restored.noise_left, restored.noise_correlation, restored.impulses, contrast,
                        settings.level ? 0 : object.uncertainty};
-  if (!settings.max_tets) {
+  if (!settings.max_tets && !settings.preview) {
     const SurfaceExtent extent = extent_of(restored, contrast, p.level);
     p.max_tets = default_max_tets(extent.area, extent.thin_share, volume.spacing, p.accuracy);
   }

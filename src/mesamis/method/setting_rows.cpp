@@ -160,7 +160,8 @@ std::vector<Setting> image_rows() {
     bound({.name = "stride", .form = "X,Y,Z", .count = 3, .whole = true, .low = 1, .high = 1000,
            .words = {"auto"}, .unit = "voxels", .help = "Voxels per node of the first grid",
            .automatic = "1; 2 in volumes of more than a million voxels, along the axes where that is no "
-               "more than twice the voxels' mean size", .paper = "1,1,1"}, &Settings::stride),
+               "more than twice the voxels' mean size; for a preview, so that there are at most three "
+               "million nodes", .paper = "1,1,1"}, &Settings::stride),
     bound({.name = "window", .form = "LO,HI", .count = 2, .low = -kLargestValue,
            .high = kLargestValue, .words = {"auto"}, .unit = "native",
            .help = "Values that become grey values 0 and 255",
@@ -288,6 +289,9 @@ std::vector<Setting> surface_rows() {
                        "decimation; none: no bound",
                    .automatic = "the error to expect, 0.03 to 0.1 voxel, or half of accuracy, if that is asked for; none where "
                                 "triangles says where to stop"}),
+    bound({.name = "preview", .form = "yes|no",
+           .help = "The solid of the first grid, quickly: no mesh is adapted, decimation is quick"},
+          &Settings::preview),
     bound({.name = "triangles", .form = "N", .count = 1, .whole = true, .low = 4, .high = 2e9,
            .words = {"auto"}, .help = "Decimation stops at this many triangles",
            .automatic = "as few as the tolerance permits"}, &Settings::triangles),

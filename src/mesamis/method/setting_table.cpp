@@ -207,6 +207,9 @@ void require_valid(const Settings& settings) {
     throw InputError("blur: expected none where restore is off, found " +
                      text_of(blur, blur.get(settings)));
   }
+  if (settings.preview && settings.surface != SurfaceKind::kSolid) {
+    throw InputError("preview: expected surface solid, found band");
+  }
   if (settings.h_max && *settings.h_max < settings.h_min) {
     throw InputError(
         say("h-max: expected h-min ", settings.h_min, " or more, found ", *settings.h_max));

@@ -81,6 +81,8 @@ struct Settings {
   std::optional<double> accuracy;
   std::optional<double> tolerance;
   std::optional<std::int64_t> triangles;
+
+  bool preview = false;
 };
 
 }  // namespace mesamis

@@ -20,6 +20,7 @@ set(ROOM_SOURCES
   parameters.cpp
   passes.cpp
   prepare.cpp
+  preview.cpp
   printable.cpp
   setting_rows.cpp
   setting_table.cpp

@@ -88,13 +88,30 @@ ordered_json surface_json(const RunSummary& run) {
   if (solid) {
     j["level_native"] = p.level;
     j["level_grey"] = p.grey.to_grey(p.level);
-    j["expected_error_mm"] = {{"mean", run.expected_error.mean},
-                              {"percentile_90", run.expected_error.percentile90}};
     j.update(printable_json(run.printable, p.tolerance));
   }
   j.update(check_json(run.triangles, run.vertices, run.check));
   j["self_intersections"] = run.self_intersections;
   return j;
+}
+
+/// What the scan is like, and how near to the truth its surface can be expected to be.
+ordered_json quality_json(const RunSummary& run) {
+  const MeasuredImage& image = run.image;
+  ordered_json expected;
+  if (run.parameters.surface == SurfaceKind::kSolid) {
+    expected = {{"mean", run.expected_error.mean},
+                {"p95", run.expected_error.percentile95},
+                {"max", run.expected_error.most}};
+  }
+  return {{"noise", run.parameters.noise},
+          {"noise_left", image.noise_left},
+          {"noise_correlation", image.noise_correlation},
+          {"impulse_share", image.impulses},
+          {"blur", run.parameters.blur},
+          {"contrast", image.contrast},
+          {"level_uncertainty", known(image.level_uncertainty > 0, image.level_uncertainty)},
+          {"expected_error_mm", std::move(expected)}};
 }
 
 /// The settings that were left to the program, each with how it was found.
@@ -179,12 +196,7 @@ ordered_json run_json(const Settings& asked, const RunSummary& run) {
   report["chosen"] = chosen_json(asked);
   report["given"] = given_json(asked);
   report["grey"] = grey_json(run.parameters);
-  report["image"] = {
-      {"noise_left", run.image.noise_left},
-      {"noise_correlation", run.image.noise_correlation},
-      {"impulse_share", run.image.impulses},
-      {"contrast", run.image.contrast},
-      {"level_uncertainty", known(run.image.level_uncertainty > 0, run.image.level_uncertainty)}};
+  report["quality"] = quality_json(run);
   report["iterations"] = ordered_json::array();
   const std::size_t passes = run.iterations.size();
   for (std::size_t i = 0; i < passes; ++i) {

@@ -5,6 +5,7 @@ set(ROOM_HEADERS
   depth_maximum.h
   distance.h
   extract.h
+  extract_cubes.h
   measure.h
   normals.h
   sampling.h
@@ -28,6 +29,7 @@ set(ROOM_SOURCES
   distance.cpp
   exact_predicates.cpp
   extract_band.cpp
+  extract_cubes.cpp
   extract_solid.cpp
   farthest.cpp
   half_edges.cpp

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/preview.h"
+
+#include "mesamis/surface/extract_cubes.h"
+
+namespace mesamis {
+
+TriMesh preview_surface(const Pass& pass) {
+  const Parameters& p = pass.run.parameters;
+  const GridMinimum found = minimise_on_grid(pass);
+  const KuhnGrid& grid = found.space.grid();
+  return extract_cubes({grid.size, grid.spacing, found.minimum.u}, p.grey.to_grey(p.level));
+}
+
+}  // namespace mesamis

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mesamis/method/passes.h"
+#include "mesamis/surface/tri_mesh.h"
+
+namespace mesamis {
+
+/// The solid of the functional's minimum on the first grid, by marching cubes: what can be seen
+/// before any mesh is adapted. Records the pass.
+/// @return in the grid's own axes, length units; see extract_cubes().
+/// @throws Cancelled  if progress says stop.
+///
+/// O(nodes of the grid).
+TriMesh preview_surface(const Pass& pass);
+
+}  // namespace mesamis
