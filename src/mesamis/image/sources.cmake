@@ -2,10 +2,13 @@
 set(ROOM_HEADERS
   gaussian.h
   grey_values.h
+  label_map.h
   spline_image.h
   volume.h)
 set(ROOM_SOURCES
+  find_segment.cpp
   gaussian.cpp
   grey_values.cpp
+  label_map.cpp
   spline_image.cpp
   volume.cpp)

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/image/label_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+
+namespace mesamis {
+namespace {
+
+template <class... Part>
+[[noreturn]] void refuse(const Part&... parts) {
+  std::ostringstream line;
+  (line << ... << parts);
+  throw InputError(line.str());
+}
+
+/// From the voxels of one grid to those of another: both in voxels, the centre of the first at 0.
+class VoxelTransform {
+ public:
+  VoxelTransform(const VoxelGrid& from, const VoxelGrid& to) : origin_(in_voxels(to, from.origin)) {
+    for (int a = 0; a < 3; ++a) {
+      Vec3 step;
+      step[a] = from.spacing[a];
+      steps_[static_cast<std::size_t>(a)] = in_voxels(to, from.to_world(step)) - origin_;
+    }
+  }
+  /// Of the voxel (0, j, k).
+  Vec3 line(Index j, Index k) const {
+    return origin_ + static_cast<double>(j) * steps_[1] + static_cast<double>(k) * steps_[2];
+  }
+  const Vec3& step() const { return steps_[0]; }
+
+  static Vec3 in_voxels(const VoxelGrid& grid, const Vec3& world) {
+    const Vec3 p = grid.to_grid(world);
+    return {p.x / grid.spacing.x, p.y / grid.spacing.y, p.z / grid.spacing.z};
+  }
+
+ private:
+  Vec3 origin_;
+  std::array<Vec3, 3> steps_;
+};
+
+/// Rounding must not decide on which side of a face a point lies.
+constexpr double kOnFace = 1e-6;
+
+/// The voxel whose centre is nearest to a point in voxels; -1 outside of the grid.
+std::int64_t nearest_voxel(const VoxelGrid& grid, const Vec3& p) {
+  std::array<Index, 3> voxel;
+  for (int a = 0; a < 3; ++a) {
+    const double up = std::floor(p[a] + (0.5 + kOnFace));
+    if (!(up >= 0) || !(up < grid.size[static_cast<std::size_t>(a)])) return -1;
+    voxel[static_cast<std::size_t>(a)] = static_cast<Index>(up);
+  }
+  return static_cast<std::int64_t>(grid.offset(voxel[0], voxel[1], voxel[2]));
+}
+
+/// Calls visit(offset in the grid, point in voxels of `from`) for each voxel of the grid, line by
+/// line in threads.
+template <class Visit>
+void for_each_voxel(const VoxelGrid& from, const VoxelGrid& grid, Visit visit) {
+  const VoxelTransform transform(grid, from);
+  const auto rows = static_cast<std::size_t>(grid.size[1]);
+  parallel_blocks(rows * static_cast<std::size_t>(grid.size[2]), 64,
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t line = begin; line < end; ++line) {
+                      const auto j = static_cast<Index>(line % rows);
+                      const auto k = static_cast<Index>(line / rows);
+                      const Vec3 first = transform.line(j, k);
+                      const std::size_t offset = grid.offset(0, j, k);
+                      for (Index i = 0; i < grid.size[0]; ++i) {
+                        visit(offset + static_cast<std::size_t>(i),
+                              first + static_cast<double>(i) * transform.step());
+                      }
+                    }
+                  });
+}
+
+/// The labels of each layer, in ascending order.
+std::vector<std::uint16_t> labels_of(const std::vector<std::uint16_t>& layer,
+                                     std::vector<bool>& seen) {
+  std::vector<std::uint16_t> labels;
+  for (const std::uint16_t label : layer) {
+    if (label == 0 || seen[label]) continue;
+    seen[label] = true;
+    labels.push_back(label);
+  }
+  for (const std::uint16_t label : labels) seen[label] = false;
+  std::sort(labels.begin(), labels.end());
+  return labels;
+}
+
+/// Layer and label of each label that occurs and has no segment.
+std::vector<std::pair<Index, Index>> labels_without_segment(const LabelMap& map) {
+  std::set<std::pair<Index, Index>> named;
+  for (const Segment& s : map.segments) named.emplace(s.layer, s.label);
+  std::vector<bool> seen(std::size_t{kMaxLabel} + 1);
+  std::vector<std::pair<Index, Index>> missing;
+  for (std::size_t n = 0; n < map.layers.size(); ++n) {
+    for (const std::uint16_t label : labels_of(map.layers[n], seen)) {
+      const std::pair<Index, Index> key(static_cast<Index>(n), label);
+      if (!named.count(key)) missing.push_back(key);
+    }
+  }
+  return missing;
+}
+
+void require_segments(const LabelMap& map) {
+  std::set<std::pair<Index, Index>> named;
+  for (const Segment& s : map.segments) {
+    if (s.label < 1 || s.label > kMaxLabel) {
+      refuse("label map: expected labels of 1 to ", kMaxLabel, ", found ", s.label);
+    }
+    if (s.layer < 0 || static_cast<std::size_t>(s.layer) >= map.layers.size()) {
+      refuse("label map: expected a segment of one of ", map.layers.size(), " layers, found layer ",
+             s.layer);
+    }
+    if (s.name.empty())
+      refuse("label map: expected a name for the label ", s.label, ", found none");
+    if (!named.emplace(s.layer, s.label).second) {
+      refuse("label map: expected one segment per layer and label, found two for label ", s.label,
+             " of layer ", s.layer);
+    }
+  }
+}
+
+}  // namespace
+
+Index label_at(const LabelMap& map, Index layer, const Vec3& world) {
+  const std::int64_t voxel = nearest_voxel(map, VoxelTransform::in_voxels(map, world));
+  const auto& labels = map.layers[static_cast<std::size_t>(layer)];
+  return voxel < 0 ? 0 : labels[static_cast<std::size_t>(voxel)];
+}
+
+LabelMap labels_on(const LabelMap& map, const VoxelGrid& grid) {
+  LabelMap out{grid, {}, map.segments};
+  out.layers.assign(map.layers.size(), std::vector<std::uint16_t>(grid.voxel_count()));
+  for_each_voxel(map, grid, [&](std::size_t at, const Vec3& p) {
+    const std::int64_t voxel = nearest_voxel(map, p);
+    if (voxel < 0) return;
+    for (std::size_t n = 0; n < map.layers.size(); ++n) {
+      out.layers[n][at] = map.layers[n][static_cast<std::size_t>(voxel)];
+    }
+  });
+  return out;
+}
+
+std::vector<std::uint8_t> mask_on(const LabelMap& map, std::span<const Segment> segments,
+                                  const VoxelGrid& grid) {
+  std::map<Index, std::vector<std::uint8_t>> wanted;  // per layer, whether a label is meant
+  for (const Segment& s : segments) {
+    auto& labels = wanted.try_emplace(s.layer, std::size_t{kMaxLabel} + 1).first->second;
+    labels[static_cast<std::size_t>(s.label)] = 1;
+  }
+  std::vector<std::uint8_t> mask(grid.voxel_count());
+  for_each_voxel(map, grid, [&](std::size_t at, const Vec3& p) {
+    const std::int64_t voxel = nearest_voxel(map, p);
+    if (voxel < 0) return;
+    for (const auto& [layer, labels] : wanted) {
+      const auto& layer_labels = map.layers[static_cast<std::size_t>(layer)];
+      mask[at] |= labels[layer_labels[static_cast<std::size_t>(voxel)]];
+    }
+  });
+  return mask;
+}
+
+std::vector<float> probability_on(const Probabilities& from, Index layer, const VoxelGrid& grid) {
+  if (std::min({from.size[0], from.size[1], from.size[2]}) < 2) {
+    refuse("probabilities: expected at least 2 voxels in each direction, found ", from.size[0],
+           " x ", from.size[1], " x ", from.size[2]);
+  }
+  const std::span<const float> values = from.layers[static_cast<std::size_t>(layer)];
+  std::vector<float> out(grid.voxel_count());
+  for_each_voxel(from, grid, [&](std::size_t at, const Vec3& p) {
+    if (nearest_voxel(from, p) < 0) return;
+    out[at] = static_cast<float>(interpolate(values, from.size, {1, 1, 1}, p));
+  });
+  return out;
+}
+
+std::optional<CropRange> range_of(const LabelMap& map, const Segment& segment) {
+  const auto& labels = map.layers[static_cast<std::size_t>(segment.layer)];
+  CropRange range{map.size, {0, 0, 0}};
+  std::size_t at = 0;
+  for (Index k = 0; k < map.size[2]; ++k) {
+    for (Index j = 0; j < map.size[1]; ++j) {
+      for (Index i = 0; i < map.size[0]; ++i, ++at) {
+        if (labels[at] != segment.label) continue;
+        const std::array<Index, 3> voxel{i, j, k};
+        for (std::size_t a = 0; a < 3; ++a) {
+          range.begin[a] = std::min(range.begin[a], voxel[a]);
+          range.end[a] = std::max(range.end[a], voxel[a] + 1);
+        }
+      }
+    }
+  }
+  return range.end[0] > 0 ? std::optional(range) : std::nullopt;
+}
+
+LabelMap with_all_segments(LabelMap map) {
+  for (const auto& [layer, label] : labels_without_segment(map)) {
+    map.segments.push_back({"label " + std::to_string(label), label, layer, default_colour(label)});
+  }
+  return map;
+}
+
+LabelMap with_names(LabelMap map, std::span<const Segment> table) {
+  std::map<Index, const Segment*> rows;
+  for (const Segment& row : table) rows.emplace(row.label, &row);
+  for (Segment& segment : map.segments) {
+    const auto row = rows.find(segment.label);
+    if (row == rows.end()) continue;
+    segment.name = row->second->name;
+    segment.colour = row->second->colour;
+  }
+  return map;
+}
+
+std::array<std::uint8_t, 3> default_colour(Index label) {
+  // Hues a golden section of the circle apart never come close to their neighbours.
+  const double hue = 6 * std::fmod(0.618033988749895 * label, 1.0);
+  std::array<std::uint8_t, 3> colour;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double away = std::fmod(hue + 2.0 * static_cast<double>(3 - c), 6.0);  // 0: this colour
+    const double share = std::clamp(std::abs(away - 3) - 1, 0.0, 1.0);
+    colour[c] = static_cast<std::uint8_t>(std::lround(80 + 175 * share));
+  }
+  return colour;
+}
+
+void require_valid(const LabelMap& map) {
+  if (map.layers.empty()) refuse("label map: expected at least one layer, found none");
+  for (const auto& layer : map.layers) {
+    if (layer.size() != map.voxel_count()) {
+      refuse("label map: expected ", map.voxel_count(), " labels in each layer, found ",
+             layer.size());
+    }
+  }
+  require_segments(map);
+  const auto missing = labels_without_segment(map);
+  if (!missing.empty()) {
+    refuse("label map: expected a segment for the label ", missing[0].second, " of layer ",
+           missing[0].first, ", found none");
+  }
+}
+
+}  // namespace mesamis

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesamis/image/volume.h"
+
+/// Which object is meant: objects of a scan, marked voxel by voxel on a grid of their own.
+namespace mesamis {
+
+/// The largest label; 0 is the background.
+inline constexpr Index kMaxLabel = 65535;
+
+/// An object of a label map: the voxels of one layer that have one label.
+struct Segment {
+  std::string name;                      ///< not empty; need not be unique
+  Index label = 1;                       ///< 1 to kMaxLabel: the number of the object
+  Index layer = 0;                       ///< which of the map's layers
+  std::array<std::uint8_t, 3> colour{};  ///< red, green, blue (sRGB)
+  friend bool operator==(const Segment&, const Segment&) = default;
+};
+
+/// Labels on a regular grid. One layer holds objects that do not overlap; objects that do lie in
+/// different layers. The segments name the labels: one for each label that occurs, and perhaps some
+/// without a voxel.
+struct LabelMap : VoxelGrid {
+  std::vector<std::vector<std::uint16_t>> layers;  ///< a label per voxel each; i runs fastest
+  std::vector<Segment> segments;                   ///< no two of one layer and label
+};
+
+/// How probable it is that a voxel belongs to an object: one layer per object.
+struct Probabilities : VoxelGrid {
+  std::vector<std::vector<float>> layers;  ///< 0 to 1 per voxel each; i runs fastest
+  std::vector<Segment> segments;           ///< segment n belongs to layer n and has the label n + 1
+};
+
+/// Finds the segment that a user means.
+///
+/// The text is the whole name of a segment or its label in decimals. If none fits exactly, names
+/// are compared without regard to the case of ASCII letters.
+/// @return a copy of the only segment that fits.
+/// @throws InputError  if none or more than one fits; the message names those that come near, or
+///                     those that fit.
+///
+/// O(segments).
+Segment find_segment(std::span<const Segment> segments, std::string_view name_or_label);
+
+/// Finds the label at a point of the world: that of the nearest voxel centre of the map. On the
+/// face between two voxels (to 1e-6 of a voxel) the one of the greater index counts. O(1).
+/// @param layer  one of the map's.
+/// @param world  LPS, mm.
+/// @return 0 outside of the map's voxels.
+/// @throws nothing
+Index label_at(const LabelMap& map, Index layer, const Vec3& world);
+
+/// Brings a label map onto another grid, of any spacing, direction and extent: each voxel gets the
+/// labels at the world position of its centre, see label_at().
+/// @param grid  such as that of the scan; its voxels outside of the map are background.
+/// @return the map on the grid, with all its segments.
+/// @throws nothing
+///
+/// O(voxels of the grid * layers), in threads.
+LabelMap labels_on(const LabelMap& map, const VoxelGrid& grid);
+
+/// Marks some segments on another grid, as labels_on() would.
+/// @param segments  of the map; together they are the object.
+/// @return 1 for each voxel of the grid in one of the segments, else 0; i runs fastest.
+/// @throws nothing
+///
+/// O(voxels of the grid * layers), in threads.
+std::vector<std::uint8_t> mask_on(const LabelMap& map, std::span<const Segment> segments,
+                                  const VoxelGrid& grid);
+
+/// Brings the probabilities of one object onto another grid, linear between the voxels.
+/// @param layer  one of the probabilities'.
+/// @return one value, 0 to 1, per voxel of the grid (no unit); 0 beyond the probabilities' voxels.
+/// @throws InputError  if the probabilities have fewer than 2 voxels along an axis.
+///
+/// O(voxels of the grid), in threads.
+std::vector<float> probability_on(const Probabilities& from, Index layer, const VoxelGrid& grid);
+
+/// Finds the smallest range of the map's own voxels that holds a segment; none if it has no voxel.
+/// @throws nothing
+///
+/// O(voxels).
+std::optional<CropRange> range_of(const LabelMap& map, const Segment& segment);
+
+/// Adds a segment for each label that occurs and has none, after the others, by layer and label. It
+/// is called "label N" and has the colour default_colour(N).
+/// @throws nothing
+///
+/// O(voxels).
+LabelMap with_all_segments(LabelMap map);
+
+/// Gives the segments the names and colours that a table has for their labels, in every layer. The
+/// rows of the table for other labels are not used.
+/// @param table  as read_label_table() returns it.
+/// @throws nothing
+///
+/// O(segments + rows), up to a logarithm.
+LabelMap with_names(LabelMap map, std::span<const Segment> table);
+
+/// A colour for a label that a file gives none: the same for the same label, and far apart for
+/// neighbours. O(1).
+/// @return red, green, blue (sRGB).
+/// @throws nothing
+std::array<std::uint8_t, 3> default_colour(Index label);
+
+/// Checks what LabelMap promises: as many labels as voxels in each layer, a segment for each label
+/// that occurs, labels and layers of segments in range, no two segments of one layer and label, no
+/// empty name.
+/// @throws InputError  naming the first condition that does not hold.
+///
+/// O(voxels).
+void require_valid(const LabelMap& map);
+
+}  // namespace mesamis
