@@ -97,5 +97,19 @@ TEST(DicomData, AFileThatIsNotThereIsRefused) {
   EXPECT_REFUSED(read_dicom_file("/nowhere/a.dcm"), HasSubstr("/nowhere/a.dcm"));
 }
 
+TEST(DicomData, ReadsSeveralNumbersInBothByteOrders) {
+  for (const bool big_endian : {false, true}) {
+    const std::string bytes = bytes_of_all(std::vector<std::uint16_t>{1, 300, 65535}, big_endian);
+    DicomFile file;
+    file.big_endian = big_endian;
+    file.elements[dicom::kCieLab].value = bytes_in(bytes);
+    EXPECT_THAT(numbers_of(file, file.elements, dicom::kCieLab, 3),
+                Optional(ElementsAre(1, 300, 65535)));
+    EXPECT_EQ(numbers_of(file, file.elements, dicom::kCieLab, 4), std::nullopt);
+    EXPECT_EQ(number_of(file, file.elements, dicom::kCieLab), 1);
+    EXPECT_EQ(numbers_of(file, file.elements, dicom::kRows, 1), std::nullopt);
+  }
+}
+
 }  // namespace
 }  // namespace mesamis::detail

@@ -135,5 +135,36 @@ TEST(DicomPixels, RefusesPicturesThatContradictTheFile) {
   EXPECT_REFUSED(values_of(bytes), HasSubstr("no readable header"));
 }
 
+/// Frames of 3 x 1 bits follow one another without a gap: 1 0 1 | 1 1 0 | 0 1 0.
+TEST(DicomPixels, SingleBitsAreReadForLabelsOnly) {
+  PixelFile bytes;
+  bytes.columns = bytes_of(std::uint16_t{3});
+  bytes.allocated = bytes.stored = bytes_of(std::uint16_t{1});
+  bytes.frames = "3";
+  bytes.pixels = std::string("\x9d\x00", 2);
+  const DicomFile file = bytes.file();
+  EXPECT_REFUSED(pixels_of(file), HasSubstr("1 bits allocated"));
+  const DicomPixels pixels = pixels_of(file, PixelUse::kLabels);
+  std::vector<float> out;
+  for (int frame = 0; frame < 3; ++frame) append_frame(file, pixels, {frame, 2, 1}, out);
+  EXPECT_THAT(out, ElementsAre(3, 1, 3, 3, 3, 1, 1, 3, 1));
+  bytes.pixels.resize(1);
+  EXPECT_REFUSED(pixels_of(bytes.file(), PixelUse::kLabels), HasSubstr("expected 2 bytes"));
+  bytes.pixels = "ab";
+  bytes.syntax = kRle;
+  EXPECT_REFUSED(pixels_of(bytes.file(), PixelUse::kLabels), HasSubstr("single bits coded"));
+}
+
+TEST(DicomPixels, IndicesOfAPaletteAreReadForLabelsOnly) {
+  PixelFile bytes;
+  bytes.photometric = "PALETTE COLOR";
+  bytes.pixels = bytes_of_all(std::vector<std::uint16_t>{7, 300});
+  const DicomFile file = bytes.file();
+  EXPECT_REFUSED(pixels_of(file), HasSubstr("expected grey pixels"));
+  std::vector<float> out;
+  append_frame(file, pixels_of(file, PixelUse::kLabels), {}, out);
+  EXPECT_THAT(out, ElementsAre(7, 300));
+}
+
 }  // namespace
 }  // namespace mesamis::detail

@@ -83,5 +83,32 @@ TEST(DicomSlice, AReportHasNoPixels) {
   EXPECT_EQ(image.modality, "SR");
 }
 
+TEST(DicomSlice, FramesAreFoundInTheirOwnGroupsThenInSharedOnes) {
+  const auto group = [](DicomTag macro, DicomTag tag, const std::vector<double>& values) {
+    DicomWriter item, set;
+    item.decimals(tag, values);
+    set.sequence(macro, {item.bytes()});
+    return set.bytes();
+  };
+  DicomWriter set;
+  set.sequence(dicom::kSharedGroups,
+               {group(dicom::kPlaneOrientation, dicom::kOrientation, {1, 0, 0, 0, 1, 0}) +
+                group(dicom::kPixelMeasures, dicom::kPixelSpacing, {2, 3})});
+  set.sequence(dicom::kFrameGroups, {group(dicom::kPlanePosition, dicom::kPosition, {1, 2, 3}),
+                                     group(dicom::kPlanePosition, dicom::kPosition, {4, 5, 6}) +
+                                         group(dicom::kPixelMeasures, dicom::kSlope, {7})});
+  const TempFolder folder;
+  write_bytes(folder / "a.dcm", SliceBytes::file(set.bytes(), DicomCoding::kExplicit));
+  const DicomFile file = read_dicom_file(folder / "a.dcm");
+  const DicomSlice slice = place_frame(file, DicomPixels{6, 5, 2}, 1);
+  expect_near(slice.position, {4, 5, 6});
+  EXPECT_EQ(slice.column_step, 3);
+  EXPECT_EQ(slice.rows, 5);
+  EXPECT_EQ(slice.frame, 1);
+  const MacroTag slope{dicom::kPixelMeasures, dicom::kSlope};
+  EXPECT_EQ(frame_decimals(file, 1, slope, 1), std::vector<double>{7});
+  EXPECT_EQ(frame_decimals(file, 0, slope, 1), std::nullopt);
+}
+
 }  // namespace
 }  // namespace mesamis::detail

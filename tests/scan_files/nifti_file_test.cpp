@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "mesamis/scan_files/formats.h"
 #include "mesamis/scan_files/read_volume.h"
 #include "support/expect_near.h"
 #include "support/read_scan.h"
 #include "support/scan_bytes.h"
 #include "support/temp_folder.h"
+#include "support/throws.h"
 
 namespace mesamis {
 namespace {
@@ -147,6 +149,49 @@ TEST(Nifti, AcceptsAFourthDimensionOfOne) {
   NiftiBytes nifti;
   nifti.dim[0] = 4;
   expect_ramp(read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).volume);
+}
+
+TEST(Nifti, HasManyVolumesForThoseWhoAsk) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  for (const std::size_t axis : {4, 5}) {
+    nifti.dim = {static_cast<std::int16_t>(axis), 4, 3, 1, 1, 1, 1, 1};
+    nifti.dim[axis] = 5;
+    write_bytes(folder / "a.nii", nifti.header() + bytes_of_all(kRamp));
+    EXPECT_THAT(complaint(folder / "a.nii"), HasSubstr("expected a 3-D image"));
+    const detail::ScanFile scan = detail::open_nifti(folder / "a.nii", detail::Values::kMany);
+    EXPECT_EQ(scan.outer, 5);
+    EXPECT_EQ(scan.inner, 1);
+    const auto samples = detail::read_samples(scan);
+    EXPECT_THAT(samples, testing::ElementsAreArray(kRamp));
+  }
+  nifti.dim = {5, 2, 3, 1, 2, 5, 1, 1};
+  write_bytes(folder / "a.nii", nifti.header() + bytes_of_all(kRamp));
+  EXPECT_REFUSED(detail::open_nifti(folder / "a.nii", detail::Values::kMany),
+                 HasSubstr("5 values along dimension 5"));
+}
+
+TEST(Nifti, ExtensionsAreRead) {
+  const TempFolder folder;
+  const auto of = [&folder](const std::string& extensions, float offset, char flag = 1) {
+    NiftiBytes nifti;
+    nifti.vox_offset = offset;
+    std::string bytes = nifti.header();
+    bytes[348] = flag;
+    write_bytes(folder / "a.nii", packed(bytes + extensions + bytes_of_all(kRamp)));
+    return detail::nifti_extensions(folder / "a.nii");
+  };
+  const auto extension = [](int size, const std::string& content) {
+    return bytes_of(size) + bytes_of(6) + content;
+  };
+  const std::string two = extension(16, "eight789") + extension(12, "four");
+  EXPECT_THAT(of(two, 380), ElementsAre("eight789", "four"));
+  EXPECT_THAT(of(two, 380, 0), IsEmpty());
+  EXPECT_THAT(of("", 352), IsEmpty());
+  EXPECT_REFUSED(of(extension(7, "x"), 361), HasSubstr("expected a header extension"));
+  EXPECT_REFUSED(of(extension(-1, "x"), 361), HasSubstr("found -1"));
+  EXPECT_REFUSED(of(extension(64, "x"), 361), HasSubstr("found 64"));
+  EXPECT_REFUSED(of(extension(1 << 30, "x"), 2e9f), HasSubstr("found 1073741824"));
 }
 
 }  // namespace

@@ -4,11 +4,13 @@
 
 #include <string>
 
+#include "mesamis/scan_files/formats.h"
 #include "mesamis/scan_files/read_volume.h"
 #include "support/expect_near.h"
 #include "support/read_scan.h"
 #include "support/scan_bytes.h"
 #include "support/temp_folder.h"
+#include "support/throws.h"
 
 namespace mesamis {
 namespace {
@@ -91,6 +93,39 @@ TEST(Nrrd, RefusesWhatItCannotMean) {
   EXPECT_THAT(spoilt("type: short\n" + grid + end + "space directions: (1,0,0) (1,1,0) (0,0,1)\n"),
               HasSubstr("orthogonal"));
   EXPECT_THAT(spoilt("nonsense\n"), HasSubstr("nonsense"));
+}
+
+TEST(Nrrd, HasManyValuesPerVoxelForThoseWhoAsk) {
+  const TempFolder folder;
+  const auto open = [&folder](const std::string& fields) {
+    write_bytes(folder / "a.nrrd",
+                "NRRD0004\ntype: short\nencoding: raw\nendian: little\n"
+                "dimension: 4\nkey:=value\n" +
+                    fields + "\n" + bytes_of_all(kRamp));
+    return detail::open_nrrd(folder / "a.nrrd", detail::Values::kMany);
+  };
+  const std::string directions = " (0.5,0,0) (0,1,0) (0,0,2)";
+  for (const std::string& first :
+       {"sizes: 4 3 5 1\nspace directions: none" + directions + "\n",
+        std::string(
+            "sizes: 4 3 5 1\nkinds: vector domain domain domain\nspacings: nan 0.5 1 2\n")}) {
+    const detail::ScanFile scan = open(first);
+    EXPECT_EQ(scan.inner, 4);
+    EXPECT_EQ(scan.outer, 1);
+    EXPECT_THAT(scan.grid.size, testing::ElementsAre(3, 5, 1));
+    expect_near(scan.grid.spacing, {0.5, 1, 2});
+    EXPECT_EQ(scan.keys.at("key"), "value");
+    EXPECT_THAT(detail::read_samples(scan), testing::ElementsAreArray(kRamp));
+  }
+  const detail::ScanFile last = open(
+      "sizes: 4 3 1 5\nkinds: domain domain domain list\n"
+      "space directions:" +
+      directions + " none\n");
+  EXPECT_EQ(last.outer, 5);
+  EXPECT_THAT(last.grid.size, testing::ElementsAre(4, 3, 1));
+  EXPECT_THAT(complaint(folder / "a.nrrd"), HasSubstr("found 4 dimensions"));
+  EXPECT_REFUSED(open("sizes: 4 3 5 1\nkinds: domain list domain domain\n"), HasSubstr("\"list\""));
+  EXPECT_REFUSED(open("sizes: 4 3 5 0\n"), HasSubstr("1 to 16777216 values per voxel, found 0"));
 }
 
 }  // namespace

@@ -126,5 +126,18 @@ TEST(ScanFile, SamplesAreAppended) {
   EXPECT_THAT(samples, ElementsAre(9, 1, 255));
 }
 
+TEST(ScanFile, ManyValuesPerVoxelAreReadInTheOrderOfTheFile) {
+  const TempFolder folder;
+  ScanFile scan = two_samples(folder, "abcdef", NumberType::kUint8);
+  set_values(scan, 3, 1);
+  EXPECT_THAT(read_samples(scan), ElementsAre('a', 'b', 'c', 'd', 'e', 'f'));
+  set_values(scan, 1, 4);
+  EXPECT_REFUSED(read_samples(scan), HasSubstr("expected 8 bytes for 2 x 1 x 1 x 4 samples"));
+  EXPECT_REFUSED(set_values(scan, 0, 1), HasSubstr("values per voxel, found 0"));
+  EXPECT_REFUSED(set_values(scan, 1, std::int64_t{1} << 25), HasSubstr("expected 1 to 16777216"));
+  set_size(scan, {1 << 20, 1 << 19, 1});
+  EXPECT_REFUSED(set_values(scan, 3, 1), HasSubstr("expected 1 to 2 values per voxel, found 3"));
+}
+
 }  // namespace
 }  // namespace mesamis::detail

@@ -6,7 +6,9 @@ set(ROOM_HEADERS
 set(ROOM_INNER_HEADERS
   byte_source.h
   bytes.h
+  deflate.h
   file_list.h
+  in_one_line.h
   number_type.h
   refuse.h
   text_scan.h
@@ -15,6 +17,7 @@ set(ROOM_INNER_HEADERS
 set(ROOM_SOURCES
   atomic_file.cpp
   byte_source.cpp
+  deflate.cpp
   file_list.cpp
   refuse.cpp
   sha256.cpp

@@ -41,7 +41,8 @@ bool is_known_sequence(DicomTag tag) {
   constexpr std::array kSequences{dicom::kSharedGroups,  dicom::kFrameGroups,
                                   dicom::kPlanePosition, dicom::kPlaneOrientation,
                                   dicom::kPixelMeasures, dicom::kPixelTransformation,
-                                  dicom::kModalityLut};
+                                  dicom::kModalityLut,   dicom::kFrameContent,
+                                  dicom::kSegments,      dicom::kSegmentIdentification};
   return std::find(kSequences.begin(), kSequences.end(), tag) != kSequences.end();
 }
 
@@ -286,10 +287,21 @@ std::string text_of(const DicomSet& set, DicomTag tag) {
 }
 
 std::optional<int> number_of(const DicomFile& file, const DicomSet& set, DicomTag tag) {
+  const auto numbers = numbers_of(file, set, tag, 1);
+  return numbers ? std::optional(numbers->front()) : std::nullopt;
+}
+
+std::optional<std::vector<int>> numbers_of(const DicomFile& file, const DicomSet& set, DicomTag tag,
+                                           std::size_t count) {
   const auto element = set.find(tag);
-  if (element == set.end() || element->second.value.size() < 2) return std::nullopt;
+  if (element == set.end() || element->second.value.size() < 2 * count) return std::nullopt;
   const Bytes v = element->second.value;
-  return file.big_endian ? v[0] << 8 | v[1] : v[1] << 8 | v[0];
+  std::vector<int> numbers(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    const int first = v[2 * n], second = v[2 * n + 1];
+    numbers[n] = file.big_endian ? first << 8 | second : second << 8 | first;
+  }
+  return numbers;
 }
 
 std::optional<std::vector<double>> decimals_of(const DicomSet& set, DicomTag tag,

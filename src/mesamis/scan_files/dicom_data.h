@@ -38,8 +38,16 @@ inline constexpr DicomTag kTransferSyntax = 0x00020010, kImageType = 0x00080008,
                           kPixelData = 0x7fe00010, kFloatPixelData = 0x7fe00008,
                           kDoublePixelData = 0x7fe00009;
 inline constexpr DicomTag kSharedGroups = 0x52009229, kFrameGroups = 0x52009230,
-                          kPlanePosition = 0x00209113, kPlaneOrientation = 0x00209116,
-                          kPixelMeasures = 0x00289110, kPixelTransformation = 0x00289145;
+                          kFrameContent = 0x00209111, kPlanePosition = 0x00209113,
+                          kPlaneOrientation = 0x00209116, kPixelMeasures = 0x00289110,
+                          kPixelTransformation = 0x00289145, kSliceThickness = 0x00180050,
+                          kSliceSpacing = 0x00180088;
+// Segmentations.
+inline constexpr DicomTag kSopClass = 0x00080016, kSegmentationType = 0x00620001,
+                          kSegments = 0x00620002, kSegmentNumber = 0x00620004,
+                          kSegmentLabel = 0x00620005, kSegmentIdentification = 0x0062000a,
+                          kReferencedSegment = 0x0062000b, kCieLab = 0x0062000d,
+                          kMostFraction = 0x0062000e;
 }  // namespace dicom
 
 /// A file in memory and its elements, which point into its bytes.
@@ -70,6 +78,9 @@ DicomFile read_dicom_file(const std::filesystem::path& path);
 std::string text_of(const DicomSet& set, DicomTag tag);
 /// An unsigned 16-bit number.
 std::optional<int> number_of(const DicomFile& file, const DicomSet& set, DicomTag tag);
+/// `count` unsigned 16-bit numbers; none if there are fewer.
+std::optional<std::vector<int>> numbers_of(const DicomFile& file, const DicomSet& set, DicomTag tag,
+                                           std::size_t count);
 /// The decimals of an element, separated by backslashes; none if they are not `count` numbers.
 std::optional<std::vector<double>> decimals_of(const DicomSet& set, DicomTag tag,
                                                std::size_t count);

@@ -44,9 +44,18 @@ Coding coding_of(const DicomFile& file) {
              in_quotes(file.transfer_syntax));
 }
 
+std::uint64_t frame_pixels(const DicomPixels& p) {
+  return static_cast<std::uint64_t>(p.rows) * static_cast<std::uint64_t>(p.columns);
+}
+
 std::uint64_t frame_bytes(const DicomPixels& p) {
-  return static_cast<std::uint64_t>(p.rows) * static_cast<std::uint64_t>(p.columns) *
-         static_cast<std::uint64_t>(p.bits_allocated / 8);
+  return frame_pixels(p) * static_cast<std::uint64_t>(p.bits_allocated / 8);
+}
+
+/// Of all frames: those of single bits follow one another without a gap.
+std::uint64_t all_bytes(const DicomPixels& p) {
+  const auto bits = static_cast<std::uint64_t>(p.bits_allocated);
+  return (frame_pixels(p) * static_cast<std::uint64_t>(p.frames) * bits + 7) / 8;
 }
 
 /// Checks the header of a compressed picture against the file's.
@@ -109,8 +118,14 @@ void append_words(Bytes words, const WordReader& reader, const FrameRescale& res
   }
 }
 
-void require_bits(const DicomFile& file, const DicomPixels& p) {
-  const bool whole = p.bits_allocated == 8 || p.bits_allocated == 16 || p.bits_allocated == 32;
+void require_bits(const DicomFile& file, const DicomPixels& p, PixelUse use) {
+  const bool packed = use == PixelUse::kLabels && p.bits_allocated == 1;
+  if (packed && (coding_of(file) != Coding::kNative || file.big_endian)) {
+    refuse(file.path, "expected single bits coded natively, little endian, found " +
+                          in_quotes(file.transfer_syntax));
+  }
+  const bool whole =
+      packed || p.bits_allocated == 8 || p.bits_allocated == 16 || p.bits_allocated == 32;
   if (!whole || p.bits_stored < 1 || p.bits_stored > p.bits_allocated ||
       p.high_bit < p.bits_stored - 1 || p.high_bit >= p.bits_allocated) {
     refuse(file.path, say("expected pixels of 8, 16 or 32 bits, found ", p.bits_allocated,
@@ -121,7 +136,7 @@ void require_bits(const DicomFile& file, const DicomPixels& p) {
 /// Refuses, before anything is allocated, pixels that the bytes of the file cannot contain.
 void require_pixel_bytes(const DicomFile& file, const DicomPixels& p) {
   const DicomElement& data = file.elements.at(dicom::kPixelData);
-  const std::uint64_t needed = frame_bytes(p) * static_cast<std::uint64_t>(p.frames);
+  const std::uint64_t needed = all_bytes(p);
   if (coding_of(file) == Coding::kNative) {
     if (data.value.size() >= needed) return;
     refuse(file.path, say("expected ", needed, " bytes of pixels (", p.columns, " x ", p.rows,
@@ -171,9 +186,21 @@ Decoded decode_frame(const DicomFile& file, const DicomPixels& p, int frame, Cod
   refuse(file.path, "the compressed pixels are broken");
 }
 
+/// Single bits, the least significant of a byte first; a frame may begin within a byte.
+void append_bits(Bytes all, const DicomPixels& p, const FrameRescale& rescale,
+                 std::vector<float>& out) {
+  const std::uint64_t count = frame_pixels(p);
+  const std::uint64_t begin = count * static_cast<std::uint64_t>(rescale.frame);
+  const auto off = static_cast<float>(rescale.intercept);
+  const auto on = static_cast<float>(rescale.slope + rescale.intercept);
+  for (std::uint64_t bit = begin; bit < begin + count; ++bit) {
+    out.push_back(all[bit / 8] >> (bit % 8) & 1 ? on : off);
+  }
+}
+
 }  // namespace
 
-DicomPixels pixels_of(const DicomFile& file) {
+DicomPixels pixels_of(const DicomFile& file, PixelUse use) {
   const DicomSet& set = file.elements;
   if (!set.count(dicom::kPixelData)) {
     const bool real = set.count(dicom::kFloatPixelData) || set.count(dicom::kDoublePixelData);
@@ -186,8 +213,9 @@ DicomPixels pixels_of(const DicomFile& file) {
     return *number;
   };
   const std::string photometric = text_of(set, dicom::kPhotometric);
+  const bool indices = use == PixelUse::kLabels && photometric == "PALETTE COLOR";
   if (need(dicom::kSamplesPerPixel, "Samples per Pixel (0028,0002)") != 1 ||
-      !photometric.starts_with("MONOCHROME")) {
+      !(photometric.starts_with("MONOCHROME") || indices)) {
     refuse(file.path, "expected grey pixels, found " + in_quotes(photometric));
   }
   if (set.count(dicom::kModalityLut)) {
@@ -197,7 +225,9 @@ DicomPixels pixels_of(const DicomFile& file) {
   p.columns = need(dicom::kColumns, "Columns (0028,0011)");
   p.rows = need(dicom::kRows, "Rows (0028,0010)");
   const auto frames = decimals_of(set, dicom::kFrames, 1).value_or(std::vector<double>{1})[0];
-  if (p.columns < 1 || p.rows < 1 || !(frames >= 1) || frames > 65535) {
+  // A segmentation has a frame per segment and slice.
+  const int most_frames = use == PixelUse::kLabels ? 1 << 24 : 65535;
+  if (p.columns < 1 || p.rows < 1 || !(frames >= 1) || frames > most_frames) {
     refuse(file.path, say("expected a picture, found ", p.columns, " x ", p.rows, " pixels, ",
                           frames, " frames"));
   }
@@ -206,7 +236,7 @@ DicomPixels pixels_of(const DicomFile& file) {
   p.bits_stored = number_of(file, set, dicom::kBitsStored).value_or(p.bits_allocated);
   p.high_bit = number_of(file, set, dicom::kHighBit).value_or(p.bits_stored - 1);
   p.is_signed = number_of(file, set, dicom::kPixelRepresentation).value_or(0) == 1;
-  require_bits(file, p);
+  require_bits(file, p, use);
   require_pixel_bytes(file, p);
   return p;
 }
@@ -218,6 +248,7 @@ bool append_frame(const DicomFile& file, const DicomPixels& p, const FrameRescal
                     file.big_endian, p.is_signed};
   if (coding == Coding::kNative) {
     const Bytes all = file.elements.at(dicom::kPixelData).value;
+    if (p.bits_allocated == 1) return append_bits(all, p, rescale, out), true;
     const std::uint64_t size = frame_bytes(p);
     append_words(all.subspan(size * static_cast<std::uint64_t>(rescale.frame), size), reader,
                  rescale, out);

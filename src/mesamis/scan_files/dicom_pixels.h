@@ -15,11 +15,17 @@ struct DicomPixels {
   bool is_signed = false;
 };
 
+/// Which pixels a reader accepts.
+enum class PixelUse {
+  kGrey,    ///< grey values of 8, 16 or 32 bits
+  kLabels,  ///< also single bits, packed without gaps over all frames, and indices of a palette
+};
+
 /// The coding of the pixels, checked against what can be decoded and the bytes that are there.
 /// @throws InputError  for pixels that are missing, not grey, not whole-numbered or not rescaled
 ///                     linearly, for an unknown transfer syntax, and for fewer bytes than the
 ///                     header claims.
-DicomPixels pixels_of(const DicomFile& file);
+DicomPixels pixels_of(const DicomFile& file, PixelUse use = PixelUse::kGrey);
 
 /// One frame of a file, from 0, and its rescale: native value = slope * stored + intercept.
 struct FrameRescale {

@@ -5,7 +5,6 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/files/refuse.h"
-#include "mesamis/scan_files/dicom_pixels.h"
 
 namespace mesamis::detail {
 namespace {
@@ -92,20 +91,29 @@ std::vector<DicomSlice> slices_of(const DicomFile& file) {
   }
   std::vector<DicomSlice> slices(static_cast<std::size_t>(pixels.frames));
   for (std::size_t frame = 0; frame < slices.size(); ++frame) {
-    DicomSlice& slice = slices[frame];
-    slice.file = file.path;
-    slice.frame = static_cast<int>(frame);
-    slice.columns = pixels.columns;
-    slice.rows = pixels.rows;
-    slice.localizer = type.find("LOCALIZER") != std::string::npos;
-    const FrameTags tags(file, frame);
-    place(slice, tags);
-    scale(slice, tags);
+    slices[frame] = place_frame(file, pixels, frame);
+    slices[frame].localizer = type.find("LOCALIZER") != std::string::npos;
+    scale(slices[frame], FrameTags(file, frame));
   }
   return slices;
 }
 
 }  // namespace
+
+DicomSlice place_frame(const DicomFile& file, const DicomPixels& pixels, std::size_t frame) {
+  DicomSlice slice;
+  slice.file = file.path;
+  slice.frame = static_cast<int>(frame);
+  slice.columns = pixels.columns;
+  slice.rows = pixels.rows;
+  place(slice, FrameTags(file, frame));
+  return slice;
+}
+
+std::optional<std::vector<double>> frame_decimals(const DicomFile& file, std::size_t frame,
+                                                  const MacroTag& tag, std::size_t count) {
+  return FrameTags(file, frame).find(tag.macro, tag.tag, count);
+}
 
 std::string name_of(const DicomSlice& slice) {
   const std::string name = slice.file.filename().string();

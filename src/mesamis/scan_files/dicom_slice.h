@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mesamis/base/types.h"
 #include "mesamis/scan_files/dicom_data.h"
+#include "mesamis/scan_files/dicom_pixels.h"
 
 namespace mesamis::detail {
 
@@ -22,6 +24,11 @@ struct DicomSlice {
   bool localizer = false;  ///< its Image Type says LOCALIZER
 };
 
+/// A tag and the functional group of an enhanced file in which it lies.
+struct MacroTag {
+  DicomTag macro, tag;
+};
+
 /// The slices of one file and the series they belong to.
 struct DicomImage {
   std::filesystem::path file;
@@ -31,6 +38,16 @@ struct DicomImage {
   std::string problem;             ///< the whole line; empty: none
   std::string warning;
 };
+
+/// Places one frame, from 0, of a file of pixels: all of a DicomSlice but rescale and localizer.
+/// @param pixels  pixels_of(file).
+/// @throws InputError  if position, orientation or spacing are missing or cannot be used.
+DicomSlice place_frame(const DicomFile& file, const DicomPixels& pixels, std::size_t frame);
+
+/// `count` decimals of a tag that lies in the group `macro`: of the frame's own functional groups,
+/// else of those shared by all frames, else of the top level of the file.
+std::optional<std::vector<double>> frame_decimals(const DicomFile& file, std::size_t frame,
+                                                  const MacroTag& tag, std::size_t count);
 
 /// Reads everything but the samples. `problem` describes content that cannot be used; nothing is
 /// thrown for it.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,17 @@ namespace mesamis::detail {
 /// NIfTI-1 and -2, one file, plain or gzip'd, either byte order. World frame: the sform if its
 /// code is above 0, else the qform, else (with a warning) method 1 of the standard: axes along
 /// RAS, origin 0. RAS is turned into LPS; lengths in m or um into mm.
-ScanFile open_nifti(const std::filesystem::path& file);
+/// @param values  kMany: the fourth or the fifth axis may hold more than one volume.
+ScanFile open_nifti(const std::filesystem::path& file, Values values = Values::kOne);
+
+/// The header extensions of a NIfTI file, without size and code: none if there are none.
+/// @throws InputError  also for an extension of more than 16 MiB, or that ends behind the header.
+std::vector<std::string> nifti_extensions(const std::filesystem::path& file);
 
 /// NRRD 1 to 5 with 3 domain axes; raw, gzip or ascii; attached or one detached data file.
 /// World frame: spaces in LPS, RAS or LAS order; without a space the axes are taken as LPS.
-ScanFile open_nrrd(const std::filesystem::path& file);
+/// @param values  kMany: beside these axes the first or the last of four may be a list.
+ScanFile open_nrrd(const std::filesystem::path& file, Values values = Values::kOne);
 
 /// MetaImage with 3 axes and one channel; raw, zlib or ascii; LOCAL or one data file. LPS.
 ScanFile open_meta(const std::filesystem::path& file);
@@ -27,6 +34,9 @@ ScanFile open_meta(const std::filesystem::path& file);
 /// stores x to the left, y to the front and z to the head (checked on the distribution's
 /// Cranium.inv3; the file itself does not say), and no origin: the first voxel is put at 0.
 ScanFile open_inv3(const std::filesystem::path& file);
+
+/// Opens one of the formats above, as the file's name says; none for any other name.
+std::optional<ScanFile> open_array(const std::filesystem::path& file, Values values = Values::kOne);
 
 /// A TIFF whose pages are the slices; x to the left, y to the back, z to the head. Spacing from
 /// the resolution tags and from ImageJ's description (unit, spacing), 1 mm with a warning else.

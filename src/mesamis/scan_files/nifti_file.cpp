@@ -14,6 +14,7 @@ namespace {
 /// The fields of both header versions that matter here.
 struct NiftiHeader {
   bool big_endian = false;
+  std::size_t size = 0;  // in bytes
   std::array<std::int64_t, 8> dim{};
   std::array<double, 8> pixdim{};
   std::int64_t datatype = 0, units = 0, qform_code = 0, sform_code = 0;
@@ -102,6 +103,7 @@ NiftiHeader read_header(const std::filesystem::path& file) {
     }
     NiftiHeader h = declared == kSize1 ? parse_version_1(fields) : parse_version_2(fields);
     h.big_endian = big_endian;
+    h.size = static_cast<std::size_t>(declared);
     h.vox_offset = h.vox_offset == 0 ? (declared == kSize1 ? 352 : 544) : h.vox_offset;
     return h;
   }
@@ -124,17 +126,24 @@ NumberType sample_type(const std::filesystem::path& file, std::int64_t code) {
                    known == kRefused.end() ? "" : say(" (", known->second, ")")));
 }
 
-std::array<std::int64_t, 3> dimensions(const std::filesystem::path& file, const NiftiHeader& h) {
+void set_dimensions(ScanFile& scan, const NiftiHeader& h, Values values) {
+  const std::filesystem::path& file = scan.file;
   if (h.dim[0] < 3 || h.dim[0] > 7) {
     refuse(file, say("expected a 3-D image, found ", h.dim[0], " dimensions"));
   }
-  for (std::size_t d = 4; d <= static_cast<std::size_t>(h.dim[0]); ++d) {
-    if (h.dim[d] != 1) {
+  const auto dimensions = static_cast<std::size_t>(h.dim[0]);
+  // Probabilities lie along the fourth axis, or along the fifth, the standard's for vectors.
+  std::int64_t volumes = 1;
+  for (std::size_t d = 4; d <= dimensions; ++d) {
+    if (values == Values::kMany && volumes == 1 && d <= 5) {
+      volumes = h.dim[d];
+    } else if (h.dim[d] != 1) {
       refuse(file, say("expected a 3-D image, found ", h.dim[0], "-D with ", h.dim[d],
                        " values along dimension ", d));
     }
   }
-  return {h.dim[1], h.dim[2], h.dim[3]};
+  set_size(scan, {h.dim[1], h.dim[2], h.dim[3]});
+  set_values(scan, 1, volumes);
 }
 
 double unit_in_mm(std::int64_t units) {
@@ -203,10 +212,10 @@ void place(ScanFile& scan, const NiftiHeader& h) {
 
 }  // namespace
 
-ScanFile open_nifti(const std::filesystem::path& file) {
+ScanFile open_nifti(const std::filesystem::path& file, Values values) {
   const NiftiHeader h = read_header(file);
   ScanFile scan{file, "NIfTI", {}, {}, {}};
-  set_size(scan, dimensions(file, h));
+  set_dimensions(scan, h, values);
   if (!(h.vox_offset >= static_cast<double>(kSize1)) || h.vox_offset > 1e15) {
     refuse(file, say("expected the samples behind the header, found vox_offset ", h.vox_offset));
   }
@@ -221,6 +230,30 @@ ScanFile open_nifti(const std::filesystem::path& file) {
     scan.source.intercept = std::isfinite(h.intercept) ? h.intercept : 0;
   }
   return scan;
+}
+
+std::vector<std::string> nifti_extensions(const std::filesystem::path& file) {
+  constexpr std::uint64_t kMostBytes = 1 << 24;
+  const NiftiHeader h = read_header(file);
+  ByteSource bytes(file, Packing::kSniffed);
+  std::array<char, 8> begin{};  // first the flag of four bytes, then size and code of each
+  bytes.skip(h.size);
+  if (bytes.read(begin.data(), 4) < 4 || begin[0] == 0) return {};
+  std::vector<std::string> extensions;
+  const ByteOrder order = h.big_endian ? ByteOrder::kBig : ByteOrder::kLittle;
+  for (double at = static_cast<double>(h.size) + 4; at + 8 <= h.vox_offset;) {
+    if (bytes.read(begin.data(), 8) < 8) break;
+    const auto size = load<std::int32_t>(begin.data(), order);
+    if (size < 8 || at + size > h.vox_offset || size > static_cast<std::int64_t>(kMostBytes)) {
+      refuse(file, say("expected a header extension of 8 to ", kMostBytes,
+                       " bytes before the samples, found ", size));
+    }
+    std::string content(static_cast<std::size_t>(size) - 8, '\0');
+    content.resize(bytes.read(content.data(), content.size()));
+    extensions.push_back(std::move(content));
+    at += size;
+  }
+  return extensions;
 }
 
 }  // namespace mesamis::detail

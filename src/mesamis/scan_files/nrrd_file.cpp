@@ -12,7 +12,7 @@ namespace {
 
 struct NrrdHeader {
   std::filesystem::path file;
-  HeaderFields fields;
+  HeaderFields fields, keys;
   std::uint64_t size = 0;  // bytes up to the attached data
 
   bool has(const std::string& name) const { return fields.count(name) > 0; }
@@ -29,12 +29,27 @@ struct NrrdHeader {
   }
 };
 
-// "field: value". Lines with ":=" are keys of the user and are skipped.
+/// In keys and values of the user "\\n" stands for a line end, "\\\\" for a backslash.
+std::string unescaped(std::string_view text) {
+  std::string plain;
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    const bool escape = text[n] == '\\' && n + 1 < text.size();
+    if (escape) ++n;
+    plain += escape && text[n] == 'n' ? '\n' : text[n];
+  }
+  return plain;
+}
+
+// "field: value", or "key:=value" of the user.
 void parse_line(NrrdHeader& header, const std::string& line) {
   if (line.starts_with('#')) return;
   const auto colon = line.find(": ");
   const auto key = line.find(":=");
-  if (key != std::string::npos && (colon == std::string::npos || key < colon)) return;
+  if (key != std::string::npos && (colon == std::string::npos || key < colon)) {
+    header.keys.emplace(unescaped(std::string_view(line).substr(0, key)),
+                        unescaped(std::string_view(line).substr(key + 2)));
+    return;
+  }
   const auto end = colon != std::string::npos ? colon : line.find(':');
   if (end == std::string::npos) {
     refuse(header.file,
@@ -49,7 +64,7 @@ void parse_line(NrrdHeader& header, const std::string& line) {
 }
 
 NrrdHeader read_header(const std::filesystem::path& file) {
-  NrrdHeader header{file, {}, 0};
+  NrrdHeader header{file, {}, {}, 0};
   HeaderLines lines(file);
   std::string line;
   if (!lines.next(line) || !line.starts_with("NRRD000") || line.size() != 8) {
@@ -110,17 +125,51 @@ NumberType sample_type(const NrrdHeader& header) {
   return type->second;
 }
 
-void require_three_domains(const NrrdHeader& header) {
+bool is_domain(const std::string& kind) {
+  return kind == "domain" || kind == "space" || kind == "none" || kind == "???";
+}
+
+/// Which axis holds the values of a voxel: the first or the last of four, or none of three.
+struct ValueAxis {
+  std::size_t dimension = 3, axis = 3;
+
+  bool is_there() const { return dimension == 4; }
+};
+
+/// Of four axes, the one that has no direction in space or whose kind is none of space; else the
+/// last.
+std::size_t find_value_axis(const NrrdHeader& header, const std::vector<std::string>& kinds) {
+  const auto directions = words_of(header.or_else("space directions", ""));
+  if (!directions.empty() && directions.front() == "none") return 0;
+  return kinds.size() == 4 && !is_domain(kinds[0]) ? 0 : 3;
+}
+
+ValueAxis require_axes(const NrrdHeader& header, Values values) {
   const auto dimension = whole_numbers_of(header.file, "dimension", header.need("dimension"), 1)[0];
-  if (dimension != 3) {
+  if (dimension != 3 && (dimension != 4 || values == Values::kOne)) {
     refuse(header.file, say("expected a 3-D image, found ", dimension, " dimensions"));
   }
-  for (const std::string& kind : words_of(header.or_else("kinds", ""))) {
-    if (kind != "domain" && kind != "space" && kind != "none" && kind != "???") {
+  const auto kinds = words_of(header.or_else("kinds", ""));
+  ValueAxis found;
+  if (dimension == 4) found = {4, find_value_axis(header, kinds)};
+  for (std::size_t a = 0; a < kinds.size(); ++a) {
+    if (!is_domain(kinds[a]) && !(found.is_there() && a == found.axis)) {
       refuse(header.file,
-             say("expected three axes of space, found an axis of kind ", in_quotes(kind)));
+             say("expected three axes of space, found an axis of kind ", in_quotes(kinds[a])));
     }
   }
+  return found;
+}
+
+void set_sizes(ScanFile& scan, const NrrdHeader& header, const ValueAxis& values) {
+  auto sizes = whole_numbers_of(scan.file, "sizes", header.need("sizes"), values.dimension);
+  std::int64_t count = 1;
+  if (values.is_there()) {
+    count = sizes[values.axis];
+    sizes.erase(sizes.begin() + static_cast<std::ptrdiff_t>(values.axis));
+  }
+  set_size(scan, {sizes[0], sizes[1], sizes[2]});
+  values.axis == 0 ? set_values(scan, count, 1) : set_values(scan, 1, count);
 }
 
 /// +1 or -1 per world axis: converts the file's frame to LPS.
@@ -151,9 +200,8 @@ Vec3 parse_vector(const NrrdHeader& header, const std::string& field, const std:
 
 /// The vectors of a field; white space inside the brackets is allowed.
 std::vector<Vec3> vectors_of(const NrrdHeader& header, const std::string& field,
-                             std::size_t expected) {
+                             std::string_view text, std::size_t expected) {
   std::vector<Vec3> vectors;
-  std::string_view text = header.need(field);
   while (!trimmed(text).empty()) {
     const auto end = text.find(')');
     const auto length = end == std::string_view::npos ? text.size() : end + 1;
@@ -167,30 +215,36 @@ std::vector<Vec3> vectors_of(const NrrdHeader& header, const std::string& field,
   return vectors;
 }
 
-std::array<Vec3, 3> axis_steps(const NrrdHeader& header, std::vector<std::string>& warnings) {
+std::array<Vec3, 3> axis_steps(const NrrdHeader& header, const ValueAxis& values,
+                               std::vector<std::string>& warnings) {
   if (header.has("space directions")) {
-    const auto v = vectors_of(header, "space directions", 3);
+    std::string_view text = trimmed(header.need("space directions"));
+    // The axis of the values has no direction.
+    if (values.axis == 0 && text.starts_with("none")) text.remove_prefix(4);
+    if (values.axis == 3 && values.is_there() && text.ends_with("none")) text.remove_suffix(4);
+    const auto v = vectors_of(header, "space directions", text, 3);
     return {v[0], v[1], v[2]};
   }
   std::vector<double> spacing{1, 1, 1};
   if (header.has("spacings")) {
-    spacing = numbers_of(header.file, "spacings", header.need("spacings"), 3);
+    spacing = numbers_of(header.file, "spacings", header.need("spacings"), values.dimension);
+    if (values.axis == 0) spacing.erase(spacing.begin());
   } else {
     warnings.push_back("the header gives no spacing: 1 mm taken");
   }
   return {Vec3{spacing[0], 0, 0}, Vec3{0, spacing[1], 0}, Vec3{0, 0, spacing[2]}};
 }
 
-void place(ScanFile& scan, const NrrdHeader& header) {
+void place(ScanFile& scan, const NrrdHeader& header, const ValueAxis& values) {
   const Vec3 sign = signs_to_lps(header, scan.warnings);
   const auto to_lps = [&sign](const Vec3& v) {
     return Vec3{sign.x * v.x, sign.y * v.y, sign.z * v.z};
   };
-  auto steps = axis_steps(header, scan.warnings);
+  auto steps = axis_steps(header, values, scan.warnings);
   for (Vec3& step : steps) step = to_lps(step);
   set_axes(scan, steps);
   if (header.has("space origin")) {
-    set_origin(scan, to_lps(vectors_of(header, "space origin", 1)[0]));
+    set_origin(scan, to_lps(vectors_of(header, "space origin", header.need("space origin"), 1)[0]));
   }
 }
 
@@ -244,16 +298,16 @@ void find_data(SampleSource& source, const NrrdHeader& header) {
 
 }  // namespace
 
-ScanFile open_nrrd(const std::filesystem::path& file) {
-  const NrrdHeader header = read_header(file);
+ScanFile open_nrrd(const std::filesystem::path& file, Values values) {
+  NrrdHeader header = read_header(file);
   ScanFile scan{file, "NRRD", {}, {}, {}};
-  require_three_domains(header);
-  const auto sizes = whole_numbers_of(file, "sizes", header.need("sizes"), 3);
-  set_size(scan, {sizes[0], sizes[1], sizes[2]});
-  place(scan, header);
+  const ValueAxis axis = require_axes(header, values);
+  set_sizes(scan, header, axis);
+  place(scan, header, axis);
   scan.source.type = sample_type(header);
   set_encoding(scan.source, header);
   find_data(scan.source, header);
+  scan.keys = std::move(header.keys);
   return scan;
 }
 

@@ -2,12 +2,11 @@
 #include "mesamis/scan_files/read_volume.h"
 
 #include <array>
-#include <new>
 #include <string_view>
-#include <system_error>
 
 #include "mesamis/base/error.h"
 #include "mesamis/files/file_list.h"
+#include "mesamis/files/in_one_line.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
 
@@ -15,22 +14,27 @@ namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
+using detail::in_one_line;
 using detail::refuse;
 using detail::ScanFile;
+using detail::Values;
 
 /// A format of plain arrays and the ends of its files' names.
 struct ArrayFormat {
   std::string_view extension;
-  ScanFile (*open)(const fs::path&);
+  ScanFile (*open)(const fs::path&, Values);
 };
+
+ScanFile open_one_meta(const fs::path& file, Values) { return detail::open_meta(file); }
+ScanFile open_one_inv3(const fs::path& file, Values) { return detail::open_inv3(file); }
 
 constexpr std::array<ArrayFormat, 7> kArrayFormats{{{".nii", detail::open_nifti},
                                                     {".nii.gz", detail::open_nifti},
                                                     {".nrrd", detail::open_nrrd},
                                                     {".nhdr", detail::open_nrrd},
-                                                    {".mha", detail::open_meta},
-                                                    {".mhd", detail::open_meta},
-                                                    {".inv3", detail::open_inv3}}};
+                                                    {".mha", open_one_meta},
+                                                    {".mhd", open_one_meta},
+                                                    {".inv3", open_one_inv3}}};
 
 const ArrayFormat* array_format_of(const fs::path& file) {
   const std::string name = detail::lower(file.filename().string());
@@ -47,15 +51,6 @@ bool is_tiff(const fs::path& file) {
 
 bool has_known_extension(const fs::path& file) { return array_format_of(file) || is_tiff(file); }
 
-void require_there(const fs::path& path) {
-  std::error_code error;
-  const auto status = fs::status(path, error);
-  if (!fs::exists(status)) refuse(path, "no such file or directory");
-  if (!fs::is_directory(status) && !fs::is_regular_file(status)) {
-    refuse(path, "expected a file or a directory, found neither");
-  }
-}
-
 [[noreturn]] void refuse_unknown(const fs::path& file) {
   refuse(file,
          "expected .nii .nii.gz .nrrd .nhdr .mha .mhd .tif .inv3 or DICOM, found none of "
@@ -70,7 +65,7 @@ VolumeFile read_array(const ScanFile& scan) {
 
 VolumeFile read_file(const fs::path& path, const ReadOptions& options) {
   if (fs::is_directory(path)) return detail::read_dicom(path, options.series);
-  if (const ArrayFormat* format = array_format_of(path)) return read_array(format->open(path));
+  if (const auto scan = detail::open_array(path)) return read_array(*scan);
   if (is_tiff(path)) return detail::read_tiff(path);
   if (detail::looks_like_dicom(path)) return detail::read_dicom(path, options.series);
   refuse_unknown(path);
@@ -81,7 +76,7 @@ VolumeInfo describe(const fs::path& file) {
   info.description = file.filename().string();
   try {
     if (is_tiff(file)) return detail::describe_tiff(file);
-    const ScanFile scan = array_format_of(file)->open(file);
+    const ScanFile scan = *detail::open_array(file);
     info.format = scan.format;
     info.modality = scan.grid.modality;
     info.size = scan.grid.size;
@@ -106,24 +101,12 @@ std::vector<VolumeInfo> list(const fs::path& path) {
   return all;
 }
 
-/// Runs `work`. Every failure becomes an InputError of one line that begins with the path and names
-/// the broken file, where that is another file of the series.
-template <class Work>
-auto in_one_line(const fs::path& path, Work&& work) {
-  try {
-    require_there(path);
-    return work();
-  } catch (const InputError& error) {
-    if (std::string_view(error.what()).starts_with(path.string())) throw;
-    refuse(path, error.what());
-  } catch (const std::bad_alloc&) {
-    refuse(path, "not enough memory to read it");
-  } catch (const std::exception& error) {
-    refuse(path, std::string("cannot be read: ") + error.what());
-  }
-}
-
 }  // namespace
+
+std::optional<ScanFile> detail::open_array(const fs::path& file, Values values) {
+  const ArrayFormat* format = array_format_of(file);
+  return format ? std::optional(format->open(file, values)) : std::nullopt;
+}
 
 VolumeFile read_volume(const fs::path& path, const ReadOptions& options) {
   return in_one_line(path, [&] { return read_file(path, options); });

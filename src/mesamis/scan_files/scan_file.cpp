@@ -16,8 +16,19 @@ constexpr std::size_t kSamplesAtOnce = 1 << 16;
 constexpr double kRoundingSkew = 1e-5;  // rounding of orthogonal axes to single precision
 static_assert(std::endian::native == std::endian::little, "samples are swapped for little endian");
 
-std::string size_text(const Volume& grid) {
-  return say(grid.size[0], " x ", grid.size[1], " x ", grid.size[2]);
+constexpr std::int64_t kMostSamples = std::int64_t{1} << 40;
+constexpr std::int64_t kMostValues = 1 << 24;  // per voxel
+
+std::uint64_t sample_count(const ScanFile& scan) {
+  return std::uint64_t{scan.grid.voxel_count()} * static_cast<std::uint64_t>(scan.inner) *
+         static_cast<std::uint64_t>(scan.outer);
+}
+
+std::string size_text(const ScanFile& scan) {
+  const auto& n = scan.grid.size;
+  const std::string voxels = say(n[0], " x ", n[1], " x ", n[2]);
+  const Index values = scan.inner * scan.outer;
+  return values == 1 ? voxels : say(voxels, " x ", values);
 }
 
 template <class Stored>
@@ -42,13 +53,13 @@ void convert_any(std::span<const unsigned char> bytes, const SampleSource& sourc
 template <class Found>
 [[noreturn]] void refuse_short(const ScanFile& scan, std::uint64_t expected, const Found& found,
                                const char* unit) {
-  refuse(scan.source.file, say("expected ", expected, " ", unit, " for ", size_text(scan.grid),
+  refuse(scan.source.file, say("expected ", expected, " ", unit, " for ", size_text(scan),
                                " samples, found ", found));
 }
 
 void read_binary(const ScanFile& scan, ByteSource& bytes, std::vector<float>& out) {
   const auto width = byte_size(scan.source.type);
-  const std::size_t count = scan.grid.voxel_count();
+  const std::size_t count = sample_count(scan);
   std::vector<unsigned char> block(kSamplesAtOnce * width);
   while (out.size() < count) {
     const std::size_t wanted = std::min(kSamplesAtOnce, count - out.size()) * width;
@@ -71,7 +82,7 @@ void append_number(const ScanFile& scan, std::string_view word, std::vector<floa
 
 void read_text(const ScanFile& scan, ByteSource& bytes, std::vector<float>& out) {
   constexpr std::size_t kLongestNumber = 64;
-  const std::size_t count = scan.grid.voxel_count();
+  const std::size_t count = sample_count(scan);
   std::vector<char> block(kSamplesAtOnce);
   std::string word;
   for (bool more = true; more && out.size() < count;) {
@@ -91,7 +102,7 @@ void read_text(const ScanFile& scan, ByteSource& bytes, std::vector<float>& out)
 
 /// Fewest bytes (unpacked) that the samples take; a number in text needs one and a blank.
 std::uint64_t fewest_bytes(const ScanFile& scan) {
-  const std::uint64_t count = scan.grid.voxel_count();
+  const std::uint64_t count = sample_count(scan);
   return scan.source.text ? 2 * count - 1 : count * byte_size(scan.source.type);
 }
 
@@ -122,8 +133,7 @@ std::array<Vec3, 3> nearest_orthonormal(std::array<Vec3, 3> q) {
 }  // namespace
 
 void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts) {
-  constexpr std::int64_t kMostVoxels = std::int64_t{1} << 40;
-  std::int64_t left = kMostVoxels;
+  std::int64_t left = kMostSamples;
   for (std::size_t a = 0; a < 3; ++a) {
     if (counts[a] < 1 || counts[a] > std::numeric_limits<Index>::max()) {
       refuse(scan.file,
@@ -132,7 +142,18 @@ void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts) {
     left /= counts[a];
     scan.grid.size[a] = static_cast<Index>(counts[a]);
   }
-  if (left < 1) refuse(scan.file, say("more voxels than can be read: ", size_text(scan.grid)));
+  if (left < 1) refuse(scan.file, say("more voxels than can be read: ", size_text(scan)));
+}
+
+void set_values(ScanFile& scan, std::int64_t inner, std::int64_t outer) {
+  const std::int64_t values = std::max(inner, outer);
+  const auto most = kMostSamples / static_cast<std::int64_t>(scan.grid.voxel_count());
+  if (std::min(inner, outer) < 1 || values > std::min<std::int64_t>(most, kMostValues)) {
+    refuse(scan.file, say("expected 1 to ", std::min<std::int64_t>(most, kMostValues),
+                          " values per voxel, found ", inner == 1 ? outer : inner));
+  }
+  scan.inner = static_cast<Index>(inner);
+  scan.outer = static_cast<Index>(outer);
 }
 
 void set_axes(ScanFile& scan, const std::array<Vec3, 3>& steps) {
@@ -189,12 +210,12 @@ std::vector<float> read_samples(const ScanFile& scan) {
   bytes.skip(skip);
   // This reserves addresses only; the system provides memory as samples are appended.
   std::vector<float> samples;
-  samples.reserve(scan.grid.voxel_count());
+  samples.reserve(sample_count(scan));
   source.text ? read_text(scan, bytes, samples) : read_binary(scan, bytes, samples);
   char beyond = 0;
   if (source.exact && !source.text && bytes.read(&beyond, 1) > 0) {
     refuse(source.file, say("expected the data to end after ", needed, " bytes for ",
-                            size_text(scan.grid), " samples, but they go on"));
+                            size_text(scan), " samples, but they go on"));
   }
   return samples;
 }

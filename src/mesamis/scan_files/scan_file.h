@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,10 +38,20 @@ struct ScanFile {
   Volume grid;  ///< without samples
   SampleSource source;
   std::vector<std::string> warnings;
+  Index inner = 1;                            ///< values per voxel, one after another
+  Index outer = 1;                            ///< volumes, one after another
+  std::map<std::string, std::string> keys{};  ///< NRRD: "key:=value"
 };
+
+/// How many values per voxel a reader accepts.
+enum class Values { kOne, kMany };
 
 /// Sets the grid's size. @throws InputError  if a count is below 1 or the product out of bounds.
 void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts);
+
+/// Sets the number of values per voxel; inner or outer is 1. Call it after set_size().
+/// @throws InputError  if a count is below 1 or the number of samples out of bounds.
+void set_values(ScanFile& scan, std::int64_t inner, std::int64_t outer);
 
 /// Sets spacing and direction from one step along each axis (LPS, mm).
 ///
@@ -52,8 +63,9 @@ void set_axes(ScanFile& scan, const std::array<Vec3, 3>& steps);
 /// Sets the origin. @throws InputError  if it is not finite.
 void set_origin(ScanFile& scan, const Vec3& origin);
 
-/// Reads the samples. Memory grows with the data that are really there: a header that promises
-/// more than the file can hold is refused before anything is allocated.
+/// Reads the samples of all values, in the order of the file. Memory grows with the data that are
+/// really there: a header that promises more than the file can hold is refused before anything is
+/// allocated.
 /// @throws InputError  if the data are too short, broken or (source.exact) too long.
 std::vector<float> read_samples(const ScanFile& scan);
 

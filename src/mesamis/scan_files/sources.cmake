@@ -2,6 +2,15 @@
 set(ROOM_HEADERS
   read_volume.h
   write_volume.h)
+# For the rooms above alone: not installed.
+set(ROOM_INNER_HEADERS
+  dicom_data.h
+  dicom_pixels.h
+  dicom_slice.h
+  dicom_spacing.h
+  formats.h
+  nrrd_header.h
+  scan_file.h)
 set(ROOM_SOURCES
   dicom_data.cpp
   dicom_file.cpp
@@ -19,6 +28,7 @@ set(ROOM_SOURCES
   meta_file.cpp
   nifti_file.cpp
   nrrd_file.cpp
+  nrrd_header.cpp
   read_volume.cpp
   scan_file.cpp
   text_header.cpp

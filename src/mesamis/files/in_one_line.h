@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "mesamis/base/error.h"
+#include "mesamis/files/refuse.h"
+
+namespace mesamis::detail {
+
+/// @throws InputError  if there is neither a file nor a directory of this path.
+inline void require_there(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) refuse(path, "no such file or directory");
+  if (!std::filesystem::is_directory(status) && !std::filesystem::is_regular_file(status)) {
+    refuse(path, "expected a file or a directory, found neither");
+  }
+}
+
+/// Runs the work of a reader on a path that is there. Every failure becomes an InputError of one
+/// line that begins with the path and names the broken file, where that is another one.
+/// @return what the work returns.
+template <class Work>
+auto in_one_line(const std::filesystem::path& path, Work&& work) {
+  try {
+    require_there(path);
+    return work();
+  } catch (const InputError& error) {
+    if (std::string_view(error.what()).starts_with(path.string())) throw;
+    refuse(path, error.what());
+  } catch (const std::bad_alloc&) {
+    refuse(path, "not enough memory to read it");
+  } catch (const std::exception& error) {
+    refuse(path, std::string("cannot be read: ") + error.what());
+  }
+}
+
+}  // namespace mesamis::detail
