@@ -162,6 +162,13 @@ TEST(LabelMap, RangeHoldsTheSegmentTightly) {
   const Segment seven{"seven", 7, 0, {}}, eight{"eight", 8, 0, {}};
   EXPECT_EQ(range_of(map, seven), (CropRange{{2, 1, 3}, {6, 2, 5}}));
   EXPECT_EQ(range_of(map, eight), std::nullopt);
+  map.layers.push_back(map.layers[0]);
+  map.layers[1][map.offset(6, 5, 4)] = 7;
+  map.segments = {eight, seven, {"seven", 7, 1, {}}};
+  const auto ranges = ranges_of(map);
+  ASSERT_EQ(ranges.size(), 3u);
+  for (std::size_t n = 0; n < 3; ++n) EXPECT_EQ(ranges[n], range_of(map, map.segments[n]));
+  EXPECT_EQ(ranges[2], (CropRange{{2, 1, 3}, {7, 6, 5}}));
 }
 
 TEST(LabelMap, NamesLabelsThatHaveNone) {

@@ -82,6 +82,39 @@ void for_each_voxel(const VoxelGrid& from, const VoxelGrid& grid, Visit visit) {
                   });
 }
 
+/// Calls visit(label, {i, j, k}) for each voxel of a layer that is not background.
+template <class Visit>
+void for_each_label(const LabelMap& map, Index layer, Visit visit) {
+  const auto& labels = map.layers[static_cast<std::size_t>(layer)];
+  std::size_t at = 0;
+  for (Index k = 0; k < map.size[2]; ++k) {
+    for (Index j = 0; j < map.size[1]; ++j) {
+      for (Index i = 0; i < map.size[0]; ++i, ++at) {
+        if (labels[at] != 0) visit(labels[at], std::array<Index, 3>{i, j, k});
+      }
+    }
+  }
+}
+
+/// The ranges of the segments of a map while its voxels are visited; one more for labels without.
+class RangeFinder {
+ public:
+  explicit RangeFinder(const LabelMap& map)
+      : ranges_(map.segments.size() + 1, CropRange{map.size, {0, 0, 0}}) {}
+  void include(std::size_t n, const std::array<Index, 3>& voxel) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      ranges_[n].begin[a] = std::min(ranges_[n].begin[a], voxel[a]);
+      ranges_[n].end[a] = std::max(ranges_[n].end[a], voxel[a] + 1);
+    }
+  }
+  std::optional<CropRange> range(std::size_t n) const {
+    return ranges_[n].end[0] > 0 ? std::optional(ranges_[n]) : std::nullopt;
+  }
+
+ private:
+  std::vector<CropRange> ranges_;
+};
+
 /// The labels of each layer, in ascending order.
 std::vector<std::uint16_t> labels_of(const std::vector<std::uint16_t>& layer,
                                      std::vector<bool>& seen) {
@@ -185,22 +218,29 @@ std::vector<float> probability_on(const Probabilities& from, Index layer, const 
 }
 
 std::optional<CropRange> range_of(const LabelMap& map, const Segment& segment) {
-  const auto& labels = map.layers[static_cast<std::size_t>(segment.layer)];
-  CropRange range{map.size, {0, 0, 0}};
-  std::size_t at = 0;
-  for (Index k = 0; k < map.size[2]; ++k) {
-    for (Index j = 0; j < map.size[1]; ++j) {
-      for (Index i = 0; i < map.size[0]; ++i, ++at) {
-        if (labels[at] != segment.label) continue;
-        const std::array<Index, 3> voxel{i, j, k};
-        for (std::size_t a = 0; a < 3; ++a) {
-          range.begin[a] = std::min(range.begin[a], voxel[a]);
-          range.end[a] = std::max(range.end[a], voxel[a] + 1);
-        }
-      }
+  RangeFinder finder(map);
+  for_each_label(map, segment.layer, [&](std::uint16_t label, const std::array<Index, 3>& voxel) {
+    if (label == segment.label) finder.include(0, voxel);
+  });
+  return finder.range(0);
+}
+
+std::vector<std::optional<CropRange>> ranges_of(const LabelMap& map) {
+  RangeFinder finder(map);
+  std::vector<std::size_t> segment_of(std::size_t{kMaxLabel} + 1);
+  for (Index layer = 0; static_cast<std::size_t>(layer) < map.layers.size(); ++layer) {
+    std::fill(segment_of.begin(), segment_of.end(), map.segments.size());
+    for (std::size_t n = 0; n < map.segments.size(); ++n) {
+      const Segment& s = map.segments[n];
+      if (s.layer == layer) segment_of[static_cast<std::size_t>(s.label)] = n;
     }
+    for_each_label(map, layer, [&](std::uint16_t label, const std::array<Index, 3>& voxel) {
+      finder.include(segment_of[label], voxel);
+    });
   }
-  return range.end[0] > 0 ? std::optional(range) : std::nullopt;
+  std::vector<std::optional<CropRange>> ranges;
+  for (std::size_t n = 0; n < map.segments.size(); ++n) ranges.push_back(finder.range(n));
+  return ranges;
 }
 
 LabelMap with_all_segments(LabelMap map) {

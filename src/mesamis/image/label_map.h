@@ -91,6 +91,12 @@ std::vector<float> probability_on(const Probabilities& from, Index layer, const 
 /// O(voxels).
 std::optional<CropRange> range_of(const LabelMap& map, const Segment& segment);
 
+/// Finds that range for all segments of the map, in their order, in one walk over the voxels.
+/// @throws nothing
+///
+/// O(voxels * layers).
+std::vector<std::optional<CropRange>> ranges_of(const LabelMap& map);
+
 /// Adds a segment for each label that occurs and has none, after the others, by layer and label. It
 /// is called "label N" and has the colour default_colour(N).
 /// @throws nothing

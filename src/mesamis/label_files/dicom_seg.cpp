@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/label_files/dicom_seg.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "mesamis/files/refuse.h"
+#include "mesamis/label_files/seg_file.h"
+
+namespace mesamis::detail {
+namespace {
+
+std::size_t frame_begin(const SegFile& seg, std::size_t frame) {
+  return seg.grid.grid.offset(0, 0, seg.grid.slice[frame]);
+}
+
+/// The frames of each segment.
+std::map<Index, std::vector<std::size_t>> frames_by_segment(const SegFile& seg) {
+  std::map<Index, std::vector<std::size_t>> frames;
+  for (std::size_t frame = 0; frame < seg.number.size(); ++frame) {
+    frames[seg.number[frame]].push_back(frame);
+  }
+  return frames;
+}
+
+/// Puts one segment after another into layers.
+class LayerBuilder {
+ public:
+  LayerBuilder(const SegFile& seg, LabelMap& map) : seg_(seg), map_(map) {}
+
+  /// @return the segment's layer.
+  Index add(Index label, const std::vector<std::size_t>& frames) {
+    const std::size_t layer = free_layer(frames);
+    if (layer == map_.layers.size()) {
+      require_voxels(seg_.file, map_, layer + 1);
+      map_.layers.emplace_back(map_.voxel_count());
+    }
+    for_each_voxel(frames, [&](std::size_t voxel) {
+      map_.layers[layer][voxel] = static_cast<std::uint16_t>(label);
+    });
+    return static_cast<Index>(layer);
+  }
+
+ private:
+  /// The first layer where no voxel of the frames is taken; one behind the last if there is none.
+  std::size_t free_layer(const std::vector<std::size_t>& frames) {
+    std::vector<bool> taken(map_.layers.size());
+    for_each_voxel(frames, [&](std::size_t voxel) {
+      for (std::size_t n = 0; n < taken.size(); ++n) {
+        if (map_.layers[n][voxel] != 0) taken[n] = true;
+      }
+    });
+    return static_cast<std::size_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
+  }
+
+  /// Calls visit(offset) for each voxel of the frames that belongs to their segment.
+  template <class Visit>
+  void for_each_voxel(const std::vector<std::size_t>& frames, Visit visit) {
+    const double least = seg_.type == SegType::kFractional ? seg_.most / 2 : 1;
+    for (const std::size_t frame : frames) {
+      read_frame(seg_, frame, pixels_);
+      const std::size_t begin = frame_begin(seg_, frame);
+      for (std::size_t n = 0; n < pixels_.size(); ++n) {
+        if (pixels_[n] >= least) visit(begin + n);
+      }
+    }
+  }
+
+  const SegFile& seg_;
+  LabelMap& map_;
+  std::vector<float> pixels_;
+};
+
+void fill_layers(const SegFile& seg, LabelMap& map) {
+  LayerBuilder builder(seg, map);
+  const auto frames = frames_by_segment(seg);
+  for (Segment& segment : map.segments) {
+    const auto found = frames.find(segment.label);
+    if (found != frames.end()) segment.layer = builder.add(segment.label, found->second);
+  }
+  if (map.layers.empty()) map.layers.emplace_back(map.voxel_count());
+}
+
+void fill_labels(const SegFile& seg, LabelMap& map) {
+  std::set<Index> known{0};
+  for (const Segment& segment : map.segments) known.insert(segment.label);
+  map.layers.emplace_back(map.voxel_count());
+  std::vector<float> pixels;
+  for (std::size_t frame = 0; frame < seg.grid.slice.size(); ++frame) {
+    read_frame(seg, frame, pixels);
+    const std::size_t begin = frame_begin(seg, frame);
+    Index last = 0;  // neighbours mostly have one label
+    for (std::size_t n = 0; n < pixels.size(); ++n) {
+      const auto label = static_cast<Index>(pixels[n]);
+      if (label != last && !known.count(label)) {
+        refuse(seg.file.path, say("expected labels of the Segment Sequence, found ", label,
+                                  " in frame ", frame + 1));
+      }
+      last = label;
+      map.layers[0][begin + n] = static_cast<std::uint16_t>(label);
+    }
+  }
+}
+
+}  // namespace
+
+LabelFile read_dicom_labels(const std::filesystem::path& path) {
+  const SegFile seg = open_seg(path);
+  LabelFile out{{seg.grid.grid, {}, seg.segments}, "DICOM", {}};
+  seg.type == SegType::kLabels ? fill_labels(seg, out.map) : fill_layers(seg, out.map);
+  return out;
+}
+
+ProbabilityFile read_dicom_probabilities(const std::filesystem::path& path) {
+  const SegFile seg = open_seg(path);
+  if (seg.type == SegType::kLabels) {
+    refuse(path, "expected a fractional or binary segmentation, found one of segment numbers");
+  }
+  require_voxels(seg.file, seg.grid.grid, seg.segments.size());
+  ProbabilityFile out{{seg.grid.grid, {}, seg.segments}, {}};
+  Probabilities& all = out.probabilities;
+  std::map<Index, std::size_t> layer_of;
+  for (std::size_t n = 0; n < all.segments.size(); ++n) {
+    layer_of[all.segments[n].label] = n;
+    all.segments[n].label = static_cast<Index>(n + 1);
+    all.segments[n].layer = static_cast<Index>(n);
+  }
+  all.layers.assign(all.segments.size(), std::vector<float>(all.voxel_count()));
+  const double most = seg.type == SegType::kFractional ? seg.most : 1;
+  std::vector<float> pixels;
+  for (std::size_t frame = 0; frame < seg.number.size(); ++frame) {
+    read_frame(seg, frame, pixels);
+    float* to = all.layers[layer_of.at(seg.number[frame])].data() + frame_begin(seg, frame);
+    for (const float pixel : pixels) *to++ = static_cast<float>(std::min(pixel / most, 1.0));
+  }
+  return out;
+}
+
+}  // namespace mesamis::detail

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mesamis/image/label_map.h"
+
+namespace mesamis {
+
+/// A label map and what its file says beside the labels.
+struct LabelFile {
+  LabelMap map;        ///< valid, see require_valid(); spacing and origin in mm, LPS
+  std::string format;  ///< "NIfTI", "NRRD", "MetaImage", "TIFF", "InVesalius", "DICOM"
+  std::vector<std::string> warnings;  ///< one line each: what was assumed or left out
+};
+
+/// Reads a label map: .nii .nii.gz .nrrd .nhdr .mha .mhd .tif .tiff .inv3, 3D Slicer's .seg.nrrd, a
+/// DICOM segmentation, or a directory that holds one DICOM file, a segmentation.
+///
+/// Labels are whole numbers of 0 (background) to 65535, of any number type. The world frame is LPS
+/// and the place of the grid is that of read_volume(). Every label that occurs gets a segment; what
+/// a file does not name is called "label N".
+///
+/// NIfTI: names and colours from the label table of a CaretExtension in the header
+/// (TotalSegmentator, Connectome Workbench). NRRD: names, colours, labels and layers from the
+/// fields SegmentN_... of 3D Slicer; the values of a list axis, first or last of four, are layers;
+/// where a segment has no label, it is 1, and where it has no layer, one layer per segment or the
+/// only one.
+///
+/// DICOM segmentations (SOP classes Segmentation Storage and Label Map Segmentation Storage): the
+/// label is the segment number. Binary and fractional ones (at least half of the maximum) get as
+/// many layers as overlapping segments need. Frames may be missing where a segment is absent; their
+/// positions must fit a regular grid to 2 % of its step, which is the Spacing Between Slices or,
+/// where there is none, the least distance of two frames. Single bits must be coded natively or
+/// deflated; other pixels also as the scans are.
+///
+/// @param path  file or directory; the extension decides, DICOM is known by its content.
+/// @throws InputError  one line that begins with the path: what, where, expected, found.
+///
+/// O(voxels * layers). Memory grows with the data that are there: 6 bytes per voxel and layer, for
+/// DICOM at most 8192 voxels per byte of the file.
+LabelFile read_label_map(const std::filesystem::path& path);
+
+/// Probabilities and what their files say beside them.
+struct ProbabilityFile {
+  Probabilities probabilities;        ///< spacing and origin in mm, LPS
+  std::vector<std::string> warnings;  ///< one line each: what was assumed or left out
+};
+
+/// Reads probabilities of one or more objects: one file of four dimensions, or one volume per
+/// object.
+///
+/// The objects of one file are called "label 1", "label 2", ...; NRRD and NIfTI files may name them
+/// as read_label_map() says. Of one volume each, the names of the files without their extensions
+/// are the names. A fractional or binary DICOM segmentation gives its values divided by their
+/// maximum.
+/// @param paths  one file, or several volumes on one grid (to 1e-3 of a voxel).
+/// @return values of 0 to 1 (no unit); those beyond by at most 1e-3, which smoothing leaves, are
+/// set to
+///         the bound.
+/// @throws InputError  one line that begins with a path, for other values, for grids that differ,
+/// and as
+///                     read_label_map().
+///
+/// O(voxels * objects). Memory: 4 bytes per voxel and object, twice for one file.
+ProbabilityFile read_probabilities(const std::vector<std::filesystem::path>& paths);
+
+}  // namespace mesamis

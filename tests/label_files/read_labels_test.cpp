@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/label_files/read_labels.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/scan_bytes.h"
+#include "support/seg_bytes.h"
+#include "support/temp_folder.h"
+#include "support/throws.h"
+
+namespace mesamis {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::ElementsAreArray;
+using testing::HasSubstr;
+using testing::SizeIs;
+using testing::StartsWith;
+
+const std::vector<std::int16_t> kLabels = ramp<std::int16_t>(60, 0);
+
+LabelFile read(const TempFolder& folder, const std::string& name, const std::string& bytes) {
+  write_bytes(folder / name, bytes);
+  return read_label_map(folder / name);
+}
+
+/// Labels 0, 1, 2, ... of 4 x 3 x 5 voxels, and a segment for each but the background.
+void expect_counted(const LabelFile& file, const std::string& format) {
+  EXPECT_EQ(file.format, format);
+  EXPECT_THAT(file.map.size, ElementsAre(4, 3, 5));
+  ASSERT_THAT(file.map.layers, SizeIs(1));
+  EXPECT_THAT(file.map.layers[0], ElementsAreArray(kLabels));
+  ASSERT_THAT(file.map.segments, SizeIs(59));
+  EXPECT_EQ(file.map.segments[4], (Segment{"label 5", 5, 0, default_colour(5)}));
+  EXPECT_NO_THROW(require_valid(file.map));
+}
+
+TEST(ReadLabels, OfEveryFormatOfScans) {
+  const TempFolder folder;
+  const std::string data = bytes_of_all(kLabels), nifti = NiftiBytes{}.header() + data;
+  expect_counted(read(folder, "a.nii", nifti), "NIfTI");
+  expect_counted(read(folder, "a.nii.gz", packed(nifti)), "NIfTI");
+  const std::string nrrd = "encoding: raw\nendian: little\n";
+  expect_counted(read(folder, "a.nrrd", nrrd_bytes(nrrd, data)), "NRRD");
+  write_bytes(folder / "b.raw", data);
+  expect_counted(read(folder, "b.nhdr", nrrd_bytes(nrrd + "data file: b.raw\n", "")), "NRRD");
+  expect_counted(read(folder, "a.mha", meta_bytes("") + data), "MetaImage");
+  std::vector<TiffPage> pages(5);
+  for (std::size_t k = 0; k < 5; ++k) pages[k].pixels = data.substr(24 * k, 24);
+  expect_counted(read(folder, "a.tif", tiff_bytes(pages)), "TIFF");
+  expect_counted(read(folder, "a.inv3", inv3_bytes(4, 3, 5, data)), "InVesalius");
+}
+
+TEST(ReadLabels, OfEveryNumberTypeWithWholeValues) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.datatype = 16, nifti.bitpix = 32;
+  const std::vector<float> real(kLabels.begin(), kLabels.end());
+  expect_counted(read(folder, "a.nii", nifti.header() + bytes_of_all(real)), "NIfTI");
+  nifti.datatype = 1024, nifti.bitpix = 64;
+  const std::vector<std::int64_t> whole(kLabels.begin(), kLabels.end());
+  expect_counted(read(folder, "a.nii", nifti.header() + bytes_of_all(whole)), "NIfTI");
+}
+
+TEST(ReadLabels, NamesOfATotalSegmentatorFile) {
+  const TempFolder folder;
+  const std::string xml =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?><CaretExtension><VolumeInformation Index=\"0\">"
+      "<LabelTable><Label Key=\"5\" Red=\"0\" Green=\"1\" Blue=\"1\" Alpha=\"1\">"
+      "<![CDATA[liver]]></Label></LabelTable></VolumeInformation></CaretExtension>";
+  for (const bool big_endian : {false, true}) {
+    NiftiBytes nifti;
+    nifti.big_endian = big_endian;
+    nifti.vox_offset = static_cast<float>(352 + 8 + xml.size());
+    std::string header = nifti.header();
+    header[348] = 1;
+    header += bytes_of(static_cast<std::int32_t>(8 + xml.size()), big_endian) +
+              bytes_of(std::int32_t{0}, big_endian) + xml;
+    const std::string data = bytes_of_all(kLabels, big_endian);
+    const LabelFile file = read(folder, "a.nii", header + data);
+    EXPECT_EQ(find_segment(file.map.segments, "liver"), (Segment{"liver", 5, 0, {0, 255, 255}}));
+    EXPECT_THAT(file.map.segments, SizeIs(59));
+    EXPECT_THAT(file.warnings, SizeIs(0));
+    header[352 + (big_endian ? 0 : 3)] = 0x7f;  // a size beyond the header
+    const LabelFile broken = read(folder, "a.nii", header + data);
+    EXPECT_THAT(broken.map.segments, SizeIs(59));
+    EXPECT_THAT(broken.warnings, ElementsAre(HasSubstr("names of the labels are not read")));
+  }
+}
+
+const std::string kSlicerGrid =
+    "NRRD0004\ntype: uint8\nspace: left-posterior-superior\nencoding: raw\n"
+    "space origin: (1,2,3)\n";
+
+TEST(ReadLabels, SlicersLayersFirstOrLast) {
+  const TempFolder folder;
+  const std::string keys =
+      "Segment0_ID:=Segment_1\nSegment0_Name:=left: "
+      "hip\nSegment0_LabelValue:=2\nSegment0_Layer:=0\n"
+      "Segment0_Color:=1 0 0\nSegment1_ID:=Segment_2\nSegment1_Name:=skin\n"
+      "Segment1_LabelValue:=2\nSegment1_Layer:=1\n\n";
+  const std::string directions = " (0,1,0) (-1,0,0) (0,0,2) ";
+  const std::string first =
+      kSlicerGrid + "dimension: 4\nsizes: 2 2 1 2\nkinds: list domain domain domain\n" +
+      "space directions: none" + directions + "\n" + keys + std::string("\2\0\0\2\2\2\0\0", 8);
+  const std::string last =
+      kSlicerGrid + "dimension: 4\nsizes: 2 1 2 2\nkinds: domain domain domain list\n" +
+      "space directions:" + directions + "none\n" + keys + std::string("\2\0\2\0\0\2\2\0", 8);
+  for (const std::string& bytes : {first, last}) {
+    const LabelFile file = read(folder, "a.seg.nrrd", bytes);
+    EXPECT_THAT(file.map.size, ElementsAre(2, 1, 2));
+    EXPECT_EQ(file.map.spacing, (Vec3{1, 1, 2}));
+    EXPECT_EQ(file.map.to_world({1, 0, 0}), (Vec3{1, 3, 3}));
+    EXPECT_THAT(file.map.layers, ElementsAre(ElementsAre(2, 0, 2, 0), ElementsAre(0, 2, 2, 0)));
+    EXPECT_EQ(find_segment(file.map.segments, "left: hip"),
+              (Segment{"left: hip", 2, 0, {255, 0, 0}}));
+    EXPECT_EQ(find_segment(file.map.segments, "skin").layer, 1);
+    EXPECT_REFUSED(find_segment(file.map.segments, "2"), HasSubstr("found 2"));
+  }
+}
+
+TEST(ReadLabels, OlderSlicerFilesWithALayerPerSegment) {
+  const TempFolder folder;
+  const LabelFile file =
+      read(folder, "a.seg.nrrd",
+           kSlicerGrid + "dimension: 4\nsizes: 2 2 1 1\nkinds: list domain domain domain\n" +
+               "space directions: none (1,0,0) (0,1,0) (0,0,1)\nSegment0_Name:=a\n" +
+               "Segment1_Name:=b\n\n" + std::string("\1\0\1\1", 4));
+  EXPECT_THAT(file.map.layers, ElementsAre(ElementsAre(1, 1), ElementsAre(0, 1)));
+  EXPECT_EQ(find_segment(file.map.segments, "b").layer, 1);
+}
+
+TEST(ReadLabels, OfADicomSegmentation) {
+  const TempFolder folder;
+  write_bytes(folder / "seg" / "1.dcm", small_seg().bytes());
+  const LabelFile file = read_label_map(folder / "seg" / "1.dcm");
+  EXPECT_EQ(file.format, "DICOM");
+  EXPECT_EQ(find_segment(file.map.segments, "bone").label, 1);
+  EXPECT_EQ(read_label_map(folder / "seg").map.layers, file.map.layers);
+  write_bytes(folder / "seg" / "2.dcm", small_seg().bytes());
+  EXPECT_REFUSED(read_label_map(folder / "seg"),
+                 AllOf(StartsWith((folder / "seg").string()), HasSubstr("found 2 DICOM files")));
+  write_bytes(folder / "scan.dcm", SliceBytes{}.bytes());
+  EXPECT_REFUSED(read_label_map(folder / "scan.dcm"), HasSubstr("a DICOM segmentation"));
+}
+
+TEST(ReadLabels, RefusesWhatIsNoLabelMap) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.dim = {4, 4, 3, 5, 2, 1, 1, 1};
+  const std::string twice = bytes_of_all(kLabels) + bytes_of_all(kLabels);
+  EXPECT_REFUSED(read(folder, "a.nii", nifti.header() + twice), HasSubstr("found 2 volumes"));
+  EXPECT_REFUSED(
+      read(folder, "a.nii", NiftiBytes{}.header() + bytes_of_all(ramp<std::int16_t>(60))),
+      HasSubstr("found -40 at voxel 0 0 0"));
+  EXPECT_REFUSED(read(folder, "a.txt", "1 bone"), HasSubstr("expected .nii"));
+  EXPECT_REFUSED(read_label_map(folder / "none.nii"), HasSubstr("no such file"));
+  EXPECT_REFUSED(read(folder, "a.nii", NiftiBytes{}.header() + "xx"), HasSubstr("120 bytes"));
+}
+
+// --- Probabilities -----------------------------------------------------------------------------
+
+std::string share_nifti(const std::vector<float>& values, std::int16_t volumes,
+                        bool fifth = false) {
+  NiftiBytes nifti;
+  nifti.datatype = 16, nifti.bitpix = 32;
+  nifti.dim = {3, 2, 1, 2, 1, 1, 1, 1};
+  if (volumes > 1) nifti.dim = {4, 2, 1, 2, volumes, 1, 1, 1};
+  if (fifth) nifti.dim = {5, 2, 1, 2, 1, volumes, 1, 1};
+  return nifti.header() + bytes_of_all(values);
+}
+
+TEST(ReadProbabilities, OfFourDimensions) {
+  const TempFolder folder;
+  for (const bool fifth : {false, true}) {
+    write_bytes(folder / "a.nii", share_nifti({0, 0.25, 0.5, 1, 1, 0.75, 0.5, 0}, 2, fifth));
+    const Probabilities p = read_probabilities({folder / "a.nii"}).probabilities;
+    EXPECT_THAT(p.layers,
+                ElementsAre(ElementsAre(0, 0.25f, 0.5f, 1), ElementsAre(1, 0.75f, 0.5f, 0)));
+    ASSERT_THAT(p.segments, SizeIs(2));
+    EXPECT_EQ(p.segments[1], (Segment{"label 2", 2, 1, default_colour(2)}));
+  }
+  write_bytes(folder / "a.nrrd",
+              "NRRD0004\ntype: float\nspace: RAS\nencoding: raw\nendian: little\ndimension: 4\n"
+              "sizes: 2 2 1 2\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\n"
+              "Segment0_Name:=bone\nSegment1_Name:=skin\n\n" +
+                  bytes_of_all(std::vector<float>{0, 1, 0.25, 0.75, 0.5, 0.5, 1, 0}));
+  const Probabilities p = read_probabilities({folder / "a.nrrd"}).probabilities;
+  EXPECT_THAT(p.layers[1], ElementsAre(1, 0.75f, 0.5f, 0));
+  EXPECT_EQ(find_segment(p.segments, "skin").layer, 1);
+}
+
+TEST(ReadProbabilities, OfOneVolumeEach) {
+  const TempFolder folder;
+  write_bytes(folder / "left hip.nii.gz", packed(share_nifti({0, 0.25, 0.5, 1}, 1)));
+  write_bytes(folder / "skin.nii", share_nifti({1, 0.75, 0.5, 0}, 1));
+  const Probabilities p =
+      read_probabilities({folder / "left hip.nii.gz", folder / "skin.nii"}).probabilities;
+  EXPECT_THAT(p.size, ElementsAre(2, 1, 2));
+  EXPECT_EQ(p.spacing, (Vec3{0.5, 1.25, 2}));
+  ASSERT_THAT(p.layers, SizeIs(2));
+  EXPECT_EQ(find_segment(p.segments, "skin").layer, 1);
+  EXPECT_EQ(find_segment(p.segments, "left hip").layer, 0);
+}
+
+TEST(ReadProbabilities, OfADicomSegmentation) {
+  const TempFolder folder;
+  write_bytes(folder / "a.dcm", small_seg().bytes());
+  EXPECT_EQ(read_probabilities({folder / "a.dcm"}).probabilities.segments[0].name, "bone");
+}
+
+TEST(ReadProbabilities, RefusesOtherValuesAndGridsThatDiffer) {
+  const TempFolder folder;
+  const std::string good = share_nifti({0, 0.25, 0.5, 1}, 1);
+  write_bytes(folder / "a.nii", good);
+  const auto with_second = [&](const std::string& bytes) {
+    write_bytes(folder / "b.nii", bytes);
+    return read_probabilities({folder / "a.nii", folder / "b.nii"});
+  };
+  EXPECT_NO_THROW(with_second(good));
+  EXPECT_REFUSED(with_second(share_nifti({0, 0.25, 0.5, 2}, 1)),
+                 AllOf(HasSubstr("b.nii: expected probabilities"), HasSubstr("found 2")));
+  std::string moved = good;
+  moved.replace(292, 4, bytes_of(10.5f));
+  EXPECT_REFUSED(with_second(moved), HasSubstr("lies 1 voxels away"));
+  std::string larger = good;
+  larger.replace(44, 2, bytes_of(std::int16_t{2}));
+  EXPECT_REFUSED(with_second(larger + std::string(16, '\0')), HasSubstr("found 2 x 2 x 2 voxels"));
+  EXPECT_REFUSED(with_second(share_nifti(std::vector<float>(8), 2)), HasSubstr("found 2"));
+  EXPECT_REFUSED(read_probabilities({}), HasSubstr("at least one file"));
+}
+
+}  // namespace
+}  // namespace mesamis
