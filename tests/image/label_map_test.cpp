@@ -192,6 +192,19 @@ TEST(LabelMap, NamesLabelsThatHaveNone) {
   EXPECT_EQ(named.segments[2].name, "hip");
 }
 
+TEST(LabelMap, HasNoMoreSegmentsThanLabels) {
+  LabelMap map;
+  map.size = {40000, 1, 1};
+  map.layers.assign(2, std::vector<std::uint16_t>(40000));
+  for (std::size_t n = 0; n < 40000; ++n) {
+    map.layers[0][n] = static_cast<std::uint16_t>(n);
+    map.layers[1][n] = static_cast<std::uint16_t>(n < 25537 ? n : 0);
+  }
+  EXPECT_EQ(with_all_segments(map).segments.size(), 65535u);
+  map.layers[1][0] = 25537;
+  EXPECT_REFUSED(with_all_segments(map), HasSubstr("at most 65535 segments"));
+}
+
 TEST(LabelMap, DefaultColoursDiffer) {
   std::set<std::array<std::uint8_t, 3>> colours;
   for (Index label = 1; label <= 50; ++label) colours.insert(default_colour(label));

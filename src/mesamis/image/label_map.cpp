@@ -129,6 +129,11 @@ std::vector<std::uint16_t> labels_of(const std::vector<std::uint16_t>& layer,
   return labels;
 }
 
+void require_count(std::size_t segments) {
+  if (segments <= static_cast<std::size_t>(kMaxLabel)) return;
+  refuse("label map: expected at most ", kMaxLabel, " segments, found more");
+}
+
 /// Layer and label of each label that occurs and has no segment.
 std::vector<std::pair<Index, Index>> labels_without_segment(const LabelMap& map) {
   std::set<std::pair<Index, Index>> named;
@@ -140,11 +145,13 @@ std::vector<std::pair<Index, Index>> labels_without_segment(const LabelMap& map)
       const std::pair<Index, Index> key(static_cast<Index>(n), label);
       if (!named.count(key)) missing.push_back(key);
     }
+    require_count(map.segments.size() + missing.size());
   }
   return missing;
 }
 
 void require_segments(const LabelMap& map) {
+  require_count(map.segments.size());
   std::set<std::pair<Index, Index>> named;
   for (const Segment& s : map.segments) {
     if (s.label < 1 || s.label > kMaxLabel) {

@@ -31,7 +31,7 @@ struct Segment {
 /// without a voxel.
 struct LabelMap : VoxelGrid {
   std::vector<std::vector<std::uint16_t>> layers;  ///< a label per voxel each; i runs fastest
-  std::vector<Segment> segments;                   ///< no two of one layer and label
+  std::vector<Segment> segments;  ///< at most kMaxLabel, no two of one layer and label
 };
 
 /// How probable it is that a voxel belongs to an object: one layer per object.
@@ -99,7 +99,7 @@ std::vector<std::optional<CropRange>> ranges_of(const LabelMap& map);
 
 /// Adds a segment for each label that occurs and has none, after the others, by layer and label. It
 /// is called "label N" and has the colour default_colour(N).
-/// @throws nothing
+/// @throws InputError  if there are then more than kMaxLabel segments.
 ///
 /// O(voxels).
 LabelMap with_all_segments(LabelMap map);
@@ -119,8 +119,8 @@ LabelMap with_names(LabelMap map, std::span<const Segment> table);
 std::array<std::uint8_t, 3> default_colour(Index label);
 
 /// Checks what LabelMap promises: as many labels as voxels in each layer, a segment for each label
-/// that occurs, labels and layers of segments in range, no two segments of one layer and label, no
-/// empty name.
+/// that occurs, at most kMaxLabel segments, their labels and layers in range, no two of one layer
+/// and label, no empty name.
 /// @throws InputError  naming the first condition that does not hold.
 ///
 /// O(voxels).

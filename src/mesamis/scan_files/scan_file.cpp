@@ -17,7 +17,7 @@ constexpr double kRoundingSkew = 1e-5;  // rounding of orthogonal axes to single
 static_assert(std::endian::native == std::endian::little, "samples are swapped for little endian");
 
 constexpr std::int64_t kMostSamples = std::int64_t{1} << 40;
-constexpr std::int64_t kMostValues = 1 << 24;  // per voxel
+constexpr std::int64_t kMostValues = 65535;  // per voxel
 
 std::uint64_t sample_count(const ScanFile& scan) {
   return std::uint64_t{scan.grid.voxel_count()} * static_cast<std::uint64_t>(scan.inner) *
