@@ -49,6 +49,18 @@ TEST(SegFile, TakesNamesAndColoursInTheOrderOfTheNumbers) {
   EXPECT_EQ(file.segments[1], (Segment{"hip", 7, 0, {255, 255, 255}}));
 }
 
+TEST(SegFile, NamesAreInUtf8) {
+  SegBytes seg = small_seg();
+  seg.segments[0].label =
+      "H\xfc"
+      "fte";
+  seg.character_set = "ISO_IR 100";
+  EXPECT_EQ(open(seg).segments[0].name, "H\u00fcfte");
+  seg.segments[0].label = "H\u00fcfte";
+  seg.character_set = "ISO_IR 192";
+  EXPECT_EQ(open(seg).segments[0].name, "H\u00fcfte");
+}
+
 TEST(SegFile, TakesTheSegmentFromSharedGroupsToo) {
   SegBytes seg = small_seg();
   seg.number_in_shared = true;

@@ -26,7 +26,7 @@ struct SegSegment {
 struct SegBytes {
   DicomCoding coding = DicomCoding::kExplicit;
   std::string sop_class = "1.2.840.10008.5.1.4.1.1.66.4", type = "BINARY";
-  std::string photometric = "MONOCHROME2", transfer_syntax;
+  std::string photometric = "MONOCHROME2", transfer_syntax, character_set;
   int columns = 3, rows = 5, bits = 1, most_fraction = 255;
   std::vector<double> orientation{1, 0, 0, 0, 1, 0}, spacing{1.25, 0.5};
   double slice_spacing = 0, slice_thickness = 0;  ///< 0: not stated
@@ -55,6 +55,7 @@ struct SegBytes {
 
   std::string bytes() const {
     DicomWriter set(coding);
+    if (!character_set.empty()) set.text(0x00080005, "CS", character_set);
     set.text(0x00080016, "UI", sop_class);
     set.text(0x00080060, "CS", "SEG");
     set.number(0x00280002, 1);

@@ -53,6 +53,23 @@ void require_pixels(const SegFile& seg) {
   }
 }
 
+/// A text of the file in UTF-8. Of the other character sets Latin-1 is converted; ASCII is UTF-8.
+std::string utf8_text(const DicomFile& file, const DicomSet& item, DicomTag tag) {
+  const std::string text = text_of(item, tag);
+  if (text_of(file.elements, dicom::kCharacterSet) != "ISO_IR 100") return text;
+  std::string out;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x80) {
+      out += c;
+    } else {
+      out += static_cast<char>(0xc0 | code >> 6);
+      out += static_cast<char>(0x80 | (code & 0x3f));
+    }
+  }
+  return out;
+}
+
 Segment segment_of(const DicomFile& file, const DicomSet& item) {
   const auto number = number_of(file, item, dicom::kSegmentNumber);
   if (!number) {
@@ -60,7 +77,7 @@ Segment segment_of(const DicomFile& file, const DicomSet& item) {
            "expected a Segment Number (0062,0004) in each item of the Segment Sequence, "
            "found none");
   }
-  Segment segment{text_of(item, dicom::kSegmentLabel), *number, 0, default_colour(*number)};
+  Segment segment{utf8_text(file, item, dicom::kSegmentLabel), *number, 0, default_colour(*number)};
   if (segment.name.empty()) segment.name = say("label ", *number);
   if (const auto lab = numbers_of(file, item, dicom::kCieLab, 3)) {
     segment.colour = srgb_from_cielab({(*lab)[0], (*lab)[1], (*lab)[2]});
