@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
@@ -19,31 +20,136 @@ struct Histogram {
   double value(std::size_t bin) const { return low + width * (static_cast<double>(bin) + 0.5); }
 };
 
+/// Samples whose counts are added up before they are added to the whole.
+constexpr std::size_t kPart = 1 << 20;
+
 Histogram histogram(const VolumeView& volume) {
   constexpr std::size_t kBins = 4096;
-  const auto [low, high] = std::minmax_element(volume.samples.begin(), volume.samples.end());
-  Histogram h{*low, (static_cast<double>(*high) - *low) / kBins,
-              std::vector<std::int64_t>(kBins, 0)};
+  const std::span<const float> samples = volume.samples;
+  const auto [low, high] = sample_range(samples);
+  Histogram h{low, (static_cast<double>(high) - low) / kBins, std::vector<std::int64_t>(kBins, 0)};
   if (!(h.width > 0)) h.width = 1;
-  for (const float sample : volume.samples) {
-    const auto bin = static_cast<std::size_t>((sample - h.low) / h.width);
-    ++h.counts[std::min(bin, kBins - 1)];
+  std::vector<std::vector<std::int32_t>> parts((samples.size() + kPart - 1) / kPart);
+  parallel_blocks(samples.size(), kPart, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::int32_t>& counts = parts[begin / kPart];
+    counts.assign(kBins, 0);
+    for (std::size_t n = begin; n < end; ++n) {
+      const auto bin = static_cast<std::int32_t>((samples[n] - h.low) / h.width);
+      ++counts[static_cast<std::size_t>(std::min<std::int32_t>(bin, kBins - 1))];
+    }
+  });
+  for (const auto& counts : parts) {
+    for (std::size_t bin = 0; bin < kBins; ++bin) h.counts[bin] += counts[bin];
   }
   return h;
 }
 
-/// One line of samples: start, step and count.
-void smooth_line(float* first, std::size_t step, std::size_t count, std::vector<float>& line) {
-  line.resize(count + 2);
-  for (std::size_t i = 0; i < count; ++i) line[i + 1] = first[i * step];
-  line[0] = line[1];
-  line[count + 1] = line[count];
-  for (std::size_t i = 0; i < count; ++i) {
-    first[i * step] = (line[i] + 2 * line[i + 1] + line[i + 2]) / 4;
+/// Smooths rows along an axis: of three rows one after the other, a quarter, a half and a quarter.
+void smooth_rows(const float* before, const float* here, const float* after, std::size_t width,
+                 float* result) {
+  for (std::size_t x = 0; x < width; ++x) {
+    result[x] = (before[x] + 2 * here[x] + after[x]) / 4;
   }
 }
 
+/// Smooths layer by layer, so that the samples are read and written once.
+class LayerSmoother {
+ public:
+  explicit LayerSmoother(const VolumeView& volume)
+      : volume_(volume),
+        nx_(static_cast<std::size_t>(volume.size[0])),
+        ny_(static_cast<std::size_t>(volume.size[1])),
+        last_(volume.size[2] - 1) {
+    constexpr double kClose = 2;
+    const double close = kClose * volume.shortest_side();
+    for (int a = 0; a < 3; ++a) along_[static_cast<std::size_t>(a)] = volume.spacing[a] <= close;
+  }
+
+  /// Smooths the layers [begin, end).
+  void run(Index begin, Index end, float* result) const {
+    std::array<std::vector<float>, 3> ring;
+    if (along_[2]) fill(begin - 1, ring);
+    fill(begin, ring);
+    for (Index k = begin; k < end; ++k) {
+      float* out = result + volume_.offset(0, 0, k);
+      const float* here = at(k, ring);
+      if (along_[2]) {
+        fill(k + 1, ring);
+        smooth_rows(at(k - 1, ring), here, at(k + 1, ring), nx_ * ny_, out);
+      } else {
+        std::copy_n(here, nx_ * ny_, out);
+        if (k + 1 < end) fill(k + 1, ring);
+      }
+    }
+  }
+
+ private:
+  using Ring = std::array<std::vector<float>, 3>;
+
+  /// A layer smoothed along x and y; beyond the border the last one.
+  const float* at(Index k, const Ring& ring) const {
+    return ring[static_cast<std::size_t>(std::clamp(k, 0, last_) % 3)].data();
+  }
+
+  void fill(Index k, Ring& ring) const {
+    if (k < 0 || k > last_) return;
+    std::vector<float>& layer = ring[static_cast<std::size_t>(k % 3)];
+    layer.resize(nx_ * ny_);
+    const float* samples = volume_.samples.data() + volume_.offset(0, 0, k);
+    if (along_[0]) {
+      for (std::size_t j = 0; j < ny_; ++j) smooth_line(samples + j * nx_, &layer[j * nx_]);
+    } else {
+      std::copy_n(samples, nx_ * ny_, layer.data());
+    }
+    if (along_[1]) smooth_along_y(layer.data());
+  }
+
+  void smooth_line(const float* line, float* result) const {
+    const std::size_t last = nx_ - 1;
+    if (last == 0) {
+      smooth_rows(line, line, line, 1, result);
+      return;
+    }
+    smooth_rows(line, line, line + 1, 1, result);
+    smooth_rows(line, line + 1, line + 2, last - 1, result + 1);
+    smooth_rows(line + last - 1, line + last, line + last, 1, result + last);
+  }
+
+  void smooth_along_y(float* layer) const {
+    std::vector<float> before(layer, layer + nx_), here(nx_);
+    for (std::size_t j = 0; j < ny_; ++j) {
+      float* row = layer + j * nx_;
+      std::copy_n(row, nx_, here.data());
+      const float* after = j + 1 < ny_ ? row + nx_ : here.data();
+      smooth_rows(before.data(), here.data(), after, nx_, row);
+      std::swap(before, here);
+    }
+  }
+
+  const VolumeView& volume_;
+  std::size_t nx_, ny_;
+  Index last_;
+  std::array<bool, 3> along_{};
+};
+
 }  // namespace
+
+std::pair<float, float> sample_range(std::span<const float> samples) {
+  std::vector<std::pair<float, float>> parts((samples.size() + kPart - 1) / kPart);
+  parallel_blocks(samples.size(), kPart, [&](std::size_t begin, std::size_t end) {
+    float low = samples[begin], high = low;
+    for (std::size_t n = begin; n < end; ++n) {
+      low = samples[n] < low ? samples[n] : low;
+      high = samples[n] > high ? samples[n] : high;
+    }
+    parts[begin / kPart] = {low, high};
+  });
+  std::pair<float, float> range = parts.front();
+  for (const auto& [low, high] : parts) {
+    range = {std::min(range.first, low), std::max(range.second, high)};
+  }
+  return range;
+}
 
 Volume apply(const GreyMap& map, Volume volume) {
   if (!(map.low < map.high)) {
@@ -110,30 +216,19 @@ Window default_window(const VolumeView& volume, double background) {
     return {background > kDarkest ? kDarkest : q[0], std::clamp(q[1], 800.0, 2000.0)};
   }
   if (q[0] < q[1]) return {q[0], q[1]};
-  const auto [low, high] = std::minmax_element(volume.samples.begin(), volume.samples.end());
-  return {*low, *high};
+  const auto [low, high] = sample_range(volume.samples);
+  return {low, high};
 }
 
 Volume smoothed(const VolumeView& volume) {
-  constexpr double kClose = 2;
-  Volume result = copy_volume(volume);
-  const auto nx = static_cast<std::size_t>(volume.size[0]);
-  const auto ny = static_cast<std::size_t>(volume.size[1]);
-  const auto nz = static_cast<std::size_t>(volume.size[2]);
-  float* samples = result.samples.data();
-  const auto is_close = [&](double side) { return side <= kClose * volume.shortest_side(); };
-  const bool along_x = is_close(volume.spacing.x), along_y = is_close(volume.spacing.y);
-  parallel_for_each(nz, [&](std::size_t k) {
-    std::vector<float> line;
-    float* layer = samples + k * nx * ny;
-    for (std::size_t j = 0; along_x && j < ny; ++j) smooth_line(layer + j * nx, 1, nx, line);
-    for (std::size_t i = 0; along_y && i < nx; ++i) smooth_line(layer + i, nx, ny, line);
-  });
-  if (!is_close(volume.spacing.z)) return result;
-  parallel_for_each(ny, [&](std::size_t j) {
-    std::vector<float> line;
-    for (std::size_t i = 0; i < nx; ++i) smooth_line(samples + j * nx + i, nx * ny, nz, line);
-  });
+  constexpr std::size_t kLayers = 16;  // that one thread smooths; one more on either side is read
+  Volume result{volume, std::vector<float>(volume.samples.size())};
+  const LayerSmoother smoother(volume);
+  parallel_blocks(static_cast<std::size_t>(volume.size[2]), kLayers,
+                  [&](std::size_t begin, std::size_t end) {
+                    smoother.run(static_cast<Index>(begin), static_cast<Index>(end),
+                                 result.samples.data());
+                  });
   return result;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <limits>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "mesamis/image/volume.h"
@@ -29,6 +31,14 @@ struct GreyMap {
 /// @throws InputError  unless low < high.
 /// O(voxels).
 Volume apply(const GreyMap& map, Volume volume);
+
+/// Finds the least and the largest of the samples.
+/// @param samples  at least one, all finite, any unit.
+/// @return in that unit, the least first.
+/// @throws nothing
+///
+/// O(samples), in threads.
+std::pair<float, float> sample_range(std::span<const float> samples);
 
 /// Finds the values below which the given fractions of the samples lie, to a 4096th of their range.
 /// @param volume     at least one sample, all finite; the grid does not count.

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/image/grey_values.h"
 
 namespace mesamis {
 namespace {
@@ -36,6 +38,21 @@ void solve_along(const Rows& rows) {
     float* row = rows.row(static_cast<Index>(k));
     const float* next = rows.row(static_cast<Index>(k) + 1);
     for (std::size_t x = 0; x < rows.width; ++x) row[x] -= pivot[k] * next[x];
+  }
+}
+
+constexpr std::size_t kLines = 16;
+
+/// The same for `lines` lines of contiguous samples, side by side: their samples do not wait for
+/// each other, as those of one line do.
+void solve_lines(float* first, std::size_t length, std::size_t lines) {
+  std::vector<float> turned(length * lines);
+  for (std::size_t n = 0; n < lines; ++n) {
+    for (std::size_t i = 0; i < length; ++i) turned[i * lines + n] = first[n * length + i];
+  }
+  solve_along({turned.data(), lines, lines, static_cast<Index>(length)});
+  for (std::size_t n = 0; n < lines; ++n) {
+    for (std::size_t i = 0; i < length; ++i) first[n * length + i] = turned[i * lines + n];
   }
 }
 
@@ -79,14 +96,14 @@ std::array<double, 4> folded(std::array<double, 4> w, const Place& place, Index 
 SplineImage interpolating_spline(Volume volume) {
   SplineImage image{volume, std::move(volume.samples), 0, 0};
   std::vector<float>& c = image.coefficients;
-  const auto [least, most] = std::minmax_element(c.begin(), c.end());
-  image.low = *least;
-  image.high = *most;
+  std::tie(image.low, image.high) = sample_range(c);
   const auto& size = image.grid.size;
   const auto nx = static_cast<std::size_t>(size[0]), ny = static_cast<std::size_t>(size[1]);
   parallel_for_each(static_cast<std::size_t>(size[2]), [&](std::size_t k) {
     float* slice = c.data() + k * nx * ny;
-    for (std::size_t j = 0; j < ny; ++j) solve_along({slice + j * nx, 1, 1, size[0]});
+    for (std::size_t j = 0; j < ny; j += kLines) {
+      solve_lines(slice + j * nx, nx, std::min(kLines, ny - j));
+    }
     solve_along({slice, nx, nx, size[1]});
   });
   parallel_for_each(ny, [&](std::size_t j) {
@@ -123,6 +140,28 @@ ImageValue spline_at(const SplineImage& image, const Vec3& p) {
     }
   }
   for (int a = 0; a < 3; ++a) sum.gradient[a] /= grid.spacing[a];
+  return sum;
+}
+
+double spline_value_at(const SplineImage& image, const Vec3& p) {
+  const VoxelGrid& grid = image.grid;
+  std::array<std::array<double, 4>, 3> weights;
+  std::array<std::array<Index, 4>, 3> index;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<int>(a);
+    const Place place(p[axis] / grid.spacing[axis], grid.size[a]);
+    weights[a] = folded(spline_weights(place.fraction), place, grid.size[a]);
+    for (std::size_t n = 0; n < 4; ++n) index[a][n] = place.tap(n, grid.size[a]);
+  }
+  double sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      const float* row = image.coefficients.data() + grid.offset(0, index[1][j], index[2][k]);
+      double value = 0;
+      for (std::size_t i = 0; i < 4; ++i) value += weights[0][i] * row[index[0][i]];
+      sum += weights[1][j] * weights[2][k] * value;
+    }
+  }
   return sum;
 }
 

@@ -38,6 +38,12 @@ SplineImage interpolating_spline(Volume volume);
 /// @throws nothing
 ImageValue spline_at(const SplineImage& image, const Vec3& p);
 
+/// Evaluates the spline alone, unbounded: the value of spline_at() to the bit, in less time. O(1).
+/// @param p  in the grid's own axes, mm; clamped to the box of the voxel centres.
+/// @return in the image's unit; never beyond the coefficients around.
+/// @throws nothing
+double spline_value_at(const SplineImage& image, const Vec3& p);
+
 /// The bounded spline along one line in the direction of i: what depends on j and k alone is
 /// computed once, and what neighbouring points share is kept.
 class SplineLine {

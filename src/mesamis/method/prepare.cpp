@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/image/grey_values.h"
 #include "mesamis/restore/half_maximum_level.h"
 #include "mesamis/restore/level_crossings.h"
 #include "mesamis/restore/object_edge.h"
@@ -38,9 +40,11 @@ Window choose_window(const VolumeView& volume, const ObjectContrast& contrast, d
 
 /// Values beyond the window (air, metal) must not ring when the blur is undone, nor count as noise.
 Volume clamped(const VolumeView& scan, const Window& window) {
-  Volume volume = copy_volume(scan);
+  Volume volume{scan, std::vector<float>(scan.samples.size())};
   const auto low = static_cast<float>(window.low), high = static_cast<float>(window.high);
-  for (float& x : volume.samples) x = std::clamp(x, low, high);
+  parallel_for(volume.samples.size(), [&](std::size_t n) {
+    volume.samples[n] = std::clamp(scan.samples[n], low, high);
+  });
   return volume;
 }
 
@@ -140,8 +144,10 @@ double choose_gamma(const Parameters& p, double native_contrast, double native_n
 /// The restored image between its voxels, in grey values. It is bounded after it is interpolated: T
 /// and the window's ends cut edges, whose place would move if only the samples were bounded.
 SplineImage spline_image(const GreyMap& map, const VolumeView& restored) {
-  Volume grey = copy_volume(restored);
-  for (float& x : grey.samples) x = static_cast<float>(map.to_grey(x));
+  Volume grey{restored, std::vector<float>(restored.samples.size())};
+  parallel_for(grey.samples.size(), [&](std::size_t n) {
+    grey.samples[n] = static_cast<float>(map.to_grey(restored.samples[n]));
+  });
   SplineImage image = interpolating_spline(std::move(grey));
   image.low = static_cast<float>(std::max(0.0, map.to_grey(map.threshold)));
   image.high = 255;
@@ -152,13 +158,13 @@ SplineImage spline_image(const GreyMap& map, const VolumeView& restored) {
 void require_contrast(const VolumeView& volume, const Parameters& p) {
   const double level = p.level;
   const double low = p.grey.threshold, high = p.grey.high;
-  const auto [least, most] = std::minmax_element(volume.samples.begin(), volume.samples.end());
-  const bool sees_samples = *least<high&& * most> low;
+  const auto [least, most] = sample_range(volume.samples);
+  const bool sees_samples = least < high && most > low;
   const bool sees_level = low < level && level < high;
   std::ostringstream message;
   if (!sees_samples) {
-    message << "window: expected one that holds some of the samples, which go from " << *least
-            << " to " << *most << ", found " << low << "," << high;
+    message << "window: expected one that holds some of the samples, which go from " << least
+            << " to " << most << ", found " << low << "," << high;
   } else if (p.surface == SurfaceKind::kSolid && !sees_level) {
     message << "level: expected a value between the window's ends and above the threshold, " << low
             << " to " << high << ", found " << level;

@@ -56,13 +56,13 @@ std::size_t mirrored(std::ptrdiff_t n, std::size_t count) {
   return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(n, 0, last));
 }
 
-/// The factors of a step of the recurrence.
+/// The factors of a step of the recurrence, and of its result in the sum.
 struct Factors {
-  float a, b, c;
+  float a, b, c, in_sum;
 };
 
 /// next = a x + b Lambda x + c next, where Lambda is the weighted sum of (negative) fourth-order
-/// second differences.
+/// second differences; sum += in_sum next.
 class Recurrence {
  public:
   Recurrence(const VoxelGrid& shape, const std::array<double, 3>& weights)
@@ -72,7 +72,8 @@ class Recurrence {
     for (std::size_t a = 0; a < 3; ++a) weight_[a] = static_cast<float>(weights[a] / 12);
   }
 
-  void step(const std::vector<float>& x, const Factors& factors, std::vector<float>& next) const {
+  void step(const std::vector<float>& x, const Factors& factors, std::vector<float>& next,
+            std::vector<float>& sum) const {
     parallel_for_each(nz_, [&](std::size_t k) {
       std::vector<float> line(nx_ + 4);
       for (std::size_t j = 0; j < ny_; ++j) {
@@ -83,7 +84,9 @@ class Recurrence {
           across_z[at] = row(x, j, mirrored(static_cast<std::ptrdiff_t>(k) + d, nz_));
         }
         fill_line(across_y[2], line);
-        combine({line.data() + 2, across_y, across_z}, factors, next.data() + (k * ny_ + j) * nx_);
+        const std::size_t place = (k * ny_ + j) * nx_;
+        combine({line.data() + 2, across_y, across_z}, factors, next.data() + place,
+                sum.data() + place);
       }
     });
   }
@@ -108,9 +111,9 @@ class Recurrence {
     }
   }
 
-  void combine(const Lines& lines, const Factors& factors, float* next) const {
+  void combine(const Lines& lines, const Factors& factors, float* next, float* sum) const {
     const auto& [x, y, z] = lines;
-    const auto [a, b, c] = factors;
+    const auto [a, b, c, in_sum] = factors;
     const auto [wx, wy, wz] = weight_;
     for (std::size_t i = 0; i < nx_; ++i) {
       const float middle = 30 * x[i];
@@ -119,15 +122,12 @@ class Recurrence {
       const float dz = middle - 16 * (z[1][i] + z[3][i]) + (z[0][i] + z[4][i]);
       next[i] = a * x[i] + b * (wx * dx + wy * dy + wz * dz) + c * next[i];
     }
+    for (std::size_t i = 0; i < nx_; ++i) sum[i] += in_sum * next[i];
   }
 
   std::size_t nx_, ny_, nz_;
   std::array<float, 3> weight_;
 };
-
-void add(std::vector<float>& sum, double factor, const std::vector<float>& term) {
-  parallel_for(sum.size(), [&](std::size_t n) { sum[n] += static_cast<float>(factor) * term[n]; });
-}
 
 void require_range(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
@@ -146,8 +146,7 @@ void require_valid_blur(const std::array<double, 3>& blur) {
   for (const double b : blur) require_range("blur in voxels", b, 0, kLargestBlur);
 }
 
-Volume deblurred(const VolumeView& volume, const std::array<double, 3>& blur,
-                 double regularization) {
+Volume deblurred(Volume volume, const std::array<double, 3>& blur, double regularization) {
   require_range("regularization", regularization, 1e-6, 1e6);
   require_valid_blur(blur);
   std::array<double, 3> squares;
@@ -156,23 +155,21 @@ Volume deblurred(const VolumeView& volume, const std::array<double, 3>& blur,
     squares[a] = blur[a] * blur[a];
     end += kLargestSymbol * squares[a];
   }
-  if (end == 0) return copy_volume(volume);
+  if (end == 0) return volume;
   const std::vector<double> c = chebyshev_coefficients(end, regularization);
+  const auto in_sum = [&c](std::size_t n) { return static_cast<float>(c[n]); };
   const Recurrence recurrence(volume, squares);
-  Volume result = copy_volume(volume);
   // T_0 = x, T_1 = (2 Lambda / end - 1) x, T_n+1 = 2 (2 Lambda / end - 1) T_n - T_n-1.
-  std::vector<float> previous = result.samples, present(previous.size(), 0);
-  recurrence.step(previous, {-1, static_cast<float>(2 / end), 0}, present);
-  parallel_for(previous.size(), [&](std::size_t n) {
-    result.samples[n] =
-        static_cast<float>(c[0]) * previous[n] + static_cast<float>(c[1]) * present[n];
-  });
+  std::vector<float> previous = std::move(volume.samples), present(previous.size(), 0);
+  std::vector<float> sum(previous.size());
+  parallel_for(sum.size(), [&](std::size_t n) { sum[n] = in_sum(0) * previous[n]; });
+  recurrence.step(previous, {-1, static_cast<float>(2 / end), 0, in_sum(1)}, present, sum);
   for (std::size_t n = 2; n < c.size(); ++n) {
-    recurrence.step(present, {-2, static_cast<float>(4 / end), -1}, previous);
+    recurrence.step(present, {-2, static_cast<float>(4 / end), -1, in_sum(n)}, previous, sum);
     std::swap(previous, present);
-    add(result.samples, c[n], present);
   }
-  return result;
+  volume.samples = std::move(sum);
+  return volume;
 }
 
 double noise_gain(const std::array<double, 3>& blur, double regularization) {

@@ -20,14 +20,13 @@ namespace mesamis {
 /// W is applied as a polynomial (Chebyshev) of the fourth-order difference Laplacian, which couples
 /// neighbours only. Beyond the border the image is mirrored.
 ///
-/// @param volume  at least one voxel.
+/// @param volume  at least one voxel; taken over, pass it with std::move() to save the copy.
 /// @param blur    standard deviations per axis, voxels, 0 to kLargestBlur.
 /// @param regularization  r, 1e-6 to 1e6: small where the noise is small against the contrast.
 /// @return in the volume's units. The same bits for any number of threads.
 /// @throws InputError  if an argument is out of range.
-/// O(n degree), the degree being about 10 to 30; three copies of the samples.
-Volume deblurred(const VolumeView& volume, const std::array<double, 3>& blur,
-                 double regularization);
+/// O(n degree), the degree being about 10 to 30; two copies of the samples.
+Volume deblurred(Volume volume, const std::array<double, 3>& blur, double regularization);
 
 /// Checks a blur.
 /// @param blur  standard deviations per axis, voxels, 0 to kLargestBlur.

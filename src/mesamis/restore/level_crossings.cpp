@@ -3,32 +3,89 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "mesamis/base/parallel.h"
 
 namespace mesamis {
 namespace {
 
-/// Calls visit(i, j, k, axis) where the line from voxel (i, j, k) to its next crosses the level.
-template <class Visit>
-void for_each_crossing(const VolumeView& volume, double level, Visit&& visit) {
-  for (Index k = 0; k < volume.size[2]; ++k) {
-    for (Index j = 0; j < volume.size[1]; ++j) {
-      for (Index i = 0; i < volume.size[0]; ++i) {
-        const bool here = volume.at(i, j, k) > level;
-        if (i + 1 < volume.size[0] && (volume.at(i + 1, j, k) > level) != here) visit(i, j, k, 0);
-        if (j + 1 < volume.size[1] && (volume.at(i, j + 1, k) > level) != here) visit(i, j, k, 1);
-        if (k + 1 < volume.size[2] && (volume.at(i, j, k + 1) > level) != here) visit(i, j, k, 2);
-      }
-    }
-  }
+/// The largest float that is not above the level: a sample exceeds both or none.
+float float_not_above(double level) {
+  const auto rounded = static_cast<float>(level);
+  return rounded > level ? std::nextafter(rounded, -std::numeric_limits<float>::infinity())
+                         : rounded;
 }
 
-/// How often the grid lines of each axis cross the level.
-std::array<std::size_t, 3> count_crossings(const VolumeView& volume, double level) {
-  std::array<std::size_t, 3> count{};
-  for_each_crossing(volume, level, [&count](Index, Index, Index, int axis) {
-    ++count[static_cast<std::size_t>(axis)];
+/// Where the lines from the voxels of a row to their next voxels cross the level: for each voxel a
+/// byte with a bit for each axis, eight voxels to a word.
+class RowCrossings {
+ public:
+  RowCrossings(const VolumeView& volume, double level)
+      : volume_(volume),
+        level_(float_not_above(level)),
+        length_(static_cast<std::size_t>(volume.size[0])),
+        bytes_((length_ + 7) / 8 * 8, 0) {}
+
+  void find(Index j, Index k) {
+    const auto [nx, ny, nz] = volume_.size;
+    const float* row = volume_.samples.data() + volume_.offset(0, j, k);
+    const auto layer = static_cast<std::ptrdiff_t>(nx) * ny;
+    const float level = level_;
+    const float* beside = j + 1 < ny ? row + nx : row;
+    const float* above = k + 1 < nz ? row + layer : row;
+    std::uint8_t* bytes = bytes_.data();
+    for (std::size_t i = 0; i + 1 < length_; ++i) {
+      const bool here = row[i] > level;
+      const unsigned x = (row[i + 1] > level) != here, y = (beside[i] > level) != here,
+                     z = (above[i] > level) != here;
+      bytes[i] = static_cast<std::uint8_t>(x + 2 * y + 4 * z);
+    }
+    const std::size_t i = length_ - 1;
+    const bool here = row[i] > level;
+    const unsigned y = (beside[i] > level) != here, z = (above[i] > level) != here;
+    bytes[i] = static_cast<std::uint8_t>(2 * y + 4 * z);
+  }
+
+  std::size_t words() const { return bytes_.size() / 8; }
+  /// How often the lines of an axis cross the level, of the eight voxels of a word.
+  std::size_t count(std::size_t word, int axis) const {
+    constexpr std::uint64_t kOnes = 0x0101010101010101;
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, bytes_.data() + 8 * word, 8);
+    return (((eight >> axis) & kOnes) * kOnes) >> 56;
+  }
+  bool crosses(std::size_t i, int axis) const { return ((bytes_[i] >> axis) & 1) != 0; }
+
+ private:
+  const VolumeView& volume_;
+  float level_;
+  std::size_t length_;
+  std::vector<std::uint8_t> bytes_;
+};
+
+using Counts = std::array<std::size_t, 3>;
+
+std::size_t sum(const Counts& counts) { return counts[0] + counts[1] + counts[2]; }
+
+/// How often the grid lines of each axis cross the level, from the voxels of each layer.
+std::vector<Counts> count_crossings(const VolumeView& volume, double level) {
+  std::vector<Counts> counts(static_cast<std::size_t>(volume.size[2]));
+  parallel_for_each(counts.size(), [&](std::size_t layer) {
+    RowCrossings row(volume, level);
+    Counts of_layer{};
+    for (Index j = 0; j < volume.size[1]; ++j) {
+      row.find(j, static_cast<Index>(layer));
+      for (std::size_t word = 0; word < row.words(); ++word) {
+        for (int axis = 0; axis < 3; ++axis) of_layer[axis] += row.count(word, axis);
+      }
+    }
+    counts[layer] = of_layer;
   });
-  return count;
+  return counts;
 }
 
 /// The crossing between voxel `at` and the next one along the axis.
@@ -44,6 +101,37 @@ SurfacePoint crossing(const VolumeView& volume, double level, std::array<Index, 
                  t * gradient_at(volume, next[0], next[1], next[2]);
   point.normal = -1.0 * unit_or_zero(g);
   return point;
+}
+
+/// The crossings of a layer whose number, counted through all layers, is a multiple of `every`.
+/// @param number  of the layer's first.
+std::vector<SurfacePoint> crossings_of_layer(const VolumeView& volume, double level, Index k,
+                                             std::size_t number, std::size_t every) {
+  RowCrossings row(volume, level);
+  std::vector<SurfacePoint> points;
+  std::size_t to_next = (every - number % every) % every;
+  for (Index j = 0; j < volume.size[1]; ++j) {
+    row.find(j, k);
+    for (std::size_t word = 0; word < row.words(); ++word) {
+      const std::size_t count = row.count(word, 0) + row.count(word, 1) + row.count(word, 2);
+      if (to_next >= count) {
+        to_next -= count;
+        continue;
+      }
+      for (std::size_t n = 0; n < 24; ++n) {
+        const std::size_t i = 8 * word + n / 3;
+        const auto axis = static_cast<int>(n % 3);
+        if (!row.crosses(i, axis)) continue;
+        if (to_next > 0) {
+          --to_next;
+          continue;
+        }
+        points.push_back(crossing(volume, level, {static_cast<Index>(i), j, k}, axis));
+        to_next = every - 1;
+      }
+    }
+  }
+  return points;
 }
 
 }  // namespace
@@ -63,19 +151,25 @@ Vec3 gradient_at(const VolumeView& volume, Index i, Index j, Index k) {
 
 std::vector<SurfacePoint> crossing_points(const VolumeView& volume, double level,
                                           std::size_t most) {
-  const auto count = count_crossings(volume, level);
-  const std::size_t every =
-      std::max<std::size_t>(1, (count[0] + count[1] + count[2]) / std::max<std::size_t>(1, most));
-  std::vector<SurfacePoint> points;
-  std::size_t n = 0;
-  for_each_crossing(volume, level, [&](Index i, Index j, Index k, int axis) {
-    if (n++ % every == 0) points.push_back(crossing(volume, level, {i, j, k}, axis));
+  const std::vector<Counts> counts = count_crossings(volume, level);
+  std::vector<std::size_t> first{0};
+  for (const Counts& layer : counts) first.push_back(first.back() + sum(layer));
+  const std::size_t every = std::max<std::size_t>(1, first.back() / std::max<std::size_t>(1, most));
+  std::vector<std::vector<SurfacePoint>> layers(counts.size());
+  parallel_for_each(layers.size(), [&](std::size_t k) {
+    layers[k] = crossings_of_layer(volume, level, static_cast<Index>(k), first[k], every);
   });
+  std::vector<SurfacePoint> points;
+  points.reserve(first.back() / every + 1);
+  for (const auto& layer : layers) points.insert(points.end(), layer.begin(), layer.end());
   return points;
 }
 
 double level_area(const VolumeView& volume, double level) {
-  const auto count = count_crossings(volume, level);
+  Counts count{};
+  for (const Counts& layer : count_crossings(volume, level)) {
+    for (std::size_t a = 0; a < 3; ++a) count[a] += layer[a];
+  }
   const Vec3& s = volume.spacing;
   return (static_cast<double>(count[0]) * s.y * s.z + static_cast<double>(count[1]) * s.x * s.z +
           static_cast<double>(count[2]) * s.x * s.y) /

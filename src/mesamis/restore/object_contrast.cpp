@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesamis/base/median.h"
+#include "mesamis/base/parallel.h"
 #include "mesamis/restore/edge_profile.h"
 
 namespace mesamis {
@@ -30,16 +31,20 @@ std::optional<ObjectContrast> measure_contrast(const VolumeView& volume, const V
                                                const std::vector<SurfacePoint>& points,
                                                double level) {
   constexpr double kDistance = 1.5;  // voxels
-  std::vector<double> inside, outside;
-  for (const SurfacePoint& point : points) {
-    if (norm(point.normal) == 0) continue;
-    if (const auto place = place_along_normal(guide, point, -kDistance, level)) {
-      inside.push_back(interpolate(volume, *place));
+  const auto values_at = [&](double distance) {
+    std::vector<std::optional<double>> found(points.size());
+    parallel_for(points.size(), [&](std::size_t n) {
+      if (norm(points[n].normal) == 0) return;
+      const auto place = place_along_normal(guide, points[n], distance, level);
+      if (place) found[n] = interpolate(volume, *place);
+    });
+    std::vector<double> values;
+    for (const auto& value : found) {
+      if (value) values.push_back(*value);
     }
-    if (const auto place = place_along_normal(guide, point, kDistance, level)) {
-      outside.push_back(interpolate(volume, *place));
-    }
-  }
+    return values;
+  };
+  std::vector<double> inside = values_at(-kDistance), outside = values_at(kDistance);
   if (inside.size() < kFewestPoints || outside.size() < kFewestPoints) return std::nullopt;
   ObjectContrast contrast;
   contrast.object = median(inside);

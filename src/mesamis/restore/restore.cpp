@@ -79,7 +79,7 @@ void undo_blur(Restored& restored, const Volume& guide, const ObjectContrast& co
     sheets.undone = undone;
     sheets.regularization =
         choose_regularization(restored.noise, contrast.difference(), square, undone_square);
-    restored.volume = deblurred(restored.volume, undone, *sheets.regularization);
+    restored.volume = deblurred(std::move(restored.volume), undone, *sheets.regularization);
     restored.noise_left *= noise_gain(undone, *sheets.regularization);
   }
   lift_thin_sheets(restored.volume, guide, sheets);

@@ -56,12 +56,17 @@ struct Beside {
 /// Voxels at a distance from the surface, voxels, outwards.
 std::vector<Beside> voxels_beside(const VolumeView& guide, const std::vector<SurfacePoint>& points,
                                   double distance, double level) {
-  std::vector<Beside> found;
-  for (const SurfacePoint& point : points) {
-    if (norm(point.normal) == 0) continue;
+  std::vector<std::optional<Beside>> places(points.size());
+  parallel_for(points.size(), [&](std::size_t n) {
+    const SurfacePoint& point = points[n];
+    if (norm(point.normal) == 0) return;
     const auto place = place_along_normal(guide, point, distance, level);
     const auto voxel = place ? voxel_at(guide, *place) : std::nullopt;
-    if (voxel) found.push_back({*voxel, point.normal});
+    if (voxel) places[n] = {*voxel, point.normal};
+  });
+  std::vector<Beside> found;
+  for (const auto& place : places) {
+    if (place) found.push_back(*place);
   }
   return found;
 }
@@ -128,15 +133,16 @@ struct Edge {
 std::vector<Edge> edges_at(const VolumeView& volume, const PointGroup& points,
                            const std::array<std::size_t, 3>& groups) {
   const SplineImage spline = interpolating_spline(copy_volume(volume));
-  std::vector<Edge> edges;
-  for (const SurfacePoint* point : points) {
-    const Vec3& n = point->normal;
-    Edge edge{-dot(spline_at(spline, point->position).gradient, n), {}};
+  std::vector<Edge> edges(points.size());
+  parallel_for(points.size(), [&](std::size_t e) {
+    const Vec3& n = points[e]->normal;
+    Edge& edge = edges[e];
+    edge.slope = -dot(spline_at(spline, points[e]->position).gradient, n);
+    edge.shares = {};
     for (std::size_t a = 0; a < 3; ++a) {
       edge.shares[groups[a]] += n[static_cast<int>(a)] * n[static_cast<int>(a)];
     }
-    edges.push_back(edge);
-  }
+  });
   return edges;
 }
 
@@ -189,10 +195,11 @@ double measure_noise(const VolumeView& volume, const VolumeView& guide,
   const double share = std::sqrt(20.0 / 27);  // of white noise, left by the fit
   std::optional<double> quieter;
   for (const double distance : kBeside) {
-    std::vector<double> deviations;
-    for (const Beside& place : voxels_beside(guide, points, distance, level)) {
-      deviations.push_back(deviation_at(volume, place.voxel));
-    }
+    const std::vector<Beside> places = voxels_beside(guide, points, distance, level);
+    std::vector<double> deviations(places.size());
+    parallel_for(places.size(), [&](std::size_t n) {
+      deviations[n] = deviation_at(volume, places[n].voxel);
+    });
     if (deviations.size() < kFewestPlaces) continue;
     const double deviation = kMadToDeviation * median(deviations) / share;
     quieter = std::min(deviation, quieter.value_or(deviation));

@@ -17,6 +17,7 @@ set(ROOM_SOURCES
   half_maximum_level.cpp
   impulses.cpp
   level_crossings.cpp
+  nearby_range.cpp
   object_contrast.cpp
   object_edge.cpp
   restore.cpp

@@ -9,6 +9,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/image/spline_image.h"
 #include "mesamis/restore/level_crossings.h"
+#include "mesamis/restore/nearby_range.h"
 
 namespace mesamis {
 namespace {
@@ -21,6 +22,7 @@ constexpr double kPeakOfNoise = 9;
 constexpr double kFall = 0.6;
 /// Where it is looked for, in deviations of the guide's blur, and the steps towards the peak.
 constexpr double kReach = 2.5, kStep = 0.2;
+constexpr int kMostSteps = 16;
 /// How far the middle of a sheet rises above its faces, of the contrast: a flatter one would be
 /// lost in noise, and to a level that is slightly off.
 constexpr double kRise = 0.25, kMostGain = 2;
@@ -158,6 +160,25 @@ struct Peak {
   double distance = 0;  ///< of the place looked at from it, mm
 };
 
+/// How far along each axis the way goes on which a peak is looked for and falls off, voxels: its
+/// length depends on its direction n. With the share t of n_a^2 and the squares A of the guide's
+/// blur along the axes, mm, n_a^2 sum_b n_b^2 A_b is at most t (t A_a + (1 - t) max A).
+std::array<double, 3> farthest_looked_at(const VoxelGrid& grid,
+                                         const std::array<double, 3>& blur_of_guide) {
+  constexpr double kLongest = (kMostSteps + 1) * kStep + kReach;  // deviations
+  std::array<double, 3> squares, reach;
+  for (std::size_t a = 0; a < 3; ++a) {
+    squares[a] = std::pow(blur_of_guide[a] * grid.spacing[static_cast<int>(a)], 2);
+  }
+  const double most = *std::max_element(squares.begin(), squares.end());
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double own = squares[a];
+    const double square = most <= 2 * own ? own : most * most / (4 * (most - own));
+    reach[a] = kLongest * std::sqrt(square) / grid.spacing[static_cast<int>(a)];
+  }
+  return reach;
+}
+
 class Lifter {
  public:
   Lifter(const VolumeView& guide, const SheetOptions& options)
@@ -165,7 +186,8 @@ class Lifter {
         spline_(interpolating_spline(copy_volume(guide))),
         options_(options),
         profiles_(options.regularization),
-        contrast_(options.contrast.difference()) {
+        contrast_(options.contrast.difference()),
+        near_(guide.size, spline_.coefficients, reach_of_ways()) {
     // The guide averages less at the border: there its noise is larger.
     within_ = {guide.spacing, guide.box().extent() - guide.spacing};
     const double left = std::pow(70.0 / 256, 1.5);  // of white noise, in the guide
@@ -183,19 +205,42 @@ class Lifter {
 
  private:
   static constexpr double kFlank = 0.3;  // of the least peak: lower values belong to no sheet
+  static constexpr double kOfGuide = 0.5;  // variance of smoothed(), voxels
+
+  double share_of(double value) const { return (value - options_.contrast.background) / contrast_; }
+
+  /// Whether values in a range can make a peak that counts and falls off. The spline never leaves
+  /// the range of the coefficients around, but for round-off.
+  bool may_hold_sheet(double low, double high) const {
+    constexpr double kRoundOff = 1e-6;
+    return high + kRoundOff >= least_ && low - kRoundOff <= kFall * kMostPeak;
+  }
+
+  std::array<double, 3> reach_of_ways() const {
+    constexpr double kOfSpline = 2;  // voxels from which a value of the spline comes
+    std::array<double, 3> blur;
+    for (std::size_t a = 0; a < 3; ++a) blur[a] = std::sqrt(std::pow(options_.blur[a], 2) + kOfGuide);
+    std::array<double, 3> reach = farthest_looked_at(guide_, blur);
+    for (double& r : reach) r += kOfSpline;
+    return reach;
+  }
 
   Lift lift_at(const std::array<Index, 3>& voxel) const {
     const double share =
         (guide_.at(voxel[0], voxel[1], voxel[2]) - options_.contrast.background) / contrast_;
     if (share < kFlank * least_ || share > 1 - kFlank * least_) return {};
+    const NearbyRange::Range& near = near_.at(voxel[0], voxel[1], voxel[2]);
+    const bool may_be_wall = may_hold_sheet(share_of(near.low), share_of(near.high));
+    const bool may_be_gap = may_hold_sheet(1 - share_of(near.high), 1 - share_of(near.low));
+    if (!may_be_wall && !may_be_gap) return {};
     const Direction way = direction_at(guide_, voxel);
     const double agree =
         std::clamp((way.planarity - kLeastPlanar) / (kPlanar - kLeastPlanar), 0.0, 1.0);
     if (agree == 0) return {};
     const Vec3& s = guide_.spacing;
     const Vec3 p{voxel[0] * s.x, voxel[1] * s.y, voxel[2] * s.z};
-    const Lift wall = lift(p, way.normal, SheetKind::kWall);
-    const Lift gap = lift(p, way.normal, SheetKind::kGap);
+    const Lift wall = may_be_wall ? lift(p, way.normal, SheetKind::kWall) : Lift{};
+    const Lift gap = may_be_gap ? lift(p, way.normal, SheetKind::kGap) : Lift{};
     return {agree * (wall.lift - gap.lift), 1 + agree * (std::max(wall.gain, gap.gain) - 1)};
   }
 
@@ -205,7 +250,6 @@ class Lifter {
   };
 
   Blur blur_along(const Vec3& n) const {
-    constexpr double kOfGuide = 0.5;  // variance of smoothed(), voxels
     double scan = 0, undone = 0, guide = 0;
     for (std::size_t a = 0; a < 3; ++a) {
       const auto axis = static_cast<int>(a);
@@ -219,7 +263,7 @@ class Lifter {
 
   /// The guide's share of the contrast; in gaps what is missing of it.
   double share_at(const Vec3& p, SheetKind kind) const {
-    const double share = (spline_at(spline_, p).value - options_.contrast.background) / contrast_;
+    const double share = share_of(spline_value_at(spline_, p));
     return kind == SheetKind::kWall ? share : 1 - share;
   }
 
@@ -245,7 +289,6 @@ class Lifter {
 
   /// Uphill to the peak, which counts if the guide falls off on both sides.
   Peak find_peak(const Vec3& p, const Vec3& normal, double step, SheetKind kind) const {
-    constexpr int kMostSteps = 16;
     const double up = share_at(p + step * normal, kind), down = share_at(p - step * normal, kind);
     const Vec3 way = up >= down ? normal : -1.0 * normal;
     double before = std::min(up, down), here = share_at(p, kind), next = std::max(up, down);
@@ -280,6 +323,7 @@ class Lifter {
   SheetOptions options_;
   SheetProfiles profiles_;
   double contrast_, least_;
+  NearbyRange near_;
   Box within_;
 };
 

@@ -2,8 +2,10 @@
 #include "mesamis/restore/tissue_threshold.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
+#include "mesamis/base/parallel.h"
 #include "mesamis/image/grey_values.h"
 
 namespace mesamis {
@@ -14,10 +16,19 @@ namespace {
 double upper_end_of_tissue(const VolumeView& volume, double value, double level) {
   constexpr int kBins = 64;
   const double width = (level - value) / (kBins / 2.0);  // the level lies in the last bin
-  std::vector<double> counts(kBins, 0);
-  for (const float sample : volume.samples) {
-    const double bin = (sample - value) / width + kBins / 2.0;
-    if (bin >= 0 && bin < kBins) ++counts[static_cast<std::size_t>(bin)];
+  constexpr std::size_t kPart = 1 << 20;  // samples
+  std::vector<std::array<double, kBins>> parts((volume.samples.size() + kPart - 1) / kPart);
+  parallel_blocks(volume.samples.size(), kPart, [&](std::size_t begin, std::size_t end) {
+    std::array<double, kBins> counts{};
+    for (const float sample : volume.samples.subspan(begin, end - begin)) {
+      const double bin = (sample - value) / width + kBins / 2.0;
+      if (bin >= 0 && bin < kBins) ++counts[static_cast<std::size_t>(bin)];
+    }
+    parts[begin / kPart] = counts;
+  });
+  std::array<double, kBins> counts{};
+  for (const auto& part : parts) {
+    for (std::size_t bin = 0; bin < kBins; ++bin) counts[bin] += part[bin];
   }
   auto bin = static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
   const double tenth = counts[static_cast<std::size_t>(bin)] / 10;
