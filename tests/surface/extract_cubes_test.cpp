@@ -21,7 +21,7 @@ namespace {
 struct Grid {
   std::array<Index, 3> size;
   Vec3 spacing{1, 1, 1};
-  std::vector<double> values{};
+  std::vector<float> values{};
 
   template <class F>
   Grid filled(F f) const {
@@ -29,7 +29,7 @@ struct Grid {
     for (Index k = 0; k < size[2]; ++k) {
       for (Index j = 0; j < size[1]; ++j) {
         for (Index i = 0; i < size[0]; ++i) {
-          grid.values.push_back(f(Vec3{i * spacing.x, j * spacing.y, k * spacing.z}));
+          grid.values.push_back(static_cast<float>(f(Vec3{i * spacing.x, j * spacing.y, k * spacing.z})));
         }
       }
     }
@@ -126,11 +126,11 @@ TEST(ExtractCubes, IsEmptyWhereNothingIsAbove) {
 TEST(ExtractCubes, RefusesWhatIsNoGrid) {
   Grid grid = Grid{{4, 4, 4}}.filled([](const Vec3& p) { return p.x; });
   EXPECT_THROW(grid.extract(std::numeric_limits<double>::quiet_NaN()), InputError);
-  grid.values[5] = std::numeric_limits<double>::infinity();
+  grid.values[5] = std::numeric_limits<float>::infinity();
   EXPECT_THROW(grid.extract(1), InputError);
   grid.values.pop_back();
   EXPECT_THROW(grid.extract(1), InputError);
-  EXPECT_THROW((Grid{{1, 4, 4}, {1, 1, 1}, std::vector<double>(16)}.extract(1)), InputError);
+  EXPECT_THROW((Grid{{1, 4, 4}, {1, 1, 1}, std::vector<float>(16)}.extract(1)), InputError);
 }
 
 }  // namespace

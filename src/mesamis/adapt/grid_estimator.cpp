@@ -9,6 +9,7 @@
 #include "mesamis/adapt/paired_gradients.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/fem/grid_mass.h"
 #include "mesamis/mesh/kuhn.h"
 
 namespace mesamis {
@@ -80,7 +81,7 @@ struct Accumulators {
 
 class GridEstimator {
  public:
-  GridEstimator(const KuhnGrid& grid, const AtParameters& parameters, const AtFields& fields,
+  GridEstimator(const KuhnGrid& grid, const AtParameters& parameters, const GridFields& fields,
                 const CellMetricOptions& metric)
       : grid_(grid),
         parameters_(parameters),
@@ -89,29 +90,29 @@ class GridEstimator {
         bricks_{grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1},
         cell_volume_(grid.spacing.x * grid.spacing.y * grid.spacing.z / 6),
         paths_(path_geometries(grid.spacing)) {
+    group_patches();
     for (std::size_t path = 0; path < kPaths; ++path) {
-      for (const RelativeCell& cell : paths_[path].patch) {
-        const auto row = static_cast<std::ptrdiff_t>(bricks_[0]) * cell.brick[1] + cell.brick[0];
-        steps_[path].push_back(
-            {static_cast<std::size_t>(cell.brick[2] + 1),
-             row * static_cast<std::ptrdiff_t>(kPaths) + static_cast<std::ptrdiff_t>(cell.path)});
+      for (std::size_t i = 0; i < 4; ++i) {
+        neighbor_steps_[path][i] = step_to(paths_[path].neighbor[i]);
       }
     }
   }
 
   /// Adds |K| M_K of the layers [begin, end) to their nodes.
   Totals run_layers(Index begin, Index end, std::vector<PackedSym3>& metrics) const {
-    Ring ring;
+    constexpr Index kStrip = 16;  // lines of bricks whose gradients are kept at a time
     Accumulators sums{metrics, {}};
-    fill_layer(begin - 1, ring);
-    fill_layer(begin, ring);
-    for (Index k = begin; k < end; ++k) {
-      fill_layer(k + 1, ring);
-      for (Index j = 0; j < bricks_[1]; ++j) {
-        for (Index i = 0; i < bricks_[0]; ++i) {
-          for (std::size_t path = 0; path < kPaths; ++path) {
-            add_cell({i, j, k}, path, ring, sums);
-          }
+    Ring ring;
+    for (Index first = 0; first < bricks_[1]; first += kStrip) {
+      const Index last = std::min(first + kStrip, bricks_[1]);
+      ring.first_line = std::max(first - 1, 0);
+      ring.lines = std::min(last + 1, bricks_[1]) - ring.first_line;
+      fill_layer(begin - 1, ring);
+      fill_layer(begin, ring);
+      for (Index k = begin; k < end; ++k) {
+        fill_layer(k + 1, ring);
+        for (Index j = first; j < last; ++j) {
+          for (Index i = 0; i < bricks_[0]; ++i) add_brick({i, j, k}, ring, sums);
         }
       }
     }
@@ -119,16 +120,60 @@ class GridEstimator {
   }
 
  private:
-  /// Three consecutive layers of cells; layer k is kept at k modulo 3.
-  using Ring = std::array<std::vector<PairedGradients>, 3>;
+  /// A strip of three consecutive layers of cells; layer k is kept at k modulo 3.
+  struct Ring {
+    Index first_line = 0, lines = 0;
+    std::array<std::vector<PairedGradients>, 3> layers;
+  };
+
+  /// A cell near another, as a step from the other's brick in the layer below, beside or above.
+  struct Step {
+    std::size_t layer;
+    std::ptrdiff_t step;
+  };
+
+  /// Cells that belong to the patches of the same paths, a bit for each.
+  struct Group {
+    unsigned paths;
+    std::vector<Step> steps;
+  };
+
+  Step step_to(const RelativeCell& cell) const {
+    const auto row = static_cast<std::ptrdiff_t>(bricks_[0]) * cell.brick[1] + cell.brick[0];
+    return {static_cast<std::size_t>(cell.brick[2] + 1),
+            row * static_cast<std::ptrdiff_t>(kPaths) + static_cast<std::ptrdiff_t>(cell.path)};
+  }
+
+  /// The six patches of a brick have most of their cells in common: these are added up once.
+  void group_patches() {
+    for (Index cell = 0; cell < static_cast<Index>(27 * kPaths); ++cell) {
+      const RelativeCell at = relative_to_center(cell);
+      unsigned paths = 0;
+      for (std::size_t path = 0; path < kPaths; ++path) {
+        for (const RelativeCell& other : paths_[path].patch) {
+          if (other.brick == at.brick && other.path == at.path) paths |= 1U << path;
+        }
+      }
+      if (paths == 0) continue;
+      const auto same = [&](const Group& group) { return group.paths == paths; };
+      auto group = std::find_if(groups_.begin(), groups_.end(), same);
+      if (group == groups_.end()) group = groups_.insert(groups_.end(), {paths, {}});
+      group->steps.push_back(step_to(at));
+    }
+  }
 
   static std::size_t slot(Index k) { return static_cast<std::size_t>((k + 3) % 3); }
 
+  /// @param j  a line of bricks, from the ring's first.
   std::size_t place(Index i, Index j, std::size_t path) const {
     return (static_cast<std::size_t>(j) * static_cast<std::size_t>(bricks_[0]) +
             static_cast<std::size_t>(i)) *
                kPaths +
            path;
+  }
+
+  const PairedGradients* cells_of(const std::array<Index, 3>& brick, const Ring& ring) const {
+    return ring.layers[slot(brick[2])].data() + place(brick[0], brick[1] - ring.first_line, 0);
   }
 
   bool is_inside(const std::array<Index, 3>& brick) const {
@@ -146,26 +191,26 @@ class GridEstimator {
   }
 
   /// Differences along the path's three axis-parallel edges.
-  Vec3 gradient(std::span<const double> z, const std::array<std::size_t, 4>& nodes,
+  Vec3 gradient(std::span<const float> z, const std::array<std::size_t, 4>& nodes,
                 std::size_t path) const {
     Vec3 g;
     for (std::size_t s = 0; s < 3; ++s) {
       const int axis = kKuhnPaths[path][s];
-      g[axis] = (z[nodes[s + 1]] - z[nodes[s]]) / grid_.spacing[axis];
+      g[axis] = (double{z[nodes[s + 1]]} - double{z[nodes[s]]}) / grid_.spacing[axis];
     }
     return g;
   }
 
   void fill_layer(Index k, Ring& ring) const {
     if (k < 0 || k >= bricks_[2]) return;
-    std::vector<PairedGradients>& layer = ring[slot(k)];
-    layer.resize(place(0, bricks_[1], 0));
-    for (Index j = 0; j < bricks_[1]; ++j) {
+    std::vector<PairedGradients>& layer = ring.layers[slot(k)];
+    layer.resize(place(0, ring.lines, 0));
+    for (Index line = 0; line < ring.lines; ++line) {
       for (Index i = 0; i < bricks_[0]; ++i) {
         for (std::size_t path = 0; path < kPaths; ++path) {
-          const auto nodes = nodes_of({i, j, k}, path);
-          layer[place(i, j, path)] = {gradient(fields_.u, nodes, path),
-                                      gradient(fields_.v, nodes, path)};
+          const auto nodes = nodes_of({i, ring.first_line + line, k}, path);
+          layer[place(i, line, path)] = {gradient(fields_.u, nodes, path),
+                                         gradient(fields_.v, nodes, path)};
         }
       }
     }
@@ -176,12 +221,22 @@ class GridEstimator {
     const std::array<Index, 3> at{brick[0] + cell.brick[0], brick[1] + cell.brick[1],
                                   brick[2] + cell.brick[2]};
     if (!is_inside(at)) return nullptr;
-    return &ring[slot(at[2])][place(at[0], at[1], cell.path)];
+    return cells_of(at, ring) + cell.path;
+  }
+
+  /// The cells of a brick and of those below and above it.
+  using Column = std::array<const PairedGradients*, 3>;
+
+  Column column_of(const std::array<Index, 3>& brick, const Ring& ring) const {
+    const auto& [i, j, k] = brick;
+    return {cells_of({i, j, k - 1}, ring), cells_of(brick, ring), cells_of({i, j, k + 1}, ring)};
   }
 
   CellData data_of(const std::array<Index, 3>& brick, std::size_t path, const Ring& ring) const {
     const PathGeometry& g = paths_[path];
-    const PairedGradients& own = ring[slot(brick[2])][place(brick[0], brick[1], path)];
+    const PairedGradients& own = cells_of(brick, ring)[path];
+    const bool surrounded = is_surrounded(brick);
+    const Column column = surrounded ? column_of(brick, ring) : Column{};
     std::array<std::size_t, 4> nodes = nodes_of(brick, path);
     CellData data;
     data.volume = cell_volume_;
@@ -195,7 +250,10 @@ class GridEstimator {
       data.u[i] = fields_.u[nodes[i]];
       data.v[i] = fields_.v[nodes[i]];
       data.f[i] = fields_.f[nodes[i]];
-      set_jumps(i, g.normal[i], find(brick, g.neighbor[i], ring), data);
+      const auto& [layer, step] = neighbor_steps_[path][i];
+      const PairedGradients* beyond =
+          surrounded ? column[layer] + step : find(brick, g.neighbor[i], ring);
+      set_jumps(i, g.normal[i], beyond, data);
     }
     return data;
   }
@@ -207,29 +265,39 @@ class GridEstimator {
     return true;
   }
 
-  PairedSums sum_patch(const std::array<Index, 3>& brick, std::size_t path,
-                       const Ring& ring) const {
-    PairedSums sums;
-    const std::vector<RelativeCell>& patch = paths_[path].patch;
+  /// What the patches of a brick's six cells add up.
+  std::array<PairedSums, kPaths> sum_patches(const std::array<Index, 3>& brick,
+                                             const Ring& ring) const {
+    std::array<PairedSums, kPaths> sums;
     if (!is_surrounded(brick)) {
-      for (const RelativeCell& cell : patch) {
-        if (const PairedGradients* found = find(brick, cell, ring)) sums.add(*found);
+      for (std::size_t path = 0; path < kPaths; ++path) {
+        for (const RelativeCell& cell : paths_[path].patch) {
+          if (const PairedGradients* found = find(brick, cell, ring)) sums[path].add(*found);
+        }
       }
       return sums;
     }
-    // Nearly all cells: no bounds to check, and fixed steps through three layers.
-    std::array<const PairedGradients*, 3> own;
-    for (Index layer = 0; layer < 3; ++layer) {
-      own[static_cast<std::size_t>(layer)] =
-          ring[slot(brick[2] + layer - 1)].data() + place(brick[0], brick[1], 0);
+    // Nearly all bricks: no bounds to check, and fixed steps through three layers.
+    const Column column = column_of(brick, ring);
+    for (const Group& group : groups_) {
+      PairedSums sum;
+      for (const auto& [layer, step] : group.steps) sum.add(column[layer][step]);
+      for (std::size_t path = 0; path < kPaths; ++path) {
+        if ((group.paths >> path & 1U) != 0) sums[path].add(sum);
+      }
     }
-    for (const auto& [layer, step] : steps_[path]) sums.add(own[layer][step]);
     return sums;
   }
 
+  void add_brick(const std::array<Index, 3>& brick, const Ring& ring, Accumulators& into) const {
+    const std::array<PairedSums, kPaths> sums = sum_patches(brick, ring);
+    for (std::size_t path = 0; path < kPaths; ++path) {
+      add_cell(brick, path, ring, sums[path], into);
+    }
+  }
+
   void add_cell(const std::array<Index, 3>& brick, std::size_t path, const Ring& ring,
-                Accumulators& into) const {
-    const PairedSums sums = sum_patch(brick, path, ring);
+                const PairedSums& sums, Accumulators& into) const {
     const CellEstimate e = estimate_cell(data_of(brick, path, ring), parameters_,
                                          recovered_error(sums.of_u(cell_volume_)),
                                          recovered_error(sums.of_v(cell_volume_)));
@@ -246,20 +314,44 @@ class GridEstimator {
 
   const KuhnGrid& grid_;
   const AtParameters& parameters_;
-  AtFields fields_;
+  GridFields fields_;
   CellMetricOptions metric_;
   std::array<Index, 3> bricks_;
   double cell_volume_;
   std::array<PathGeometry, kPaths> paths_;
-  /// Each patch as steps from the own brick in the layer below, beside or above.
-  struct Step {
-    std::size_t layer;
-    std::ptrdiff_t step;
-  };
-  std::array<std::vector<Step>, kPaths> steps_;
+  std::vector<Group> groups_;
+  std::array<std::array<Step, 4>, kPaths> neighbor_steps_{};
 };
 
-void require_sizes(const KuhnGrid& grid, const AtFields& fields) {
+/// Smooths the logarithms of a layer of nodes.
+/// @param layers  the layer below, itself and the one above, as they were; null where there is none.
+void smooth_layer(const KuhnGrid& grid, const std::array<const PackedSym3*, 3>& layers,
+                  PackedSym3* result) {
+  const auto [nx, ny, nz] = grid.size;
+  const auto [below, here, above] = layers;
+  const auto width = static_cast<std::size_t>(nx);
+  std::size_t n = 0;
+  for (Index j = 0; j < ny; ++j) {
+    for (Index i = 0; i < nx; ++i, ++n) {
+      PackedSym3 sum{};
+      float weights = 0;
+      const auto add = [&](const PackedSym3& log, float weight) {
+        for (std::size_t c = 0; c < 6; ++c) sum[c] += weight * log[c];
+        weights += weight;
+      };
+      add(here[n], 2);
+      if (i > 0) add(here[n - 1], 1);
+      if (i + 1 < nx) add(here[n + 1], 1);
+      if (j > 0) add(here[n - width], 1);
+      if (j + 1 < ny) add(here[n + width], 1);
+      if (below != nullptr) add(below[n], 1);
+      if (above != nullptr) add(above[n], 1);
+      for (std::size_t c = 0; c < 6; ++c) result[n][c] = sum[c] / weights;
+    }
+  }
+}
+
+void require_sizes(const KuhnGrid& grid, const GridFields& fields) {
   for (const auto& field : {fields.u, fields.v, fields.f}) {
     if (field.size() != grid.node_count()) {
       throw InputError("grid estimate: " + std::to_string(field.size()) + " values for " +
@@ -271,7 +363,7 @@ void require_sizes(const KuhnGrid& grid, const AtFields& fields) {
 }  // namespace
 
 GridEstimate estimate_on_grid(const KuhnGrid& grid, const AtParameters& parameters,
-                              const AtFields& fields, CellMetricOptions metric) {
+                              const GridFields& fields, CellMetricOptions metric) {
   require_sizes(grid, fields);
   metric.cell_count = grid.cell_count();
   GridEstimate result;
@@ -295,33 +387,43 @@ GridEstimate estimate_on_grid(const KuhnGrid& grid, const AtParameters& paramete
     result.sums.add(slab.sums);
     result.predicted_cells += slab.predicted_cells;
   }
-  const GridSpace space(grid);
+  const GridMass mass(grid);
   parallel_for(result.node_metrics.size(), [&](std::size_t n) {
     // The cells around a node have four times its lumped mass.
-    const auto factor = static_cast<float>(3.0 / 8 / (4 * space.lumped_mass()[n]));
+    const auto factor = static_cast<float>(3.0 / 8 / (4 * mass.at(n)));
     for (float& entry : result.node_metrics[n]) entry *= factor;
   });
   return result;
 }
 
 void smooth_log_metrics(const KuhnGrid& grid, std::vector<PackedSym3>& logs, int sweeps) {
-  const auto stride = grid.stride();
+  // Slabs run concurrently, each from its own copies of the layers that others change.
+  constexpr Index kSlab = 16;
+  const std::size_t layer = grid.stride()[2];
+  const auto slabs = static_cast<std::size_t>((grid.size[2] + kSlab - 1) / kSlab);
+  std::vector<std::vector<PackedSym3>> first(slabs), last(slabs);
+  const auto layer_at = [&](Index k) { return logs.data() + static_cast<std::size_t>(k) * layer; };
+  const auto end_of = [&](std::size_t slab) {
+    return std::min(grid.size[2], (static_cast<Index>(slab) + 1) * kSlab);
+  };
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    const std::vector<PackedSym3> before = logs;
-    parallel_for(logs.size(), [&](std::size_t n) {
-      PackedSym3 sum{};
-      float weights = 0;
-      auto add = [&](std::size_t m, float weight) {
-        for (std::size_t c = 0; c < 6; ++c) sum[c] += weight * before[m][c];
-        weights += weight;
-      };
-      add(n, 2);
-      for (int axis = 0; axis < 3; ++axis) {
-        const std::size_t at = n / stride[axis] % static_cast<std::size_t>(grid.size[axis]);
-        if (at > 0) add(n - stride[axis], 1);
-        if (at + 1 < static_cast<std::size_t>(grid.size[axis])) add(n + stride[axis], 1);
+    parallel_for_each(slabs, [&](std::size_t s) {
+      const PackedSym3 *low = layer_at(static_cast<Index>(s) * kSlab), *high = layer_at(end_of(s) - 1);
+      first[s].assign(low, low + layer);
+      last[s].assign(high, high + layer);
+    });
+    parallel_for_each(slabs, [&](std::size_t s) {
+      std::vector<PackedSym3> before, here;
+      if (s > 0) before = last[s - 1];
+      for (Index k = static_cast<Index>(s) * kSlab; k < end_of(s); ++k) {
+        PackedSym3* own = layer_at(k);
+        here.assign(own, own + layer);
+        const PackedSym3* after = k + 1 < end_of(s) ? layer_at(k + 1)
+                                  : s + 1 < slabs   ? first[s + 1].data()
+                                                    : nullptr;
+        smooth_layer(grid, {before.empty() ? nullptr : before.data(), here.data(), after}, own);
+        std::swap(before, here);
       }
-      for (std::size_t c = 0; c < 6; ++c) logs[n][c] = sum[c] / weights;
     });
   }
 }

@@ -11,6 +11,13 @@
 
 namespace mesamis {
 
+/// Fields on a Kuhn grid, one value per node each. They refer to the caller's values.
+struct GridFields {
+  std::span<const float> u;  ///< denoised image, grey values
+  std::span<const float> v;  ///< edge indicator: 0 at edges, 1 away from them
+  std::span<const float> f;  ///< the image, grey values
+};
+
 /// The estimator on a Kuhn grid, and the metric it leads to. Nothing is kept per cell.
 struct GridEstimate {
   std::vector<PackedSym3> node_metrics;  ///< as node_metrics(): 3/8 of the volume-weighted mean
@@ -28,7 +35,7 @@ struct GridEstimate {
 /// O(n), in parallel; six single precision numbers per node. The same bits for any number of
 /// threads.
 GridEstimate estimate_on_grid(const KuhnGrid& grid, const AtParameters& parameters,
-                              const AtFields& fields, CellMetricOptions metric);
+                              const GridFields& fields, CellMetricOptions metric);
 
 /// Smooths logarithms of metrics: each sweep replaces every node's by the mean of its own (weight
 /// 2) and those of its six neighbours (weight 1 each). Without it a mesh refined from a coarse
@@ -37,7 +44,7 @@ GridEstimate estimate_on_grid(const KuhnGrid& grid, const AtParameters& paramete
 /// @param sweeps  0 or more.
 /// @throws nothing
 ///
-/// O(n) per sweep and a copy of the logarithms. The same bits for any number of threads.
+/// O(n) per sweep; copies of an eighth of the logarithms. The same bits for any number of threads.
 void smooth_log_metrics(const KuhnGrid& grid, std::vector<PackedSym3>& logs, int sweeps);
 
 }  // namespace mesamis

@@ -46,6 +46,14 @@ class PairedSums {
     yy_ += weight * (g.y * g.y), yz_ += weight * (g.y * g.z), zz_ += weight * (g.z * g.z);
   }
 
+  /// The sums of other cells.
+  void add(const PairedSums& other) {
+    weights_ += other.weights_;
+    x_ += other.x_, y_ += other.y_, z_ += other.z_;
+    xx_ += other.xx_, xy_ += other.xy_, xz_ += other.xz_;
+    yy_ += other.yy_, yz_ += other.yz_, zz_ += other.zz_;
+  }
+
   PatchSums of_u(double volume_per_weight = 1) const { return of(0, volume_per_weight); }
   PatchSums of_v(double volume_per_weight = 1) const { return of(1, volume_per_weight); }
 

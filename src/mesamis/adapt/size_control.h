@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesamis/base/sym3.h"
+#include "mesamis/fem/grid_space.h"
 
 namespace mesamis {
 
@@ -17,7 +18,7 @@ struct SizeControl {
 
 /// Scales nodal metrics (12) until, after clamping their sizes to [h_min, h_max], the integral
 /// of sqrt(det M) is within the bound, and clamps them. The scale acts on all nodes alike and
-/// never refines; it is found by bisection, for clamping makes the complexity a nonlinear
+/// never refines; it is searched for, for clamping makes the complexity a nonlinear
 /// function of it.
 ///
 /// @param metrics  in: n symmetric positive semidefinite matrices, may be zero, in 1 / u^2 for the
@@ -26,31 +27,30 @@ struct SizeControl {
 /// @return the factor all sizes were multiplied with before clamping, >= 1; no unit.
 /// @throws InputError  if the numbers of metrics and weights differ.
 ///
-/// O(n) per step of the bisection, about forty; three single precision numbers per node.
+/// O(n) per step of the search, about ten; three single precision numbers per node.
 double control_sizes(std::span<Sym3> metrics, std::span<const double> weights,
                      const SizeControl& control);
 
-/// Scales and clamps packed metrics as control_sizes() does, and replaces them by the logarithms of
-/// the result, as GridMetricField expects them.
+/// Scales and clamps packed metrics of a grid's nodes as control_sizes() does, and replaces them by
+/// the logarithms of the result, as GridMetricField expects them.
+/// @param grid     n nodes, whose lumped masses are the weights.
 /// @param metrics  as for control_sizes().
-/// @param weights  as for control_sizes().
 /// @return the factor of control_sizes(), >= 1; no unit.
-/// @throws InputError  if the numbers of metrics and weights differ.
+/// @throws InputError  if the numbers of metrics and nodes differ.
 ///
 /// O(n) as control_sizes().
-double control_sizes_to_log(std::span<PackedSym3> metrics, std::span<const double> weights,
+double control_sizes_to_log(const KuhnGrid& grid, std::span<PackedSym3> metrics,
                             const SizeControl& control);
 
-/// Multiplies all sizes of logarithmic metrics by one factor, so that their complexity (see
-/// SizeControl) becomes the given one. Averaging logarithms lowers it.
-/// @param log_metrics  logarithms of n metrics in 1 / u^2 for the unit of length u of the mesh;
+/// Multiplies all sizes of a grid's logarithmic metrics by one factor, so that their complexity
+/// (see SizeControl) becomes the given one. Averaging logarithms lowers it.
+/// @param grid         n nodes.
+/// @param log_metrics  logarithms of n metrics in 1 / u^2 for the unit of length u of the grid;
 ///                     changed in place.
-/// @param weights      n, each node's share of the domain's volume, u^3.
 /// @param complexity   > 0, no unit.
 /// @throws nothing
 ///
 /// O(n). The same bits for any number of threads.
-void set_complexity(std::span<PackedSym3> log_metrics, std::span<const double> weights,
-                    double complexity);
+void set_complexity(const KuhnGrid& grid, std::span<PackedSym3> log_metrics, double complexity);
 
 }  // namespace mesamis

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  grid_mass.h
   grid_space.h
   mesh_space.h
   p1_space.h
+  single_grid_system.h
   solve.h
   sparse_matrix.h
   spd_operator.h
@@ -13,6 +15,7 @@ set(ROOM_SOURCES
   matrix_operator.cpp
   mesh_space.cpp
   multigrid.cpp
+  single_grid_system.cpp
   solve.cpp
   sparse_matrix.cpp
   transfer.cpp)

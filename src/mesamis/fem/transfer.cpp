@@ -84,11 +84,11 @@ ProjectedImage project_image(const SplineImage& image, const MeshSpace& space,
   return projected;
 }
 
-std::vector<double> project_image(const VolumeView& image, const KuhnGrid& grid) {
+std::vector<float> project_image(const VolumeView& image, const KuhnGrid& grid) {
   const AxisFilter x = hat_filter(image.size[0], grid.size[0]);
   const AxisFilter y = hat_filter(image.size[1], grid.size[1]);
   const AxisFilter z = hat_filter(image.size[2], grid.size[2]);
-  std::vector<double> f(grid.node_count());
+  std::vector<float> f(grid.node_count());
   const auto stride = grid.stride();
   parallel_for_each(static_cast<std::size_t>(grid.size[2]), [&](std::size_t k) {
     for (std::size_t j = 0; j < y.taps.size(); ++j) {
@@ -105,7 +105,7 @@ std::vector<double> project_image(const VolumeView& image, const KuhnGrid& grid)
             }
           }
         }
-        f[k * stride[2] + j * stride[1] + i] = sum;
+        f[k * stride[2] + j * stride[1] + i] = static_cast<float>(sum);
       }
     }
   });
@@ -162,7 +162,7 @@ std::vector<std::vector<double>> interpolate_fields(const TetMesh& from,
 }
 
 std::vector<std::vector<double>> interpolate_fields(const KuhnGrid& from,
-                                                    std::span<const std::span<const double>> fields,
+                                                    std::span<const std::span<const float>> fields,
                                                     std::span<const Vec3> points) {
   std::vector<std::vector<double>> result(fields.size(), std::vector<double>(points.size()));
   for (std::size_t f = 0; f < fields.size(); ++f) {

@@ -53,7 +53,7 @@ ProjectedImage project_image(const SplineImage& image, const MeshSpace& space,
 /// @throws nothing
 ///
 /// O(voxels), in parallel.
-std::vector<double> project_image(const VolumeView& image, const KuhnGrid& grid);
+std::vector<float> project_image(const VolumeView& image, const KuhnGrid& grid);
 
 /// Means of an image over the cells of a mesh, and over the surroundings of its nodes.
 struct ImageMeans {
@@ -95,7 +95,7 @@ std::vector<std::vector<double>> interpolate_fields(const TetMesh& from,
 ///
 /// O(points).
 std::vector<std::vector<double>> interpolate_fields(const KuhnGrid& from,
-                                                    std::span<const std::span<const double>> fields,
+                                                    std::span<const std::span<const float>> fields,
                                                     std::span<const Vec3> points);
 
 }  // namespace mesamis

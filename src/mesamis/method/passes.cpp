@@ -12,13 +12,13 @@
 #include "mesamis/adapt/size_control.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/stopwatch.h"
-#include "mesamis/fem/grid_space.h"
 #include "mesamis/fem/mesh_space.h"
 #include "mesamis/fem/transfer.h"
 #include "mesamis/mesh/gradation.h"
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/method/surface_change.h"
 #include "mesamis/remesh/remesh.h"
+#include "mesamis/segment/grid_amis.h"
 #include "mesamis/surface/extract.h"
 
 namespace mesamis {
@@ -74,21 +74,18 @@ CellMetricOptions metric_options(const RunInput& run, std::int64_t cells) {
 }
 
 /// The metric of the first pass, and whether max_tets acted on it.
-GridMetricField grid_metric(const Pass& pass, const GridSpace& space, const Minimum& m,
+GridMetricField grid_metric(const Pass& pass, const KuhnGrid& grid, const GridFields& fields,
                             const SizeControl& control) {
   const RunInput& run = pass.run;
   Iteration& record = pass.record;
-  const KuhnGrid& grid = space.grid();
-  GridEstimate estimated = estimate_on_grid(grid, run.parameters.functional, {m.u, m.v, m.f},
+  GridEstimate estimated = estimate_on_grid(grid, run.parameters.functional, fields,
                                             metric_options(run, grid.cell_count()));
   record.estimator = estimated.sums.zeta();
   record.predicted_tets = estimated.predicted_cells;
-  const double factor = control_sizes_to_log(estimated.node_metrics, space.lumped_mass(), control);
+  const double factor = control_sizes_to_log(grid, estimated.node_metrics, control);
   smooth_log_metrics(grid, estimated.node_metrics, kSmoothingSweeps);
   record.bounded = factor > 1;
-  if (record.bounded) {
-    set_complexity(estimated.node_metrics, space.lumped_mass(), control.complexity);
-  }
+  if (record.bounded) set_complexity(grid, estimated.node_metrics, control.complexity);
   return {run.box, grid.size, std::move(estimated.node_metrics)};
 }
 
@@ -194,16 +191,18 @@ std::vector<Sym3> mesh_metric(const Pass& pass, const TetMesh& mesh, const Minim
   return metric;
 }
 
-GridMinimum minimise_on_grid(const Pass& pass) {
+GridPass minimise_on_grid(const Pass& pass) {
   const auto& [run, number, stage, record] = pass;
   Stopwatch watch;
-  GridMinimum found{GridSpace(first_grid(run)), {}};
-  const KuhnGrid& grid = found.space.grid();
+  GridPass found{first_grid(run), {}, {}};
+  const KuhnGrid& grid = found.grid;
   record.tets = grid.cell_count();
   record.nodes = static_cast<std::int64_t>(grid.node_count());
-  found.minimum.f = project_image(run.grey, grid);
+  if (grid.size != run.grey.size) found.projected = project_image(run.grey, grid);
   record.seconds.project = watch.lap();
-  minimise_on(found.space, run.draft_options(), found.minimum, record);
+  found.minimum = run_amis_on_grid(grid, found.image(run), run.draft_options());
+  record.amis = found.minimum.report;
+  record.energy = found.minimum.energy;
   stage.advance(0.2);
   record.seconds.amis = watch.lap();
   // One brick's cells are those of all the others.
@@ -213,16 +212,16 @@ GridMinimum minimise_on_grid(const Pass& pass) {
 
 State adapt_from_grid(const Pass& pass) {
   const auto& [run, number, stage, record] = pass;
-  const auto& [space, m] = minimise_on_grid(pass);
-  const KuhnGrid& grid = space.grid();
+  const GridPass found = minimise_on_grid(pass);
+  const auto& [grid, projected, m] = found;
   Stopwatch watch;
   const Sizes sizes = sizes_of(pass, kCellsPerComplexity);
-  const GridMetricField field = grid_metric(pass, space, m, sizes.control);
+  const GridMetricField field = grid_metric(pass, grid, {m.u, m.v, found.image(run)}, sizes.control);
   record.seconds.estimate = watch.lap();
   State next = remeshed(pass, coarse_box_mesh(run.box), field, sizes);
   record.seconds.remesh = watch.lap();
   auto fields =
-      interpolate_fields(grid, std::vector<std::span<const double>>{m.u, m.v}, next.mesh.points);
+      interpolate_fields(grid, std::vector<std::span<const float>>{m.u, m.v}, next.mesh.points);
   next.u = std::move(fields[0]);
   next.v = std::move(fields[1]);
   record.seconds.transfer = watch.lap();

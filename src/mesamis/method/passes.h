@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "mesamis/method/prepare.h"
 #include "mesamis/remesh/remesh.h"
 #include "mesamis/segment/amis.h"
+#include "mesamis/segment/grid_amis.h"
 
 /// The steps of Algorithm 2: each takes what is known on one mesh and returns what is known next.
 /// Meshes lie in the grid's own axes, in length units.
@@ -77,15 +79,20 @@ struct Pass {
   Iteration& record;
 };
 
-/// The fields on the voxel grid.
-struct GridMinimum {
-  GridSpace space;
-  Minimum minimum;  ///< without its lumped mass, which the space has
+/// The fields on the first grid.
+struct GridPass {
+  KuhnGrid grid;
+  std::vector<float> projected;  ///< the image on it; empty where it is the image's own grid
+  GridMinimum minimum;
+
+  std::span<const float> image(const RunInput& run) const {
+    return projected.empty() ? std::span<const float>(run.grey.samples) : projected;
+  }
 };
 
 /// Projects the image onto the first grid and minimises there. Records the pass but for what comes
 /// of the estimator.
-GridMinimum minimise_on_grid(const Pass& pass);
+GridPass minimise_on_grid(const Pass& pass);
 
 /// Adaptation 1: minimises on the voxel grid, estimates, and refines the first mesh from a box.
 State adapt_from_grid(const Pass& pass);

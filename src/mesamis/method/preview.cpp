@@ -7,8 +7,8 @@ namespace mesamis {
 
 TriMesh preview_surface(const Pass& pass) {
   const Parameters& p = pass.run.parameters;
-  const GridMinimum found = minimise_on_grid(pass);
-  const KuhnGrid& grid = found.space.grid();
+  const GridPass found = minimise_on_grid(pass);
+  const KuhnGrid& grid = found.grid;
   return extract_cubes({grid.size, grid.spacing, found.minimum.u}, p.grey.to_grey(p.level));
 }
 

@@ -139,8 +139,7 @@ class Extraction {
     const Vec3 p = position(a.place), q = position(b.place);
     const double at_a = value(a.number), at_b = value(b.number);
     if (at_a > level_ && at_b > level_) return at_box(a.place) ? p : q;
-    // Halves, since the difference of two large values may overflow.
-    const double t = (0.5 * level_ - 0.5 * at_a) / (0.5 * at_b - 0.5 * at_a);
+    const double t = (level_ - at_a) / (at_b - at_a);
     return p + std::clamp(t, kCrossingMargin, 1 - kCrossingMargin) * (q - p);
   }
 

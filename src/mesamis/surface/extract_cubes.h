@@ -13,7 +13,7 @@ namespace mesamis {
 struct GridValues {
   std::array<Index, 3> size{};       ///< nodes along i, j, k; at least 2 each
   Vec3 spacing;                      ///< between nodes, > 0
-  std::span<const double> values{};  ///< one per node, finite; i runs fastest, then j, k
+  std::span<const float> values{};  ///< one per node, finite; i runs fastest, then j, k
 };
 
 /// Extracts the boundary of {values > level} by marching cubes (Lorensen, Cline 1987). It has less

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/segment/grid_amis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/fem/single_grid_system.h"
+
+namespace mesamis {
+namespace {
+
+/// The two linear steps, each from and into the current fields.
+class GridAlternation {
+ public:
+  GridAlternation(const KuhnGrid& grid, std::span<const float> f, const AmisOptions& options,
+                  GridMinimum& minimum)
+      : grid_(grid), f_(f), options_(options), minimum_(minimum), system_(grid) {}
+
+  void step_u() {
+    const auto& [epsilon, eta, beta, gamma] = options_.parameters;
+    for_each_node([&](std::size_t n, double mass) {
+      system_.diagonal()[n] = static_cast<float>(mass);
+      system_.right()[n] = static_cast<float>(mass) * f_[n];
+    });
+    system_.couple(minimum_.v, beta, beta * eta);
+    solve_into(minimum_.u);
+  }
+
+  /// @return the largest change of v.
+  double step_v() {
+    const auto& [epsilon, eta, beta, gamma] = options_.parameters;
+    const auto well = static_cast<float>(gamma / (4 * epsilon)),
+               weight = static_cast<float>(beta);
+    std::vector<float>& diagonal = system_.diagonal();
+    find_gradient_squares(grid_, minimum_.u, diagonal);
+    for_each_node([&](std::size_t n, double mass) {
+      system_.right()[n] = well * static_cast<float>(mass);
+      diagonal[n] = weight * diagonal[n] + system_.right()[n];
+    });
+    system_.couple({}, 0, gamma * epsilon);
+    const std::vector<float> before = minimum_.v;
+    solve_into(minimum_.v);
+    clamp_v();
+    return largest_change(before);
+  }
+
+  /// The functional of the present fields; the system's diagonal is lost.
+  Energy energy() {
+    const auto& [epsilon, eta, beta, gamma] = options_.parameters;
+    const std::vector<float>&u = minimum_.u, &v = minimum_.v;
+    std::vector<float>& squares = system_.diagonal();
+    const GridMass& masses = system_.mass();
+    Energy e;
+    find_gradient_squares(grid_, u, squares);
+    e.fidelity = sum_over_nodes(grid_, masses, [&](std::size_t n, double mass) {
+      const double d = double{u[n]} - double{f_[n]};
+      return mass * d * d;
+    });
+    e.smoothing = beta * sum_over_nodes(grid_, masses, [&, h = eta](std::size_t n, double) {
+                    return (double{v[n]} * double{v[n]} + h) * double{squares[n]};
+                  });
+    find_gradient_squares(grid_, v, squares);
+    e.edge = gamma * sum_over_nodes(grid_, masses, [&, eps = epsilon](std::size_t n, double mass) {
+               const double d = double{v[n]} - 1;
+               return eps * double{squares[n]} + mass * d * d / (4 * eps);
+             });
+    return e;
+  }
+
+ private:
+  template <class Body>
+  void for_each_node(Body&& body) const {
+    parallel_for_each(static_cast<std::size_t>(grid_.size[2]), [&](std::size_t k) {
+      std::size_t n = k * grid_.stride()[2];
+      for (Index j = 0; j < grid_.size[1]; ++j) {
+        const GridMass::Row row = system_.mass().row(j, static_cast<Index>(k));
+        for (Index i = 0; i < grid_.size[0]; ++i, ++n) body(n, row.at(i));
+      }
+    });
+  }
+
+  void solve_into(std::span<float> solution) {
+    const SolveReport solved = system_.solve(solution, options_.solver);
+    AmisReport& report = minimum_.report;
+    report.solver_iterations += solved.iterations;
+    report.solver_residual = std::max(report.solver_residual, solved.residual);
+    report.solver_converged &= solved.converged;
+  }
+
+  /// As on any mesh, see run_amis().
+  void clamp_v() {
+    const double slack = 10 * options_.solver.tolerance;
+    for (float& value : minimum_.v) {
+      minimum_.report.clamped += value < -slack || value > 1 + slack;
+      value = std::clamp(value, 0.0F, 1.0F);
+    }
+  }
+
+  double largest_change(const std::vector<float>& before) const {
+    return parallel_max(before.size(), 0, [&](std::size_t begin, std::size_t end) {
+      float largest = 0;
+      for (std::size_t n = begin; n < end; ++n) {
+        largest = std::max(largest, std::abs(minimum_.v[n] - before[n]));
+      }
+      return double{largest};
+    });
+  }
+
+  const KuhnGrid& grid_;
+  std::span<const float> f_;
+  const AmisOptions& options_;
+  GridMinimum& minimum_;
+  SingleGridSystem system_;
+};
+
+GridMinimum run_in_single(const KuhnGrid& grid, std::span<const float> f,
+                          const AmisOptions& options) {
+  GridMinimum minimum{{f.begin(), f.end()}, std::vector<float>(f.size(), 1), {}, {}};
+  AmisReport& report = minimum.report;
+  report.solver_tolerance = options.solver.tolerance;
+  GridAlternation alternation(grid, f, options, minimum);
+  while (report.iterations < options.max_iterations && !report.converged) {
+    alternation.step_u();
+    if (!report.solver_converged) return minimum;
+    report.v_change = alternation.step_v();
+    if (!report.solver_converged) return minimum;
+    report.converged = report.v_change <= options.v_tolerance;
+    ++report.iterations;
+  }
+  minimum.energy = alternation.energy();
+  return minimum;
+}
+
+GridMinimum run_in_double(const KuhnGrid& grid, std::span<const float> f,
+                          const AmisOptions& options) {
+  const GridSpace space(grid);
+  const std::vector<double> exact(f.begin(), f.end());
+  const AmisResult found = run_amis(space, exact, {}, options);
+  return {{found.u.begin(), found.u.end()},
+          {found.v.begin(), found.v.end()},
+          found.report,
+          energy(space, options.parameters, {found.u, found.v, exact})};
+}
+
+}  // namespace
+
+GridMinimum run_amis_on_grid(const KuhnGrid& grid, std::span<const float> f,
+                             const AmisOptions& options) {
+  constexpr double kLeastTolerance = 1e-4;  // that single precision reaches
+  require_valid(options.parameters);
+  if (f.size() != grid.node_count()) {
+    throw InputError("amis: f has " + std::to_string(f.size()) + " values for " +
+                     std::to_string(grid.node_count()) + " nodes");
+  }
+  if (options.solver.tolerance >= kLeastTolerance && !options.after_half_step &&
+      options.max_iterations > 0) {
+    GridMinimum minimum = run_in_single(grid, f, options);
+    if (minimum.report.solver_converged) return minimum;
+  }
+  return run_in_double(grid, f, options);
+}
+
+}  // namespace mesamis
