@@ -14,7 +14,7 @@
 #include "mesamis/adapt/size_control.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/grid_space.h"
-#include "mesamis/segment/amis.h"
+#include "mesamis/segment/grid_amis.h"
 
 namespace {
 
@@ -31,10 +31,10 @@ double peak_mb() {
 }
 
 /// Curved shells of bone with noise, grey values.
-std::vector<double> image(const KuhnGrid& grid) {
+std::vector<float> image(const KuhnGrid& grid) {
   std::mt19937 generator(1);
   std::normal_distribution<double> noise(0, 6);
-  std::vector<double> f;
+  std::vector<float> f;
   f.reserve(grid.node_count());
   for (Index k = 0; k < grid.size[2]; ++k) {
     for (Index j = 0; j < grid.size[1]; ++j) {
@@ -43,7 +43,7 @@ std::vector<double> image(const KuhnGrid& grid) {
                             std::sin(j * 0.05) * std::cos(k * 0.04) +
                             std::sin(k * 0.04) * std::cos(i * 0.06);
         const double bone = 0.5 * (1 + std::erf((0.3 - std::abs(wave)) * 12));
-        f.push_back(120 + 110 * bone + noise(generator));
+        f.push_back(static_cast<float>(120 + 110 * bone + noise(generator)));
       }
     }
   }
@@ -57,14 +57,14 @@ int main(int argc, char** argv) {
   for (std::size_t a = 0; a < 3 && argc > 3; ++a) size[a] = std::atoi(argv[a + 1]);
   const KuhnGrid grid{size, {1.5, 1.5, 1}};
   AmisOptions options;
-  options.solver.tolerance = 1e-6;
+  options.solver.tolerance = 1e-3;
   if (argc > 4) options.parameters.beta = std::atof(argv[4]);
-  const std::vector<double> f = image(grid);
+  const std::vector<float> f = image(grid);
   std::printf("nodes %zu  cells %lld  threads %d\n", grid.node_count(),
               static_cast<long long>(grid.cell_count()), thread_count());
 
   const double start = seconds();
-  const AmisResult fields = run_amis(GridSpace(grid), f, {}, options);
+  const GridMinimum fields = run_amis_on_grid(grid, f, options);
   const AmisReport& report = fields.report;
   const double solved = seconds();
   std::printf("minimise  %6.2f s  %d half-step pairs, %d solver steps, residual %.1e\n",
@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
   const double estimated = seconds();
   std::printf("estimate  %6.2f s  predicted cells %.3g\n", estimated - solved,
               estimate.predicted_cells);
-  control_sizes_to_log(estimate.node_metrics, GridSpace(grid).lumped_mass(), {0.1, 76, 140000});
+  control_sizes_to_log(grid, estimate.node_metrics, {0.1, 76, 140000});
   smooth_log_metrics(grid, estimate.node_metrics, 3);
   std::printf("sizes     %6.2f s\npeak memory %.0f MB\n", seconds() - estimated, peak_mb());
 }

@@ -14,12 +14,14 @@ namespace mesamis {
 namespace {
 
 struct Fields {
-  std::vector<double> u, v, f;
+  std::vector<float> u, v, f;
 };
+
+std::vector<double> exactly(const std::vector<float>& x) { return {x.begin(), x.end()}; }
 
 Fields random_fields(std::size_t nodes) {
   std::mt19937 generator(11);
-  std::uniform_real_distribution<double> uniform(0, 1);
+  std::uniform_real_distribution<float> uniform(0, 1);
   Fields fields;
   for (std::size_t n = 0; n < nodes; ++n) {
     fields.u.push_back(255 * uniform(generator));
@@ -30,13 +32,14 @@ Fields random_fields(std::size_t nodes) {
 }
 
 TEST(GridEstimator, AgreesWithTheMeshOfItsCells) {
-  // More layers than one slab, odd sizes, anisotropic spacing: nothing may depend on the tiling.
-  const KuhnGrid grid{{6, 5, 12}, {1, 0.7, 1.6}};
-  const TetMesh mesh = box_mesh(grid.box(), {5, 4, 11});
+  // More than one slab and strip, odd sizes, anisotropic spacing: nothing may depend on the tiling.
+  const KuhnGrid grid{{6, 36, 12}, {1, 0.7, 1.6}};
+  const TetMesh mesh = box_mesh(grid.box(), {5, 35, 11});
   const Fields x = random_fields(grid.node_count());
   const AtParameters parameters{0.3, 0.01, 1.5, 4};
   const double tau = 0.01, stretch = 3e4;
-  const Estimate expected = estimate(mesh, parameters, {x.u, x.v, x.f});
+  const std::vector<double> u = exactly(x.u), v = exactly(x.v), f = exactly(x.f);
+  const Estimate expected = estimate(mesh, parameters, {u, v, f});
   std::vector<Sym3> cell_metrics;
   for (const Sym3& gamma : expected.gamma) {
     cell_metrics.push_back(cell_metric(gamma, {grid.cell_count(), tau, stretch}));
@@ -61,6 +64,31 @@ TEST(GridEstimator, AgreesWithTheMeshOfItsCells) {
   }
 }
 
+TEST(GridEstimator, WhereTheFieldsAreFlatNothingIsAskedFor) {
+  // A peak: the metric is that of the mesh near it, and zero beyond.
+  const KuhnGrid grid{{12, 11, 20}, {1, 1, 1}};
+  const TetMesh mesh = box_mesh(grid.box(), {11, 10, 19});
+  const std::size_t count = grid.node_count(), middle = count / 2 + 6;
+  std::vector<float> u(count, 40), v(count, 1);
+  u[middle] = 50, v[middle] = 0.5F;
+  const std::vector<double> exact_u = exactly(u), exact_v = exactly(v);
+  const Estimate expected = estimate(mesh, {}, {exact_u, exact_v, exact_u});
+  std::vector<Sym3> cells;
+  for (const Sym3& gamma : expected.gamma) {
+    cells.push_back(cell_metric(gamma, {.cell_count = grid.cell_count()}));
+  }
+  const auto nodes = node_metrics(mesh, cells);
+  const GridEstimate found = estimate_on_grid(grid, {}, {u, v, u}, {});
+  EXPECT_NEAR(found.sums.zeta() / expected.sums.zeta(), 1, 1e-9);
+  EXPECT_NEAR(found.sums.residuals.b[0] / expected.sums.residuals.b[0], 1, 1e-9);
+  std::size_t zeros = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    EXPECT_NEAR(found.node_metrics[n][0], nodes[n].xx, 1e-5 * trace(nodes[n]));
+    zeros += found.node_metrics[n][0] == 0;
+  }
+  EXPECT_GT(zeros, count / 2);
+}
+
 TEST(GridEstimator, TheSameBitsForAnyNumberOfThreads) {
   const KuhnGrid grid{{7, 6, 41}, {1, 1, 1}};
   const Fields x = random_fields(grid.node_count());
@@ -76,7 +104,7 @@ TEST(GridEstimator, TheSameBitsForAnyNumberOfThreads) {
 
 TEST(GridEstimator, RefusesFieldsOfAnotherSize) {
   const KuhnGrid grid{{3, 3, 3}, {1, 1, 1}};
-  const std::vector<double> right(27, 1), wrong(26, 1);
+  const std::vector<float> right(27, 1), wrong(26, 1);
   EXPECT_THROW(estimate_on_grid(grid, {}, {wrong, right, right}, {}), InputError);
 }
 
@@ -95,6 +123,43 @@ TEST(SmoothLogMetrics, KeepsAConstantAndSpreadsAPeak) {
   EXPECT_FLOAT_EQ(peak[61][0], 1);
   EXPECT_FLOAT_EQ(peak[62 + 25][0], 1);
   EXPECT_FLOAT_EQ(peak[60][0], 0);
+}
+
+TEST(SmoothLogMetrics, AddsUpNeighboursThroughAllLayers) {
+  const KuhnGrid grid{{4, 3, 37}, {1, 1, 1}};
+  std::mt19937 generator(2);
+  std::uniform_real_distribution<float> uniform(-1, 1);
+  std::vector<PackedSym3> before(grid.node_count());
+  for (PackedSym3& log : before) {
+    for (float& entry : log) entry = uniform(generator);
+  }
+  std::vector<PackedSym3> logs = before;
+  smooth_log_metrics(grid, logs, 1);
+  const auto stride = grid.stride();
+  for (std::size_t n = 0; n < logs.size(); ++n) {
+    double sum = 2 * before[n][4], weights = 2;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto at = static_cast<Index>(n / stride[a] % static_cast<std::size_t>(grid.size[a]));
+      if (at > 0) sum += before[n - stride[a]][4], ++weights;
+      if (at + 1 < grid.size[a]) sum += before[n + stride[a]][4], ++weights;
+    }
+    EXPECT_NEAR(logs[n][4], sum / weights, 1e-6);
+  }
+}
+
+TEST(SmoothLogMetrics, TheSameBitsForAnyNumberOfThreads) {
+  const KuhnGrid grid{{7, 6, 50}, {1, 1, 1}};
+  const auto smoothed = [&](int threads) {
+    return with_threads(threads, [&] {
+      std::vector<PackedSym3> logs(grid.node_count());
+      for (std::size_t n = 0; n < logs.size(); ++n) {
+        logs[n][0] = std::sin(static_cast<float>(n));
+      }
+      smooth_log_metrics(grid, logs, 3);
+      return logs;
+    });
+  };
+  EXPECT_EQ(smoothed(1), smoothed(4));
 }
 
 }  // namespace

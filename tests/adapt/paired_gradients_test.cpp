@@ -49,6 +49,20 @@ TEST(PairedSums, AreThoseOfEachFieldAlone) {
   }
 }
 
+TEST(PairedSums, AddUp) {
+  const PairedGradients a({1, 2, 3}, {-1, 0, 2}), b({4, 1, 3}, {-1, 5, 2}), c({0, 1, 0}, {2, 2, 1});
+  PairedSums some, others, all;
+  some.add(a), others.add(b), others.add(c, 2);
+  some.add(others);
+  all.add(a), all.add(b), all.add(c, 2);
+  for (const auto& [found, expected] :
+       {std::pair{some.of_u(), all.of_u()}, std::pair{some.of_v(), all.of_v()}}) {
+    EXPECT_EQ(found.volume, expected.volume);
+    expect_near(found.gradient, expected.gradient, 1e-14);
+    expect_near(found.gradient_outer, expected.gradient_outer, 1e-14);
+  }
+}
+
 TEST(SetJumps, IsTheJumpOfTheNormalDerivatives) {
   CellData cell;
   cell.grad_u = {1, 2, 3}, cell.grad_v = {-1, 0, 2};

@@ -74,10 +74,11 @@ TEST(SizeControl, LogarithmsAreThoseOfTheMetric) {
   auto metrics = random_metrics(60);
   std::vector<PackedSym3> packed;
   for (const Sym3& m : metrics) packed.push_back(pack(m));
-  const std::vector<double> weights(60, 1);
-  const SizeControl control{0.2, 5, 20};
-  const double a = control_sizes(metrics, weights, control);
-  const double b = control_sizes_to_log(packed, weights, control);
+  const KuhnGrid grid{{3, 4, 5}, {1, 1, 1}};
+  const SizeControl control{0.2, 5, 5};
+  const double a = control_sizes(metrics, GridSpace(grid).lumped_mass(), control);
+  EXPECT_GT(a, 1);
+  const double b = control_sizes_to_log(grid, packed, control);
   EXPECT_NEAR(a, b, 1e-5);
   for (std::size_t n = 0; n < 60; ++n) {
     EXPECT_NEAR(trace(exp_sym(unpack(packed[n]))) / trace(metrics[n]), 1, 1e-4);
@@ -86,11 +87,12 @@ TEST(SizeControl, LogarithmsAreThoseOfTheMetric) {
 
 TEST(SizeControl, SetComplexityScalesAllSizesAlike) {
   auto metrics = random_metrics(40);
-  const std::vector<double> weights(40, 0.2);
+  const KuhnGrid grid{{2, 4, 5}, {1, 0.5, 2}};
+  const std::vector<double> weights = GridSpace(grid).lumped_mass();
   std::vector<PackedSym3> logs;
   for (const Sym3& m : metrics) logs.push_back(pack(log_spd(m)));
   const double before = complexity_of(metrics, weights);
-  set_complexity(logs, weights, 8 * before);
+  set_complexity(grid, logs, 8 * before);
   for (std::size_t n = 0; n < 40; ++n) {
     const Sym3 scaled = exp_sym(unpack(logs[n]));
     EXPECT_NEAR(trace(scaled) / trace(metrics[n]), 4, 1e-4);

@@ -162,9 +162,10 @@ TEST(InterpolateFields, GridAgreesWithTheMeshOfItsCells) {
   std::vector<double> u;
   for (std::size_t n = 0; n < mesh.points.size(); ++n)
     u.push_back(std::sin(static_cast<double>(n)));
-  const std::vector<std::span<const double>> fields{u};
-  const auto a = interpolate_fields(grid, fields, to.points);
-  const auto b = interpolate_fields(mesh, fields, to.points);
+  const std::vector<float> rounded(u.begin(), u.end());
+  u.assign(rounded.begin(), rounded.end());
+  const auto a = interpolate_fields(grid, std::vector<std::span<const float>>{rounded}, to.points);
+  const auto b = interpolate_fields(mesh, std::vector<std::span<const double>>{u}, to.points);
   for (std::size_t n = 0; n < to.points.size(); ++n) EXPECT_NEAR(a[0][n], b[0][n], 1e-10);
 }
 

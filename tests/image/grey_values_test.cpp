@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+#include <utility>
+#include <vector>
+
 #include "mesamis/base/error.h"
 #include "support/ball_volume.h"
 #include "support/sampled_volume.h"
@@ -74,6 +79,39 @@ TEST(DefaultWindow, IsNeverEmpty) {
   Volume rare = ramp(0, 0);
   rare.samples[17] = 1;  // beyond every percentile
   EXPECT_LT(default_window(rare, 0).low, default_window(rare, 0).high);
+}
+
+TEST(SampleRange, IsTheLeastAndTheLargest) {
+  std::vector<float> samples(3'000'000, 5);  // more than one thread looks at
+  samples[7] = -2;
+  samples[2'999'999] = 9;
+  EXPECT_EQ(sample_range(samples), std::pair(-2.0F, 9.0F));
+  EXPECT_EQ(sample_range(std::vector<float>{3}), std::pair(3.0F, 3.0F));
+}
+
+/// The mean of neighbours along each axis in turn, the border repeated.
+TEST(Smoothed, IsTheProductOfThreeFilters) {
+  std::mt19937 generator(4);
+  std::uniform_real_distribution<double> uniform(0, 100);
+  const Volume scan = sampled_volume({6, 5, 37}, {1, 1.5, 0.8},
+                                     [&](const Vec3&) { return uniform(generator); });
+  const Volume found = smoothed(scan);
+  const auto at = [&](Index i, Index j, Index k) {
+    return scan.at(std::clamp(i, 0, 5), std::clamp(j, 0, 4), std::clamp(k, 0, 36));
+  };
+  for (Index k = 0; k < 37; ++k) {
+    for (Index j = 0; j < 5; ++j) {
+      for (Index i = 0; i < 6; ++i) {
+        double sum = 0;
+        for (Index n = 0; n < 27; ++n) {
+          const Index x = n % 3 - 1, y = n / 3 % 3 - 1, z = n / 9 - 1;
+          const double weight = (2 - std::abs(x)) * (2 - std::abs(y)) * (2 - std::abs(z)) / 64.0;
+          sum += weight * at(i + x, j + y, k + z);
+        }
+        EXPECT_NEAR(found.at(i, j, k), sum, 1e-4);
+      }
+    }
+  }
 }
 
 TEST(Smoothed, DoesNotMixSlicesThatAreFarApart) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -76,6 +77,19 @@ TEST(SplineImage, GradientIsThatOfTheValues) {
           (spline_at(image, behind).value - spline_at(image, before).value) / (2 * kStep);
       EXPECT_NEAR(gradient[a], slope, 1e-4 * std::max(1.0, std::abs(slope)));
     }
+  }
+}
+
+TEST(SplineImage, TheValueAloneIsTheSameAndWithinTheCoefficientsAround) {
+  const SplineImage image = interpolating_spline(random_volume({9, 2, 7}));
+  const auto [low, high] =
+      std::minmax_element(image.coefficients.begin(), image.coefficients.end());
+  for (double t = -0.5; t < 9; t += 0.0931) {
+    const Vec3 p{t, 0.06 * t, 1.9 * (7 - t)};
+    const double value = spline_value_at(image, p);
+    EXPECT_EQ(value, spline_at(image, p).value);
+    EXPECT_GE(value, *low);
+    EXPECT_LE(value, *high);
   }
 }
 

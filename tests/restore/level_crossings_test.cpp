@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
+#include <random>
 
 #include "support/ball_volume.h"
 #include "support/sampled_volume.h"
@@ -24,6 +26,38 @@ TEST(CrossingPoints, LieOnTheBallAndPointOutwards) {
   const auto fewer = crossing_points(volume, 175, 500);
   EXPECT_LE(fewer.size(), 1000u);
   EXPECT_GE(fewer.size(), 400u);
+}
+
+/// Every n-th of all crossings, counted voxel by voxel and there along x, y, z.
+TEST(CrossingPoints, AreTakenEvenlyInTheOrderOfTheVoxels) {
+  std::mt19937 generator(6);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const Volume volume =
+      sampled_volume({19, 7, 5}, {1, 2, 3}, [&](const Vec3&) { return uniform(generator); });
+  const double level = volume.samples[40];  // a sample at the level is not above it
+  std::vector<Vec3> all;
+  const auto visit = [&](std::array<Index, 3> at, int axis) {
+    auto next = at;
+    if (++next[static_cast<std::size_t>(axis)] == volume.size[static_cast<std::size_t>(axis)]) {
+      return;
+    }
+    const double a = volume.at(at[0], at[1], at[2]), b = volume.at(next[0], next[1], next[2]);
+    if ((a > level) == (b > level)) return;
+    Vec3 p{at[0] * 1.0, at[1] * 2.0, at[2] * 3.0};
+    p[axis] += (level - a) / (b - a) * volume.spacing[axis];
+    all.push_back(p);
+  };
+  for (Index n = 0; n < 19 * 7 * 5; ++n) {
+    for (int axis = 0; axis < 3; ++axis) visit({n % 19, n / 19 % 7, n / 133}, axis);
+  }
+  for (const std::size_t most : {std::size_t{1}, all.size() / 7, all.size(), 2 * all.size()}) {
+    const std::size_t every = std::max<std::size_t>(1, all.size() / most);
+    const auto points = crossing_points(volume, level, most);
+    ASSERT_EQ(points.size(), (all.size() + every - 1) / every);
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      EXPECT_LT(norm(points[n].position - all[n * every]), 1e-6);
+    }
+  }
 }
 
 TEST(CrossingPoints, AreNoneWhereTheLevelIsNotReached) {

@@ -124,6 +124,7 @@ class GridEstimator {
   struct Ring {
     Index first_line = 0, lines = 0;
     std::array<std::vector<PairedGradients>, 3> layers;
+    std::array<std::vector<char>, 3> flat;  // bricks, see is_flat()
   };
 
   /// A cell near another, as a step from the other's brick in the layer below, beside or above.
@@ -205,8 +206,11 @@ class GridEstimator {
     if (k < 0 || k >= bricks_[2]) return;
     std::vector<PairedGradients>& layer = ring.layers[slot(k)];
     layer.resize(place(0, ring.lines, 0));
+    std::vector<char>& flat = ring.flat[slot(k)];
+    flat.resize(layer.size() / kPaths);
     for (Index line = 0; line < ring.lines; ++line) {
       for (Index i = 0; i < bricks_[0]; ++i) {
+        flat[place(i, line, 0) / kPaths] = is_flat({i, ring.first_line + line, k}) ? 1 : 0;
         for (std::size_t path = 0; path < kPaths; ++path) {
           const auto nodes = nodes_of({i, ring.first_line + line, k}, path);
           layer[place(i, line, path)] = {gradient(fields_.u, nodes, path),
@@ -214,6 +218,34 @@ class GridEstimator {
         }
       }
     }
+  }
+
+  /// Whether u = f is constant on a brick, and v = 1.
+  bool is_flat(const std::array<Index, 3>& brick) const {
+    const std::size_t corner = nodes_of(brick, 0)[0];
+    const auto stride = grid_.stride();
+    const float value = fields_.u[corner];
+    for (std::size_t bits = 0; bits < 8; ++bits) {
+      const std::size_t n =
+          corner + (bits & 1) * stride[0] + ((bits >> 1) & 1) * stride[1] + (bits >> 2) * stride[2];
+      if (fields_.u[n] != value || fields_.f[n] != value || fields_.v[n] != 1) return false;
+    }
+    return true;
+  }
+
+  /// Whether a brick and all around it are flat: then its cells' residuals and metrics are zero.
+  bool is_within_flat(const std::array<Index, 3>& brick, const Ring& ring) const {
+    if (!is_surrounded(brick)) return false;
+    const std::size_t own = place(brick[0], brick[1] - ring.first_line, 0) / kPaths;
+    if (ring.flat[slot(brick[2])][own] == 0) return false;
+    for (Index k = -1; k <= 1; ++k) {
+      const char* flat = ring.flat[slot(brick[2] + k)].data() + own;
+      for (Index j = -1; j <= 1; ++j) {
+        const char* line = flat + static_cast<std::ptrdiff_t>(j) * bricks_[0];
+        if ((line[-1] & line[0] & line[1]) == 0) return false;
+      }
+    }
+    return true;
   }
 
   const PairedGradients* find(const std::array<Index, 3>& brick, const RelativeCell& cell,
@@ -290,6 +322,7 @@ class GridEstimator {
   }
 
   void add_brick(const std::array<Index, 3>& brick, const Ring& ring, Accumulators& into) const {
+    if (is_within_flat(brick, ring)) return;
     const std::array<PairedSums, kPaths> sums = sum_patches(brick, ring);
     for (std::size_t path = 0; path < kPaths; ++path) {
       add_cell(brick, path, ring, sums[path], into);

@@ -88,7 +88,6 @@ void SingleGridSystem::couple(std::span<const float> v, double scale, double off
     parallel_for(of_axis.size(), [&](std::size_t n) { of_axis[n] = 0; });
   }
   add_cell_coefficients(v, scale, offset);
-  add_to_diagonal();
 }
 
 namespace {
@@ -172,22 +171,20 @@ void SingleGridSystem::add_cell_coefficients(std::span<const float> v, double sc
   });
 }
 
-void SingleGridSystem::add_to_diagonal() {
+/// The diagonal of diag(d) + K(c) on a line of nodes.
+std::vector<float> SingleGridSystem::whole_diagonal(std::size_t n, Index j, Index k) const {
   const auto stride = grid_.stride();
-  sum_of_lines(grid_, [&](Index j, Index k) {
-    const std::size_t n = static_cast<std::size_t>(k) * stride[2] +
-                          static_cast<std::size_t>(j) * stride[1];
-    float* d = &diagonal_[n];
-    const auto& [x, y, z] = conductance_;
-    for (std::size_t a = 0; a < 3; ++a) add(&conductance_[a][n], 1, stride[1], d);
-    add(&x[n], 1, stride[1] - 1, d + 1);
-    if (j > 0) add(&y[n - stride[1]], 1, stride[1], d);
-    if (k > 0) add(&z[n - stride[2]], 1, stride[1], d);
-    return 0.0;
-  });
+  std::vector<float> d(&diagonal_[n], &diagonal_[n] + stride[1]);
+  const auto& [x, y, z] = conductance_;
+  for (std::size_t a = 0; a < 3; ++a) add(&conductance_[a][n], 1, stride[1], d.data());
+  add(&x[n], 1, stride[1] - 1, d.data() + 1);
+  if (j > 0) add(&y[n - stride[1]], 1, stride[1], d.data());
+  if (k > 0) add(&z[n - stride[2]], 1, stride[1], d.data());
+  return d;
 }
 
-/// A x into ap_; returns x'A x.
+/// A x into ap_; returns x'A x. Of constants the differences are zero, without round-off: where an
+/// image is constant, so is what is found there.
 double SingleGridSystem::apply(std::span<const float> x) {
   const auto stride = grid_.stride();
   const std::vector<float> nothing(stride[1], 0);
@@ -207,13 +204,18 @@ double SingleGridSystem::apply(std::span<const float> x) {
     const float* z_next = k + 1 < grid_.size[2] ? here + stride[2] : here;
     float* result = &ap_[n];
     for (std::size_t i = 0; i < stride[1]; ++i) {
-      result[i] = d[i] * here[i] - (cy_before[i] * y_before[i] + cy[i] * y_next[i]);
+      result[i] = d[i] * here[i] +
+                  (cy_before[i] * (here[i] - y_before[i]) + cy[i] * (here[i] - y_next[i]));
     }
     for (std::size_t i = 0; i < stride[1]; ++i) {
-      result[i] -= cz_before[i] * z_before[i] + cz[i] * z_next[i];
+      result[i] += cz_before[i] * (here[i] - z_before[i]) + cz[i] * (here[i] - z_next[i]);
     }
-    for (std::size_t i = 0; i + 1 < stride[1]; ++i) result[i] -= cx[i] * here[i + 1];
-    for (std::size_t i = 1; i < stride[1]; ++i) result[i] -= cx[i - 1] * here[i - 1];
+    for (std::size_t i = 0; i + 1 < stride[1]; ++i) {
+      result[i] += cx[i] * (here[i] - here[i + 1]);
+    }
+    for (std::size_t i = 1; i < stride[1]; ++i) {
+      result[i] += cx[i - 1] * (here[i] - here[i - 1]);
+    }
     return sum_of(stride[1], [&](std::size_t i) { return here[i] * result[i]; });
   });
 }
@@ -224,7 +226,8 @@ double SingleGridSystem::start() {
   return sum_of_lines(grid_, [&](Index j, Index k) {
     const std::size_t n = static_cast<std::size_t>(k) * stride[2] +
                           static_cast<std::size_t>(j) * stride[1];
-    const float *d = &diagonal_[n], *r = &r_[n];
+    const std::vector<float> d = whole_diagonal(n, j, k);
+    const float* r = &r_[n];
     float* p = &p_[n];
     for (std::size_t i = 0; i < stride[1]; ++i) p[i] = r[i] / d[i];
     return sum_of(stride[1], [&](std::size_t i) { return r[i] * p[i]; });
@@ -238,7 +241,8 @@ double SingleGridSystem::step(std::span<float> solution, double alpha) {
   return sum_of_lines(grid_, [&](Index j, Index k) {
     const std::size_t n = static_cast<std::size_t>(k) * stride[2] +
                           static_cast<std::size_t>(j) * stride[1];
-    const float *d = &diagonal_[n], *p = &p_[n];
+    const std::vector<float> d = whole_diagonal(n, j, k);
+    const float* p = &p_[n];
     float *x = &solution[n], *r = &r_[n], *ap = &ap_[n];
     for (std::size_t i = 0; i < stride[1]; ++i) x[i] += factor * p[i];
     for (std::size_t i = 0; i < stride[1]; ++i) {

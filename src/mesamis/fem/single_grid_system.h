@@ -21,7 +21,7 @@ class SingleGridSystem {
   /// @throws nothing
   explicit SingleGridSystem(const KuhnGrid& grid);
 
-  /// d: to be set, n positive values, before couple() is called.
+  /// d: to be set, n positive values, before solve() is called.
   std::vector<float>& diagonal() noexcept { return diagonal_; }
   /// b: to be set, n values, before solve() is called, which changes them.
   std::vector<float>& right() noexcept { return r_; }
@@ -47,7 +47,7 @@ class SingleGridSystem {
 
  private:
   void add_cell_coefficients(std::span<const float> v, double scale, double offset);
-  void add_to_diagonal();
+  std::vector<float> whole_diagonal(std::size_t n, Index j, Index k) const;
   double apply(std::span<const float> x);
   double start();
   double step(std::span<float> x, double alpha);
