@@ -9,20 +9,29 @@
 #include "mesamis/method/available_memory.h"
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/prepare.h"
+#include "mesamis/segment/grid_amis.h"
 
 namespace mesamis {
 namespace {
 
-constexpr double kBytesPerVoxel = 8;    // of the image in grey values, always, and a copy
-constexpr double kBytesToPrepare = 24;  // per voxel: sorted samples and the steps of a filter
-constexpr double kBytesPerNode = 112;   // of the first grid
-constexpr double kBytesPerCell = 450;   // of the adapted meshes
+constexpr double kBytesPerVoxel = 8;    // of the image in grey values, always, and its spline
+constexpr double kBytesToPrepare = 10;  // per voxel: a smoothed image and the steps of a filter
+constexpr double kBytesPerNode = 54;    // of the first grid: fields, metrics, their eigenvalues
+constexpr double kBytesPerDoubleNode = 112;  // where the fields are solved in double precision
+constexpr double kBytesPerCell = 450;        // of the adapted meshes
 constexpr double kBytesOfProgram = 5e7;
 
 std::array<Index, 3> stride_of(const VoxelGrid& volume, const Settings& settings) {
   const std::array<Index, 3> size = cropped_size(volume, settings.crop);
   return settings.stride.value_or(settings.preview ? preview_stride(size, volume.spacing)
                                                    : default_stride(size, volume.spacing));
+}
+
+/// See run_amis_on_grid(). Above this beta its conjugate gradients may need too many iterations.
+double bytes_per_node(const Settings& settings) {
+  constexpr double kMostBeta = 10;
+  const bool is_rough = settings.drafts || settings.solver_tolerance >= kLeastSingleTolerance;
+  return is_rough && settings.beta <= kMostBeta ? kBytesPerNode : kBytesPerDoubleNode;
 }
 
 double product(const std::array<Index, 3>& n) {
@@ -39,7 +48,7 @@ double memory_needed(const VoxelGrid& volume, const Settings& settings) {
                        : settings.max_tets ? static_cast<double>(*settings.max_tets)
                                            : std::min<double>(kMostTets, 12 * voxels);
   return kBytesOfProgram + kBytesPerVoxel * voxels +
-         std::max({kBytesToPrepare * voxels, kBytesPerNode * nodes, kBytesPerCell * cells});
+         std::max({kBytesToPrepare * voxels, bytes_per_node(settings) * nodes, kBytesPerCell * cells});
 }
 
 std::optional<std::array<Index, 3>> stride_that_fits(const VoxelGrid& volume, Settings settings,

@@ -239,8 +239,10 @@ class Lifter {
     if (agree == 0) return {};
     const Vec3& s = guide_.spacing;
     const Vec3 p{voxel[0] * s.x, voxel[1] * s.y, voxel[2] * s.z};
-    const Lift wall = may_be_wall ? lift(p, way.normal, SheetKind::kWall) : Lift{};
-    const Lift gap = may_be_gap ? lift(p, way.normal, SheetKind::kGap) : Lift{};
+    const Blur blur = blur_along(way.normal);
+    const Start start = start_at(p, way.normal, kStep * blur.guide);
+    const Lift wall = may_be_wall ? lift(start, blur, SheetKind::kWall) : Lift{};
+    const Lift gap = may_be_gap ? lift(start, blur, SheetKind::kGap) : Lift{};
     return {agree * (wall.lift - gap.lift), 1 + agree * (std::max(wall.gain, gap.gain) - 1)};
   }
 
@@ -262,14 +264,28 @@ class Lifter {
   }
 
   /// The guide's share of the contrast; in gaps what is missing of it.
-  double share_at(const Vec3& p, SheetKind kind) const {
-    const double share = share_of(spline_value_at(spline_, p));
+  static double seen_as(SheetKind kind, double share) {
     return kind == SheetKind::kWall ? share : 1 - share;
   }
+  double share_at(const Vec3& p, SheetKind kind) const {
+    return seen_as(kind, share_of(spline_value_at(spline_, p)));
+  }
 
-  Lift lift(const Vec3& p, const Vec3& normal, SheetKind kind) const {
-    const Blur blur = blur_along(normal);
-    const Peak peak = find_peak(p, normal, kStep * blur.guide, kind);
+  /// From where walls and gaps are looked for: a place, and the guide's shares there and a step up
+  /// and down the normal.
+  struct Start {
+    Vec3 place, normal;
+    double step;
+    double here, up, down;
+  };
+
+  Start start_at(const Vec3& p, const Vec3& normal, double step) const {
+    const auto share = [this](const Vec3& q) { return share_at(q, SheetKind::kWall); };
+    return {p, normal, step, share(p), share(p + step * normal), share(p - step * normal)};
+  }
+
+  Lift lift(const Start& start, const Blur& blur, SheetKind kind) const {
+    const Peak peak = find_peak(start, kind);
     if (peak.height < least_ || peak.height > kMostPeak) return {};
     const double thickness = thickness_of(peak.height) * blur.guide;
     const double scan = std::max(blur.scan, 0.05 * blur.guide);
@@ -288,10 +304,11 @@ class Lifter {
   }
 
   /// Uphill to the peak, which counts if the guide falls off on both sides.
-  Peak find_peak(const Vec3& p, const Vec3& normal, double step, SheetKind kind) const {
-    const double up = share_at(p + step * normal, kind), down = share_at(p - step * normal, kind);
+  Peak find_peak(const Start& start, SheetKind kind) const {
+    const auto& [p, normal, step, here_share, up_share, down_share] = start;
+    const double up = seen_as(kind, up_share), down = seen_as(kind, down_share);
     const Vec3 way = up >= down ? normal : -1.0 * normal;
-    double before = std::min(up, down), here = share_at(p, kind), next = std::max(up, down);
+    double before = std::min(up, down), here = seen_as(kind, here_share), next = std::max(up, down);
     int steps = 0;
     while (next > here) {
       if (++steps > kMostSteps) return {};

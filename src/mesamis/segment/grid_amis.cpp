@@ -149,13 +149,12 @@ GridMinimum run_in_double(const KuhnGrid& grid, std::span<const float> f,
 
 GridMinimum run_amis_on_grid(const KuhnGrid& grid, std::span<const float> f,
                              const AmisOptions& options) {
-  constexpr double kLeastTolerance = 1e-4;  // that single precision reaches
   require_valid(options.parameters);
   if (f.size() != grid.node_count()) {
     throw InputError("amis: f has " + std::to_string(f.size()) + " values for " +
                      std::to_string(grid.node_count()) + " nodes");
   }
-  if (options.solver.tolerance >= kLeastTolerance && !options.after_half_step &&
+  if (options.solver.tolerance >= kLeastSingleTolerance && !options.after_half_step &&
       options.max_iterations > 0) {
     GridMinimum minimum = run_in_single(grid, f, options);
     if (minimum.report.solver_converged) return minimum;

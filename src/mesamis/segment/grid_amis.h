@@ -9,6 +9,9 @@
 
 namespace mesamis {
 
+/// The least relative residual for which single precision is used.
+inline constexpr double kLeastSingleTolerance = 1e-4;
+
 /// The minimisers on a grid, one value per node each, in single precision.
 struct GridMinimum {
   std::vector<float> u;  ///< denoised image, grey values
@@ -18,7 +21,8 @@ struct GridMinimum {
 };
 
 /// Algorithm 1 on a Kuhn grid, from u = f and v = 1: run_amis(), in single precision and in half of
-/// the memory. Systems that single precision is too coarse for (a tolerance below 1e-4), or whose
+/// the memory. Systems that single precision is too coarse for (a tolerance below
+/// kLeastSingleTolerance), or whose
 /// conjugate gradients need more than options.solver.jacobi_iterations, are left to run_amis().
 ///
 /// @param grid  n nodes, at least two along each axis.
