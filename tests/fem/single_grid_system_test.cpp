@@ -13,9 +13,8 @@ namespace mesamis {
 namespace {
 
 /// Odd and even numbers of layers, and an axis with no inner node.
-const std::array<KuhnGrid, 3> kGrids{{{{5, 4, 6}, {1, 0.6, 1.7}},
-                                      {{17, 6, 7}, {1, 1, 1}},
-                                      {{2, 3, 2}, {0.5, 1, 2}}}};
+const std::array<KuhnGrid, 3> kGrids{
+    {{{5, 4, 6}, {1, 0.6, 1.7}}, {{17, 6, 7}, {1, 1, 1}}, {{2, 3, 2}, {0.5, 1, 2}}}};
 
 std::vector<float> wave(const KuhnGrid& grid, double frequency) {
   std::vector<float> values;

@@ -93,8 +93,8 @@ TEST(SampleRange, IsTheLeastAndTheLargest) {
 TEST(Smoothed, IsTheProductOfThreeFilters) {
   std::mt19937 generator(4);
   std::uniform_real_distribution<double> uniform(0, 100);
-  const Volume scan = sampled_volume({6, 5, 37}, {1, 1.5, 0.8},
-                                     [&](const Vec3&) { return uniform(generator); });
+  const Volume scan =
+      sampled_volume({6, 5, 37}, {1, 1.5, 0.8}, [&](const Vec3&) { return uniform(generator); });
   const Volume found = smoothed(scan);
   const auto at = [&](Index i, Index j, Index k) {
     return scan.at(std::clamp(i, 0, 5), std::clamp(j, 0, 4), std::clamp(k, 0, 36));

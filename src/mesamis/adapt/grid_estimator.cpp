@@ -357,7 +357,8 @@ class GridEstimator {
 };
 
 /// Smooths the logarithms of a layer of nodes.
-/// @param layers  the layer below, itself and the one above, as they were; null where there is none.
+/// @param layers  the layer below, itself and the one above, as they were; null where there is
+/// none.
 void smooth_layer(const KuhnGrid& grid, const std::array<const PackedSym3*, 3>& layers,
                   PackedSym3* result) {
   const auto [nx, ny, nz] = grid.size;
@@ -441,7 +442,8 @@ void smooth_log_metrics(const KuhnGrid& grid, std::vector<PackedSym3>& logs, int
   };
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     parallel_for_each(slabs, [&](std::size_t s) {
-      const PackedSym3 *low = layer_at(static_cast<Index>(s) * kSlab), *high = layer_at(end_of(s) - 1);
+      const PackedSym3 *low = layer_at(static_cast<Index>(s) * kSlab),
+                       *high = layer_at(end_of(s) - 1);
       first[s].assign(low, low + layer);
       last[s].assign(high, high + layer);
     });

@@ -139,8 +139,8 @@ double control(std::span<const Metric> metrics, const Weight& weight, const Size
                Store&& store) {
   double factor = 1;
   if (control.complexity > 0) {
-    factor = find_size_factor(ClampedComplexity<Weight>(metrics, weight, control),
-                              control.complexity);
+    factor =
+        find_size_factor(ClampedComplexity<Weight>(metrics, weight, control), control.complexity);
   }
   const double lowest = 1 / (control.h_max * control.h_max);
   const double highest = 1 / (control.h_min * control.h_min);

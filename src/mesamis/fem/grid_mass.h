@@ -16,17 +16,17 @@ class GridMass {
   struct Row {
     double first, inside, last;
     Index length;
-    /// Of node i of the line.
-    double at(Index i) const noexcept {
-      return i == 0 ? first : i + 1 == length ? last : inside;
-    }
+    /// Of node i of the line. O(1).
+    /// @return in the cube of the unit of the spacing.
+    /// @throws nothing
+    double at(Index i) const noexcept { return i == 0 ? first : i + 1 == length ? last : inside; }
   };
 
+  /// Finds the 27 masses. O(1).
   /// @param grid  at least two nodes along each axis.
   /// @throws nothing
   explicit GridMass(const KuhnGrid& grid)
-      : size_(grid.size),
-        quarter_(grid.spacing.x * grid.spacing.y * grid.spacing.z / 24) {
+      : size_(grid.size), quarter_(grid.spacing.x * grid.spacing.y * grid.spacing.z / 24) {
     for (std::size_t side = 0; side < masses_.size(); ++side) masses_[side] = of_side(side);
   }
 
@@ -37,7 +37,8 @@ class GridMass {
     return {masses_[across], masses_[across + 1], masses_[across + 2], size_[0]};
   }
 
-  /// Of node n, in the cube of the spacing's unit. O(1), two divisions.
+  /// Of node n. O(1), two divisions.
+  /// @return in the cube of the unit of the spacing.
   /// @throws nothing
   double at(std::size_t n) const noexcept {
     const auto node = static_cast<unsigned>(n), nx = static_cast<unsigned>(size_[0]),

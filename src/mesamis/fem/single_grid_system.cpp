@@ -189,8 +189,8 @@ double SingleGridSystem::apply(std::span<const float> x) {
   const auto stride = grid_.stride();
   const std::vector<float> nothing(stride[1], 0);
   return sum_of_lines(grid_, [&](Index j, Index k) {
-    const std::size_t n = static_cast<std::size_t>(k) * stride[2] +
-                          static_cast<std::size_t>(j) * stride[1];
+    const std::size_t n =
+        static_cast<std::size_t>(k) * stride[2] + static_cast<std::size_t>(j) * stride[1];
     const bool has_before_y = j > 0, has_before_z = k > 0;
     const float *d = &diagonal_[n], *cx = &conductance_[0][n], *cy = &conductance_[1][n],
                 *cz = &conductance_[2][n];
@@ -204,8 +204,8 @@ double SingleGridSystem::apply(std::span<const float> x) {
     const float* z_next = k + 1 < grid_.size[2] ? here + stride[2] : here;
     float* result = &ap_[n];
     for (std::size_t i = 0; i < stride[1]; ++i) {
-      result[i] = d[i] * here[i] +
-                  (cy_before[i] * (here[i] - y_before[i]) + cy[i] * (here[i] - y_next[i]));
+      result[i] =
+          d[i] * here[i] + (cy_before[i] * (here[i] - y_before[i]) + cy[i] * (here[i] - y_next[i]));
     }
     for (std::size_t i = 0; i < stride[1]; ++i) {
       result[i] += cz_before[i] * (here[i] - z_before[i]) + cz[i] * (here[i] - z_next[i]);
@@ -224,8 +224,8 @@ double SingleGridSystem::apply(std::span<const float> x) {
 double SingleGridSystem::start() {
   const auto stride = grid_.stride();
   return sum_of_lines(grid_, [&](Index j, Index k) {
-    const std::size_t n = static_cast<std::size_t>(k) * stride[2] +
-                          static_cast<std::size_t>(j) * stride[1];
+    const std::size_t n =
+        static_cast<std::size_t>(k) * stride[2] + static_cast<std::size_t>(j) * stride[1];
     const std::vector<float> d = whole_diagonal(n, j, k);
     const float* r = &r_[n];
     float* p = &p_[n];
@@ -239,8 +239,8 @@ double SingleGridSystem::step(std::span<float> solution, double alpha) {
   const auto stride = grid_.stride();
   const auto factor = static_cast<float>(alpha);
   return sum_of_lines(grid_, [&](Index j, Index k) {
-    const std::size_t n = static_cast<std::size_t>(k) * stride[2] +
-                          static_cast<std::size_t>(j) * stride[1];
+    const std::size_t n =
+        static_cast<std::size_t>(k) * stride[2] + static_cast<std::size_t>(j) * stride[1];
     const std::vector<float> d = whole_diagonal(n, j, k);
     const float* p = &p_[n];
     float *x = &solution[n], *r = &r_[n], *ap = &ap_[n];
@@ -317,8 +317,8 @@ double sum_over_nodes(const KuhnGrid& grid, const GridMass& mass,
                       const std::function<double(std::size_t, double)>& term) {
   const auto stride = grid.stride();
   return sum_of_lines(grid, [&](Index j, Index k) {
-    const std::size_t n = static_cast<std::size_t>(k) * stride[2] +
-                          static_cast<std::size_t>(j) * stride[1];
+    const std::size_t n =
+        static_cast<std::size_t>(k) * stride[2] + static_cast<std::size_t>(j) * stride[1];
     const GridMass::Row row = mass.row(j, k);
     double sum = 0;
     for (Index i = 0; i < grid.size[0]; ++i) {

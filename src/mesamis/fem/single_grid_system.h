@@ -16,27 +16,33 @@ namespace mesamis {
 /// precision. One object serves one system after the other in the same memory.
 class SingleGridSystem {
  public:
-  /// Reserves the memory: 32 bytes per node.
+  /// Reserves the memory: 28 bytes per node.
   /// @param grid  at least two nodes along each axis.
   /// @throws nothing
   explicit SingleGridSystem(const KuhnGrid& grid);
 
-  /// d: to be set, n positive values, before solve() is called.
+  /// d: to be set, n positive values, in the unit of c times a length, before solve() is called.
+  /// O(1).
+  /// @throws nothing
   std::vector<float>& diagonal() noexcept { return diagonal_; }
-  /// b: to be set, n values, before solve() is called, which changes them.
+  /// b: to be set, n values in the unit of d times that of x, before solve() is called, which
+  /// changes them. O(1).
+  /// @throws nothing
   std::vector<float>& right() noexcept { return r_; }
-  /// The lumped masses of the nodes.
+  /// The lumped masses of the nodes. O(1).
+  /// @throws nothing
   const GridMass& mass() const noexcept { return mass_; }
 
   /// Adds K(c) with the cell coefficient c_K = scale * (mean of v^2 over the nodes of K) + offset.
-  /// @param v  n values, or empty: then c_K = offset.
+  /// @param v  n values of any unit, or empty: then c_K = offset.
+  /// @param scale, offset  such that no c_K is negative; offset in the unit of scale times v^2.
   /// @throws nothing
   ///
   /// O(n).
   void couple(std::span<const float> v, double scale, double offset);
 
   /// Solves the system by conjugate gradients with the Jacobi preconditioner.
-  /// @param x  in: the first guess, n values; out: the solution.
+  /// @param x  in: the first guess, n values of any unit; out: the solution.
   /// @param options  of max_iterations and jacobi_iterations the smaller counts.
   /// @return the residual is that of the recurrence, which round-off may part from the true one by
   ///         about 1e-6.

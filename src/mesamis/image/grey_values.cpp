@@ -224,11 +224,10 @@ Volume smoothed(const VolumeView& volume) {
   constexpr std::size_t kLayers = 16;  // that one thread smooths; one more on either side is read
   Volume result{volume, std::vector<float>(volume.samples.size())};
   const LayerSmoother smoother(volume);
-  parallel_blocks(static_cast<std::size_t>(volume.size[2]), kLayers,
-                  [&](std::size_t begin, std::size_t end) {
-                    smoother.run(static_cast<Index>(begin), static_cast<Index>(end),
-                                 result.samples.data());
-                  });
+  parallel_blocks(
+      static_cast<std::size_t>(volume.size[2]), kLayers, [&](std::size_t begin, std::size_t end) {
+        smoother.run(static_cast<Index>(begin), static_cast<Index>(end), result.samples.data());
+      });
   return result;
 }
 

@@ -48,7 +48,8 @@ double memory_needed(const VoxelGrid& volume, const Settings& settings) {
                        : settings.max_tets ? static_cast<double>(*settings.max_tets)
                                            : std::min<double>(kMostTets, 12 * voxels);
   return kBytesOfProgram + kBytesPerVoxel * voxels +
-         std::max({kBytesToPrepare * voxels, bytes_per_node(settings) * nodes, kBytesPerCell * cells});
+         std::max(
+             {kBytesToPrepare * voxels, bytes_per_node(settings) * nodes, kBytesPerCell * cells});
 }
 
 std::optional<std::array<Index, 3>> stride_that_fits(const VoxelGrid& volume, Settings settings,

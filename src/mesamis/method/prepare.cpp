@@ -42,9 +42,8 @@ Window choose_window(const VolumeView& volume, const ObjectContrast& contrast, d
 Volume clamped(const VolumeView& scan, const Window& window) {
   Volume volume{scan, std::vector<float>(scan.samples.size())};
   const auto low = static_cast<float>(window.low), high = static_cast<float>(window.high);
-  parallel_for(volume.samples.size(), [&](std::size_t n) {
-    volume.samples[n] = std::clamp(scan.samples[n], low, high);
-  });
+  parallel_for(volume.samples.size(),
+               [&](std::size_t n) { volume.samples[n] = std::clamp(scan.samples[n], low, high); });
   return volume;
 }
 

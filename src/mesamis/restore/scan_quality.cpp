@@ -197,9 +197,8 @@ double measure_noise(const VolumeView& volume, const VolumeView& guide,
   for (const double distance : kBeside) {
     const std::vector<Beside> places = voxels_beside(guide, points, distance, level);
     std::vector<double> deviations(places.size());
-    parallel_for(places.size(), [&](std::size_t n) {
-      deviations[n] = deviation_at(volume, places[n].voxel);
-    });
+    parallel_for(places.size(),
+                 [&](std::size_t n) { deviations[n] = deviation_at(volume, places[n].voxel); });
     if (deviations.size() < kFewestPlaces) continue;
     const double deviation = kMadToDeviation * median(deviations) / share;
     quieter = std::min(deviation, quieter.value_or(deviation));

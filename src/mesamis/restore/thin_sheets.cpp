@@ -204,7 +204,7 @@ class Lifter {
   }
 
  private:
-  static constexpr double kFlank = 0.3;  // of the least peak: lower values belong to no sheet
+  static constexpr double kFlank = 0.3;    // of the least peak: lower values belong to no sheet
   static constexpr double kOfGuide = 0.5;  // variance of smoothed(), voxels
 
   double share_of(double value) const { return (value - options_.contrast.background) / contrast_; }
@@ -219,7 +219,8 @@ class Lifter {
   std::array<double, 3> reach_of_ways() const {
     constexpr double kOfSpline = 2;  // voxels from which a value of the spline comes
     std::array<double, 3> blur;
-    for (std::size_t a = 0; a < 3; ++a) blur[a] = std::sqrt(std::pow(options_.blur[a], 2) + kOfGuide);
+    for (std::size_t a = 0; a < 3; ++a)
+      blur[a] = std::sqrt(std::pow(options_.blur[a], 2) + kOfGuide);
     std::array<double, 3> reach = farthest_looked_at(guide_, blur);
     for (double& r : reach) r += kOfSpline;
     return reach;

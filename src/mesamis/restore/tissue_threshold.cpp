@@ -16,7 +16,7 @@ namespace {
 double upper_end_of_tissue(const VolumeView& volume, double value, double level) {
   constexpr int kBins = 64;
   const double width = (level - value) / (kBins / 2.0);  // the level lies in the last bin
-  constexpr std::size_t kPart = 1 << 20;  // samples
+  constexpr std::size_t kPart = 1 << 20;                 // samples
   std::vector<std::array<double, kBins>> parts((volume.samples.size() + kPart - 1) / kPart);
   parallel_blocks(volume.samples.size(), kPart, [&](std::size_t begin, std::size_t end) {
     std::array<double, kBins> counts{};

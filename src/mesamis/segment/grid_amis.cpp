@@ -32,8 +32,7 @@ class GridAlternation {
   /// @return the largest change of v.
   double step_v() {
     const auto& [epsilon, eta, beta, gamma] = options_.parameters;
-    const auto well = static_cast<float>(gamma / (4 * epsilon)),
-               weight = static_cast<float>(beta);
+    const auto well = static_cast<float>(gamma / (4 * epsilon)), weight = static_cast<float>(beta);
     std::vector<float>& diagonal = system_.diagonal();
     find_gradient_squares(grid_, minimum_.u, diagonal);
     for_each_node([&](std::size_t n, double mass) {
