@@ -149,7 +149,7 @@ void SingleGridSystem::add_cell_coefficients(std::span<const float> v, double sc
     const double h = grid_.spacing[a];
     weight[static_cast<std::size_t>(a)] = static_cast<float>(cell_volume(grid_) / (h * h));
   }
-  const auto [wx, wy, wz] = weight;
+  const float wx = weight[0], wy = weight[1], wz = weight[2];
   for_each_brick_line(grid_, [&](const BrickLine& at, PathLines& paths) {
     find_coefficients(v, at, static_cast<float>(scale / 4), static_cast<float>(offset), paths);
     const std::array<const float*, 6> c{paths[0].data(), paths[1].data(), paths[2].data(),
