@@ -29,7 +29,8 @@ struct Grid {
     for (Index k = 0; k < size[2]; ++k) {
       for (Index j = 0; j < size[1]; ++j) {
         for (Index i = 0; i < size[0]; ++i) {
-          grid.values.push_back(static_cast<float>(f(Vec3{i * spacing.x, j * spacing.y, k * spacing.z})));
+          grid.values.push_back(
+              static_cast<float>(f(Vec3{i * spacing.x, j * spacing.y, k * spacing.z})));
         }
       }
     }

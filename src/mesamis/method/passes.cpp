@@ -216,7 +216,8 @@ State adapt_from_grid(const Pass& pass) {
   const auto& [grid, projected, m] = found;
   Stopwatch watch;
   const Sizes sizes = sizes_of(pass, kCellsPerComplexity);
-  const GridMetricField field = grid_metric(pass, grid, {m.u, m.v, found.image(run)}, sizes.control);
+  const GridMetricField field =
+      grid_metric(pass, grid, {m.u, m.v, found.image(run)}, sizes.control);
   record.seconds.estimate = watch.lap();
   State next = remeshed(pass, coarse_box_mesh(run.box), field, sizes);
   record.seconds.remesh = watch.lap();

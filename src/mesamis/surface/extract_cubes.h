@@ -11,8 +11,8 @@ namespace mesamis {
 
 /// Values at the nodes of a regular grid.
 struct GridValues {
-  std::array<Index, 3> size{};       ///< nodes along i, j, k; at least 2 each
-  Vec3 spacing;                      ///< between nodes, > 0
+  std::array<Index, 3> size{};      ///< nodes along i, j, k; at least 2 each
+  Vec3 spacing;                     ///< between nodes, > 0
   std::span<const float> values{};  ///< one per node, finite; i runs fastest, then j, k
 };
 
