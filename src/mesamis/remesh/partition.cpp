@@ -151,35 +151,42 @@ struct Part {
   Index first_cell = 0, first_vertex = 0;  ///< in the joined mesh
 };
 
-std::vector<Index> shared_by_part(const WorkingMesh& mesh, const Cut& cut, Index part) {
-  std::vector<Index> shared;
+/// Local numbers of the shared vertices of a part, by position in Cut::shared; kNoIndex for those
+/// of other parts.
+std::vector<Index> number_shared(const WorkingMesh& mesh, const Cut& cut, Index part) {
+  std::vector<Index> number(cut.shared.size(), kNoIndex);
   for (const Index c : cut.cells.of(part)) {
     for (const Index v : mesh.cells[c].points) {
-      if (cut.owner[v] == kShared) shared.push_back(cut.shared_number[v]);
+      if (cut.owner[v] == kShared) number[cut.shared_number[v]] = 0;
     }
   }
-  std::sort(shared.begin(), shared.end());
-  shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
-  return shared;
+  Index next = 0;
+  for (Index& n : number) {
+    if (n != kNoIndex) n = next++;
+  }
+  return number;
 }
 
 Part extract(const WorkingMesh& mesh, const Cut& cut, Index p) {
   Part part;
-  part.shared = shared_by_part(mesh, cut, p);
+  const std::vector<Index> number = number_shared(mesh, cut, p);
+  for (std::size_t s = 0; s < number.size(); ++s) {
+    if (number[s] != kNoIndex) part.shared.push_back(static_cast<Index>(s));
+  }
   const auto shared_count = static_cast<Index>(part.shared.size());
   part.mesh.box = mesh.box;
   part.mesh.is_part = true;
+  part.mesh.vertices.reserve(part.shared.size() + cut.vertices.of(p).size());
   for (const Index s : part.shared) {
     part.mesh.vertices.push_back(mesh.vertices[cut.shared[s]]);
     part.mesh.vertices.back().mask |= kFrozen;
   }
   for (const Index v : cut.vertices.of(p)) part.mesh.vertices.push_back(mesh.vertices[v]);
   auto local_vertex = [&](Index v) {
-    if (cut.owner[v] != kShared) return shared_count + cut.vertices.slot[v];
-    const auto found =
-        std::lower_bound(part.shared.begin(), part.shared.end(), cut.shared_number[v]);
-    return static_cast<Index>(found - part.shared.begin());
+    return cut.owner[v] == kShared ? number[cut.shared_number[v]]
+                                   : shared_count + cut.vertices.slot[v];
   };
+  part.mesh.cells.reserve(cut.cells.of(p).size());
   for (const Index c : cut.cells.of(p)) {
     WorkCell cell = mesh.cells[c];
     for (Index& v : cell.points) {
@@ -262,7 +269,15 @@ void match_border(WorkingMesh& mesh, const std::vector<Part>& parts) {
   }
 }
 
-WorkingMesh join(const WorkingMesh& mesh, const Cut& cut, std::vector<Part>& parts) {
+/// Makes room for `count` items, whatever they are.
+template <class Item>
+void make_room(std::vector<Item>& items, std::size_t count) {
+  if (count > items.capacity()) items = {};  // else all would be copied
+  items.resize(count);
+}
+
+/// Writes the parts over the mesh that they were cut from.
+void join(WorkingMesh& mesh, const Cut& cut, std::vector<Part>& parts) {
   std::size_t cells = 0, vertices = cut.shared.size();
   for (Part& part : parts) {
     part.first_cell = static_cast<Index>(cells);
@@ -270,21 +285,19 @@ WorkingMesh join(const WorkingMesh& mesh, const Cut& cut, std::vector<Part>& par
     cells += part.mesh.cells.size();
     vertices += part.mesh.vertices.size() - part.shared.size();
   }
-  WorkingMesh joined;
-  joined.box = mesh.box;
-  joined.cells.resize(cells);
-  joined.vertices.resize(vertices);
-  for (std::size_t s = 0; s < cut.shared.size(); ++s) {
-    joined.vertices[s] = mesh.vertices[cut.shared[s]];
-  }
+  std::vector<Vertex> shared;
+  shared.reserve(cut.shared.size());
+  for (const Index v : cut.shared) shared.push_back(mesh.vertices[v]);
+  make_room(mesh.cells, cells);
+  make_room(mesh.vertices, vertices);
+  std::copy(shared.begin(), shared.end(), mesh.vertices.begin());
   for (const Part& part : parts) {
     for (std::size_t s = 0; s < part.shared.size(); ++s) {
-      joined.vertices[part.shared[s]].cell = part.first_cell + part.mesh.vertices[s].cell;
+      mesh.vertices[part.shared[s]].cell = part.first_cell + part.mesh.vertices[s].cell;
     }
   }
-  parallel_for_each(parts.size(), [&](std::size_t p) { insert(joined, parts[p]); });
-  match_border(joined, parts);
-  return joined;
+  parallel_for_each(parts.size(), [&](std::size_t p) { insert(mesh, parts[p]); });
+  match_border(mesh, parts);
 }
 
 }  // namespace
@@ -301,7 +314,7 @@ PartsReport work_on_parts(WorkingMesh& mesh, const PartSchedule& schedule,
     compact(parts[p].mesh);
     report.seconds[p] = watch.lap();
   });
-  mesh = join(mesh, cut, parts);
+  join(mesh, cut, parts);
   for (const Part& part : parts) report.counters += part.counters;
   return report;
 }
