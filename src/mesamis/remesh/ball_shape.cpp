@@ -23,12 +23,6 @@ double total(const auto& lanes) {
 
 }  // namespace
 
-void BallShape::LaneVec3::set(std::size_t lane, const Vec3& p) {
-  x[lane] = p.x;
-  y[lane] = p.y;
-  z[lane] = p.z;
-}
-
 void BallShape::set_lane(std::size_t cell, const WorkingMesh& mesh, Index cell_index,
                          Index vertex) {
   Block& block = blocks_[cell / kLanes];

@@ -33,7 +33,11 @@ class BallShape {
   using Lanes = std::array<double, kLanes>;
   struct LaneVec3 {
     Lanes x, y, z;
-    void set(std::size_t lane, const Vec3& p);
+    void set(std::size_t lane, const Vec3& p) {
+      x[lane] = p.x;
+      y[lane] = p.y;
+      z[lane] = p.z;
+    }
     Vec3 operator[](std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
   };
   /// (vertex, a, b, c) is positive; the metric is that of the finest of a, b and c. Where the

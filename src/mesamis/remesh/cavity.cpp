@@ -23,12 +23,10 @@ bool is_same(const std::array<Index, 3>& a, const std::array<Index, 3>& b) {
 }
 
 std::size_t hash(const std::array<Index, 3>& key) {
-  std::uint64_t h = 0;
-  for (const Index v : key) {
-    h = (h ^ static_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15;
-    h ^= h >> 32;
-  }
-  return static_cast<std::size_t>(h);
+  const std::uint64_t h = static_cast<std::uint64_t>(key[0]) * 0x9e3779b97f4a7c15 +
+                          static_cast<std::uint64_t>(key[1]) * 0xc2b2ae3d27d4eb4f +
+                          static_cast<std::uint64_t>(key[2]) * 0x165667b19e3779f9;
+  return static_cast<std::size_t>(h >> 32);
 }
 
 }  // namespace
@@ -57,30 +55,39 @@ std::span<const Index> Cavity::ball(Index vertex) {
 }
 
 bool Cavity::find_shell(Index cell, Index a, Index b) {
-  // Walk backwards to the start of an open shell; a closed one may start anywhere.
+  if (!walk_shell(cell, a, b)) return false;
+  if (shell_is_closed()) return true;
+  // An open shell starts at the box.
   Index first = cell;
-  for (std::size_t steps = 0;; ++steps) {
+  for (std::size_t steps = 0; steps <= kMostShell; ++steps) {
     const WorkCell& k = mesh_.cells[first];
     const FaceRef back = k.neighbors[opposite_edge(k.points, a, b)[1]];
-    if (back == kNoIndex) break;
+    if (back == kNoIndex) return walk_shell(first, a, b);
     first = cell_of(back);
-    if (first == cell) break;
-    if (steps == kMostShell) return false;
   }
+  return false;
+}
+
+bool Cavity::walk_shell(Index first, Index a, Index b) {
+  auto [c, d] = opposite_edge(mesh_.cells[first].points, a, b);
+  Index ring_point = mesh_.cells[first].points[c];
   shell_size_ = ring_size_ = 0;
   for (Index current = first;;) {
     if (shell_size_ == kMostShell) return false;
     const WorkCell& k = mesh_.cells[current];
-    const auto [c, d] = opposite_edge(k.points, a, b);
     shell_[shell_size_++] = current;
-    ring_[ring_size_++] = k.points[c];
+    ring_[ring_size_++] = ring_point;
     const FaceRef onward = k.neighbors[c];
+    ring_point = k.points[d];
     if (onward == kNoIndex) {
-      ring_[ring_size_++] = k.points[d];
+      ring_[ring_size_++] = ring_point;
       return true;
     }
     current = cell_of(onward);
     if (current == first) return true;
+    // The corner opposite the face that was crossed is the ring's next point.
+    c = static_cast<std::int8_t>(local_index(mesh_.cells[current].points, ring_point));
+    d = static_cast<std::int8_t>(face_of(onward));
   }
 }
 

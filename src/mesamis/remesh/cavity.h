@@ -49,6 +49,8 @@ class Cavity {
     std::uint32_t epoch = 0;
   };
 
+  /// The shell from `first` to the box or round to it again.
+  bool walk_shell(Index first, Index a, Index b);
   std::uint32_t next_mark();
   void reset_faces(std::size_t faces);
   FaceSlot& face_slot(const Cell& cell, int face);

@@ -12,10 +12,19 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// Whether the edge is within both bounds in both its metrics; no roots are needed.
-bool is_between(const Vertex& a, const Vertex& b, double square_min, double square_max) {
-  const Vec3 e = b.position - a.position;
-  const double la2 = squared_length(a.metric, e), lb2 = squared_length(b.metric, e);
+float squared_length_single(const MetricFactor& l, const std::array<float, 3>& e) {
+  const float x = l.xx * e[0] + l.yx * e[1] + l.zx * e[2], y = l.yy * e[1] + l.zy * e[2],
+              z = l.zz * e[2];
+  return x * x + y * y + z * z;
+}
+
+/// Whether the edge is within both bounds in both its metrics, and not only by rounding; single
+/// precision and no roots are enough for that.
+bool is_between(const Vertex& a, const Vertex& b, float square_min, float square_max) {
+  const Vec3 d = b.position - a.position;
+  const std::array<float, 3> e{static_cast<float>(d.x), static_cast<float>(d.y),
+                               static_cast<float>(d.z)};
+  const float la2 = squared_length_single(a.metric, e), lb2 = squared_length_single(b.metric, e);
   return la2 >= square_min && lb2 >= square_min && la2 <= square_max && lb2 <= square_max;
 }
 
@@ -23,7 +32,9 @@ bool is_between(const Vertex& a, const Vertex& b, double square_min, double squa
 /// together.
 std::vector<EdgeCandidate> gather(WorkingMesh& mesh, std::uint8_t operation, double length_min,
                                   double length_max) {
-  const double square_min = length_min * length_min, square_max = length_max * length_max;
+  constexpr double kRounding = 1e-5;
+  const auto square_min = static_cast<float>((1 + kRounding) * length_min * length_min);
+  const auto square_max = static_cast<float>((1 - kRounding) * length_max * length_max);
   std::vector<EdgeCandidate> edges;
   for (Index c = 0; c < std::ssize(mesh.cells); ++c) {
     if (!take_pending(mesh, c, operation)) continue;

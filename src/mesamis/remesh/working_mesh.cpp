@@ -148,16 +148,6 @@ std::uint8_t planes_of(const Box& box, const Vec3& p) {
   return static_cast<std::uint8_t>(mask);
 }
 
-bool take_pending(WorkingMesh& mesh, Index cell, std::uint8_t operation) {
-  WorkCell& c = mesh.cells[cell];
-  if (!c.alive() || !(c.pending & operation)) return false;
-  auto is_frozen = [&mesh](Index p) { return mesh.vertices[p].mask & kFrozen; };
-  if (!mesh.is_part || std::none_of(c.points.begin(), c.points.end(), is_frozen)) {
-    c.pending = static_cast<std::uint8_t>(c.pending & ~operation);
-  }
-  return true;
-}
-
 void set_pending(WorkingMesh& mesh, std::uint8_t operations) {
   for (WorkCell& cell : mesh.cells) {
     cell.pending = static_cast<std::uint8_t>(cell.pending | operations);

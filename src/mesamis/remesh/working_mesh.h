@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -79,7 +80,15 @@ std::uint8_t planes_of(const Box& box, const Vec3& p);
 
 /// Whether the operation has not tried this cell since it was made; clears the cell's bit. Cells at
 /// a frozen vertex keep the bit, since not every operation is possible there.
-bool take_pending(WorkingMesh& mesh, Index cell, std::uint8_t operation);
+inline bool take_pending(WorkingMesh& mesh, Index cell, std::uint8_t operation) {
+  WorkCell& c = mesh.cells[cell];
+  if (!c.alive() || !(c.pending & operation)) return false;
+  auto is_frozen = [&mesh](Index p) { return mesh.vertices[p].mask & kFrozen; };
+  if (!mesh.is_part || std::none_of(c.points.begin(), c.points.end(), is_frozen)) {
+    c.pending = static_cast<std::uint8_t>(c.pending & ~operation);
+  }
+  return true;
+}
 
 /// Puts every cell on the lists of the operations given.
 void set_pending(WorkingMesh& mesh, std::uint8_t operations);
