@@ -161,7 +161,9 @@ void Cavity::write_cell(Index id, const Proposal& proposal) {
     } else {
       mesh_.cells[cell_of(slot.face)].neighbors[face_of(slot.face)] = face_ref(id, f);
     }
-    mesh_.vertices[proposal.points[f]].cell = id;
+    Vertex& vertex = mesh_.vertices[proposal.points[f]];
+    vertex.cell = id;
+    vertex.failures = vertex.rest = 0;
   }
 }
 

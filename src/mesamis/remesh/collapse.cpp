@@ -2,9 +2,11 @@
 #include "mesamis/remesh/collapse.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mesamis/remesh/edge_candidates.h"
 #include "mesamis/remesh/geometry.h"
+#include "mesamis/remesh/smooth.h"
 
 namespace mesamis::remeshing {
 namespace {
@@ -35,6 +37,11 @@ bool propose_moved(Workbench& bench, std::span<const Index> ball, std::array<Ind
   return !bench.cavity.proposed().empty();
 }
 
+CollapseRule balanced(CollapseRule rule, double length) {
+  if (rule.balance > 0) rule.new_length_max = std::max(rule.balance / length, std::sqrt(2.0));
+  return rule;
+}
+
 bool keeps_edges_short(Workbench& bench, Index onto, double length_max) {
   const auto& vertices = bench.mesh.vertices;
   bench.seen.clear();
@@ -60,6 +67,7 @@ bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseR
   if (!keeps_edges_short(bench, onto, rule.new_length_max)) return false;
   bench.cavity.replace(ball);
   mesh.free_vertex(vertex);
+  smooth_vertex(bench, onto, {});
   return true;
 }
 
@@ -70,8 +78,9 @@ std::int64_t collapse_short_edges(Workbench& bench, const CollapseRule& rule) {
   for (const EdgeCandidate& edge : short_edges(bench.mesh, rule.length_min)) {
     if (edge.is_same_edge(last) || edge.is_gone(mesh)) continue;
     last = edge;
-    collapses += collapse_vertex(bench, edge.a, edge.b, rule) ||
-                 collapse_vertex(bench, edge.b, edge.a, rule);
+    const CollapseRule edge_rule = balanced(rule, edge.length);
+    collapses += collapse_vertex(bench, edge.a, edge.b, edge_rule) ||
+                 collapse_vertex(bench, edge.b, edge.a, edge_rule);
   }
   return collapses;
 }

@@ -10,15 +10,19 @@ namespace mesamis::remeshing {
 struct CollapseRule {
   double length_min = 0.70710678118654752;  ///< shorter edges are collapsed
   double new_length_max = 1.6;              ///< no new edge is longer
-  double quality3_min = 0.008;              ///< new cells are at least this good,
-  double quality3_loss = 0.3;               ///< or lose no more than this factor
+  /// Above 0: the bound is instead this over the edge's length, but no less than the goal's upper
+  /// bound.
+  double balance = 0;
+  double quality3_min = 0.008;  ///< new cells are at least this good,
+  double quality3_loss = 0.3;   ///< or lose no more than this factor
 };
 
 /// Collapses short edges of pending cells, shortest first, onto one of their ends.
 /// @return the number of collapses.
 std::int64_t collapse_short_edges(Workbench& bench, const CollapseRule& rule);
 
-/// Moves a vertex onto a neighbour, which takes its place, if the rule allows.
+/// Moves a vertex onto a neighbour, which takes its place and a better one where it finds it, if
+/// the rule allows.
 bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseRule& rule);
 
 }  // namespace mesamis::remeshing

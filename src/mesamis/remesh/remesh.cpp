@@ -26,9 +26,11 @@ using namespace remeshing;
 constexpr double kFewestCellsPerComplexity = 9;
 
 /// Shares of the vertices that a round makes or removes.
-constexpr double kMany = 0.2, kSome = 0.05, kFew = 0.02, kHardlyAny = 0.004;
-/// So many rounds accept new edges a little outside the goal: more where the metric turns within
-/// an edge's length and the mesh settles slowly.
+constexpr double kBusy = 0.3, kMany = 0.2, kSome = 0.05, kFew = 0.02, kHardlyAny = 0.004;
+/// A round that makes and removes more than this share of the vertices of the round before undoes
+/// much of what that did: splits and collapses answer each other.
+constexpr double kSlow = 0.72, kStuck = 0.8;
+/// So many rounds accept new edges a little outside the goal.
 constexpr int kWideRoundsMin = 10, kWideRoundsMax = 14;
 
 struct Rules {
@@ -38,11 +40,19 @@ struct Rules {
   SmoothRule smooth;
 };
 
-/// Triggers and acceptance bands that meet would jam; so new edges may first be a little
-/// shorter and longer than the goal, and only later rounds insist on it.
-Rules make_rules(bool strict) {
+/// What lengths new edges may have.
+enum class Bands {
+  kWide,      ///< a little shorter and longer than the goal: triggers and bands that meet would jam
+  kBalanced,  ///< not much farther from 1 than the edge that goes
+  kGoal,      ///< the goal's
+};
+
+Rules make_rules(Bands bands) {
   Rules rules;
-  if (strict) {
+  if (bands == Bands::kBalanced) {
+    rules.split.balance = 0.95;
+    rules.collapse.balance = 1.05;
+  } else if (bands == Bands::kGoal) {
     rules.split.new_length_min = std::sqrt(0.5);
     rules.collapse.new_length_max = std::sqrt(2.0);
   }
@@ -96,8 +106,8 @@ class Remesher {
       const bool resized = control_count(change);
       report_.converged = !resized && is_done(change, last_change);
       // A mesh that must change its count gets freedom to do so, unless it has settled.
-      if (resized) strict_ = false;
-      strict_ |= is_settled(round, change, last_change);
+      if (resized) bands_ = Bands::kWide;
+      bands_ = next_bands(round, change, last_change);
       last_change = change;
     }
   }
@@ -133,16 +143,23 @@ class Remesher {
   bool is_done(double change, double last_change) const {
     if (options_.draft) return change < kMany;
     const bool circling = change < kFew && change > 0.8 * last_change;
-    return strict_ && (change < kHardlyAny || circling);
+    return bands_ == Bands::kGoal && (change < kHardlyAny || circling);
   }
 
   /// Is the mesh so near its goal that new edges can be held to it? Or going round in circles?
-  static bool is_settled(int round, double change, double last_change) {
+  bool is_settled(int round, double change, double last_change) const {
     // A start that fits already needs no freedom to get there.
     if (round == 0) return change < kMany;
-    if (change < kMany && change > 0.95 * last_change) return true;
-    if (round + 1 < kWideRoundsMin) return change < kHardlyAny;
+    const double stuck = bands_ == Bands::kWide ? 0.95 : kStuck;
+    if (change < kMany && change > stuck * last_change) return true;
+    if (bands_ == Bands::kWide && round + 1 < kWideRoundsMin) return change < kHardlyAny;
     return change < kSome || round + 1 >= kWideRoundsMax;
+  }
+
+  Bands next_bands(int round, double change, double last_change) const {
+    if (bands_ == Bands::kGoal || is_settled(round, change, last_change)) return Bands::kGoal;
+    const bool slow = round > 0 && change < kBusy && change > kSlow * last_change;
+    return slow ? Bands::kBalanced : bands_;
   }
 
   void tell_progress(double fraction) const {
@@ -164,7 +181,7 @@ class Remesher {
 
   /// Late rounds know all there is to find.
   Counters explore() {
-    if (strict_) return {};
+    if (bands_ == Bands::kGoal) return {};
     Workbench bench(mesh_, sampler_);
     SplitRule rule;
     rule.most_cells = most_cells();
@@ -176,7 +193,7 @@ class Remesher {
     const double growth =
         static_cast<double>(most_cells()) / static_cast<double>(mesh_.cell_count());
     return on_parts(round, [&](Workbench& bench) {
-      Rules rules = make_rules(strict_);
+      Rules rules = make_rules(bands_);
       rules.split.most_cells =
           static_cast<std::int64_t>(growth * static_cast<double>(bench.mesh.cell_count()));
       return adapt_once(bench, rules);
@@ -241,7 +258,7 @@ class Remesher {
     if (options_.max_cells <= 0) return false;
     const double ratio =
         static_cast<double>(mesh_.cell_count()) / static_cast<double>(options_.max_cells);
-    const double tolerance = strict_ ? 0.06 : change < kMany ? 0.02 : 0.3;
+    const double tolerance = bands_ == Bands::kGoal ? 0.06 : change < kMany ? 0.02 : 0.3;
     const bool above = ratio > 1 + tolerance;
     const bool below = ratio < 1 - tolerance && change < kMany && report_.size_factor > 1;
     if (!above && !below) return false;
@@ -264,8 +281,8 @@ class Remesher {
   MetricSampler sampler_;
   WorkingMesh mesh_;
   std::int64_t compact_count_ = 0;
-  double growth_ = 1;    ///< of the number of cells in the last round
-  bool strict_ = false;  ///< new edges must be within the goal
+  double growth_ = 1;  ///< of the number of cells in the last round
+  Bands bands_ = Bands::kWide;
   RemeshReport report_;
 };
 

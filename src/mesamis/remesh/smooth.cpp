@@ -68,7 +68,7 @@ class Mover {
     for (int trial = 0; trial < kMostTrials && -slope * step > least_gain(); ++trial) {
       const double change = try_position(old, step * move) - energy_;
       if (change <= -least_gain()) {
-        accept();
+        accept(change > -rule_.small_gain * energy_);
         return true;
       }
       const double curvature = (change - slope * step) / (step * step);
@@ -94,11 +94,12 @@ class Mover {
     return sum;
   }
 
-  void accept() {
+  void accept(bool is_small) {
+    const auto pending = static_cast<std::uint8_t>(is_small ? kToAll & ~kToSmooth : kToAll);
     for (std::size_t i = 0; i < ball_.size(); ++i) {
       WorkCell& cell = mesh_.cells[ball_[i]];
       cell.quality3 = static_cast<float>(qualities_[i]);
-      cell.pending = kToAll;
+      cell.pending = static_cast<std::uint8_t>(cell.pending | pending);
       cell.tried = 0;
     }
   }
@@ -119,10 +120,19 @@ class Mover {
 }  // namespace
 
 bool smooth_vertex(Workbench& bench, Index v, const SmoothRule& rule) {
-  const std::uint8_t mask = bench.mesh.vertices[v].mask;
-  if ((mask & kFrozen) || std::popcount(unsigned{mask}) == 3) return false;
+  constexpr int kMostRest = 2;
+  Vertex& vertex = bench.mesh.vertices[v];
+  if ((vertex.mask & kFrozen) || std::popcount(unsigned{vertex.mask}) == 3) return false;
+  if (vertex.rest > 0) {
+    --vertex.rest;
+    return false;
+  }
   const auto ball = bench.cavity.ball(v);
-  return !ball.empty() && Mover(bench, v, ball, rule).run();
+  if (ball.empty()) return false;
+  const bool moved = Mover(bench, v, ball, rule).run();
+  const int failures = moved ? 0 : std::min(kMostRest, vertex.failures + 1);
+  vertex.failures = vertex.rest = static_cast<std::uint8_t>(failures);
+  return moved;
 }
 
 std::int64_t smooth_bad_cells(Workbench& bench, const SmoothRule& rule) {

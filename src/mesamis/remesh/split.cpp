@@ -42,6 +42,11 @@ Index make_middle(Workbench& bench, Index a, Index b) {
   return v;
 }
 
+SplitRule balanced(SplitRule rule, double length) {
+  if (rule.balance > 0) rule.new_length_min = std::min(rule.balance / length, std::sqrt(0.5));
+  return rule;
+}
+
 bool keeps_distance(const Workbench& bench, const SplitEdge& edge, Index v, double distance) {
   const auto& vertices = bench.mesh.vertices;
   auto is_far = [&](Index other) { return length(vertices[other], vertices[v]) >= distance; };
@@ -92,7 +97,7 @@ std::int64_t split_long_edges(Workbench& bench, const SplitRule& rule) {
     if (bench.mesh.cell_count() >= rule.most_cells) break;
     last = edge;
     const bool urgent = edge.length > rule.urgent_length;
-    splits += split_edge(bench, {edge.cell, edge.a, edge.b, urgent}, rule);
+    splits += split_edge(bench, {edge.cell, edge.a, edge.b, urgent}, balanced(rule, edge.length));
   }
   return splits;
 }

@@ -10,6 +10,9 @@ namespace mesamis::remeshing {
 struct SplitRule {
   double length_max = 1.4142135623730951;  ///< longer edges are split
   double new_length_min = 0.6;             ///< the new vertex keeps this distance in the metric
+  /// Above 0: the distance is instead this over the edge's length, but no more than the goal's
+  /// lower bound: what is made is hardly farther from 1 than what goes.
+  double balance = 0;
   double urgent_length = 2;      ///< longer edges are split whatever comes out, if it is valid
   double quality3_min = 0.008;   ///< new cells are at least this good,
   double quality3_loss = 0.125;  ///< or lose no more than this factor

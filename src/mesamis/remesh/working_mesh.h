@@ -29,6 +29,9 @@ struct alignas(64) Vertex {
   Index cell = kNoIndex;  ///< one of the cells around it; kNoIndex: unused slot
   Index hint = 0;         ///< where the metric field found it
   std::uint8_t mask = 0;
+  /// Smoothing's: how often in a row no better place was found since a cell around the vertex was
+  /// made, and for how many requests it rests.
+  std::uint8_t failures = 0, rest = 0;
 };
 
 /// A face as seen from one of its cells: 4 * cell + local face, or kNoIndex.
