@@ -56,5 +56,15 @@ TEST(Collapse, KeepsNewEdgesShort) {
   expect_sound(small.mesh);
 }
 
+TEST(Collapse, ShorterEdgesMayMakeLongerOnes) {
+  // 4 x 4 x 4 bricks with edges of 0.66: what goes leaves edges of up to 1.6.
+  const FormulaMetric metric = uniform_metric(0.375);
+  SmallMesh strict(box_mesh(kUnitBox, {4, 4, 4}), metric);
+  EXPECT_EQ(collapse_short_edges(strict.bench, {.new_length_max = 1}), 0);
+  SmallMesh narrow(box_mesh(kUnitBox, {4, 4, 4}), metric);
+  EXPECT_GT(collapse_short_edges(narrow.bench, {.new_length_max = 1, .balance = 1.2}), 0);
+  expect_sound(narrow.mesh);
+}
+
 }  // namespace
 }  // namespace mesamis::remeshing

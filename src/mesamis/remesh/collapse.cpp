@@ -54,6 +54,12 @@ bool keeps_edges_short(Workbench& bench, Index onto, double length_max) {
   return true;
 }
 
+/// @return the end that is left, or kNoIndex if both are.
+Index collapse_edge(Workbench& bench, const EdgeCandidate& edge, const CollapseRule& rule) {
+  if (collapse_vertex(bench, edge.a, edge.b, rule)) return edge.b;
+  return collapse_vertex(bench, edge.b, edge.a, rule) ? edge.a : kNoIndex;
+}
+
 }  // namespace
 
 bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseRule& rule) {
@@ -67,7 +73,6 @@ bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseR
   if (!keeps_edges_short(bench, onto, rule.new_length_max)) return false;
   bench.cavity.replace(ball);
   mesh.free_vertex(vertex);
-  smooth_vertex(bench, onto, {});
   return true;
 }
 
@@ -78,9 +83,10 @@ std::int64_t collapse_short_edges(Workbench& bench, const CollapseRule& rule) {
   for (const EdgeCandidate& edge : short_edges(bench.mesh, rule.length_min)) {
     if (edge.is_same_edge(last) || edge.is_gone(mesh)) continue;
     last = edge;
-    const CollapseRule edge_rule = balanced(rule, edge.length);
-    collapses += collapse_vertex(bench, edge.a, edge.b, edge_rule) ||
-                 collapse_vertex(bench, edge.b, edge.a, edge_rule);
+    const Index kept = collapse_edge(bench, edge, balanced(rule, edge.length));
+    if (kept == kNoIndex) continue;
+    ++collapses;
+    smooth_vertex(bench, kept, {});
   }
   return collapses;
 }

@@ -17,12 +17,12 @@ struct CollapseRule {
   double quality3_loss = 0.3;   ///< or lose no more than this factor
 };
 
-/// Collapses short edges of pending cells, shortest first, onto one of their ends.
+/// Collapses short edges of pending cells, shortest first, onto one of their ends, and moves that
+/// end at once to where its cells are better, as smooth_vertex().
 /// @return the number of collapses.
 std::int64_t collapse_short_edges(Workbench& bench, const CollapseRule& rule);
 
-/// Moves a vertex onto a neighbour, which takes its place and a better one where it finds it, if
-/// the rule allows.
+/// Moves a vertex onto a neighbour, which takes its place, if the rule allows.
 bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseRule& rule);
 
 }  // namespace mesamis::remeshing

@@ -31,7 +31,7 @@ constexpr double kBusy = 0.3, kMany = 0.2, kSome = 0.05, kFew = 0.02, kHardlyAny
 /// much of what that did: splits and collapses answer each other.
 constexpr double kSlow = 0.72, kStuck = 0.8;
 /// So many rounds accept new edges a little outside the goal.
-constexpr int kWideRoundsMin = 10, kWideRoundsMax = 14;
+constexpr int kWideRoundsMin = 9, kWideRoundsMax = 14;
 
 struct Rules {
   SplitRule split;
@@ -72,7 +72,7 @@ Counters adapt_once(Workbench& bench, const Rules& rules) {
 
 Counters polish_once(Workbench& bench, bool is_last) {
   constexpr SwapRule kSwap{.quality3_max = 0.512, .gain = 0.03};
-  constexpr SmoothRule kSmooth{.quality3_max = 1};
+  constexpr SmoothRule kSmooth{.quality3_max = 1, .most_rest = 0, .small_gain = 0};
   Counters done;
   done.swaps = swap_bad_cells(bench, kSwap);
   done.moves = smooth_bad_cells(bench, kSmooth);

@@ -24,7 +24,10 @@ bool collapse_an_edge(Workbench& bench, Index cell, const CollapseRule& rule) {
 bool move_a_vertex(Workbench& bench, Index cell) {
   const Cell points = bench.mesh.cells[cell].points;
   bool moved = false;
-  for (const Index v : points) moved |= smooth_vertex(bench, v, {});
+  for (const Index v : points) {
+    bench.mesh.vertices[v].rest = 0;
+    moved |= smooth_vertex(bench, v, {});
+  }
   return moved;
 }
 

@@ -7,7 +7,7 @@
 namespace mesamis::remeshing {
 
 struct RepairRule {
-  double quality3_max = 0.18;   ///< only worse cells are taken up
+  double quality3_max = 0.25;   ///< only worse cells are taken up
   double new_length_max = 2.5;  ///< a collapse may spoil lengths this far
   int sweeps = 4;
 };

@@ -120,7 +120,6 @@ class Mover {
 }  // namespace
 
 bool smooth_vertex(Workbench& bench, Index v, const SmoothRule& rule) {
-  constexpr int kMostRest = 2;
   Vertex& vertex = bench.mesh.vertices[v];
   if ((vertex.mask & kFrozen) || std::popcount(unsigned{vertex.mask}) == 3) return false;
   if (vertex.rest > 0) {
@@ -130,7 +129,7 @@ bool smooth_vertex(Workbench& bench, Index v, const SmoothRule& rule) {
   const auto ball = bench.cavity.ball(v);
   if (ball.empty()) return false;
   const bool moved = Mover(bench, v, ball, rule).run();
-  const int failures = moved ? 0 : std::min(kMostRest, vertex.failures + 1);
+  const int failures = moved ? 0 : std::min(rule.most_rest, vertex.failures + 1);
   vertex.failures = vertex.rest = static_cast<std::uint8_t>(failures);
   return moved;
 }

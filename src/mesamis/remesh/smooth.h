@@ -9,8 +9,9 @@ namespace mesamis::remeshing {
 
 struct SmoothRule {
   double quality3_max = 0.729;  ///< vertices of better cells alone stay where they are
-  double energy_ratio = 0.995;  ///< a move must bring the energy below this share
+  double energy_ratio = 0.99;   ///< a move must bring the energy below this share
   double quality3_loss = 0.3;   ///< no cell may fall below this share of the worst before
+  int most_rest = 2;            ///< requests for which a vertex that failed rests
   double small_gain = 0.04;     ///< a move that gains no more does not make its neighbours move
 };
 

@@ -8,8 +8,8 @@
 namespace mesamis::remeshing {
 
 struct SwapRule {
-  double quality3_max = 0.42;  ///< better cells are left alone
-  double gain = 0.05;          ///< energy that a swap must save
+  double quality3_max = 0.512;  ///< better cells are left alone
+  double gain = 0.05;           ///< energy that a swap must save
 };
 
 /// For each bad pending cell, makes the best of the swaps around it: removing one of

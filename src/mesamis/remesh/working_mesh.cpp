@@ -153,6 +153,8 @@ void set_pending(WorkingMesh& mesh, std::uint8_t operations) {
     cell.pending = static_cast<std::uint8_t>(cell.pending | operations);
     if (operations & kToSwap) cell.tried = 0;
   }
+  if (!(operations & kToSmooth)) return;
+  for (Vertex& vertex : mesh.vertices) vertex.failures = vertex.rest = 0;
 }
 
 WorkingMesh load(const TetMesh& start, const Box& box) {

@@ -93,7 +93,7 @@ inline bool take_pending(WorkingMesh& mesh, Index cell, std::uint8_t operation) 
   return true;
 }
 
-/// Puts every cell on the lists of the operations given.
+/// Puts every cell on the lists of the operations given; for kToSmooth no vertex rests any more.
 void set_pending(WorkingMesh& mesh, std::uint8_t operations);
 
 /// @param start  a valid mesh of the box. Metrics and qualities are left to measure_all.
