@@ -60,15 +60,14 @@ TEST(Split, RefusesCrowdingAndKeepsTheMesh) {
   expect_sound(small.mesh);
 }
 
-TEST(Split, BalancedDistanceShrinksWithTheEdge) {
-  // The edges of a unit cell are 1.5, their diagonals 2.1 and 2.6 long; the middle of the longest
-  // is 1.3 from its ends and 0.75 from nothing: only a distance beyond that stops it.
+TEST(Split, BalancedDistanceIsNoMoreThanTheGoal) {
+  // A balanced rule asks for no more than the goal's lower bound, whatever new_length_min says.
   const FormulaMetric metric = uniform_metric(1 / 1.5);
   for (const double balance : {0.95, 2.0}) {
     SmallMesh small(box_mesh(kUnitBox, {1, 1, 1}), metric);
     const auto splits = split_long_edges(
         small.bench, {.new_length_min = 100, .balance = balance, .urgent_length = 10});
-    EXPECT_GT(splits, 0);  // no more than the goal's lower bound is asked for
+    EXPECT_GT(splits, 0);
   }
   SmallMesh small(box_mesh(kUnitBox, {1, 1, 1}), metric);
   EXPECT_EQ(split_long_edges(small.bench, {.new_length_min = 100, .urgent_length = 10}), 0);
