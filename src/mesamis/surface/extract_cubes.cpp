@@ -191,9 +191,11 @@ class Extraction {
   void span(const std::vector<CubeEdge>& loop, const Node& lowest, Layer& layer) const {
     std::vector<Index> p;
     for (const CubeEdge& e : loop) {
-      Index node = lowest.number;
-      for (std::size_t axis = 0; axis < 3; ++axis) node += ((e.corner >> axis) & 1) * step_[axis];
-      p.push_back(point_of_edge_[static_cast<std::size_t>(3 * node + e.axis)]);
+      auto node = static_cast<std::size_t>(lowest.number);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (((e.corner >> axis) & 1) != 0) node += static_cast<std::size_t>(step_[axis]);
+      }
+      p.push_back(point_of_edge_[3 * node + static_cast<std::size_t>(e.axis)]);
     }
     if (p.size() == 3) {
       layer.triangles.push_back({p[0], p[1], p[2]});
