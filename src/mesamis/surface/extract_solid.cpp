@@ -6,6 +6,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/surface/box_planes.h"
 #include "mesamis/surface/extract.h"
 
 namespace mesamis {
@@ -26,21 +27,6 @@ Index site_end(Site s) { return static_cast<Index>(s & 0xffffffffu); }
 /// makes the four an even permutation.
 constexpr std::array<std::array<int, 4>, 6> kEvenPairs{
     {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
-
-/// Six bits: which planes of the box a node lies on.
-std::vector<std::uint8_t> box_planes(const TetMesh& mesh) {
-  const Box box = bounding_box(mesh.points);
-  std::vector<std::uint8_t> planes(mesh.points.size());
-  parallel_for(mesh.points.size(), [&](std::size_t n) {
-    unsigned mask = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      mask |= unsigned{mesh.points[n][axis] == box.lo[axis]} << (2 * axis);
-      mask |= unsigned{mesh.points[n][axis] == box.hi[axis]} << (2 * axis + 1);
-    }
-    planes[n] = static_cast<std::uint8_t>(mask);
-  });
-  return planes;
-}
 
 /// {u > level} on one mesh, cell by cell.
 class Marcher {

@@ -8,6 +8,7 @@ set(ROOM_HEADERS
   extract_cubes.h
   measure.h
   normals.h
+  partition.h
   sampling.h
   select_parts.h
   self_intersections.h
@@ -30,11 +31,13 @@ set(ROOM_SOURCES
   exact_predicates.cpp
   extract_band.cpp
   extract_cubes.cpp
+  extract_partition.cpp
   extract_solid.cpp
   farthest.cpp
   half_edges.cpp
   nesting.cpp
   normals.cpp
+  partition_cells.cpp
   sampling.cpp
   select_parts.cpp
   self_intersections.cpp

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/partition_cells.h"
+
+#include "mesamis/base/parallel.h"
+
+namespace mesamis {
+namespace {
+
+void sort_once(std::vector<Simplex>& sites) {
+  std::sort(sites.begin(), sites.end());
+  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+  sites.shrink_to_fit();
+}
+
+Index place_of(const Simplex& site, std::span<const Simplex> sites) {
+  return static_cast<Index>(std::lower_bound(sites.begin(), sites.end(), site) - sites.begin());
+}
+
+}  // namespace
+
+PartitionBlock block_of(std::span<const PartitionPiece> pieces) {
+  PartitionBlock block;
+  block.sites.reserve(3 * pieces.size());
+  for (const PartitionPiece& piece : pieces) {
+    block.sites.insert(block.sites.end(), piece.corners.begin(), piece.corners.end());
+  }
+  sort_once(block.sites);
+  block.triangles.reserve(pieces.size());
+  block.sides.reserve(pieces.size());
+  for (const auto& [corners, sides] : pieces) {
+    Triangle triangle;
+    for (std::size_t i = 0; i < 3; ++i) triangle[i] = place_of(corners[i], block.sites);
+    block.triangles.push_back(triangle);
+    block.sides.push_back(sides);
+  }
+  return block;
+}
+
+std::vector<Simplex> all_sites(std::span<const PartitionBlock> blocks) {
+  std::vector<Simplex> sites;
+  for (const PartitionBlock& block : blocks) {
+    sites.insert(sites.end(), block.sites.begin(), block.sites.end());
+  }
+  sort_once(sites);
+  return sites;
+}
+
+PartitionSurface joined(std::span<const PartitionBlock> blocks, std::span<const Simplex> sites) {
+  PartitionSurface partition;
+  std::vector<std::size_t> first{0};
+  for (const PartitionBlock& block : blocks) first.push_back(first.back() + block.sides.size());
+  partition.triangles.resize(first.back());
+  partition.sides.resize(first.back());
+  parallel_for_each(blocks.size(), [&](std::size_t b) {
+    std::vector<Index> places;
+    places.reserve(blocks[b].sites.size());
+    for (const Simplex& site : blocks[b].sites) places.push_back(place_of(site, sites));
+    for (std::size_t t = 0; t < blocks[b].sides.size(); ++t) {
+      Triangle& triangle = partition.triangles[first[b] + t];
+      triangle = blocks[b].triangles[t];
+      for (Index& p : triangle) p = places[static_cast<std::size_t>(p)];
+      partition.sides[first[b] + t] = blocks[b].sides[t];
+    }
+  });
+  return partition;
+}
+
+}  // namespace mesamis
