@@ -6,12 +6,14 @@ set(ROOM_HEADERS
   distance.h
   extract.h
   extract_cubes.h
+  grid_partition.h
   measure.h
   normals.h
   partition.h
   sampling.h
   select_parts.h
   self_intersections.h
+  smooth_memberships.h
   split_edges.h
   tri_mesh.h
   unused_points.h)
@@ -34,13 +36,17 @@ set(ROOM_SOURCES
   extract_partition.cpp
   extract_solid.cpp
   farthest.cpp
+  grid_partition.cpp
   half_edges.cpp
+  label_parts.cpp
+  match_volumes.cpp
   nesting.cpp
   normals.cpp
   partition_cells.cpp
   sampling.cpp
   select_parts.cpp
   self_intersections.cpp
+  smooth_memberships.cpp
   split_edges.cpp
   tri_mesh.cpp
   triangle_intersection.cpp

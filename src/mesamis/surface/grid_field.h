@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "mesamis/mesh/kuhn.h"
+#include "mesamis/surface/grid_partition.h"
+
+namespace mesamis {
+
+/// The steps from a node to the seven neighbours above it in the Kuhn tetrahedra of a grid.
+inline constexpr std::array<std::array<Index, 3>, 7> kKuhnSteps{
+    {{1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}};
+
+/// A field of partition_cells.h: memberships on a grid.
+class GridField {
+ public:
+  GridField(const GridMemberships& grid, bool close_at_box)
+      : grid_(grid),
+        close_at_box_(close_at_box),
+        stride_{1, grid.size[0], grid.size[0] * grid.size[1]} {}
+
+  std::array<Index, 3> place(Index node) const {
+    return {node % stride_[1], node / stride_[1] % grid_.size[1], node / stride_[2]};
+  }
+  Vec3 point(Index node) const {
+    const auto [i, j, k] = place(node);
+    return {i * grid_.spacing.x, j * grid_.spacing.y, k * grid_.spacing.z};
+  }
+  Index material(Index node) const { return grid_.material[static_cast<std::size_t>(node)]; }
+  double membership(Index node, Index material) const {
+    const auto n = static_cast<std::size_t>(node);
+    for (auto i = static_cast<std::size_t>(grid_.first[n]);
+         i < static_cast<std::size_t>(grid_.first[n + 1]); ++i) {
+      if (grid_.listed[i] == material) return grid_.value[i];
+    }
+    return 0;
+  }
+  unsigned planes(Index node) const {
+    if (!close_at_box_) return 0;
+    const auto at = place(node);
+    unsigned mask = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      mask |= unsigned{at[a] == 0} << (2 * a);
+      mask |= unsigned{at[a] + 1 == grid_.size[a]} << (2 * a + 1);
+    }
+    return mask;
+  }
+
+  /// Calls visit(cell) for the Kuhn tetrahedra of the cubes above layer k that have boundaries in
+  /// them, or caps on them.
+  template <class Visit>
+  void for_cells_above(Index k, Visit visit) const {
+    for (Index j = 0; j + 1 < grid_.size[1]; ++j) {
+      const bool at_end = k == 0 || k + 2 == grid_.size[2] || j == 0 || j + 2 == grid_.size[1];
+      for (Index i = 0; i + 1 < grid_.size[0]; ++i) {
+        const Index corner = i + j * stride_[1] + k * stride_[2];
+        const bool at_box = close_at_box_ && (at_end || i == 0 || i + 2 == grid_.size[0]);
+        if (!at_box && is_uniform(corner)) continue;
+        for (const auto& path : kKuhnPaths) visit(kuhn_cell(corner, stride_, path));
+      }
+    }
+  }
+
+ private:
+  bool is_uniform(Index corner) const {
+    for (const auto& [i, j, k] : kKuhnSteps) {
+      if (material(corner + i + j * stride_[1] + k * stride_[2]) != material(corner)) return false;
+    }
+    return true;
+  }
+
+  const GridMemberships& grid_;
+  bool close_at_box_;
+  std::array<Index, 3> stride_;
+};
+
+}  // namespace mesamis

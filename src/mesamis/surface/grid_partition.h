@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesamis/base/types.h"
+#include "mesamis/surface/partition.h"
+
+namespace mesamis {
+
+/// Memberships of many materials at the nodes of a regular grid, kept only where they decide: at
+/// each node those of its own material and of its neighbours' materials. The neighbours of a node
+/// are the 14 with which it shares an edge of the grid's Kuhn tetrahedra, see kuhn.h.
+struct GridMemberships {
+  std::array<Index, 3> size{};  ///< nodes along i, j, k; at least 2 each
+  Vec3 spacing{1, 1, 1};        ///< between nodes, mm, > 0
+  std::vector<Index> material;  ///< of each node, the one that wins there; i runs fastest
+  std::vector<Index> label;     ///< of each material, the object that it is part of, >= 0
+
+  /// Node n has the memberships value[i] of the materials listed[i], i from first[n] to before
+  /// first[n + 1]; a material that is not listed has the membership 0. In any unit, finite.
+  std::vector<std::int64_t> first;
+  std::vector<Index> listed;
+  std::vector<float> value;
+};
+
+/// Extracts the boundaries between objects as extract_partition() does, on the grid's Kuhn
+/// tetrahedra. Neighbouring nodes whose materials differ belong to objects that differ.
+/// @return points in mm, the first node at the origin; its sides are labels.
+/// @throws InputError  if the sizes do not fit, a material or a label is out of range, or a value
+///                     is not finite.
+///
+/// O(nodes + s log s) for s triangles: cubes of one material are passed over. The same bits for any
+/// number of threads.
+PartitionSurface extract_partition_on_grid(const GridMemberships& memberships,
+                                           const PartitionOptions& options = {});
+
+}  // namespace mesamis

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/label_parts.h"
+
+#include "mesamis/surface/disjoint_sets.h"
+#include "mesamis/surface/grid_field.h"
+
+namespace mesamis {
+
+LabelParts find_label_parts(const LabelGrid& grid) {
+  const auto [nx, ny, nz] = grid.size;
+  DisjointSets sets(grid.labels.size());
+  std::size_t n = 0;
+  for (Index k = 0; k < nz; ++k) {
+    for (Index j = 0; j < ny; ++j) {
+      for (Index i = 0; i < nx; ++i, ++n) {
+        for (const auto& [di, dj, dk] : kKuhnSteps) {
+          if (i < di || j < dj || k < dk) continue;
+          const std::size_t below = n - static_cast<std::size_t>(di + nx * (dj + ny * dk));
+          if (grid.labels[below] == grid.labels[n]) sets.unite(below, n);
+        }
+      }
+    }
+  }
+  LabelParts parts;
+  parts.of_node.reserve(grid.labels.size());
+  for (n = 0; n < grid.labels.size(); ++n) {
+    const std::size_t first = sets.find(n);  // never after this node
+    if (first == n) parts.label.push_back(grid.labels[n]);
+    parts.of_node.push_back(first == n ? static_cast<Index>(parts.label.size()) - 1
+                                       : parts.of_node[first]);
+  }
+  return parts;
+}
+
+}  // namespace mesamis
