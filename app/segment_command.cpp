@@ -11,10 +11,13 @@
 
 #include "commands.h"
 #include "costs.h"
+#include "label_options.h"
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/version.h"
+#include "mesamis/delivery/label_output.h"
 #include "mesamis/delivery/mesh_output.h"
+#include "mesamis/label_files/write_labels.h"
 #include "mesamis/method/memory.h"
 #include "mesamis/method/mes_amis.h"
 #include "mesamis/record/json_file.h"
@@ -26,6 +29,7 @@
 #include "outputs.h"
 #include "progress.h"
 #include "scan.h"
+#include "segment_labels.h"
 #include "settings_options.h"
 
 namespace mesamis {
@@ -34,13 +38,14 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SegmentOptions {
-  fs::path input, report;
+  fs::path input, report, labelmap;
   std::vector<fs::path> surfaces, meshes, band_meshes;
   std::string series;
   std::string name = "mesamis surface";  // never the scan's, which may be the patient's
   Frame frame = Frame::kLps;
   bool error = false;
   MeshOptions mesh;
+  LabelArguments labels;
   SettingsArguments settings;
 };
 
@@ -90,6 +95,8 @@ void require_outputs(const SegmentOptions& options) {
     require_output(path, written_mesh_formats(), "--mesh");
   }
   for (const fs::path& path : options.band_meshes) require_output(path, {".vtu"}, "--band-mesh");
+  if (!options.labelmap.empty())
+    require_output(options.labelmap, {".nii", ".gz", ".nrrd"}, "--labelmap");
   if (!options.report.empty()) require_output(options.report, {".json"}, "--report");
 }
 
@@ -119,8 +126,30 @@ void require_surface(const Result& result) {
                                result.parameters.level));
 }
 
+/// What a label map leaves no room for.
+void require_no_mesh(const SegmentOptions& options) {
+  if (!options.meshes.empty() || !options.band_meshes.empty()) {
+    throw CLI::ValidationError("--labels", "expected neither --mesh nor --band-mesh, found one");
+  }
+}
+
+int run_with_labels(const SegmentOptions& o, const Settings& settings,
+                    const CommonOptions& common) {
+  require_no_mesh(o);
+  return run_labels({o.input, o.series, o.labels, o.surfaces, o.labelmap, o.report, o.name, o.frame,
+                     o.error, settings},
+                    common);
+}
+
+void write_labelmap(const fs::path& path, const TriMesh& surface, const VoxelGrid& grid) {
+  const FoundObject object{surface, {"object", 1, 0, default_colour(1)}};
+  write_label_map(path, label_map_of(grid, {&object, 1}));
+}
+
 int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   const Settings settings = settings_of(options.settings);
+  if (options.labels.given()) return run_with_labels(options, settings, common);
+  if (options.input.empty()) throw CLI::ValidationError("input", "expected a scan, found none");
   require_outputs(options);
   require_mesh_for(options, settings);
   const VolumeFile file = read_scan(options.input, options.series);
@@ -135,6 +164,7 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   const auto surface_as = surface_options(options, result, file.volume.voxel_size());
   for (const fs::path& path : options.surfaces) write_surface(path, result.surface, surface_as);
   for (const fs::path& path : options.meshes) write_mesh(path, *mesh, options.frame);
+  if (!options.labelmap.empty()) write_labelmap(options.labelmap, result.surface, file.volume);
   for (const fs::path& path : options.band_meshes) write_band_mesh(path, result, options.frame);
   if (!options.report.empty()) {
     nlohmann::ordered_json report;
@@ -156,13 +186,18 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
 void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<SegmentOptions>();
   CLI::App* command = app.add_subcommand("segment", "Segment a scan: surface, mesh, report");
-  command->add_option("input", options->input, "Volume file, DICOM directory or file")->required();
+  command->add_option("input", options->input,
+                      "Volume file, DICOM directory or file; with --labels it may be left out");
   command->add_option("-o,--output", options->surfaces,
                       listed("Surface:", written_surface_formats()));
   command->add_flag("--error", options->error,
                     "Write the error expected at each point, mm, into --output .vtp and .ply, as "
                     "expected_error");
   add_mesh_options(*command, options);
+  add_label_options(*command, options->labels);
+  command->add_option("--labelmap", options->labelmap,
+                      "What was found, voxel by voxel on the scan's grid: .nii .nii.gz .nrrd "
+                      ".seg.nrrd");
   command->add_option("--report", options->report, "Report: .json");
   command->add_option("--series", options->series, "DICOM series UID");
   add_frame_option(*command, options->frame);

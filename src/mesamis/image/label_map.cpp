@@ -224,6 +224,28 @@ std::vector<float> probability_on(const Probabilities& from, Index layer, const 
   return out;
 }
 
+LabelMap most_probable(const Probabilities& from) {
+  LabelMap map;
+  static_cast<VoxelGrid&>(map) = from;
+  map.segments = from.segments;
+  for (Segment& segment : map.segments) segment.layer = 0;
+  map.layers.assign(1, std::vector<std::uint16_t>(from.voxel_count(), 0));
+  parallel_for(map.layers[0].size(), [&](std::size_t n) {
+    float rest = 1, most = 0;
+    std::uint16_t best = 0;
+    for (std::size_t layer = 0; layer < from.layers.size(); ++layer) {
+      const float p = from.layers[layer][n];
+      rest -= p;
+      if (p > most) {
+        most = p;
+        best = static_cast<std::uint16_t>(from.segments[layer].label);
+      }
+    }
+    map.layers[0][n] = rest > most ? std::uint16_t{0} : best;
+  });
+  return map;
+}
+
 std::optional<CropRange> range_of(const LabelMap& map, const Segment& segment) {
   RangeFinder finder(map);
   for_each_label(map, segment.layer, [&](std::uint16_t label, const std::array<Index, 3>& voxel) {

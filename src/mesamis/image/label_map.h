@@ -85,6 +85,14 @@ std::vector<std::uint8_t> mask_on(const LabelMap& map, std::span<const Segment> 
 /// O(voxels of the grid), in threads.
 std::vector<float> probability_on(const Probabilities& from, Index layer, const VoxelGrid& grid);
 
+/// Gives each voxel the label of the object that is most probable there, the first of several; 0
+/// where the background, of which the objects leave so much, is more probable than each of them.
+/// @return one layer with the segments of the probabilities.
+/// @throws nothing
+///
+/// O(voxels * objects), in threads.
+LabelMap most_probable(const Probabilities& from);
+
 /// Finds the smallest range of the map's own voxels that holds a segment; none if it has no voxel.
 /// @throws nothing
 ///

@@ -3,6 +3,7 @@ set(ROOM_HEADERS
   available_memory.h
   expected_error.h
   iteration.h
+  label_surfaces.h
   measured_image.h
   memory.h
   mes_amis.h
@@ -15,6 +16,8 @@ set(ROOM_SOURCES
   available_memory.cpp
   expected_error.cpp
   follow_image.cpp
+  follow_partition.cpp
+  label_surfaces.cpp
   memory.cpp
   mes_amis.cpp
   parameters.cpp
@@ -24,4 +27,5 @@ set(ROOM_SOURCES
   printable.cpp
   setting_rows.cpp
   setting_table.cpp
-  surface_change.cpp)
+  surface_change.cpp
+  surface_moves.cpp)

@@ -97,21 +97,15 @@ ordered_json surface_json(const RunSummary& run) {
 
 /// What the scan is like, and how near to the truth its surface can be expected to be.
 ordered_json quality_json(const RunSummary& run) {
-  const MeasuredImage& image = run.image;
   ordered_json expected;
   if (run.parameters.surface == SurfaceKind::kSolid) {
     expected = {{"mean", run.expected_error.mean},
                 {"p95", run.expected_error.percentile95},
                 {"max", run.expected_error.most}};
   }
-  return {{"noise", run.parameters.noise},
-          {"noise_left", image.noise_left},
-          {"noise_correlation", image.noise_correlation},
-          {"impulse_share", image.impulses},
-          {"blur", run.parameters.blur},
-          {"contrast", image.contrast},
-          {"level_uncertainty", known(image.level_uncertainty > 0, image.level_uncertainty)},
-          {"expected_error_mm", std::move(expected)}};
+  ordered_json quality = image_json(run.parameters, run.image);
+  quality["expected_error_mm"] = std::move(expected);
+  return quality;
 }
 
 /// The settings that were left to the program, each with how it was found.
@@ -163,6 +157,16 @@ ordered_json input_json(const InputFacts& input) {
           {"range", {input.lowest, input.highest}},
           {"modality", input.modality},
           {"warnings", input.warnings}};
+}
+
+ordered_json image_json(const Parameters& p, const MeasuredImage& image) {
+  return {{"noise", p.noise},
+          {"noise_left", image.noise_left},
+          {"noise_correlation", image.noise_correlation},
+          {"impulse_share", image.impulses},
+          {"blur", p.blur},
+          {"contrast", image.contrast},
+          {"level_uncertainty", known(image.level_uncertainty > 0, image.level_uncertainty)}};
 }
 
 ordered_json program_json() {

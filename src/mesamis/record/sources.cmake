@@ -2,6 +2,7 @@
 set(ROOM_HEADERS
   comparison_json.h
   json_file.h
+  label_report.h
   remesh_json.h
   report.h
   run_summary.h
@@ -10,6 +11,7 @@ set(ROOM_HEADERS
 set(ROOM_SOURCES
   comparison_json.cpp
   json_file.cpp
+  label_report.cpp
   remesh_json.cpp
   report.cpp
   run_summary.cpp

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "label_options.h"
+
+#include "log.h"
+#include "mesamis/base/error.h"
+#include "mesamis/label_files/label_table.h"
+#include "mesamis/label_files/read_labels.h"
+
+namespace mesamis {
+namespace {
+
+void log_all(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) log_warning(warning);
+}
+
+}  // namespace
+
+void add_label_options(CLI::App& command, LabelArguments& a) {
+  CLI::Option* const labels = command.add_option(
+      "--labels", a.file,
+      "Label map that says which objects are meant: NIfTI, NRRD, .seg.nrrd, MetaImage, DICOM SEG");
+  command
+      .add_option("--probabilities", a.probabilities,
+                  "Instead of --labels: one volume of probabilities per object, or one of four "
+                  "dimensions")
+      ->excludes(labels);
+  command.add_option("--label", a.chosen,
+                     "Objects of the label map, by name or number; all if none");
+  command.add_option(
+      "--label-names", a.names,
+      "Names and colours of the labels: ITK-SNAP .label, Slicer .ctbl, N NAME R G B");
+  command.add_option("--margin", a.margin, "How far labels may be wrong, mm")
+      ->check(CLI::PositiveNumber);
+}
+
+LabelMap read_labels(const LabelArguments& a) {
+  LabelMap map;
+  if (!a.file.empty()) {
+    LabelFile file = read_label_map(a.file);
+    log_all(file.warnings);
+    map = std::move(file.map);
+  } else {
+    ProbabilityFile file = read_probabilities(a.probabilities);
+    log_all(file.warnings);
+    map = most_probable(file.probabilities);
+  }
+  return a.names.empty() ? map : with_names(std::move(map), read_label_table(a.names));
+}
+
+LabelRequest label_request(const LabelArguments& a, const LabelMap& map) {
+  LabelRequest request;
+  for (const std::string& wanted : a.chosen) {
+    request.chosen.push_back(find_segment(map.segments, wanted));
+  }
+  request.margin = a.margin;
+  return request;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesamis/method/label_surfaces.h"
+
+/// The options that say by labels which object is meant.
+namespace mesamis {
+
+struct LabelArguments {
+  std::filesystem::path file;                        ///< --labels; may be empty
+  std::vector<std::filesystem::path> probabilities;  ///< --probabilities
+  std::vector<std::string> chosen;                   ///< --label, names or numbers; empty: all
+  std::filesystem::path names;                       ///< --label-names, may be empty
+  std::optional<double> margin;                      ///< --margin, mm
+
+  /// Whether the user names a label map.
+  bool given() const { return !file.empty() || !probabilities.empty(); }
+};
+
+/// Adds the options. `arguments` must outlive the parsing.
+void add_label_options(CLI::App& command, LabelArguments& arguments);
+
+/// Reads the label map, logs the reader's warnings, and names its labels.
+/// @throws InputError  as the readers.
+LabelMap read_labels(const LabelArguments& arguments);
+
+/// The labels that the options choose.
+/// @throws InputError  as find_segment().
+LabelRequest label_request(const LabelArguments& arguments, const LabelMap& map);
+
+}  // namespace mesamis

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "segment_labels.h"
+
+#include <algorithm>
+
+#include "costs.h"
+#include "log.h"
+#include "mesamis/base/error.h"
+#include "mesamis/base/version.h"
+#include "mesamis/delivery/label_output.h"
+#include "mesamis/label_files/write_labels.h"
+#include "mesamis/record/json_file.h"
+#include "mesamis/record/label_report.h"
+#include "mesamis/record/report.h"
+#include "mesamis/shape_files/object_files.h"
+#include "outputs.h"
+#include "progress.h"
+#include "scan.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPlaceholder = "{label}";
+
+bool holds_objects(const fs::path& path) {
+  const auto formats = written_object_formats();
+  return std::find(formats.begin(), formats.end(), lower_extension(path)) != formats.end();
+}
+
+/// Each object with a number of its own: its label, or where layers share labels a running one.
+std::vector<NamedSurface> named_surfaces(const LabelResult& result) {
+  std::vector<NamedSurface> named;
+  std::vector<Index> labels;
+  for (const LabelledObject& object : result.objects) labels.push_back(object.segment.label);
+  std::sort(labels.begin(), labels.end());
+  const bool unique = std::adjacent_find(labels.begin(), labels.end()) == labels.end();
+  for (const LabelledObject& object : result.objects) {
+    const Segment& s = object.segment;
+    const Index label = unique ? s.label : static_cast<Index>(named.size()) + 1;
+    named.push_back({s.name, s.colour, label, object.surface});
+  }
+  return named;
+}
+
+/// One file per object. The rest of the name stands where {label} is, or before the extension.
+std::vector<fs::path> paths_of(const fs::path& path, const std::vector<NamedSurface>& objects) {
+  std::string text = path.filename().string();
+  const auto at = text.find(kPlaceholder);
+  if (at == std::string::npos) {
+    return objects.size() == 1 ? std::vector<fs::path>{path} : object_paths(path, objects);
+  }
+  // object_paths() makes "x-NAME.e" of "x.e": names safe for files, all different.
+  const auto numbered = object_paths(fs::path("x" + path.extension().string()), objects);
+  std::vector<fs::path> paths;
+  for (const fs::path& one : numbered) {
+    std::string file = text;
+    const std::string name = one.stem().string().substr(2);
+    paths.push_back(path.parent_path() / file.replace(at, std::string(kPlaceholder).size(), name));
+  }
+  return paths;
+}
+
+SurfaceWriteOptions write_options(const LabelRun& run, const std::string& name) {
+  SurfaceWriteOptions as;
+  as.frame = run.frame;
+  as.name = name;
+  as.metadata = {{"producer", std::string("mesamis ") + version() + " (" + commit() + ")"}};
+  return as;
+}
+
+void write_each(const fs::path& path, const LabelRun& run, const LabelResult& result,
+                const std::vector<NamedSurface>& objects) {
+  const auto paths = paths_of(path, objects);
+  for (std::size_t n = 0; n < objects.size(); ++n) {
+    SurfaceWriteOptions as = write_options(run, objects[n].name);
+    const auto& expected = result.objects[n].expected_error;
+    if (run.error && !expected.empty()) as.point_arrays.push_back({"expected_error", expected});
+    write_surface(paths[n], objects[n].surface, as);
+  }
+}
+
+void write_surfaces(const LabelRun& run, const LabelResult& result) {
+  const std::vector<NamedSurface> objects = named_surfaces(result);
+  const std::vector<NamedSurface> rounded = rounded_together(objects);
+  for (const fs::path& path : run.surfaces) {
+    const bool together =
+        holds_objects(path) && path.filename().string().find(kPlaceholder) == std::string::npos;
+    if (together) {
+      write_objects(path, objects, write_options(run, run.name));
+    } else {
+      write_each(path, run, result, lower_extension(path) == ".stl" ? rounded : objects);
+    }
+  }
+}
+
+LabelMap found_labels(const LabelResult& result, const VoxelGrid& grid) {
+  std::vector<FoundObject> found;
+  for (const LabelledObject& object : result.objects) {
+    found.push_back({object.surface, object.segment});
+  }
+  return label_map_of(grid, found);
+}
+
+void write_report(const LabelRun& run, const LabelResult& result,
+                  const std::vector<SurfaceCheck>& checks, const VolumeFile& file) {
+  nlohmann::ordered_json report;
+  report["program"] = program_json();
+  if (!run.input.empty()) {
+    report["input"] = input_json(facts_of(run.input, file.volume, file.format, file.warnings));
+  }
+  report["output"] = output_json(run.frame);
+  report.update(label_run_json(result, checks));
+  add_costs(report);
+  write_json(run.report, report);
+}
+
+}  // namespace
+
+void require_outputs(const LabelRun& run) {
+  for (const fs::path& path : run.surfaces) {
+    require_output(path, written_surface_formats(), "--output");
+  }
+  if (!run.labelmap.empty()) {
+    require_output(run.labelmap, {".nii", ".gz", ".nrrd"}, "--labelmap");
+  }
+  if (!run.report.empty()) require_output(run.report, {".json"}, "--report");
+  if (run.surfaces.empty() && run.labelmap.empty() && run.report.empty()) {
+    throw CLI::ValidationError("--output", "expected an output, found none");
+  }
+}
+
+int run_labels(const LabelRun& run, const CommonOptions& common) {
+  require_outputs(run);
+  const LabelMap labels = read_labels(run.labels);
+  const LabelRequest request = label_request(run.labels, labels);
+  VolumeFile file;
+  if (!run.input.empty()) file = read_scan(run.input, run.series);
+  ProgressDisplay display(common.quiet);
+  const LabelResult result =
+      run.input.empty()
+          ? surfaces_of_labels(labels, request, run.settings, display.callback())
+          : find_labelled_objects(file.volume, labels, request, run.settings, display.callback());
+  display.finish();
+  std::vector<SurfaceCheck> checks;
+  for (const LabelledObject& object : result.objects) {
+    checks.push_back(check_surface(object.surface));
+  }
+  write_surfaces(run, result);
+  if (!run.labelmap.empty()) {
+    const VoxelGrid grid = run.input.empty() ? VoxelGrid(labels) : VoxelGrid(file.volume);
+    write_label_map(run.labelmap, found_labels(result, grid));
+  }
+  if (!run.report.empty()) write_report(run, result, checks, file);
+  const Verdict verdict = judge(result, checks);
+  if (verdict.outcome != Outcome::kKept) log_error(verdict.message);
+  return exit_status(verdict.outcome);
+}
+
+}  // namespace mesamis

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/delivery/label_output.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "mesamis/base/parallel.h"
+
+namespace mesamis {
+namespace {
+
+/// Of a voxel: no centre of a usual surface lies on such a line.
+constexpr double kAside = 1.1e-6;
+
+/// Where a surface crosses a line of voxels.
+struct Crossing {
+  std::size_t row;  // j + k * voxels along j
+  double x;         // voxels
+  int inward;       // 1 inward, -1 outward, for increasing x
+};
+
+/// A corner of a triangle in voxels, and its number: what is computed of an edge must not depend on
+/// the triangle that asks.
+struct Corner {
+  Vec3 at;
+  Index number = 0;
+};
+
+/// Twice the area of the triangle of an edge and a point, seen along i.
+double side_of(const Corner& a, const Corner& b, double y, double z) {
+  if (a.number > b.number) return -side_of(b, a, y, z);
+  return (b.at.y - a.at.y) * (z - a.at.z) - (b.at.z - a.at.z) * (y - a.at.y);
+}
+
+/// Whether a point is on the left of an edge; of the two directions of an edge exactly one has it.
+bool is_left(const Corner& a, const Corner& b, double side) {
+  return side > 0 || (side == 0 && a.number < b.number);
+}
+
+class Lines {
+ public:
+  Lines(const VoxelGrid& grid, const TriMesh& surface) : grid_(grid), surface_(surface) {
+    voxels_.resize(surface.points.size());
+    parallel_for(voxels_.size(), [&](std::size_t p) {
+      const Vec3 q = grid.to_grid(surface.points[p]), &s = grid.spacing;
+      voxels_[p] = {q.x / s.x, q.y / s.y - kAside, q.z / s.z - kAside};
+    });
+  }
+
+  /// Increasing by row and place.
+  std::vector<Crossing> crossings() const {
+    std::vector<Crossing> found;
+    for (const Triangle& t : surface_.triangles) add(t, found);
+    std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
+      return a.row != b.row ? a.row < b.row : a.x != b.x ? a.x < b.x : a.inward < b.inward;
+    });
+    return found;
+  }
+
+ private:
+  static Index first_from(double least) {
+    return static_cast<Index>(std::ceil(std::max(0.0, least)));
+  }
+
+  void add(const Triangle& t, std::vector<Crossing>& found) const {
+    const std::array<Corner, 3> c{Corner{voxels_[t[0]], t[0]}, Corner{voxels_[t[1]], t[1]},
+                                  Corner{voxels_[t[2]], t[2]}};
+    const auto [y0, y1] = std::minmax({c[0].at.y, c[1].at.y, c[2].at.y});
+    const auto [z0, z1] = std::minmax({c[0].at.z, c[1].at.z, c[2].at.z});
+    for (Index k = first_from(z0); k < grid_.size[2] && k <= z1; ++k) {
+      for (Index j = first_from(y0); j < grid_.size[1] && j <= y1; ++j) cross(c, j, k, found);
+    }
+  }
+
+  void cross(const std::array<Corner, 3>& c, Index j, Index k, std::vector<Crossing>& found) const {
+    std::array<double, 3> side;  // opposite of each corner
+    int left = 0;
+    for (std::size_t n = 0; n < 3; ++n) {
+      const Corner &a = c[(n + 1) % 3], &b = c[(n + 2) % 3];
+      side[n] = side_of(a, b, j, k);
+      left += is_left(a, b, side[n]) ? 1 : 0;
+    }
+    if (left != 0 && left != 3) return;
+    const double area = side[0] + side[1] + side[2];
+    if (area == 0) return;
+    const double x = (side[0] * c[0].at.x + side[1] * c[1].at.x + side[2] * c[2].at.x) / area;
+    const std::size_t row = static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.size[1]) +
+                            static_cast<std::size_t>(j);
+    // Seen from outside a triangle turns counter-clockwise: to the left of all edges along i means
+    // that its normal points along i, and a line leaves there.
+    found.push_back({row, x, left == 3 ? -1 : 1});
+  }
+
+  const VoxelGrid& grid_;
+  const TriMesh& surface_;
+  std::vector<Vec3> voxels_;
+};
+
+/// Sets the voxels of a row between two places.
+void fill(std::vector<std::uint16_t>& layer, const VoxelGrid& grid, const Crossing& from, double to,
+          std::uint16_t label) {
+  const auto nx = static_cast<double>(grid.size[0]);
+  const auto begin = static_cast<std::size_t>(std::clamp(std::ceil(from.x), 0.0, nx));
+  const auto end = static_cast<std::size_t>(std::clamp(std::ceil(to), 0.0, nx));
+  const std::size_t start = from.row * static_cast<std::size_t>(grid.size[0]);
+  for (std::size_t i = begin; i < end; ++i) layer[start + i] = label;
+}
+
+void mark(const VoxelGrid& grid, const FoundObject& object, std::vector<std::uint16_t>& layer) {
+  const std::vector<Crossing> crossings = Lines(grid, object.surface).crossings();
+  int depth = 0;
+  for (std::size_t n = 0; n + 1 < crossings.size(); ++n) {
+    if (n > 0 && crossings[n].row != crossings[n - 1].row) depth = 0;
+    depth += crossings[n].inward;
+    if (depth == 0 || crossings[n + 1].row != crossings[n].row) continue;
+    fill(layer, grid, crossings[n], crossings[n + 1].x,
+         static_cast<std::uint16_t>(object.segment.label));
+  }
+}
+
+}  // namespace
+
+LabelMap label_map_of(const VoxelGrid& grid, std::span<const FoundObject> objects) {
+  LabelMap map;
+  static_cast<VoxelGrid&>(map) = grid;
+  std::size_t layers = 1;
+  for (const FoundObject& object : objects) {
+    layers = std::max(layers, static_cast<std::size_t>(object.segment.layer) + 1);
+    map.segments.push_back(object.segment);
+  }
+  map.layers.assign(layers, std::vector<std::uint16_t>(grid.voxel_count(), 0));
+  for (const FoundObject& object : objects) {
+    mark(grid, object, map.layers[static_cast<std::size_t>(object.segment.layer)]);
+  }
+  return map;
+}
+
+}  // namespace mesamis

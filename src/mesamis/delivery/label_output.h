@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "mesamis/image/label_map.h"
+#include "mesamis/surface/tri_mesh.h"
+
+namespace mesamis {
+
+/// An object whose surface was found.
+struct FoundObject {
+  const TriMesh& surface;  ///< world frame (LPS), mm; closed
+  Segment segment;         ///< the label and layer of its voxels
+};
+
+/// Marks the voxels whose centres lie inside of closed surfaces.
+///
+/// Along each line of voxels the surface is crossed inward and outward; a centre is inside where
+/// the crossings before it do not cancel out. Lines are moved by a millionth of a voxel, so that
+/// centres on the surface fall to one side. Where objects overlap, the later one has the voxel.
+/// @param grid     of the scan.
+/// @param objects  segments with different labels, or layers.
+/// @return as many layers as the segments need.
+/// @throws nothing
+///
+/// O(voxels * layers + triangles + crossings of the lines, up to a logarithm). Memory: the labels,
+/// and 16 bytes per crossing. The same labels for any number of threads.
+LabelMap label_map_of(const VoxelGrid& grid, std::span<const FoundObject> objects);
+
+}  // namespace mesamis

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/labels/label_confidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kLeast = 0.005;  // so that what lies between two edges goes where most labels say
+constexpr double kSlope = 0.03;   // weight half way to the middle
+constexpr double kBesideThin = 1.5;  // steps: margin beside what is thinner than that
+
+using Place = std::array<Index, 3>;
+
+/// A step between nodes.
+struct Step {
+  Place by{};
+  std::ptrdiff_t to = 0;  // among the nodes
+  float mm = 0;           // from the centre of a voxel to where the other begins
+};
+
+Index most_of(const Place& by) {
+  return std::max({std::abs(by[0]), std::abs(by[1]), std::abs(by[2])});
+}
+
+class Depths {
+ public:
+  Depths(const LabelGrid& grid, double margin)
+      : grid_(grid),
+        step_(static_cast<float>(std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z}))),
+        margin_(static_cast<float>(margin)),
+        sweeps_(static_cast<int>(std::ceil(margin / step_))) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      most_[a] = static_cast<Index>(margin / grid.spacing[static_cast<int>(a)] + 0.5);
+    }
+    list_steps();
+  }
+
+  std::vector<float> confidence() const {
+    const std::vector<float> depth = depths();
+    std::vector<float> middle = depth;
+    parallel_for(middle.size(), [&](std::size_t n) {
+      if (grid_.labels[n] == 0) middle[n] = margin_;
+    });
+    for (int sweep = 0; sweep < sweeps_; ++sweep) middle = swept(middle, /*within_label=*/true);
+    const std::vector<float> zone = thin_beside(middle);
+    std::vector<float> weight(depth.size());
+    parallel_for(weight.size(), [&](std::size_t n) { weight[n] = weight_of(depth[n], zone[n]); });
+    return weight;
+  }
+
+ private:
+  /// The voxels that begin within the margin, the nearest first, and those around a voxel.
+  void list_steps() {
+    const Place most{std::max(1, most_[0]), std::max(1, most_[1]), std::max(1, most_[2])};
+    for (Index k = -most[2]; k <= most[2]; ++k) {
+      for (Index j = -most[1]; j <= most[1]; ++j) {
+        for (Index i = -most[0]; i <= most[0]; ++i) {
+          const Step s = step_by({i, j, k});
+          if (s.to == 0) continue;
+          if (s.mm < margin_) ball_.push_back(s);
+          if (most_of(s.by) == 1) around_.push_back(s);
+        }
+      }
+    }
+    std::stable_sort(ball_.begin(), ball_.end(),
+                     [](const Step& a, const Step& b) { return a.mm < b.mm; });
+  }
+
+  Step step_by(const Place& by) const {
+    if (by == Place{}) return {};
+    const Vec3 d{by[0] * grid_.spacing.x, by[1] * grid_.spacing.y, by[2] * grid_.spacing.z};
+    const double share = 1 - 0.5 / most_of(by);
+    return {by, offset_of(by), static_cast<float>(share * norm(d))};
+  }
+
+  std::ptrdiff_t offset_of(const Place& by) const {
+    const std::ptrdiff_t row = grid_.size[0];
+    return by[0] + row * (by[1] + static_cast<std::ptrdiff_t>(grid_.size[1]) * by[2]);
+  }
+
+  bool is_inside(const Place& p) const {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (p[a] < 0 || p[a] >= grid_.size[a]) return false;
+    }
+    return true;
+  }
+
+  template <class Body>
+  void for_each_node(Body&& body) const {
+    const auto rows =
+        static_cast<std::size_t>(grid_.size[1]) * static_cast<std::size_t>(grid_.size[2]);
+    parallel_blocks(rows, 16, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row < end; ++row) {
+        const auto j = static_cast<Index>(row % static_cast<std::size_t>(grid_.size[1]));
+        const auto k = static_cast<Index>(row / static_cast<std::size_t>(grid_.size[1]));
+        for (Index i = 0; i < grid_.size[0]; ++i) {
+          body(row * static_cast<std::size_t>(grid_.size[0]) + static_cast<std::size_t>(i),
+               Place{i, j, k});
+        }
+      }
+    });
+  }
+
+  static Place moved(const Place& p, const Place& by) {
+    return {p[0] + by[0], p[1] + by[1], p[2] + by[2]};
+  }
+
+  /// To where the nearest voxel of another label begins; at most the margin.
+  std::vector<float> depths() const {
+    std::vector<float> depth(grid_.labels.size());
+    for_each_node([&](std::size_t n, const Place& p) {
+      const auto other = std::find_if(ball_.begin(), ball_.end(), [&](const Step& s) {
+        return is_inside(moved(p, s.by)) &&
+               grid_.labels[n + static_cast<std::size_t>(s.to)] != grid_.labels[n];
+      });
+      depth[n] = other == ball_.end() ? margin_ : other->mm;
+    });
+    return depth;
+  }
+
+  /// The greatest value of the neighbours, those of the same label; or the least of all.
+  std::vector<float> swept(const std::vector<float>& value, bool within_label) const {
+    std::vector<float> out(value.size());
+    for_each_node([&](std::size_t n, const Place& p) {
+      float best = value[n];
+      if (within_label && best >= margin_) {
+        out[n] = best;
+        return;
+      }
+      for (const Step& s : around_) {
+        const std::size_t m = n + static_cast<std::size_t>(s.to);
+        if (!is_inside(moved(p, s.by))) continue;
+        if (!within_label)
+          best = std::min(best, value[m]);
+        else if (grid_.labels[m] == grid_.labels[n])
+          best = std::max(best, value[m]);
+      }
+      out[n] = best;
+    });
+    return out;
+  }
+
+  /// The depth of the middle, but beside what is thin no more than kBesideThin steps.
+  std::vector<float> thin_beside(const std::vector<float>& middle) const {
+    std::vector<float> least = middle;
+    for (int sweep = 0; sweep < sweeps_; ++sweep) least = swept(least, false);
+    std::vector<float> zone(middle.size());
+    const auto beside = std::min(margin_, static_cast<float>(kBesideThin * step_));
+    parallel_for(zone.size(),
+                 [&](std::size_t n) { zone[n] = std::min(middle[n], std::max(least[n], beside)); });
+    return zone;
+  }
+
+  static float weight_of(float depth, float zone) {
+    const double r = std::min(1.0, static_cast<double>(depth) / zone);
+    if (r >= 1) return kCertain;
+    const double odds = r / (1 - r);
+    return static_cast<float>(std::min<double>(kCertain, kLeast + kSlope * odds * odds));
+  }
+
+  const LabelGrid& grid_;
+  float step_;  // the shortest
+  float margin_;
+  int sweeps_;
+  Place most_{};  // steps within the margin
+  std::vector<Step> ball_, around_;
+};
+
+}  // namespace
+
+std::vector<float> label_confidence(const LabelGrid& grid, double margin) {
+  const std::size_t nodes = static_cast<std::size_t>(grid.size[0]) *
+                            static_cast<std::size_t>(grid.size[1]) *
+                            static_cast<std::size_t>(grid.size[2]);
+  if (grid.labels.size() != nodes) {
+    throw InputError("labels: expected " + std::to_string(nodes) + " of them, found " +
+                     std::to_string(grid.labels.size()));
+  }
+  if (!(margin > 0) || !std::isfinite(margin)) {
+    throw InputError("margin of labels: expected more than 0 mm, found " + std::to_string(margin));
+  }
+  return Depths(grid, margin).confidence();
+}
+
+}  // namespace mesamis

@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: Apache-2.0
+set(ROOM_HEADERS
+  flow_memberships.h
+  label_confidence.h
+  pair_levels.h)
+set(ROOM_SOURCES
+  flow_memberships.cpp
+  label_confidence.cpp
+  pair_levels.cpp)

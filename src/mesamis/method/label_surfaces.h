@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesamis/base/progress.h"
+#include "mesamis/image/label_map.h"
+#include "mesamis/image/volume.h"
+#include "mesamis/method/measured_image.h"
+#include "mesamis/method/parameters.h"
+#include "mesamis/method/settings.h"
+#include "mesamis/surface/tri_mesh.h"
+
+/// Surfaces of the objects of a label map: the labels choose the objects, the image places their
+/// surfaces.
+namespace mesamis {
+
+/// Which objects are meant, and how exact their labels are.
+struct LabelRequest {
+  std::vector<Segment> chosen;   ///< of the map; empty: all of them
+  std::optional<double> margin;  ///< mm, > 0: how far the labels may be wrong; see label_margin()
+};
+
+/// One object, world frame (LPS), mm.
+struct LabelledObject {
+  Segment segment;
+  TriMesh surface;                     ///< closed, 2-manifold, oriented outward
+  std::vector<double> expected_error;  ///< at its points, mm; empty without an image
+  std::int64_t triangles_extracted = 0;
+};
+
+/// The boundary between two objects, or of an object and the background.
+struct LabelBoundary {
+  std::string first, second;  ///< names; empty: the background
+  double level = 0;           ///< half way between both sides, native units
+  double contrast = 0;        ///< of the first above the second, native units
+  bool followed = false;      ///< the image placed it; else the labels did
+};
+
+/// What a label map became. Objects of one layer share their boundaries: the same triangles,
+/// without gaps and without overlap.
+struct LabelResult {
+  Parameters parameters;                ///< of the run; without an image those of the surface alone
+  MeasuredImage image;                  ///< without an image nothing
+  bool has_image = false;               ///< the image placed the surfaces; else the labels alone
+  double margin = 0;                    ///< see LabelRequest
+  std::vector<LabelledObject> objects;  ///< in the order of the map's segments
+  std::vector<LabelBoundary> boundaries;  ///< of the chosen objects; none without an image
+  struct Seconds {
+    double prepare = 0, flow = 0, surface = 0, printable = 0, total = 0;
+  } seconds;
+};
+
+/// How far labels may be wrong, if the user does not say: two and a half of their own voxels (the
+/// geometric mean of the spacing), but at least as many of the scan's.
+/// @return mm.
+/// @throws nothing
+double label_margin(const VoxelGrid& scan, const VoxelGrid& labels);
+
+/// Finds the objects of a label map in a scan.
+///
+/// Algorithm 1 finds the edges v of the image; labels flow to the nearest of them within the margin
+/// (flow_memberships()); where memberships are equal is the boundary (extract_partition_on_grid());
+/// each boundary follows the image to its own half maximum (follow_image()); decimation keeps what
+/// objects share. Labels that were not chosen take part: an object ends where they begin.
+///
+/// @param scan      native units.
+/// @param labels    valid; on a grid of their own, world coordinates decide.
+/// @param request   see there.
+/// @param settings  those of the image, the functional and the surface's decimation.
+/// @param progress  optional.
+/// @return one object per chosen segment that has voxels within the scan.
+/// @throws InputError  if no chosen label lies within the scan, or the scan cannot be used.
+/// @throws Cancelled   if progress says stop.
+///
+/// O(voxels around the labels); about 100 bytes for each. The same bits for any number of threads.
+LabelResult find_labelled_objects(const VolumeView& scan, const LabelMap& labels,
+                                  const LabelRequest& request, const Settings& settings,
+                                  const Progress& progress = {});
+
+/// Makes smooth surfaces of a label map alone, see smooth_memberships().
+/// @return one object per chosen segment that has voxels.
+/// @throws InputError  if no chosen label has a voxel, or the map has fewer than 2 voxels along an
+///                     axis.
+/// @throws Cancelled   if progress says stop.
+///
+/// O(voxels around the labels); about 40 bytes for each. The same bits for any number of threads.
+LabelResult surfaces_of_labels(const LabelMap& labels, const LabelRequest& request,
+                               const Settings& settings, const Progress& progress = {});
+
+}  // namespace mesamis

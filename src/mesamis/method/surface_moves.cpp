@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/surface_moves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mesamis/base/median.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/surface/normals.h"
+#include "mesamis/surface/self_intersections.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kMostMove = 0.7;  // voxels
+/// Voxels of noise beyond which the image tells nothing that the mesh does not.
+constexpr double kMostNoise = 0.3;
+/// Of the noise at the voxels, what the spline passes on between them, and a margin.
+constexpr double kNoiseMargin = 1.1;
+constexpr double kNoiseOfMean = 0.2;                // variance left in a local mean
+constexpr double kLeastSlope = 8, kFullSlope = 20;  // grey values per voxel
+constexpr int kSweepsOfMean = 10, kSweepsOfNormals = 3;
+
+/// Means over the neighbourhood: each sweep halves the way to the neighbours' weighted mean.
+template <class Value>
+std::vector<Value> smoothed_along(const Neighbors& neighbors, const std::vector<double>& weights,
+                                  std::vector<Value> values, int sweeps) {
+  std::vector<Value> next(values.size());
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    parallel_for(values.size(), [&](std::size_t p) {
+      const auto count = static_cast<double>(neighbors.start[p + 1] - neighbors.start[p]);
+      double weight = weights[p] * count;
+      Value sum = weight * values[p];
+      for (std::size_t n = neighbors.start[p]; n < neighbors.start[p + 1]; ++n) {
+        const Index other = neighbors.points[n];
+        weight += weights[other];
+        sum = sum + weights[other] * values[other];
+      }
+      next[p] = weight > 0 ? (1 / weight) * sum : values[p];
+    });
+    std::swap(values, next);
+  }
+  return values;
+}
+
+/// Takes moves back until no triangles meet that a move made meet.
+class Unfolding {
+ public:
+  Unfolding(const FollowSpace& space, const TriMesh& surface) : space_(space), surface_(surface) {}
+
+  TriMesh run(std::vector<Vec3> shifts) const {
+    constexpr int kHalvings = 2, kMostTrials = 40;
+    std::vector<int> taken_back(shifts.size(), 0);
+    TriMesh moved = surface_;
+    for (std::size_t p = 0; p < shifts.size(); ++p) moved.points[p] += shifts[p];
+    TriMesh filed = as_in_a_file(moved);
+    SelfIntersections here(moved), in_file(filed);
+    std::vector<char> meeting = moved_corners(shifts, here.all(), in_file.all());
+    for (int trial = 0; trial < kMostTrials; ++trial) {
+      const std::vector<Index> concerned = triangles_at(meeting);
+      if (concerned.empty()) return moved;
+      for (std::size_t p = 0; p < shifts.size(); ++p) {
+        if (meeting[p] == 0) continue;
+        shifts[p] = (taken_back[p]++ < kHalvings ? 0.5 : 0.0) * shifts[p];
+        moved.points[p] = surface_.points[p] + shifts[p];
+        filed.points[p] = space_.as_in_a_file(moved.points[p]);
+      }
+      meeting =
+          moved_corners(shifts, here.after_move_of(concerned), in_file.after_move_of(concerned));
+    }
+    return triangles_at(meeting).empty() ? moved : surface_;
+  }
+
+ private:
+  /// Of each point 1 if it is a corner of a pair of which any corner is still moved. Others met
+  /// before: needles, in single precision.
+  std::vector<char> moved_corners(const std::vector<Vec3>& shifts,
+                                  const std::vector<TrianglePair>& some,
+                                  const std::vector<TrianglePair>& others) const {
+    std::vector<char> corners(surface_.points.size(), 0);
+    const auto is_moved = [&](Index t) {
+      const Triangle& k = surface_.triangles[t];
+      return std::any_of(k.begin(), k.end(), [&](Index p) { return norm(shifts[p]) > 0; });
+    };
+    for (const auto* pairs : {&some, &others}) {
+      for (const auto& [a, b] : *pairs) {
+        if (!is_moved(a) && !is_moved(b)) continue;
+        for (const Index p : surface_.triangles[a]) corners[p] = 1;
+        for (const Index p : surface_.triangles[b]) corners[p] = 1;
+      }
+    }
+    return corners;
+  }
+
+  /// The triangles at points that are chosen, increasing.
+  std::vector<Index> triangles_at(const std::vector<char>& chosen) const {
+    std::vector<Index> triangles;
+    for (Index t = 0; t < std::ssize(surface_.triangles); ++t) {
+      const Triangle& k = surface_.triangles[t];
+      if (chosen[k[0]] + chosen[k[1]] + chosen[k[2]] > 0) triangles.push_back(t);
+    }
+    return triangles;
+  }
+
+  TriMesh as_in_a_file(TriMesh surface) const {
+    parallel_for(surface.points.size(), [&](std::size_t p) {
+      surface.points[p] = space_.as_in_a_file(surface.points[p]);
+    });
+    return surface;
+  }
+
+  const FollowSpace& space_;
+  const TriMesh& surface_;
+};
+
+}  // namespace
+
+FollowSpace::FollowSpace(const SplineImage& image, double point_scale)
+    : image_(image),
+      point_scale_(point_scale),
+      voxel_(image.grid.voxel_size() / point_scale),
+      box_{{0, 0, 0}, (1 / point_scale) * image.grid.box().extent()} {}
+
+double FollowSpace::in_steps(const Vec3& way) const {
+  const Vec3 d = point_scale_ * way, &s = image_.grid.spacing;
+  return norm({d.x / s.x, d.y / s.y, d.z / s.z});
+}
+
+bool FollowSpace::on_box(const Vec3& p) const {
+  const double slack = 1e-6 * voxel_;
+  for (int a = 0; a < 3; ++a) {
+    if (p[a] <= box_.lo[a] + slack || p[a] >= box_.hi[a] - slack) return true;
+  }
+  return false;
+}
+
+Vec3 FollowSpace::within_box(const Vec3& p, const Vec3& move) const {
+  double part = 1;
+  for (int a = 0; a < 3; ++a) {
+    const double room = std::max(0.0, move[a] < 0 ? p[a] - box_.lo[a] : box_.hi[a] - p[a]);
+    if (std::abs(move[a]) > room) part = std::min(part, room / (2 * std::abs(move[a])));
+  }
+  return part * move;
+}
+
+Vec3 FollowSpace::as_in_a_file(const Vec3& point) const {
+  Vec3 p = image_.grid.to_world(point_scale_ * point);
+  for (int a = 0; a < 3; ++a) p[a] = static_cast<float>(p[a]);
+  return p;
+}
+
+Neighbors::Neighbors(const TriMesh& surface) : start(surface.points.size() + 1, 0) {
+  for (const Triangle& t : surface.triangles) {
+    for (const Index p : t) ++start[static_cast<std::size_t>(p) + 1];
+  }
+  for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
+  std::vector<std::size_t> next(start.begin(), start.end() - 1);
+  points.resize(start.back());
+  for (const Triangle& t : surface.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      points[next[static_cast<std::size_t>(t[i])]++] = t[(i + 1) % 3];
+    }
+  }
+}
+
+std::optional<ImageOffset> image_offset(double above, double slope, double noise) {
+  if (!(slope >= kLeastSlope)) return std::nullopt;
+  return ImageOffset{std::clamp(above / slope, -kMostMove, kMostMove),
+                     kNoiseMargin * noise / slope};
+}
+
+void Offsets::set(std::size_t point, const ImageOffset& offset, double slope) {
+  distance[point] = offset.distance;
+  noise[point] = offset.noise;
+  weight[point] = std::min(1.0, slope * slope / (kFullSlope * kFullSlope));
+}
+
+bool is_worthwhile(const Offsets& offsets) {
+  std::vector<double> noise;
+  for (std::size_t p = 0; p < offsets.noise.size(); ++p) {
+    if (offsets.weight[p] > 0) noise.push_back(offsets.noise[p]);
+  }
+  return !noise.empty() && median(noise) < kMostNoise;
+}
+
+std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors) {
+  const std::vector<double> ones(surface.points.size(), 1);
+  std::vector<Vec3> normals =
+      smoothed_along(neighbors, ones, vertex_normals(surface), kSweepsOfNormals);
+  for (Vec3& normal : normals) normal = unit_or_zero(normal);
+  return normals;
+}
+
+std::vector<double> filtered_moves(const FollowSpace& space, const Offsets& offsets,
+                                   const Neighbors& neighbors) {
+  const std::vector<double>& d = offsets.distance;
+  std::vector<double> squares(d.size());
+  for (std::size_t p = 0; p < d.size(); ++p) squares[p] = d[p] * d[p];
+  const auto mean = smoothed_along(neighbors, offsets.weight, d, kSweepsOfMean);
+  const auto mean_square =
+      smoothed_along(neighbors, offsets.weight, std::move(squares), kSweepsOfMean);
+  std::vector<double> moves(d.size());
+  for (std::size_t p = 0; p < d.size(); ++p) {
+    if (offsets.weight[p] == 0) continue;
+    const double m = mean[p], noise = offsets.noise[p] * offsets.noise[p];
+    const double variance = mean_square[p] - m * m;
+    const double k = variance > noise ? 1 - noise / variance : 0;
+    const double a = m * m > kNoiseOfMean * noise ? 1 - kNoiseOfMean * noise / (m * m) : 0;
+    moves[p] = std::clamp(a * m + k * (d[p] - m), -kMostMove, kMostMove) * space.voxel();
+  }
+  return moves;
+}
+
+TriMesh moved_without_folds(const FollowSpace& space, const TriMesh& surface,
+                            std::vector<Vec3> shifts) {
+  return Unfolding(space, surface).run(std::move(shifts));
+}
+
+}  // namespace mesamis

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mesamis/image/spline_image.h"
+#include "mesamis/surface/tri_mesh.h"
+
+/// How the points of a surface are moved towards the level set of an image: the steps of
+/// follow_image() that hold for the boundaries of several objects, too.
+namespace mesamis {
+
+/// A surface's coordinates and the image that it is moved in.
+class FollowSpace {
+ public:
+  /// @param image        must live longer than this.
+  /// @param point_scale  mm per unit of the surface's coordinates, > 0.
+  FollowSpace(const SplineImage& image, double point_scale);
+
+  /// The length of a voxel, in the surface's unit.
+  double voxel() const noexcept { return voxel_; }
+  /// The image at a point of the surface; the gradient is per mm.
+  ImageValue at(const Vec3& p) const { return spline_at(image_, point_scale_ * p); }
+  /// Slopes per mm to slopes per voxel.
+  double per_voxel(double slope) const noexcept { return slope * image_.grid.voxel_size(); }
+  /// The length of a way in steps of the image's grid.
+  double in_steps(const Vec3& way) const;
+  /// Whether a point lies on the image's box, to a millionth of a voxel.
+  bool on_box(const Vec3& p) const;
+  /// A move, shortened to at most half the way to the box where it would leave it.
+  Vec3 within_box(const Vec3& p, const Vec3& move) const;
+  /// A point of the surface in the world, in single precision.
+  Vec3 as_in_a_file(const Vec3& p) const;
+
+ private:
+  const SplineImage& image_;
+  double point_scale_, voxel_;
+  Box box_;
+};
+
+/// The neighbours of each point of a surface: those of point p from start[p] to start[p + 1].
+struct Neighbors {
+  explicit Neighbors(const TriMesh& surface);
+  std::vector<std::size_t> start;
+  std::vector<Index> points;
+};
+
+/// What the image tells at a place; voxels.
+struct ImageOffset {
+  double distance = 0;  ///< to the level set, outwards along the normal
+  double noise = 0;     ///< standard deviation of the distance
+};
+
+/// @param above  the image's value less the level, grey values.
+/// @param slope  of the image inwards, grey values per voxel.
+/// @param noise  standard deviation in the image, grey values.
+/// @return nothing where the image is flat.
+std::optional<ImageOffset> image_offset(double above, double slope, double noise);
+
+/// What the image tells at the points of a surface; voxels.
+struct Offsets {
+  explicit Offsets(std::size_t points) : distance(points), noise(points), weight(points) {}
+  /// Sets those of a point; the weight grows with the slope.
+  void set(std::size_t point, const ImageOffset& offset, double slope);
+
+  std::vector<double> distance;  ///< to the level set, outwards along the normal
+  std::vector<double> noise;     ///< standard deviation of the distance
+  std::vector<double> weight;    ///< 0: the image tells nothing
+};
+
+/// Whether the noise leaves anything to be told.
+bool is_worthwhile(const Offsets& offsets);
+
+/// Normals, smoothed along the surface.
+std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors);
+
+/// What of the distances is not noise, as follow_image() says; in the surface's unit.
+std::vector<double> filtered_moves(const FollowSpace& space, const Offsets& offsets,
+                                   const Neighbors& neighbors);
+
+/// Moves all points, then takes moves back, first half, then whole, where triangles meet, here or
+/// once the surface is in a file, which holds single precision.
+/// @return the surface as it was where that does not help.
+TriMesh moved_without_folds(const FollowSpace& space, const TriMesh& surface,
+                            std::vector<Vec3> shifts);
+
+}  // namespace mesamis
