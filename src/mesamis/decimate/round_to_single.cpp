@@ -2,39 +2,14 @@
 #include "mesamis/decimate/round_to_single.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <set>
-#include <string>
-#include <tuple>
 
-#include "mesamis/base/error.h"
 #include "mesamis/decimate/openmesh.h"
+#include "mesamis/decimate/single_places.h"
 #include "mesamis/surface/triangle_intersection.h"
 #include "mesamis/surface/unused_points.h"
 
 namespace mesamis {
 namespace {
-
-/// Adding zero turns -0 into +0.
-double rounded(double x) { return static_cast<float>(x) + 0.0f; }
-Vec3 rounded(const Vec3& p) { return {rounded(p.x), rounded(p.y), rounded(p.z)}; }
-
-struct ByPlace {
-  bool operator()(const Vec3& a, const Vec3& b) const {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-  }
-};
-
-/// The k-th single precision number after x (before it, if k < 0).
-double stepped(double x, int k) {
-  auto y = static_cast<float>(x);
-  const float end = std::numeric_limits<float>::infinity();
-  for (; k > 0; --k) y = std::nextafter(y, end);
-  for (; k < 0; ++k) y = std::nextafter(y, -end);
-  return y + 0.0f;
-}
 
 class Rounding {
  public:
@@ -95,40 +70,17 @@ class Rounding {
 
   /// Of equal points the first stays; the others move to the nearest free place.
   void separate_equal_points() {
-    std::set<Vec3, ByPlace> taken;
+    SinglePlaces places;
     std::vector<OpenMesh::VertexHandle> displaced;
     for (const auto v : mesh_.vertices()) {
       if (mesh_.status(v).deleted()) continue;
-      if (!taken.insert(at(v)).second) displaced.push_back(v);
+      if (!places.take(at(v))) displaced.push_back(v);
     }
     for (const auto v : displaced) {
       Vec3& place = rounded_.points[index(v)];
-      int reach = 1;
-      for (std::optional<Vec3> free; !free; ++reach) {
-        free = nearest_free(place, exact_[index(v)], reach, taken);
-        if (free) place = *free;
-      }
-      taken.insert(place);
+      place = places.take_nearest(place, exact_[index(v)]);
       ++report_.moved;
     }
-  }
-
-  static std::optional<Vec3> nearest_free(const Vec3& place, const Vec3& exact, int reach,
-                                          const std::set<Vec3, ByPlace>& taken) {
-    std::optional<Vec3> nearest;
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = -reach; i <= reach; ++i) {
-      for (int j = -reach; j <= reach; ++j) {
-        for (int k = -reach; k <= reach; ++k) {
-          const Vec3 p{stepped(place.x, i), stepped(place.y, j), stepped(place.z, k)};
-          const double d = norm(p - exact);
-          if (d >= least || taken.count(p)) continue;
-          least = d;
-          nearest = p;
-        }
-      }
-    }
-    return nearest;
   }
 
   /// Flips the longest edge of each flat triangle; no point moves.
@@ -172,16 +124,6 @@ class Rounding {
   HalfedgeMesh mesh_;
 };
 
-void require_single(const TriMesh& surface) {
-  constexpr double kLargest = 1e38;
-  for (std::size_t i = 0; i < surface.points.size(); ++i) {
-    const Vec3& p = surface.points[i];
-    if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < kLargest) continue;
-    throw InputError("surface: point " + std::to_string(i) +
-                     ": expected coordinates below 1e38, which single precision holds, found more");
-  }
-}
-
 /// Without triangles that have two corners at one place.
 TriMesh simply_rounded(const TriMesh& surface) {
   TriMesh result;
@@ -197,7 +139,7 @@ TriMesh simply_rounded(const TriMesh& surface) {
 
 TriMesh round_to_single(const TriMesh& surface, RoundReport* report) {
   require_sound(surface);
-  require_single(surface);
+  require_single(surface.points);
   RoundReport unused;
   RoundReport& counts = report ? *report : unused;
   counts = {};

@@ -2,7 +2,8 @@
 # The only room that includes OpenMesh.
 set(ROOM_HEADERS
   decimate.h
-  round_to_single.h)
+  round_to_single.h
+  round_together.h)
 set(ROOM_SOURCES
   collapse_rules.cpp
   cover.cpp
@@ -12,4 +13,5 @@ set(ROOM_SOURCES
   decimation.cpp
   fan_distance.cpp
   patchwork.cpp
-  round_to_single.cpp)
+  round_to_single.cpp
+  round_together.cpp)
