@@ -165,5 +165,14 @@ TEST(Xml, EscapedTextReadsBackAndIsAlwaysXml) {
   }
 }
 
+TEST(Xml, UnescapingUndoesEscaping) {
+  for (const std::string text : {"", "plain", "a<b> & \"c\" 'd'", "M\xc3\xbcller &amp;"}) {
+    EXPECT_EQ(xml_unescaped(xml_escaped(text)), text);
+  }
+  EXPECT_EQ(xml_unescaped("&#65;&#x42;"), "AB");
+  EXPECT_EQ(xml_unescaped("Smith & Sons"), "Smith & Sons");
+  EXPECT_EQ(xml_unescaped("&x;"), "&x;");
+}
+
 }  // namespace
 }  // namespace mesamis::detail

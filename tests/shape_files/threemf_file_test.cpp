@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lib3mf itself finds in our files, and what we find in its.
-#include <Model/COM/NMR_DLLInterfaces.h>
-#include <gtest/gtest.h>
-
+// What we find in the files of lib3mf.
 #include <cmath>
-#include <deque>
 
+#include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
-#include "support/shapes.h"
+#include "shape_files/threemf_model.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
@@ -16,107 +13,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// lib3mf's objects of one test, released together.
-class Model {
- public:
-  Model() { EXPECT_EQ(NMR::lib3mf_createmodel(add()), LIB3MF_OK); }
-  ~Model() {
-    for (NMR::PLib3MFBase* object : objects_) NMR::lib3mf_release(object);
-  }
-  Model(const Model&) = delete;
-  Model& operator=(const Model&) = delete;
-  NMR::PLib3MFBase* get() const { return objects_.front(); }
-  NMR::PLib3MFBase* last() const { return objects_.back(); }
-  NMR::PLib3MFBase** add() { return &objects_.emplace_back(nullptr); }
-
- private:
-  std::deque<NMR::PLib3MFBase*> objects_;
-};
-
-void read(Model& model, const std::filesystem::path& file) {
-  ASSERT_EQ(NMR::lib3mf_model_queryreader(model.get(), "3mf", model.add()), LIB3MF_OK);
-  NMR::PLib3MFBase* reader = model.last();
-  NMR::lib3mf_reader_setstrictmodeactive(reader, 1);
-  ASSERT_EQ(NMR::lib3mf_reader_readfromfileutf8(reader, file.c_str()), LIB3MF_OK);
-  DWORD warnings = 99;
-  NMR::lib3mf_reader_getwarningcount(reader, &warnings);
-  EXPECT_EQ(warnings, 0u);
-}
-
 void write(Model& model, const std::filesystem::path& file) {
   ASSERT_EQ(NMR::lib3mf_model_querywriter(model.get(), "3mf", model.add()), LIB3MF_OK);
   ASSERT_EQ(NMR::lib3mf_writer_writetofileutf8(model.last(), file.c_str()), LIB3MF_OK);
-}
-
-std::string metadata(const Model& model, const std::string& wanted) {
-  DWORD count = 0;
-  NMR::lib3mf_model_getmetadatacount(model.get(), &count);
-  for (DWORD i = 0; i < count; ++i) {
-    char key[1000] = "", value[10'000] = "";
-    NMR::lib3mf_model_getmetadatakeyutf8(model.get(), i, key, sizeof key, nullptr);
-    NMR::lib3mf_model_getmetadatavalueutf8(model.get(), i, value, sizeof value, nullptr);
-    if (key == wanted) return value;
-  }
-  return "none";
-}
-
-/// The one mesh of the model.
-NMR::PLib3MFBase* mesh_of(Model& model) {
-  EXPECT_EQ(NMR::lib3mf_model_getmeshobjects(model.get(), model.add()), LIB3MF_OK);
-  NMR::PLib3MFBase* list = model.last();
-  BOOL more = 0;
-  EXPECT_EQ(NMR::lib3mf_resourceiterator_movenext(list, &more), LIB3MF_OK);
-  EXPECT_NE(more, 0);
-  EXPECT_EQ(NMR::lib3mf_resourceiterator_getcurrent(list, model.add()), LIB3MF_OK);
-  return model.last();
-}
-
-TEST(ThreeMf, HasUnitNameFactsAndAClosedMeshForLib3mf) {
-  const TempFolder folder;
-  SurfaceWriteOptions options{.frame = Frame::kRas, .name = "a <b> & \"c\""};
-  options.metadata = {{"producer", "mesamis 1.2"}, {"settings", "{\"beta\": 2}"}};
-  write_surface(folder / "a.3mf", cube(), options);
-  Model model;
-  read(model, folder / "a.3mf");
-  DWORD unit = 0;
-  NMR::lib3mf_model_getunit(model.get(), &unit);
-  EXPECT_EQ(unit, static_cast<DWORD>(NMR::MODELUNIT_MILLIMETER));
-  // lib3mf leaves entities as they are; whoever reads XML turns them back.
-  const std::string escaped = "a &lt;b&gt; &amp; &quot;c&quot;";
-  EXPECT_EQ(metadata(model, "Title"), escaped);
-  EXPECT_EQ(metadata(model, "Application"), "mesamis 1.2");
-  EXPECT_THAT(metadata(model, "Description"),
-              testing::AllOf(HasSubstr("SPACE=RAS"), HasSubstr("settings {&quot;beta&quot;: 2}")));
-  NMR::PLib3MFBase* mesh = mesh_of(model);
-  char name[100] = "";
-  NMR::lib3mf_object_getnameutf8(mesh, name, sizeof name, nullptr);
-  EXPECT_EQ(name, escaped);
-  BOOL closed = 0;
-  NMR::lib3mf_meshobject_ismanifoldandoriented(mesh, &closed);
-  EXPECT_NE(closed, 0);
-}
-
-TEST(ThreeMf, GreyValuesAreColoursOfTheCorners) {
-  const TempFolder folder;
-  const TriMesh surface = cube();
-  SurfaceWriteOptions options;
-  options.grey = {0, 51, 102.4, 153, 204.6, 255, 300, -7};
-  const std::vector<int> expected{0, 51, 102, 153, 205, 255, 255, 0};
-  write_surface(folder / "a.3mf", surface, options);
-  Model model;
-  read(model, folder / "a.3mf");
-  NMR::PLib3MFBase* mesh = mesh_of(model);
-  ASSERT_EQ(NMR::lib3mf_meshobject_createpropertyhandler(mesh, model.add()), LIB3MF_OK);
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    NMR::MODELMESH_TRIANGLECOLOR_SRGB color{};
-    ASSERT_EQ(NMR::lib3mf_propertyhandler_getcolor(model.last(), static_cast<DWORD>(t), &color),
-              LIB3MF_OK);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto& c = color.m_Colors[i];
-      EXPECT_EQ(c.m_Red, expected[surface.triangles[t][i]]) << t;
-      EXPECT_TRUE(c.m_Green == c.m_Red && c.m_Blue == c.m_Red && c.m_Alpha == 255);
-    }
-  }
 }
 
 /// A tetrahedron with corners at 0 and at 1 on each axis.

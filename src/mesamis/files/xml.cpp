@@ -9,6 +9,7 @@
 #include <new>
 #include <unordered_set>
 
+#include "mesamis/base/error.h"
 #include "mesamis/files/refuse.h"
 
 namespace mesamis::detail {
@@ -271,6 +272,15 @@ std::string xml_escaped(std::string_view text) {
     text.remove_prefix(std::max<std::size_t>(size, 1));
   }
   return out;
+}
+
+std::string xml_unescaped(const std::string& text) {
+  if (text.find('&') == text.npos) return text;
+  try {
+    return parse_xml({}, "<x>" + text + "</x>").root.text;
+  } catch (const InputError&) {
+    return text;
+  }
 }
 
 }  // namespace mesamis::detail

@@ -56,4 +56,8 @@ XmlDocument parse_xml(const std::filesystem::path& file, std::string_view text,
 /// not allow: control characters other than tab and line ends, and bytes that are not UTF-8.
 std::string xml_escaped(std::string_view text);
 
+/// The text that an XML reader would find in these characters of an element; the characters
+/// themselves where they are not well-formed.
+std::string xml_unescaped(const std::string& text);
+
 }  // namespace mesamis::detail

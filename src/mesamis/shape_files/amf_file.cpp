@@ -4,8 +4,8 @@
 
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/xml.h"
+#include "mesamis/shape_files/object_formats.h"
 #include "mesamis/shape_files/polygons.h"
-#include "mesamis/shape_files/surface_formats.h"
 
 namespace mesamis::detail {
 namespace {
@@ -22,11 +22,14 @@ void append_metadata(std::string& out, const std::string& type, const std::strin
   out += "<metadata type=\"" + xml_escaped(type) + "\">" + xml_escaped(text) + "</metadata>\n";
 }
 
-/// A grey value of 0 to 255 as an AMF colour, from 0 to 1 per channel.
-void append_color(std::string& out, double grey) {
-  const double share = std::clamp(grey / 255, 0.0, 1.0);
+constexpr const char* kChannels[] = {"r", "g", "b"};
+
+/// Values of 0 to 255 as an AMF colour, from 0 to 1 per channel.
+void append_color(std::string& out, const std::array<double, 3>& values) {
   out += "<color>";
-  for (const char* channel : {"r", "g", "b"}) append_number(out, channel, share);
+  for (std::size_t c = 0; c < 3; ++c) {
+    append_number(out, kChannels[c], std::clamp(values[c] / 255, 0.0, 1.0));
+  }
   out += "</color>";
 }
 
@@ -60,7 +63,7 @@ double number_in(const fs::path& file, const XmlElement& parent, const char* nam
 /// Gathers points and triangles as their elements end; the tree keeps neither.
 class AmfReader {
  public:
-  explicit AmfReader(const fs::path& file) : file_(file) { sink_.emplace(file_, surface_); }
+  explicit AmfReader(const fs::path& file) : file_(file) { sink_.emplace(file_, surface()); }
 
   /// @return  whether the tree can do without the element.
   bool consume(const XmlElement& element, std::string_view path) {
@@ -72,24 +75,33 @@ class AmfReader {
       has_vertices_ = true;
     } else if (path == "amf/object/mesh") {
       end_mesh();
+    } else if (path == "amf/object") {
+      end_object(element);
+    } else if (path == "amf/object/metadata" && element.attribute("type") == "name") {
+      facts_.name = trimmed(element.text);
+    } else if (path == "amf/object/color") {
+      facts_.colour = colour_in(element);
     } else {
       return !is_part_of_item(path) && path != "amf/metadata";
     }
     return true;
   }
 
-  TriMesh surface() { return std::move(surface_); }
+  ParsedObjects result() { return std::move(result_); }
 
  private:
+  TriMesh& surface() { return result_.file.surface; }
+
   /// Whether the element belongs to a vertex or a triangle that has not ended.
   static bool is_part_of_item(std::string_view path) {
     return path.starts_with("amf/object/mesh/vertices/vertex/") ||
-           path.starts_with("amf/object/mesh/volume/triangle/");
+           path.starts_with("amf/object/mesh/volume/triangle/") ||
+           path.starts_with("amf/object/color/");
   }
 
   void add_vertex(const XmlElement& vertex) {
     const XmlElement& at = child_of(file_, vertex, "coordinates");
-    surface_.points.push_back(
+    surface().points.push_back(
         {number_in(file_, at, "x"), number_in(file_, at, "y"), number_in(file_, at, "z")});
   }
 
@@ -102,40 +114,54 @@ class AmfReader {
   void end_mesh() {
     if (!has_vertices_) refuse(file_, "expected <vertices> in <mesh>, found none");
     has_vertices_ = false;
-    sink_.emplace(file_, surface_);
+    sink_.emplace(file_, surface());
+  }
+
+  /// None where a channel is no number: AMF allows formulas.
+  static std::optional<Colour> colour_in(const XmlElement& color) {
+    Colour colour{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const XmlElement* channel = color.child(kChannels[c]);
+      double share = 0;
+      if (channel == nullptr || !parse_number(trimmed(channel->text), share)) return std::nullopt;
+      colour[c] = channel_of(share);
+    }
+    return colour;
+  }
+
+  void end_object(const XmlElement& object) {
+    facts_.label = label_in(object.attribute("id"));
+    const auto number = static_cast<Index>(result_.objects.size());
+    result_.objects.push_back(std::exchange(facts_, {}));
+    result_.object_of.resize(surface().triangles.size(), number);
   }
 
   const fs::path& file_;
-  TriMesh surface_;
+  ParsedObjects result_;
+  ObjectFacts facts_;                // of the object that is read
   std::optional<PolygonSink> sink_;  // of the mesh that is read
   bool has_vertices_ = false;
 };
 
 }  // namespace
 
-SurfaceFile parse_amf(const fs::path& file, std::string_view bytes) {
-  AmfReader reader(file);
-  const auto consume = [&](const XmlElement& e, std::string_view path) {
-    return reader.consume(e, path);
-  };
-  const XmlElement root = parse_xml(file, bytes, {.consume = consume}).root;
-  if (root.name != "amf") refuse(file, "expected <amf>, found " + in_quotes(root.name));
-  const double unit = unit_in_mm(file, root.attribute("unit"));
-  SurfaceFile result{reader.surface(), std::nullopt};
-  for (Vec3& p : result.surface.points) p = unit * p;
-  for (const XmlElement& metadata : root.children) {
-    if (!result.frame) result.frame = frame_named_in(metadata.text);
-  }
-  return result;
-}
+namespace {
 
-std::string amf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options) {
+std::string header(const SurfaceWriteOptions& options) {
   std::string out =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<amf unit=\"millimeter\" version=\"1.1\">\n";
   append_metadata(out, "description", frame_note(options.frame));
   for (const auto& [type, text] : options.metadata) append_metadata(out, type, text);
-  out += "<object id=\"0\">\n";
-  if (!options.name.empty()) append_metadata(out, "name", options.name);
+  return out;
+}
+
+void begin_object(std::string& out, Index id, const std::string& name) {
+  out += "<object id=\"" + std::to_string(id) + "\">\n";
+  if (!name.empty()) append_metadata(out, "name", name);
+}
+
+/// @param grey  one value per point, or none.
+void end_object(std::string& out, const TriMesh& surface, const std::vector<double>& grey) {
   out += "<mesh>\n<vertices>\n";
   for (std::size_t n = 0; n < surface.points.size(); ++n) {
     out += "<vertex><coordinates>";
@@ -143,7 +169,7 @@ std::string amf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
     append_number(out, "y", surface.points[n].y);
     append_number(out, "z", surface.points[n].z);
     out += "</coordinates>";
-    if (!options.grey.empty()) append_color(out, options.grey[n]);
+    if (!grey.empty()) append_color(out, {grey[n], grey[n], grey[n]});
     out += "</vertex>\n";
   }
   out += "</vertices>\n<volume>\n";
@@ -151,7 +177,48 @@ std::string amf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
     out += "<triangle><v1>" + std::to_string(t[0]) + "</v1><v2>" + std::to_string(t[1]) +
            "</v2><v3>" + std::to_string(t[2]) + "</v3></triangle>\n";
   }
-  return out += "</volume>\n</mesh>\n</object>\n</amf>\n";
+  out += "</volume>\n</mesh>\n</object>\n";
+}
+
+}  // namespace
+
+std::string amf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options) {
+  std::string out = header(options);
+  begin_object(out, 0, options.name);
+  end_object(out, surface, options.grey);
+  return out += "</amf>\n";
+}
+
+std::string amf_object_bytes(std::span<const NamedSurface> objects,
+                             const SurfaceWriteOptions& options) {
+  std::string out = header(options);
+  if (!options.name.empty()) append_metadata(out, "name", options.name);
+  for (const auto& [name, colour, label, surface] : objects) {
+    begin_object(out, label, name);
+    append_color(out, {double(colour[0]), double(colour[1]), double(colour[2])});
+    end_object(out += '\n', surface, {});
+  }
+  return out += "</amf>\n";
+}
+
+ParsedObjects parse_amf_objects(const fs::path& file, std::string_view bytes) {
+  AmfReader reader(file);
+  const auto consume = [&](const XmlElement& e, std::string_view path) {
+    return reader.consume(e, path);
+  };
+  const XmlElement root = parse_xml(file, bytes, {.consume = consume}).root;
+  if (root.name != "amf") refuse(file, "expected <amf>, found " + in_quotes(root.name));
+  const double unit = unit_in_mm(file, root.attribute("unit"));
+  ParsedObjects result = reader.result();
+  for (Vec3& p : result.file.surface.points) p = unit * p;
+  for (const XmlElement& metadata : root.children) {
+    if (!result.file.frame) result.file.frame = frame_named_in(metadata.text);
+  }
+  return result;
+}
+
+SurfaceFile parse_amf(const fs::path& file, std::string_view bytes) {
+  return parse_amf_objects(file, bytes).file;
 }
 
 }  // namespace mesamis::detail

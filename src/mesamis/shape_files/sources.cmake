@@ -2,6 +2,7 @@
 set(ROOM_HEADERS
   file_kind.h
   mesh_files.h
+  object_files.h
   surface_files.h)
 set(ROOM_SOURCES
   abaqus_file.cpp
@@ -11,13 +12,17 @@ set(ROOM_SOURCES
   gmsh_file.cpp
   medit_files.cpp
   mesh_checks.cpp
+  mtl_file.cpp
   obj_file.cpp
+  object_files.cpp
   ply_file.cpp
   stl_file.cpp
   surface_files.cpp
   threemf_file.cpp
+  threemf_writer.cpp
   vtk_file.cpp
   vtk_xml.cpp
   vtk_xml_writer.cpp
   vtp_file.cpp
+  vtp_writer.cpp
   vtu_file.cpp)

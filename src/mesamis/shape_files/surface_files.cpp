@@ -13,17 +13,64 @@
 
 namespace mesamis {
 
+namespace fs = std::filesystem;
+
+namespace detail {
+namespace {
+
+constexpr auto kMostPoints = static_cast<std::size_t>(std::numeric_limits<Index>::max());
+
+}  // namespace
+
+void refuse_extension(const fs::path& path, const std::string& known) {
+  const std::string found = path.extension().string();
+  refuse(path, "expected a surface file (" + known + "), found " +
+                   (found.empty() ? "no extension" : "the extension " + in_quotes(found)));
+}
+
+std::string extension_of(const fs::path& path) {
+  const bool packed = lower(path.extension().string()) == ".gz";
+  return lower((packed ? path.stem() : path).extension().string());
+}
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }, ' ');
+  return text;
+}
+
+SurfaceWriteOptions as_written(const SurfaceWriteOptions& options) {
+  SurfaceWriteOptions clean = options;
+  clean.name = one_line(options.name);
+  bool produced = false;
+  for (auto& [type, text] : clean.metadata) {
+    type = one_line(type);
+    text = one_line(text);
+    produced |= type == kProducer;
+  }
+  if (!produced) clean.metadata.insert(clean.metadata.begin(), {kProducer, "mesamis"});
+  return clean;
+}
+
+void require_surface(const fs::path& path, const TriMesh& surface) {
+  if (surface.triangles.empty()) refuse(path, "holds no triangle");
+  if (surface.points.size() > kMostPoints) refuse(path, "its points exceed 32-bit indices");
+  try {
+    require_sound(surface);
+  } catch (const InputError& error) {
+    refuse(path, error.what());
+  }
+}
+
+}  // namespace detail
+
 using namespace detail;
 
 namespace {
 
-namespace fs = std::filesystem;
-
 using Parser = SurfaceFile (*)(const fs::path&, std::string_view);
 using ArrayParser = std::vector<double> (*)(const fs::path&, std::string_view, const std::string&);
 using Formatter = std::string (*)(const TriMesh&, const SurfaceWriteOptions&);
-
-constexpr auto kMostPoints = static_cast<std::size_t>(std::numeric_limits<Index>::max());
 
 struct Format {
   const char* extension;
@@ -40,18 +87,6 @@ constexpr Format kFormats[] = {{".stl", parse_stl, stl_bytes},
                                {".3mf", parse_threemf, threemf_bytes, true},
                                {".amf", parse_amf, amf_bytes, true},
                                {".vtk", parse_vtk, nullptr}};
-
-[[noreturn]] void refuse_extension(const fs::path& path, const std::string& known) {
-  const std::string found = path.extension().string();
-  refuse(path, "expected a surface file (" + known + "), found " +
-                   (found.empty() ? "no extension" : "the extension " + in_quotes(found)));
-}
-
-/// In lower case, without a final .gz.
-std::string extension_of(const fs::path& path) {
-  const bool packed = lower(path.extension().string()) == ".gz";
-  return lower((packed ? path.stem() : path).extension().string());
-}
 
 /// Null if there is none; all formats are read.
 const Format* format_named(const std::string& extension) {
@@ -70,27 +105,6 @@ Parser parser_for(const fs::path& path) {
   const Format* format = format_named(extension_of(path));
   if (format != nullptr) return format->parse;
   refuse_extension(path, ".stl .ply .obj .vtp .3mf .amf .vtk, each also with .gz");
-}
-
-/// One line, as headers and comments must be.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }, ' ');
-  return text;
-}
-
-/// Names and facts in one line each, and always a producer.
-SurfaceWriteOptions as_written(const SurfaceWriteOptions& options) {
-  SurfaceWriteOptions clean = options;
-  clean.name = one_line(options.name);
-  bool produced = false;
-  for (auto& [type, text] : clean.metadata) {
-    type = one_line(type);
-    text = one_line(text);
-    produced |= type == kProducer;
-  }
-  if (!produced) clean.metadata.insert(clean.metadata.begin(), {kProducer, "mesamis"});
-  return clean;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -157,14 +171,7 @@ void write_surface(const fs::path& path, const TriMesh& surface,
 SurfaceFile read_surface_file(const fs::path& path) {
   const Parser parse = parser_for(path);
   SurfaceFile file = parse(path, read_all(path));
-  const TriMesh& surface = file.surface;
-  if (surface.triangles.empty()) refuse(path, "holds no triangle");
-  if (surface.points.size() > kMostPoints) refuse(path, "its points exceed 32-bit indices");
-  try {
-    require_sound(surface);
-  } catch (const InputError& error) {
-    refuse(path, error.what());
-  }
+  require_surface(path, file.surface);
   return file;
 }
 

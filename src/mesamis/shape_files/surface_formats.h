@@ -13,6 +13,19 @@
 /// checked further: indices may be out of range.
 namespace mesamis::detail {
 
+/// The extension in lower case, without a final .gz.
+std::string extension_of(const std::filesystem::path& path);
+/// @throws InputError  naming the path's extension and those known.
+[[noreturn]] void refuse_extension(const std::filesystem::path& path, const std::string& known);
+/// The options as headers and comments take them: names and facts in one line each, and always a
+/// producer.
+SurfaceWriteOptions as_written(const SurfaceWriteOptions& options);
+/// Replaces control characters by blanks.
+std::string one_line(std::string text);
+/// What a file must hold to be a surface.
+/// @throws InputError  if it has no triangle, too many points, or is not sound.
+void require_surface(const std::filesystem::path& path, const TriMesh& surface);
+
 /// "mesamis, millimetre, SPACE=LPS": 3D Slicer looks for the last part in all four formats, which
 /// is missing where no frame is stated.
 std::string frame_note(std::optional<Frame> frame);

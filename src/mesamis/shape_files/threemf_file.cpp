@@ -1,169 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <Model/COM/NMR_DLLInterfaces.h>
-
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstdio>
-#include <cstring>
 
-#include "mesamis/base/error.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/xml.h"
+#include "mesamis/shape_files/object_formats.h"
 #include "mesamis/shape_files/polygons.h"
-#include "mesamis/shape_files/surface_formats.h"
+#include "mesamis/shape_files/threemf_handle.h"
 
 namespace mesamis::detail {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kCorners = 3;
-
-/// Something of lib3mf's, released at the end.
-class Handle {
- public:
-  Handle() = default;
-  ~Handle() {
-    if (pointer_ != nullptr) NMR::lib3mf_release(pointer_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  NMR::PLib3MFBase* get() const { return pointer_; }
-  /// Where a function of lib3mf puts what it makes.
-  NMR::PLib3MFBase** put() { return &pointer_; }
-
-  std::string last_error() const {
-    DWORD code = 0;
-    LPCSTR message = nullptr;
-    NMR::lib3mf_getlasterror(pointer_, &code, &message);
-    return message == nullptr ? "error " + std::to_string(code) : message;
-  }
-
- private:
-  NMR::PLib3MFBase* pointer_ = nullptr;
-};
-
-/// A call that fails only for want of memory, or by a mistake of ours.
-void require_done(LIB3MFRESULT result) {
-  if (result == LIB3MF_OK) return;
-  throw InputError("surface: lib3mf could not format it: error " + std::to_string(result));
-}
-
-/// An identifier that only depends on what it names (RFC 9562, version 8): lib3mf's own are drawn
-/// at random, and no two files would be alike.
-std::string uuid_of(const TriMesh& surface, std::uint64_t salt) {
-  constexpr std::uint64_t kPrime = 0x100000001b3;  // FNV-1a, on words
-  std::array<std::uint64_t, 2> hash{0xcbf29ce484222325 ^ salt, 0x84222325cbf29ce4 ^ salt};
-  auto add = [&](std::uint64_t word) {
-    hash[0] = (hash[0] ^ word) * kPrime;
-    hash[1] = (hash[1] ^ std::rotl(word, 32)) * kPrime;
-  };
-  for (const Vec3& p : surface.points) {
-    for (int axis = 0; axis < 3; ++axis) add(std::bit_cast<std::uint64_t>(p[axis] + 0.0));
-  }
-  for (const Triangle& t : surface.triangles) {
-    for (const Index p : t) add(static_cast<std::uint64_t>(p));
-  }
-  char text[40];
-  std::snprintf(text, sizeof text, "%08x-%04x-8%03x-%04x-%012llx",
-                static_cast<unsigned>(hash[0] >> 32), static_cast<unsigned>(hash[0] >> 16 & 0xffff),
-                static_cast<unsigned>(hash[0] & 0xfff),
-                static_cast<unsigned>(0x8000 | (hash[1] >> 48 & 0x3fff)),
-                static_cast<unsigned long long>(hash[1] & 0xffffffffffff));
-  return text;
-}
-
-void set_geometry(const Handle& object, const TriMesh& surface) {
-  std::vector<NMR::MODELMESHVERTEX> points(surface.points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      points[i].m_fPosition[axis] = static_cast<float>(surface.points[i][axis]);
-    }
-  }
-  std::vector<NMR::MODELMESHTRIANGLE> triangles(surface.triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (std::size_t i = 0; i < kCorners; ++i) {
-      triangles[t].m_nIndices[i] = static_cast<DWORD>(surface.triangles[t][i]);
-    }
-  }
-  require_done(NMR::lib3mf_meshobject_setgeometry(
-      object.get(), points.data(), static_cast<DWORD>(points.size()), triangles.data(),
-      static_cast<DWORD>(triangles.size())));
-}
-
-NMR::MODELMESHCOLOR_SRGB color_of(double grey) {
-  const auto level = static_cast<BYTE>(std::lround(std::clamp(grey, 0.0, 255.0)));
-  return {level, level, level, 255};
-}
-
-/// A colour per corner; the object's own, which readers without colours per corner take, is white.
-void set_colors(const Handle& object, const TriMesh& surface, const std::vector<double>& grey) {
-  std::vector<NMR::MODELMESH_TRIANGLECOLOR_SRGB> colors(surface.triangles.size());
-  for (std::size_t t = 0; t < colors.size(); ++t) {
-    for (std::size_t i = 0; i < kCorners; ++i) {
-      colors[t].m_Colors[i] = color_of(grey[surface.triangles[t][i]]);
-    }
-  }
-  Handle corners, whole;
-  require_done(NMR::lib3mf_meshobject_createpropertyhandler(object.get(), corners.put()));
-  require_done(NMR::lib3mf_propertyhandler_setgradientcolorarray(corners.get(), colors.data()));
-  require_done(NMR::lib3mf_object_createdefaultpropertyhandler(object.get(), whole.put()));
-  NMR::MODELMESHCOLOR_SRGB white = color_of(255);
-  require_done(NMR::lib3mf_defaultpropertyhandler_setcolor(whole.get(), &white));
-}
-
-/// Names beside those that the format knows would need a name space, which lib3mf does not write:
-/// all other facts are told in the description. It does not escape either.
-void add_metadata(const Handle& model, const SurfaceWriteOptions& options) {
-  std::string application, description = frame_note(options.frame);
-  for (const auto& [type, text] : options.metadata) {
-    if (type == kProducer) {
-      application = text;
-    } else {
-      ((description += "; ") += type) += " " + text;
-    }
-  }
-  auto add = [&](const char* key, const std::string& text) {
-    require_done(NMR::lib3mf_model_addmetadatautf8(model.get(), key, xml_escaped(text).c_str()));
-  };
-  add("Description", description);  // first: it states the frame
-  if (!options.name.empty()) add("Title", options.name);
-  add("Application", application);
-}
-
-std::string bytes_of(const Handle& model) {
-  Handle writer;
-  require_done(NMR::lib3mf_model_querywriter(model.get(), "3mf", writer.put()));
-  ULONG64 size = 0;
-  require_done(NMR::lib3mf_writer_getstreamsize(writer.get(), &size));
-  std::string bytes(size, '\0');
-  require_done(
-      NMR::lib3mf_writer_writetobuffer(writer.get(), reinterpret_cast<BYTE*>(bytes.data()), size));
-  return bytes;
-}
-
-}  // namespace
-
-std::string threemf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options) {
-  Handle model, object, item;
-  require_done(NMR::lib3mf_createmodel(model.put()));
-  require_done(NMR::lib3mf_model_setunit(model.get(), NMR::MODELUNIT_MILLIMETER));
-  add_metadata(model, options);
-  require_done(NMR::lib3mf_model_addmeshobject(model.get(), object.put()));
-  const std::string name = xml_escaped(options.name);
-  require_done(NMR::lib3mf_object_setnameutf8(object.get(), name.c_str()));
-  set_geometry(object, surface);
-  if (!options.grey.empty()) set_colors(object, surface, options.grey);
-  require_done(NMR::lib3mf_model_addbuilditem(model.get(), object.get(), nullptr, item.put()));
-  require_done(NMR::lib3mf_object_setuuidutf8(object.get(), uuid_of(surface, 1).c_str()));
-  require_done(NMR::lib3mf_builditem_setuuidutf8(item.get(), uuid_of(surface, 2).c_str()));
-  require_done(NMR::lib3mf_model_setbuilduuidutf8(model.get(), uuid_of(surface, 3).c_str()));
-  return bytes_of(model);
-}
-
-namespace {
 
 using Transform = NMR::MODELTRANSFORM;
 
@@ -192,16 +39,81 @@ double unit_in_mm(const Handle& model) {
   return kMillimetres[std::min<std::size_t>(unit, std::size(kMillimetres) - 1)];
 }
 
+/// A text of lib3mf's, empty if it does not tell.
+/// @param get  called with a buffer, its size and where the number of characters goes.
+template <class Get>
+std::string text_of(const Get& get) {
+  ULONG size = 0;
+  if (get(nullptr, 0, &size) != LIB3MF_OK) return {};
+  std::string text(std::size_t{size} + 1, '\0');  // whether or not it counts the final zero
+  if (get(text.data(), static_cast<ULONG>(text.size()), &size) != LIB3MF_OK) return {};
+  return text.substr(0, text.find('\0'));
+}
+
+std::string metadata_text(const Handle& model, DWORD index) {
+  return text_of([&](char* text, ULONG size, ULONG* needed) {
+    return NMR::lib3mf_model_getmetadatavalueutf8(model.get(), index, text, size, needed);
+  });
+}
+
+/// lib3mf leaves entities as they are.
+std::string name_of(const Handle& object) {
+  return xml_unescaped(text_of([&](char* text, ULONG size, ULONG* needed) {
+    return NMR::lib3mf_object_getnameutf8(object.get(), text, size, needed);
+  }));
+}
+
+std::string part_number_of(const Handle& object) {
+  return text_of([&](char* text, ULONG size, ULONG* needed) {
+    return NMR::lib3mf_object_getpartnumberutf8(object.get(), text, size, needed);
+  });
+}
+
+/// The colour of an object as a whole.
+std::optional<Colour> colour_of(const Handle& model, const Handle& object) {
+  Handle whole, group;
+  NMR::eModelPropertyType type = NMR::MODELPROPERTYTYPE_NONE;
+  if (NMR::lib3mf_object_createdefaultpropertyhandler(object.get(), whole.put()) != LIB3MF_OK ||
+      NMR::lib3mf_defaultpropertyhandler_getpropertytype(whole.get(), &type) != LIB3MF_OK) {
+    return std::nullopt;
+  }
+  NMR::MODELMESHCOLOR_SRGB c{};
+  if (type == NMR::MODELPROPERTYTYPE_COLOR &&
+      NMR::lib3mf_defaultpropertyhandler_getcolor(whole.get(), 0, &c) == LIB3MF_OK) {
+    return Colour{c.m_Red, c.m_Green, c.m_Blue};
+  }
+  DWORD id = 0, index = 0;
+  if (type == NMR::MODELPROPERTYTYPE_BASEMATERIALS &&
+      NMR::lib3mf_defaultpropertyhandler_getbasematerial(whole.get(), &id, &index) == LIB3MF_OK &&
+      NMR::lib3mf_model_getbasematerialbyid(model.get(), id, group.put()) == LIB3MF_OK &&
+      NMR::lib3mf_basematerial_getdisplaycolor(group.get(), index, &c.m_Red, &c.m_Green, &c.m_Blue,
+                                               &c.m_Alpha) == LIB3MF_OK) {
+    return Colour{c.m_Red, c.m_Green, c.m_Blue};
+  }
+  return std::nullopt;
+}
+
+std::optional<Frame> stated_frame(const Handle& model) {
+  DWORD count = 0;
+  std::optional<Frame> frame;
+  if (NMR::lib3mf_model_getmetadatacount(model.get(), &count) != LIB3MF_OK) return frame;
+  for (DWORD i = 0; i < count && !frame; ++i) frame = frame_named_in(metadata_text(model, i));
+  return frame;
+}
+
 /// Collects the meshes of the build items.
 class Gatherer {
  public:
   /// @param file_size  bytes; copies of components may not multiply the file without limit.
-  Gatherer(const fs::path& file, double unit, std::size_t file_size)
-      : file_(file), unit_(unit), most_items_(1'000'000 + 50 * file_size) {}
+  Gatherer(const fs::path& file, const Handle& model, std::size_t file_size)
+      : file_(file),
+        model_(model),
+        unit_(unit_in_mm(model)),
+        most_items_(1'000'000 + 50 * file_size) {}
 
-  void add_build(const Handle& model) {
+  void add_build() {
     Handle items;
-    require(NMR::lib3mf_model_getbuilditems(model.get(), items.put()), model);
+    require(NMR::lib3mf_model_getbuilditems(model_.get(), items.put()), model_);
     auto another = [&] {
       BOOL more = 0;
       require(NMR::lib3mf_builditemiterator_movenext(items.get(), &more), items);
@@ -223,7 +135,7 @@ class Gatherer {
     }
   }
 
-  TriMesh surface() { return std::move(surface_); }
+  ParsedObjects result() { return std::move(result_); }
 
  private:
   void require(LIB3MFRESULT result, const Handle& source) const {
@@ -239,7 +151,7 @@ class Gatherer {
     BOOL is_mesh = 0, is_list = 0;
     require(NMR::lib3mf_object_ismeshobject(object.get(), &is_mesh), object);
     require(NMR::lib3mf_object_iscomponentsobject(object.get(), &is_list), object);
-    if (is_mesh != 0) add_mesh(object, path);
+    if (is_mesh != 0 && add_mesh(object, path)) add_facts(object);
     DWORD count = 0;
     if (is_list != 0) {
       require(NMR::lib3mf_componentsobject_getcomponentcount(object.get(), &count), object);
@@ -255,13 +167,23 @@ class Gatherer {
     }
   }
 
-  void add_mesh(const Handle& mesh, const std::vector<Transform>& path) {
+  /// The triangles added last are an object.
+  void add_facts(const Handle& mesh) {
+    const auto number = static_cast<Index>(result_.objects.size());
+    result_.objects.push_back(
+        {name_of(mesh), label_in(part_number_of(mesh)), colour_of(model_, mesh)});
+    result_.object_of.resize(result_.file.surface.triangles.size(), number);
+  }
+
+  /// @return  whether the mesh has triangles.
+  bool add_mesh(const Handle& mesh, const std::vector<Transform>& path) {
+    TriMesh& surface = result_.file.surface;
     DWORD points = 0, triangles = 0, got = 0;
     require(NMR::lib3mf_meshobject_getvertexcount(mesh.get(), &points), mesh);
     require(NMR::lib3mf_meshobject_gettrianglecount(mesh.get(), &triangles), mesh);
-    if (points == 0 || triangles == 0) return;
-    if (points > most_items_ - surface_.points.size() ||
-        triangles > most_items_ - surface_.triangles.size()) {
+    if (points == 0 || triangles == 0) return false;
+    if (points > most_items_ - surface.points.size() ||
+        triangles > most_items_ - surface.triangles.size()) {
       refuse(file_, say("expected at most ", most_items_,
                         " points and triangles in all components, found more"));
     }
@@ -270,11 +192,11 @@ class Gatherer {
     require(NMR::lib3mf_meshobject_getvertices(mesh.get(), at.data(), points, &got), mesh);
     require(NMR::lib3mf_meshobject_gettriangleindices(mesh.get(), corners.data(), triangles, &got),
             mesh);
-    PolygonSink sink(file_, surface_);
+    PolygonSink sink(file_, surface);
     for (const auto& [p] : at) {
       Vec3 q{p[0], p[1], p[2]};
       for (auto t = path.rbegin(); t != path.rend(); ++t) q = moved(*t, q);
-      surface_.points.push_back(unit_ * q);
+      surface.points.push_back(unit_ * q);
     }
     const bool mirrored = std::count_if(path.begin(), path.end(), mirrors) % 2 != 0;
     for (auto& [c] : corners) {
@@ -282,38 +204,20 @@ class Gatherer {
       const double polygon[] = {double(c[0]), double(c[1]), double(c[2])};
       sink.add(polygon, false);
     }
+    return true;
   }
 
   const fs::path& file_;
+  const Handle& model_;
   double unit_;
   std::size_t most_items_;
   int visits_ = 0;
-  TriMesh surface_;
+  ParsedObjects result_;
 };
-
-/// The value of a fact about the model, empty if lib3mf does not tell.
-std::string metadata_text(const Handle& model, DWORD index) {
-  ULONG size = 0;
-  if (NMR::lib3mf_model_getmetadatavalueutf8(model.get(), index, nullptr, 0, &size) != LIB3MF_OK) {
-    return {};
-  }
-  std::string text(std::size_t{size} + 1, '\0');  // whether or not it counts the final zero
-  const LIB3MFRESULT result = NMR::lib3mf_model_getmetadatavalueutf8(
-      model.get(), index, text.data(), static_cast<ULONG>(text.size()), &size);
-  return result == LIB3MF_OK ? text : std::string{};
-}
-
-std::optional<Frame> stated_frame(const Handle& model) {
-  DWORD count = 0;
-  std::optional<Frame> frame;
-  if (NMR::lib3mf_model_getmetadatacount(model.get(), &count) != LIB3MF_OK) return frame;
-  for (DWORD i = 0; i < count && !frame; ++i) frame = frame_named_in(metadata_text(model, i));
-  return frame;
-}
 
 }  // namespace
 
-SurfaceFile parse_threemf(const fs::path& file, std::string_view bytes) {
+ParsedObjects parse_threemf_objects(const fs::path& file, std::string_view bytes) {
   Handle model, reader;
   require_done(NMR::lib3mf_createmodel(model.put()));
   require_done(NMR::lib3mf_model_queryreader(model.get(), "3mf", reader.put()));
@@ -321,9 +225,15 @@ SurfaceFile parse_threemf(const fs::path& file, std::string_view bytes) {
   if (NMR::lib3mf_reader_readfrombuffer(reader.get(), copy.data(), copy.size()) != LIB3MF_OK) {
     refuse(file, "is not a 3MF file that lib3mf reads: " + reader.last_error());
   }
-  Gatherer gatherer(file, unit_in_mm(model), bytes.size());
-  gatherer.add_build(model);
-  return {gatherer.surface(), stated_frame(model)};
+  Gatherer gatherer(file, model, bytes.size());
+  gatherer.add_build();
+  ParsedObjects result = gatherer.result();
+  result.file.frame = stated_frame(model);
+  return result;
+}
+
+SurfaceFile parse_threemf(const fs::path& file, std::string_view bytes) {
+  return parse_threemf_objects(file, bytes).file;
 }
 
 }  // namespace mesamis::detail

@@ -163,23 +163,35 @@ std::vector<double> VtkXml::values(const XmlElement& data_array, std::size_t cou
   return numbers;
 }
 
-std::string VtkXml::text(const XmlElement& array) {
-  constexpr std::uint64_t kMostBytes = 1 << 20;
-  std::string bytes;
-  if (array.attribute("format") == "ascii") {
-    for (const double code : numbers_in(file_, array.text)) {
-      bytes += code > 0 && code < 128 ? static_cast<char>(code) : '\0';
-    }
-  } else {
+std::string VtkXml::text_bytes(const XmlElement& array, std::uint64_t most_bytes) {
+  if (array.attribute("format") != "ascii") {
     StoredArray stored = stored_array(array);
     const Layout layout = layout_of(stored);
-    if (layout.plain_size > kMostBytes) {
-      refuse(file_,
-             say("expected texts of at most ", kMostBytes, " bytes, found ", layout.plain_size));
-    }
-    bytes = unpack(stored, layout);
+    if (layout.plain_size <= most_bytes) return unpack(stored, layout);
+    refuse(file_,
+           say("expected texts of at most ", most_bytes, " bytes, found ", layout.plain_size));
   }
+  std::string bytes;
+  for (const double code : numbers_in(file_, array.text)) {
+    bytes += code > 0 && code < 256 ? static_cast<char>(static_cast<unsigned char>(code)) : '\0';
+  }
+  return bytes;
+}
+
+std::string VtkXml::text(const XmlElement& array) {
+  const std::string bytes = text_bytes(array, 1 << 20);
   return bytes.substr(0, bytes.find('\0'));
+}
+
+std::vector<std::string> VtkXml::texts(const XmlElement& array) {
+  const std::string bytes = text_bytes(array, 1 << 24);
+  std::vector<std::string> texts;
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\0', at), bytes.size());
+    texts.push_back(bytes.substr(at, end - at));
+    at = end + 1;
+  }
+  return texts;
 }
 
 VtkXml::StoredArray VtkXml::stored_array(const XmlElement& data_array) const {

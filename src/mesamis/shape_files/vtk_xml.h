@@ -48,6 +48,10 @@ class VtkXml {
   /// @throws InputError  as values(), or if the texts have more than 1 MiB.
   std::string text(const XmlElement& array);
 
+  /// All texts of an Array of type String.
+  /// @throws InputError  as values(), or if the texts have more than 16 MiB.
+  std::vector<std::string> texts(const XmlElement& array);
+
  private:
   class StoredArray;
   struct Layout;
@@ -56,6 +60,7 @@ class VtkXml {
   Layout layout_of(StoredArray& stored) const;
   std::vector<std::size_t> packed_sizes(StoredArray& stored, std::uint64_t blocks) const;
   std::string unpack(StoredArray& stored, const Layout& layout);
+  std::string text_bytes(const XmlElement& array, std::uint64_t most_bytes);
 
   std::filesystem::path file_;
   std::string type_;

@@ -105,28 +105,29 @@ class Writer {
          << "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
             "compressor=\"vtkZLibDataCompressor\">\n  <"
          << file.type << ">\n";
-    write_group("    ", "FieldData", file.field_data);
+    write_group("    ", {"FieldData", file.field_data});
     out_ << "    <Piece";
     for (const auto& [name, count] : file.counts) {
       out_ << ' ' << name << "=\"" << fixed_width(std::to_string(count));
     }
     out_ << ">\n";
-    for (const auto& [element, arrays] : file.groups) write_group("      ", element, arrays);
+    for (const VtkArrayGroup& group : file.groups) write_group("      ", group);
     out_ << "    </Piece>\n  </" << file.type << ">\n  <AppendedData encoding=\"raw\">\n   _";
   }
 
-  void write_group(const std::string& indent, const std::string& element,
-                   const std::vector<VtkArray>& arrays) {
-    out_ << indent << '<' << element << ">\n";
-    for (const VtkArray& array : arrays) write_declaration(indent + "  ", array);
-    out_ << indent << "</" << element << ">\n";
+  void write_group(const std::string& indent, const VtkArrayGroup& group) {
+    out_ << indent << '<' << group.element;
+    if (!group.scalars.empty()) out_ << " Scalars=\"" << xml_escaped(group.scalars) << '"';
+    out_ << ">\n";
+    for (const VtkArray& array : group.arrays) write_declaration(indent + "  ", array);
+    out_ << indent << "</" << group.element << ">\n";
   }
 
   void write_declaration(const std::string& indent, const VtkArray& array) {
     const bool is_text = array.type == std::string_view(kTextType);
     out_ << indent << (is_text ? "<Array" : "<DataArray") << " type=\"" << array.type
          << "\" Name=\"" << xml_escaped(array.name) << '"';
-    if (is_text) out_ << " NumberOfTuples=\"1\"";
+    if (array.tuples > 0) out_ << " NumberOfTuples=\"" << std::to_string(array.tuples) << '"';
     if (array.components > 1) {
       out_ << " NumberOfComponents=\"" << std::to_string(array.components) << '"';
     }
@@ -205,12 +206,18 @@ void require_distinct_names(const VtkFile& file) {
 }  // namespace
 
 VtkArray vtk_text(std::string name, std::string text) {
-  const std::size_t size = text.size() + 1;
-  auto append_values = [text = std::move(text)](std::size_t begin, std::size_t end,
-                                                std::string& bytes) {
-    bytes.append(text.c_str() + begin, end - begin);
+  return vtk_texts(std::move(name), {std::move(text)});
+}
+
+VtkArray vtk_texts(std::string name, const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) (all += text) += '\0';
+  const std::size_t size = all.size();
+  auto append_values = [all = std::move(all)](std::size_t begin, std::size_t end,
+                                              std::string& bytes) {
+    bytes.append(all, begin, end - begin);
   };
-  return {std::move(name), kTextType, 1, size, 1, std::move(append_values)};
+  return {std::move(name), kTextType, 1, size, 1, std::move(append_values), texts.size()};
 }
 
 void write_vtk_xml(const std::filesystem::path& path, const VtkFile& file) {

@@ -43,6 +43,7 @@ struct VtkArray {
   std::size_t value_size = 0;  ///< bytes per value
   /// Appends the values [begin, end) to bytes, little endian.
   std::function<void(std::size_t begin, std::size_t end, std::string& bytes)> append_values;
+  std::size_t tuples = 0;  ///< stated where not 0: no piece counts the field data
 };
 
 /// An array of numbers.
@@ -62,10 +63,14 @@ VtkArray vtk_array(std::string name, int components, std::size_t values, ValueAt
 /// An array of one text.
 VtkArray vtk_text(std::string name, std::string text);
 
+/// An array of texts, none of which has a zero byte.
+VtkArray vtk_texts(std::string name, const std::vector<std::string>& texts);
+
 /// The arrays in one element of a piece, e.g. <PointData>.
 struct VtkArrayGroup {
   std::string element;
   std::vector<VtkArray> arrays;
+  std::string scalars{};  ///< the array that viewers colour by; empty: none is named
 };
 
 /// A file of one piece.

@@ -1,69 +1,206 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 
-#include "mesamis/base/error.h"
 #include "mesamis/files/refuse.h"
+#include "mesamis/shape_files/object_formats.h"
 #include "mesamis/shape_files/polygons.h"
 #include "mesamis/shape_files/surface_formats.h"
 #include "mesamis/shape_files/vtk_xml.h"
-#include "mesamis/shape_files/vtk_xml_writer.h"
+#include "mesamis/shape_files/vtp_names.h"
 
 namespace mesamis::detail {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFrameField = "SPACE";
-constexpr auto kMostPoints = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+constexpr Index kMost = std::numeric_limits<Index>::max();
 
-void add_points(const fs::path& file, VtkXml& xml, const XmlElement& piece, TriMesh& surface) {
-  const std::size_t count = count_in(file, piece, "NumberOfPoints");
-  if (count == 0) return;
-  const XmlElement* points = piece.child("Points");
-  const XmlElement* array = points == nullptr ? nullptr : points->child("DataArray");
-  if (array == nullptr) refuse(file, "expected an array of points, found none");
-  if (count > kMostPoints) {
-    refuse(file, say("expected at most ", kMostPoints, " points, found ", count));
-  }
-  const std::vector<double> values = xml.values(*array, 3 * count);
-  for (std::size_t i = 0; i < count; ++i) {
-    surface.points.push_back({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
-  }
+const XmlElement* named_child(const XmlElement* parent, std::string_view name) {
+  if (parent == nullptr) return nullptr;
+  const auto found = std::find_if(parent->children.begin(), parent->children.end(),
+                                  [name](const auto& e) { return e.attribute("Name") == name; });
+  return found == parent->children.end() ? nullptr : &*found;
 }
 
-/// The array of cells by its name.
-const XmlElement& named_array(const fs::path& file, const XmlElement& cells, const char* name) {
-  for (const XmlElement& array : cells.children) {
-    if (array.attribute("Name") == name) return array;
-  }
-  refuse(file, say("expected an array ", name, " in ", cells.name, ", found none"));
+/// At most as many as 32-bit indices number.
+std::size_t bounded_count(const fs::path& file, const XmlElement& piece, const std::string& what) {
+  const std::size_t count = count_in(file, piece, "NumberOf" + what);
+  if (count <= kMost) return count;
+  refuse(file, say("expected at most ", kMost, " ", lower(what), ", found ", count));
 }
 
-/// The polygons or strips of a piece.
-void add_cells(const fs::path& file, VtkXml& xml, const XmlElement* cells, std::size_t count,
-               PolygonSink& sink) {
-  if (count == 0) return;
-  if (cells == nullptr) refuse(file, say("expected ", count, " cells, found no list of them"));
-  std::vector<double> offsets = xml.values(named_array(file, *cells, "offsets"), count);
-  const double corners = offsets.back();
-  if (!(corners >= 0 && corners <= static_cast<double>(kMostPoints))) {
-    refuse(file,
-           say("expected at most ", kMostPoints, " corners in ", cells->name, ", found ", corners));
-  }
-  const std::vector<double> connectivity =
-      xml.values(named_array(file, *cells, "connectivity"), static_cast<std::size_t>(corners));
-  offsets.insert(offsets.begin(), 0);
-  sink.add_all(connectivity, offsets, cells->name == "Strips");
-}
+/// The texts and the numbers of the field data.
+class Fields {
+ public:
+  Fields(const fs::path& file, VtkXml& xml)
+      : file_(file), xml_(xml), element_(xml.data_set().child("FieldData")) {}
 
-std::optional<Frame> stated_frame(VtkXml& xml) {
-  const XmlElement* fields = xml.data_set().child("FieldData");
-  if (fields == nullptr) return std::nullopt;
-  for (const XmlElement& array : fields->children) {
-    if (array.attribute("Name") == kFrameField) return frame_named(xml.text(array));
+  std::string text(const char* name) {
+    const XmlElement* array = named_child(element_, name);
+    return array == nullptr ? std::string() : xml_.text(*array);
   }
-  return std::nullopt;
-}
+
+  std::map<Index, std::string> names_of_labels() {
+    const XmlElement* texts = named_child(element_, kNamesField);
+    const XmlElement* numbers = named_child(element_, kLabelsField);
+    std::map<Index, std::string> names;
+    if (texts == nullptr || numbers == nullptr) return names;
+    const std::vector<std::string> found = xml_.texts(*texts);
+    const std::vector<double> labels = xml_.values(*numbers, found.size());
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      if (!is_label(labels[i])) refuse(file_, say("expected labels of objects, found ", labels[i]));
+      names[static_cast<Index>(labels[i])] = found[i];
+    }
+    return names;
+  }
+
+  static bool is_label(double value) {
+    return value >= 0 && value <= kMost && value == std::floor(value);
+  }
+
+ private:
+  const fs::path& file_;
+  VtkXml& xml_;
+  const XmlElement* element_;
+};
+
+class VtpParser {
+ public:
+  VtpParser(const fs::path& file, std::string_view bytes)
+      : file_(file), xml_(file, bytes, "PolyData"), fields_(file_, xml_) {}
+
+  SurfaceFile parse_surface() {
+    for (const XmlElement& piece : xml_.data_set().children) {
+      if (piece.name == "Piece") add_piece(piece);
+    }
+    return {std::move(surface_), stated_frame()};
+  }
+
+  ParsedObjects parse_objects() {
+    for (const XmlElement& piece : xml_.data_set().children) {
+      if (piece.name != "Piece") continue;
+      add_piece(piece);
+      add_objects(piece);
+    }
+    const std::map<Index, std::string> names = fields_.names_of_labels();
+    for (ObjectFacts& object : result_.objects) {
+      const auto found = names.find(object.label.value_or(-1));
+      if (found != names.end()) object.name = found->second;
+    }
+    if (result_.objects.size() == 1 && result_.objects[0].name.empty()) {
+      result_.objects[0].name = fields_.text(kNameField);
+    }
+    result_.file = {std::move(surface_), stated_frame()};
+    return std::move(result_);
+  }
+
+ private:
+  std::optional<Frame> stated_frame() { return frame_named(fields_.text(kFrameField)); }
+
+  void add_piece(const XmlElement& piece) {
+    PolygonSink sink(file_, surface_);
+    add_points(piece);
+    cell_of_.clear();
+    first_cell_ = bounded_count(file_, piece, "Verts") + bounded_count(file_, piece, "Lines");
+    for (const std::string kind : {"Polys", "Strips"}) add_cells(piece, kind, sink);
+  }
+
+  void add_points(const XmlElement& piece) {
+    const std::size_t count = bounded_count(file_, piece, "Points");
+    if (count == 0) return;
+    const XmlElement* points = piece.child("Points");
+    const XmlElement* array = points == nullptr ? nullptr : points->child("DataArray");
+    if (array == nullptr) refuse(file_, "expected an array of points, found none");
+    const std::vector<double> values = xml_.values(*array, 3 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+      surface_.points.push_back({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
+    }
+  }
+
+  const XmlElement& cell_array(const XmlElement& cells, const char* name) const {
+    const XmlElement* array = named_child(&cells, name);
+    if (array != nullptr) return *array;
+    refuse(file_, say("expected an array ", name, " in ", cells.name, ", found none"));
+  }
+
+  void add_cells(const XmlElement& piece, const std::string& kind, PolygonSink& sink) {
+    const std::size_t count = bounded_count(file_, piece, kind);
+    if (count == 0) return;
+    const XmlElement* cells = piece.child(kind);
+    if (cells == nullptr) refuse(file_, say("expected ", count, " cells, found no list of them"));
+    std::vector<double> offsets = xml_.values(cell_array(*cells, "offsets"), count);
+    const double corners = offsets.back();
+    if (!(corners >= 0 && corners <= kMost)) {
+      refuse(file_, say("expected at most ", kMost, " corners in ", kind, ", found ", corners));
+    }
+    const std::vector<double> connectivity =
+        xml_.values(cell_array(*cells, "connectivity"), static_cast<std::size_t>(corners));
+    offsets.insert(offsets.begin(), 0);
+    sink.add_all(connectivity, offsets, kind == "Strips");
+    for (std::size_t i = 0; i < count; ++i) {  // as many triangles as the sink makes
+      const double triangles = std::max(0.0, offsets[i + 1] - offsets[i] - 2);
+      cell_of_.insert(cell_of_.end(), static_cast<std::size_t>(triangles), first_cell_ + i);
+    }
+    first_cell_ += count;
+  }
+
+  /// The values of a cell array of a piece that has been added; none if there is no such array.
+  std::vector<double> cell_values(const XmlElement& piece, const char* name,
+                                  std::size_t components) {
+    const XmlElement* array = named_child(piece.child("CellData"), name);
+    if (array == nullptr || components_in(file_, *array) != components) return {};
+    return xml_.values(*array, first_cell_ * components);
+  }
+
+  std::vector<double> labels_of_cells(const XmlElement& piece) {
+    std::vector<double> labels = cell_values(piece, kLabelArray, 1);
+    if (!std::all_of(labels.begin(), labels.end(), Fields::is_label)) labels.clear();
+    return labels;
+  }
+
+  std::vector<double> colours_of_cells(const XmlElement& piece) {
+    const XmlElement* array = named_child(piece.child("CellData"), kColourArray);
+    if (array == nullptr || array->attribute("type") != "UInt8") return {};
+    return cell_values(piece, kColourArray, 3);
+  }
+
+  /// To which object each triangle of a piece that has been added belongs.
+  void add_objects(const XmlElement& piece) {
+    if (cell_of_.empty()) return;
+    const std::vector<double> labels = labels_of_cells(piece), colours = colours_of_cells(piece);
+    for (const std::size_t cell : cell_of_) {
+      const Index label = labels.empty() ? -1 : static_cast<Index>(labels[cell]);
+      const auto next = static_cast<Index>(result_.objects.size());
+      const auto [found, is_new] = object_of_label_.try_emplace(label, next);
+      if (is_new) result_.objects.push_back(facts_of(label, cell, colours));
+      result_.object_of.push_back(found->second);
+    }
+  }
+
+  static ObjectFacts facts_of(Index label, std::size_t cell, const std::vector<double>& colours) {
+    ObjectFacts facts;
+    if (label >= 0) facts.label = label;
+    if (!colours.empty()) {
+      const auto channel = [&](std::size_t c) {
+        return static_cast<std::uint8_t>(colours[3 * cell + c]);
+      };
+      facts.colour = {channel(0), channel(1), channel(2)};
+    }
+    return facts;
+  }
+
+  const fs::path& file_;
+  VtkXml xml_;
+  Fields fields_;
+  TriMesh surface_;
+  ParsedObjects result_;
+  std::map<Index, Index> object_of_label_;  // -1: cells without a label
+  std::vector<std::size_t> cell_of_;        // the cells of the last piece's triangles
+  std::size_t first_cell_ = 0;              // of those that are added next
+};
 
 /// The only piece of a file.
 const XmlElement& only_piece(const fs::path& file, const VtkXml& xml) {
@@ -81,80 +218,14 @@ bool has_one_component(const fs::path& file, const XmlElement& array) {
   return array.name == "DataArray" && components_in(file, array) == 1;
 }
 
-VtkArray array_of(std::string name, const std::vector<double>& values) {
-  return vtk_array<double>(std::move(name), 1, values.size(),
-                           [&values](std::size_t i) { return values[i]; });
-}
-
-std::vector<VtkArray> field_data(const SurfaceWriteOptions& options) {
-  std::vector<VtkArray> fields;
-  if (options.frame) fields.push_back(vtk_text(kFrameField, frame_name(*options.frame)));
-  fields.push_back(vtk_text("LengthUnit", "mm"));
-  if (!options.name.empty()) fields.push_back(vtk_text("Name", options.name));
-  return fields;
-}
-
-VtkArrayGroup point_data(const SurfaceWriteOptions& options) {
-  VtkArrayGroup group{"PointData", {}};
-  if (!options.grey.empty()) group.arrays.push_back(array_of("grey", options.grey));
-  for (const auto& [name, values] : options.point_arrays) {
-    group.arrays.push_back(array_of(name, values));
-  }
-  return group;
-}
-
-VtkArrayGroup no_cells(const char* element) {
-  constexpr auto kNothing = [](std::size_t) { return 0; };
-  return {element,
-          {vtk_array<std::int64_t>("connectivity", 1, 0, kNothing),
-           vtk_array<std::int64_t>("offsets", 1, 0, kNothing)}};
-}
-
-VtkArrayGroup triangle_cells(const std::vector<Triangle>& triangles) {
-  if (triangles.size() > std::numeric_limits<std::int32_t>::max() / 3) {
-    throw InputError(say("mesh: ", triangles.size(), " cells are too many for a VTK file"));
-  }
-  auto corner = [&triangles](std::size_t i) { return triangles[i / 3][i % 3]; };
-  auto end_of_triangle = [](std::size_t t) { return 3 * (t + 1); };
-  return {"Polys",
-          {vtk_array<std::int32_t>("connectivity", 1, 3 * triangles.size(), corner),
-           vtk_array<std::int32_t>("offsets", 1, triangles.size(), end_of_triangle)}};
-}
-
 }  // namespace
 
-std::string vtp_bytes(const TriMesh& surface, const SurfaceWriteOptions& options) {
-  const std::vector<Vec3>& points = surface.points;
-  auto coordinate = [&points](std::size_t i) { return points[i / 3][static_cast<int>(i % 3)]; };
-  return vtk_xml_bytes(
-      {"PolyData",
-       field_data(options),
-       {{"NumberOfPoints", points.size()},
-        {"NumberOfVerts", 0},
-        {"NumberOfLines", 0},
-        {"NumberOfStrips", 0},
-        {"NumberOfPolys", surface.triangles.size()}},
-       {point_data(options),
-        {"CellData", {}},
-        {"Points", {vtk_array<double>("Points", 3, 3 * points.size(), coordinate)}},
-        no_cells("Verts"),
-        no_cells("Lines"),
-        no_cells("Strips"),
-        triangle_cells(surface.triangles)}});
+SurfaceFile parse_vtp(const fs::path& file, std::string_view bytes) {
+  return VtpParser(file, bytes).parse_surface();
 }
 
-SurfaceFile parse_vtp(const fs::path& file, std::string_view bytes) {
-  VtkXml xml(file, bytes, "PolyData");
-  TriMesh surface;
-  for (const XmlElement& piece : xml.data_set().children) {
-    if (piece.name != "Piece") continue;
-    PolygonSink sink(file, surface);
-    add_points(file, xml, piece, surface);
-    for (const std::string kind : {"Polys", "Strips"}) {
-      add_cells(file, xml, piece.child(kind), count_in(file, piece, "NumberOf" + kind), sink);
-    }
-  }
-  return {std::move(surface), stated_frame(xml)};
+ParsedObjects parse_vtp_objects(const fs::path& file, std::string_view bytes) {
+  return VtpParser(file, bytes).parse_objects();
 }
 
 std::vector<double> parse_vtp_array(const fs::path& file, std::string_view bytes,
