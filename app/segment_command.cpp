@@ -83,7 +83,18 @@ SurfaceWriteOptions surface_options(const SegmentOptions& options, const Result&
   return as;
 }
 
+/// A run whose result nobody would see is not started.
+void require_some_output(const SegmentOptions& options) {
+  if (!options.surfaces.empty() || !options.meshes.empty() || !options.band_meshes.empty() ||
+      !options.report.empty()) {
+    return;
+  }
+  throw CLI::ValidationError(
+      "segment", "expected --output, --mesh, --band-mesh or --report, found nothing to write");
+}
+
 void require_outputs(const SegmentOptions& options) {
+  require_some_output(options);
   for (const fs::path& path : options.surfaces) {
     require_output(path, written_surface_formats(), "--output");
   }

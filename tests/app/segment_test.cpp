@@ -298,6 +298,18 @@ TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
   EXPECT_EQ(folder.file_count(), 4) << "the scan, the settings, stdout and stderr";
 }
 
+TEST(SegmentCommand, RefusesARunThatWouldWriteNothingBeforeItReads) {
+  const TempFolder folder;
+  const std::vector<std::string> nothing{"segment", folder / "no scan.nrrd"};
+  EXPECT_FAILS(run_program(folder, nothing), 2,
+               "expected --output, --mesh, --band-mesh or --report");
+  for (const auto* more : {"--preview", "--error", "--quiet"}) {
+    auto arguments = nothing;
+    arguments.emplace_back(more);
+    EXPECT_FAILS(run_program(folder, arguments), 2, "found nothing to write");
+  }
+}
+
 TEST(SegmentCommand, LeavesNothingBehindWhenInterrupted) {
   const TempFolder folder;
   write_ball(folder, 64);  // far more work than the test waits for
