@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/ball_volume.h"
@@ -118,8 +119,24 @@ TEST(PrepareImage, RefusesSettingsThatLeaveNothingToSee) {
   settings.window = Window{900, 990};
   EXPECT_REFUSED(prepare_image(volume, settings), HasSubstr("window: expected one that holds"));
   settings.window = Window{100, 250};
-  settings.level = 300;
-  EXPECT_REFUSED(prepare_image(volume, settings), HasSubstr("level: expected a value between"));
+  settings.window = Window{100, 180};
+  settings.level = 200;
+  EXPECT_REFUSED(prepare_image(volume, settings),
+                 HasSubstr("level: expected a value between the window's ends"));
+}
+
+TEST(PrepareImage, RefusesALevelBesideTheDataAndTellsTheirRange) {
+  Volume volume = make_ball({.size = 24, .radius = 7});
+  for (float& sample : volume.samples) sample = std::clamp(std::round(sample), 120.0F, 230.0F);
+  Settings settings;
+  for (const double level : {-5000.0, 120.0, 230.0, 5000.0}) {
+    settings.level = level;
+    EXPECT_REFUSED(prepare_image(volume, settings),
+                   testing::AllOf(HasSubstr("the data, 120 to 230, found "),
+                                  HasSubstr(std::to_string(static_cast<int>(level)))));
+  }
+  settings.surface = SurfaceKind::kBand;
+  EXPECT_NO_THROW(prepare_image(volume, settings)) << "a band has no level";
 }
 
 TEST(PrepareImage, RefusesNoiseAloneUnlessALevelIsGiven) {

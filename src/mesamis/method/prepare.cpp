@@ -153,6 +153,19 @@ SplineImage spline_image(const GreyMap& map, const VolumeView& restored) {
   return image;
 }
 
+/// A level that no voxel, or every voxel, lies above has no surface, whatever the window is: it is
+/// refused before any work.
+void require_level_in_data(const VolumeView& volume, const Settings& settings) {
+  if (!settings.level || settings.surface != SurfaceKind::kSolid) return;
+  const auto [least, most] = sample_range(volume.samples);
+  const double level = *settings.level;
+  if (least < level && level < most) return;
+  std::ostringstream message;
+  message << "level: expected a value between the least and the greatest of the data, " << least
+          << " to " << most << ", found " << level;
+  throw InputError(message.str());
+}
+
 /// Settings that leave nothing to see, or nothing at the level, are refused.
 void require_contrast(const VolumeView& volume, const Parameters& p) {
   const double level = p.level;
@@ -181,6 +194,7 @@ std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
 }
 
 Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
+  require_level_in_data(volume, settings);
   Prepared prepared;
   Parameters& p = prepared.parameters = parameters_from_grid(volume, settings);
 

@@ -34,7 +34,8 @@ std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
 /// @param volume    native units, see require_usable().
 /// @param settings  valid, see require_valid().
 /// @throws InputError  if the window holds none of the samples, or does not hold the level; for a
-///                     solid whose level is to be found, if nothing stands out of the noise.
+///                     solid, if its level is not between the least and the greatest sample (which
+///                     is checked first), or is to be found and nothing stands out of the noise.
 ///
 /// O(voxels); two copies of the samples at a time.
 Prepared prepare_image(const VolumeView& volume, const Settings& settings);
