@@ -49,6 +49,23 @@ TEST(SettingsJson, WhatIsNotNamedStays) {
   EXPECT_EQ(settings.gamma, std::nullopt);
 }
 
+TEST(SettingsJson, ReadsRangesAndNumbersAsTheCommandLineHasThem) {
+  constexpr CropRange kOpen{{10, 0, 5}, {20, -1, -1}};
+  for (const char* text : {R"({"crop": "10:20,,5:"})", R"({"crop": [[10, 20], null, [5, null]]})",
+                           R"({"crop": [[10, 20], [null, null], [5, -1]]})"}) {
+    Settings settings;
+    from_json(json::parse(text), settings);
+    EXPECT_EQ(settings.crop, kOpen) << text;
+  }
+  Settings settings;
+  from_json(json{{"crop", ":20,,"}, {"stride", "2"}, {"window", "-200,900"}}, settings);
+  EXPECT_EQ(settings.crop, (CropRange{{0, 0, 0}, {20, -1, -1}}));
+  EXPECT_EQ(settings.stride, (std::array<Index, 3>{2, 2, 2}));
+  EXPECT_EQ(settings.window->high, 900);
+  from_json(json{{"stride", "auto"}}, settings);
+  EXPECT_EQ(settings.stride, std::nullopt);
+}
+
 TEST(SettingsJson, RefusesWhatNoSettingHas) {
   const auto refused = [](const char* text, const char* why) {
     Settings settings;
@@ -68,6 +85,11 @@ TEST(SettingsJson, RefusesWhatNoSettingHas) {
   refused(R"({"crop": [[0, 9], [0, 9]]})", "crop: expected");
   refused(R"({"crop": [[0, 9, 3], [0, 9], [0, 9]]})", "crop: expected");
   refused(R"({"crop": [[0, 1e300], [0, 9], [0, 9]]})", "crop: expected -1 to");
+  refused(R"({"crop": "10:20"})", "crop: expected I0:I1,J0:J1,K0:K1, found '10:20'");
+  refused(R"({"crop": [null, [0, 9]]})", "crop: expected");
+  refused(R"({"crop": [[0, "9"], null, null]})", "crop: expected");
+  refused(R"({"stride": "fast"})", "stride: expected X,Y,Z|auto, found 'fast'");
+  refused(R"({"stride": null})", "stride: expected");
   refused(R"({"max_tets": 300.5})", "max-tets: expected a whole number, found 300.5");
   refused(R"({"surface": "ball"})", "surface: expected solid|band, found 'ball'");
 }

@@ -48,24 +48,54 @@ bool add_number(const json& value, std::vector<double>& numbers) {
   return value.is_number();
 }
 
-/// The numbers of a list; of a list of pairs where the setting has ranges.
+/// A bound of a range; null is the volume's own.
+bool add_bound(const json& value, double open, std::vector<double>& numbers) {
+  if (value.is_null()) numbers.push_back(open);
+  return value.is_null() || add_number(value, numbers);
+}
+
+/// [I0, I1], [null, I1], [I0, null]; null for the whole axis.
+bool add_range(const json& range, std::vector<double>& numbers) {
+  if (range.is_null()) {
+    numbers.insert(numbers.end(), {0, -1});
+    return true;
+  }
+  return range.is_array() && range.size() == 2 && add_bound(range[0], 0, numbers) &&
+         add_bound(range[1], -1, numbers);
+}
+
+/// The numbers of a list; of a list of ranges where the setting has them.
 bool add_list(const Setting& setting, const json& list, std::vector<double>& numbers) {
   return std::all_of(list.begin(), list.end(), [&](const json& entry) {
-    if (!setting.ranges) return add_number(entry, numbers);
-    return entry.is_array() && entry.size() == 2 && add_number(entry[0], numbers) &&
-           add_number(entry[1], numbers);
+    return setting.ranges ? add_range(entry, numbers) : add_number(entry, numbers);
   });
+}
+
+/// A word, or numbers as they are written on the command line: "10:20,,".
+/// @throws InputError  "expected FORM, found TEXT", without the setting's name.
+SettingValue text_value(const Setting& setting, const std::string& text) {
+  return setting.count > 0 ? parse_value(setting, text) : SettingValue(text);
 }
 
 /// Nothing if no setting has values of this kind.
 std::optional<SettingValue> value_in(const Setting& setting, const json& value) {
   if (value.is_boolean()) return value.get<bool>();
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) return text_value(setting, value.get<std::string>());
   std::vector<double> numbers;
   const bool read =
       value.is_array() ? add_list(setting, value, numbers) : add_number(value, numbers);
   if (read && !value.is_array() && setting.count == 3) numbers.resize(3, numbers[0]);
   return read ? std::optional<SettingValue>(numbers) : std::nullopt;
+}
+
+SettingValue require_value(const Setting& setting, const json& value) {
+  std::string found = value.dump();
+  try {
+    if (auto read = value_in(setting, value)) return *read;
+  } catch (const InputError&) {
+    found = "'" + value.get<std::string>() + "'";
+  }
+  throw InputError(setting.name + ": expected " + forms_of(setting) + ", found " + found);
 }
 
 }  // namespace
@@ -82,11 +112,7 @@ void from_json(const json& object, Settings& settings) {
   if (!object.is_object()) throw InputError("expected a JSON object");
   for (const auto& [name, value] : object.items()) {
     const Setting& setting = find_setting(name);
-    const auto read = value_in(setting, value);
-    if (!read) {
-      throw InputError(name + ": expected " + forms_of(setting) + ", found " + value.dump());
-    }
-    set_setting(settings, setting, *read);
+    set_setting(settings, setting, require_value(setting, value));
   }
 }
 
