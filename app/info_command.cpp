@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis info: what is in a file or a directory, one line each.
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <sstream>
 
 #include "arguments.h"
 #include "commands.h"
+#include "mesamis/base/error.h"
+#include "mesamis/image/grey_values.h"
+#include "mesamis/image/orientation.h"
 #include "mesamis/scan_files/read_volume.h"
 #include "mesamis/shape_files/file_kind.h"
 #include "mesamis/shape_files/surface_files.h"
@@ -22,6 +26,36 @@ std::string box_text(std::span<const Vec3> points) {
   return text.str();
 }
 
+/// "  axes LPS, oblique by 3.1 degrees, origin 1 2 3 mm, directions 1 0 0, 0 1 0, 0 0 1 (LPS)"
+std::string place_text(const VolumeInfo& info) {
+  const GridOrientation grid = orientation_of(info.direction);
+  std::ostringstream text;
+  text << "  axes " << grid.letters[0] << grid.letters[1] << grid.letters[2];
+  constexpr double kAlignedDeg = 0.005;  // rounding of cosines in a file
+  if (grid.oblique_deg > kAlignedDeg) text << ", oblique by " << grid.oblique_deg << " degrees";
+  const auto vector = [&text](const Vec3& v) { text << v.x << " " << v.y << " " << v.z; };
+  text << ", origin ";
+  vector(info.origin);
+  text << " mm, directions ";
+  const Mat3 axes = transpose(info.direction);
+  for (std::size_t a = 0; a < 3; ++a) {
+    vector(axes.rows[a]);
+    text << (a < 2 ? ", " : " (LPS)");
+  }
+  return text.str();
+}
+
+/// What the values tell where the file does not. This is the only reason to read them.
+std::string values_text(const fs::path& file) {
+  const VolumeFile scan = read_volume(file);
+  const auto [least, most] = sample_range(scan.volume.samples);
+  std::ostringstream text;
+  text << "  values " << least << " to " << most;
+  const bool known = std::isfinite(least) && std::isfinite(most) && least < most;
+  if (known && is_hounsfield(scan.volume)) text << ": CT likely (HU)";
+  return text.str();
+}
+
 std::string volume_line(const VolumeInfo& info) {
   std::ostringstream line;
   line << (info.description.empty() ? "(no description)" : one_line(info.description)) << "  "
@@ -29,7 +63,8 @@ std::string volume_line(const VolumeInfo& info) {
   if (!info.modality.empty()) line << "  " << one_line(info.modality);
   if (info.size[0] > 0) {
     line << "  " << info.size[0] << " x " << info.size[1] << " x " << info.size[2] << " voxels of "
-         << info.spacing.x << " x " << info.spacing.y << " x " << info.spacing.z << " mm";
+         << info.spacing.x << " x " << info.spacing.y << " x " << info.spacing.z << " mm"
+         << place_text(info);
   }
   if (!info.series.empty()) line << "  series " << one_line(info.series);
   if (!info.problem.empty()) line << "  not usable: " << one_line(info.problem);
@@ -63,6 +98,22 @@ std::string mesh_line(const fs::path& path) {
   return line.str();
 }
 
+/// One line per volume. A file on its own that does not state its modality is read for what its
+/// values tell; one that cannot be read is not usable.
+void print_volumes(const fs::path& input) {
+  std::vector<VolumeInfo> all = list_volumes(input);
+  const bool unknown = all.size() == 1 && all[0].modality.empty() && all[0].problem.empty();
+  std::string values;
+  if (unknown && !fs::is_directory(input)) {
+    try {
+      values = values_text(input);
+    } catch (const InputError& error) {
+      all[0].problem = error.what();
+    }
+  }
+  for (const VolumeInfo& info : all) std::cout << volume_line(info) << values << "\n";
+}
+
 int run_info(const fs::path& input) {
   switch (kind_of(input)) {
     case FileKind::kSurface:
@@ -72,7 +123,7 @@ int run_info(const fs::path& input) {
       std::cout << mesh_line(input) << "\n";
       break;
     case FileKind::kVolume:
-      for (const VolumeInfo& info : list_volumes(input)) std::cout << volume_line(info) << "\n";
+      print_volumes(input);
       break;
   }
   return kExitDone;

@@ -3,6 +3,7 @@
 
 #include "mesamis/shape_files/mesh_files.h"
 #include "support/run_program.h"
+#include "support/scan_bytes.h"
 #include "support/test_data.h"
 
 namespace mesamis {
@@ -22,6 +23,44 @@ TEST(Info, DescribesAVolumeInOneLine) {
   EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1);
   EXPECT_THAT(run.out, HasSubstr("NRRD"));
   EXPECT_THAT(run.out, HasSubstr("2 x 3 x 4 voxels of 0.5 x 1 x 2 mm"));
+  EXPECT_THAT(run.out,
+              HasSubstr("axes LPS, origin 0 0 0 mm, directions 1 0 0, 0 1 0, 0 0 1 (LPS)"));
+  EXPECT_THAT(run.out, HasSubstr("values 65 to 88\n"));
+}
+
+std::string nrrd_of(const std::string& directions, const std::vector<std::int16_t>& samples) {
+  return "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nencoding: raw\nendian: little\n"
+         "space: left-posterior-superior\nspace directions: " +
+         directions + "\nspace origin: (1,2,3)\n\n" + bytes_of_all(samples);
+}
+
+TEST(Info, TellsHowTheGridLiesInTheBody) {
+  const TempFolder folder;
+  const std::vector<std::int16_t> samples{0, 1, 2, 3, 4, 5, 6, 7};
+  write_bytes(folder / "ras.nrrd", nrrd_of("(-1,0,0) (0,-1,0) (0,0,1)", samples));
+  EXPECT_THAT(run_program(folder, {"info", folder / "ras.nrrd"}).out,
+              HasSubstr("axes RAS, origin 1 2 3 mm, directions -1 0 0, 0 -1 0, 0 0 1 (LPS)"));
+  write_bytes(folder / "oblique.nrrd", nrrd_of("(0.8,0.6,0) (-0.6,0.8,0) (0,0,-2)", samples));
+  EXPECT_THAT(run_program(folder, {"info", folder / "oblique.nrrd"}).out,
+              HasSubstr("axes LPI, oblique by 36.8699 degrees, origin 1 2 3 mm, directions "
+                        "0.8 0.6 0, -0.6 0.8 0, 0 0 -1 (LPS)"));
+}
+
+TEST(Info, TellsWhatTheValuesAreLike) {
+  const TempFolder folder;
+  const std::string directions = "(1,0,0) (0,1,0) (0,0,1)";
+  const auto line = [&](const std::vector<std::int16_t>& samples) {
+    write_bytes(folder / "a.nrrd", nrrd_of(directions, samples));
+    return run_program(folder, {"info", folder / "a.nrrd"}).out;
+  };
+  EXPECT_THAT(line({-1000, -1000, -990, 20, 40, 60, 300, 900}),
+              HasSubstr("values -1000 to 900: CT likely (HU)"));
+  EXPECT_THAT(line({0, 1, 2, 3, 4, 5, 6, 1200}), HasSubstr("values 0 to 1200\n"));
+  const std::string whole = read_bytes(folder / "a.nrrd");
+  write_bytes(folder / "a.nrrd", whole.substr(0, whole.size() - 3));
+  const ProgramRun cut = run_program(folder, {"info", folder / "a.nrrd"});
+  EXPECT_EQ(cut.status, 0);
+  EXPECT_THAT(cut.out, HasSubstr("not usable: "));
 }
 
 TEST(Info, DescribesAMeshAndItsArrays) {

@@ -49,11 +49,16 @@ TEST(FactsOf, AreThoseOfTheScan) {
   write_bytes(folder / "a", "abc");
   Volume volume = make_ball({.size = 8, .radius = 2});
   volume.modality = "CT";
+  volume.origin = {1, -2, 3.5};
+  volume.direction = {{Vec3{0, -1, 0}, Vec3{1, 0, 0}, Vec3{0, 0, 1}}};
   const auto json = input_json(facts_of(folder / "a", volume, "NRRD", {"odd"}));
   EXPECT_EQ(json["sha256"], "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(json["size"], (nlohmann::json{8, 8, 8}));
   EXPECT_EQ(json["modality"], "CT");
   EXPECT_EQ(json["warnings"], nlohmann::json{"odd"});
+  EXPECT_EQ(json["origin_mm"].dump(), "[1.0,-2.0,3.5]");
+  EXPECT_EQ(json["direction"].dump(), "[[0.0,1.0,0.0],[-1.0,0.0,0.0],[0.0,0.0,1.0]]")
+      << "of the axes i, j, k";
   EXPECT_LT(json["range"][0], json["range"][1]);
 }
 

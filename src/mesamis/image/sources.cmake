@@ -3,6 +3,7 @@ set(ROOM_HEADERS
   gaussian.h
   grey_values.h
   label_map.h
+  orientation.h
   spline_image.h
   volume.h)
 set(ROOM_SOURCES
@@ -10,5 +11,6 @@ set(ROOM_SOURCES
   gaussian.cpp
   grey_values.cpp
   label_map.cpp
+  orientation.cpp
   spline_image.cpp
   volume.cpp)

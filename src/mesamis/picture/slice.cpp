@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mesamis/base/error.h"
+#include "mesamis/image/orientation.h"
 
 namespace mesamis::detail {
 namespace {
@@ -25,17 +26,6 @@ int nearest_axis(const Volume& volume, const Vec3& direction, std::vector<int> a
     return std::abs(dot(grid_direction(volume, a), direction)) <
            std::abs(dot(grid_direction(volume, b), direction));
   });
-}
-
-/// The letter of the side a direction points to: Left, Right, Posterior, Anterior, Superior,
-/// Inferior.
-char side_letter(const Vec3& d) {
-  int axis = 0;
-  for (const int other : {1, 2}) {
-    if (std::abs(d[other]) > std::abs(d[axis])) axis = other;
-  }
-  constexpr std::array<std::array<char, 2>, 3> kLetters{{{'L', 'R'}, {'P', 'A'}, {'S', 'I'}}};
-  return kLetters[static_cast<std::size_t>(axis)][d[axis] < 0];
 }
 
 /// LPS coordinate along `axis` of the centre of slice `index`.

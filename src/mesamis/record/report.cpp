@@ -134,12 +134,18 @@ ordered_json grey_json(const Parameters& p) {
            map.has_threshold() ? ordered_json(map.to_grey(map.threshold)) : ordered_json(nullptr)}};
 }
 
+/// The directions of the axes i, j, k, one after another.
+ordered_json direction_json(const Mat3& direction) {
+  const Mat3 axes = transpose(direction);
+  return {vec_json(axes.rows[0]), vec_json(axes.rows[1]), vec_json(axes.rows[2])};
+}
+
 }  // namespace
 
 InputFacts facts_of(const std::filesystem::path& path, const Volume& volume,
                     const std::string& format, const std::vector<std::string>& warnings) {
-  InputFacts facts{path, format, sha256(path), volume.modality, volume.size, volume.spacing,
-                   0,    0,      warnings};
+  InputFacts facts{path, format, sha256(path), volume.modality, volume.size,     volume.spacing,
+                   0,    0,      warnings,     volume.origin,   volume.direction};
   if (!volume.samples.empty()) {
     const auto [low, high] = std::minmax_element(volume.samples.begin(), volume.samples.end());
     facts.lowest = *low;
@@ -154,6 +160,8 @@ ordered_json input_json(const InputFacts& input) {
           {"sha256", input.sha256},
           {"size", input.size},
           {"spacing_mm", vec_json(input.spacing)},
+          {"origin_mm", vec_json(input.origin)},
+          {"direction", direction_json(input.direction)},
           {"range", {input.lowest, input.highest}},
           {"modality", input.modality},
           {"warnings", input.warnings}};

@@ -24,6 +24,8 @@ struct InputFacts {
   Vec3 spacing;                        ///< mm
   double lowest = 0, highest = 0;      ///< native units
   std::vector<std::string> warnings;   ///< of the reader
+  Vec3 origin{};                       ///< LPS, mm; see VoxelGrid::origin
+  Mat3 direction{};                    ///< LPS; see VoxelGrid::direction
 };
 
 /// Collects the facts of a scan that a report gives.

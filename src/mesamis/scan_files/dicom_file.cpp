@@ -88,6 +88,8 @@ VolumeInfo info_of(const fs::path& path, const DicomSeries& series) {
     const ScanFile scan = plan(path, series, stack);
     info.size = scan.grid.size;
     info.spacing = scan.grid.spacing;
+    info.origin = scan.grid.origin;
+    info.direction = scan.grid.direction;
   } catch (const InputError& error) {
     info.problem = error.what();
   }

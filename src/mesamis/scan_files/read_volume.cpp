@@ -81,6 +81,8 @@ VolumeInfo describe(const fs::path& file) {
     info.modality = scan.grid.modality;
     info.size = scan.grid.size;
     info.spacing = scan.grid.spacing;
+    info.origin = scan.grid.origin;
+    info.direction = scan.grid.direction;
   } catch (const InputError& error) {
     info.problem = error.what();
   }

@@ -64,6 +64,8 @@ struct VolumeInfo {
   std::array<Index, 3> size{0, 0, 0};  ///< voxels
   Vec3 spacing;                        ///< mm
   std::string problem;                 ///< why read_volume would refuse it; empty if it would not
+  Vec3 origin{};                       ///< LPS, mm; see VoxelGrid::origin
+  Mat3 direction{};                    ///< LPS; see VoxelGrid::direction
 };
 
 /// Lists what is in a file or a directory without decoding the samples: the DICOM series (of a

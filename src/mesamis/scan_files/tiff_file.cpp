@@ -267,7 +267,9 @@ VolumeFile read_tiff(const std::filesystem::path& file) {
 
 VolumeInfo describe_tiff(const std::filesystem::path& file) {
   const ScanFile scan = open_tiff(file).scan;
-  return {"", file.filename().string(), scan.format, "", scan.grid.size, scan.grid.spacing, ""};
+  const VoxelGrid& g = scan.grid;
+  return {"",         file.filename().string(), scan.format, "", g.size, g.spacing, "", g.origin,
+          g.direction};
 }
 
 }  // namespace mesamis::detail

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "mesamis/base/types.h"
+
+/// How a grid lies in the body.
+namespace mesamis {
+
+/// Names the side of the body that a direction points to most: L or R, P or A, S or I.
+/// @param direction  LPS, not zero, of any unit.
+/// @throws nothing
+char side_letter(const Vec3& direction) noexcept;
+
+/// The sides of the body that the axes of a grid run towards.
+struct GridOrientation {
+  std::array<char, 3>
+      letters;         ///< of i, j, k: "LPS" for the identity, "RAS" as NIfTI mostly has it
+  double oblique_deg;  ///< largest angle between an axis and the body axis it is named by
+};
+
+/// Names the axes of a grid. Each body axis names one of them: of the six ways the one with the
+/// largest sum of cosines.
+/// @param direction  orthonormal, see VoxelGrid::direction.
+/// @throws nothing
+///
+/// O(1).
+GridOrientation orientation_of(const Mat3& direction);
+
+}  // namespace mesamis
