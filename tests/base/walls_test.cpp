@@ -17,6 +17,7 @@ const std::map<std::string, std::set<std::string>> kSees{
     {"base", {}},
     {"image", {"base"}},
     {"restore", {"base", "image"}},
+    {"object", {"base", "image", "restore"}},
     {"mesh", {"base"}},
     {"fem", {"base", "mesh", "image"}},
     {"segment", {"base", "mesh", "image", "fem"}},

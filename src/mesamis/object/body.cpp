@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/object/body.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesamis/base/median.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/image/grey_values.h"
+#include "mesamis/object/keep.h"
+#include "mesamis/object/voxel_islands.h"
+#include "mesamis/object/voxel_neighbours.h"
+
+namespace mesamis {
+namespace {
+
+constexpr float kNoAir = -300;     // HU
+constexpr double kSheet = 3;       // mm: balls of this radius do not fit into skins of tables
+constexpr double kOpening = 6;     // mm
+constexpr double kHollow = 15;     // mm
+constexpr double kLongPart = 100;  // mm
+
+std::size_t at(Index n) { return static_cast<std::size_t>(n); }
+
+double voxel_mm3(const VoxelGrid& grid) { return grid.spacing.x * grid.spacing.y * grid.spacing.z; }
+
+/// Voxels about 2 mm apart suffice.
+std::array<Index, 3> coarse_stride(const VoxelGrid& grid) {
+  constexpr double kApart = 2;  // mm
+  std::array<Index, 3> stride{};
+  for (int a = 0; a < 3; ++a) {
+    const Index most = (grid.size[at(a)] - 1) / 2;
+    const auto wanted = std::floor(kApart / grid.spacing[a] * (1 + 1e-6));
+    stride[at(a)] = static_cast<Index>(std::clamp<double>(wanted, 1, std::max(1, most)));
+  }
+  return stride;
+}
+
+/// The grid's axis along the patient: across axial slices.
+int patient_axis(const VoxelGrid& grid) {
+  const Vec3 z = grid.direction.rows[2];
+  int axis = 2;
+  for (int a = 0; a < 3; ++a) {
+    if (std::abs(z[a]) > std::abs(z[axis]) + 1e-6) axis = a;
+  }
+  return axis;
+}
+
+/// The centres of the balls that fit into a mask.
+VoxelMask eroded(const VoxelMask& mask, const VoxelGrid& grid, double mm) {
+  return complement(dilated(complement(mask), grid, mm));
+}
+
+/// What balls that fit into a mask reach.
+VoxelMask opened(const VoxelMask& mask, const VoxelGrid& grid, double mm) {
+  return dilated(eroded(mask, grid, mm), grid, mm);
+}
+
+/// What balls that fit beside a mask do not reach: the mask and its hollows.
+VoxelMask closed(const VoxelMask& mask, const VoxelGrid& grid, double mm) {
+  return eroded(dilated(mask, grid, mm), grid, mm);
+}
+
+/// What is dense, and what it encloses in a slice: sinuses, airways, lungs. What sheets enclose is
+/// left open, such as the gap between patient and table.
+VoxelMask dense_and_filled(const VoxelMask& dense, const VoxelGrid& grid) {
+  VoxelMask solid =
+      without_cavities_in_slices(opened(dense, grid, kSheet), grid, patient_axis(grid));
+  for (std::size_t n = 0; n < solid.size(); ++n) solid[n] |= dense[n];
+  return solid;
+}
+
+/// What an island is made of, in voxels.
+struct Content {
+  std::size_t dense = 0, tissue = 0, deep = 0;
+  /// Whether half of what is dense is soft tissue, fat included.
+  bool is_tissue() const { return 2 * tissue >= dense; }
+};
+
+/// @param deep  the centres of the balls of the opening.
+std::vector<Content> contents(const VolumeView& volume, const VoxelIslands& islands,
+                              const VoxelMask& deep) {
+  constexpr float kLow = -200, kHigh = 200;  // HU
+  std::vector<Content> all(islands.voxels.size());
+  for (std::size_t n = 0; n < deep.size(); ++n) {
+    if (islands.of_voxel[n] == 0) continue;
+    Content& content = all[at(islands.of_voxel[n] - 1)];
+    const float x = volume.samples[n];
+    content.dense += x > kNoAir;
+    content.tissue += x > kLow && x < kHigh;
+    content.deep += deep[n];
+  }
+  return all;
+}
+
+/// Where the opening's balls fit into the patient; empty if there seems to be none.
+VoxelMask find_core(const VolumeView& volume, const VoxelMask& solid) {
+  constexpr std::size_t kOneIn = 100;
+  VoxelMask core = eroded(solid, volume, kOpening);
+  const VoxelIslands islands = find_islands(solid, volume);
+  const std::vector<Content> of_island = contents(volume, islands, core);
+  const auto largest =
+      std::max_element(of_island.begin(), of_island.end(),
+                       [](const Content& a, const Content& b) { return a.deep < b.deep; });
+  if (largest == of_island.end() || largest->deep == 0 || !largest->is_tissue()) return {};
+  for (std::size_t n = 0; n < core.size(); ++n) {
+    if (core[n] == 0) continue;
+    const Content& content = of_island[at(islands.of_voxel[n] - 1)];
+    core[n] = content.is_tissue() && kOneIn * content.deep >= largest->deep;
+  }
+  return core;
+}
+
+double longest_side(const CropRange& range, const VoxelGrid& grid) {
+  double longest = 0;
+  for (int a = 0; a < 3; ++a) {
+    longest = std::max(longest, (range.end[at(a)] - range.begin[at(a)]) * grid.spacing[a]);
+  }
+  return longest;
+}
+
+/// Whether each island shares a face with a mask.
+std::vector<std::uint8_t> touch(const VoxelIslands& islands, const VoxelMask& mask,
+                                const VoxelGrid& grid) {
+  std::vector<std::uint8_t> touches(islands.voxels.size(), 0);
+  for (std::size_t n = 0; n < mask.size(); ++n) {
+    if (islands.of_voxel[n] == 0) continue;
+    for_each_neighbour(grid, n, [&](std::size_t next, int) {
+      if (mask[next] != 0) touches[at(islands.of_voxel[n] - 1)] = 1;
+    });
+  }
+  return touches;
+}
+
+/// Gives back what the opening took from the body: short parts that hang on, and what lies in its
+/// hollows.
+void add_thin_parts(VoxelMask& body, const VoxelMask& solid, const VoxelGrid& grid) {
+  VoxelMask rest(body.size());
+  for (std::size_t n = 0; n < rest.size(); ++n) rest[n] = solid[n] != 0 && body[n] == 0;
+  const VoxelIslands parts = find_islands(rest, grid);
+  const std::vector<CropRange> ranges = ranges_of(parts, grid);
+  const std::vector<std::uint8_t> hangs_on = touch(parts, body, grid);
+  const VoxelMask in_hollow = closed(body, grid, kHollow);
+  for (std::size_t n = 0; n < rest.size(); ++n) {
+    if (rest[n] == 0) continue;
+    const std::size_t part = at(parts.of_voxel[n] - 1);
+    const bool is_short = longest_side(ranges[part], grid) <= kLongPart;
+    body[n] = in_hollow[n] != 0 || (hangs_on[part] != 0 && is_short);
+  }
+}
+
+/// Fills what the outside does not reach, and lungs that the scan's border cuts.
+void fill_enclosed(VoxelMask& body, const VolumeView& volume) {
+  constexpr double kLung = -950;  // HU; air is darker
+  body = without_cavities(without_cavities_in_slices(body, volume, patient_axis(volume)), volume);
+  const VoxelIslands gaps = find_islands(complement(body), volume);
+  std::vector<std::vector<double>> values(gaps.voxels.size() + 1);
+  for (std::size_t n = 0; n < body.size(); ++n) {
+    if (body[n] == 0) values[at(gaps.of_voxel[n])].push_back(volume.samples[n]);
+  }
+  std::vector<std::uint8_t> is_lung(values.size(), 0);
+  for (std::size_t gap = 1; gap < values.size(); ++gap) {
+    const double middle = median(values[gap]);
+    is_lung[gap] = middle > kLung && middle < kNoAir;
+  }
+  for (std::size_t n = 0; n < body.size(); ++n) body[n] |= is_lung[at(gaps.of_voxel[n])];
+}
+
+/// What is dense and not in the body, by name.
+std::vector<Surroundings> name_surroundings(const VoxelMask& body, const VoxelMask& dense,
+                                            const VoxelGrid& grid) {
+  VoxelMask rest(body.size());
+  for (std::size_t n = 0; n < rest.size(); ++n) rest[n] = dense[n] != 0 && body[n] == 0;
+  const VoxelIslands islands = find_islands(rest, grid);
+  const std::vector<CropRange> ranges = ranges_of(islands, grid);
+  const auto axis = at(patient_axis(grid));
+  std::vector<Surroundings> kinds{{"table or head rest", 0}, {"other objects", 0}};
+  for (std::size_t island = 0; island < ranges.size(); ++island) {
+    const bool is_long =
+        2 * (ranges[island].end[axis] - ranges[island].begin[axis]) >= grid.size[axis];
+    kinds[is_long ? 0 : 1].mm3 += static_cast<double>(islands.voxels[island]) * voxel_mm3(grid);
+  }
+  std::erase_if(kinds, [](const Surroundings& kind) { return kind.mm3 == 0; });
+  std::stable_sort(kinds.begin(), kinds.end(),
+                   [](const auto& a, const auto& b) { return a.mm3 > b.mm3; });
+  return kinds;
+}
+
+/// The mark of the nearest coarse voxel for every voxel.
+VoxelMask spread_out(const VoxelMask& coarse, const VoxelGrid& from, const VoxelGrid& grid,
+                     const std::array<Index, 3>& stride) {
+  const auto nearest = [&](std::size_t n, std::size_t axis) {
+    const Index rounded = (static_cast<Index>(n) + stride[axis] / 2) / stride[axis];
+    return std::min(rounded, from.size[axis] - 1);
+  };
+  VoxelMask mask(grid.voxel_count());
+  const std::size_t nx = at(grid.size[0]), ny = at(grid.size[1]);
+  parallel_for(mask.size(), [&](std::size_t n) {
+    const std::size_t i = n % nx, j = n / nx % ny, k = n / (nx * ny);
+    mask[n] = coarse[from.offset(nearest(i, 0), nearest(j, 1), nearest(k, 2))];
+  });
+  return mask;
+}
+
+}  // namespace
+
+std::optional<Body> find_body(const VolumeView& volume) {
+  if (volume.samples.empty() || !is_hounsfield(volume)) return std::nullopt;
+  if (*std::min_element(volume.size.begin(), volume.size.end()) < 2) return std::nullopt;
+  const std::array<Index, 3> stride = coarse_stride(volume);
+  const Volume coarse = subsample(volume, stride);
+  const VoxelMask dense = mask_above(coarse, kNoAir);
+  const VoxelMask solid = dense_and_filled(dense, coarse);
+  const VoxelMask core = find_core(coarse, solid);
+  if (core.empty()) return std::nullopt;
+
+  VoxelMask inside = dilated(core, coarse, kOpening);
+  add_thin_parts(inside, solid, coarse);
+  fill_enclosed(inside, coarse);
+  Body body;
+  body.grain = std::max({coarse.spacing.x, coarse.spacing.y, coarse.spacing.z});
+  body.removed = name_surroundings(inside, dense, coarse);
+  body.mm3 = static_cast<double>(count_marked(inside)) * voxel_mm3(coarse);
+  body.mask = spread_out(inside, coarse, volume, stride);
+  return body;
+}
+
+Volume without_surroundings(const VolumeView& volume, const Body& body) {
+  constexpr double kAir = -1000;  // HU
+  return kept_to(volume, body.mask, {.margin = body.grain, .background = kAir});
+}
+
+}  // namespace mesamis

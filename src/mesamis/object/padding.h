@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mesamis/image/volume.h"
+#include "mesamis/object/voxel_distance.h"
+
+/// Voxels that the scanner never measured: the corners around a round field of view, and what a
+/// resampled or registered scan was filled up with.
+namespace mesamis {
+
+/// The padding of a scan.
+struct Padding {
+  VoxelMask mask;          ///< 1 for padding, 0 for what was measured
+  double value = 0;        ///< that of most of it, native units
+  std::size_t voxels = 0;  ///< how many are padding, at least 1
+};
+
+/// Finds the padding of a scan.
+///
+/// Two signs count. In CT nothing is darker than air: samples of -1500 HU or less are padding if
+/// they are at least a thousandth of the voxels, and so are samples below -1100 HU next to them
+/// (-3024, -2048, -2000, and what interpolation made of them). In any scan, a single value that
+/// holds at least two corners and reaches in from the border is padding if what it leaves is convex
+/// like a field of view (a cylinder, a turned box: one run of voxels on all but 0.5 % of the grid
+/// lines and diagonals) and was cut, not faded out. At a cut the voxels next to the padding differ
+/// from it (a twentieth by more than 0.02 of the range of the samples), the second ones are dark (a
+/// quarter of them), and the third ones are brighter than these in less than three of four cases. A
+/// masked object, whose rim is its own surface, and the even background of a synthetic scan have
+/// not all of this.
+///
+/// Air that the scanner clipped (CT, -1100 to -900 HU) is no padding: it is air.
+/// @param volume  finite samples.
+/// @return nothing if there is none, or nothing else.
+/// @throws nothing
+///
+/// O(voxels); 1 byte per voxel.
+std::optional<Padding> find_padding(const VolumeView& volume);
+
+/// Copies the samples that are not marked: what statistics of the scan are made of. As a view
+/// without a grid, VolumeView{{}, samples}, quantiles() and otsu_split() take them.
+/// @param mask  one mark per voxel, such as Padding::mask.
+/// @return native units, in the order of the voxels.
+/// @throws InputError  if the mask does not fit the volume.
+///
+/// O(voxels).
+std::vector<float> samples_outside(const VolumeView& volume, std::span<const std::uint8_t> mask);
+
+/// Sets all marked samples to a value: that of the background (air), so that padding looks like it.
+/// @param value  native units.
+/// @throws InputError  if the mask does not fit the volume.
+///
+/// O(voxels), a copy of the samples.
+Volume filled(const VolumeView& volume, std::span<const std::uint8_t> mask, double value);
+
+/// Finds how much of a level's surface is the border of the padding: of all crossings of the grid
+/// lines with the level, those between a marked and an unmarked voxel. More than a few per cent,
+/// and the surface shows the field of view.
+/// @param mask   one mark per voxel, such as Padding::mask.
+/// @param level  native units.
+/// @return 0 to 1, no unit; 0 if nothing crosses the level.
+/// @throws InputError  if the mask does not fit the volume.
+///
+/// O(voxels).
+double share_at_border(const VolumeView& volume, std::span<const std::uint8_t> mask, double level);
+
+}  // namespace mesamis

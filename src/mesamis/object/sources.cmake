@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+set(ROOM_HEADERS
+  body.h
+  keep.h
+  mirror.h
+  padding.h
+  places.h
+  split_at_seeds.h
+  tissue.h
+  tissue_level.h
+  voxel_distance.h
+  voxel_islands.h)
+set(ROOM_SOURCES
+  body.cpp
+  keep.cpp
+  mirror.cpp
+  padding.cpp
+  places.cpp
+  split_at_seeds.cpp
+  tissue.cpp
+  tissue_level.cpp
+  voxel_distance.cpp
+  voxel_islands.cpp)

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/object/split_at_seeds.h"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+#include <string>
+#include <tuple>
+
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/object/voxel_distance.h"
+#include "mesamis/object/voxel_islands.h"
+#include "mesamis/object/voxel_neighbours.h"
+
+namespace mesamis {
+namespace {
+
+/// The value that a tenth of the marked samples exceed; at least a little above the level.
+double bright_value(const VolumeView& volume, std::span<const std::uint8_t> mask, double level) {
+  std::vector<float> marked;
+  for (std::size_t n = 0; n < mask.size(); ++n) {
+    if (mask[n] != 0) marked.push_back(volume.samples[n]);
+  }
+  const auto tenth = marked.begin() + static_cast<std::ptrdiff_t>(marked.size() * 9 / 10);
+  std::nth_element(marked.begin(), tenth, marked.end());
+  return *tenth > level ? *tenth : level + 1;
+}
+
+/// The depth in the solid, mm. What is beyond the grid counts as within it.
+std::vector<float> depths(const VoxelMask& solid, const VoxelGrid& grid) {
+  std::vector<float> depth = distance_to_mask(complement(solid), grid);
+  const auto farthest = static_cast<float>(norm(grid.box().extent()));
+  for (float& mm : depth) mm = std::min(mm, farthest);
+  return depth;
+}
+
+/// Depth times brightness, see the header; cavities are as bright as can be.
+std::vector<float> strengths(const VolumeView& volume, std::span<const std::uint8_t> mask,
+                             double level, std::vector<float> depth) {
+  const double bright = bright_value(volume, mask, level);
+  parallel_for(depth.size(), [&](std::size_t n) {
+    const double above = mask[n] != 0 ? (volume.samples[n] - level) / (bright - level) : 1;
+    depth[n] *= static_cast<float>(std::clamp(above, 0.0, 1.0));
+  });
+  return depth;
+}
+
+std::array<Index, 3> voxel_of(const VoxelGrid& grid, std::size_t place) {
+  const auto nx = static_cast<std::size_t>(grid.size[0]),
+             ny = static_cast<std::size_t>(grid.size[1]);
+  return {static_cast<Index>(place % nx), static_cast<Index>(place / nx % ny),
+          static_cast<Index>(place / (nx * ny))};
+}
+
+/// The deepest marked voxel within the ball around a voxel that its depth makes, and one voxel
+/// more.
+std::size_t deepest_nearby(const VoxelGrid& grid, const std::vector<float>& depth,
+                           std::size_t from) {
+  const double most = depth[from] + std::max({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+  const auto v = voxel_of(grid, from);
+  std::array<std::array<Index, 2>, 3> range;
+  for (std::size_t a = 0; a < 3; ++a)
+    range[a] = voxels_around(grid, static_cast<int>(a), v[a], most);
+  std::size_t deepest = from;
+  for (Index k = range[2][0]; k <= range[2][1]; ++k) {
+    for (Index j = range[1][0]; j <= range[1][1]; ++j) {
+      for (Index i = range[0][0]; i <= range[0][1]; ++i) {
+        const std::size_t n = grid.offset(i, j, k);
+        if (!(depth[n] > depth[deepest])) continue;
+        const Vec3 away{(i - v[0]) * grid.spacing.x, (j - v[1]) * grid.spacing.y,
+                        (k - v[2]) * grid.spacing.z};
+        if (norm(away) <= most) deepest = n;
+      }
+    }
+  }
+  return deepest;
+}
+
+/// Climbs from a voxel to where the object is deepest. A part would otherwise begin with the thin
+/// end that a seed happens to lie in, after a thicker neighbour has come through the neck.
+std::size_t climb(const VoxelGrid& grid, const std::vector<float>& depth, std::size_t from) {
+  for (std::size_t next = from;; from = next) {
+    next = deepest_nearby(grid, depth, from);
+    if (next == from) return from;
+  }
+}
+
+/// A voxel next to a part: what is taken first is greatest.
+struct Candidate {
+  float strength;
+  std::size_t step;  // when it was reached
+  std::size_t voxel;
+  std::uint16_t label;
+
+  bool operator<(const Candidate& other) const {
+    return std::tie(strength, other.step, other.voxel, other.label) <
+           std::tie(other.strength, step, voxel, label);
+  }
+};
+
+/// The watershed.
+class Flood {
+ public:
+  Flood(const VoxelGrid& grid, const VoxelMask& solid, std::vector<float> strength)
+      : grid_(grid), solid_(solid), strength_(std::move(strength)), labels_(solid.size(), 0) {}
+
+  void add_seed(std::size_t voxel, std::uint16_t label) {
+    open_.push({kSeedStrength, 0, voxel, label});
+  }
+
+  std::vector<std::uint16_t> run() {
+    while (!open_.empty()) {
+      const Candidate next = open_.top();
+      open_.pop();
+      if (labels_[next.voxel] == 0) take(next);
+    }
+    return std::move(labels_);
+  }
+
+ private:
+  static constexpr float kSeedStrength = std::numeric_limits<float>::infinity();
+
+  void take(const Candidate& c) {
+    labels_[c.voxel] = c.label;
+    for_each_neighbour(grid_, c.voxel, [&](std::size_t n, int) {
+      if (solid_[n] != 0 && labels_[n] == 0) open_.push({strength_[n], c.step + 1, n, c.label});
+    });
+  }
+
+  const VoxelGrid& grid_;
+  const VoxelMask& solid_;
+  std::vector<float> strength_;
+  std::vector<std::uint16_t> labels_;
+  std::priority_queue<Candidate> open_;
+};
+
+std::vector<std::size_t> places_of(std::span<const std::array<Index, 3>> seeds,
+                                   std::span<const std::uint8_t> mask, const VoxelGrid& grid) {
+  std::vector<std::size_t> places;
+  for (const auto& seed : seeds) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (seed[a] >= 0 && seed[a] < grid.size[a]) continue;
+      throw InputError("seed: expected a voxel of the scan, found " + std::to_string(seed[a]) +
+                       " along axis " + std::to_string(a));
+    }
+    const std::size_t place =
+        nearest_marked(mask, grid, seed, std::max(kBesideMm, grid.voxel_size()));
+    if (std::find(places.begin(), places.end(), place) != places.end()) {
+      throw InputError("seed: expected one per part, found two at the same voxel");
+    }
+    places.push_back(place);
+  }
+  return places;
+}
+
+}  // namespace
+
+LabelMap split_at_seeds(const VolumeView& volume, std::span<const std::uint8_t> mask, double level,
+                        std::span<const std::array<Index, 3>> seeds) {
+  require_mask_of(mask, volume);
+  if (seeds.empty() || seeds.size() > static_cast<std::size_t>(kMaxLabel)) {
+    throw InputError("seed: expected 1 to " + std::to_string(kMaxLabel) + ", found " +
+                     std::to_string(seeds.size()));
+  }
+  const std::vector<std::size_t> places = places_of(seeds, mask, volume);
+  const VoxelMask solid = without_cavities(mask, volume);
+  const std::vector<float> depth = depths(solid, volume);
+  std::vector<std::size_t> tops;
+  for (const std::size_t place : places) tops.push_back(climb(volume, depth, place));
+  Flood flood(volume, solid, strengths(volume, mask, level, depth));
+  LabelMap map{volume, {}, {}};
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const auto label = static_cast<Index>(n + 1);
+    flood.add_seed(places[n], static_cast<std::uint16_t>(label));
+    const bool is_its_own = std::count(tops.begin(), tops.end(), tops[n]) == 1;
+    if (is_its_own) flood.add_seed(tops[n], static_cast<std::uint16_t>(label));
+    map.segments.push_back({"part " + std::to_string(label), label, 0, default_colour(label)});
+  }
+  map.layers.push_back(flood.run());
+  auto& labels = map.layers.front();
+  for (std::size_t n = 0; n < labels.size(); ++n) labels[n] = mask[n] != 0 ? labels[n] : 0;
+  return map;
+}
+
+}  // namespace mesamis

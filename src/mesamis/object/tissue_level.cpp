@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/object/tissue_level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mesamis/base/error.h"
+#include "mesamis/image/grey_values.h"
+#include "mesamis/object/mirror.h"
+#include "mesamis/restore/object_edge.h"
+
+namespace mesamis {
+namespace {
+
+/// The default window, with room for an edge on both sides of the level.
+Window window_around(const VolumeView& volume, const HalfMaximumLevel& seen) {
+  const Window window = default_window(volume, seen.contrast.background);
+  const double room = std::abs(seen.contrast.difference()) / 2;
+  return {std::min(window.low, seen.level - room), std::max(window.high, seen.level + room)};
+}
+
+/// The edge of the bright object of a volume.
+HalfMaximumLevel measure(const VolumeView& volume, const std::optional<double>& start) {
+  const HalfMaximumLevel seen = find_half_maximum_level(volume, {.start = start});
+  if (!(seen.contrast.difference() > 0)) return seen;
+  const Window window = window_around(volume, seen);
+  const auto low = static_cast<float>(window.low), high = static_cast<float>(window.high);
+  Volume clamped = copy_volume(volume);
+  for (float& x : clamped.samples) x = std::clamp(x, low, high);
+  return find_object_edge(clamped, seen);
+}
+
+/// The same for the dark object, in the units of the volume.
+HalfMaximumLevel measure_dark(const VolumeView& volume, const std::optional<double>& start) {
+  Volume mirror = mirrored(copy_volume(volume));
+  mirror.modality = "mirrored";  // its values are no Hounsfield units
+  const auto from = start ? std::optional(mirrored(*start)) : std::nullopt;
+  HalfMaximumLevel object = measure(mirror, from);
+  object.level = mirrored(object.level);
+  object.contrast.background = -object.contrast.background;
+  object.contrast.object = -object.contrast.object;
+  return object;
+}
+
+bool is_given(const Tissue& tissue) { return tissue.levels.low == tissue.levels.high; }
+
+void require_hounsfield(const VolumeView& scan, const Tissue& tissue) {
+  if (!tissue.hounsfield || is_hounsfield(scan)) return;
+  throw InputError("tissue: expected a CT scan in Hounsfield units for " + tissue.name +
+                   ", found other values; dark and LO:HI fit any scan");
+}
+
+}  // namespace
+
+TissueLevel find_tissue_level(const VolumeView& scan, const Tissue& tissue) {
+  require_hounsfield(scan, tissue);
+  TissueLevel result;
+  if (is_given(tissue)) {
+    result.level = tissue.levels.low;
+    return result;
+  }
+  const bool dark = tissue.kind == TissueKind::kDark;
+  const HalfMaximumLevel object =
+      dark ? measure_dark(scan, tissue.start) : measure(scan, tissue.start);
+  if (object.contrast.difference() == 0 || object.in_noise) {
+    if (!tissue.start) {
+      throw InputError("tissue: expected an object that stands out of the noise, found none");
+    }
+    result.level = *tissue.start;
+    return result;
+  }
+  result.level = std::clamp(object.level, tissue.levels.low, tissue.levels.high);
+  result.contrast = object.contrast;
+  result.uncertainty = object.uncertainty;
+  result.bounded = result.level != object.level;
+  result.measured = !result.bounded;
+  return result;
+}
+
+}  // namespace mesamis

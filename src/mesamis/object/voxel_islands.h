@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesamis/image/volume.h"
+#include "mesamis/object/voxel_distance.h"
+
+/// Islands of marked voxels: those that a way through faces of voxels connects. Cavities are what
+/// they enclose.
+namespace mesamis {
+
+/// The islands of a mask. They are numbered from 1 in the order of their first voxels.
+struct VoxelIslands {
+  std::vector<Index> of_voxel;      ///< per voxel the number of its island; 0 outside of the mask
+  std::vector<std::size_t> voxels;  ///< of each island; island n is at n - 1
+
+  /// The number of the island with most voxels, the first of those; 0 if there is none. O(islands).
+  Index largest() const noexcept;
+};
+
+/// Finds the islands of a mask.
+/// @param mask  one mark per voxel of the grid.
+/// @throws InputError  if the mask does not fit the grid.
+///
+/// O(voxels); 4 bytes per voxel.
+VoxelIslands find_islands(std::span<const std::uint8_t> mask, const VoxelGrid& grid);
+
+/// Finds the smallest range of voxels that holds each island.
+/// @param islands  of the grid.
+/// @return one per island; island n is at n - 1.
+/// @throws nothing
+///
+/// O(voxels).
+std::vector<CropRange> ranges_of(const VoxelIslands& islands, const VoxelGrid& grid);
+
+/// Marks the voxels of one island.
+/// @param island  from 1 to the number of islands.
+/// @return 1 inside, 0 outside.
+/// @throws nothing
+///
+/// O(voxels).
+VoxelMask mask_of_island(const VoxelIslands& islands, Index island);
+
+/// Finds the marked voxel nearest to a voxel.
+/// @param from     within the grid.
+/// @param most_mm  no further than this between the centres, mm, 0 to 100.
+/// @return its place among the samples, of several as near the first.
+/// @throws InputError  if there is none, or the mask does not fit the grid.
+///
+/// O(voxels within that distance).
+std::size_t nearest_marked(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
+                           const std::array<Index, 3>& from, double most_mm);
+
+/// A place may be this far beside the object that is meant, mm: as far as one points beside it.
+inline constexpr double kBesideMm = 3;
+
+/// Marks the island that a place belongs to: that of the marked voxel nearest to it.
+/// @param mask  of the object and others: mask_on(), or mask_above() of a level.
+/// @param at    within the grid, see voxel_at().
+/// @return 1 inside, 0 outside.
+/// @throws InputError  if no voxel within kBesideMm is marked, or the mask does not fit the grid.
+///
+/// O(voxels).
+VoxelMask island_at(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
+                    const std::array<Index, 3>& at);
+
+/// Fills the cavities of a mask: unmarked voxels that no way through faces of unmarked voxels
+/// connects with the border of the grid.
+/// @return 1 inside, 0 outside.
+/// @throws InputError  if the mask does not fit the grid.
+///
+/// O(voxels); 5 bytes per voxel.
+VoxelMask without_cavities(std::span<const std::uint8_t> mask, const VoxelGrid& grid);
+
+/// Fills the cavities of each slice by itself: also what opens beyond the slice, as the airways do.
+/// @param axis  0 to 2: across the slices.
+/// @return 1 inside, 0 outside.
+/// @throws InputError  if the mask does not fit the grid.
+///
+/// O(voxels), in threads; a few bytes per voxel of the slices in work.
+VoxelMask without_cavities_in_slices(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
+                                     int axis);
+
+/// Marks the samples above a level.
+/// @param level  native units.
+/// @return 1 above, 0 elsewhere.
+/// @throws nothing
+///
+/// O(voxels).
+VoxelMask mask_above(const VolumeView& volume, double level);
+
+}  // namespace mesamis
