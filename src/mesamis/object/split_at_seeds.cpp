@@ -167,6 +167,7 @@ LabelMap split_at_seeds(const VolumeView& volume, std::span<const std::uint8_t> 
   const VoxelMask solid = without_cavities(mask, volume);
   const std::vector<float> depth = depths(solid, volume);
   std::vector<std::size_t> tops;
+  tops.reserve(places.size());
   for (const std::size_t place : places) tops.push_back(climb(volume, depth, place));
   Flood flood(volume, solid, strengths(volume, mask, level, depth));
   LabelMap map{volume, {}, {}};

@@ -35,8 +35,8 @@ namespace mesamis {
 /// @throws InputError  if the mask does not fit, a seed is outside of the grid or has no object
 ///                     near it, two are the same voxel, or there are more than kMaxLabel.
 ///
-/// O(voxels) and O(n log n) for the n marked voxels; 16 bytes per voxel. Serial but for the depth:
-/// the same labels for any number of threads.
+/// O(voxels), O(n log n) for the n marked voxels, and O(seeds^2); 16 bytes per voxel. Serial but
+/// for the depth: the same labels for any number of threads.
 LabelMap split_at_seeds(const VolumeView& volume, std::span<const std::uint8_t> mask, double level,
                         std::span<const std::array<Index, 3>> seeds);
 
