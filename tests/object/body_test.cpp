@@ -129,6 +129,21 @@ TEST(FindBody, HoldsLungsThatTheBorderCuts) {
   EXPECT_EQ(count_marked(body->mask), body->mask.size());
 }
 
+/// Two legs with a web of skin between them that is longer than what hangs on may be.
+TEST(FindBody, HoldsThinPartsInItsHollows) {
+  const VoxelGrid grid = grid_of({76, 40, 65}, {2, 2, 2});
+  const VoxelMask legs = mask_where(grid, [](const Vec3& p) {
+    const bool is_leg = std::hypot(std::abs(p.x - 75) - 35, p.y - 39) < 30;
+    return is_leg || (std::abs(p.x - 75) < 35 && std::abs(p.y - 39) < 2);
+  });
+  Volume volume = volume_of(grid, legs, 40, -1000);
+  volume.modality = "CT";
+  const auto body = find_body(volume);
+  ASSERT_TRUE(body);
+  EXPECT_EQ(count_missing(legs, body->mask), 0u);
+  EXPECT_TRUE(body->removed.empty());
+}
+
 TEST(FindBody, NamesSmallThingsBesideThePatient) {
   Volume volume = scene(kGrid);
   for (Index i = 5; i < 9; ++i) {

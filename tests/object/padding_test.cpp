@@ -87,8 +87,9 @@ TEST(Padding, IsNotTheAirOfAScan) {
   EXPECT_FALSE(find_padding(mr()));
 }
 
-/// A scanner that knows nothing below -1024 makes an even background.
+/// A scanner that knows nothing below -1024 makes an even background, and fills up with it.
 TEST(Padding, IsNotClippedAir) {
+  EXPECT_FALSE(find_padding(ct(-1024)));
   Volume volume = trunk();
   for (float& x : volume.samples) x = x < -900 ? -1024 : x;
   EXPECT_FALSE(find_padding(volume));
@@ -123,6 +124,13 @@ TEST(Padding, IsNotWhatAMaskTookAway) {
     return norm(Vec3{q.x / 20, q.y / 17, q.z / 15}) > 1;
   });
   EXPECT_FALSE(find_padding(filled(volume, outside, 0)));
+}
+
+/// A cross is no field of view.
+TEST(Padding, LeavesSomethingConvex) {
+  const VoxelMask outside = mask_where(
+      kGrid, [](const Vec3& p) { return std::abs(p.x - 31) > 9 && std::abs(p.y - 30) > 9; });
+  EXPECT_FALSE(find_padding(filled(mr(), outside, 0)));
 }
 
 TEST(Padding, IsNotTheWholeScanNorNothing) {
