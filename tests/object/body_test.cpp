@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/object/padding.h"
 #include "object/object_scenes.h"
 #include "support/throws.h"
 
@@ -142,6 +143,38 @@ TEST(FindBody, HoldsThinPartsInItsHollows) {
   ASSERT_TRUE(body);
   EXPECT_EQ(count_missing(legs, body->mask), 0u);
   EXPECT_TRUE(body->removed.empty());
+}
+
+/// A chest whose wall is thinner than what the opening leaves.
+TEST(FindBody, HoldsThinWallsAroundLungs) {
+  const VoxelGrid grid = grid_of({66, 66, 70}, {2, 2, 2});
+  const auto from_axis = [](const Vec3& p) { return std::hypot(p.x - 65, p.y - 65); };
+  const VoxelMask chest = mask_where(grid, [&](const Vec3& p) { return from_axis(p) < 60; });
+  const VoxelMask lung =
+      mask_where(grid, [&](const Vec3& p) { return from_axis(p) < 51 && p.z > 20; });
+  Volume volume = filled(volume_of(grid, chest, 40, -1000), lung, -820);
+  volume.modality = "CT";
+  const auto body = find_body(volume);
+  ASSERT_TRUE(body);
+  EXPECT_EQ(body->mask, chest);
+}
+
+/// Two legs side by side on a table: between them and its skin is a gap that is not theirs.
+TEST(FindBody, LeavesOutTheTableBelowAGap) {
+  const VoxelGrid grid = grid_of({100, 50, 65}, {2, 2, 2});
+  const VoxelMask legs = mask_where(
+      grid, [](const Vec3& p) { return std::hypot(std::abs(p.x - 99) - 30, p.y - 41) < 31; });
+  const VoxelMask table = mask_where(grid, [](const Vec3& p) { return p.y >= 72 && p.y < 76; });
+  Volume volume = filled(volume_of(grid, legs, 40, -1000), table, 100);
+  volume.modality = "CT";
+  const auto body = find_body(volume);
+  ASSERT_TRUE(body);
+  EXPECT_EQ(count_missing(legs, dilated(body->mask, grid, body->grain)), 0u);
+  for_each_voxel(grid, [&](const std::array<Index, 3>& v, std::size_t n) {
+    if (table[n] != 0 && std::abs(2 * v[0] - 99) < 12) {
+      EXPECT_EQ(body->mask[n], 0) << v[0];
+    }
+  });
 }
 
 TEST(FindBody, NamesSmallThingsBesideThePatient) {
