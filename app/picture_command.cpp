@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis picture: a PNG of a surface, a mesh or a slice of a volume.
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -32,6 +33,16 @@ Clip parse_clip(const std::string& text) {
                                "expected x, y or z, a comma and mm, found '" + text + "'");
   }
   return {static_cast<int>(axis), parse_numbers(text.substr(2), 1, "--clip")[0]};
+}
+
+/// "LOW:HIGH", or "LOW,HIGH" as segment has it.
+Window parse_window(std::string text) {
+  std::replace(text.begin(), text.end(), ':', ',');
+  const auto ends = parse_numbers(text, 2, "--window");
+  if (!(ends[0] < ends[1])) {
+    throw CLI::ValidationError("--window", "expected low below high, found '" + text + "'");
+  }
+  return {ends[0], ends[1]};
 }
 
 /// Draws on the display that the environment names, or else on one of the program's own.
@@ -88,6 +99,9 @@ int run_picture(const PictureCommand& command) {
   if (kind != FileKind::kVolume && !command.outline.empty()) {
     throw InputError(command.input.string() + ": --outline is for slices of a volume");
   }
+  if (kind != FileKind::kVolume && command.picture.window) {
+    throw InputError(command.input.string() + ": --window is for slices of a volume");
+  }
   switch (kind) {
     case FileKind::kSurface:
       draw_surface_file(command);
@@ -139,6 +153,11 @@ void add_picture_command(CLI::App& app, CommonOptions&, Action& action) {
         options->picture.pixels = {size[0], size[1]};
       },
       "WIDTH,HEIGHT in pixels (default 1000,800)");
+  command->add_option_function<std::string>(
+      "--window",
+      [options](const std::string& text) { options->picture.window = parse_window(text); },
+      "LOW:HIGH: native values that are black and white in a volume's slice (default: nearly all "
+      "samples, without padding)");
   command->add_option("--outline", options->outline, "Surface to draw over a volume's slice");
   command->add_option("--series", options->series, "DICOM series UID");
   command->callback([options, &action] { action = [options] { return run_picture(*options); }; });

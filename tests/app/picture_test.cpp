@@ -46,6 +46,9 @@ TEST(PictureCommand, DrawsSurfacesMeshesAndSlices) {
   write_bytes(folder / "big.obj", "v 0.5 0.5 0\nv 1.5 0.5 4\nv 0.5 1.5 4\nf 1 2 3\n");
   EXPECT_NE(draw(folder, {folder / "v.nrrd", "--clip", "x,1", "--outline", folder / "big.obj"}),
             slice);
+  EXPECT_NE(draw(folder, {folder / "v.nrrd", "--clip", "x,1", "--window", "60:70"}), slice);
+  EXPECT_EQ(draw(folder, {folder / "v.nrrd", "--clip", "x,1", "--window", "-60,70"}),
+            draw(folder, {folder / "v.nrrd", "--clip", "x,1", "--window=-60:70"}));
 }
 
 TEST(PictureCommand, ColoursSurfacesAndTurnsThoseInRas) {
@@ -78,6 +81,12 @@ TEST(PictureCommand, RefusesPlainly) {
   EXPECT_FAILS(run_program(folder, {"picture", surface, "-o", png, "--color", "u"}), 3, "\"u\"");
   EXPECT_FAILS(run_program(folder, {"picture", surface, "-o", png, "--outline", surface}), 3,
                "--outline");
+  for (const char* window : {"9:3", "3:3", "3", "a:b", "1:2:3", ":3"}) {
+    EXPECT_FAILS(run_program(folder, {"picture", surface, "-o", png, "--window", window}), 2,
+                 "--window");
+  }
+  EXPECT_FAILS(run_program(folder, {"picture", surface, "-o", png, "--window", "3:9"}), 3,
+               "--window is for slices");
   EXPECT_FAILS(run_program(folder, {"picture", folder / "none.vtu", "-o", png}), 3, "none.vtu");
   EXPECT_FALSE(std::filesystem::exists(png));
 }

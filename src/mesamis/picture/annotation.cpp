@@ -103,6 +103,21 @@ void add_scale_bar(Scene& scene) {
       {short_number(length) + " mm", {(left + right) / 2, bottom + 20 * unit}, Align::kCenter});
 }
 
+void add_tick(Scene& scene, const std::array<double, 2>& at, bool below, const std::string& text) {
+  constexpr double kLength = 6, kHalfWidth = 0.75, kTextSize = 13;
+  const double unit = scene.unit(), width = kHalfWidth * unit, length = kLength * unit;
+  const auto [x, y] = at;
+  Rectangles mark;
+  if (below) {
+    mark.add({x - width, y - length}, {x + width, y}, kInk);
+    add_label(scene, {text, {x, y - 15 * unit}, Align::kCenter, kTextSize});
+  } else {
+    mark.add({x - length, y - width}, {x, y + width}, kInk);
+    add_label(scene, {text, {x - 9 * unit, y}, Align::kRight, kTextSize});
+  }
+  mark.draw(scene);
+}
+
 void add_color_bar(Scene& scene, const ColorBar& bar) {
   const double unit = scene.unit();
   const double left = scene.rendered_size()[0] - 105 * unit, right = left + 22 * unit;

@@ -24,6 +24,11 @@ void add_label(Scene& scene, const Label& label);
 /// Adds a bar of a round length, labelled in mm, in the lower right corner.
 void add_scale_bar(Scene& scene);
 
+/// Adds a mark with its text at a side of a picture.
+/// @param at     where the mark touches the side.
+/// @param below  the mark goes down from there and the text stands below; else to the left.
+void add_tick(Scene& scene, const std::array<double, 2>& at, bool below, const std::string& text);
+
 struct ColorBar {
   std::string title;
   ValueRange range;                ///< values at its lower and upper end

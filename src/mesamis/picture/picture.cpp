@@ -306,13 +306,31 @@ void add_outline(Scene& scene, const std::vector<std::array<Vec3, 2>>& segments)
   actor->GetProperty()->SetLineWidth(static_cast<float>(1.6 * scene.unit()));
 }
 
-/// Adds the letters of the body's sides around the slice.
+void add_side_ticks(Scene& scene, const std::array<std::vector<SideTick>, 2>& ticks,
+                    const Vec3& corner) {
+  for (const SideTick& tick : ticks[0]) {
+    add_tick(scene, scene.to_pixel({tick.at, corner.y, 0}), true, tick.text);
+  }
+  for (const SideTick& tick : ticks[1]) {
+    add_tick(scene, scene.to_pixel({corner.x, tick.at, 0}), false, tick.text);
+  }
+}
+
+ValueRange window_of(const Volume& volume, const PictureOptions& options) {
+  if (!options.window) return slice_window(volume);
+  const auto [low, high] = *options.window;
+  if (low < high && std::isfinite(low) && std::isfinite(high)) return {low, high};
+  throw InputError("picture: expected a window from low to high, found " + short_number(low) +
+                   " to " + short_number(high));
+}
+
+/// Adds the letters of the body's sides around the slice, beyond its ticks.
 void add_side_letters(Scene& scene, const SlicePlane& plane, const std::array<Vec3, 2>& corners) {
   const auto lo = scene.to_pixel(corners[0]), hi = scene.to_pixel(corners[1]);
-  const double gap = 18 * scene.unit();
+  const double gap = 18 * scene.unit(), left = 62 * scene.unit(), below = 36 * scene.unit();
   const double x = (lo[0] + hi[0]) / 2, y = (lo[1] + hi[1]) / 2;
   const std::array<std::array<double, 2>, 4> places{
-      {{lo[0] - gap, y}, {hi[0] + gap, y}, {x, lo[1] - gap}, {x, hi[1] + gap}}};
+      {{lo[0] - left, y}, {hi[0] + gap, y}, {x, lo[1] - below}, {x, hi[1] + gap}}};
   for (std::size_t i = 0; i < 4; ++i) {
     add_label(scene, {std::string(1, plane.letters[i]), places[i], Align::kCenter, 20, true});
   }
@@ -388,16 +406,16 @@ void draw_slice(const std::filesystem::path& png, const Volume& volume, const Tr
   const int axis = options.clip ? options.clip->axis : 2;
   const SlicePlane plane =
       slice_plane(volume, axis, options.clip ? &options.clip->position : nullptr);
-  const ColorBar bar{volume.modality == "CT" ? "HU" : "value",
-                     percentile_range(std::span<const float>(volume.samples), 0.005, 0.995), grey};
+  const ColorBar bar{volume.modality == "CT" ? "HU" : "value", window_of(volume, options), grey};
   Scene scene(options.pixels, options.display);
   const auto image = slice_image(volume, plane, bar.range);
   double bounds[6];
   image->GetBounds(bounds);
   const std::array<Vec3, 2> corners{Vec3{bounds[0], bounds[2], 0}, Vec3{bounds[1], bounds[3], 0}};
-  scene.fit({{0, 0, -1}, {0, 1, 0}}, corners, {0.05, kColorBarMargin, 0.12, 0.06});
+  scene.fit({{0, 0, -1}, {0, 1, 0}}, corners, {0.09, kColorBarMargin, 0.14, 0.06});
   add_image(scene, image);
   if (surface != nullptr) add_outline(scene, outline(volume, plane, *surface));
+  add_side_ticks(scene, side_ticks(volume, plane), corners[0]);
   add_side_letters(scene, plane, corners);
   add_color_bar(scene, bar);
   add_scale_bar(scene);

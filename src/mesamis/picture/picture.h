@@ -8,6 +8,7 @@
 #include <string>
 
 #include "mesamis/base/error.h"
+#include "mesamis/image/grey_values.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/shape_files/mesh_files.h"
 #include "mesamis/surface/tri_mesh.h"
@@ -40,6 +41,8 @@ struct PictureOptions {
   std::string color;             ///< meshes: name of the point or cell array to colour by;
                                  ///< surfaces: title of their values; empty: one colour
   std::string display;  ///< X display as ":99"; empty: the one the environment's DISPLAY names
+  /// Volumes: native values that are black and white; default: from the samples.
+  std::optional<Window> window{};
 };
 
 /// The X display cannot be opened or has no GLX.
@@ -82,8 +85,11 @@ void draw_surface(const std::filesystem::path& png, const TriMesh& surface,
 void draw_mesh(const std::filesystem::path& png, const MeshWithArrays& mesh,
                const PictureOptions& options = {});
 
-/// Draws one slice of the voxel grid in grey values, from the 0.5 to the 99.5 percentile of the
-/// volume, with a scale bar and the letters of the body's sides.
+/// Draws one slice of the voxel grid in grey values, with a scale bar, ticks of its LPS coordinates
+/// in mm along the bottom and the left side, and the letters of the body's sides.
+///
+/// Grey values run over options.window, or from the 0.5 to the 99.5 percentile of the volume, where
+/// samples of -1500 HU and less do not count: padding beyond what the scanner saw.
 ///
 /// The slice is that of the grid axis nearest to options.clip's axis, laid on the page as
 /// radiologists do: axial from the feet, coronal from the front, both with the patient's left on
@@ -96,7 +102,8 @@ void draw_mesh(const std::filesystem::path& png, const MeshWithArrays& mesh,
 /// @param options  see there.
 /// @throws DisplayError  if there is no display to draw on.
 /// @throws InputError  if the volume is not usable or does not reach the clip
-///                     plane, the size is out of range, or the file cannot be written.
+///                     plane, the window's low end is not below its high one, the size is out of
+///                     range, or the file cannot be written.
 ///
 /// O(voxels + triangles), and 12 bytes of memory per pixel of the picture.
 void draw_slice(const std::filesystem::path& png, const Volume& volume, const TriMesh* surface,

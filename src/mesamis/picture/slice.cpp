@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "mesamis/base/error.h"
+#include "mesamis/image/grey_values.h"
 #include "mesamis/image/orientation.h"
+#include "mesamis/picture/annotation.h"
+#include "mesamis/plot/ticks.h"
 
 namespace mesamis::detail {
 namespace {
@@ -50,6 +54,37 @@ Index slice_index(const Volume& volume, int axis, int grid_axis, double position
   return std::clamp(static_cast<Index>(std::lround(index)), Index{0}, last);
 }
 
+/// The body axis nearest to a direction: 0 x, 1 y, 2 z.
+int body_axis(const Vec3& direction) {
+  int axis = 0;
+  for (const int other : {1, 2}) {
+    if (std::abs(direction[other]) > std::abs(direction[axis])) axis = other;
+  }
+  return axis;
+}
+
+/// @param side  0: along the bottom; 1: along the left side.
+std::vector<SideTick> ticks_along(const Volume& volume, const SlicePlane& plane, std::size_t side) {
+  constexpr int kCount = 6;
+  const int axis = plane.axis[side];
+  const Vec3 along = plane.sign[side] * grid_direction(volume, axis);
+  const int body = body_axis(along);
+  Vec3 start = 0.5 * volume.box().hi;
+  start[plane.axis[2]] = plane.index * volume.spacing[plane.axis[2]];
+  start[axis] = 0;
+  const double zero = volume.to_world(start)[body], slope = along[body];
+  const double length = volume.box().hi[axis];
+  const double first = plane.sign[side] < 0 ? -length : 0;
+  const auto [lo, hi] = std::minmax(zero + slope * first, zero + slope * (first + length));
+  const Ticks ticks = round_ticks(lo, hi, kCount);
+  std::vector<SideTick> found;
+  for (int i = 0; i < ticks.count; ++i) {
+    const double value = std::abs(ticks.at(i)) < 1e-6 * ticks.step ? 0 : ticks.at(i);
+    found.push_back({(value - zero) / slope, short_number(value)});
+  }
+  return found;
+}
+
 }  // namespace
 
 SlicePlane slice_plane(const Volume& volume, int axis, const double* position) {
@@ -79,6 +114,23 @@ Vec3 to_page(const Volume& volume, const SlicePlane& plane, const Vec3& world) {
   const Vec3 grid = volume.to_grid(world);
   return {plane.sign[0] * grid[plane.axis[0]], plane.sign[1] * grid[plane.axis[1]],
           grid[plane.axis[2]] - plane.index * volume.spacing[plane.axis[2]]};
+}
+
+std::array<std::vector<SideTick>, 2> side_ticks(const Volume& volume, const SlicePlane& plane) {
+  return {ticks_along(volume, plane, 0), ticks_along(volume, plane, 1)};
+}
+
+ValueRange slice_window(const Volume& volume) {
+  constexpr double kLow = 0.005, kHigh = 0.995;
+  constexpr float kPadding = -1500;
+  const auto is_padding = [](float value) { return value <= kPadding; };
+  const auto& samples = volume.samples;
+  if (std::none_of(samples.begin(), samples.end(), is_padding) || !is_hounsfield(volume)) {
+    return percentile_range(std::span<const float>(samples), kLow, kHigh);
+  }
+  std::vector<float> seen;
+  std::remove_copy_if(samples.begin(), samples.end(), std::back_inserter(seen), is_padding);
+  return percentile_range(std::span<const float>(seen.empty() ? samples : seen), kLow, kHigh);
 }
 
 std::vector<std::array<Vec3, 2>> outline(const Volume& volume, const SlicePlane& plane,

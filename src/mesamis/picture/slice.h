@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/picture/color_scale.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis::detail {
@@ -33,6 +34,26 @@ SlicePlane slice_plane(const Volume& volume, int axis, const double* position);
 /// Maps a point in LPS mm to the page: mm to the right, upwards and in depth, from the first voxel
 /// of the slice.
 Vec3 to_page(const Volume& volume, const SlicePlane& plane, const Vec3& world);
+
+/// A mark at a side of a slice.
+struct SideTick {
+  double at;         ///< on the page, mm to the right or upwards, see to_page()
+  std::string text;  ///< the LPS coordinate there, mm
+};
+
+/// Chooses marks along the bottom and the left side of a slice, at round numbers of the LPS
+/// coordinate that runs along that side. On an oblique grid the numbers are those of the slice's
+/// middle line.
+/// @param volume  as require_usable() wants it.
+std::array<std::vector<SideTick>, 2> side_ticks(const Volume& volume, const SlicePlane& plane);
+
+/// Chooses the grey values of a volume's slices: from the 0.5 to the 99.5 percentile of the
+/// samples. Of Hounsfield units those of -1500 and less do not count: they are padding, beyond what
+/// the scanner saw.
+/// @param volume  as require_usable() wants it.
+///
+/// O(voxels).
+ValueRange slice_window(const Volume& volume);
 
 /// The line segments in which triangles cross the slice, as pairs of points on the page.
 ///
