@@ -76,8 +76,8 @@ std::string surface_line(const fs::path& path) {
   const SurfaceCheck check = check_surface(surface);
   std::ostringstream line;
   line << one_line(path.filename().string()) << "  surface  " << surface.triangles.size()
-       << " triangles, " << surface.points.size() << " vertices, " << check.components
-       << " components, " << (check.closed() ? "closed" : "open") << ", "
+       << " triangles, " << surface.points.size() << " vertices, " << components_text(check) << ", "
+       << (check.closed() ? "closed" : "open") << ", "
        << (check.manifold() ? "2-manifold" : "not 2-manifold") << ", " << check.volume << " mm^3, "
        << check.area << " mm^2, " << box_text(surface.points);
   return line.str();

@@ -8,6 +8,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "support/shapes.h"
+#include "surface/nested_cubes.h"
 
 namespace mesamis {
 namespace {
@@ -31,6 +32,20 @@ TEST(CheckSurface, InsideOutHasNegativeVolume) {
   const SurfaceCheck check = check_surface(surface);
   EXPECT_TRUE(check.manifold());
   EXPECT_NEAR(check.volume, -1, 1e-15);
+}
+
+TEST(CheckSurface, TellsIslandsFromCavities) {
+  const SurfaceCheck check = check_surface(nested());
+  EXPECT_EQ(check.components, 6);
+  EXPECT_EQ(check.islands, 4) << "the large cube, the one in its cavity, two beside it";
+  EXPECT_EQ(check.cavities, 2);
+  EXPECT_EQ(components_text(check), "6 components (4 islands, 2 cavities)");
+  EXPECT_EQ(components_text(check_surface(cube())), "1 component (1 island, 0 cavities)");
+  TriMesh open = joined(nested(), cube({50, 0, 0}, 1));
+  open.triangles.pop_back();
+  EXPECT_EQ(check_surface(open).islands, 0);
+  EXPECT_EQ(check_surface(open).cavities, 0);
+  EXPECT_EQ(components_text(check_surface(open)), "7 components");
 }
 
 TEST(CheckSurface, CountsTheRimOfAnOpenCube) {

@@ -73,11 +73,21 @@ ordered_json parts_json(const std::optional<SelectionReport>& parts) {
           {"volume_filled_mm3", parts->volume_filled}};
 }
 
+/// Of an open surface nobody can say what is inside.
+json known_count(const SurfaceCheck& check, std::int64_t count) {
+  return check.closed() ? json(count) : json();
+}
+
 /// @param triangles, vertices  of the surface that was checked.
 ordered_json check_json(std::int64_t triangles, std::int64_t vertices, const SurfaceCheck& check) {
-  return {{"triangles", triangles},         {"vertices", vertices},
-          {"closed", check.closed()},       {"manifold", check.manifold()},
-          {"components", check.components}, {"volume_mm3", check.volume},
+  return {{"triangles", triangles},
+          {"vertices", vertices},
+          {"closed", check.closed()},
+          {"manifold", check.manifold()},
+          {"components", check.components},
+          {"islands", known_count(check, check.islands)},
+          {"cavities", known_count(check, check.cavities)},
+          {"volume_mm3", check.volume},
           {"area_mm2", check.area}};
 }
 

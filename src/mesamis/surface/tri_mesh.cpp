@@ -44,13 +44,25 @@ std::int64_t count_nonmanifold_points(const TriMesh& surface,
   return std::count_if(fan_count.begin(), fan_count.end(), [](Index n) { return n > 1; });
 }
 
-std::int64_t count_components(const TriMesh& surface, std::span<const HalfEdge> half_edges) {
+/// Counts the components and, of a closed surface, which of them are islands.
+void count_components(const TriMesh& surface, std::span<const HalfEdge> half_edges,
+                      SurfaceCheck& check) {
   DisjointSets parts = connected_triangles(half_edges, surface.triangles.size());
-  std::int64_t count = 0;
+  std::vector<double> volume(surface.triangles.size(), 0);  // of a part, at its first triangle
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    count += parts.find(t) == t && !is_degenerate(surface.triangles[t]);
+    if (!is_degenerate(surface.triangles[t])) volume[parts.find(t)] += cone_volume(surface, t);
   }
-  return count;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (parts.find(t) != t || is_degenerate(surface.triangles[t])) continue;
+    ++check.components;
+    check.cavities += volume[t] < 0;
+  }
+  if (!check.closed()) check.cavities = 0;
+  if (check.closed()) check.islands = check.components - check.cavities;
+}
+
+std::string counted(std::int64_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
 double sum_over_triangles(const TriMesh& surface, double (*measure)(const TriMesh&, std::size_t)) {
@@ -88,7 +100,7 @@ SurfaceCheck check_surface(const TriMesh& surface) {
   const auto half_edges = sorted_half_edges(surface.triangles, surface.points.size());
   count_edges(half_edges, check);
   check.nonmanifold_points = count_nonmanifold_points(surface, half_edges);
-  check.components = count_components(surface, half_edges);
+  count_components(surface, half_edges, check);
   check.volume = sum_over_triangles(surface, cone_volume);
   check.area = sum_over_triangles(surface, triangle_area);
   return check;
@@ -106,6 +118,13 @@ std::string flaws_of(const SurfaceCheck& check) {
     if (count > 0) flaws += (flaws.empty() ? "" : ", ") + std::to_string(count) + " " + what;
   }
   return flaws;
+}
+
+std::string components_text(const SurfaceCheck& check) {
+  const std::string all = counted(check.components, "component", "components");
+  if (!check.closed()) return all;
+  return all + " (" + counted(check.islands, "island", "islands") + ", " +
+         counted(check.cavities, "cavity", "cavities") + ")";
 }
 
 std::string solid_flaws_of(const SurfaceCheck& check) {

@@ -34,6 +34,9 @@ struct SurfaceCheck {
   std::int64_t components = 0;            ///< parts connected by edges
   double volume = 0;                      ///< mm^3, signed: positive when oriented outward
   double area = 0;                        ///< mm^2
+  /// The components of a closed surface: skins around matter, whose volume is not negative, and
+  /// skins around a hole. 0 where there are open edges.
+  std::int64_t islands = 0, cavities = 0;
 
   /// Every edge has two triangles or more; the volume of an open surface means nothing.
   bool closed() const noexcept { return open_edges == 0; }
@@ -47,13 +50,17 @@ struct SurfaceCheck {
 /// Counts the flaws of a surface and measures it.
 /// @throws InputError  as require_sound().
 ///
-/// O(n log n) for n triangles; about 90 bytes per triangle. The same bits for any number of
+/// O(n log n) for n triangles; about 100 bytes per triangle. The same bits for any number of
 /// threads.
 SurfaceCheck check_surface(const TriMesh& surface);
 
 /// Why a surface is not closed or not a 2-manifold, as "3 open edges, 1 points ..."; "" if it is.
 /// @throws nothing
 std::string flaws_of(const SurfaceCheck& check);
+
+/// The components in words: "5 components (1 island, 4 cavities)"; of an open surface their number.
+/// @throws nothing
+std::string components_text(const SurfaceCheck& check);
 
 /// Why a surface does not bound a solid: the flaws of flaws_of(), or a volume that is not positive;
 /// "" if it does.
