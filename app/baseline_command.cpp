@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis baseline: surfaces of other methods, to compare with.
+#include <fmt/format.h>
+
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -128,10 +131,21 @@ std::string why_not_converged(const GeodesicReport& contour, const GeodesicOptio
   return line.str();
 }
 
+/// The decimation stops where nothing is left to collapse, and adds no triangle.
+void warn_of_triangles(std::size_t asked, std::size_t found) {
+  constexpr double kTolerance = 0.05;  // the goal is met about
+  const auto goal = static_cast<double>(asked);
+  if (asked == 0 || std::abs(static_cast<double>(found) - goal) <= kTolerance * goal) return;
+  log_warning(fmt::format(
+      "--triangles: expected about {}, found {}: {}", asked, found,
+      found < asked ? "the surface has no more" : "the decimation of VTK goes no further"));
+}
+
 int run_baseline(const BaselineCommand& command, const CommonOptions& common) {
   require_all(command);
   const VolumeFile file = read_scan(command.input, command.series);
   const BaselineSurface made = run_method(file.volume, command, common.quiet);
+  warn_of_triangles(command.isosurface.triangles, made.surface.triangles.size());
   write_surface(command.output, made.surface);
   if (!command.report.empty()) write_report(command, made);
   std::cout << made.surface.triangles.size() << " triangles ";
@@ -185,7 +199,8 @@ void add_baseline_command(CLI::App& app, CommonOptions& common, Action& action) 
       "object's edges in the scan; segment's default may differ)");
   sub->add_option("--smooth", command->smooth,
                   "Gaussian first, sigma in voxels (default 0; geodesic: 0.5)");
-  sub->add_option("--triangles", command->isosurface.triangles, "Decimate to this many triangles");
+  sub->add_option("--triangles", command->isosurface.triangles,
+                  "Decimate to about this many triangles; a line warns where that cannot be");
   sub->add_flag("--close", command->isosurface.close_at_box,
                 "Caps where the object leaves the volume");
   add_geodesic_options(*sub, *command);

@@ -63,6 +63,21 @@ TEST(BaselineCommand, MeasuresTheLevelInTheScanUnlessGiven) {
   EXPECT_EQ(level({"--level", "150"}), 150);
 }
 
+TEST(BaselineCommand, SaysWhereItCannotHaveSoManyTriangles) {
+  const TempFolder folder;
+  const std::string scan = scan_in(folder);
+  const auto warning = [&](const char* triangles) {
+    const ProgramRun run =
+        run_program(folder, {"baseline", scan, "-o", folder / "a.ply", "--triangles", triangles});
+    EXPECT_EQ(run.status, 0);
+    return run.err;
+  };
+  EXPECT_THAT(warning("1000000"), HasSubstr("--triangles: expected about 1000000, found "));
+  EXPECT_THAT(warning("1000000"), HasSubstr("the surface has no more"));
+  EXPECT_THAT(warning("500"), testing::Not(HasSubstr("--triangles")));
+  EXPECT_THAT(warning("1"), HasSubstr("goes no further"));
+}
+
 TEST(BaselineCommand, MakesAGeodesicContourAndTellsHow) {
   MESAMIS_REQUIRE_ITK();
   const TempFolder folder;
