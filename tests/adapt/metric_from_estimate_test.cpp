@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "mesamis/adapt/cell_shape.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/sym3.h"
@@ -34,6 +37,15 @@ TEST(CellMetric, FlatFieldsGiveAFiniteMetric) {
     EXPECT_TRUE(std::isfinite(m.xx) && std::isfinite(m.yy));
     EXPECT_GT(m.xx, m.yy);
     EXPECT_GT(m.yy, 0);
+  }
+}
+
+TEST(CellMetric, FieldsThatAreNearlyFlatGiveAFiniteMetric) {
+  // From the least positive number on: below 2.2e-308 numbers are denormal.
+  for (double size = std::numeric_limits<double>::denorm_min(); size < 1e-290; size *= 8) {
+    const Sym3 m = cell_metric({size, 0, 0, 0, 0, 0}, {10, 0.01, kUnbounded});
+    EXPECT_TRUE(std::isfinite(m.xx) && std::isfinite(m.xy) && std::isfinite(m.yy)) << size;
+    EXPECT_GE(m.xx, 0);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "mesamis/adapt/cell_shape.h"
@@ -23,7 +24,8 @@ void require_one_per_cell(const TetMesh& mesh, std::size_t metrics) {
 
 Sym3 cell_metric(const Sym3& gamma, const CellMetricOptions& options) {
   const double size = trace(gamma);
-  if (!(size > 0)) return {};
+  // Denormal numbers have no finite reciprocal; what is that small is flat.
+  if (!(size >= std::numeric_limits<double>::min())) return {};
   // Scaled to trace one: the determinant of tiny or huge entries would leave the range.
   const double share = 1 / (options.max_stretch * options.max_stretch);
   const Sym3 unit = (1 / size) * gamma + share * kIdentity3;

@@ -27,7 +27,7 @@ struct CellMetricOptions {
 /// singular, and the formula gives cells of infinite length in that direction and zero thickness
 /// across it. The domain is bounded, so that the stretch has to be: the share 1 / max_stretch^2 of
 /// Gamma's trace is added to its diagonal, which bounds the ratio of the sizes. Where Gamma is
-/// zero, so is M_K.
+/// zero, or so small that its trace has no reciprocal, M_K is zero.
 /// @param gamma  Gamma_K, symmetric positive semidefinite.
 /// @return symmetric positive definite unless Gamma is zero; in 1 / u^2 for the unit of length u of
 ///         the mesh.
