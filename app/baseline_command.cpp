@@ -28,7 +28,8 @@ using nlohmann::ordered_json;
 
 struct BaselineCommand {
   fs::path input, output, report;
-  std::string method = "isosurface", series;
+  std::string method = "isosurface";
+  ReadOptions read;
   std::optional<double> level;
   std::optional<double> smooth;
   IsosurfaceOptions isosurface;
@@ -143,7 +144,7 @@ void warn_of_triangles(std::size_t asked, std::size_t found) {
 
 int run_baseline(const BaselineCommand& command, const CommonOptions& common) {
   require_all(command);
-  const VolumeFile file = read_scan(command.input, command.series);
+  const VolumeFile file = read_scan(command.input, command.read);
   const BaselineSurface made = run_method(file.volume, command, common.quiet);
   warn_of_triangles(command.isosurface.triangles, made.surface.triangles.size());
   write_surface(command.output, made.surface);
@@ -204,7 +205,7 @@ void add_baseline_command(CLI::App& app, CommonOptions& common, Action& action) 
   sub->add_flag("--close", command->isosurface.close_at_box,
                 "Caps where the object leaves the volume");
   add_geodesic_options(*sub, *command);
-  sub->add_option("--series", command->series, "DICOM series UID");
+  add_read_options(*sub, command->read);
   sub->add_option("--report", command->report, "Report: .json");
   sub->callback([command, &common, &action] {
     action = [command, &common] { return run_baseline(*command, common); };

@@ -13,11 +13,17 @@
 #include "mesamis/scan_files/read_volume.h"
 #include "mesamis/shape_files/file_kind.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "scan.h"
 
 namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct InfoCommand {
+  fs::path input;
+  ReadOptions read;
+};
 
 std::string box_text(std::span<const Vec3> points) {
   const Vec3 e = bounding_box(points).extent();
@@ -46,8 +52,8 @@ std::string place_text(const VolumeInfo& info) {
 }
 
 /// What the values tell where the file does not. This is the only reason to read them.
-std::string values_text(const fs::path& file) {
-  const VolumeFile scan = read_volume(file);
+std::string values_text(const InfoCommand& command) {
+  const VolumeFile scan = read_volume(command.input, command.read);
   const auto [least, most] = sample_range(scan.volume.samples);
   std::ostringstream text;
   text << "  values " << least << " to " << most;
@@ -100,13 +106,13 @@ std::string mesh_line(const fs::path& path) {
 
 /// One line per volume. A file on its own that does not state its modality is read for what its
 /// values tell; one that cannot be read is not usable.
-void print_volumes(const fs::path& input) {
-  std::vector<VolumeInfo> all = list_volumes(input);
+void print_volumes(const InfoCommand& command) {
+  std::vector<VolumeInfo> all = list_volumes(command.input, command.read);
   const bool unknown = all.size() == 1 && all[0].modality.empty() && all[0].problem.empty();
   std::string values;
-  if (unknown && !fs::is_directory(input)) {
+  if (unknown && !fs::is_directory(command.input)) {
     try {
-      values = values_text(input);
+      values = values_text(command);
     } catch (const InputError& error) {
       all[0].problem = error.what();
     }
@@ -114,8 +120,9 @@ void print_volumes(const fs::path& input) {
   for (const VolumeInfo& info : all) std::cout << volume_line(info) << values << "\n";
 }
 
-int run_info(const fs::path& input) {
-  switch (kind_of(input)) {
+int run_info(const InfoCommand& command) {
+  const fs::path& input = command.input;
+  switch (command.read.raw ? FileKind::kVolume : kind_of(input)) {
     case FileKind::kSurface:
       std::cout << surface_line(input) << "\n";
       break;
@@ -123,7 +130,7 @@ int run_info(const fs::path& input) {
       std::cout << mesh_line(input) << "\n";
       break;
     case FileKind::kVolume:
-      print_volumes(input);
+      print_volumes(command);
       break;
   }
   return kExitDone;
@@ -132,10 +139,12 @@ int run_info(const fs::path& input) {
 }  // namespace
 
 void add_info_command(CLI::App& app, CommonOptions&, Action& action) {
-  auto input = std::make_shared<fs::path>();
+  auto options = std::make_shared<InfoCommand>();
   CLI::App* command = app.add_subcommand("info", "List what is in a file or a directory");
-  command->add_option("input", *input, "Volume, DICOM directory, surface or mesh")->required();
-  command->callback([input, &action] { action = [input] { return run_info(*input); }; });
+  command->add_option("input", options->input, "Volume, DICOM directory, surface or mesh")
+      ->required();
+  add_read_options(*command, options->read);
+  command->callback([options, &action] { action = [options] { return run_info(*options); }; });
 }
 
 }  // namespace mesamis

@@ -12,6 +12,7 @@
 #include "mesamis/scan_files/read_volume.h"
 #include "mesamis/shape_files/file_kind.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "scan.h"
 #include "virtual_display.h"
 
 namespace mesamis {
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct PictureCommand {
   fs::path input, output, outline;
-  std::string series;
+  ReadOptions read;
   PictureOptions picture;
 };
 
@@ -66,7 +67,7 @@ void draw_volume(const PictureCommand& command) {
   if (command.picture.zoom != 1 || command.picture.focus) {
     throw InputError(command.input.string() + ": a volume's slice is shown whole");
   }
-  const VolumeFile file = read_volume(command.input, {command.series});
+  const VolumeFile file = read_volume(command.input, command.read);
   for (const std::string& warning : file.warnings) log_warning(warning);
   std::optional<TriMesh> outline;
   if (!command.outline.empty()) outline = in_lps(read_surface_file(command.outline));
@@ -95,7 +96,7 @@ void draw_mesh_file(const PictureCommand& command) {
 }
 
 int run_picture(const PictureCommand& command) {
-  const FileKind kind = kind_of(command.input);
+  const FileKind kind = command.read.raw ? FileKind::kVolume : kind_of(command.input);
   if (kind != FileKind::kVolume && !command.outline.empty()) {
     throw InputError(command.input.string() + ": --outline is for slices of a volume");
   }
@@ -159,7 +160,7 @@ void add_picture_command(CLI::App& app, CommonOptions&, Action& action) {
       "LOW:HIGH: native values that are black and white in a volume's slice (default: nearly all "
       "samples, without padding)");
   command->add_option("--outline", options->outline, "Surface to draw over a volume's slice");
-  command->add_option("--series", options->series, "DICOM series UID");
+  add_read_options(*command, options->read);
   command->callback([options, &action] { action = [options] { return run_picture(*options); }; });
 }
 

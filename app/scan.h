@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
-#include <string>
 
 #include "mesamis/scan_files/read_volume.h"
 
 namespace mesamis {
 
+/// Adds the options of every command that reads a scan: --series, --raw, --spacing. `options` must
+/// outlive the parsing.
+void add_read_options(CLI::App& command, ReadOptions& options);
+
 /// Reads the scan of a command, logs the reader's warnings and checks that the scan can be used.
-/// @param series  DICOM: its UID, may be empty.
 /// @throws InputError  one line that begins with the path.
-VolumeFile read_scan(const std::filesystem::path& path, const std::string& series);
+VolumeFile read_scan(const std::filesystem::path& path, const ReadOptions& options);
 
 }  // namespace mesamis

@@ -40,7 +40,7 @@ namespace fs = std::filesystem;
 struct SegmentOptions {
   fs::path input, report, labelmap;
   std::vector<fs::path> surfaces, meshes, band_meshes;
-  std::string series;
+  ReadOptions read;
   std::string name = "mesamis surface";  // never the scan's, which may be the patient's
   Frame frame = Frame::kLps;
   bool error = false;
@@ -163,7 +163,7 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   if (options.input.empty()) throw CLI::ValidationError("input", "expected a scan, found none");
   require_outputs(options);
   require_mesh_for(options, settings);
-  const VolumeFile file = read_scan(options.input, options.series);
+  const VolumeFile file = read_scan(options.input, options.read);
   require_memory(file.volume, settings, common.memory_gb);
   ProgressDisplay display(common.quiet);
   const Result result = mes_amis(file.volume, settings, display.callback());
@@ -210,7 +210,7 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
                       "What was found, voxel by voxel on the scan's grid: .nii .nii.gz .nrrd "
                       ".seg.nrrd");
   command->add_option("--report", options->report, "Report: .json");
-  command->add_option("--series", options->series, "DICOM series UID");
+  add_read_options(*command, options->read);
   add_frame_option(*command, options->frame);
   command->add_option("--name", options->name, "The object's name in the surfaces written");
   add_settings_options(*command, options->settings);

@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 struct StudyCommand {
   fs::path input, reference, folder;
-  std::string series;
+  ReadOptions read;
   std::vector<int> subsample, region_subsample{1, 2, 4};
   std::optional<CropRange> region;
   FrameRule frames = FrameRule::kAuto;
@@ -244,7 +244,7 @@ int run_study(const StudyCommand& command, const CommonOptions& common) {
     throw CLI::ValidationError("study", "expected --subsample, --region or both, found neither");
   }
   require_folder(command.folder);
-  VolumeFile scan = read_scan(command.input, command.series);
+  VolumeFile scan = read_scan(command.input, command.read);
   const std::vector<Experiment> experiments = plan(command, scan.volume);
   Reference reference = read_reference(command);
   StudyRecord record = begin_record(command, scan, reference);
@@ -269,7 +269,7 @@ void add_study_options(CLI::App& c, const std::shared_ptr<StudyCommand>& o) {
       "--region-subsample",
       [o](const std::string& t) { o->region_subsample = parse_steps(t, "--region-subsample"); },
       "S,S,...: of the latter, one for each, on every S-th slice (default 1,2,4)");
-  c.add_option("--series", o->series, "DICOM series UID");
+  add_read_options(c, o->read);
   add_frames_option(c, o->frames);
   add_frame_option(c, o->frame);
 }

@@ -38,10 +38,31 @@ ScanFile open_inv3(const std::filesystem::path& file);
 /// Opens one of the formats above, as the file's name says; none for any other name.
 std::optional<ScanFile> open_array(const std::filesystem::path& file, Values values = Values::kOne);
 
+/// A file of bare samples, i fastest, then j, k; 1 mm with a warning, axes LPS, origin 0. The size
+/// of the file must be the layout's to the byte.
+ScanFile open_raw(const std::filesystem::path& file, const RawLayout& layout);
+
 /// A TIFF whose pages are the slices; x to the left, y to the back, z to the head. Spacing from
 /// the resolution tags and from ImageJ's description (unit, spacing), 1 mm with a warning else.
 VolumeFile read_tiff(const std::filesystem::path& file);
-VolumeInfo describe_tiff(const std::filesystem::path& file);
+ScanFile open_tiff_header(const std::filesystem::path& file);
+
+/// A PNG, one slice as above; 1 to 16 bits, grey, or colours that are. Spacing along x and y from
+/// its resolution (pHYs). Not interlaced. What it claims is compared with its bytes before memory
+/// is taken for it.
+VolumeFile read_png(const std::filesystem::path& file);
+ScanFile open_png(const std::filesystem::path& file);
+
+/// An uncompressed BMP of 8, 24 or 32 bits, as a PNG.
+VolumeFile read_bmp(const std::filesystem::path& file);
+ScanFile open_bmp(const std::filesystem::path& file);
+
+/// Whether the file's name is that of a picture: .tif .tiff .png .bmp.
+bool is_picture(const std::filesystem::path& file);
+/// One of them, as the name says.
+VolumeFile read_picture(const std::filesystem::path& file);
+/// Its grid and the type of its samples; they are not read.
+ScanFile open_picture(const std::filesystem::path& file);
 
 /// One DICOM series: of a directory and those below it, or the one a file belongs to.
 VolumeFile read_dicom(const std::filesystem::path& path, const std::string& series);

@@ -1,27 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesamis/image/volume.h"
 
 namespace mesamis {
 
+/// How the samples of a raw file are stored.
+enum class RawType { kUint8, kInt16, kUint16, kInt32, kFloat32, kFloat64 };
+
+/// What a raw file, which says nothing about itself, holds: a header that is skipped, then the
+/// samples, i fastest, then j, k.
+struct RawLayout {
+  std::array<std::int64_t, 3> size{0, 0, 0};  ///< voxels
+  RawType type = RawType::kInt16;
+  bool big_endian = false;
+  std::int64_t header_bytes = 0;
+};
+
+/// Reads "NX,NY,NZ,TYPE" or "NX,NY,NZ,TYPE,HEADERBYTES": TYPE is uint8, int16, uint16, int32,
+/// float32 or float64, with le (default) or be behind it for the byte order.
+/// @return voxels and bytes.
+/// @throws InputError  for any other text; the message says what was expected.
+RawLayout parse_raw_layout(std::string_view text);
+
 struct ReadOptions {
-  std::string series;  ///< DICOM: UID of the series to take; empty: the only volume there is
+  std::string series{};  ///< DICOM: UID of the series to take; empty: the only volume there is
+  std::optional<RawLayout> raw{};  ///< the path is a raw file of this layout, whatever its name
+  std::optional<Vec3> spacing{};   ///< mm, positive: taken instead of the file's
 };
 
 /// A volume and what its file says beside the samples.
 struct VolumeFile {
-  Volume volume;       ///< samples in native units (HU for CT); spacing and origin in mm, LPS
-  std::string format;  ///< "NIfTI", "NRRD", "MetaImage", "TIFF", "DICOM", "InVesalius"
+  Volume volume;  ///< samples in native units (HU for CT); spacing and origin in mm, LPS
+  /// "NIfTI", "NRRD", "MetaImage", "TIFF", "PNG", "BMP", "DICOM", "InVesalius", "raw"; of a folder
+  /// of pictures "TIFF slices", "PNG slices", "BMP slices"
+  std::string format;
   std::vector<std::string> warnings;  ///< one line each: what was assumed, left out or damaged
 };
 
 /// Reads a 3D scan: .nii .nii.gz .nrrd .nhdr .mha .mhd .tif .tiff .inv3, a DICOM directory (and
-/// those below it), or one file of a DICOM series (the rest is taken from its directory).
+/// those below it), one file of a DICOM series (the rest is taken from its directory), a directory
+/// of slices as .tif, .png or .bmp, or a raw file whose layout is given.
+///
+/// Slices are pictures of one format, size and type, one per file, in the order of the numbers in
+/// their names ("s9" before "s10"); they count where a directory holds no DICOM. x runs to the
+/// left, y to the back, z to the head; spacing along x and y from the pictures' resolution, 1 mm
+/// between slices, with warnings. A .png or .bmp alone is one slice. Colours are refused, unless
+/// all of them are grey. A raw file must have the size of its layout to the byte.
 ///
 /// The world frame is LPS, whatever the file's. Where a file states no orientation, a warning says
 /// what was assumed. NIfTI: the sform if its code is above 0, else the qform. InVesalius: x to the
@@ -46,7 +79,7 @@ struct VolumeFile {
 /// the same time.
 ///
 /// @param path     file or directory; the extension decides, DICOM is known by its content.
-/// @param options  which DICOM series to take.
+/// @param options  which DICOM series to take, a raw file's layout, another spacing.
 /// @return finite grid; one sample per voxel in native units (rescale slope and intercept
 ///         applied), in single precision: integers of more than 24 bits are rounded.
 /// @throws InputError  one line that begins with the path: what, where, expected, found.
@@ -72,11 +105,15 @@ struct VolumeInfo {
 /// directory and those below it, or of the directory a DICOM file lies in), then the volume files
 /// of the directory itself, in name order.
 ///
-/// @param path  file or directory.
+/// A directory of slices is one volume.
+///
+/// @param path     file or directory.
+/// @param options  as for read_volume().
 /// @return at least one entry; a volume that read_volume() would refuse has a `problem`.
 /// @throws InputError  if the path does not exist or holds nothing that can be read.
 ///
-/// O(bytes) of the headers, for DICOM of whole files; memory: one file at a time.
-std::vector<VolumeInfo> list_volumes(const std::filesystem::path& path);
+/// O(bytes) of the headers, for DICOM, PNG and BMP of whole files; memory: one file at a time.
+std::vector<VolumeInfo> list_volumes(const std::filesystem::path& path,
+                                     const ReadOptions& options = {});
 
 }  // namespace mesamis

@@ -12,6 +12,7 @@ set(ROOM_INNER_HEADERS
   nrrd_header.h
   scan_file.h)
 set(ROOM_SOURCES
+  bmp_file.cpp
   dicom_data.cpp
   dicom_file.cpp
   dicom_jpeg.cpp
@@ -24,13 +25,17 @@ set(ROOM_SOURCES
   dicom_slice.cpp
   dicom_spacing.cpp
   gdcm_picture.cpp
+  grey_pixels.cpp
   inv3_file.cpp
   meta_file.cpp
   nifti_file.cpp
   nrrd_file.cpp
   nrrd_header.cpp
+  png_file.cpp
+  raw_file.cpp
   read_volume.cpp
   scan_file.cpp
+  slice_stack.cpp
   text_header.cpp
   tiff_file.cpp
   write_volume.cpp)

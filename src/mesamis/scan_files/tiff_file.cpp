@@ -265,11 +265,6 @@ VolumeFile read_tiff(const std::filesystem::path& file) {
   return out;
 }
 
-VolumeInfo describe_tiff(const std::filesystem::path& file) {
-  const ScanFile scan = open_tiff(file).scan;
-  const VoxelGrid& g = scan.grid;
-  return {"",         file.filename().string(), scan.format, "", g.size, g.spacing, "", g.origin,
-          g.direction};
-}
+ScanFile open_tiff_header(const std::filesystem::path& file) { return open_tiff(file).scan; }
 
 }  // namespace mesamis::detail

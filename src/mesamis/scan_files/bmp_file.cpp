@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Grey pictures as uncompressed Windows bitmaps, one slice each.
+#include <array>
+#include <cstdlib>
+#include <string>
+
+#include "mesamis/files/byte_source.h"
+#include "mesamis/files/bytes.h"
+#include "mesamis/files/refuse.h"
+#include "mesamis/scan_files/formats.h"
+#include "mesamis/scan_files/grey_pixels.h"
+
+namespace mesamis::detail {
+namespace {
+
+constexpr std::size_t kFileHeader = 14, kSmallestInfo = 40;
+
+struct Bmp {
+  std::string bytes;
+  std::int64_t width = 0, height = 0;
+  bool bottom_up = true;
+  std::size_t bits = 0, colors = 0;
+  std::uint64_t palette = 0, pixels = 0;  ///< where they begin
+  Vec3 spacing;                           ///< mm; zero: not stated
+
+  /// Lines are padded to whole words of 4 bytes.
+  std::uint64_t line_bytes() const {
+    return (static_cast<std::uint64_t>(width) * bits + 31) / 32 * 4;
+  }
+};
+
+template <class Number>
+Number number(const Bmp& bmp, std::size_t at) {
+  return load<Number>(bmp.bytes.data() + at);
+}
+
+/// Pixels per metre.
+Vec3 resolution(std::int32_t x, std::int32_t y) {
+  return x > 0 && y > 0 ? Vec3{1000.0 / x, 1000.0 / y, 0} : Vec3{};
+}
+
+/// Everything that the headers claim must fit into the file.
+void require_complete(const std::filesystem::path& file, const Bmp& bmp) {
+  const std::uint64_t needed =
+      bmp.pixels + static_cast<std::uint64_t>(bmp.height) * bmp.line_bytes();
+  if (bmp.bytes.size() < needed) {
+    refuse(file, say("expected ", needed, " bytes for ", bmp.width, " x ", bmp.height,
+                     " pixels of ", bmp.bits, " bits, found ", bmp.bytes.size()));
+  }
+  if (bmp.bits == 8 && bmp.palette + 4 * bmp.colors > bmp.bytes.size()) {
+    refuse(file, say("the table of ", bmp.colors, " colours is cut off"));
+  }
+}
+
+Bmp parse(const std::filesystem::path& file) {
+  Bmp bmp;
+  bmp.bytes = read_all(file);
+  if (!bmp.bytes.starts_with("BM") || bmp.bytes.size() < kFileHeader + kSmallestInfo ||
+      number<std::uint32_t>(bmp, 14) < kSmallestInfo) {
+    refuse(file, "expected a BMP file, found something else or a cut off one");
+  }
+  const std::int64_t height = number<std::int32_t>(bmp, 22);
+  bmp.width = number<std::int32_t>(bmp, 18);
+  bmp.height = std::abs(height);
+  bmp.bottom_up = height > 0;
+  bmp.bits = number<std::uint16_t>(bmp, 28);
+  const auto compression = number<std::uint32_t>(bmp, 30);
+  if (compression != 0 || (bmp.bits != 8 && bmp.bits != 24 && bmp.bits != 32)) {
+    refuse(file, say("expected uncompressed pixels of 8, 24 or 32 bits, found ", bmp.bits,
+                     " bits, compression ", compression));
+  }
+  bmp.pixels = number<std::uint32_t>(bmp, 10);
+  bmp.palette = kFileHeader + std::uint64_t{number<std::uint32_t>(bmp, 14)};
+  const auto colors = number<std::uint32_t>(bmp, 46);
+  bmp.colors = colors == 0 || colors > 256 ? 256 : colors;
+  bmp.spacing = resolution(number<std::int32_t>(bmp, 38), number<std::int32_t>(bmp, 42));
+  return bmp;
+}
+
+/// Also checks that the file holds what it claims.
+ScanFile scan_of(const std::filesystem::path& file, const Bmp& bmp) {
+  ScanFile scan{file, "BMP", {}, {}, {}};
+  set_picture_grid(scan, {bmp.width, bmp.height}, bmp.spacing);
+  scan.source.type = NumberType::kUint8;
+  require_complete(file, bmp);
+  return scan;
+}
+
+/// Blue, green, red at a place of the file.
+std::array<unsigned, 3> color_at(const Bmp& bmp, std::uint64_t at) {
+  std::array<unsigned, 3> color{};
+  for (std::size_t c = 0; c < 3; ++c) color[2 - c] = static_cast<unsigned char>(bmp.bytes[at + c]);
+  return color;
+}
+
+std::array<unsigned, 3> pixel_color(const std::filesystem::path& file, const Bmp& bmp,
+                                    std::uint64_t line, std::uint64_t x) {
+  if (bmp.bits != 8) return color_at(bmp, line + x * bmp.bits / 8);
+  const std::size_t entry = static_cast<unsigned char>(bmp.bytes[line + x]);
+  if (entry >= bmp.colors) {
+    refuse(file, say("a pixel names colour ", entry, " of ", bmp.colors));
+  }
+  return color_at(bmp, bmp.palette + 4 * entry);
+}
+
+}  // namespace
+
+ScanFile open_bmp(const std::filesystem::path& file) { return scan_of(file, parse(file)); }
+
+VolumeFile read_bmp(const std::filesystem::path& file) {
+  const Bmp bmp = parse(file);
+  ScanFile scan = scan_of(file, bmp);
+  VolumeFile out{std::move(scan.grid), scan.format, std::move(scan.warnings)};
+  out.volume.samples.reserve(out.volume.voxel_count());
+  for (std::int64_t y = 0; y < bmp.height; ++y) {
+    const auto stored = static_cast<std::uint64_t>(bmp.bottom_up ? bmp.height - 1 - y : y);
+    const std::uint64_t line = bmp.pixels + stored * bmp.line_bytes();
+    for (std::int64_t x = 0; x < bmp.width; ++x) {
+      const auto color = pixel_color(file, bmp, line, static_cast<std::uint64_t>(x));
+      out.volume.samples.push_back(require_grey(file, color, {x, y}));
+    }
+  }
+  return out;
+}
+
+}  // namespace mesamis::detail

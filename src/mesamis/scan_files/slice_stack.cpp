@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/scan_files/slice_stack.h"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+#include "mesamis/base/error.h"
+#include "mesamis/files/file_list.h"
+#include "mesamis/files/refuse.h"
+#include "mesamis/scan_files/formats.h"
+
+namespace mesamis::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// The run of digits at the front, without zeros before it; taken off the text.
+std::string_view take_number(std::string_view& text) {
+  const auto end =
+      static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_digit) - text.begin());
+  std::string_view digits = text.substr(0, end);
+  text.remove_prefix(end);
+  while (digits.size() > 1 && digits[0] == '0') digits.remove_prefix(1);
+  return digits;
+}
+
+/// -1, 0 or 1.
+int compare_naturally(std::string_view a, std::string_view b) {
+  while (!a.empty() && !b.empty()) {
+    if (is_digit(a[0]) && is_digit(b[0])) {
+      const std::string_view x = take_number(a), y = take_number(b);
+      if (x.size() != y.size()) return x.size() < y.size() ? -1 : 1;
+      if (x != y) return x < y ? -1 : 1;
+    } else {
+      if (a[0] != b[0]) return a[0] < b[0] ? -1 : 1;
+      a.remove_prefix(1);
+      b.remove_prefix(1);
+    }
+  }
+  return int{!a.empty()} - int{!b.empty()};
+}
+
+/// The last number in the name of a file; none if there is none, or it is too long for one.
+std::optional<std::int64_t> number_of(const fs::path& file) {
+  std::string name = file.stem().string();
+  while (!name.empty() && !is_digit(name.back())) name.pop_back();
+  const auto begin = std::find_if_not(name.rbegin(), name.rend(), is_digit).base();
+  std::int64_t number = 0;
+  if (!parse_number(std::string_view(name).substr(static_cast<std::size_t>(begin - name.begin())),
+                    number)) {
+    return std::nullopt;
+  }
+  return number;
+}
+
+/// Warns where the numbers do not go up in equal steps.
+void warn_of_gaps(const std::vector<fs::path>& files, std::vector<std::string>& warnings) {
+  std::optional<std::int64_t> step;
+  for (std::size_t n = 1; n < files.size(); ++n) {
+    const auto before = number_of(files[n - 1]), here = number_of(files[n]);
+    if (!before || !here) return;
+    if (!step) step = *here - *before;
+    if (*here - *before == *step) continue;
+    warnings.push_back(say("the slices are numbered in steps of ", *step, ", but ",
+                           shown(files[n].filename().string()), " follows ",
+                           shown(files[n - 1].filename().string()), ": is one missing?"));
+    return;
+  }
+}
+
+void require_like(const ScanFile& first, const ScanFile& slice) {
+  const auto& a = first.grid;
+  const auto& b = slice.grid;
+  const auto text = [](const ScanFile& scan) {
+    const auto& g = scan.grid;
+    return say(scan.format, " of ", g.size[0], " x ", g.size[1], " x ", g.size[2], " pixels of ",
+               8 * byte_size(scan.source.type), " bits, ", g.spacing.x, " x ", g.spacing.y, " mm");
+  };
+  if (first.format == slice.format && a.size == b.size && a.spacing == b.spacing &&
+      first.source.type == slice.source.type) {
+    return;
+  }
+  refuse(slice.file, "expected a slice like the first, " + text(first) + ", found " + text(slice));
+}
+
+/// The headers of all files, checked, as one volume without samples.
+ScanFile open_slices(const fs::path& directory, const std::vector<fs::path>& files) {
+  ScanFile first = open_picture(files[0]);
+  if (first.grid.size[2] != 1) {
+    refuse(files[0], say("expected one slice per file, found ", first.grid.size[2]));
+  }
+  for (const fs::path& file : files) require_like(first, open_picture(file));
+  ScanFile scan = first;
+  scan.file = directory;
+  scan.format += " slices";
+  set_size(scan, {first.grid.size[0], first.grid.size[1], std::ssize(files)});
+  warn_of_gaps(files, scan.warnings);
+  return scan;
+}
+
+}  // namespace
+
+bool natural_less(const std::string& a, const std::string& b) {
+  const int order = compare_naturally(a, b);
+  return order != 0 ? order < 0 : a < b;
+}
+
+std::vector<fs::path> slices_in(const fs::path& directory) {
+  std::vector<fs::path> files = files_in(directory);
+  std::erase_if(files, [](const fs::path& file) { return !is_picture(file); });
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
+  if (files.size() < 2) return {};
+  try {
+    if (open_picture(files[0]).grid.size[2] != 1) return {};
+  } catch (const InputError&) {
+    return files;  // the reader says what is wrong with it
+  }
+  return files;
+}
+
+VolumeFile read_slices(const fs::path& directory, const std::vector<fs::path>& files) {
+  ScanFile scan = open_slices(directory, files);
+  VolumeFile out{std::move(scan.grid), scan.format, std::move(scan.warnings)};
+  out.volume.samples.reserve(out.volume.voxel_count());
+  for (const fs::path& file : files) {
+    const std::vector<float> slice = read_picture(file).volume.samples;
+    out.volume.samples.insert(out.volume.samples.end(), slice.begin(), slice.end());
+  }
+  return out;
+}
+
+VolumeInfo describe_slices(const fs::path& directory, const std::vector<fs::path>& files) {
+  VolumeInfo info;
+  info.description = (directory / "").parent_path().filename().string();
+  info.format = "slices";
+  try {
+    const ScanFile scan = open_slices(directory, files);
+    info.format = scan.format;
+    info.size = scan.grid.size;
+    info.spacing = scan.grid.spacing;
+  } catch (const InputError& error) {
+    info.problem = error.what();
+  }
+  return info;
+}
+
+}  // namespace mesamis::detail

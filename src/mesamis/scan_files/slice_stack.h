@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mesamis/scan_files/read_volume.h"
+
+/// Pictures of a directory as the slices of one volume.
+namespace mesamis::detail {
+
+/// Compares names as people count: a run of digits counts as a number, so that "s9" comes before
+/// "s10". Names that differ only in zeros before a number are ordered by their characters.
+bool natural_less(const std::string& a, const std::string& b);
+
+/// The pictures that are the slices of a directory, in natural order of their names: its .tif,
+/// .tiff, .png and .bmp files, if there are two at least and the first holds one slice. Else none.
+/// @throws InputError  as files_in().
+std::vector<std::filesystem::path> slices_in(const std::filesystem::path& directory);
+
+/// Reads the pictures as slices, the first at z = 0. Spacing along x and y as the first file has
+/// it, 1 mm between slices with a warning. Numbers in the names that do not go up in equal steps
+/// are a warning: a slice may be missing.
+/// @param files  at least one.
+/// @throws InputError  naming the file, if a picture is of another format, size, type or spacing
+///                     than the first, or holds more than one slice.
+///
+/// O(pixels). Memory: 4 bytes per pixel, and one file at a time.
+VolumeFile read_slices(const std::filesystem::path& directory,
+                       const std::vector<std::filesystem::path>& files);
+
+/// The same without the samples; what read_slices() would refuse for is the problem.
+VolumeInfo describe_slices(const std::filesystem::path& directory,
+                           const std::vector<std::filesystem::path>& files);
+
+}  // namespace mesamis::detail
