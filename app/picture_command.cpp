@@ -11,6 +11,7 @@
 #include "mesamis/picture/picture.h"
 #include "mesamis/scan_files/read_volume.h"
 #include "mesamis/shape_files/file_kind.h"
+#include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "scan.h"
 #include "virtual_display.h"
@@ -77,15 +78,28 @@ void draw_volume(const PictureCommand& command) {
 }
 
 /// Views are named in LPS: a surface that says it is in RAS is turned.
-void draw_surface_file(const PictureCommand& command) {
-  const SurfaceFile file = read_surface_file(command.input);
+void draw_in_one_piece(const PictureCommand& command, const TriMesh& surface) {
   std::vector<double> values;
   if (!command.picture.color.empty()) {
     values = read_point_array(command.input, command.picture.color);
   }
-  const TriMesh surface = in_lps(file);
   draw_on_display(command.picture, [&](const PictureOptions& options) {
     draw_surface(command.output, surface, options, values);
+  });
+}
+
+void draw_surface_file(const PictureCommand& command) {
+  if (!command.picture.color.empty()) {
+    return draw_in_one_piece(command, in_lps(read_surface_file(command.input)));
+  }
+  ObjectFile file = read_object_file(command.input);
+  const bool coloured = file.coloured;
+  const std::vector<NamedSurface> objects = in_lps(std::move(file));
+  if (objects.size() == 1) return draw_in_one_piece(command, objects[0].surface);
+  // Parts without colours are drawn as one: shared points have one normal.
+  if (!coloured) return draw_in_one_piece(command, in_lps(read_surface_file(command.input)));
+  draw_on_display(command.picture, [&](const PictureOptions& options) {
+    draw_objects(command.output, objects, options);
   });
 }
 

@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 
 #include "mesamis/shape_files/mesh_files.h"
+#include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "support/can_draw.h"
 #include "support/run_program.h"
+#include "support/shapes.h"
 
 namespace mesamis {
 namespace {
@@ -66,6 +68,28 @@ TEST(PictureCommand, ColoursSurfacesAndTurnsThoseInRas) {
   const std::string colored = draw_front("lps.vtp", front);
   EXPECT_EQ(draw_front("ras.vtp", front), colored);
   EXPECT_NE(draw_front("lps.vtp", {"--view", "front"}), colored);
+}
+
+/// The same picture from each format, other than that of one surface.
+TEST(PictureCommand, ShowsObjectsInTheirColours) {
+  MESAMIS_REQUIRE_DISPLAY();
+  const TempFolder folder;
+  std::vector<NamedSurface> objects{{"a", {255, 0, 0}, 1, cube({0, 0, 0}, 8)},
+                                    {"b", {0, 0, 255}, 2, cube({16, 0, 0}, 8)}};
+  const auto draw_file = [&](const std::string& name) {
+    return draw(folder, {folder / name, "--view", "front"});
+  };
+  write_objects(folder / "a.vtp", objects);
+  const std::string colored = draw_file("a.vtp");
+  for (const char* name : {"a.3mf", "a.obj", "a.amf"}) {
+    write_objects(folder / name, objects, {.frame = Frame::kRas});
+    EXPECT_EQ(draw_file(name), colored) << name;
+  }
+  write_surface(folder / "one.stl", joined(objects[0].surface, objects[1].surface));
+  const std::string plain = draw_file("one.stl");
+  EXPECT_NE(plain, colored);
+  std::filesystem::remove(folder / "a.mtl");
+  EXPECT_EQ(draw_file("a.obj"), plain) << "without its colours";
 }
 
 TEST(PictureCommand, RefusesPlainly) {

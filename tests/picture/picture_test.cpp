@@ -190,6 +190,60 @@ TEST_F(PictureTest, ColoursSurfacesByValuesOfTheirPoints) {
                  HasSubstr("found 3 values"));
 }
 
+/// Red, green and blue from left to right, as seen from the front.
+std::vector<NamedSurface> three_octahedra() {
+  std::vector<NamedSurface> objects{
+      {"a", {230, 20, 20}, 1, {}}, {"b", {20, 200, 20}, 2, {}}, {"c", {20, 20, 230}, 3, {}}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    add_octahedron(objects[i].surface, {25.0 * static_cast<double>(i), 0, 0}, 10);
+  }
+  return objects;
+}
+
+TEST_F(PictureTest, ObjectsAreShownInTheirColours) {
+  const TempFolder folder;
+  PictureOptions options = small("front");
+  for (const bool edges : {false, true}) {
+    options.edges = edges;
+    draw_objects(folder / "a.png", three_octahedra(), options);
+    const Image image(folder / "a.png");
+    const Ink red(
+        image, [](const Rgb& c) { return c.r > c.g + 60 && c.r > c.b + 60; }, 1);
+    const Ink green(
+        image, [](const Rgb& c) { return c.g > c.r + 60 && c.g > c.b + 60; }, 1);
+    const Ink blue(
+        image, [](const Rgb& c) { return c.b > c.r + 60 && c.b > c.g + 60; }, 1);
+    EXPECT_GT(std::min({red.count, green.count, blue.count}), 500);
+    EXPECT_LT(red.hi[0], green.lo[0]);
+    EXPECT_LT(green.hi[0], blue.lo[0]);
+  }
+}
+
+TEST_F(PictureTest, ClipHidesWholeObjectsToo) {
+  const TempFolder folder;
+  PictureOptions options = small("left");  // seen from +x, where the blue one is
+  const auto count_blue = [&] {
+    draw_objects(folder / "a.png", three_octahedra(), options);
+    return Ink(
+               Image(folder / "a.png"), [](const Rgb& c) { return c.b > c.r + 60; }, 1)
+        .count;
+  };
+  EXPECT_GT(count_blue(), 500);
+  options.clip = Clip{0, 38};
+  EXPECT_EQ(count_blue(), 0);
+  options.clip = Clip{0, -11};
+  EXPECT_REFUSED(count_blue(), HasSubstr("nothing is left"));
+}
+
+TEST(PictureObjects, AreRefusedWhereThereIsNothingToDraw) {
+  const TempFolder folder;
+  EXPECT_REFUSED(draw_objects(folder / "a.png", {}), HasSubstr("nothing to draw"));
+  std::vector<NamedSurface> objects = three_octahedra();
+  objects[1].surface.points[2].y = std::numeric_limits<double>::infinity();
+  EXPECT_REFUSED(draw_objects(folder / "a.png", objects), HasSubstr("not finite"));
+  EXPECT_EQ(folder.file_count(), 0);
+}
+
 TEST_F(PictureTest, EdgesShowTheTriangles) {
   const TempFolder folder;
   PictureOptions options = small("front");

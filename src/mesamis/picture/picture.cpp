@@ -14,6 +14,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -173,16 +174,9 @@ vtkSmartPointer<vtkPolyData> with_normals(vtkPolyData* data) {
   return normals->GetOutput();
 }
 
-/// @param values  one per point to colour by, or none for one colour.
-vtkSmartPointer<vtkActor> add_surface(Scene& scene, const TriMesh& surface, bool edges,
-                                      std::span<const double> values) {
-  const auto data = vtk_surface(surface);
-  if (!values.empty()) {
-    add_array(*data->GetPointData(), {"color", 1, {values.begin(), values.end()}},
-              surface.points.size(), "point");
-    data->GetPointData()->SetActiveScalars("color");
-  }
-  const auto actor = add_actor(scene, edges ? data.Get() : with_normals(data).Get(), edges);
+/// @param data  triangles; the colours that it has, if any, are shown by the caller.
+vtkSmartPointer<vtkActor> add_surface(Scene& scene, vtkPolyData* data, bool edges, bool coloured) {
+  const auto actor = add_actor(scene, edges ? data : with_normals(data).Get(), edges);
   paint(*actor, kBone);
   vtkProperty& property = *actor->GetProperty();
   const auto inside = vtkSmartPointer<vtkProperty>::New();
@@ -195,8 +189,75 @@ vtkSmartPointer<vtkActor> add_surface(Scene& scene, const TriMesh& surface, bool
   inside->DeepCopy(&property);
   inside->SetColor(kInside.r, kInside.g, kInside.b);
   inside->SetSpecular(0);
-  if (values.empty()) actor->SetBackfaceProperty(inside);
+  if (!coloured) actor->SetBackfaceProperty(inside);
   return actor;
+}
+
+/// @param values  one per point to colour by, or none for one colour.
+vtkSmartPointer<vtkPolyData> with_values(const TriMesh& surface, std::span<const double> values) {
+  auto data = vtk_surface(surface);
+  if (!values.empty()) {
+    add_array(*data->GetPointData(), {"color", 1, {values.begin(), values.end()}},
+              surface.points.size(), "point");
+    data->GetPointData()->SetActiveScalars("color");
+  }
+  return data;
+}
+
+/// What is drawn, and how it is shown.
+struct View {
+  CameraAxes axes;
+  std::vector<Vec3> points;  ///< that fill the picture
+  Margins margins;
+  std::string label;
+};
+
+void save_view(const std::filesystem::path& png, Scene& scene, const View& view,
+               const PictureOptions& options) {
+  scene.add_lights();
+  scene.fit(view.axes, view.points, view.margins);
+  scene.zoom_in(options.zoom, options.focus);
+  add_scale_bar(scene);
+  add_corner_label(scene, view.label);
+  scene.save(png);
+}
+
+// ---------------------------------------------------------------- objects
+
+/// The triangles of all objects, each in the colour of its object.
+struct ColouredTriangles {
+  TriMesh surface;  ///< with the points of the hidden triangles too
+  std::vector<Rgb> colours;
+};
+
+ColouredTriangles visible_triangles(std::span<const NamedSurface> objects,
+                                    const PictureOptions& options, const CameraAxes& axes) {
+  const Clipper clipper(options.clip, axes);
+  ColouredTriangles result;
+  TriMesh& all = result.surface;
+  std::size_t triangles = 0;
+  for (const auto& [name, colour, label, surface] : objects) {
+    const auto first = static_cast<Index>(all.points.size());
+    all.points.insert(all.points.end(), surface.points.begin(), surface.points.end());
+    triangles += surface.triangles.size();
+    for (const Triangle& t : surface.triangles) {
+      if (!clipper.keeps(surface.points, t)) continue;
+      all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      result.colours.push_back(colour);
+    }
+  }
+  require_drawable(all.points, triangles);
+  if (all.triangles.empty()) refuse_empty(*options.clip, bounding_box(all.points));
+  return result;
+}
+
+vtkSmartPointer<vtkPolyData> with_colours(const ColouredTriangles& triangles) {
+  auto data = vtk_surface(triangles.surface);
+  const auto colours = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  colours->SetNumberOfComponents(3);
+  for (const Rgb& rgb : triangles.colours) colours->InsertNextTypedTuple(rgb.data());
+  data->GetCellData()->SetScalars(colours);
+  return data;
 }
 
 // ---------------------------------------------------------------- meshes
@@ -357,7 +418,8 @@ void draw_surface(const std::filesystem::path& png, const TriMesh& surface,
   const CameraAxes axes = camera_axes(options.view);
   const TriMesh shown = clipped(surface, options, axes);
   Scene scene(options.pixels, options.display);
-  const auto actor = add_surface(scene, shown, options.edges, values);
+  const auto data = with_values(shown, values);
+  const auto actor = add_surface(scene, data, options.edges, !values.empty());
   Margins margins;
   if (!values.empty()) {
     const ColorBar bar{options.color, percentile_range(values, 0.005, 0.995)};
@@ -365,12 +427,22 @@ void draw_surface(const std::filesystem::path& png, const TriMesh& surface,
     add_color_bar(scene, bar);
     margins.right = kColorBarMargin;
   }
-  scene.add_lights();
-  scene.fit(axes, used_points(*vtk_surface(shown)), margins);
-  scene.zoom_in(options.zoom, options.focus);
-  add_scale_bar(scene);
-  add_corner_label(scene, size_label(bounding_box(surface.points)));
-  scene.save(png);
+  const std::string label = size_label(bounding_box(surface.points));
+  save_view(png, scene, {axes, used_points(*data), margins, label}, options);
+}
+
+void draw_objects(const std::filesystem::path& png, std::span<const NamedSurface> objects,
+                  const PictureOptions& options) {
+  const CameraAxes axes = camera_axes(options.view);
+  const ColouredTriangles shown = visible_triangles(objects, options, axes);
+  Scene scene(options.pixels, options.display);
+  const auto data = with_colours(shown);
+  vtkMapper& mapper = *add_surface(scene, data, options.edges, true)->GetMapper();
+  mapper.ScalarVisibilityOn();
+  mapper.SetScalarModeToUseCellData();
+  mapper.SetColorModeToDirectScalars();
+  const std::string label = size_label(bounding_box(shown.surface.points));
+  save_view(png, scene, {axes, used_points(*data), {}, label}, options);
 }
 
 void draw_mesh(const std::filesystem::path& png, const MeshWithArrays& mesh,
@@ -391,13 +463,9 @@ void draw_mesh(const std::filesystem::path& png, const MeshWithArrays& mesh,
     add_color_bar(scene, bar);
     margins.right = kColorBarMargin;
   }
-  scene.add_lights();
-  scene.fit(axes, used_points(*shown), margins);
-  scene.zoom_in(options.zoom, options.focus);
-  add_scale_bar(scene);
-  add_corner_label(scene, size_label(bounding_box(mesh.mesh.points)) + "   " +
-                              std::to_string(mesh.mesh.cells.size()) + " cells");
-  scene.save(png);
+  const std::string label = size_label(bounding_box(mesh.mesh.points)) + "   " +
+                            std::to_string(mesh.mesh.cells.size()) + " cells";
+  save_view(png, scene, {axes, used_points(*shown), margins, label}, options);
 }
 
 void draw_slice(const std::filesystem::path& png, const Volume& volume, const TriMesh* surface,

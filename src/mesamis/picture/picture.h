@@ -11,6 +11,7 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/shape_files/mesh_files.h"
+#include "mesamis/shape_files/object_files.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// Pictures of surfaces, meshes and slices as PNG, rendered off screen by VTK in parallel
@@ -69,6 +70,19 @@ class DisplayError : public InputError {
 /// O(triangles), and 12 bytes of memory per pixel of the picture.
 void draw_surface(const std::filesystem::path& png, const TriMesh& surface,
                   const PictureOptions& options = {}, std::span<const double> values = {});
+
+/// Draws several objects, each in its colour, with a scale bar and the size of all. Shading as of
+/// draw_surface().
+///
+/// @param png      appears whole or not at all; its folder must exist.
+/// @param objects  at least one triangle in all, finite points, LPS mm.
+/// @param options  see there; `color` is not used.
+/// @throws DisplayError  if there is no display to draw on.
+/// @throws InputError  as draw_surface().
+///
+/// O(triangles), and 12 bytes of memory per pixel of the picture.
+void draw_objects(const std::filesystem::path& png, std::span<const NamedSurface> objects,
+                  const PictureOptions& options = {});
 
 /// Draws the boundary of a mesh, or of what the clip plane leaves of it, with a scale bar, its size
 /// and the number of its cells.
