@@ -86,11 +86,12 @@ SurfaceWriteOptions surface_options(const SegmentOptions& options, const Result&
 /// A run whose result nobody would see is not started.
 void require_some_output(const SegmentOptions& options) {
   if (!options.surfaces.empty() || !options.meshes.empty() || !options.band_meshes.empty() ||
-      !options.report.empty()) {
+      !options.labelmap.empty() || !options.report.empty()) {
     return;
   }
   throw CLI::ValidationError(
-      "segment", "expected --output, --mesh, --band-mesh or --report, found nothing to write");
+      "segment",
+      "expected --output, --mesh, --band-mesh, --labelmap or --report, found nothing to write");
 }
 
 void require_outputs(const SegmentOptions& options) {
@@ -106,8 +107,7 @@ void require_outputs(const SegmentOptions& options) {
     require_output(path, written_mesh_formats(), "--mesh");
   }
   for (const fs::path& path : options.band_meshes) require_output(path, {".vtu"}, "--band-mesh");
-  if (!options.labelmap.empty())
-    require_output(options.labelmap, {".nii", ".gz", ".nrrd"}, "--labelmap");
+  if (!options.labelmap.empty()) require_labelmap(options.labelmap);
   if (!options.report.empty()) require_output(options.report, {".json"}, "--report");
 }
 
@@ -147,7 +147,7 @@ void require_no_mesh(const SegmentOptions& options) {
 int run_with_labels(const SegmentOptions& o, const Settings& settings,
                     const CommonOptions& common) {
   require_no_mesh(o);
-  return run_labels({o.input, o.series, o.labels, o.surfaces, o.labelmap, o.report, o.name, o.frame,
+  return run_labels({o.input, o.read, o.labels, o.surfaces, o.labelmap, o.report, o.name, o.frame,
                      o.error, settings},
                     common);
 }
@@ -159,9 +159,9 @@ void write_labelmap(const fs::path& path, const TriMesh& surface, const VoxelGri
 
 int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   const Settings settings = settings_of(options.settings);
+  require_outputs(options);
   if (options.labels.given()) return run_with_labels(options, settings, common);
   if (options.input.empty()) throw CLI::ValidationError("input", "expected a scan, found none");
-  require_outputs(options);
   require_mesh_for(options, settings);
   const VolumeFile file = read_scan(options.input, options.read);
   require_memory(file.volume, settings, common.memory_gb);

@@ -118,25 +118,15 @@ void write_report(const LabelRun& run, const LabelResult& result,
 
 }  // namespace
 
-void require_outputs(const LabelRun& run) {
-  for (const fs::path& path : run.surfaces) {
-    require_output(path, written_surface_formats(), "--output");
-  }
-  if (!run.labelmap.empty()) {
-    require_output(run.labelmap, {".nii", ".gz", ".nrrd"}, "--labelmap");
-  }
-  if (!run.report.empty()) require_output(run.report, {".json"}, "--report");
-  if (run.surfaces.empty() && run.labelmap.empty() && run.report.empty()) {
-    throw CLI::ValidationError("--output", "expected an output, found none");
-  }
+void require_labelmap(const fs::path& path) {
+  require_output(path, {".nii", ".gz", ".nrrd"}, "--labelmap");
 }
 
 int run_labels(const LabelRun& run, const CommonOptions& common) {
-  require_outputs(run);
   const LabelMap labels = read_labels(run.labels);
   const LabelRequest request = label_request(run.labels, labels);
   VolumeFile file;
-  if (!run.input.empty()) file = read_scan(run.input, run.series);
+  if (!run.input.empty()) file = read_scan(run.input, run.read);
   ProgressDisplay display(common.quiet);
   const LabelResult result =
       run.input.empty()

@@ -9,13 +9,14 @@
 #include "label_options.h"
 #include "mesamis/base/frame.h"
 #include "mesamis/method/settings.h"
+#include "mesamis/scan_files/read_volume.h"
 
 namespace mesamis {
 
 /// What a run of `segment` on labels reads and writes.
 struct LabelRun {
   std::filesystem::path input;  ///< the scan; empty: the labels alone
-  std::string series;           ///< DICOM: its UID, may be empty
+  ReadOptions read;             ///< of the scan
   LabelArguments labels;
   std::vector<std::filesystem::path> surfaces;
   std::filesystem::path labelmap, report;  ///< may be empty
@@ -25,9 +26,9 @@ struct LabelRun {
   Settings settings;
 };
 
-/// Checks the names of the outputs before any work.
+/// Checks the name of a label map before any work.
 /// @throws CLI::ValidationError, InputError  as require_output().
-void require_outputs(const LabelRun& run);
+void require_labelmap(const std::filesystem::path& path);
 
 /// Finds the objects of a label map and writes them.
 /// @return the exit status.

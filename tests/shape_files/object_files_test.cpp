@@ -288,10 +288,10 @@ TEST(RoundedTogether, KeepsStlFilesOfNeighboursInContact) {
 }
 
 TEST(ObjectNumbers, ArePlainLabels) {
-  EXPECT_EQ(detail::label_in("12"), 12);
-  EXPECT_EQ(detail::label_in("0"), 0);
+  EXPECT_EQ(detail::object_label_in("12"), 12);
+  EXPECT_EQ(detail::object_label_in("0"), 0);
   for (const char* none : {"", "-1", "1.5", "x", "99999999999", "1 2"}) {
-    EXPECT_EQ(detail::label_in(none), std::nullopt) << none;
+    EXPECT_EQ(detail::object_label_in(none), std::nullopt) << none;
   }
 }
 

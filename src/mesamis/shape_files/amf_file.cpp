@@ -130,7 +130,7 @@ class AmfReader {
   }
 
   void end_object(const XmlElement& object) {
-    facts_.label = label_in(object.attribute("id"));
+    facts_.label = object_label_in(object.attribute("id"));
     const auto number = static_cast<Index>(result_.objects.size());
     result_.objects.push_back(std::exchange(facts_, {}));
     result_.object_of.resize(surface().triangles.size(), number);

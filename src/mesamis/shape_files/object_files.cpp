@@ -209,7 +209,7 @@ bool have_labels(const std::vector<ObjectFacts>& objects) {
 
 namespace detail {
 
-std::optional<Index> label_in(std::string_view text) {
+std::optional<Index> object_label_in(std::string_view text) {
   std::int64_t label = 0;
   const bool fits =
       parse_number(text, label) && label >= 0 && label <= std::numeric_limits<Index>::max();

@@ -32,7 +32,7 @@ inline std::uint8_t channel_of(double share) {
 }
 
 /// The label that a text gives in decimals, if it does.
-std::optional<Index> label_in(std::string_view text);
+std::optional<Index> object_label_in(std::string_view text);
 
 /// Names for files and materials, no two of them equal: see object_paths().
 std::vector<std::string> safe_names(std::span<const NamedSurface> objects);

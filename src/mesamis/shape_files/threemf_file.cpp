@@ -171,7 +171,7 @@ class Gatherer {
   void add_facts(const Handle& mesh) {
     const auto number = static_cast<Index>(result_.objects.size());
     result_.objects.push_back(
-        {name_of(mesh), label_in(part_number_of(mesh)), colour_of(model_, mesh)});
+        {name_of(mesh), object_label_in(part_number_of(mesh)), colour_of(model_, mesh)});
     result_.object_of.resize(result_.file.surface.triangles.size(), number);
   }
 
