@@ -147,7 +147,8 @@ TEST(ModHausdorff, AgreesWithTheDistanceOfTheWholeSurfaces) {
   const DecimateTask task{surface, tree, 0.04, 0, {}};
   Collapses collapses(surface);
   ModHausdorff rule(collapses.mesh());
-  rule.set_task(task, surface, cover_of(surface));
+  const std::vector<Patch> whole = cut_into_patches(surface.points, cover_of(surface), kInfinity);
+  rule.set_task(task, surface, whole[0]);
   int refused = 0, allowed = 0;
   collapses.for_each(5, [&](const CollapseInfo& collapse, const TriMesh& after) {
     const double distance =
@@ -171,7 +172,8 @@ TEST(ModHausdorff, AllowsAllWithoutATolerance) {
   const DecimateTask task{surface, tree, kInfinity, 0, {}};
   Collapses collapses(surface);
   ModHausdorff rule(collapses.mesh());
-  rule.set_task(task, surface, cover_of(surface));
+  const std::vector<Patch> whole = cut_into_patches(surface.points, cover_of(surface), kInfinity);
+  rule.set_task(task, surface, whole[0]);
   collapses.for_each(7, [&](const CollapseInfo& collapse, const TriMesh&) {
     EXPECT_TRUE(is_legal(rule, collapse));
   });

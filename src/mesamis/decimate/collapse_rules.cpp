@@ -49,11 +49,21 @@ float ModFlatness::collapse_priority(const CollapseInfo& collapse) {
   return LEGAL_COLLAPSE;
 }
 
-void ModHausdorff::set_task(const DecimateTask& task, const TriMesh& surface, const Cover& cover) {
+float ModRims::collapse_priority(const CollapseInfo& collapse) {
+  if (at_rim_[index(collapse.v1)] == 0) return LEGAL_COLLAPSE;
+  for (auto v = mesh().cvv_iter(collapse.v0); v.is_valid(); ++v) {
+    const bool is_joined = *v == collapse.v1 || *v == collapse.vl || *v == collapse.vr;
+    if (!is_joined && at_rim_[index(*v)] != 0) return ILLEGAL_COLLAPSE;
+  }
+  return LEGAL_COLLAPSE;
+}
+
+void ModHausdorff::set_task(const DecimateTask& task, const TriMesh& surface, const Patch& patch) {
   task_ = &task;
   surface_ = &surface;
-  of_face_ = cover.originals;
-  drift_ = cover.drift;
+  patch_ = &patch;
+  of_face_ = patch.cover.originals;
+  drift_ = patch.cover.drift;
   hint_.assign(surface.points.size(), 0);
 }
 
@@ -144,8 +154,9 @@ bool ModHausdorff::removed_is_near(const CollapseInfo& collapse, const Star& sta
 /// The most expensive test, which hardly ever refuses what passed the others.
 bool ModHausdorff::new_are_near(const CollapseInfo& collapse, const Star& star) {
   std::size_t& hint = hint_[index(collapse.v0)];
+  const TriangleTree& tree = task_->tree_at(patch_->points[index(collapse.v0)]);
   return std::all_of(star.after.begin(), star.after.end(), [&](const Triangle& t) {
-    return farthest_distance(shape(t), task_->tree, enough(), hint) <= task_->tolerance;
+    return farthest_distance(shape(t), tree, enough(), hint) <= task_->tolerance;
   });
 }
 
@@ -189,8 +200,9 @@ TriMesh ModHausdorff::surroundings(const CollapseInfo& collapse, const Star& sta
   return local;
 }
 
-void ModIntersection::set_surface(const TriMesh& surface) {
+void ModIntersection::set_surface(const TriMesh& surface, std::vector<Index> first_copies) {
   points_ = &surface.points;
+  first_copies_ = std::move(first_copies);
   std::vector<Box> boxes;
   for (const Triangle& t : surface.triangles) boxes.push_back(box(t));
   tree_ = std::make_unique<BoxTree>(boxes);
@@ -200,7 +212,7 @@ float ModIntersection::collapse_priority(const CollapseInfo& collapse) {
   const Star star = star_of(mesh(), collapse);
   for (std::size_t i = 0; i < star.after.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (intersect(*points_, star.after[i], star.after[j])) return ILLEGAL_COLLAPSE;
+      if (are_intersecting(star.after[i], star.after[j])) return ILLEGAL_COLLAPSE;
     }
   }
   for (const Triangle& t : star.after) {
@@ -221,6 +233,14 @@ Box ModIntersection::box(const Triangle& t) const {
   return bounding_box(Corners{(*points_)[t[0]], (*points_)[t[1]], (*points_)[t[2]]});
 }
 
+bool ModIntersection::are_intersecting(const Triangle& a, const Triangle& b) const {
+  if (first_copies_.empty()) return intersect(*points_, a, b);
+  const auto first = [this](const Triangle& t) {
+    return Triangle{first_copies_[t[0]], first_copies_[t[1]], first_copies_[t[2]]};
+  };
+  return intersect(*points_, first(a), first(b));
+}
+
 bool ModIntersection::meets_others(const Triangle& t, const CollapseInfo& collapse,
                                    const Star& star) {
   bool met = false;
@@ -228,7 +248,7 @@ bool ModIntersection::meets_others(const Triangle& t, const CollapseInfo& collap
     const OpenMesh::FaceHandle f(static_cast<int>(other));
     const bool changes = f == collapse.fl || f == collapse.fr ||
                          std::find(star.faces.begin(), star.faces.end(), f) != star.faces.end();
-    met = !changes && intersect(*points_, t, corner_indices(mesh(), f));
+    met = !changes && are_intersecting(t, corner_indices(mesh(), f));
     return !met;
   });
   return met;

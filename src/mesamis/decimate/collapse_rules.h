@@ -3,6 +3,7 @@
 
 #include <OpenMesh/Tools/Decimater/ModBaseT.hh>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "mesamis/decimate/cover.h"
@@ -36,6 +37,19 @@ class ModFlatness : public CollapseRule {
   const std::vector<Vec3>* points_ = nullptr;
 };
 
+/// Refuses new edges between points at the rims of sheets: another sheet might have the same edge,
+/// which would join four triangles then.
+class ModRims : public CollapseRule {
+ public:
+  explicit ModRims(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}
+  /// @param at_rim  of each point, 1 or 0.
+  void set_rims(std::vector<char> at_rim) { at_rim_ = std::move(at_rim); }
+  float collapse_priority(const CollapseInfo& collapse) override;
+
+ private:
+  std::vector<char> at_rim_;
+};
+
 /// Hausdorff distance in both directions, over whole triangles: of the new ones to the original,
 /// and of the original ones that they stand for to the new. New triangles stand for the originals
 /// to whose corners or centroids they are nearest; decimate_patch() checks the rest of these
@@ -46,8 +60,8 @@ class ModFlatness : public CollapseRule {
 class ModHausdorff : public CollapseRule {
  public:
   explicit ModHausdorff(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}
-  /// @param surface  of the half-edges, its triangles those of the cover.
-  void set_task(const DecimateTask& task, const TriMesh& surface, const Cover& cover);
+  /// @param surface  of the half-edges, its triangles those of the patch.
+  void set_task(const DecimateTask& task, const TriMesh& surface, const Patch& patch);
   /// The originals that a triangle stands for now.
   std::vector<Index> originals_of(OpenMesh::FaceHandle f) const;
   /// See Cover.
@@ -74,6 +88,7 @@ class ModHausdorff : public CollapseRule {
 
   const DecimateTask* task_ = nullptr;
   const TriMesh* surface_ = nullptr;
+  const Patch* patch_ = nullptr;
   std::vector<std::vector<Index>> of_face_;
   std::vector<double> drift_;  // of each triangle
   double next_drift_ = 0;
@@ -86,15 +101,20 @@ class ModHausdorff : public CollapseRule {
 class ModIntersection : public CollapseRule {
  public:
   explicit ModIntersection(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}
-  void set_surface(const TriMesh& surface);
+  /// @param first_copies  of each point, the first one at the same place that is to be taken for
+  /// the
+  ///                      same; empty: all differ.
+  void set_surface(const TriMesh& surface, std::vector<Index> first_copies = {});
   float collapse_priority(const CollapseInfo& collapse) override;
   void postprocess_collapse(const CollapseInfo& collapse) override;
 
  private:
   Box box(const Triangle& t) const;
+  bool are_intersecting(const Triangle& a, const Triangle& b) const;
   bool meets_others(const Triangle& t, const CollapseInfo& collapse, const Star& star);
 
   const std::vector<Vec3>* points_ = nullptr;
+  std::vector<Index> first_copies_;
   std::unique_ptr<BoxTree> tree_;
 };
 

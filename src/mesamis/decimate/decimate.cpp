@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/decimate/decimate.h"
 
-#include <cmath>
 #include <string>
 
 #include "mesamis/base/error.h"
@@ -15,18 +14,7 @@ namespace {
 /// Triangles of a patch, about. Surfaces of less than two are one patch.
 constexpr double kTrianglesPerPatch = 40'000;
 
-void require_decimatable(const TriMesh& surface, const DecimateOptions& options) {
-  if (!(options.tolerance >= 0)) {
-    throw InputError("decimate: expected a tolerance of 0 mm or more, found " +
-                     std::to_string(options.tolerance));
-  }
-  if (options.triangles < 0) {
-    throw InputError("decimate: expected 0 or more triangles, found " +
-                     std::to_string(options.triangles));
-  }
-  if (options.quick && std::isinf(options.tolerance)) {
-    throw InputError("decimate: expected a finite tolerance where it is to be quick, found none");
-  }
+void require_decimatable(const TriMesh& surface) {
   if (surface.triangles.empty()) throw InputError("decimate: the surface has no triangle");
   const std::string flaws = flaws_of(check_surface(surface));
   if (flaws.empty()) return;
@@ -36,7 +24,8 @@ void require_decimatable(const TriMesh& surface, const DecimateOptions& options)
 }  // namespace
 
 TriMesh decimate(const TriMesh& surface, const DecimateOptions& options, DecimateReport* report) {
-  require_decimatable(surface, options);
+  require_valid(options);
+  require_decimatable(surface);
   DecimateReport unused;
   DecimateReport& counts = report ? *report : unused;
   counts = {};

@@ -21,12 +21,33 @@ using Info = CollapseInfo;
 
 constexpr double kMaxNormalChange = 75;  // degrees, of a triangle in one collapse
 
+std::vector<char> rims_of(const Sheets& sheets, const Patch& patch) {
+  std::vector<char> rims;
+  rims.reserve(patch.points.size());
+  for (const Index p : patch.points) rims.push_back(sheets.at_rim[p]);
+  return rims;
+}
+
+/// Of each point of a patch, the first of its points that is a copy of the same. Copies follow each
+/// other.
+/// @return empty without sheets.
+std::vector<Index> first_copies(const DecimateTask& task, const Patch& patch) {
+  std::vector<Index> firsts;
+  if (!task.sheets) return firsts;
+  for (Index p = 0; p < std::ssize(patch.points); ++p) {
+    const bool is_copy =
+        p > 0 && task.first_copy(patch.points[p]) == task.first_copy(patch.points[p - 1]);
+    firsts.push_back(is_copy ? firsts.back() : p);
+  }
+  return firsts;
+}
+
 /// OpenMesh's decimater with one change: the binary modules, which are expensive, test a collapse
 /// only when it is next in the order, and several collapses without a common triangle are tested at
 /// once. Their number depends on the surface, never on the machine.
 class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
  public:
-  LateDecimater(Mesh& mesh, const DecimateTask& task, const TriMesh& surface, const Cover& cover)
+  LateDecimater(Mesh& mesh, const DecimateTask& task, const TriMesh& surface, const Patch& patch)
       : BaseDecimaterT<Mesh>(mesh),
         mesh_(mesh),
         points_(surface.points),
@@ -38,13 +59,18 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
     add(quadric_);
     add(flips);
     add(flatness);
+    if (task.sheets) {
+      ModuleHandle<ModRims> rims;
+      add(rims);
+      module(rims).set_rims(rims_of(*task.sheets, patch));
+    }
     add(hausdorff_);
     add(intersection_);
     module(quadric_).unset_max_err();
     module(flips).set_max_normal_deviation(kMaxNormalChange);
     module(flatness).set_surface(surface);
-    module(hausdorff_).set_task(task, surface, cover);
-    module(intersection_).set_surface(surface);
+    module(hausdorff_).set_task(task, surface, patch);
+    module(intersection_).set_surface(surface, first_copies(task, patch));
     initialize();
   }
 
@@ -282,7 +308,7 @@ Cover decimate_pass(const DecimateTask& task, const Patch& patch) {
   for (std::size_t v = 0; v < patch.held.size(); ++v) {
     mesh.status(OpenMesh::VertexHandle(static_cast<int>(v))).set_locked(patch.held[v] != 0);
   }
-  LateDecimater decimater(mesh, task, surface, patch.cover);
+  LateDecimater decimater(mesh, task, surface, patch);
   decimater.run(task.triangles, task.progress);
   return decimater.cover();
 }

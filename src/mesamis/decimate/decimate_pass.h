@@ -2,21 +2,33 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include "mesamis/decimate/cover.h"
+#include "mesamis/decimate/sheets.h"
 #include "mesamis/surface/triangle_tree.h"
 
 namespace mesamis {
 
 /// The input that all passes of decimate() share.
 struct DecimateTask {
-  const TriMesh& surface;    ///< the original: closed, 2-manifold
+  const TriMesh& surface;    ///< the original: closed, 2-manifold; or made of sheets
   const TriangleTree& tree;  ///< of the original
   double tolerance;          ///< mm; infinity: none
   std::int64_t triangles;    ///< a pass stops at so many
   std::function<void(double)> progress;
   bool quick = false;  ///< only the drift proves that triangles are near; what they stand for is
                        ///< not kept
+  /// Of the surface, if it is a partition's; nullptr: none.
+  const Sheets* sheets = nullptr;
+  std::span<const TriangleTree> trees{};  ///< of each sheet, if any
+
+  /// The tree of what a point of the surface must stay near.
+  const TriangleTree& tree_at(Index point) const {
+    return sheets ? trees[static_cast<std::size_t>(sheets->of_point[point])] : tree;
+  }
+  /// Of points that are copies of one, the first.
+  Index first_copy(Index point) const { return sheets ? sheets->first_copy[point] : point; }
 };
 
 /// Makes one pass over a patch: collapses in the order of the quadrics while the guarantees of

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "mesamis/base/parallel.h"
@@ -64,31 +65,47 @@ class Decimation {
  private:
   std::int64_t held() const { return std::count(patch_.held.begin(), patch_.held.end(), 1); }
 
-  const Vec3& point(Index p) const { return task_.surface.points[patch_.points[p]]; }
-
   Corners original(Index t) const { return corners_of(task_.surface, task_.surface.triangles[t]); }
 
-  /// Triangles over the patch's points, and what touches the patch.
-  TriMesh in_its_place(const std::vector<Triangle>& triangles) const {
-    TriMesh surface{{}, triangles};
-    for (Index p = 0; p < std::ssize(patch_.points); ++p) surface.points.push_back(point(p));
-    for (const Triangle& t : patch_.around) {
-      const auto first = static_cast<Index>(surface.points.size());
-      for (const Index p : t) surface.points.push_back(task_.surface.points[p]);
-      surface.triangles.push_back({first, first + 1, first + 2});
+  /// A sheet, or the whole surface: originals, and what is to be near them.
+  struct Part {
+    std::vector<Index> originals;
+    TriMesh placed;
+  };
+
+  Index sheet_at(Index point) const { return task_.sheets ? task_.sheets->of_point[point] : 0; }
+
+  /// Triangles over the patch's points, and what touches the patch, sheet by sheet.
+  std::map<Index, Part> in_their_place(const std::vector<Triangle>& triangles) const {
+    std::map<Index, Part> parts;
+    const auto place = [&](const Triangle& t) {
+      TriMesh& placed = parts[sheet_at(t[0])].placed;
+      const auto first = static_cast<Index>(placed.points.size());
+      for (const Index p : t) placed.points.push_back(task_.surface.points[p]);
+      placed.triangles.push_back({first, first + 1, first + 2});
+    };
+    for (const Triangle& t : triangles) {
+      place({patch_.points[t[0]], patch_.points[t[1]], patch_.points[t[2]]});
     }
-    return surface;
+    for (const Triangle& t : patch_.around) place(t);
+    for (const Index t : originals_) {
+      parts[sheet_at(task_.surface.triangles[t][0])].originals.push_back(t);
+    }
+    return parts;
   }
 
   /// The pass has made sure that new triangles are near the original, but not all of the reverse. A
   /// triangle whose corners are all held is never removed.
   /// @return whether any original was too far.
   bool hold_what_is_too_far(DecimatedPatch& done) {
-    const TriMesh placed = in_its_place(done.cover.triangles);
-    std::vector<Index> lost = triangles_beyond(
-        originals_.size(), [&](std::size_t i) { return original(originals_[i]); },
-        TriangleTree(placed), task_.tolerance);
-    for (Index& t : lost) t = originals_[t];
+    std::vector<Index> lost;
+    for (const auto& [sheet, part] : in_their_place(done.cover.triangles)) {
+      const std::vector<Index> beyond = triangles_beyond(
+          part.originals.size(), [&](std::size_t i) { return original(part.originals[i]); },
+          TriangleTree(part.placed), task_.tolerance);
+      for (const Index t : beyond) lost.push_back(part.originals[t]);
+    }
+    std::sort(lost.begin(), lost.end());
     hold(patch_, {}, lost, 1 + std::max(0, done.passes - kPatience));
     return !lost.empty();
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,8 +26,13 @@ double patch_side(const TriMesh& surface, const DecimateOptions& options, double
 
 class Decimation {
  public:
-  Decimation(const TriMesh& surface, const DecimateOptions& options, PatchworkReport& report)
-      : surface_(surface), options_(options), tree_(surface), report_(report) {}
+  /// @param sheets  of the surface; nullptr: it is closed.
+  Decimation(const TriMesh& surface, const Sheets* sheets, const DecimateOptions& options,
+             PatchworkReport& report)
+      : surface_(surface), sheets_(sheets), options_(options), report_(report) {
+    if (!sheets) trees_.emplace_back(surface);
+    if (sheets) trees_ = trees_of(*sheets);
+  }
 
   /// @param side  of the patches' boxes, mm; infinity: one patch.
   TriMesh run(double side) {
@@ -35,6 +41,7 @@ class Decimation {
     if (!std::isinf(side)) {
       std::vector<Patch> patches = cut_into_patches(surface_.points, std::move(cover), side);
       open = held_in(patches);
+      for (Patch& patch : patches) hold_rims(patch);
       cover =
           decimate_patchwork(task(0, kShareOfPatches, kDistanceSlack), std::move(patches), report_);
       choose_rings(cover.triangles, kRingsAtSeams, open);
@@ -43,6 +50,7 @@ class Decimation {
     for (std::size_t p = 0; p < whole[0].points.size(); ++p) {
       whole[0].held[p] = open[whole[0].points[p]] == 0 ? 1 : 0;
     }
+    hold_rims(whole[0]);
     const double begin = std::isinf(side) ? 0 : kShareOfPatches;
     cover = decimate_patchwork(task(begin, 1, 1), std::move(whole), report_);
     for (const double drift : cover.drift) report_.drift = std::max(report_.drift, drift);
@@ -62,7 +70,34 @@ class Decimation {
       if (options_.progress && !options_.progress("decimation", told_)) throw Cancelled();
     };
     const double tolerance = options_.tolerance / (kDistanceSlack * strictness);
-    return {surface_, tree_, tolerance, options_.triangles, tell, options_.quick};
+    return {.surface = surface_,
+            .tree = trees_.front(),
+            .tolerance = tolerance,
+            .triangles = options_.triangles,
+            .progress = tell,
+            .quick = options_.quick,
+            .sheets = sheets_,
+            .trees = trees_};
+  }
+
+  static std::vector<TriangleTree> trees_of(const Sheets& sheets) {
+    std::vector<TriMesh> of_sheet(static_cast<std::size_t>(sheets.count));
+    for (const Triangle& t : sheets.surface.triangles) {
+      TriMesh& own = of_sheet[sheets.of_point[t[0]]];
+      const auto first = static_cast<Index>(own.points.size());
+      for (const Index p : t) own.points.push_back(sheets.surface.points[p]);
+      own.triangles.push_back({first, first + 1, first + 2});
+    }
+    std::vector<TriangleTree> trees;
+    for (const TriMesh& own : of_sheet) trees.emplace_back(own);
+    return trees;
+  }
+
+  void hold_rims(Patch& patch) const {
+    if (!sheets_) return;
+    for (std::size_t p = 0; p < patch.points.size(); ++p) {
+      patch.held[p] |= sheets_->at_rim[patch.points[p]];
+    }
   }
 
   /// Of each point of the original 1 if patches hold it because they touch there.
@@ -75,18 +110,39 @@ class Decimation {
   }
 
   const TriMesh& surface_;
+  const Sheets* sheets_;
   const DecimateOptions& options_;
-  TriangleTree tree_;
+  std::vector<TriangleTree> trees_;  // of each sheet, or one
   PatchworkReport& report_;
   double told_ = 0;  // share of the work
 };
 
 }  // namespace
 
+void require_valid(const DecimateOptions& options) {
+  if (!(options.tolerance >= 0)) {
+    throw InputError("decimate: expected a tolerance of 0 mm or more, found " +
+                     std::to_string(options.tolerance));
+  }
+  if (options.triangles < 0) {
+    throw InputError("decimate: expected 0 or more triangles, found " +
+                     std::to_string(options.triangles));
+  }
+  if (options.quick && std::isinf(options.tolerance)) {
+    throw InputError("decimate: expected a finite tolerance where it is to be quick, found none");
+  }
+}
+
 TriMesh decimate_surface(const TriMesh& surface, const DecimateOptions& options,
                          double triangles_per_patch, PatchworkReport& report) {
-  return Decimation(surface, options, report)
+  return Decimation(surface, nullptr, options, report)
       .run(patch_side(surface, options, triangles_per_patch));
+}
+
+TriMesh decimate_sheets(const Sheets& sheets, const DecimateOptions& options,
+                        double triangles_per_patch, PatchworkReport& report) {
+  return Decimation(sheets.surface, &sheets, options, report)
+      .run(patch_side(sheets.surface, options, triangles_per_patch));
 }
 
 }  // namespace mesamis

@@ -3,8 +3,13 @@
 
 #include "mesamis/decimate/decimate.h"
 #include "mesamis/decimate/patchwork.h"
+#include "mesamis/decimate/sheets.h"
 
 namespace mesamis {
+
+/// Checks the options of decimate() and decimate_partition().
+/// @throws InputError  if one is out of range.
+void require_valid(const DecimateOptions& options);
 
 /// Decimates a surface patch by patch; then, as a whole, where these touch. Where the number of
 /// triangles is given, and for less than two patches, there is one patch: the order of all
@@ -21,5 +26,10 @@ namespace mesamis {
 /// As decimate().
 TriMesh decimate_surface(const TriMesh& surface, const DecimateOptions& options,
                          double triangles_per_patch, PatchworkReport& report);
+
+/// The same for sheets, whose points at rims stay.
+/// @return over the points of the sheets.
+TriMesh decimate_sheets(const Sheets& sheets, const DecimateOptions& options,
+                        double triangles_per_patch, PatchworkReport& report);
 
 }  // namespace mesamis

@@ -95,7 +95,11 @@ class Patchwork {
           std::upper_bound(ends.begin(), ends.end(), static_cast<std::size_t>(t)) - ends.begin());
     };
     std::vector<std::vector<std::size_t>> meeting(patches_.size());
-    for (const auto& pair : find_self_intersections({task_.surface.points, joined().triangles})) {
+    TriMesh whole{task_.surface.points, joined().triangles};
+    for (Triangle& t : whole.triangles) {
+      for (Index& p : t) p = task_.first_copy(p);
+    }
+    for (const auto& pair : find_self_intersections(whole)) {
       if (patch_of(pair[0]) == patch_of(pair[1])) continue;  // seen there: it was so before
       for (const Index t : pair) {
         const std::size_t k = patch_of(t);

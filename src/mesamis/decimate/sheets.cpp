@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/decimate/sheets.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "mesamis/base/error.h"
+#include "mesamis/surface/half_edges.h"
+
+namespace mesamis {
+namespace {
+
+void require_sides(const PartitionSurface& partition) {
+  require_sound({partition.points, partition.triangles});
+  const auto flat =
+      std::find_if(partition.triangles.begin(), partition.triangles.end(), is_degenerate);
+  if (flat != partition.triangles.end()) {
+    throw InputError("partition: triangle " + std::to_string(flat - partition.triangles.begin()) +
+                     " has a repeated corner");
+  }
+  if (partition.sides.size() == partition.triangles.size()) return;
+  throw InputError("partition: expected a pair of sides for each of " +
+                   std::to_string(partition.triangles.size()) + " triangles, found " +
+                   std::to_string(partition.sides.size()));
+}
+
+/// The corners of all triangles, numbered 3 t + i. Those of triangles that share an edge between
+/// two are one point.
+class CornerPoints {
+ public:
+  explicit CornerPoints(const PartitionSurface& partition)
+      : partition_(partition),
+        sets_(3 * partition.triangles.size()),
+        at_rim_(3 * partition.triangles.size(), 0) {
+    const auto half_edges = sorted_half_edges(partition.triangles, partition.points.size());
+    for_each_edge(half_edges, [this](std::span<const HalfEdge> edge) { visit(edge); });
+  }
+
+  Sheets sheets() {
+    Sheets sheets;
+    const std::vector<std::size_t> firsts = first_corners();
+    std::vector<Index> number(at_rim_.size(), kNoIndex);
+    for (const std::size_t corner : firsts) {
+      number[corner] = static_cast<Index>(sheets.origin.size());
+      sheets.origin.push_back(point_at(corner));
+      sheets.surface.points.push_back(partition_.points[point_at(corner)]);
+    }
+    sheets.at_rim.assign(sheets.origin.size(), 0);
+    for (std::size_t t = 0; t < partition_.triangles.size(); ++t) {
+      Triangle& triangle = sheets.surface.triangles.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        triangle[i] = number[sets_.find(3 * t + i)];
+        sheets.at_rim[triangle[i]] |= at_rim_[3 * t + i];
+      }
+    }
+    return sheets;
+  }
+
+ private:
+  Index point_at(std::size_t corner) const { return partition_.triangles[corner / 3][corner % 3]; }
+
+  void visit(std::span<const HalfEdge> edge) {
+    const bool is_inner = edge.size() == 2;
+    for (const HalfEdge& half : edge) {
+      at_rim_[half.corner_at_lo()] |= is_inner ? 0 : 1;
+      at_rim_[half.corner_at_hi()] |= is_inner ? 0 : 1;
+    }
+    if (!is_inner) return;
+    require_same_sides(edge[0].triangle, edge[1].triangle);
+    sets_.unite(edge[0].corner_at_lo(), edge[1].corner_at_lo());
+    sets_.unite(edge[0].corner_at_hi(), edge[1].corner_at_hi());
+  }
+
+  void require_same_sides(Index a, Index b) const {
+    if (partition_.sides[a] == partition_.sides[b]) return;
+    throw InputError("partition: triangles " + std::to_string(a) + " and " + std::to_string(b) +
+                     " alone share an edge, but their sides differ");
+  }
+
+  /// One corner for each point of a sheet, in the order of the partition's points.
+  std::vector<std::size_t> first_corners() {
+    std::vector<std::size_t> firsts;
+    for (std::size_t corner = 0; corner < at_rim_.size(); ++corner) {
+      if (sets_.find(corner) == corner) firsts.push_back(corner);
+    }
+    std::stable_sort(firsts.begin(), firsts.end(),
+                     [this](std::size_t a, std::size_t b) { return point_at(a) < point_at(b); });
+    return firsts;
+  }
+
+  const PartitionSurface& partition_;
+  DisjointSets sets_;
+  std::vector<char> at_rim_;
+};
+
+void find_copies(Sheets& sheets) {
+  for (Index p = 0; p < std::ssize(sheets.origin); ++p) {
+    const bool is_copy = p > 0 && sheets.origin[p] == sheets.origin[p - 1];
+    sheets.first_copy.push_back(is_copy ? sheets.first_copy.back() : p);
+    if (is_copy) sheets.at_rim[p] = sheets.at_rim[p - 1] = 1;
+  }
+}
+
+void number_sheets(Sheets& sheets) {
+  DisjointSets sets(sheets.origin.size());
+  for (const Triangle& t : sheets.surface.triangles) {
+    sets.unite(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]));
+    sets.unite(static_cast<std::size_t>(t[1]), static_cast<std::size_t>(t[2]));
+  }
+  for (std::size_t p = 0; p < sheets.origin.size(); ++p) {
+    const std::size_t first = sets.find(p);  // never after this point
+    sheets.of_point.push_back(first == p ? sheets.count++ : sheets.of_point[first]);
+  }
+}
+
+void require_manifold(const TriMesh& sheets) {
+  const SurfaceCheck check = check_surface(sheets);
+  if (check.manifold()) return;
+  throw InputError("partition: expected sheets that are 2-manifolds with rims, found " +
+                   flaws_of(check));
+}
+
+}  // namespace
+
+Sheets cut_into_sheets(const PartitionSurface& partition) {
+  require_sides(partition);
+  Sheets sheets = CornerPoints(partition).sheets();
+  require_manifold(sheets.surface);
+  find_copies(sheets);
+  number_sheets(sheets);
+  return sheets;
+}
+
+}  // namespace mesamis

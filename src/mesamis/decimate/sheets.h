@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesamis/surface/partition.h"
+
+namespace mesamis {
+
+/// The boundaries of a partition cut into sheets, along the curves where other than two triangles
+/// share an edge, and at points where sheets only touch: a 2-manifold with rims. Each sheet has its
+/// own copies of the points on its rim.
+struct Sheets {
+  TriMesh surface;                ///< triangles in the order of the partition's
+  std::vector<Index> origin;      ///< of each point: that of the partition; never falls
+  std::vector<Index> first_copy;  ///< of each point: the first one of the same origin
+  std::vector<char> at_rim;       ///< of each point, 1 if it must stay: on a rim, or one of copies
+  std::vector<Index> of_point;    ///< the sheet of each point; numbered in the order of points
+  Index count = 0;                ///< of sheets
+};
+
+/// Cuts a partition into sheets.
+/// @throws InputError  if there is not a pair of sides for each triangle, a triangle has a repeated
+///                     corner, triangles of different sides share an edge that no third one has, a
+///                     sheet is not a 2-manifold with one orientation, and as require_sound().
+///
+/// O(n log n) for n triangles.
+Sheets cut_into_sheets(const PartitionSurface& partition);
+
+}  // namespace mesamis

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/decimate/decimate_partition.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "mesamis/base/parallel.h"
+#include "mesamis/decimate/decimation.h"
+#include "mesamis/surface/distance.h"
+#include "mesamis/surface/half_edges.h"
+#include "support/label_grids.h"
+#include "support/partition_laws.h"
+#include "support/throws.h"
+
+namespace mesamis {
+namespace {
+
+PartitionSurface blobs(Index n = 18, int count = 5) {
+  const OwnedLabels labels = random_blobs(n, count, 4);
+  return extract_partition_on_grid(smooth_memberships(labels.grid()));
+}
+
+/// Wavy layers, thinner than the tolerances below.
+PartitionSurface layers() {
+  const TetMesh mesh = box_mesh({{0, 0, 0}, {1, 1, 1}}, {16, 16, 16});
+  std::vector<std::vector<double>> fields(5);
+  for (const Vec3& p : mesh.points) {
+    const double height = p.z - 0.5 - 0.1 * std::sin(9 * p.x) * std::cos(8 * p.y);
+    // The upper envelope of lines: layer m between heights 0.07 (m - 2) and 0.07 (m - 1).
+    for (int m = 0; m < 5; ++m) {
+      fields[static_cast<std::size_t>(m)].push_back(m * height - 0.07 * 0.5 * m * (m - 3));
+    }
+  }
+  return extract_partition(mesh, fields);
+}
+
+bool is_before(const Vec3& a, const Vec3& b) {
+  return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
+}
+
+/// The edges of other than two triangles, sorted.
+std::vector<std::array<double, 6>> curves_of(const PartitionSurface& partition) {
+  std::vector<std::array<double, 6>> curves;
+  const auto half_edges = sorted_half_edges(partition.triangles, partition.points.size());
+  for_each_edge(half_edges, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() == 2) return;
+    Vec3 a = partition.points[edge[0].lo], b = partition.points[edge[0].hi];
+    if (is_before(b, a)) std::swap(a, b);
+    curves.push_back({a.x, a.y, a.z, b.x, b.y, b.z});
+  });
+  std::sort(curves.begin(), curves.end());
+  return curves;
+}
+
+/// The boundaries between each pair of materials.
+std::map<std::array<Index, 2>, TriMesh> boundaries_of(const PartitionSurface& partition) {
+  std::map<std::array<Index, 2>, TriMesh> boundaries;
+  for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
+    TriMesh& own = boundaries[partition.sides[t]];
+    const auto first = static_cast<Index>(own.points.size());
+    for (const Index p : partition.triangles[t]) own.points.push_back(partition.points[p]);
+    own.triangles.push_back({first, first + 1, first + 2});
+  }
+  return boundaries;
+}
+
+/// Of all that is not outside.
+double volume_within_caps(const PartitionSurface& partition) {
+  double six = 0;
+  for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
+    if (partition.sides[t][1] != kNoIndex) continue;
+    const auto [a, b, c] = partition.triangles[t];
+    six += dot(partition.points[a], cross(partition.points[b], partition.points[c]));
+  }
+  return six / 6;
+}
+
+std::int64_t euler(const TriMesh& s) { return std::ssize(s.points) - std::ssize(s.triangles) / 2; }
+
+/// Everything that decimate_partition() promises, looked at from outside.
+void expect_promises_kept(const PartitionSurface& before, const PartitionSurface& after,
+                          double tolerance, bool closed = true) {
+  ASSERT_EQ(after.sides.size(), after.triangles.size());
+  EXPECT_EQ(materials_of(after), materials_of(before));
+  double volume = 0;
+  for (const Index m : materials_of(before)) {
+    const TriMesh old = object_surface(before, m), now = object_surface(after, m);
+    const SurfaceCheck old_check = check_surface(old), now_check = check_surface(now);
+    EXPECT_TRUE(now_check.manifold()) << m << " " << flaws_of(now_check);
+    EXPECT_EQ(now_check.open_edges, old_check.open_edges) << m;
+    EXPECT_EQ(now_check.components, old_check.components) << m;
+    if (closed) {
+      EXPECT_EQ(euler(now), euler(old)) << m;
+    }
+    volume += now_check.volume;
+  }
+  if (closed) {
+    const double whole = volume_within_caps(after);  // without gaps and overlaps
+    EXPECT_NEAR(volume, whole, 1e-10 * whole);
+  }
+  EXPECT_TRUE(find_self_intersections({after.points, after.triangles}).empty());
+  EXPECT_EQ(curves_of(after), curves_of(before));
+  if (std::isinf(tolerance)) return;
+  const auto old = boundaries_of(before), now = boundaries_of(after);
+  ASSERT_EQ(now.size(), old.size());
+  for (const auto& [sides, surface] : old) {
+    const TriMesh& other = now.at(sides);
+    EXPECT_LE(max_distance(surface, other, 1e-3 * tolerance), 1.005 * tolerance);
+    EXPECT_LE(max_distance(other, surface, 1e-3 * tolerance), 1.005 * tolerance);
+  }
+}
+
+TEST(DecimatePartition, KeepsItsPromisesForBlobs) {
+  const PartitionSurface partition = blobs();
+  std::size_t last = partition.triangles.size();
+  for (const double tolerance : {0.05, 0.2, 1.0}) {
+    DecimateReport report;
+    const auto result = decimate_partition(partition, {.tolerance = tolerance}, &report);
+    expect_promises_kept(partition, result, tolerance);
+    EXPECT_LT(result.triangles.size(), last);
+    last = result.triangles.size();
+    EXPECT_EQ(report.triangles_before, std::ssize(partition.triangles));
+    EXPECT_EQ(report.triangles_after, std::ssize(result.triangles));
+    EXPECT_LE(report.original_to_result, tolerance);
+    EXPECT_LE(report.result_to_original, tolerance);
+  }
+  EXPECT_LT(last, partition.triangles.size() / 3);
+}
+
+TEST(DecimatePartition, KeepsLayersApartThatAreThinnerThanTheTolerance) {
+  const PartitionSurface partition = layers();
+  expect_partition_laws(partition, 1, "layers");
+  for (const double tolerance : {0.1, 0.5, std::numeric_limits<double>::infinity()}) {
+    const auto result = decimate_partition(partition, {.tolerance = tolerance});
+    expect_promises_kept(partition, result, tolerance);
+    EXPECT_LT(result.triangles.size(), partition.triangles.size() * 2 / 3);
+  }
+}
+
+TEST(DecimatePartition, KeepsItsPromisesForNoise) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    std::mt19937 generator(seed);
+    OwnedLabels labels{.size = {9, 9, 9}};
+    for (int n = 0; n < 729; ++n) {
+      labels.labels.push_back(static_cast<std::uint16_t>(generator() % (seed + 1)));
+    }
+    const auto partition = extract_partition_on_grid(smooth_memberships(labels.grid()));
+    expect_promises_kept(partition, decimate_partition(partition, {.tolerance = 5}), 5);
+  }
+}
+
+TEST(DecimatePartition, QuickIsWithinTheTolerance) {
+  const PartitionSurface partition = blobs();
+  DecimateReport report;
+  const auto result = decimate_partition(partition, {.tolerance = 0.3, .quick = true}, &report);
+  expect_promises_kept(partition, result, 0.3);
+  EXPECT_LE(report.original_to_result, 0.3);
+  EXPECT_LT(result.triangles.size(), partition.triangles.size() / 2);
+}
+
+TEST(DecimatePartition, StopsAtTheTrianglesAskedFor) {
+  const PartitionSurface partition = blobs();
+  const auto most = std::ssize(partition.triangles) * 3 / 4;
+  const auto result = decimate_partition(partition, {.triangles = most});
+  EXPECT_LE(std::ssize(result.triangles), most);
+  EXPECT_GE(std::ssize(result.triangles), most - 2);
+  expect_promises_kept(partition, result, std::numeric_limits<double>::infinity());
+}
+
+TEST(DecimatePartition, LeavesTheRimsOfAnOpenOne) {
+  const OwnedLabels labels = random_blobs(20, 5, 9);
+  const auto partition =
+      extract_partition_on_grid(smooth_memberships(labels.grid()), {.close_at_box = false});
+  expect_promises_kept(partition, decimate_partition(partition, {.tolerance = 0.3}), 0.3, false);
+}
+
+TEST(DecimatePartition, HasTheSameBytesForAnyNumberOfThreads) {
+  const PartitionSurface partition = blobs();
+  const DecimateOptions options{.tolerance = 0.2};
+  const auto one = with_threads(1, [&] { return decimate_partition(partition, options); });
+  const auto two = with_threads(2, [&] { return decimate_partition(partition, options); });
+  EXPECT_EQ(one.points, two.points);
+  EXPECT_EQ(one.triangles, two.triangles);
+  EXPECT_EQ(one.sides, two.sides);
+}
+
+/// Through patches, as large partitions are decimated.
+TEST(DecimatePartition, KeepsItsPromisesPatchByPatch) {
+  for (const PartitionSurface& partition : {blobs(), layers()}) {
+    const Sheets sheets = cut_into_sheets(partition);
+    PatchworkReport work;
+    const double tolerance = 0.1;
+    const TriMesh result = decimate_sheets(sheets, {.tolerance = tolerance}, 1500, work);
+    PartitionSurface joined{partition.points, {}, {}};
+    std::map<Index, std::array<Index, 2>> sides;
+    for (std::size_t t = 0; t < partition.sides.size(); ++t) {
+      sides[sheets.of_point[sheets.surface.triangles[t][0]]] = partition.sides[t];
+    }
+    for (const Triangle& t : result.triangles) {
+      joined.triangles.push_back({sheets.origin[t[0]], sheets.origin[t[1]], sheets.origin[t[2]]});
+      joined.sides.push_back(sides[sheets.of_point[t[0]]]);
+    }
+    expect_promises_kept(partition, joined, tolerance);
+    EXPECT_LT(joined.triangles.size(), partition.triangles.size());
+  }
+}
+
+TEST(DecimatePartition, LeavesAllWithoutATolerance) {
+  const PartitionSurface partition = blobs(12, 3);
+  const auto result = decimate_partition(partition, {.tolerance = 0});
+  EXPECT_EQ(result.triangles, partition.triangles);
+  EXPECT_TRUE(decimate_partition({}, {.tolerance = 1}).triangles.empty());
+}
+
+TEST(DecimatePartition, RefusesBadOptionsAndSurfaces) {
+  PartitionSurface partition = blobs(12, 3);
+  EXPECT_REFUSED(decimate_partition(partition, {.tolerance = -1}), testing::HasSubstr("tolerance"));
+  EXPECT_REFUSED(decimate_partition(partition, {.triangles = -1}), testing::HasSubstr("triangles"));
+  EXPECT_REFUSED(decimate_partition(partition, {.quick = true}), testing::HasSubstr("quick"));
+  partition.sides.pop_back();
+  EXPECT_REFUSED(decimate_partition(partition, {.tolerance = 1}), testing::HasSubstr("sides"));
+}
+
+}  // namespace
+}  // namespace mesamis
