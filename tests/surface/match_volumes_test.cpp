@@ -38,7 +38,7 @@ TEST(MatchVolumes, MovesAPlaneAmidTheVoxels) {
   for (const double height : {3.05, 3.3, 3.5, 3.95}) {
     GridMemberships grid = slabs(9, height);
     SmoothReport report;
-    match_volumes(grid, {.volume_accuracy = 1e-6}, report);
+    match_volumes(grid, part_volumes(grid, grid.material), {.volume_accuracy = 1e-6}, report);
     EXPECT_TRUE(report.converged) << height;
     EXPECT_LE(report.volume_error, 1e-6);
     EXPECT_NEAR(volume_of(grid, 0), 12 * 3.5 * 0.5, 1e-4) << height;
@@ -50,7 +50,7 @@ TEST(MatchVolumes, TellsTheWorstErrorWhereItDoesNothing) {
   GridMemberships grid = slabs(9, 3.1);
   const std::vector<float> before = grid.value;
   SmoothReport report;
-  match_volumes(grid, {.most_rounds = 0}, report);
+  match_volumes(grid, part_volumes(grid, grid.material), {.most_rounds = 0}, report);
   EXPECT_EQ(report.rounds, 0);
   EXPECT_FALSE(report.converged);
   EXPECT_NEAR(report.volume_error, 0.4 / 3.5, 1e-3);
@@ -60,7 +60,7 @@ TEST(MatchVolumes, TellsTheWorstErrorWhereItDoesNothing) {
 TEST(MatchVolumes, KeepsEachNodesMaterialAhead) {
   GridMemberships grid = slabs(9, 3.001);
   SmoothReport report;
-  match_volumes(grid, {}, report);
+  match_volumes(grid, part_volumes(grid, grid.material), {}, report);
   for (std::size_t n = 0; n < grid.material.size(); ++n) {
     const float lead = grid.value[2 * n] - grid.value[2 * n + 1];
     EXPECT_GE(grid.material[n] == 0 ? lead : -lead, 0.999F * kLeastLead);

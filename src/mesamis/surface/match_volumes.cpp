@@ -126,24 +126,6 @@ std::vector<double> newton_step(const std::vector<double>& lack, const Interface
   return step;
 }
 
-std::vector<double> volumes_of_nodes(const GridMemberships& grid) {
-  std::vector<double> volumes(grid.label.size(), 0);
-  const double voxel = grid.spacing.x * grid.spacing.y * grid.spacing.z;
-  std::size_t n = 0;
-  for (Index k = 0; k < grid.size[2]; ++k) {
-    for (Index j = 0; j < grid.size[1]; ++j) {
-      for (Index i = 0; i < grid.size[0]; ++i, ++n) {
-        double share = voxel;
-        if (i == 0 || i + 1 == grid.size[0]) share /= 2;
-        if (j == 0 || j + 1 == grid.size[1]) share /= 2;
-        if (k == 0 || k + 1 == grid.size[2]) share /= 2;
-        volumes[static_cast<std::size_t>(grid.material[n])] += share;
-      }
-    }
-  }
-  return volumes;
-}
-
 /// The memberships with the constants added; the node's own material is kept ahead.
 void shift(const std::vector<float>& base, const std::vector<double>& constants,
            GridMemberships& grid) {
@@ -175,9 +157,26 @@ double worst_of(const std::vector<double>& lack, const std::vector<double>& want
 
 }  // namespace
 
-void match_volumes(GridMemberships& memberships, const SmoothOptions& options,
-                   SmoothReport& report) {
-  const std::vector<double> wanted = volumes_of_nodes(memberships);
+std::vector<double> part_volumes(const GridMemberships& grid, const std::vector<Index>& material) {
+  std::vector<double> volumes(grid.label.size(), 0);
+  const double voxel = grid.spacing.x * grid.spacing.y * grid.spacing.z;
+  std::size_t n = 0;
+  for (Index k = 0; k < grid.size[2]; ++k) {
+    for (Index j = 0; j < grid.size[1]; ++j) {
+      for (Index i = 0; i < grid.size[0]; ++i, ++n) {
+        double share = voxel;
+        if (i == 0 || i + 1 == grid.size[0]) share /= 2;
+        if (j == 0 || j + 1 == grid.size[1]) share /= 2;
+        if (k == 0 || k + 1 == grid.size[2]) share /= 2;
+        volumes[material[n]] += share;
+      }
+    }
+  }
+  return volumes;
+}
+
+void match_volumes(GridMemberships& memberships, const std::vector<double>& wanted,
+                   const SmoothOptions& options, SmoothReport& report) {
   const auto fixed =
       static_cast<std::size_t>(std::max_element(wanted.begin(), wanted.end()) - wanted.begin());
   std::vector<double> constants(wanted.size(), 0);

@@ -4,277 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mesamis/base/error.h"
-#include "mesamis/base/parallel.h"
-#include "mesamis/surface/grid_field.h"
 #include "mesamis/surface/label_parts.h"
+#include "mesamis/surface/lift_memberships.h"
 #include "mesamis/surface/match_volumes.h"
+#include "mesamis/surface/part_filter.h"
+#include "mesamis/surface/yield_nodes.h"
 
 namespace mesamis {
 namespace {
-
-using Place = std::array<Index, 3>;
-
-/// Nodes along each side of the bricks that are filtered at once.
-constexpr Index kBrick = 16;
-/// By how much the own material wins at least where it is one node thick: as far as the boundary
-/// of such a sheet is from where it belongs then, about half a node.
-constexpr float kThinLead = 0.4F;
-
-/// A box of values; i runs fastest.
-struct Values {
-  Place size{};
-  std::vector<float> at;
-};
-
-/// Filters along one axis; what the kernel does not reach whole falls away.
-Values filtered(const Values& in, std::size_t axis, const std::vector<float>& kernel) {
-  Values out{in.size, {}};
-  out.size[axis] -= static_cast<Index>(kernel.size()) - 1;
-  const std::array<std::size_t, 3> step{
-      1, static_cast<std::size_t>(in.size[0]),
-      static_cast<std::size_t>(in.size[0]) * static_cast<std::size_t>(in.size[1])};
-  const auto [nx, ny, nz] =
-      std::array{static_cast<std::size_t>(out.size[0]), static_cast<std::size_t>(out.size[1]),
-                 static_cast<std::size_t>(out.size[2])};
-  out.at.assign(nx * ny * nz, 0);
-  for (std::size_t k = 0; k < nz; ++k) {
-    for (std::size_t j = 0; j < ny; ++j) {
-      float* const to = out.at.data() + (k * ny + j) * nx;
-      for (std::size_t w = 0; w < kernel.size(); ++w) {
-        const float* const from = in.at.data() + k * step[2] + j * step[1] + w * step[axis];
-        for (std::size_t i = 0; i < nx; ++i) to[i] += kernel[w] * from[i];
-      }
-    }
-  }
-  return out;
-}
-
-Values smoothed_once(const Values& in, const std::vector<float>& kernel) {
-  return filtered(filtered(filtered(in, 2, kernel), 1, kernel), 0, kernel);
-}
-
-/// A Gaussian, cut off at three standard deviations, of sum 1.
-std::vector<float> gaussian_kernel(double sigma) {
-  const int radius = static_cast<int>(std::ceil(3 * sigma));
-  std::vector<double> weights;
-  double sum = 0;
-  for (int x = -radius; x <= radius; ++x) {
-    weights.push_back(std::exp(-0.5 * x * x / (sigma * sigma)));
-    sum += weights.back();
-  }
-  std::vector<float> kernel;
-  for (const double w : weights) kernel.push_back(static_cast<float>(w / sum));
-  return kernel;
-}
-
-/// Memberships of one brick's nodes, those at boundaries.
-struct BrickLists {
-  std::vector<Index> nodes;         // increasing along i, j, k within the brick
-  std::vector<std::size_t> counts;  // of each node
-  std::vector<Index> listed;
-  std::vector<float> value;
-};
-
-/// Filters the parts of a grid brick by brick.
-class PartFilter {
- public:
-  PartFilter(const Place& size, const std::vector<Index>& part, double sigma)
-      : size_(size), part_(part), kernel_(gaussian_kernel(sigma)) {
-    for (std::size_t a = 0; a < 3; ++a) bricks_[a] = (size[a] + kBrick - 1) / kBrick;
-  }
-
-  std::size_t brick_count() const {
-    return static_cast<std::size_t>(bricks_[0]) * static_cast<std::size_t>(bricks_[1]) *
-           static_cast<std::size_t>(bricks_[2]);
-  }
-
-  BrickLists run(std::size_t brick) const {
-    BrickLists lists;
-    list_parts(corner_of(brick), lists);
-    const std::vector<Entry> entries = entries_by_part(lists);
-    lists.value.resize(entries.size());
-    for (auto begin = entries.begin(); begin != entries.end();) {
-      const auto end =
-          std::find_if(begin, entries.end(), [&](const Entry& e) { return e.part != begin->part; });
-      fill_in({begin, end}, lists);
-      begin = end;
-    }
-    lift(lists);
-    return lists;
-  }
-
- private:
-  /// A part in the list of a node.
-  struct Entry {
-    Index part, node;
-    std::size_t place;  // in the lists
-  };
-
-  static std::vector<Entry> entries_by_part(const BrickLists& lists) {
-    std::vector<Entry> entries;
-    entries.reserve(lists.listed.size());
-    for (std::size_t n = 0, i = 0; n < lists.nodes.size(); ++n) {
-      for (const std::size_t end = i + lists.counts[n]; i < end; ++i) {
-        entries.push_back({lists.listed[i], lists.nodes[n], i});
-      }
-    }
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const Entry& a, const Entry& b) { return a.part < b.part; });
-    return entries;
-  }
-
-  Place corner_of(std::size_t brick) const {
-    const auto b = static_cast<Index>(brick);
-    return {b % bricks_[0] * kBrick, b / bricks_[0] % bricks_[1] * kBrick,
-            b / bricks_[0] / bricks_[1] * kBrick};
-  }
-  Index node_at(const Place& p) const { return p[0] + size_[0] * (p[1] + size_[1] * p[2]); }
-  Index part_at(Index node) const { return part_[static_cast<std::size_t>(node)]; }
-  Place place_of(Index node) const {
-    return {node % size_[0], node / size_[0] % size_[1], node / size_[0] / size_[1]};
-  }
-
-  /// The part of a neighbour; the node's own beyond the grid.
-  Index part_beside(const Place& at, const Place& step, Index sign) const {
-    Place to = at;
-    for (std::size_t a = 0; a < 3; ++a) {
-      to[a] += sign * step[a];
-      if (to[a] < 0 || to[a] >= size_[a]) return part_at(node_at(at));
-    }
-    return part_at(node_at(to));
-  }
-
-  /// Lists the nodes at boundaries with their own part and those beside it.
-  void list_parts(const Place& corner, BrickLists& lists) const {
-    Place at;
-    for (at[2] = corner[2]; at[2] < std::min(corner[2] + kBrick, size_[2]); ++at[2]) {
-      for (at[1] = corner[1]; at[1] < std::min(corner[1] + kBrick, size_[1]); ++at[1]) {
-        for (at[0] = corner[0]; at[0] < std::min(corner[0] + kBrick, size_[0]); ++at[0]) {
-          list_node(at, lists);
-        }
-      }
-    }
-  }
-
-  void list_node(const Place& at, BrickLists& lists) const {
-    std::array<Index, 15> parts;
-    parts[0] = part_at(node_at(at));
-    std::size_t count = 1;
-    for (const Place& step : kKuhnSteps) {
-      for (const Index sign : {-1, 1}) {
-        const Index part = part_beside(at, step, sign);
-        const auto end = parts.begin() + static_cast<std::ptrdiff_t>(count);
-        if (std::find(parts.begin(), end, part) == end) parts[count++] = part;
-      }
-    }
-    if (count == 1) return;
-    lists.nodes.push_back(node_at(at));
-    lists.counts.push_back(count);
-    lists.listed.insert(lists.listed.end(), parts.begin(),
-                        parts.begin() + static_cast<std::ptrdiff_t>(count));
-  }
-
-  /// 2 G p - G G p for the indicator p of a part, at the nodes that list it.
-  void fill_in(std::span<const Entry> same, BrickLists& lists) const {
-    Place lo = size_, hi{-1, -1, -1};
-    for (const Entry& entry : same) {
-      const Place at = place_of(entry.node);
-      for (std::size_t a = 0; a < 3; ++a) {
-        lo[a] = std::min(lo[a], at[a]);
-        hi[a] = std::max(hi[a], at[a]);
-      }
-    }
-    const auto radius = static_cast<Index>(kernel_.size() / 2);
-    const Values once = smoothed_once(indicator(same.front().part, lo, hi, 2 * radius), kernel_);
-    const Values twice = smoothed_once(once, kernel_);
-    for (const Entry& entry : same) {
-      const Place at = place_of(entry.node);
-      const Place in{at[0] - lo[0], at[1] - lo[1], at[2] - lo[2]};
-      lists.value[entry.place] = 2 * value_at(once, in, radius) - value_at(twice, in, 0);
-    }
-  }
-
-  static float value_at(const Values& values, const Place& p, Index margin) {
-    return values.at[static_cast<std::size_t>(
-        p[0] + margin + values.size[0] * (p[1] + margin + values.size[1] * (p[2] + margin)))];
-  }
-
-  /// 1 in a part, else 0; beyond the grid as at its nearest node.
-  Values indicator(Index part, const Place& lo, const Place& hi, Index margin) const {
-    Values values;
-    for (std::size_t a = 0; a < 3; ++a) values.size[a] = hi[a] - lo[a] + 1 + 2 * margin;
-    const auto [nx, ny, nz] = values.size;
-    values.at.reserve(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) *
-                      static_cast<std::size_t>(nz));
-    const auto clamped = [&](Index x, std::size_t a) {
-      return std::clamp(lo[a] - margin + x, 0, size_[a] - 1);
-    };
-    for (Index k = 0; k < nz; ++k) {
-      for (Index j = 0; j < ny; ++j) {
-        const Index row = node_at({0, clamped(j, 1), clamped(k, 2)});
-        for (Index i = 0; i < nx; ++i) {
-          values.at.push_back(part_at(row + clamped(i, 0)) == part ? 1.0F : 0.0F);
-        }
-      }
-    }
-    return values;
-  }
-
-  /// Makes the own part win at each node. It comes first in the list.
-  void lift(BrickLists& lists) const {
-    std::size_t i = 0;
-    for (std::size_t n = 0; n < lists.nodes.size(); ++n) {
-      const std::size_t end = i + lists.counts[n];
-      const float most = *std::max_element(lists.value.begin() + static_cast<std::ptrdiff_t>(i + 1),
-                                           lists.value.begin() + static_cast<std::ptrdiff_t>(end));
-      const float lead = is_thin(place_of(lists.nodes[n])) ? kThinLead : kLeastLead;
-      lists.value[i] = std::max(lists.value[i], most + lead);
-      i = end;
-    }
-  }
-
-  /// Whether other parts lie on both sides.
-  bool is_thin(const Place& at) const {
-    const Index own = part_at(node_at(at));
-    return std::any_of(kKuhnSteps.begin(), kKuhnSteps.end(), [&](const Place& step) {
-      return part_beside(at, step, -1) != own && part_beside(at, step, 1) != own;
-    });
-  }
-
-  Place size_, bricks_{};
-  const std::vector<Index>& part_;
-  std::vector<float> kernel_;
-};
-
-/// Brings the lists of all bricks into the order of the nodes.
-void gather(const std::vector<BrickLists>& bricks, GridMemberships& grid) {
-  grid.first.assign(grid.material.size() + 1, 0);
-  for (const BrickLists& brick : bricks) {
-    for (std::size_t n = 0; n < brick.nodes.size(); ++n) {
-      grid.first[static_cast<std::size_t>(brick.nodes[n]) + 1] =
-          static_cast<std::int64_t>(brick.counts[n]);
-    }
-  }
-  for (std::size_t n = 1; n < grid.first.size(); ++n) grid.first[n] += grid.first[n - 1];
-  grid.listed.resize(static_cast<std::size_t>(grid.first.back()));
-  grid.value.resize(grid.listed.size());
-  for (const BrickLists& brick : bricks) {
-    std::ptrdiff_t from = 0;
-    for (std::size_t n = 0; n < brick.nodes.size(); ++n) {
-      const auto count = static_cast<std::ptrdiff_t>(brick.counts[n]);
-      const auto to = grid.first[static_cast<std::size_t>(brick.nodes[n])];
-      std::copy_n(brick.listed.begin() + from, count, grid.listed.begin() + to);
-      std::copy_n(brick.value.begin() + from, count, grid.value.begin() + to);
-      from += count;
-    }
-  }
-}
 
 void require_labels(const LabelGrid& grid, const SmoothOptions& options) {
   const auto [x, y, z] = grid.size;
@@ -304,22 +46,21 @@ GridMemberships smooth_memberships(const LabelGrid& grid, const SmoothOptions& o
   LabelParts parts = find_label_parts(grid);
   GridMemberships memberships{.size = grid.size,
                               .spacing = grid.spacing,
-                              .material = std::move(parts.of_node),
+                              .material = parts.of_node,
                               .label = std::move(parts.label),
                               .first = {},
                               .listed = {},
                               .value = {}};
-  {
-    const PartFilter filter(grid.size, memberships.material, options.sigma_voxel);
-    std::vector<BrickLists> bricks(filter.brick_count());
-    parallel_for_each(bricks.size(), [&](std::size_t b) { bricks[b] = filter.run(b); });
-    gather(bricks, memberships);
+  filter_parts(parts.of_node, options.sigma_voxel, memberships);
+  if (yield_nodes(memberships) > 0) {
+    filter_parts(parts.of_node, options.sigma_voxel, memberships);
   }
+  lift_memberships(memberships);
   SmoothReport unused;
   SmoothReport& reached = report ? *report : unused;
   reached = {};
   reached.parts = static_cast<Index>(memberships.label.size());
-  match_volumes(memberships, options, reached);
+  match_volumes(memberships, part_volumes(memberships, parts.of_node), options, reached);
   return memberships;
 }
 

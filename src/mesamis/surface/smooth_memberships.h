@@ -17,7 +17,7 @@ struct LabelGrid {
 
 /// How smooth_memberships() smooths.
 struct SmoothOptions {
-  double sigma_voxel = 1.2;        ///< of the Gaussian, nodes, along each axis; 0.5 to 4
+  double sigma_voxel = 1.5;        ///< of the Gaussian, nodes, along each axis; 0.5 to 4
   double volume_accuracy = 0.002;  ///< relative, of each part, no unit; > 0
   int most_rounds = 12;            ///< to match the volumes; 0: they are only measured
 };
@@ -35,8 +35,10 @@ struct SmoothReport {
 /// Each part of a label that is connected along edges of the Kuhn tetrahedra becomes a material.
 /// Its membership is 2 G p - G G p for its indicator p and a Gaussian G: that filter has no second
 /// moment, so that curved boundaries hardly shrink. Then
-///  - at every node the label of the node wins, so that no part is lost, and none joins another;
-///    where a part is one node thick, it wins by a distance that leaves it about as thick;
+///  - at every node the label of the node wins, so that no part is lost, and none joins another.
+///    Only single steps of stairs yield to the neighbouring part, where this changes the topology
+///    of neither and leaves nothing one node thick;
+///  - where a part is one node thick, it is raised so that it stays about as thick;
 ///  - to each material a constant is added, such that the volume of each part is that of its voxels
 ///    (those at the faces of the grid count as far as they lie within it).
 ///

@@ -39,9 +39,11 @@ set(ROOM_SOURCES
   grid_partition.cpp
   half_edges.cpp
   label_parts.cpp
+  lift_memberships.cpp
   match_volumes.cpp
   nesting.cpp
   normals.cpp
+  part_filter.cpp
   partition_cells.cpp
   sampling.cpp
   select_parts.cpp
@@ -51,4 +53,5 @@ set(ROOM_SOURCES
   tri_mesh.cpp
   triangle_intersection.cpp
   triangle_tree.cpp
-  unused_points.cpp)
+  unused_points.cpp
+  yield_nodes.cpp)

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mesamis/surface/grid_partition.h"
+
+namespace mesamis {
+
+/// Raises the membership of each node's own material, so that it wins, or nearly: where the
+/// material is one node thick, by so much that it stays about as thick. What each node asks for is
+/// averaged along the material, so that its boundaries stay smooth; match_volumes() does the rest.
+/// @param grid  at each node listed, its own material is listed first.
+///
+/// O(nodes).
+void lift_memberships(GridMemberships& grid);
+
+}  // namespace mesamis

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "mesamis/surface/grid_field.h"
+
+namespace mesamis {
+
+/// The 14 nodes of a grid with which one shares an edge of the Kuhn tetrahedra: seven below along
+/// kKuhnSteps, then seven above in the same order. kNoIndex where the grid ends.
+class Neighbours {
+ public:
+  Neighbours(const std::array<Index, 3>& size, Index node) {
+    const std::array<Index, 3> at{node % size[0], node / size[0] % size[1],
+                                  node / size[0] / size[1]};
+    for (std::size_t s = 0; s < 7; ++s) {
+      const auto& d = kKuhnSteps[s];
+      const Index step = d[0] + size[0] * (d[1] + size[1] * d[2]);
+      bool has_below = true, has_above = true;
+      for (std::size_t a = 0; a < 3; ++a) {
+        has_below = has_below && at[a] >= d[a];
+        has_above = has_above && at[a] + d[a] < size[a];
+      }
+      nodes_[s] = has_below ? node - step : kNoIndex;
+      nodes_[s + 7] = has_above ? node + step : kNoIndex;
+    }
+  }
+  Index operator[](std::size_t i) const { return nodes_[i]; }
+
+  /// The step to a neighbour.
+  static std::array<Index, 3> step_to(std::size_t i) {
+    const auto& d = kKuhnSteps[i % 7];
+    return i < 7 ? std::array<Index, 3>{-d[0], -d[1], -d[2]} : d;
+  }
+
+ private:
+  std::array<Index, 14> nodes_{};
+};
+
+}  // namespace mesamis

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "mesamis/surface/grid_partition.h"
+
+namespace mesamis {
+
+/// Lists, at each node beside a boundary between materials, its own material first and those of its
+/// neighbours. The membership of each is 2 G p - G G p for the indicator p of a part and a Gaussian
+/// G; beyond the grid p is as at the nearest node.
+/// @param part         of each node: where p is 1. The materials of the grid may differ from it.
+/// @param sigma_voxel  of the Gaussian, nodes, along each axis.
+/// @param grid         its size and materials are read; its lists are set.
+///
+/// O(nodes).
+void filter_parts(const std::vector<Index>& part, double sigma_voxel, GridMemberships& grid);
+
+}  // namespace mesamis

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/yield_nodes.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <vector>
+
+#include "mesamis/surface/neighbours.h"
+
+namespace mesamis {
+namespace {
+
+/// A node whose membership is smaller by more stays: less than at the end of a thin part, more than
+/// at the corner of a thick one.
+constexpr float kMostYield = 0.35F;
+
+/// Materials of fewer nodes neither give nor take: their volumes could not be matched.
+constexpr Index kFewNodes = 100;
+
+constexpr unsigned kAll = (1U << 14) - 1;
+
+/// Of each neighbour of a node, a bit for each other neighbour beside it.
+std::array<unsigned, 14> links() {
+  std::array<unsigned, 14> links{};
+  for (std::size_t a = 0; a < 14; ++a) {
+    for (std::size_t b = 0; b < 14; ++b) {
+      const auto from = Neighbours::step_to(a), to = Neighbours::step_to(b);
+      const std::array<Index, 3> step{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+      for (std::size_t i = 0; i < 14; ++i) {
+        if (Neighbours::step_to(i) == step) links[a] |= 1U << b;
+      }
+    }
+  }
+  return links;
+}
+
+bool is_connected(unsigned nodes) {
+  static const std::array<unsigned, 14> kLinks = links();
+  if (nodes == 0) return false;
+  unsigned reached = 1U << std::countr_zero(nodes);
+  for (unsigned before = 0; reached != before;) {
+    before = reached;
+    for (unsigned rest = reached; rest != 0; rest &= rest - 1) {
+      reached |= kLinks[static_cast<std::size_t>(std::countr_zero(rest))] & nodes;
+    }
+  }
+  return reached == nodes;
+}
+
+/// Whether neighbours cover one disc of the sphere around a node.
+bool is_disc(unsigned nodes) { return is_connected(nodes) && is_connected(kAll & ~nodes); }
+
+/// The material that a node is to be given to; its own if it stays.
+Index wanted_by(const GridMemberships& grid, std::size_t n) {
+  const auto begin = grid.value.begin() + grid.first[n],
+             end = grid.value.begin() + grid.first[n + 1];
+  if (begin == end) return grid.material[n];
+  const auto most = std::max_element(begin, end);
+  if (*most - *begin > kMostYield) return grid.material[n];
+  return grid.listed[static_cast<std::size_t>(most - grid.value.begin())];
+}
+
+/// Whether the node behind a neighbour, seen from the node, is of the same material: else that
+/// neighbour would become thin.
+bool is_backed(const GridMemberships& grid, Index neighbour, std::size_t direction) {
+  const Index behind = Neighbours(grid.size, neighbour)[direction];
+  return behind == kNoIndex || grid.material[behind] == grid.material[neighbour];
+}
+
+bool may_yield(const GridMemberships& grid, std::size_t n, Index to) {
+  const Neighbours around(grid.size, static_cast<Index>(n));
+  const Index own = grid.material[n];
+  unsigned of_own = 0, of_other = 0;
+  for (std::size_t i = 0; i < 14; ++i) {
+    if (around[i] == kNoIndex) return false;
+    const Index material = grid.material[around[i]];
+    if (material == own && !is_backed(grid, around[i], i)) return false;
+    if (material == own) of_own |= 1U << i;
+    if (material == to) of_other |= 1U << i;
+    if (material != to && grid.label[material] == grid.label[to]) return false;
+  }
+  return is_disc(of_own) && is_disc(of_other);
+}
+
+}  // namespace
+
+std::int64_t yield_nodes(GridMemberships& grid) {
+  std::vector<Index> nodes(grid.label.size(), 0);  // of each material
+  for (const Index m : grid.material) ++nodes[m];
+  std::int64_t count = 0;
+  for (std::size_t n = 0; n < grid.material.size(); ++n) {
+    const Index from = grid.material[n], to = wanted_by(grid, n);
+    if (to == from || std::min(nodes[from], nodes[to]) < kFewNodes) continue;
+    if (!may_yield(grid, n, to)) continue;
+    grid.material[n] = to;
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace mesamis

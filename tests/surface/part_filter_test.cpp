@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/part_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "mesamis/surface/label_parts.h"
+#include "mesamis/surface/neighbours.h"
+#include "support/label_grids.h"
+
+namespace mesamis {
+namespace {
+
+GridMemberships filtered(const OwnedLabels& labels, double sigma) {
+  LabelParts parts = find_label_parts(labels.grid());
+  GridMemberships grid{.size = labels.size,
+                       .spacing = labels.spacing,
+                       .material = parts.of_node,
+                       .label = parts.label,
+                       .first = {},
+                       .listed = {},
+                       .value = {}};
+  filter_parts(parts.of_node, sigma, grid);
+  return grid;
+}
+
+TEST(PartFilter, ListsTheOwnMaterialFirstAndThoseOfTheNeighbours) {
+  const GridMemberships grid = filtered(random_blobs(20, 6, 8), 1.2);
+  for (std::size_t n = 0; n < grid.material.size(); ++n) {
+    std::set<Index> expected{grid.material[n]};
+    const Neighbours around(grid.size, static_cast<Index>(n));
+    for (std::size_t i = 0; i < 14; ++i) {
+      if (around[i] != kNoIndex) expected.insert(grid.material[around[i]]);
+    }
+    const auto begin = grid.listed.begin() + grid.first[n];
+    const std::set<Index> listed(begin, grid.listed.begin() + grid.first[n + 1]);
+    if (expected.size() == 1) {
+      EXPECT_TRUE(listed.empty());
+    } else {
+      EXPECT_EQ(listed, expected);
+      EXPECT_EQ(*begin, grid.material[n]);
+    }
+  }
+}
+
+TEST(PartFilter, IsTheSumOfTheKernelOverAHalfSpace) {
+  const double sigma = 1.5;
+  const auto labels =
+      labels_where({24, 3, 3}, {1, 1, 1}, [](const Vec3& p) { return p.x < 11.5 ? 0 : 1; });
+  const GridMemberships grid = filtered(labels, sigma);
+  const auto below = [](double x, double s) { return 0.5 * std::erfc(-x / (s * std::sqrt(2.0))); };
+  for (const Index i : {11, 12}) {
+    const auto begin = static_cast<std::size_t>(grid.first[static_cast<std::size_t>(24 + 72 + i)]);
+    // Of continuous Gaussians, from whose sums at whole distances the kernel hardly differs.
+    const double x = 0.5, once = below(x, sigma), twice = below(x, sigma * std::sqrt(2.0));
+    EXPECT_NEAR(grid.value[begin], 2 * once - twice, 0.01) << i;
+    EXPECT_NEAR(grid.value[begin] + grid.value[begin + 1], 1, 1e-5) << i;
+  }
+}
+
+TEST(PartFilter, MembershipsAddUpToOneWhereAllPartsAreListed) {
+  const GridMemberships grid = filtered(
+      labels_where({12, 12, 12}, {1, 1, 1}, [](const Vec3& p) { return p.x + p.y > 9 ? 3 : 1; }),
+      2);
+  for (std::size_t n = 0; n + 1 < grid.first.size(); ++n) {
+    const auto begin = static_cast<std::size_t>(grid.first[n]);
+    if (grid.first[n] == grid.first[n + 1]) continue;
+    EXPECT_NEAR(grid.value[begin] + grid.value[begin + 1], 1, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace mesamis
