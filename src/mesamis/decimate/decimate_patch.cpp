@@ -99,7 +99,8 @@ class Decimation {
   /// @return whether any original was too far.
   bool hold_what_is_too_far(DecimatedPatch& done) {
     std::vector<Index> lost;
-    for (const auto& [sheet, part] : in_their_place(done.cover.triangles)) {
+    for (const auto& of_sheet : in_their_place(done.cover.triangles)) {
+      const Part& part = of_sheet.second;
       const std::vector<Index> beyond = triangles_beyond(
           part.originals.size(), [&](std::size_t i) { return original(part.originals[i]); },
           TriangleTree(part.placed), task_.tolerance);

@@ -89,6 +89,7 @@ class Decimation {
       own.triangles.push_back({first, first + 1, first + 2});
     }
     std::vector<TriangleTree> trees;
+    trees.reserve(of_sheet.size());
     for (const TriMesh& own : of_sheet) trees.emplace_back(own);
     return trees;
   }

@@ -58,6 +58,7 @@ std::vector<float> gaussian_kernel(double sigma) {
     sum += weights.back();
   }
   std::vector<float> kernel;
+  kernel.reserve(weights.size());
   for (const double w : weights) kernel.push_back(static_cast<float>(w / sum));
   return kernel;
 }
@@ -192,8 +193,9 @@ class PartFilter {
   }
 
   static float value_at(const Values& values, const Place& p, Index margin) {
-    return values.at[static_cast<std::size_t>(
-        p[0] + margin + values.size[0] * (p[1] + margin + values.size[1] * (p[2] + margin)))];
+    const Index row = p[1] + margin + values.size[1] * (p[2] + margin);
+    const Index place = p[0] + margin + values.size[0] * row;
+    return values.at[static_cast<std::size_t>(place)];
   }
 
   /// 1 in a part, else 0; beyond the grid as at its nearest node.
