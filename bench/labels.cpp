@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What surfaces of labels alone take, on all threads: 105 labels on ten million voxels.
 //
-//   bench_labels [N [LABELS [TOLERANCE]]]     N^3 voxels; default 215, 105 labels
+//   bench_labels [N [LABELS]]     N^3 voxels; default 215, 105 labels
 #include <sys/resource.h>
 
 #include <chrono>
