@@ -3,13 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <utility>
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/median.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/stopwatch.h"
+#include "mesamis/decimate/decimate_partition.h"
+#include "mesamis/decimate/round_together.h"
 #include "mesamis/labels/flow_memberships.h"
+#include "mesamis/labels/label_block.h"
 #include "mesamis/labels/label_confidence.h"
 #include "mesamis/labels/pair_levels.h"
 #include "mesamis/method/follow_partition.h"
@@ -17,14 +22,15 @@
 #include "mesamis/method/prepare.h"
 #include "mesamis/segment/grid_amis.h"
 #include "mesamis/surface/grid_partition.h"
+#include "mesamis/surface/select_parts.h"
 #include "mesamis/surface/smooth_memberships.h"
 
 namespace mesamis {
 namespace {
 
 constexpr double kMarginOfLabels = 2.5, kMarginOfScan = 2.5;  // voxels
-constexpr Index kRoom = 4;    // voxels around the labels and their margin
-constexpr double kReach = 2;  // margins that a label may flow
+constexpr double kToleranceOfLabels = 0.1;                    // voxels: they are no more exact
+constexpr double kReach = 2;                                  // margins that a label may flow
 
 /// The segments that are meant.
 std::vector<Segment> chosen_of(const LabelMap& labels, const LabelRequest& request) {
@@ -38,59 +44,6 @@ std::vector<Index> layers_of(const std::vector<Segment>& segments) {
   std::sort(layers.begin(), layers.end());
   layers.erase(std::unique(layers.begin(), layers.end()), layers.end());
   return layers;
-}
-
-/// The voxels of the chosen segments and some around them; empty if there are none.
-std::optional<CropRange> range_around(const LabelMap& map, const std::vector<Segment>& chosen,
-                                      double margin) {
-  std::optional<CropRange> all;
-  for (const Segment& segment : chosen) {
-    const auto range = range_of(map, segment);
-    if (!range) continue;
-    if (!all) all = range;
-    for (std::size_t a = 0; a < 3; ++a) {
-      all->begin[a] = std::min(all->begin[a], range->begin[a]);
-      all->end[a] = std::max(all->end[a], range->end[a]);
-    }
-  }
-  if (!all) return std::nullopt;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double spacing = map.spacing[static_cast<int>(a)];
-    const Index room = static_cast<Index>(std::ceil(margin / spacing)) + kRoom;
-    all->begin[a] = std::max(0, all->begin[a] - room);
-    all->end[a] = std::min(map.size[a], all->end[a] + room);
-    if (all->end[a] - all->begin[a] < 2) {  // of a flat map
-      all->begin[a] = std::max(0, all->end[a] - 2);
-      all->end[a] = std::min(map.size[a], all->begin[a] + 2);
-    }
-  }
-  return all;
-}
-
-/// The part of one layer within a range.
-std::vector<std::uint16_t> cropped_layer(const LabelMap& map, Index layer, const CropRange& range) {
-  const auto size = cropped_size(map, range);
-  std::vector<std::uint16_t> part;
-  part.reserve(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
-               static_cast<std::size_t>(size[2]));
-  const std::vector<std::uint16_t>& from = map.layers[static_cast<std::size_t>(layer)];
-  for (Index k = range.begin[2]; k < range.end[2]; ++k) {
-    for (Index j = range.begin[1]; j < range.end[1]; ++j) {
-      const auto row = from.begin() + static_cast<std::ptrdiff_t>(map.offset(range.begin[0], j, k));
-      part.insert(part.end(), row, row + size[0]);
-    }
-  }
-  return part;
-}
-
-/// A grid without samples: that of a range of another.
-VoxelGrid cropped_grid(const VoxelGrid& grid, const CropRange& range) {
-  VoxelGrid part = grid;
-  part.size = cropped_size(grid, range);
-  const Vec3 corner{range.begin[0] * grid.spacing.x, range.begin[1] * grid.spacing.y,
-                    range.begin[2] * grid.spacing.z};
-  part.origin = grid.to_world(corner);
-  return part;
 }
 
 /// Whether a label of a layer was chosen.
@@ -170,6 +123,15 @@ Edges find_edges(const Volume& scan, Settings settings, double level) {
   return edges;
 }
 
+CropRange range_of(const LabelBlock& block) {
+  CropRange range;
+  for (std::size_t a = 0; a < 3; ++a) {
+    range.begin[a] = block.begin[a];
+    range.end[a] = block.begin[a] + block.size[a];
+  }
+  return range;
+}
+
 std::string name_of(const LabelMap& map, Index layer, Index label) {
   for (const Segment& s : map.segments) {
     if (s.layer == layer && s.label == label) return s.name;
@@ -193,11 +155,12 @@ class LabelRun {
     result_.has_image = true;
     result_.margin = margin;
     const LabelMap on_scan = labels_on(labels_, scan);
-    const CropRange range = require_range(on_scan, margin);
+    const LabelBlock block = clipped(require_block(on_scan, margin), scan);
+    const CropRange range = range_of(block);
     const Volume part = crop(scan, range);
     for (const Index layer : layers_of(chosen_)) {
       const std::vector<char> marks = marks_of(chosen_, layer);
-      const auto labels = cropped_layer(on_scan, layer, range);
+      const auto labels = labels_in(on_scan, layer, block);
       const Edges edges = find_edges(part, settings_, level_between(part, labels, marks));
       result_.parameters = edges.prepared.parameters;
       result_.parameters.crop = range;
@@ -212,12 +175,11 @@ class LabelRun {
   LabelResult alone() {
     Stopwatch all, watch;
     (void)Stage(progress_, "preparation");
-    const CropRange range = require_range(labels_, 0);
-    const VoxelGrid grid = cropped_grid(labels_, range);
-    result_.parameters.crop = range;
+    const LabelBlock block = require_block(labels_, 0);
+    const VoxelGrid grid = grid_of(labels_, block);
     for (const Index layer : layers_of(chosen_)) {
       const std::vector<char> marks = marks_of(chosen_, layer);
-      const auto labels = cropped_layer(labels_, layer, range);
+      const auto labels = labels_in(labels_, layer, block);
       result_.seconds.prepare += watch.lap();
       (void)Stage(progress_, "smoothing the labels");
       const GridMemberships memberships = smooth_memberships({grid.size, grid.spacing, labels});
@@ -226,7 +188,7 @@ class LabelRun {
       PartitionSurface partition = without_others(extract_partition_on_grid(memberships), marks);
       bring_to_world(grid, partition);
       result_.seconds.surface += watch.lap();
-      finish(layer, std::move(partition), nullptr);
+      finish(layer, std::move(partition), labels_.voxel_size(), nullptr);
       result_.seconds.printable += watch.lap();
     }
     result_.seconds.total = all.lap();
@@ -234,9 +196,9 @@ class LabelRun {
   }
 
  private:
-  CropRange require_range(const LabelMap& map, double margin) const {
-    const auto range = range_around(map, chosen_, margin);
-    if (range) return *range;
+  LabelBlock require_block(const LabelMap& map, double room) const {
+    const auto block = block_around(map, chosen_, room);
+    if (block) return *block;
     throw InputError("labels: expected voxels of " +
                      (chosen_.size() == 1 ? "'" + chosen_.front().name + "'" : "chosen labels") +
                      " within the grid, found none");
@@ -262,7 +224,7 @@ class LabelRun {
     partition = without_others(partition, marks);
     bring_to_world(run.grey, partition);
     result_.seconds.surface += watch.lap();
-    finish(layer, std::move(partition), &run);
+    finish(layer, std::move(partition), run.grey.voxel_size(), &run);
     result_.seconds.printable += watch.lap();
   }
 
@@ -280,17 +242,66 @@ class LabelRun {
   }
 
   /// Decimation, and a surface for each object.
-  void finish(Index layer, PartitionSurface partition, const RunInput* run) {
+  /// @param voxel  mm: of the scan, or of the labels.
+  void finish(Index layer, PartitionSurface partition, double voxel, const RunInput* run) {
+    std::map<Index, std::int64_t> extracted;
+    for (const auto& sides : partition.sides) {
+      for (const Index side : sides) ++extracted[side];
+    }
+    decimate(partition, voxel, run);
     for (const Segment& segment : chosen_) {
       if (segment.layer != layer) continue;
-      LabelledObject object{segment, object_surface(partition, segment.label), {}, 0};
+      LabelledObject object{segment,
+                            selected(object_surface(partition, segment.label)),
+                            {},
+                            extracted[segment.label]};
       if (object.surface.triangles.empty()) continue;
-      object.triangles_extracted = std::ssize(object.surface.triangles);
       if (run != nullptr) {
-        object.expected_error = expected_error(object.surface, run->image, run->error);
+        ErrorOptions delivered = run->error;
+        delivered.decimated = result_.decimated;
+        object.expected_error = expected_error(object.surface, run->image, delivered);
       }
       result_.objects.push_back(std::move(object));
     }
+  }
+
+  void decimate(PartitionSurface& partition, double voxel, const RunInput* run) {
+    Parameters& p = result_.parameters;
+    p.tolerance = settings_.tolerance.value_or(default_tolerance_of(partition, voxel, run));
+    p.triangles = settings_.triangles.value_or(0);
+    if (p.tolerance == 0 || partition.triangles.empty()) return;
+    (void)Stage(progress_, "decimation");
+    std::vector<Vec3> rounded = round_together(partition.points);
+    double shift = 0;
+    for (std::size_t n = 0; n < rounded.size(); ++n) {
+      shift = std::max(shift, norm(rounded[n] - partition.points[n]));
+    }
+    partition.points = std::move(rounded);
+    DecimateOptions options;
+    options.tolerance = std::max(0.0, p.tolerance - shift);
+    options.triangles = p.triangles;
+    options.progress = progress_;
+    options.quick = settings_.preview && std::isfinite(options.tolerance);
+    DecimateReport report;
+    partition = decimate_partition(partition, options, &report);
+    result_.decimated = shift + std::max(report.original_to_result, report.result_to_original);
+  }
+
+  double default_tolerance_of(const PartitionSurface& partition, double voxel,
+                              const RunInput* run) const {
+    if (settings_.triangles) return std::numeric_limits<double>::infinity();
+    if (run == nullptr) return kToleranceOfLabels * voxel;
+    const TriMesh all{partition.points, partition.triangles};
+    const double error = mean_expected_error(*run, all);
+    return default_tolerance(voxel, error, settings_.accuracy.value_or(0));
+  }
+
+  /// The parts that the settings leave; unless they say so, all of them.
+  TriMesh selected(TriMesh surface) const {
+    const PartSelection wanted{settings_.min_volume.value_or(0), settings_.keep_largest,
+                               settings_.fill_cavities};
+    const bool all = wanted.volume_min == 0 && wanted.keep_largest == 0 && !wanted.fill_cavities;
+    return all || surface.triangles.empty() ? surface : select_parts(surface, wanted);
   }
 
   const Settings& settings_;

@@ -42,11 +42,12 @@ struct LabelBoundary {
 /// What a label map became. Objects of one layer share their boundaries: the same triangles,
 /// without gaps and without overlap.
 struct LabelResult {
-  Parameters parameters;                ///< of the run; without an image those of the surface alone
-  MeasuredImage image;                  ///< without an image nothing
-  bool has_image = false;               ///< the image placed the surfaces; else the labels alone
-  double margin = 0;                    ///< see LabelRequest
-  std::vector<LabelledObject> objects;  ///< in the order of the map's segments
+  Parameters parameters;   ///< of the run; without an image those of the surface alone
+  MeasuredImage image;     ///< without an image nothing
+  bool has_image = false;  ///< the image placed the surfaces; else the labels alone
+  double margin = 0;       ///< see LabelRequest
+  double decimated = 0;    ///< greatest distance by which decimation moved a boundary, mm
+  std::vector<LabelledObject> objects;    ///< in the order of the map's segments
   std::vector<LabelBoundary> boundaries;  ///< of the chosen objects; none without an image
   struct Seconds {
     double prepare = 0, flow = 0, surface = 0, printable = 0, total = 0;

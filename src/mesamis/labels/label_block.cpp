@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/labels/label_block.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mesamis {
+namespace {
+
+constexpr Index kRoom = 4;  // voxels beside the room asked for
+
+/// The voxels of all these segments; nothing if there are none.
+std::optional<CropRange> range_of_all(const LabelMap& map, std::span<const Segment> chosen) {
+  std::optional<CropRange> all;
+  const auto ranges = ranges_of(map);
+  for (std::size_t n = 0; n < ranges.size(); ++n) {
+    const Segment& s = map.segments[n];
+    const bool wanted = std::any_of(chosen.begin(), chosen.end(), [&](const Segment& c) {
+      return c.label == s.label && c.layer == s.layer;
+    });
+    if (!wanted || !ranges[n]) continue;
+    if (!all) all = ranges[n];
+    for (std::size_t a = 0; a < 3; ++a) {
+      all->begin[a] = std::min(all->begin[a], ranges[n]->begin[a]);
+      all->end[a] = std::max(all->end[a], ranges[n]->end[a]);
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+bool LabelBlock::within(const VoxelGrid& grid) const noexcept {
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (begin[a] < 0 || begin[a] + size[a] > grid.size[a]) return false;
+  }
+  return true;
+}
+
+std::optional<LabelBlock> block_around(const LabelMap& map, std::span<const Segment> chosen,
+                                       double room) {
+  const auto range = range_of_all(map, chosen);
+  if (!range) return std::nullopt;
+  LabelBlock block;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double spacing = map.spacing[static_cast<int>(a)];
+    const Index around = static_cast<Index>(std::ceil(room / spacing)) + kRoom;
+    block.begin[a] = range->begin[a] - around;
+    block.size[a] = range->end[a] + around - block.begin[a];
+  }
+  return block;
+}
+
+LabelBlock clipped(const LabelBlock& block, const VoxelGrid& grid) {
+  LabelBlock part;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Index end =
+        std::clamp(block.begin[a] + block.size[a], std::min(2, grid.size[a]), grid.size[a]);
+    part.begin[a] = std::clamp(block.begin[a], 0, std::max(0, end - 2));
+    part.size[a] = end - part.begin[a];
+  }
+  return part;
+}
+
+VoxelGrid grid_of(const VoxelGrid& grid, const LabelBlock& block) {
+  VoxelGrid part = grid;
+  part.size = block.size;
+  part.origin = grid.to_world({block.begin[0] * grid.spacing.x, block.begin[1] * grid.spacing.y,
+                               block.begin[2] * grid.spacing.z});
+  return part;
+}
+
+std::vector<std::uint16_t> labels_in(const LabelMap& map, Index layer, const LabelBlock& block) {
+  VoxelGrid grid;
+  grid.size = block.size;
+  std::vector<std::uint16_t> part(grid.voxel_count(), 0);
+  const LabelBlock held = clipped(block, map);
+  const std::vector<std::uint16_t>& from = map.layers[static_cast<std::size_t>(layer)];
+  for (Index k = 0; k < held.size[2]; ++k) {
+    for (Index j = 0; j < held.size[1]; ++j) {
+      const std::array at{held.begin[0], held.begin[1] + j, held.begin[2] + k};
+      const std::array to{at[0] - block.begin[0], at[1] - block.begin[1], at[2] - block.begin[2]};
+      if (std::min({to[0], to[1], to[2]}) < 0) continue;
+      std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(map.offset(at[0], at[1], at[2])),
+                  held.size[0],
+                  part.begin() + static_cast<std::ptrdiff_t>(grid.offset(to[0], to[1], to[2])));
+    }
+  }
+  return part;
+}
+
+}  // namespace mesamis

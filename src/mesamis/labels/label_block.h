@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mesamis/image/label_map.h"
+
+namespace mesamis {
+
+/// A block of voxels of a grid; it may reach beyond it.
+struct LabelBlock {
+  std::array<Index, 3> begin{}, size{};  ///< voxels
+
+  /// Whether it lies within a grid.
+  bool within(const VoxelGrid& grid) const noexcept;
+};
+
+/// Finds the block around segments of a label map.
+/// @param chosen  of the map.
+/// @param room    mm, >= 0, left to all sides, and four voxels more.
+/// @return at least 2 voxels along each axis; nothing if no chosen segment has a voxel.
+/// @throws nothing
+///
+/// O(voxels * segments).
+std::optional<LabelBlock> block_around(const LabelMap& map, std::span<const Segment> chosen,
+                                       double room);
+
+/// What of a block lies within a grid, but at least 2 voxels along each axis where the grid has so
+/// many. O(1).
+/// @throws nothing
+LabelBlock clipped(const LabelBlock& block, const VoxelGrid& grid);
+
+/// The grid of a block: where its voxels lie in the world. O(1).
+/// @throws nothing
+VoxelGrid grid_of(const VoxelGrid& grid, const LabelBlock& block);
+
+/// The labels of a layer in a block, background beyond the map.
+/// @return one per voxel of the block; i runs fastest.
+/// @throws nothing
+///
+/// O(voxels of the block).
+std::vector<std::uint16_t> labels_in(const LabelMap& map, Index layer, const LabelBlock& block);
+
+}  // namespace mesamis
