@@ -3,6 +3,7 @@
 
 #include <regex>
 
+#include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "support/shapes.h"
 #include "support/temp_folder.h"
@@ -119,6 +120,35 @@ TEST(Amf, MarkupInsideANumberDoesNotChangeIt) {
   }
   write_bytes(folder / "a.amf", "<!DOCTYPE amf [<!ENTITY x \"10\">]>" + triangle_at("&x;"));
   EXPECT_REFUSED(read_surface(folder / "a.amf"), HasSubstr("declarations of entities"));
+}
+
+/// Only what stands in the object itself names and colours it.
+TEST(Amf, ObjectsOfOtherWritersHaveNamesAndColours) {
+  const TempFolder folder;
+  const std::string one = triangle_at("0");
+  const std::string mesh =
+      one.substr(one.find("<mesh>"), one.find("</object>") - one.find("<mesh>"));
+  const auto object = [&](const std::string& id, const std::string& facts) {
+    return "<object id=\"" + id + "\">" + facts + mesh + "</object>";
+  };
+  const std::string red = "<color><r>1</r><g>0</g><b>0.2</b><a>1</a></color>";
+  write_bytes(folder / "a.amf",
+              "<amf>" + object("4", "<metadata type=\"name\"> hip </metadata>" + red) +
+                  object("9", "<metadata type=\"url\">x</metadata>" + red) + "</amf>");
+  const ObjectFile file = read_object_file(folder / "a.amf");
+  ASSERT_EQ(file.objects.size(), 2u);
+  EXPECT_EQ(file.objects[0].name, "hip");
+  EXPECT_EQ(file.objects[0].label, 4);
+  EXPECT_EQ(file.objects[0].colour, (std::array<std::uint8_t, 3>{255, 0, 51}));
+  EXPECT_EQ(file.objects[1].name, "object 9");
+  EXPECT_TRUE(file.coloured);
+  // Formulas, as AMF permits them, and channels that are missing.
+  for (const char* none : {"<color><r>x/2</r><g>0</g><b>0</b></color>", "<color/>"}) {
+    write_bytes(folder / "b.amf", "<amf>" + object("4", none) + object("4", red) + "</amf>");
+    const ObjectFile other = read_object_file(folder / "b.amf");
+    EXPECT_FALSE(other.coloured);
+    EXPECT_EQ(other.objects.at(1).label, 2) << "equal labels are replaced";
+  }
 }
 
 /// The tree would need gigabytes for the elements of a real file; points and triangles are taken

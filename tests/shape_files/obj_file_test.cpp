@@ -2,7 +2,9 @@
 // OBJ files of other writers, and damaged ones.
 #include <gmock/gmock.h>
 
+#include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "shape_files/object_example.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
@@ -34,6 +36,70 @@ TEST(Obj, SaysInWhichLineItIsWrong) {
     write_bytes(folder / "a.obj", text);
     EXPECT_REFUSED(read_surface(folder / "a.obj"), HasSubstr(message)) << text;
   }
+}
+
+constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+/// Shared points, groups in several places, materials that stay until the next one.
+TEST(Obj, GroupsAreObjectsWhereThereIsNoO) {
+  const TempFolder folder;
+  write_bytes(folder / "m.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+  write_bytes(folder / "a.obj", std::string("mtllib m.mtl\nmtllib other.mtl\n") + kSquare +
+                                    "g empty\ng left hip\nusemtl red\nf 1 2 3\n"
+                                    "g right\nusemtl blue\nf 3 4 1\ng left hip\nf 2 3 4\n");
+  const ObjectFile file = read_object_file(folder / "a.obj");
+  ASSERT_EQ(file.objects.size(), 2u);
+  const NamedSurface &left = file.objects[0], &right = file.objects[1];
+  EXPECT_EQ(left.name, "left hip");
+  EXPECT_EQ(left.label, 1);
+  EXPECT_EQ(left.colour, (std::array<std::uint8_t, 3>{255, 0, 0}));
+  EXPECT_EQ(left.surface.triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 2, 3}}));
+  EXPECT_EQ(right.label, 2);
+  EXPECT_EQ(right.colour, (std::array<std::uint8_t, 3>{0, 0, 255}));
+  EXPECT_EQ(right.surface.points, (std::vector<Vec3>{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(right.surface.triangles, (std::vector<Triangle>{{1, 2, 0}}));
+  EXPECT_TRUE(file.coloured);
+  EXPECT_EQ(read_surface(folder / "a.obj").points.size(), 4u);
+}
+
+TEST(Obj, FacesBeforeAnyNameAreAnObjectToo) {
+  const TempFolder folder;
+  write_bytes(folder / "a.obj",
+              kSquare + std::string("f 1 2 3\no b\n# label 1\ng part\nf 1 3 4\n"));
+  const ObjectFile file = read_object_file(folder / "a.obj");
+  ASSERT_EQ(file.objects.size(), 2u);
+  EXPECT_EQ(file.objects[0].name, "object 1");
+  EXPECT_EQ(file.objects[1].name, "b");
+  EXPECT_EQ(file.objects[1].label, 2) << "the first has no label: both are counted";
+  EXPECT_FALSE(file.coloured);
+}
+
+TEST(Obj, MaterialsAreReadFromItsOwnFolderOnly) {
+  const TempFolder folder;
+  write_bytes(folder / "up.mtl", "newmtl a\nKd 1 0 0\n");
+  write_bytes(folder / "bad.mtl", "newmtl a\nKd red\n");
+  const auto coloured = [&](const std::string& library) {
+    write_bytes(folder / "a.obj", "mtllib " + library + "\n" + kSquare + "usemtl a\nf 1 2 3\n");
+    return read_object_file(folder / "a.obj").coloured;
+  };
+  EXPECT_TRUE(coloured("up.mtl"));
+  EXPECT_FALSE(coloured("none.mtl"));
+  EXPECT_FALSE(coloured("../" + folder.path().filename().string() + "/up.mtl"));
+  EXPECT_FALSE(coloured(folder / "up.mtl"));
+  EXPECT_FALSE(coloured(".."));
+  EXPECT_REFUSED(coloured("bad.mtl"), HasSubstr("bad.mtl: line 2"));
+  EXPECT_EQ(read_surface(folder / "a.obj").triangles.size(), 1u) << "without materials";
+}
+
+TEST(Obj, AndItsMaterialsAppearTogetherOrNotAtAll) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "a.mtl");
+  EXPECT_REFUSED(write_objects(folder / "a.obj", three_objects()), HasSubstr("cannot be written"));
+  EXPECT_REFUSED(write_objects(folder / "two\nlines.obj", three_objects()), HasSubstr("one line"));
+  EXPECT_EQ(folder.file_count(), 1);
+  write_objects(folder / "b c.obj", three_objects());
+  EXPECT_EQ(folder.file_count(), 3);
+  EXPECT_TRUE(read_object_file(folder / "b c.obj").coloured);
 }
 
 }  // namespace

@@ -105,6 +105,36 @@ TEST(ThreeMf, WithTooManyCopiesOfAMeshIsRefused) {
   EXPECT_REFUSED(read_surface(folder / "a.3mf"), HasSubstr("points and triangles in all"));
 }
 
+/// An assembly of one coloured mesh twice, and a mesh without a name or a colour.
+TEST(ThreeMf, EachMeshOfTheBuildIsAnObject) {
+  const TempFolder folder;
+  Model model;
+  NMR::PLib3MFBase* mesh = add_tetrahedron(model);
+  NMR::lib3mf_object_setnameutf8(mesh, "tooth <4>");
+  NMR::MODELMESHCOLOR_SRGB red{200, 10, 20, 255};
+  ASSERT_EQ(NMR::lib3mf_object_createdefaultpropertyhandler(mesh, model.add()), LIB3MF_OK);
+  ASSERT_EQ(NMR::lib3mf_defaultpropertyhandler_setcolor(model.last(), &red), LIB3MF_OK);
+  ASSERT_EQ(NMR::lib3mf_model_addcomponentsobject(model.get(), model.add()), LIB3MF_OK);
+  NMR::PLib3MFBase* pair = model.last();
+  NMR::MODELTRANSFORM lift{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 5}}};
+  ASSERT_EQ(NMR::lib3mf_componentsobject_addcomponent(pair, mesh, nullptr, model.add()), LIB3MF_OK);
+  ASSERT_EQ(NMR::lib3mf_componentsobject_addcomponent(pair, mesh, &lift, model.add()), LIB3MF_OK);
+  ASSERT_EQ(NMR::lib3mf_model_addbuilditem(model.get(), pair, nullptr, model.add()), LIB3MF_OK);
+  NMR::PLib3MFBase* plain = add_tetrahedron(model);
+  ASSERT_EQ(NMR::lib3mf_model_addbuilditem(model.get(), plain, nullptr, model.add()), LIB3MF_OK);
+  write(model, folder / "a.3mf");
+  const ObjectFile file = read_object_file(folder / "a.3mf");
+  ASSERT_EQ(file.objects.size(), 3u);
+  for (const std::size_t i : {0u, 1u}) {
+    EXPECT_EQ(file.objects[i].name, "tooth <4>");
+    EXPECT_EQ(file.objects[i].colour, (std::array<std::uint8_t, 3>{200, 10, 20}));
+  }
+  EXPECT_EQ(file.objects[1].label, 2);
+  EXPECT_EQ(file.objects[1].surface.points.at(0), (Vec3{0, 0, 5}));
+  EXPECT_EQ(file.objects[2].name, "object 3");
+  EXPECT_FALSE(file.coloured) << "the last one has no colour";
+}
+
 TEST(ThreeMf, ThatBuildsNothingIsRefused) {
   const TempFolder folder;
   Model model;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "mesamis/shape_files/object_files.h"
@@ -28,7 +29,7 @@ struct ParsedObjects {
 
 /// A share of 0 to 1 of a colour as a byte; what is no share counts as the nearer end.
 inline std::uint8_t channel_of(double share) {
-  return share > 0 ? static_cast<std::uint8_t>(255 * std::min(share, 1.0) + 0.5) : 0;
+  return share > 0 ? static_cast<std::uint8_t>(std::lround(255 * std::min(share, 1.0))) : 0;
 }
 
 /// The label that a text gives in decimals, if it does.
