@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "mesamis/surface/grid_partition.h"
 #include "mesamis/surface/smooth_memberships.h"
 #include "support/label_grids.h"
@@ -72,12 +75,14 @@ TEST(PairLevels, LeaveOutWhereSeveralMeet) {
   std::size_t on_curve = 0;
   for (std::size_t p = 0; p < pair_of.size(); ++p) {
     const Vec3& at = surface.points[p];
-    const bool in_box = std::min({at.x, at.y, at.z}) > 0.5 && std::max({at.x, at.y, at.z}) < 18.5;
-    if (!in_box || std::abs(at.x - 9.5) > 0.1 || std::abs(at.y - 9.5) > 0.1) continue;
-    EXPECT_EQ(pair_of[p], kNoIndex) << "on the curve where all three meet";
-    ++on_curve;
+    if (std::min({at.x, at.y, at.z}) < 0.5 || std::max({at.x, at.y, at.z}) > 18.5) continue;
+    const double away = std::hypot(at.x - 9.5, at.y - 9.5);
+    if (away > 2) {
+      EXPECT_NE(pair_of[p], kNoIndex) << "between two of them";
+    }
+    on_curve += away < 1 && pair_of[p] == kNoIndex ? 1 : 0;
   }
-  EXPECT_GT(on_curve, 10U);
+  EXPECT_GE(on_curve, 18U) << "one per layer of voxels at least";
 }
 
 }  // namespace

@@ -22,8 +22,7 @@ struct FlowOptions {
 ///   sum over the nodes of c (p - l)^2  +  integral of beta (v^2 + eta) |grad p|^2,
 /// with the membership l of smooth_memberships() and the weights c of label_confidence():
 /// the functional (2) for u with labels instead of grey values. Its matrix is the same for all
-/// labels, an M-matrix (see GridSpace), so that memberships are between 0 and 1, and those of all
-/// labels add up to 1. Where an edge lies within the margin, v is small and the membership jumps
+/// labels, an M-matrix (see GridSpace), so that memberships are between 0 and 1. Where an edge lies within the margin, v is small and the membership jumps
 /// there; where none does, it falls to one half at the labels' border.
 ///
 /// The label 0 is what the others leave. Memberships are looked for where c is less than certain

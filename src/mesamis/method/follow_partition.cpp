@@ -19,10 +19,6 @@ constexpr int kFairingSweeps = 10;  // pairs of steps of Taubin's filter
 constexpr double kShrink = 0.5, kGrow = -0.53;
 constexpr double kMostFairing = 0.7;  // voxels
 
-bool shows_edge(const PairLevel& pair, double noise) {
-  return std::abs(pair.contrast) >= std::max(kLeastGrey, kLeastContrast * noise);
-}
-
 /// What the image tells at the points between two materials.
 Offsets measure(const FollowSpace& space, const TriMesh& surface, const std::vector<Vec3>& normals,
                 const std::vector<const PairLevel*>& pair_of, double noise) {
@@ -105,6 +101,10 @@ class Fairing {
 };
 
 }  // namespace
+
+bool shows_edge(const PairLevel& pair, double noise) {
+  return std::abs(pair.contrast) >= std::max(kLeastGrey, kLeastContrast * noise);
+}
 
 PartitionSurface follow_image(PartitionSurface partition, const SplineImage& image,
                               const std::vector<PairLevel>& pairs, double noise) {

@@ -9,11 +9,18 @@
 
 namespace mesamis {
 
+/// Whether the image shows the edge between two materials: a contrast of at least four standard
+/// deviations of the noise, and ten grey values.
+/// @param noise  standard deviation in the image, grey values, >= 0.
+/// @throws nothing
+bool shows_edge(const PairLevel& pair, double noise);
+
 /// Moves the boundaries of several objects towards the level sets of an image, each to its own
 /// half maximum: follow_image() for a partition.
 ///
-/// A boundary whose contrast is less than four standard deviations of the noise stays where the
-/// labels have it, and so do the curves where more than two materials meet. Moves that would make
+/// First all boundaries are faired (Taubin's filter, by at most 0.7 voxels), the curves where more
+/// than two materials meet along themselves: labels have the steps of their voxels. Then those
+/// whose edge the image shows follow it, in two rounds of 0.7 voxels at most. Moves that would make
 /// boundaries meet are taken back.
 /// @param partition  in the image's own axes, mm; without self-intersections.
 /// @param image      in grey values.

@@ -220,7 +220,7 @@ class LabelRun {
     if (settings_.follow) {
       partition = follow_image(std::move(partition), run.image, pairs, run.error.noise);
     }
-    record_boundaries(layer, pairs, marks, p.grey);
+    record_boundaries(layer, pairs, marks, run);
     partition = without_others(partition, marks);
     bring_to_world(run.grey, partition);
     result_.seconds.surface += watch.lap();
@@ -229,7 +229,8 @@ class LabelRun {
   }
 
   void record_boundaries(Index layer, const std::vector<PairLevel>& pairs,
-                         const std::vector<char>& marks, const GreyMap& grey) {
+                         const std::vector<char>& marks, const RunInput& run) {
+    const GreyMap& grey = run.parameters.grey;
     for (const PairLevel& pair : pairs) {
       if (marks[static_cast<std::size_t>(pair.sides[0])] == 0 &&
           marks[static_cast<std::size_t>(pair.sides[1])] == 0) {
@@ -237,7 +238,8 @@ class LabelRun {
       }
       result_.boundaries.push_back(
           {name_of(labels_, layer, pair.sides[0]), name_of(labels_, layer, pair.sides[1]),
-           grey.to_native(pair.level), pair.contrast / grey.grey_per_native(), settings_.follow});
+           grey.to_native(pair.level), pair.contrast / grey.grey_per_native(),
+           settings_.follow && shows_edge(pair, run.error.noise)});
     }
   }
 

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/label_surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <set>
+
+#include "mesamis/base/parallel.h"
+#include "mesamis/surface/self_intersections.h"
+#include "support/throws.h"
+
+namespace mesamis {
+namespace {
+
+constexpr Index kSide = 48;
+const Vec3 kFirst{17.3, 23.6, 24.2}, kSecond{31.1, 24.3, 23.4};
+constexpr double kRadius = 11, kSecondRadius = 9.5;
+
+/// Two balls that touch: the second ends where the first begins.
+int ball_at(const Vec3& p) {
+  if (norm(p - kFirst) < kRadius) return 1;
+  return norm(p - kSecond) < kSecondRadius ? 2 : 0;
+}
+
+/// Grey values of the balls, blurred by sampling, with noise.
+Volume scan_of(double first, double second, double background, double noise) {
+  Volume scan{{.size = {kSide, kSide, kSide}}, {}};
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal(0, noise);
+  const std::array<double, 3> values{background, first, second};
+  for (Index k = 0; k < kSide; ++k) {
+    for (Index j = 0; j < kSide; ++j) {
+      for (Index i = 0; i < kSide; ++i) {
+        double sum = 0;
+        for (int s = 0; s < 125; ++s) {  // a box of 1.6 voxels
+          const Vec3 at{i + 0.4 * (s % 5 - 2), j + 0.4 * (s / 5 % 5 - 2), k + 0.4 * (s / 25 - 2)};
+          sum += values[static_cast<std::size_t>(ball_at(at))];
+        }
+        scan.samples.push_back(static_cast<float>(sum / 125 + normal(generator)));
+      }
+    }
+  }
+  return scan;
+}
+
+/// Labels on every n-th voxel, shifted by so many millimetres.
+LabelMap labels_of(Index every, double shift) {
+  LabelMap map;
+  map.size = {kSide / every, kSide / every, kSide / every};
+  const double step = every;
+  map.spacing = {step, step, step};
+  map.layers.emplace_back();
+  for (Index k = 0; k < map.size[2]; ++k) {
+    for (Index j = 0; j < map.size[1]; ++j) {
+      for (Index i = 0; i < map.size[0]; ++i) {
+        map.layers[0].push_back(
+            static_cast<std::uint16_t>(ball_at({i * step, j * step, k * step})));
+      }
+    }
+  }
+  map.origin = {shift, shift, shift};
+  map.segments = {{"first", 1, 0, {255, 0, 0}}, {"second", 2, 0, {0, 255, 0}}};
+  return map;
+}
+
+double distance_to(int object, const Vec3& p) {
+  const double a = norm(p - kFirst) - kRadius, b = norm(p - kSecond) - kSecondRadius;
+  if (object == 1) return std::abs(a);
+  return a > 0 && b <= 0 ? std::min(a, -b) : std::max(std::abs(std::max(-a, b)), 0.0);
+}
+
+/// Mean over the triangles' middles, by area.
+double mean_error(int object, const TriMesh& surface) {
+  double sum = 0, area = 0;
+  for (const Triangle& t : surface.triangles) {
+    const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+    const double weight = norm(cross(b - a, c - a));
+    sum += weight * distance_to(object, (1.0 / 3) * (a + b + c));
+    area += weight;
+  }
+  return sum / area;
+}
+
+void expect_closed(const LabelResult& found) {
+  TriMesh all;
+  for (const LabelledObject& object : found.objects) {
+    EXPECT_EQ(solid_flaws_of(check_surface(object.surface)), "") << object.segment.name;
+    EXPECT_TRUE(find_self_intersections(object.surface).empty()) << object.segment.name;
+  }
+}
+
+/// Points of both objects.
+std::size_t shared_points(const LabelResult& found) {
+  const auto less = [](const Vec3& a, const Vec3& b) {
+    return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
+  };
+  std::set<Vec3, std::function<bool(const Vec3&, const Vec3&)>> first(less);
+  for (const Vec3& p : found.objects[0].surface.points) first.insert(p);
+  return static_cast<std::size_t>(
+      std::count_if(found.objects[1].surface.points.begin(), found.objects[1].surface.points.end(),
+                    [&](const Vec3& p) { return first.count(p) == 1; }));
+}
+
+TEST(LabelSurfaces, TheImagePlacesWhatLabelsChoose) {
+  const Volume scan = scan_of(200, 130, 50, 4);
+  for (const Index every : {1, 2, 3}) {
+    for (const double shift : {0.0, 0.5 * every}) {
+      const LabelResult found = find_labelled_objects(scan, labels_of(every, shift), {}, {});
+      const std::string what = std::to_string(every) + " shifted by " + std::to_string(shift);
+      ASSERT_EQ(found.objects.size(), 2U) << what;
+      expect_closed(found);
+      EXPECT_GT(shared_points(found), 20U) << what;
+      EXPECT_LT(mean_error(1, found.objects[0].surface), 0.15) << what;
+      EXPECT_LT(mean_error(2, found.objects[1].surface), 0.15) << what;
+    }
+  }
+}
+
+TEST(LabelSurfaces, TheLabelsDecideWhereTheImageShowsNothing) {
+  const Volume scan = scan_of(200, 200, 50, 4);  // no edge between the balls
+  const LabelResult found = find_labelled_objects(scan, labels_of(1, 0), {}, {});
+  expect_closed(found);
+  EXPECT_LT(mean_error(1, found.objects[0].surface), 0.3);
+  for (const LabelBoundary& b : found.boundaries) {
+    EXPECT_EQ(b.followed, b.first.empty()) << b.first << " and " << b.second;
+  }
+}
+
+TEST(LabelSurfaces, OneObjectEndsWhereAnotherBegins) {
+  const Volume scan = scan_of(200, 130, 50, 4);
+  const LabelMap labels = labels_of(1, 0);
+  const LabelResult both = find_labelled_objects(scan, labels, {}, {});
+  const LabelResult one = find_labelled_objects(scan, labels, {{labels.segments[1]}, {}}, {});
+  ASSERT_EQ(one.objects.size(), 1U);
+  EXPECT_EQ(one.objects[0].segment.name, "second");
+  EXPECT_NEAR(check_surface(one.objects[0].surface).volume,
+              check_surface(both.objects[1].surface).volume, 15);
+}
+
+TEST(LabelSurfaces, OfLabelsAloneKeepTheVolume) {
+  for (const Index every : {1, 2}) {
+    const LabelMap labels = labels_of(every, 0);
+    const LabelResult found = surfaces_of_labels(labels, {}, {});
+    ASSERT_EQ(found.objects.size(), 2U);
+    expect_closed(found);
+    for (const LabelledObject& object : found.objects) {
+      const auto voxels = std::count(labels.layers[0].begin(), labels.layers[0].end(),
+                                     static_cast<std::uint16_t>(object.segment.label));
+      const double volume = static_cast<double>(voxels * every * every * every);
+      EXPECT_NEAR(check_surface(object.surface).volume, volume, 0.01 * volume);
+      EXPECT_LT(mean_error(object.segment.label, object.surface), 0.3 * every);
+    }
+  }
+}
+
+TEST(LabelSurfaces, OfALabelAtTheBorderOfTheMapAreWhole) {
+  LabelMap labels;
+  labels.size = {6, 6, 6};
+  labels.layers.assign(1, std::vector<std::uint16_t>(216, 4));  // nothing but the label
+  labels.segments = {{"all", 4, 0, {}}};
+  Settings as_extracted;
+  as_extracted.tolerance = 0;
+  const LabelResult found = surfaces_of_labels(labels, {}, as_extracted);
+  ASSERT_EQ(found.objects.size(), 1U);
+  EXPECT_NEAR(check_surface(found.objects[0].surface).volume, 216, 2.16);
+}
+
+TEST(LabelSurfaces, OfMirroredGridsFaceOutward) {
+  Volume scan = scan_of(200, 130, 50, 4);
+  LabelMap labels = labels_of(1, 0);
+  scan.direction.rows[0] = {-1, 0, 0};
+  labels.direction.rows[0] = {-1, 0, 0};
+  expect_closed(find_labelled_objects(scan, labels, {}, {}));
+  expect_closed(surfaces_of_labels(labels, {}, {}));
+}
+
+TEST(LabelSurfaces, OverlappingLayersAreFoundEachByItself) {
+  LabelMap labels = labels_of(2, 0);
+  labels.layers.push_back(labels.layers[0]);
+  for (std::uint16_t& label : labels.layers[1]) label = label == 0 ? 0 : 1;
+  labels.segments.push_back({"both", 1, 1, {}});
+  const LabelResult found = surfaces_of_labels(labels, {}, {});
+  ASSERT_EQ(found.objects.size(), 3U);
+  expect_closed(found);
+  EXPECT_NEAR(check_surface(found.objects[2].surface).volume,
+              check_surface(found.objects[0].surface).volume +
+                  check_surface(found.objects[1].surface).volume,
+              60);
+}
+
+TEST(LabelSurfaces, AreTheSameForAnyNumberOfThreads) {
+  const Volume scan = scan_of(200, 130, 50, 4);
+  const LabelMap labels = labels_of(2, 0);
+  const auto run = [&] { return find_labelled_objects(scan, labels, {}, {}); };
+  const LabelResult one = with_threads(1, run), two = with_threads(2, run);
+  ASSERT_EQ(one.objects.size(), two.objects.size());
+  for (std::size_t n = 0; n < one.objects.size(); ++n) {
+    EXPECT_EQ(one.objects[n].surface.triangles, two.objects[n].surface.triangles);
+    EXPECT_EQ(one.objects[n].surface.points, two.objects[n].surface.points);
+    EXPECT_EQ(one.objects[n].expected_error, two.objects[n].expected_error);
+  }
+}
+
+TEST(LabelSurfaces, RefuseLabelsBesideTheScan) {
+  const Volume scan = scan_of(200, 130, 50, 4);
+  LabelMap labels = labels_of(1, 0);
+  labels.origin.x = 500;
+  EXPECT_REFUSED(find_labelled_objects(scan, labels, {}, {}),
+                 ::testing::HasSubstr("expected voxels of chosen labels"));
+  LabelMap none = labels_of(1, 0);
+  none.segments.push_back({"third", 3, 0, {}});
+  EXPECT_REFUSED(surfaces_of_labels(none, {{none.segments[2]}, {}}, {}),
+                 ::testing::HasSubstr("'third'"));
+}
+
+}  // namespace
+}  // namespace mesamis

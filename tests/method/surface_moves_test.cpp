@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/surface_moves.h"
+
+#include <gtest/gtest.h>
+
+#include "mesamis/surface/self_intersections.h"
+#include "support/ball_volume.h"
+#include "support/level_set.h"
+
+namespace mesamis {
+namespace {
+
+const Vec3 kCenter{19.5, 19.5, 19.5};
+
+TriMesh ball(double radius) {
+  return level_set({{0, 0, 0}, {39, 39, 39}}, {20, 20, 20},
+                   [radius](const Vec3& p) { return radius - norm(p - kCenter); });
+}
+
+SplineImage image() { return interpolating_spline(make_ball({.noise = 0, .radius = 11})); }
+
+TEST(SurfaceMoves, StayInTheBox) {
+  const SplineImage scan = image();
+  const FollowSpace space(scan, 1);
+  EXPECT_TRUE(space.on_box({0, 5, 5}));
+  EXPECT_FALSE(space.on_box({0.1, 5, 5}));
+  const Vec3 shortened = space.within_box({0.4, 5, 5}, {-1, 0, 0});
+  EXPECT_NEAR(shortened.x, -0.2, 1e-12) << "half of the way to the box";
+  EXPECT_EQ(space.within_box({3, 5, 5}, {-1, 0, 0}).x, -1);
+}
+
+TEST(SurfaceMoves, KnowTheNeighboursOfEachPoint) {
+  const TriMesh tetrahedron{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                            {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  const Neighbors neighbors(tetrahedron);
+  ASSERT_EQ(neighbors.start.size(), 5U);
+  for (std::size_t p = 0; p < 4; ++p) {
+    EXPECT_EQ(neighbors.start[p + 1] - neighbors.start[p], 3U) << p;
+  }
+}
+
+TEST(SurfaceMoves, OffsetsCountWhereTheImageIsSteep) {
+  EXPECT_FALSE(image_offset(10, 4, 1).has_value()) << "too flat to tell";
+  const auto offset = image_offset(10, 40, 4);
+  ASSERT_TRUE(offset.has_value());
+  EXPECT_NEAR(offset->distance, 0.25, 1e-12);
+  EXPECT_NEAR(offset->noise, 1.1 * 4 / 40, 1e-12);
+  EXPECT_NEAR(image_offset(1000, 40, 4)->distance, 0.7, 1e-12) << "no further";
+  Offsets offsets(2);
+  offsets.set(1, *offset, 40);
+  EXPECT_EQ(offsets.weight[0], 0);
+  EXPECT_EQ(offsets.weight[1], 1);
+  EXPECT_TRUE(is_worthwhile(offsets));
+  EXPECT_FALSE(is_worthwhile(Offsets(3))) << "nothing is told";
+}
+
+TEST(SurfaceMoves, AreTakenBackWhereTrianglesWouldMeet) {
+  const TriMesh surface = ball(11);
+  const SplineImage scan = image();
+  const FollowSpace space(scan, 1);
+  std::vector<Vec3> shifts(surface.points.size());
+  const auto far = static_cast<std::size_t>(surface.triangles[0][0]);
+  shifts[far] = (25.0 / 11) * (kCenter - surface.points[far]);  // through the ball and out
+  const TriMesh moved = moved_without_folds(space, surface, shifts);
+  EXPECT_TRUE(find_self_intersections(moved).empty());
+  EXPECT_LT(norm(moved.points[far] - surface.points[far]), 20) << "halved at least once";
+  std::vector<Vec3> small(surface.points.size(), Vec3{0.1, 0, 0});
+  const TriMesh shifted = moved_without_folds(space, surface, small);
+  EXPECT_EQ(shifted.points[far].x, surface.points[far].x + 0.1) << "what meets nothing stays moved";
+}
+
+}  // namespace
+}  // namespace mesamis
