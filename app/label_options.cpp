@@ -48,7 +48,7 @@ LabelMap read_labels(const LabelArguments& a) {
 }
 
 LabelRequest label_request(const LabelArguments& a, const LabelMap& map) {
-  LabelRequest request;
+  LabelRequest request{map};
   for (const std::string& wanted : a.chosen) {
     request.chosen.push_back(find_segment(map.segments, wanted));
   }

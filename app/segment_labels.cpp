@@ -130,8 +130,8 @@ int run_labels(const LabelRun& run, const CommonOptions& common) {
   ProgressDisplay display(common.quiet);
   const LabelResult result =
       run.input.empty()
-          ? surfaces_of_labels(labels, request, run.settings, display.callback())
-          : find_labelled_objects(file.volume, labels, request, run.settings, display.callback());
+          ? surfaces_of_labels(request, run.settings, display.callback())
+          : find_labelled_objects(file.volume, request, run.settings, display.callback());
   display.finish();
   std::vector<SurfaceCheck> checks;
   for (const LabelledObject& object : result.objects) {

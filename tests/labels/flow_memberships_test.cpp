@@ -15,8 +15,9 @@ namespace {
 constexpr double kMargin = 4;
 
 GridMemberships flow(const OwnedLabels& labels, const std::vector<float>& edges) {
-  return flow_memberships(labels.grid(), smooth_memberships(labels.grid()),
-                          label_confidence(labels.grid(), kMargin), edges, 2 * kMargin, {});
+  const GridMemberships smooth = smooth_memberships(labels.grid());
+  const auto weight = label_confidence(labels.grid(), kMargin);
+  return flow_memberships(labels.grid(), {smooth, weight, edges}, {.reach = 2 * kMargin});
 }
 
 OwnedLabels half_space(double from) {
@@ -106,11 +107,11 @@ TEST(FlowMemberships, RefuseWhatDoesNotFit) {
   const auto smooth = smooth_memberships(labels.grid());
   const auto weight = label_confidence(labels.grid(), kMargin);
   const std::vector<float> edges(labels.labels.size(), 1), few(3, 1);
-  EXPECT_REFUSED(flow_memberships(labels.grid(), smooth, weight, few, 8, {}),
+  EXPECT_REFUSED(flow_memberships(labels.grid(), {smooth, weight, few}, {}),
                  ::testing::HasSubstr("labels, weights and edges"));
-  EXPECT_REFUSED(flow_memberships(labels.grid(), smooth, weight, edges, 0, {}),
+  EXPECT_REFUSED(flow_memberships(labels.grid(), {smooth, weight, edges}, {.reach = 0}),
                  ::testing::HasSubstr("reach"));
-  EXPECT_REFUSED(flow_memberships(labels.grid(), {}, weight, edges, 8, {}),
+  EXPECT_REFUSED(flow_memberships(labels.grid(), {{}, weight, edges}, {}),
                  ::testing::HasSubstr("smooth_memberships()"));
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "mesamis/base/parallel.h"
@@ -44,6 +45,26 @@ TEST(LabelConfidence, IsCertainWhereALabelIsThin) {
   EXPECT_EQ(at(4, 4, 4), kCertain) << "a voxel alone";
   // Beside it the margin is a voxel and a half: r is a third there, not a sixth.
   EXPECT_NEAR(at(5, 4, 4), 0.005 + 0.03 * 0.25, 1e-6);
+}
+
+TEST(LabelConfidence, IsCertainOfTheMiddleOfAWallBesideSomethingThick) {
+  const OwnedLabels labels = labels_where({30, 15, 15}, {1, 1, 1}, [](const Vec3& p) {
+    return p.x < 12 || std::abs(p.z - 7) < 1.5 ? 1 : 0;  // three voxels thick
+  });
+  const auto weight = label_confidence(labels.grid(), 4);
+  const auto at = [&](Index i, Index k) {
+    return weight[static_cast<std::size_t>(i + 30 * (7 + 15 * k))];
+  };
+  for (Index i = 16; i < 28; ++i) {
+    EXPECT_EQ(at(i, 7), kCertain) << i;
+    EXPECT_LT(at(i, 6), 1) << i;
+  }
+}
+
+TEST(LabelConfidence, DoesNotTrustABumpOfAFewLabels) {
+  OwnedLabels labels = half_space(20, 10);
+  labels.at(9, 2, 2) = 1;
+  EXPECT_LT(weight_at(labels, label_confidence(labels.grid(), 4), 9), 1);
 }
 
 TEST(LabelConfidence, DoesNotTrustAClefOfBackground) {

@@ -45,7 +45,8 @@ TEST(FollowPartition, ComesToTheLevelSetAndStaysClosed) {
   const double seen = middle_radius(kRadius, 1);
   EXPECT_GT(mean_misfit(partition, seen), 0.4);
   const auto pairs = measure_pair_levels(partition, image);
-  partition = follow_image(std::move(partition), image, pairs, 2);
+  const auto guides = guides_of_points(partition, pairs, 2);
+  partition = follow_image(std::move(partition), image, guides, 2);
   EXPECT_LT(mean_misfit(partition, seen), 0.12);
   expect_partition_laws(partition, labels.box_volume(), "followed");
 }
@@ -58,13 +59,37 @@ TEST(FollowPartition, LeavesABoundaryThatTheImageDoesNotShow) {
   ASSERT_EQ(pairs.size(), 3U);
   EXPECT_FALSE(shows_edge(pairs[2], 2));
   EXPECT_TRUE(shows_edge(pairs[0], 2));
-  partition = follow_image(std::move(partition), image, pairs, 2);
+  const auto guides = guides_of_points(partition, pairs, 2);
+  partition = follow_image(std::move(partition), image, guides, 2);
   for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
     if (partition.sides[t][0] == 0) continue;
     for (const Index p : partition.triangles[t]) {
       EXPECT_NEAR(partition.points[p].x, 19.5, 0.3) << "where the labels have it";
     }
   }
+}
+
+TEST(FollowPartition, OnlyChosenKeepsObjectsAndTurnsTheirGuides) {
+  const SplineImage image = interpolating_spline(make_ball({.noise = 2, .radius = kRadius}));
+  const OwnedLabels labels = halves(kRadius);
+  const PartitionSurface all = extract_partition_on_grid(smooth_memberships(labels.grid()));
+  auto guides = guides_of_points(all, measure_pair_levels(all, image), 2);
+  const PartitionSurface second = only_chosen(all, {0, 0, 1}, guides);
+  EXPECT_EQ(materials_of(second), (std::vector<Index>{0, 2}));
+  EXPECT_EQ(guides.size(), second.points.size());
+  const SurfaceCheck check = check_surface(object_surface(second, 2));
+  EXPECT_EQ(solid_flaws_of(check), "");
+  EXPECT_NEAR(check.volume, check_surface(object_surface(all, 2)).volume, 1e-9);
+  for (const BoundaryGuide& guide : guides) {
+    EXPECT_LE(guide.contrast, 0) << "the background lies behind and is darker";
+  }
+  // The first object's boundary to the second had it in front; as background it lies behind.
+  auto turned = std::vector<BoundaryGuide>(all.points.size(), BoundaryGuide{100, 50});
+  const PartitionSurface first = only_chosen(all, {0, 1, 0}, turned);
+  int positive = 0, negative = 0;
+  for (const BoundaryGuide& guide : turned) (guide.contrast > 0 ? positive : negative) += 1;
+  EXPECT_GT(positive, 100) << "to the background";
+  EXPECT_GT(negative, 100) << "to the second object";
 }
 
 }  // namespace

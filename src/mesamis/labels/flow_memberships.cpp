@@ -58,16 +58,20 @@ float membership_of(const GridMemberships& labels, std::size_t node, std::uint16
 
 class LabelFlow {
  public:
-  LabelFlow(const LabelGrid& grid, const GridMemberships& smooth, std::span<const float> weight,
-            std::span<const float> edges, double reach, const FlowOptions& options)
-      : grid_(grid), smooth_(smooth), weight_(weight), edges_(edges), options_(options) {
+  LabelFlow(const LabelGrid& grid, const FlowFields& fields, const FlowOptions& options)
+      : grid_(grid),
+        smooth_(fields.smooth),
+        weight_(fields.weight),
+        edges_(fields.edges),
+        options_(options) {
     const Vec3 h = (1 / options.unit_mm) * grid.spacing;
     mass_ = h.x * h.y * h.z;
     for (std::size_t a = 0; a < 3; ++a) {
       const double along = h[static_cast<int>(a)];
       per_length_[a] = options.beta * mass_ / (along * along);
-      most_steps_ = std::max(
-          most_steps_, static_cast<int>(std::ceil(reach / grid.spacing[static_cast<int>(a)])));
+      most_steps_ =
+          std::max(most_steps_,
+                   static_cast<int>(std::ceil(options.reach / grid.spacing[static_cast<int>(a)])));
     }
     stride_ = {1, grid.size[0], static_cast<std::ptrdiff_t>(grid.size[0]) * grid.size[1]};
   }
@@ -275,10 +279,10 @@ std::vector<std::pair<std::uint16_t, Extent>> extents_of(const LabelGrid& grid) 
 /// The memberships of all materials at the open nodes, and who wins.
 class Assembly {
  public:
-  Assembly(const LabelGrid& grid, const GridMemberships& smooth, std::span<const float> weight,
+  Assembly(const LabelGrid& grid, const FlowFields& fields,
            const std::vector<std::pair<std::uint16_t, Extent>>& labels,
            const std::vector<Membership>& solved)
-      : grid_(grid), smooth_(smooth), weight_(weight) {
+      : grid_(grid), smooth_(fields.smooth), weight_(fields.weight) {
     number_.assign(1 + std::size_t{std::numeric_limits<std::uint16_t>::max()}, 0);
     for (std::size_t m = 0; m < labels.size(); ++m) {
       number_[labels[m].first] = static_cast<Index>(m);
@@ -316,7 +320,11 @@ class Assembly {
     }
   }
 
-  Index own(std::size_t node) const { return number_[grid_.labels[node]]; }
+  /// Of a node that is certain: smoothing may have taken a step of the labels off.
+  Index own(std::size_t node) const {
+    const auto material = static_cast<std::size_t>(smooth_.material[node]);
+    return number_[static_cast<std::size_t>(smooth_.label[material])];
+  }
 
   /// The background has what the others leave.
   float membership(std::size_t node, Index material) const {
@@ -408,18 +416,22 @@ class Assembly {
   GridMemberships out_;
 };
 
-void require_fields(const LabelGrid& grid, std::span<const float> weight,
-                    std::span<const float> edges, double reach, const FlowOptions& o) {
+void require_fields(const LabelGrid& grid, const FlowFields& fields, const FlowOptions& o) {
   const std::size_t nodes = static_cast<std::size_t>(grid.size[0]) *
                             static_cast<std::size_t>(grid.size[1]) *
                             static_cast<std::size_t>(grid.size[2]);
-  if (grid.labels.size() != nodes || weight.size() != nodes || edges.size() != nodes) {
+  if (grid.labels.size() != nodes || fields.weight.size() != nodes ||
+      fields.edges.size() != nodes) {
     throw InputError("labels: expected " + std::to_string(nodes) +
                      " labels, weights and edges, found " + std::to_string(grid.labels.size()) +
-                     ", " + std::to_string(weight.size()) + " and " + std::to_string(edges.size()));
+                     ", " + std::to_string(fields.weight.size()) + " and " +
+                     std::to_string(fields.edges.size()));
   }
-  const bool in_range =
-      reach > 0 && o.beta > 0 && o.eta >= 0 && o.unit_mm > 0 && o.tolerance > 0 && o.tolerance < 1;
+  if (fields.smooth.material.size() != nodes) {
+    throw InputError("flow of labels: expected smooth_memberships() of the same labels");
+  }
+  const bool in_range = o.reach > 0 && o.beta > 0 && o.eta >= 0 && o.unit_mm > 0 &&
+                        o.tolerance > 0 && o.tolerance < 1;
   if (!in_range) {
     throw InputError("flow of labels: expected a reach, beta and a unit above 0, eta of 0 or more");
   }
@@ -427,20 +439,16 @@ void require_fields(const LabelGrid& grid, std::span<const float> weight,
 
 }  // namespace
 
-GridMemberships flow_memberships(const LabelGrid& grid, const GridMemberships& smooth,
-                                 std::span<const float> weight, std::span<const float> edges,
-                                 double reach, const FlowOptions& options) {
-  require_fields(grid, weight, edges, reach, options);
-  if (smooth.material.size() != grid.labels.size()) {
-    throw InputError("flow of labels: expected smooth_memberships() of the same labels");
-  }
+GridMemberships flow_memberships(const LabelGrid& grid, const FlowFields& fields,
+                                 const FlowOptions& options) {
+  require_fields(grid, fields, options);
   const auto labels = extents_of(grid);
-  const LabelFlow flow(grid, smooth, weight, edges, reach, options);
+  const LabelFlow flow(grid, fields, options);
   std::vector<Membership> solved(labels.size());
   parallel_for_each(labels.size(), [&](std::size_t m) {
     if (labels[m].first != 0) solved[m] = flow.solve(labels[m].first, labels[m].second);
   });
-  return Assembly(grid, smooth, weight, labels, solved).run();
+  return Assembly(grid, fields, labels, solved).run();
 }
 
 }  // namespace mesamis

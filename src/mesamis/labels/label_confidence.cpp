@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "mesamis/base/error.h"
@@ -14,6 +15,10 @@ namespace {
 constexpr double kLeast = 0.005;  // so that what lies between two edges goes where most labels say
 constexpr double kSlope = 0.03;   // weight half way to the middle
 constexpr double kBesideThin = 1.5;  // steps: margin beside what is thinner than that
+
+constexpr float kFall = 0.4F;             // steps, by which the depth falls beside a middle
+constexpr double kWrongLabels = 4;        // ridges of fewer labels may be an error
+constexpr double kLabelsPerMargin = 0.4;  // a label's side, see label_margin()
 
 using Place = std::array<Index, 3>;
 
@@ -49,8 +54,11 @@ class Depths {
     });
     for (int sweep = 0; sweep < sweeps_; ++sweep) middle = swept(middle, /*within_label=*/true);
     const std::vector<float> zone = thin_beside(middle);
+    const std::vector<std::uint8_t> ridge = large_ridges(depth);
     std::vector<float> weight(depth.size());
-    parallel_for(weight.size(), [&](std::size_t n) { weight[n] = weight_of(depth[n], zone[n]); });
+    parallel_for(weight.size(), [&](std::size_t n) {
+      weight[n] = ridge[n] != 0 ? kCertain : weight_of(depth[n], zone[n]);
+    });
     return weight;
   }
 
@@ -144,6 +152,67 @@ class Depths {
       out[n] = best;
     });
     return out;
+  }
+
+  /// Whether a voxel is the middle of something thin: along one axis the depth falls to both sides,
+  /// at once or a voxel later.
+  bool is_ridge(std::size_t n, const Place& p, const std::vector<float>& depth) const {
+    if (grid_.labels[n] == 0 || depth[n] >= margin_) return false;
+    const auto falls = [&](const Place& to) {
+      if (!is_inside(to)) return false;
+      const std::size_t m = node_at(to);
+      return grid_.labels[m] != grid_.labels[n] || depth[m] <= depth[n] - kFall * step_;
+    };
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto at = [&](Index by) {
+        Place to = p;
+        to[a] += by;
+        return to;
+      };
+      const bool before = falls(at(-1)), after = falls(at(1));
+      if ((before && (after || falls(at(2)))) || (after && falls(at(-2)))) return true;
+    }
+    return false;
+  }
+
+  /// The ridges that are larger than what a few wrong labels make: 1 there, else 0.
+  std::vector<std::uint8_t> large_ridges(const std::vector<float>& depth) const {
+    std::vector<std::uint8_t> ridge(depth.size());
+    for_each_node([&](std::size_t n, const Place& p) { ridge[n] = is_ridge(n, p, depth) ? 1 : 0; });
+    const Vec3& h = grid_.spacing;
+    const double wrong = kWrongLabels * std::pow(kLabelsPerMargin * margin_, 3) / (h.x * h.y * h.z);
+    std::vector<std::size_t> part;
+    for (std::size_t n = 0; n < ridge.size(); ++n) {
+      if (ridge[n] != 1) continue;
+      part.assign(1, n);
+      ridge[n] = 2;
+      for (std::size_t next = 0; next < part.size(); ++next) spread(part[next], ridge, part);
+      if (static_cast<double>(part.size()) >= wrong) continue;
+      for (const std::size_t m : part) ridge[m] = 0;
+    }
+    return ridge;
+  }
+
+  /// Adds the marked neighbours of the same label to a part and marks them as seen.
+  void spread(std::size_t n, std::vector<std::uint8_t>& ridge,
+              std::vector<std::size_t>& part) const {
+    const Place p = place_of(n);
+    for (const Step& s : around_) {
+      if (!is_inside(moved(p, s.by))) continue;
+      const std::size_t m = n + static_cast<std::size_t>(s.to);
+      if (ridge[m] != 1 || grid_.labels[m] != grid_.labels[n]) continue;
+      ridge[m] = 2;
+      part.push_back(m);
+    }
+  }
+
+  std::size_t node_at(const Place& p) const { return static_cast<std::size_t>(offset_of(p)); }
+
+  Place place_of(std::size_t n) const {
+    const auto nx = static_cast<std::size_t>(grid_.size[0]);
+    const auto ny = static_cast<std::size_t>(grid_.size[1]);
+    return {static_cast<Index>(n % nx), static_cast<Index>(n / nx % ny),
+            static_cast<Index>(n / nx / ny)};
   }
 
   /// The depth of the middle, but beside what is thin no more than kBesideThin steps.

@@ -14,7 +14,9 @@ namespace mesamis {
 /// its object there (the greatest d that can be reached within the object in `margin`; no more than
 /// the margin), r = d / D grows from 0 at the border to 1 in the middle or a margin inside, and
 ///   c = 0.005 + 0.03 (r / (1 - r))^2, at most kCertain.
-/// So what is thinner than two voxels is certain throughout and never lost. Beside something so
+/// So what is thinner than two voxels is certain throughout and never lost. Certain, too, is the
+/// middle of walls and rods, where the depth falls to both sides, unless it is so small that a few
+/// wrong labels may have made it: beside something thick, D would not tell it. Beside something so
 /// thin the margin of its neighbours is a voxel and a half.
 /// @param grid    labels at the nodes, mm.
 /// @param margin  mm, > 0: the borders may be wrong by this.

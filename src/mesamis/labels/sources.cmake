@@ -1,3 +1,11 @@
-#SPDX - License - Identifier : Apache - 2.0
-set(ROOM_HEADERS flow_memberships.h label_block.h label_confidence.h pair_levels.h)
-    set(ROOM_SOURCES flow_memberships.cpp label_block.cpp label_confidence.cpp pair_levels.cpp)
+# SPDX-License-Identifier: Apache-2.0
+set(ROOM_HEADERS
+  flow_memberships.h
+  label_block.h
+  label_confidence.h
+  pair_levels.h)
+set(ROOM_SOURCES
+  flow_memberships.cpp
+  label_block.cpp
+  label_confidence.cpp
+  pair_levels.cpp)

@@ -2,6 +2,7 @@
 #include "mesamis/method/follow_partition.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -19,31 +20,51 @@ constexpr int kFairingSweeps = 10;  // pairs of steps of Taubin's filter
 constexpr double kShrink = 0.5, kGrow = -0.53;
 constexpr double kMostFairing = 0.7;  // voxels
 
-/// What the image tells at the points between two materials.
+/// What the image tells at the points that have a guide.
 Offsets measure(const FollowSpace& space, const TriMesh& surface, const std::vector<Vec3>& normals,
-                const std::vector<const PairLevel*>& pair_of, double noise) {
+                const std::vector<BoundaryGuide>& guides, double noise) {
   Offsets offsets(surface.points.size());
   parallel_for(surface.points.size(), [&](std::size_t p) {
-    const PairLevel* const pair = pair_of[p];
-    if (pair == nullptr || !shows_edge(*pair, noise) || space.on_box(surface.points[p])) return;
-    const double sign = pair->contrast > 0 ? 1 : -1;
+    const BoundaryGuide& guide = guides[p];
+    if (guide.contrast == 0 || space.on_box(surface.points[p])) return;
+    const double sign = guide.contrast > 0 ? 1 : -1;
     const ImageValue here = space.at(surface.points[p]);
     const double slope = space.per_voxel(-sign * dot(here.gradient, normals[p]));
-    const auto offset = image_offset(sign * (here.value - pair->level), slope, noise);
+    const auto offset = image_offset(sign * (here.value - guide.level), slope, noise);
     if (offset) offsets.set(p, *offset, slope);
   });
   return offsets;
 }
 
-/// The pair of each point; none where several meet.
-std::vector<const PairLevel*> pair_at_points(const PartitionSurface& partition,
-                                             const std::vector<PairLevel>& pairs) {
-  const std::vector<Index> pair_of = pairs_of_points(partition, pairs);
-  std::vector<const PairLevel*> between(pair_of.size(), nullptr);
-  for (std::size_t p = 0; p < between.size(); ++p) {
-    if (pair_of[p] != kNoIndex) between[p] = &pairs[static_cast<std::size_t>(pair_of[p])];
+/// 1 for points where several boundaries meet.
+std::vector<char> curve_points(const PartitionSurface& partition) {
+  constexpr std::array<Index, 2> kNone{-2, -2};
+  std::vector<std::array<Index, 2>> sides(partition.points.size(), kNone);
+  std::vector<char> on_curve(partition.points.size(), 0);
+  for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
+    for (const Index p : partition.triangles[t]) {
+      if (sides[p] != kNone && sides[p] != partition.sides[t]) on_curve[p] = 1;
+      sides[p] = partition.sides[t];
+    }
   }
-  return between;
+  return on_curve;
+}
+
+/// Points without a guide go with those beside them that have one, by the mean of their moves.
+void carry_others(const Neighbors& neighbors, const std::vector<BoundaryGuide>& guides,
+                  std::vector<Vec3>& shifts) {
+  for (std::size_t p = 0; p < shifts.size(); ++p) {
+    if (guides[p].contrast != 0) continue;
+    Vec3 sum;
+    int count = 0;
+    for (std::size_t n = neighbors.start[p]; n < neighbors.start[p + 1]; ++n) {
+      const auto other = static_cast<std::size_t>(neighbors.points[n]);
+      if (guides[other].contrast == 0) continue;
+      sum += shifts[other];
+      ++count;
+    }
+    if (count > 0) shifts[p] = (1.0 / count) * sum;
+  }
 }
 
 /// What each point is smoothed with: the points beside it, on a curve where boundaries meet those
@@ -51,15 +72,13 @@ std::vector<const PairLevel*> pair_at_points(const PartitionSurface& partition,
 class Fairing {
  public:
   Fairing(const FollowSpace& space, const TriMesh& surface, const Neighbors& neighbors,
-          const std::vector<const PairLevel*>& pair_of)
+          std::vector<char> on_curve)
       : surface_(surface),
         neighbors_(neighbors),
         free_(surface.points.size()),
-        on_curve_(surface.points.size()) {
-    parallel_for(free_.size(), [&](std::size_t p) {
-      free_[p] = space.on_box(surface.points[p]) ? 0 : 1;
-      on_curve_[p] = pair_of[p] == nullptr ? 1 : 0;
-    });
+        on_curve_(std::move(on_curve)) {
+    parallel_for(free_.size(),
+                 [&](std::size_t p) { free_[p] = space.on_box(surface.points[p]) ? 0 : 1; });
   }
 
   /// How far Taubin's filter moves the points, at most so far.
@@ -106,22 +125,71 @@ bool shows_edge(const PairLevel& pair, double noise) {
   return std::abs(pair.contrast) >= std::max(kLeastGrey, kLeastContrast * noise);
 }
 
+std::vector<BoundaryGuide> guides_of_points(const PartitionSurface& partition,
+                                            const std::vector<PairLevel>& pairs, double noise) {
+  const std::vector<Index> pair_of = pairs_of_points(partition, pairs);
+  std::vector<BoundaryGuide> guides(pair_of.size());
+  for (std::size_t p = 0; p < guides.size(); ++p) {
+    if (pair_of[p] == kNoIndex) continue;
+    const PairLevel& pair = pairs[static_cast<std::size_t>(pair_of[p])];
+    if (shows_edge(pair, noise)) guides[p] = {pair.level, pair.contrast};
+  }
+  return guides;
+}
+
+PartitionSurface only_chosen(const PartitionSurface& all, const std::vector<char>& chosen,
+                             std::vector<BoundaryGuide>& guides) {
+  const auto seen = [&](Index m) {
+    return m > 0 && chosen[static_cast<std::size_t>(m)] != 0 ? m : 0;
+  };
+  PartitionSurface kept;
+  std::vector<BoundaryGuide> guides_kept;
+  std::vector<Index> number(all.points.size(), kNoIndex);
+  for (std::size_t t = 0; t < all.triangles.size(); ++t) {
+    std::array<Index, 2> sides{seen(all.sides[t][0]), seen(all.sides[t][1])};
+    if (sides[0] == sides[1]) continue;
+    Triangle triangle = all.triangles[t];
+    const bool flips = sides[0] > sides[1];
+    if (flips) {
+      std::swap(sides[0], sides[1]);
+      std::swap(triangle[1], triangle[2]);
+    }
+    for (Index& p : triangle) {
+      Index& n = number[static_cast<std::size_t>(p)];
+      if (n == kNoIndex) {
+        n = static_cast<Index>(kept.points.size());
+        kept.points.push_back(all.points[p]);
+        BoundaryGuide guide = guides[static_cast<std::size_t>(p)];
+        if (flips) guide.contrast = -guide.contrast;
+        guides_kept.push_back(guide);
+      }
+      p = n;
+    }
+    kept.triangles.push_back(triangle);
+    kept.sides.push_back(sides);
+  }
+  guides = std::move(guides_kept);
+  return kept;
+}
+
 PartitionSurface follow_image(PartitionSurface partition, const SplineImage& image,
-                              const std::vector<PairLevel>& pairs, double noise) {
+                              const std::vector<BoundaryGuide>& guides, double noise) {
   const FollowSpace space(image, 1);
-  const auto between = pair_at_points(partition, pairs);
+  std::vector<char> on_curve = curve_points(partition);
   TriMesh surface{std::move(partition.points), std::move(partition.triangles)};
   const Neighbors neighbors(surface);
-  const Fairing fairing(space, surface, neighbors, between);
+  const Fairing fairing(space, surface, neighbors, std::move(on_curve));
   surface = moved_without_folds(space, surface, fairing.shifts(kMostFairing * space.voxel()));
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<Vec3> normals = smoothed_normals(surface, neighbors);
-    const Offsets offsets = measure(space, surface, normals, between, noise);
+    const Offsets offsets = measure(space, surface, normals, guides, noise);
     if (!is_worthwhile(offsets)) break;
     const std::vector<double> moves = filtered_moves(space, offsets, neighbors);
     std::vector<Vec3> shifts(moves.size());
+    for (std::size_t p = 0; p < moves.size(); ++p) shifts[p] = moves[p] * normals[p];
+    carry_others(neighbors, guides, shifts);
     for (std::size_t p = 0; p < moves.size(); ++p) {
-      shifts[p] = space.within_box(surface.points[p], moves[p] * normals[p]);
+      shifts[p] = space.within_box(surface.points[p], shifts[p]);
     }
     surface = moved_without_folds(space, surface, std::move(shifts));
   }

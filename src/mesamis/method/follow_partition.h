@@ -15,22 +15,50 @@ namespace mesamis {
 /// @throws nothing
 bool shows_edge(const PairLevel& pair, double noise);
 
+/// What the image shows at a point of a boundary.
+struct BoundaryGuide {
+  double level = 0;     ///< half way between both sides, unit of the image
+  double contrast = 0;  ///< of the side behind above that in front; 0: the image shows no edge
+};
+
+/// The guides of a partition's points: none where more than two materials meet, and where the image
+/// shows no edge.
+/// @param pairs  measure_pair_levels() of the partition.
+/// @param noise  as for shows_edge().
+/// @return one per point.
+/// @throws nothing
+///
+/// O(triangles), up to a logarithm.
+std::vector<BoundaryGuide> guides_of_points(const PartitionSurface& partition,
+                                            const std::vector<PairLevel>& pairs, double noise);
+
+/// The boundaries of chosen materials alone; all others become material 0.
+/// @param chosen  not 0 for those, one per material.
+/// @param guides  of the points; those of points that are left remain, for the sides as they are
+///                then.
+/// @return triangles and points in their order.
+/// @throws nothing
+///
+/// O(triangles).
+PartitionSurface only_chosen(const PartitionSurface& all, const std::vector<char>& chosen,
+                             std::vector<BoundaryGuide>& guides);
+
 /// Moves the boundaries of several objects towards the level sets of an image, each to its own
 /// half maximum: follow_image() for a partition.
 ///
 /// First all boundaries are faired (Taubin's filter, by at most 0.7 voxels), the curves where more
-/// than two materials meet along themselves: labels have the steps of their voxels. Then those
-/// whose edge the image shows follow it, in two rounds of 0.7 voxels at most. Moves that would make
-/// boundaries meet are taken back.
+/// than two materials meet along themselves: labels have the steps of their voxels. Then points
+/// with a guide follow the image, in two rounds of 0.7 voxels at most, and those without go with
+/// their neighbours. Moves that would make boundaries meet are taken back.
 /// @param partition  in the image's own axes, mm; without self-intersections.
 /// @param image      in grey values.
-/// @param pairs      measure_pair_levels() of both.
+/// @param guides     one per point, grey values.
 /// @param noise      standard deviation in the image, grey values, >= 0.
 /// @return the same triangles.
 /// @throws nothing
 ///
 /// O(n log n) for n points. The same bits for any number of threads.
 PartitionSurface follow_image(PartitionSurface partition, const SplineImage& image,
-                              const std::vector<PairLevel>& pairs, double noise);
+                              const std::vector<BoundaryGuide>& guides, double noise);
 
 }  // namespace mesamis

@@ -32,11 +32,6 @@ constexpr double kMarginOfLabels = 2.5, kMarginOfScan = 2.5;  // voxels
 constexpr double kToleranceOfLabels = 0.1;                    // voxels: they are no more exact
 constexpr double kReach = 2;                                  // margins that a label may flow
 
-/// The segments that are meant.
-std::vector<Segment> chosen_of(const LabelMap& labels, const LabelRequest& request) {
-  return request.chosen.empty() ? labels.segments : request.chosen;
-}
-
 /// The layers of those segments, increasing.
 std::vector<Index> layers_of(const std::vector<Segment>& segments) {
   std::vector<Index> layers;
@@ -53,34 +48,6 @@ std::vector<char> marks_of(const std::vector<Segment>& chosen, Index layer) {
     if (s.layer == layer) marks[static_cast<std::size_t>(s.label)] = 1;
   }
   return marks;
-}
-
-/// The boundaries of chosen labels alone; what was not chosen is background.
-PartitionSurface without_others(const PartitionSurface& all, const std::vector<char>& chosen) {
-  const auto seen = [&](Index label) {
-    return label > 0 && chosen[static_cast<std::size_t>(label)] != 0 ? label : 0;
-  };
-  PartitionSurface kept;
-  std::vector<Index> number(all.points.size(), kNoIndex);
-  for (std::size_t t = 0; t < all.triangles.size(); ++t) {
-    std::array<Index, 2> sides{seen(all.sides[t][0]), seen(all.sides[t][1])};
-    if (sides[0] == sides[1]) continue;
-    Triangle triangle = all.triangles[t];
-    if (sides[0] > sides[1]) {
-      std::swap(sides[0], sides[1]);
-      std::swap(triangle[1], triangle[2]);
-    }
-    for (Index& p : triangle) {
-      if (number[p] == kNoIndex) {
-        number[p] = static_cast<Index>(kept.points.size());
-        kept.points.push_back(all.points[p]);
-      }
-      p = number[p];
-    }
-    kept.triangles.push_back(triangle);
-    kept.sides.push_back(sides);
-  }
-  return kept;
 }
 
 void bring_to_world(const VoxelGrid& grid, PartitionSurface& partition) {
@@ -142,12 +109,11 @@ std::string name_of(const LabelMap& map, Index layer, Index label) {
 /// The whole of a run on labels, with or without an image.
 class LabelRun {
  public:
-  LabelRun(const LabelMap& labels, const LabelRequest& request, const Settings& settings,
-           const Progress& progress)
+  LabelRun(const LabelRequest& request, const Settings& settings, const Progress& progress)
       : settings_(settings),
         progress_(progress),
-        labels_(labels),
-        chosen_(chosen_of(labels, request)) {}
+        labels_(request.map),
+        chosen_(request.chosen.empty() ? request.map.segments : request.chosen) {}
 
   LabelResult with_image(const VolumeView& scan, double margin) {
     Stopwatch all, watch;
@@ -185,7 +151,9 @@ class LabelRun {
       const GridMemberships memberships = smooth_memberships({grid.size, grid.spacing, labels});
       result_.seconds.flow += watch.lap();
       (void)Stage(progress_, "surface");
-      PartitionSurface partition = without_others(extract_partition_on_grid(memberships), marks);
+      PartitionSurface partition = extract_partition_on_grid(memberships);
+      std::vector<BoundaryGuide> none(partition.points.size());
+      partition = only_chosen(partition, marks, none);
       bring_to_world(grid, partition);
       result_.seconds.surface += watch.lap();
       finish(layer, std::move(partition), labels_.voxel_size(), nullptr);
@@ -209,19 +177,20 @@ class LabelRun {
     (void)Stage(progress_, "flow of the labels");
     const Parameters& p = edges.prepared.parameters;
     const auto weight = label_confidence(grid, result_.margin);
-    const FlowOptions flow{p.functional.beta, p.functional.eta, p.unit_mm};
-    const GridMemberships memberships = flow_memberships(grid, smooth_memberships(grid), weight,
-                                                         edges.v, kReach * result_.margin, flow);
+    const GridMemberships smooth = smooth_memberships(grid);
+    const FlowOptions flow{p.functional.beta, p.functional.eta, p.unit_mm, kReach * result_.margin};
+    const GridMemberships memberships = flow_memberships(grid, {smooth, weight, edges.v}, flow);
     result_.seconds.flow += watch.lap();
     (void)Stage(progress_, "surface");
     const RunInput run(edges.prepared);
     PartitionSurface partition = extract_partition_on_grid(memberships);
     const auto pairs = measure_pair_levels(partition, run.image);
-    if (settings_.follow) {
-      partition = follow_image(std::move(partition), run.image, pairs, run.error.noise);
-    }
     record_boundaries(layer, pairs, marks, run);
-    partition = without_others(partition, marks);
+    auto guides = guides_of_points(partition, pairs, run.error.noise);
+    partition = only_chosen(partition, marks, guides);
+    if (settings_.follow) {
+      partition = follow_image(std::move(partition), run.image, guides, run.error.noise);
+    }
     bring_to_world(run.grey, partition);
     result_.seconds.surface += watch.lap();
     finish(layer, std::move(partition), run.grey.voxel_size(), &run);
@@ -319,19 +288,18 @@ double label_margin(const VoxelGrid& scan, const VoxelGrid& labels) {
   return std::max(kMarginOfLabels * labels.voxel_size(), kMarginOfScan * scan.voxel_size());
 }
 
-LabelResult find_labelled_objects(const VolumeView& scan, const LabelMap& labels,
-                                  const LabelRequest& request, const Settings& settings,
-                                  const Progress& progress) {
+LabelResult find_labelled_objects(const VolumeView& scan, const LabelRequest& request,
+                                  const Settings& settings, const Progress& progress) {
   require_usable(scan);
-  require_valid(labels);
-  LabelRun run(labels, request, settings, progress);
-  return run.with_image(scan, request.margin.value_or(label_margin(scan, labels)));
+  require_valid(request.map);
+  LabelRun run(request, settings, progress);
+  return run.with_image(scan, request.margin.value_or(label_margin(scan, request.map)));
 }
 
-LabelResult surfaces_of_labels(const LabelMap& labels, const LabelRequest& request,
-                               const Settings& settings, const Progress& progress) {
-  require_valid(labels);
-  return LabelRun(labels, request, settings, progress).alone();
+LabelResult surfaces_of_labels(const LabelRequest& request, const Settings& settings,
+                               const Progress& progress) {
+  require_valid(request.map);
+  return LabelRun(request, settings, progress).alone();
 }
 
 }  // namespace mesamis

@@ -19,8 +19,9 @@ namespace mesamis {
 
 /// Which objects are meant, and how exact their labels are.
 struct LabelRequest {
-  std::vector<Segment> chosen;   ///< of the map; empty: all of them
-  std::optional<double> margin;  ///< mm, > 0: how far the labels may be wrong; see label_margin()
+  const LabelMap& map;             ///< valid; on a grid of its own, world coordinates decide
+  std::vector<Segment> chosen{};   ///< of the map; empty: all of them
+  std::optional<double> margin{};  ///< mm, > 0: how far the labels may be wrong; see label_margin()
 };
 
 /// One object, world frame (LPS), mm.
@@ -68,7 +69,6 @@ double label_margin(const VoxelGrid& scan, const VoxelGrid& labels);
 /// objects share. Labels that were not chosen take part: an object ends where they begin.
 ///
 /// @param scan      native units.
-/// @param labels    valid; on a grid of their own, world coordinates decide.
 /// @param request   see there.
 /// @param settings  those of the image, the functional and the surface's decimation.
 /// @param progress  optional.
@@ -77,9 +77,8 @@ double label_margin(const VoxelGrid& scan, const VoxelGrid& labels);
 /// @throws Cancelled   if progress says stop.
 ///
 /// O(voxels around the labels); about 100 bytes for each. The same bits for any number of threads.
-LabelResult find_labelled_objects(const VolumeView& scan, const LabelMap& labels,
-                                  const LabelRequest& request, const Settings& settings,
-                                  const Progress& progress = {});
+LabelResult find_labelled_objects(const VolumeView& scan, const LabelRequest& request,
+                                  const Settings& settings, const Progress& progress = {});
 
 /// Makes smooth surfaces of a label map alone, see smooth_memberships().
 /// @return one object per chosen segment that has voxels.
@@ -88,7 +87,7 @@ LabelResult find_labelled_objects(const VolumeView& scan, const LabelMap& labels
 /// @throws Cancelled   if progress says stop.
 ///
 /// O(voxels around the labels); about 40 bytes for each. The same bits for any number of threads.
-LabelResult surfaces_of_labels(const LabelMap& labels, const LabelRequest& request,
-                               const Settings& settings, const Progress& progress = {});
+LabelResult surfaces_of_labels(const LabelRequest& request, const Settings& settings,
+                               const Progress& progress = {});
 
 }  // namespace mesamis

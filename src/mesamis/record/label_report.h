@@ -22,6 +22,8 @@ nlohmann::ordered_json label_run_json(const LabelResult& result,
 /// Judges the surfaces of objects: each must be closed, 2-manifold and face outward.
 /// @param checks  as for label_run_json().
 /// @throws nothing
+///
+/// O(objects).
 Verdict judge(const LabelResult& result, std::span<const SurfaceCheck> checks);
 
 }  // namespace mesamis

@@ -47,8 +47,8 @@ nlohmann::ordered_json output_json(Frame frame);
 /// @param tolerance  mm; infinite where there was no bound. Throws nothing.
 nlohmann::ordered_json printable_json(const PrintableReport& printable, double tolerance);
 
-/// What was found out about a scan: noise, blur, contrast, as docs/formats.md lists them. Throws
-/// nothing.
+/// What was found out about a scan: noise, blur, contrast, as docs/formats.md lists them. O(1).
+/// Throws nothing.
 nlohmann::ordered_json image_json(const Parameters& parameters, const MeasuredImage& image);
 
 /// The counts, volume and area of a surface, and whether it is closed. Throws nothing. O(1).
