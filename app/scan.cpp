@@ -33,6 +33,9 @@ void add_read_options(CLI::App& command, ReadOptions& options) {
         options.spacing = Vec3{mm[0], mm[1], mm[2]};
       },
       "X,Y,Z: distance of voxels, mm, for raw files, slices and whatever does not state it");
+  command.add_flag("--resample", options.resample,
+                   "Interpolate DICOM slices of a tilted gantry or at uneven distances onto a "
+                   "regular grid, instead of refusing them");
 }
 
 VolumeFile read_scan(const std::filesystem::path& path, const ReadOptions& options) {

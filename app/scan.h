@@ -8,7 +8,8 @@
 
 namespace mesamis {
 
-/// Adds the options of every command that reads a scan: --series, --raw, --spacing. `options` must
+/// Adds the options of every command that reads a scan: --series, --raw, --spacing,
+/// --resample. `options` must
 /// outlive the parsing.
 void add_read_options(CLI::App& command, ReadOptions& options);
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "mesamis/adapt/cell_shape.h"
+#include "mesamis/adapt/estimator.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/sym3.h"
 
@@ -47,6 +48,25 @@ TEST(CellMetric, FieldsThatAreNearlyFlatGiveAFiniteMetric) {
     EXPECT_TRUE(std::isfinite(m.xx) && std::isfinite(m.xy) && std::isfinite(m.yy)) << size;
     EXPECT_GE(m.xx, 0);
   }
+}
+
+/// Far from an edge without noise u fades out to denormal numbers; the estimate is of its fourth
+/// power.
+TEST(CellMetric, IsFiniteWhereTheImageFadesOut) {
+  const TetMesh mesh = box_mesh({{0, 0, 0}, {3, 3, 3}}, {3, 3, 3});
+  const std::size_t n = mesh.points.size();
+  std::vector<double> u(n), v(n, 1), f(n, 0);
+  bool denormal = false;
+  for (double scale = 1e-70; scale > 1e-90; scale /= 3) {
+    for (std::size_t i = 0; i < n; ++i) u[i] = scale * mesh.points[i].x * mesh.points[i].x;
+    const Estimate e = estimate(mesh, {}, {u, v, f});
+    for (const Sym3& gamma : e.gamma) {
+      const Sym3 m = cell_metric(gamma, {static_cast<std::int64_t>(e.gamma.size()), 0.01, 10});
+      EXPECT_TRUE(std::isfinite(trace(m)) && std::isfinite(determinant(m))) << scale;
+      denormal |= std::fpclassify(trace(gamma)) == FP_SUBNORMAL;
+    }
+  }
+  EXPECT_TRUE(denormal) << "the test must meet such a cell";
 }
 
 TEST(CellMetric, StretchIsBounded) {

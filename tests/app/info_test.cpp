@@ -63,6 +63,15 @@ TEST(Info, TellsWhatTheValuesAreLike) {
   EXPECT_THAT(cut.out, HasSubstr("not usable: "));
 }
 
+TEST(Info, ReadsARawFileWhateverItsName) {
+  const TempFolder folder;
+  write_bytes(folder / "scan.stl", std::string(24, 'x'));
+  const ProgramRun run = run_program(
+      folder, {"info", folder / "scan.stl", "--raw", "2,3,4,uint8", "--spacing", "1,2,3"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("scan.stl  raw  2 x 3 x 4 voxels of 1 x 2 x 3 mm"));
+}
+
 TEST(Info, DescribesAMeshAndItsArrays) {
   const TempFolder folder;
   const TetMesh mesh = box_mesh({{0, 0, 0}, {2, 3, 4}}, {1, 1, 1});

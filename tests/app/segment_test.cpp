@@ -223,6 +223,31 @@ TEST(SegmentCommand, PreviewsWithoutAMesh) {
                "--preview: expected neither --mesh nor --band-mesh, found one");
 }
 
+TEST(SegmentCommand, ReadsARawFileAsAnyOther) {
+  const TempFolder folder;
+  write_ball(folder, 20);
+  const std::string scan = read_bytes(folder / "ball.nrrd");
+  const std::string samples = scan.substr(scan.find("\n\n") + 2);
+  write_bytes(folder / "ball.raw", "head" + samples);
+  const auto preview = [&folder](std::vector<std::string> input, const std::string& name) {
+    input.insert(input.begin(), "segment");
+    input.insert(input.end(), {"--preview", "--quiet", "-o", folder / name});
+    const ProgramRun run = run_program(folder, input);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return read_bytes(folder / name);
+  };
+  EXPECT_EQ(preview({folder / "ball.raw", "--raw", "20,20,20,float32,4", "--spacing", "1,1,1"},
+                    "raw.stl"),
+            preview({folder / "ball.nrrd"}, "nrrd.stl"));
+  const std::string raw = folder / "ball.raw", out = folder / "a.stl";
+  EXPECT_FAILS(run_program(folder, {"segment", raw, "-o", out, "--raw", "20,20,20,float32"}), 3,
+               "expected 32000 bytes, 0 of header and 32000 of 20 x 20 x 20 samples, found 32004");
+  EXPECT_FAILS(run_program(folder, {"segment", raw, "-o", out, "--raw", "20,20,float32"}), 2,
+               "--raw: expected NX,NY,NZ,TYPE");
+  EXPECT_FAILS(run_program(folder, {"segment", raw, "-o", out, "--spacing", "1,0,1"}), 2,
+               "--spacing: expected numbers above 0");
+}
+
 TEST(SegmentCommand, GivesTheScansOwnValuesBeyondTheWindow) {
   const TempFolder folder;
   write_ball(folder, 20);  // 230 inside, 120 outside

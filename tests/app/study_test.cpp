@@ -185,14 +185,14 @@ TEST(StudyCommand, MeasuresARegionAwayFromWhereItIsCut) {
 TEST(StudyCommand, GoesOnWhereOneRunFails) {
   const TempFolder folder;
   make_ball(folder);
-  // Both slices that s = 23 leaves are outside the ball, below the window.
+  // Both slices that s = 23 leaves are outside the ball, below the level.
   const ProgramRun run = study(folder, {"--subsample", "2,23", "--adaptations", "1", "--window",
                                         "150,240", "--level", "190"});
   EXPECT_EQ(run.status, 4) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("s23: window"));
+  EXPECT_THAT(run.err, HasSubstr("s23: level: expected a value between the least"));
   const json runs = report_of(folder)["subsampling"]["runs"];
   EXPECT_FALSE(runs[0].contains("failed"));
-  EXPECT_THAT(runs[1]["failed"], HasSubstr("window"));
+  EXPECT_THAT(runs[1]["failed"], HasSubstr("found 190"));
   const auto rows = read_csv(folder / "out/runs.csv");
   EXPECT_NE(rows[0].at("reference_to_surface_mean_mm"), "");
   EXPECT_EQ(rows[1].at("reference_to_surface_mean_mm"), "");
@@ -231,6 +231,8 @@ TEST(StudyCommand, RefusesPlainlyBeforeItBegins) {
   EXPECT_FAILS(study(folder, {"--subsample", "1", "--level", "180", "--window", "0,170"}), 3,
                "s1: level");
   EXPECT_FAILS(study(folder, {"--subsample", "4", "--level", "500", "--adaptations", "1"}), 3,
+               "s4: level: expected a value between the least and the greatest of the data");
+  EXPECT_FAILS(study(folder, {"--subsample", "4", "--min-volume", "1e9", "--adaptations", "1"}), 3,
                "s4: there is no surface");
   EXPECT_FAILS(study(folder, {"--subsample", "1"}, "none.ply"), 3, "none.ply");
   EXPECT_FAILS(study(folder, {"--subsample", "1"}, "scan.nrrd"), 3, "scan.nrrd");

@@ -45,7 +45,7 @@ TEST(SegmentPlanned, OnEverySliceIsThePlainRun) {
 TEST(SegmentPlanned, WithoutASurfaceIsRefused) {
   Settings settings = fast();
   settings.adaptations = 1;
-  settings.level = 500;
+  settings.min_volume = 1e9;  // mm^3
   const Experiment experiment = subsampling_experiment(make_ball(kBall), settings, kEverySlice);
   EXPECT_REFUSED(segment_planned(experiment, experiment.runs[0]), HasSubstr("there is no surface"));
 }

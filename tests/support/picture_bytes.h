@@ -24,9 +24,9 @@ struct PngBytes {
   std::uint32_t width = 4, height = 3;
   int bits = 8, color = 0, interlace = 0;
   std::uint32_t pixels_per_metre = 0;  // 0: not stated
-  std::string palette;
-  std::vector<std::string> lines;  // each begins with its filter
-  std::string more;                // chunks before the pixels
+  std::string palette{};
+  std::vector<std::string> lines{};  // each begins with its filter
+  std::string more{};                // chunks before the pixels
 
   std::string bytes() const {
     std::string header = bytes_of(width, true) + bytes_of(height, true);
@@ -64,8 +64,8 @@ struct BmpBytes {
   std::uint16_t bits = 8;
   std::uint32_t compression = 0, colors = 0;
   std::int32_t pixels_per_metre = 0;
-  std::string palette;  // blue, green, red, 0
-  std::string pixels;   // lines padded to whole words
+  std::string palette{};  // blue, green, red, 0
+  std::string pixels{};   // lines padded to whole words
 
   std::string bytes() const {
     const auto start = static_cast<std::uint32_t>(54 + palette.size());
@@ -80,7 +80,7 @@ struct BmpBytes {
 
 /// Every grey value as a colour.
 inline std::string grey_palette() {
-  std::string palette;
+  std::string palette{};
   for (int value = 0; value < 256; ++value)
     palette += std::string(3, static_cast<char>(value)) + '\0';
   return palette;

@@ -75,7 +75,7 @@ std::vector<SideTick> ticks_along(const Volume& volume, const SlicePlane& plane,
   const double zero = volume.to_world(start)[body], slope = along[body];
   const double length = volume.box().hi[axis];
   const double first = plane.sign[side] < 0 ? -length : 0;
-  const auto [lo, hi] = std::minmax(zero + slope * first, zero + slope * (first + length));
+  const auto [lo, hi] = std::minmax({zero + slope * first, zero + slope * (first + length)});
   const Ticks ticks = round_ticks(lo, hi, kCount);
   std::vector<SideTick> found;
   for (int i = 0; i < ticks.count; ++i) {

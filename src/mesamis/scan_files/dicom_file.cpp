@@ -8,6 +8,7 @@
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/dicom_pixels.h"
+#include "mesamis/scan_files/dicom_resample.h"
 #include "mesamis/scan_files/dicom_series.h"
 #include "mesamis/scan_files/dicom_spacing.h"
 #include "mesamis/scan_files/formats.h"
@@ -39,10 +40,17 @@ ScanFile grid_of(const fs::path& path, const DicomSeries& series, const SortedSl
   return scan;
 }
 
+/// A stack of slices, and the grid of the volume that comes of it.
+struct Stack {
+  SortedSlices sorted;
+  ScanFile scan;
+  ResamplePlan resampling;  ///< where the slices are not the grid's own
+  bool resample = false;
+};
+
 /// Everything but the samples.
-/// @param stack  receives the slices in order.
 /// @throws InputError  why the series is no volume.
-ScanFile plan(const fs::path& path, const DicomSeries& series, SortedSlices& stack) {
+Stack plan(const fs::path& path, const DicomSeries& series, bool resample) {
   if (!series.problem.empty()) throw InputError(series.problem);
   if (series.stacks[0].size() < 2) {
     const DicomSlice& only = series.stacks[0][0];
@@ -50,10 +58,20 @@ ScanFile plan(const fs::path& path, const DicomSeries& series, SortedSlices& sta
            "one slice is not a volume: expected at least 2 slices in the series, "
            "found 1");
   }
-  stack = sort_along_normal(series.stacks[0]);
-  require_even_spacing(path, stack);
-  require_no_tilt(path, stack);
-  return grid_of(path, series, stack);
+  Stack stack{sort_along_normal(series.stacks[0]), {}, {}, false};
+  if (resample) {
+    stack.resampling = plan_resampling(path, stack.sorted);
+    stack.resample = stack.resampling.tilted || stack.resampling.uneven;
+  } else {
+    require_even_spacing(path, stack.sorted);
+    require_no_tilt(path, stack.sorted);
+  }
+  stack.scan = grid_of(path, series, stack.sorted);
+  if (!stack.resample) return stack;
+  static_cast<VoxelGrid&>(stack.scan.grid) = stack.resampling.grid;
+  stack.scan.grid.modality = series.modality;
+  for (const std::string& note : stack.resampling.notes) stack.scan.warnings.push_back(note);
+  return stack;
 }
 
 /// Decodes file by file, in the order of the slices. A file of many frames is read once as long as
@@ -81,11 +99,10 @@ std::vector<float> decode(const SortedSlices& stack, std::size_t voxels,
   return samples;
 }
 
-VolumeInfo info_of(const fs::path& path, const DicomSeries& series) {
+VolumeInfo info_of(const fs::path& path, const DicomSeries& series, bool resample) {
   VolumeInfo info{series.uid, series.description, "DICOM", series.modality, {}, {}, ""};
   try {
-    SortedSlices stack;
-    const ScanFile scan = plan(path, series, stack);
+    const ScanFile scan = plan(path, series, resample).scan;
     info.size = scan.grid.size;
     info.spacing = scan.grid.spacing;
     info.origin = scan.grid.origin;
@@ -106,8 +123,8 @@ bool looks_like_dicom(const fs::path& file) {
   return begins_like_dicom(Bytes(begin).first(got));
 }
 
-VolumeFile read_dicom(const fs::path& path, const std::string& series_uid) {
-  std::string wanted = series_uid;
+VolumeFile read_dicom(const fs::path& path, const ReadOptions& options) {
+  std::string wanted = options.series;
   const bool directory = fs::is_directory(path);
   if (!directory) {
     const DicomImage named = describe_image(read_dicom_file(path));
@@ -119,20 +136,27 @@ VolumeFile read_dicom(const fs::path& path, const std::string& series_uid) {
   }
   const std::vector<DicomSeries> all = group_by_series(read_images(path));
   const DicomSeries& series = choose_series(path, all, wanted);
-  SortedSlices stack;
-  ScanFile scan = plan(path, series, stack);
+  Stack stack = plan(path, series, options.resample);
+  ScanFile& scan = stack.scan;
   if (wanted.empty() && all.size() > 1) {
     scan.warnings.push_back("taken as the only volume among the series " + titles_of(all));
   }
   VolumeFile out{std::move(scan.grid), "DICOM", scan.warnings};
-  out.volume.samples = decode(stack, out.volume.voxel_count(), out.warnings);
+  const DicomSlice& first = stack.sorted.slices.front();
+  const std::size_t stored = static_cast<std::size_t>(first.columns) *
+                             static_cast<std::size_t>(first.rows) * stack.sorted.slices.size();
+  out.volume.samples = decode(stack.sorted, stored, out.warnings);
+  if (stack.resample) {
+    out.volume.samples =
+        resampled(stack.resampling, {first.columns, first.rows}, out.volume.samples);
+  }
   return out;
 }
 
-std::vector<VolumeInfo> list_dicom(const fs::path& path) {
+std::vector<VolumeInfo> list_dicom(const fs::path& path, const ReadOptions& options) {
   std::vector<VolumeInfo> infos;
   for (const DicomSeries& series : group_by_series(read_images(path)))
-    infos.push_back(info_of(path, series));
+    infos.push_back(info_of(path, series, options.resample));
   return infos;
 }
 

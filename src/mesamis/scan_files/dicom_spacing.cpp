@@ -9,6 +9,8 @@
 namespace mesamis::detail {
 namespace {
 
+constexpr const char* kHint = " (--resample interpolates such stacks)";
+
 /// The lower median of the distances between neighbours.
 double median_gap(const std::vector<double>& height) {
   std::vector<double> gaps;
@@ -50,7 +52,7 @@ void require_even_spacing(const std::filesystem::path& path, const SortedSlices&
     const double steps = gap / median;
     const bool missing = steps > 1.5 && std::abs(steps - std::round(steps)) < 0.1;
     refuse(path, say(missing ? "slices are missing" : "the slices are unevenly spaced", " between ",
-                     between, ": expected ", median, " mm, found ", gap, " mm"));
+                     between, ": expected ", median, " mm, found ", gap, " mm", kHint));
   }
 }
 
@@ -71,9 +73,10 @@ void require_no_tilt(const std::filesystem::path& path, const SortedSlices& sort
     const DicomSlice& from = jump ? below : first;
     const double rise = dot(slice.position - from.position, sorted.normal);
     const double angle_deg = std::atan2(jump ? shift : total, rise) * 45 / std::atan(1);
-    refuse(path, say("expected slices straight above one another, found a tilt of ", angle_deg,
-                     " degrees (gantry tilt): ", name_of(slice), " is shifted by ",
-                     jump ? shift : total, " mm against ", name_of(from), " over ", rise, " mm"));
+    refuse(path,
+           say("expected slices straight above one another, found a tilt of ", angle_deg,
+               " degrees (gantry tilt): ", name_of(slice), " is shifted by ", jump ? shift : total,
+               " mm against ", name_of(from), " over ", rise, " mm", kHint));
   }
 }
 

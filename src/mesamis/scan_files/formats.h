@@ -65,8 +65,8 @@ VolumeFile read_picture(const std::filesystem::path& file);
 ScanFile open_picture(const std::filesystem::path& file);
 
 /// One DICOM series: of a directory and those below it, or the one a file belongs to.
-VolumeFile read_dicom(const std::filesystem::path& path, const std::string& series);
-std::vector<VolumeInfo> list_dicom(const std::filesystem::path& path);
+VolumeFile read_dicom(const std::filesystem::path& path, const ReadOptions& options);
+std::vector<VolumeInfo> list_dicom(const std::filesystem::path& path, const ReadOptions& options);
 /// Whether the file begins like DICOM, with or without the preamble.
 bool looks_like_dicom(const std::filesystem::path& file);
 

@@ -99,8 +99,7 @@ std::vector<fs::path> slices_of(const fs::path& directory) {
 
 VolumeFile read_directory(const fs::path& path, const ReadOptions& options) {
   const std::vector<fs::path> slices = slices_of(path);
-  return slices.empty() ? detail::read_dicom(path, options.series)
-                        : detail::read_slices(path, slices);
+  return slices.empty() ? detail::read_dicom(path, options) : detail::read_slices(path, slices);
 }
 
 VolumeFile read_file(const fs::path& path, const ReadOptions& options) {
@@ -108,7 +107,7 @@ VolumeFile read_file(const fs::path& path, const ReadOptions& options) {
   if (fs::is_directory(path)) return read_directory(path, options);
   if (const auto scan = detail::open_array(path)) return read_array(*scan);
   if (detail::is_picture(path)) return detail::read_picture(path);
-  if (detail::looks_like_dicom(path)) return detail::read_dicom(path, options.series);
+  if (detail::looks_like_dicom(path)) return detail::read_dicom(path, options);
   refuse_unknown(path);
 }
 
@@ -138,7 +137,7 @@ VolumeInfo describe(const fs::path& file, const ReadOptions& options) {
 /// DICOM series, or slices, then the other volumes.
 std::vector<VolumeInfo> list_directory(const fs::path& path, const ReadOptions& options) {
   const std::vector<fs::path> slices = slices_of(path);
-  std::vector<VolumeInfo> all = slices.empty() ? detail::list_dicom(path)
+  std::vector<VolumeInfo> all = slices.empty() ? detail::list_dicom(path, options)
                                                : std::vector{detail::describe_slices(path, slices)};
   for (const fs::path& file : detail::files_in(path)) {
     const bool slice = std::find(slices.begin(), slices.end(), file) != slices.end();
@@ -151,7 +150,7 @@ std::vector<VolumeInfo> list_directory(const fs::path& path, const ReadOptions& 
 std::vector<VolumeInfo> list(const fs::path& path, const ReadOptions& options) {
   if (fs::is_directory(path) && !options.raw) return list_directory(path, options);
   if (options.raw || has_known_extension(path)) return {describe(path, options)};
-  if (detail::looks_like_dicom(path)) return detail::list_dicom(path);
+  if (detail::looks_like_dicom(path)) return detail::list_dicom(path, options);
   refuse_unknown(path);
 }
 

@@ -35,6 +35,7 @@ struct ReadOptions {
   std::string series{};  ///< DICOM: UID of the series to take; empty: the only volume there is
   std::optional<RawLayout> raw{};  ///< the path is a raw file of this layout, whatever its name
   std::optional<Vec3> spacing{};   ///< mm, positive: taken instead of the file's
+  bool resample = false;           ///< DICOM: stacks that are no regular grid are interpolated
 };
 
 /// A volume and what its file says beside the samples.
@@ -73,6 +74,12 @@ struct VolumeFile {
 ///
 /// What a format with a third axis does hold (one slice, unknown samples, a constant) is read;
 /// require_usable() refuses it before any method runs.
+///
+/// With options.resample a DICOM stack with a tilted gantry, uneven or missing slices is brought
+/// onto a regular grid instead of being refused: shifted back within the slices, planes as far
+/// apart as the nearest two slices (a quarter of the median distance at least), linear in between.
+/// Warnings say what was done, and how far a plane is from a slice. What no slice covers has the
+/// least value.
 ///
 /// Nothing is printed, and no state of the process is changed, with one exception: gdcm::Trace is
 /// off while JPEG-LS or JPEG 2000 is decoded, and restored afterwards. Several threads may read at

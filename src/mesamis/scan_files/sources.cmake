@@ -20,6 +20,7 @@ set(ROOM_SOURCES
   dicom_jpeg16.cpp
   dicom_jpeg8.cpp
   dicom_pixels.cpp
+  dicom_resample.cpp
   dicom_rle.cpp
   dicom_series.cpp
   dicom_slice.cpp
