@@ -9,24 +9,23 @@
 #include <string>
 #include <vector>
 
+#include "chosen_scan.h"
 #include "commands.h"
 #include "costs.h"
-#include "label_options.h"
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/version.h"
 #include "mesamis/delivery/label_output.h"
 #include "mesamis/delivery/mesh_output.h"
 #include "mesamis/label_files/write_labels.h"
-#include "mesamis/method/memory.h"
 #include "mesamis/method/mes_amis.h"
 #include "mesamis/record/json_file.h"
 #include "mesamis/record/report.h"
 #include "mesamis/record/settings_json.h"
 #include "mesamis/record/verdict.h"
-#include "mesamis/scan_files/read_volume.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "outputs.h"
+#include "place_options.h"
 #include "progress.h"
 #include "scan.h"
 #include "segment_labels.h"
@@ -38,14 +37,12 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SegmentOptions {
-  fs::path input, report, labelmap;
+  ScanArguments scan;
+  fs::path report, labelmap;
   std::vector<fs::path> surfaces, meshes, band_meshes;
-  ReadOptions read;
   std::string name = "mesamis surface";  // never the scan's, which may be the patient's
-  Frame frame = Frame::kLps;
   bool error = false;
   MeshOptions mesh;
-  LabelArguments labels;
   SettingsArguments settings;
 };
 
@@ -73,7 +70,7 @@ SurfaceWriteOptions surface_options(const SegmentOptions& options, const Result&
                     std::any_of(options.surfaces.begin(), options.surfaces.end(), carries_grey);
   const std::string program = std::string("mesamis ") + version() + " (" + commit() + ")";
   SurfaceWriteOptions as{
-      options.frame,
+      options.scan.frame,
       options.name + (result.parameters.preview ? " (preview)" : ""),
       grey ? surface_grey(result, voxel) : std::vector<double>{},
       {{"producer", program}, {"settings", to_json(settings_of(result.parameters)).dump()}}};
@@ -137,19 +134,31 @@ void require_surface(const Result& result) {
                                result.parameters.level));
 }
 
-/// What a label map leaves no room for.
-void require_no_mesh(const SegmentOptions& options) {
+/// Several objects, of labels or of seeds, leave no room for a mesh.
+void require_no_mesh(const SegmentOptions& options, const std::string& why) {
   if (!options.meshes.empty() || !options.band_meshes.empty()) {
-    throw CLI::ValidationError("--labels", "expected neither --mesh nor --band-mesh, found one");
+    throw CLI::ValidationError(why, "expected neither --mesh nor --band-mesh, found one");
   }
 }
 
-int run_with_labels(const SegmentOptions& o, const Settings& settings,
-                    const CommonOptions& common) {
-  require_no_mesh(o);
-  return run_labels({o.input, o.read, o.labels, o.surfaces, o.labelmap, o.report, o.name, o.frame,
-                     o.error, settings},
-                    common);
+/// What needs no scan to be refused.
+void require_places(const SegmentOptions& options, const Settings& settings) {
+  const PlaceArguments& places = options.scan.places;
+  require_places(places, options.scan.labels, settings);
+  if (options.scan.input.empty() && places.given()) {
+    throw CLI::ValidationError("input", "expected a scan for the options of places, found none");
+  }
+  if (places.seeds.size() > 1) require_no_mesh(options, "--seed, several");
+  if (tissue_kind(places) != TissueKind::kBright && !options.meshes.empty()) {
+    throw CLI::ValidationError("--mesh",
+                               "expected a bright --tissue, whose grey values are those "
+                               "of the scan, found " +
+                                   places.tissue);
+  }
+}
+
+LabelRun label_run(const SegmentOptions& o, const Settings& settings) {
+  return {o.scan, o.surfaces, o.labelmap, o.report, o.name, o.error, settings};
 }
 
 void write_labelmap(const fs::path& path, const TriMesh& surface, const VoxelGrid& grid) {
@@ -157,39 +166,67 @@ void write_labelmap(const fs::path& path, const TriMesh& surface, const VoxelGri
   write_label_map(path, label_map_of(grid, {&object, 1}));
 }
 
-int run_segment(const SegmentOptions& options, const CommonOptions& common) {
-  const Settings settings = settings_of(options.settings);
-  require_outputs(options);
-  if (options.labels.given()) return run_with_labels(options, settings, common);
-  if (options.input.empty()) throw CLI::ValidationError("input", "expected a scan, found none");
-  require_mesh_for(options, settings);
-  const VolumeFile file = read_scan(options.input, options.read);
-  require_memory(file.volume, settings, common.memory_gb);
+void write_report(const SegmentOptions& options, const ChosenScan& scan,
+                  const nlohmann::ordered_json& run, const std::optional<MeshOutput>& mesh) {
+  nlohmann::ordered_json report;
+  report["program"] = program_json();
+  report["input"] = input_json(*scan.facts);
+  report["output"] = output_json(options.scan.frame);
+  report["object"] = scan.report;
+  report.update(run);
+  if (mesh) report["mesh"]["region"] = region_json(*mesh);
+  add_costs(report);
+  write_json(options.report, report);
+}
+
+/// Warns where the surface may show something else than what was meant.
+void log_surface(const ChosenObject& object, const Parameters& p) {
+  if (p.surface != SurfaceKind::kSolid) return;
+  const double level = object.kind == TissueKind::kDark ? -p.level : p.level;
+  for (const std::string& warning : surface_warnings(object, level)) log_warning(warning);
+}
+
+int run_on_scan(const SegmentOptions& options, const Settings& settings,
+                const CommonOptions& common, const ChosenScan& scan) {
   ProgressDisplay display(common.quiet);
-  const Result result = mes_amis(file.volume, settings, display.callback());
+  const Result result = run_on_object(scan.object, settings, display.callback());
   display.finish();
+  log_surface(scan.object, result.parameters);
   const SurfaceCheck check = check_surface(result.surface);
+  const Volume& volume = scan.object.volume;
   std::optional<MeshOutput> mesh;  // before any file is written: it may be refused
-  if (!options.meshes.empty()) mesh = make_mesh_output(result, file.volume, options.mesh);
+  if (!options.meshes.empty()) mesh = make_mesh_output(result, volume, options.mesh);
   if (!options.surfaces.empty()) require_surface(result);
-  const auto surface_as = surface_options(options, result, file.volume.voxel_size());
+  const auto surface_as = surface_options(options, result, volume.voxel_size());
   for (const fs::path& path : options.surfaces) write_surface(path, result.surface, surface_as);
-  for (const fs::path& path : options.meshes) write_mesh(path, *mesh, options.frame);
-  if (!options.labelmap.empty()) write_labelmap(options.labelmap, result.surface, file.volume);
-  for (const fs::path& path : options.band_meshes) write_band_mesh(path, result, options.frame);
+  for (const fs::path& path : options.meshes) write_mesh(path, *mesh, options.scan.frame);
+  if (!options.labelmap.empty()) write_labelmap(options.labelmap, result.surface, scan.grid);
+  for (const fs::path& path : options.band_meshes) {
+    write_band_mesh(path, result, options.scan.frame);
+  }
   if (!options.report.empty()) {
-    nlohmann::ordered_json report;
-    report["program"] = program_json();
-    report["input"] = input_json(facts_of(options.input, file.volume, file.format, file.warnings));
-    report["output"] = output_json(options.frame);
-    report.update(run_json(settings, result, check));
-    if (mesh) report["mesh"]["region"] = region_json(*mesh);
-    add_costs(report);
-    write_json(options.report, report);
+    write_report(options, scan, run_json(settings, result, check), mesh);
   }
   const Verdict verdict = judge(result, check);
   if (verdict.outcome != Outcome::kKept) log_error(verdict.message);
   return exit_status(verdict.outcome);
+}
+
+int run_segment(const SegmentOptions& options, const CommonOptions& common) {
+  const Settings settings = settings_of(options.settings);
+  require_outputs(options);
+  require_places(options, settings);
+  if (options.scan.labels.given()) {
+    require_no_mesh(options, "--labels");
+    return run_labels(label_run(options, settings), common);
+  }
+  if (options.scan.input.empty()) {
+    throw CLI::ValidationError("input", "expected a scan, found none");
+  }
+  require_mesh_for(options, settings);
+  const ChosenScan scan = read_chosen_scan(options.scan, settings, common.memory_gb);
+  if (scan.object.parts) return run_parts(label_run(options, settings), scan, common);
+  return run_on_scan(options, settings, common, scan);
 }
 
 }  // namespace
@@ -197,7 +234,7 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
 void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<SegmentOptions>();
   CLI::App* command = app.add_subcommand("segment", "Segment a scan: surface, mesh, report");
-  command->add_option("input", options->input,
+  command->add_option("input", options->scan.input,
                       "Volume file, DICOM directory or file; with --labels it may be left out");
   command->add_option("-o,--output", options->surfaces,
                       listed("Surface:", written_surface_formats()));
@@ -205,16 +242,18 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
                     "Write the error expected at each point, mm, into --output .vtp and .ply, as "
                     "expected_error");
   add_mesh_options(*command, options);
-  add_label_options(*command, options->labels);
+  add_place_options(*command, options->scan.places);
+  add_label_options(*command, options->scan.labels);
   command->add_option("--labelmap", options->labelmap,
                       "What was found, voxel by voxel on the scan's grid: .nii .nii.gz .nrrd "
                       ".seg.nrrd");
   command->add_option("--report", options->report, "Report: .json");
-  add_read_options(*command, options->read);
-  add_frame_option(*command, options->frame);
+  add_read_options(*command, options->scan.read);
+  add_frame_option(*command, options->scan.frame);
   command->add_option("--name", options->name, "The object's name in the surfaces written");
   add_settings_options(*command, options->settings);
   command->callback([options, &common, &action] {
+    options->scan.report = !options->report.empty();
     action = [options, &common] { return run_segment(*options, common); };
   });
 }

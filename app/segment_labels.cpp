@@ -15,7 +15,6 @@
 #include "mesamis/shape_files/object_files.h"
 #include "outputs.h"
 #include "progress.h"
-#include "scan.h"
 
 namespace mesamis {
 namespace {
@@ -64,7 +63,7 @@ std::vector<fs::path> paths_of(const fs::path& path, const std::vector<NamedSurf
 
 SurfaceWriteOptions write_options(const LabelRun& run, const std::string& name) {
   SurfaceWriteOptions as;
-  as.frame = run.frame;
+  as.frame = run.scan.frame;
   as.name = name;
   as.metadata = {{"producer", std::string("mesamis ") + version() + " (" + commit() + ")"}};
   return as;
@@ -104,16 +103,30 @@ LabelMap found_labels(const LabelResult& result, const VoxelGrid& grid) {
 }
 
 void write_report(const LabelRun& run, const LabelResult& result,
-                  const std::vector<SurfaceCheck>& checks, const VolumeFile& file) {
+                  const std::vector<SurfaceCheck>& checks, const ChosenScan& scan) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
-  if (!run.input.empty()) {
-    report["input"] = input_json(facts_of(run.input, file.volume, file.format, file.warnings));
-  }
-  report["output"] = output_json(run.frame);
+  if (scan.facts) report["input"] = input_json(*scan.facts);
+  report["output"] = output_json(run.scan.frame);
   report.update(label_run_json(result, checks));
+  if (scan.facts) report["object"].update(scan.report);
   add_costs(report);
   write_json(run.report, report);
+}
+
+/// Writes what was found.
+/// @return the exit status.
+int deliver(const LabelRun& run, const LabelResult& result, const ChosenScan& scan) {
+  std::vector<SurfaceCheck> checks;
+  for (const LabelledObject& object : result.objects) {
+    checks.push_back(check_surface(object.surface));
+  }
+  write_surfaces(run, result);
+  if (!run.labelmap.empty()) write_label_map(run.labelmap, found_labels(result, scan.grid));
+  if (!run.report.empty()) write_report(run, result, checks, scan);
+  const Verdict verdict = judge(result, checks);
+  if (verdict.outcome != Outcome::kKept) log_error(verdict.message);
+  return exit_status(verdict.outcome);
 }
 
 }  // namespace
@@ -123,29 +136,28 @@ void require_labelmap(const fs::path& path) {
 }
 
 int run_labels(const LabelRun& run, const CommonOptions& common) {
-  const LabelMap labels = read_labels(run.labels);
-  const LabelRequest request = label_request(run.labels, labels);
-  VolumeFile file;
-  if (!run.input.empty()) file = read_scan(run.input, run.read);
+  const LabelMap labels = read_labels(run.scan.labels);
+  const LabelRequest request = label_request(run.scan.labels, labels);
+  const bool alone = run.scan.input.empty();
+  ChosenScan scan;
+  if (alone) {
+    scan.grid = labels;
+  } else {
+    scan = read_chosen_scan(run.scan, run.settings, {});
+  }
   ProgressDisplay display(common.quiet);
   const LabelResult result =
-      run.input.empty()
-          ? surfaces_of_labels(request, run.settings, display.callback())
-          : find_labelled_objects(file.volume, request, run.settings, display.callback());
+      alone ? surfaces_of_labels(request, run.settings, display.callback())
+            : find_labelled_objects(scan.object.volume, request, run.settings, display.callback());
   display.finish();
-  std::vector<SurfaceCheck> checks;
-  for (const LabelledObject& object : result.objects) {
-    checks.push_back(check_surface(object.surface));
-  }
-  write_surfaces(run, result);
-  if (!run.labelmap.empty()) {
-    const VoxelGrid grid = run.input.empty() ? VoxelGrid(labels) : VoxelGrid(file.volume);
-    write_label_map(run.labelmap, found_labels(result, grid));
-  }
-  if (!run.report.empty()) write_report(run, result, checks, file);
-  const Verdict verdict = judge(result, checks);
-  if (verdict.outcome != Outcome::kKept) log_error(verdict.message);
-  return exit_status(verdict.outcome);
+  return deliver(run, result, scan);
+}
+
+int run_parts(const LabelRun& run, const ChosenScan& scan, const CommonOptions& common) {
+  ProgressDisplay display(common.quiet);
+  const LabelResult result = run_on_parts(scan.object, run.settings, display.callback());
+  display.finish();
+  return deliver(run, result, scan);
 }
 
 }  // namespace mesamis

@@ -5,24 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "chosen_scan.h"
 #include "commands.h"
-#include "label_options.h"
-#include "mesamis/base/frame.h"
 #include "mesamis/method/settings.h"
-#include "mesamis/scan_files/read_volume.h"
 
 namespace mesamis {
 
 /// What a run of `segment` on labels reads and writes.
 struct LabelRun {
-  std::filesystem::path input;  ///< the scan; empty: the labels alone
-  ReadOptions read;             ///< of the scan
-  LabelArguments labels;
+  ScanArguments scan;  ///< its input may be empty: the labels alone
   std::vector<std::filesystem::path> surfaces;
   std::filesystem::path labelmap, report;  ///< may be empty
   std::string name;                        ///< of the whole in the files
-  Frame frame = Frame::kLps;
-  bool error = false;  ///< write the error expected at each point
+  bool error = false;                      ///< write the error expected at each point
   Settings settings;
 };
 
@@ -33,5 +28,9 @@ void require_labelmap(const std::filesystem::path& path);
 /// Finds the objects of a label map and writes them.
 /// @return the exit status.
 int run_labels(const LabelRun& run, const CommonOptions& common);
+
+/// Finds the parts that several seeds split an object into, and writes them as objects.
+/// @return the exit status.
+int run_parts(const LabelRun& run, const ChosenScan& scan, const CommonOptions& common);
 
 }  // namespace mesamis

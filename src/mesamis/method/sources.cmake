@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   available_memory.h
+  chosen_run.h
   expected_error.h
   iteration.h
   label_surfaces.h
@@ -14,6 +15,7 @@ set(ROOM_HEADERS
   settings.h)
 set(ROOM_SOURCES
   available_memory.cpp
+  chosen_run.cpp
   expected_error.cpp
   follow_image.cpp
   follow_partition.cpp

@@ -68,22 +68,6 @@ std::optional<std::array<double, 2>> part_of_box(std::string_view text) {
   return std::array{*low, *high};
 }
 
-Box parse_box(std::string_view text) {
-  const auto parts = split(text, ',');
-  Box box;
-  bool fits = parts.size() == 3;
-  for (int a = 0; fits && a < 3; ++a) {
-    const auto part = part_of_box(parts[static_cast<std::size_t>(a)]);
-    fits = part.has_value();
-    if (!fits) break;
-    box.lo[a] = (*part)[0];
-    box.hi[a] = (*part)[1];
-  }
-  if (fits) return box;
-  throw InputError("box: expected X0:X1,Y0:Y1,Z0:Z1 in mm, each end below the other or left out, " +
-                   std::string("found ") + quoted(text));
-}
-
 /// The box of two corners that may have changed places.
 Box sorted(const Vec3& a, const Vec3& b) {
   Box box;
@@ -158,6 +142,22 @@ std::array<Index, 3> voxel_at(const VoxelGrid& grid, const Vec3& world) {
     voxel[n] = std::clamp(static_cast<Index>(std::lround(at)), 0, grid.size[n] - 1);
   }
   return voxel;
+}
+
+Box parse_box(std::string_view text) {
+  const auto parts = split(text, ',');
+  Box box;
+  bool fits = parts.size() == 3;
+  for (int a = 0; fits && a < 3; ++a) {
+    const auto part = part_of_box(parts[static_cast<std::size_t>(a)]);
+    fits = part.has_value();
+    if (!fits) break;
+    box.lo[a] = (*part)[0];
+    box.hi[a] = (*part)[1];
+  }
+  if (fits) return box;
+  throw InputError("box: expected X0:X1,Y0:Y1,Z0:Z1 in mm, each end below the other or left out, " +
+                   std::string("found ") + quoted(text));
 }
 
 CropRange box_to_range(const VoxelGrid& grid, std::string_view text, Frame frame) {

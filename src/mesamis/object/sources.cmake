@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   body.h
+  choose_object.h
   keep.h
   mirror.h
   padding.h
@@ -12,6 +13,7 @@ set(ROOM_HEADERS
   voxel_islands.h)
 set(ROOM_SOURCES
   body.cpp
+  choose_object.cpp
   keep.cpp
   mirror.cpp
   padding.cpp

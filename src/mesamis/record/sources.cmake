@@ -3,6 +3,7 @@ set(ROOM_HEADERS
   comparison_json.h
   json_file.h
   label_report.h
+  object_report.h
   remesh_json.h
   report.h
   run_summary.h
@@ -12,6 +13,7 @@ set(ROOM_SOURCES
   comparison_json.cpp
   json_file.cpp
   label_report.cpp
+  object_report.cpp
   remesh_json.cpp
   report.cpp
   run_summary.cpp

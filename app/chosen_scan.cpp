@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "chosen_scan.h"
+
+#include <utility>
+
+#include "log.h"
+#include "mesamis/method/memory.h"
+#include "mesamis/object/places.h"
+#include "mesamis/record/object_report.h"
+#include "scan.h"
+
+namespace mesamis {
+namespace {
+
+nlohmann::ordered_json report_of(const ScanArguments& arguments, const ObjectRequest& request,
+                                 const ChosenObject& object) {
+  nlohmann::ordered_json report = object_json(request, object);
+  if (request.mask) report["mask"]["path"] = arguments.places.mask.string();
+  return report;
+}
+
+}  // namespace
+
+ChosenScan read_chosen_scan(const ScanArguments& arguments, const Settings& settings,
+                            const std::optional<double>& memory_gb) {
+  ObjectRequest request =
+      object_request(arguments.places, arguments.labels, settings, arguments.frame);
+  VolumeFile file = read_scan(arguments.input, arguments.read);
+  if (!arguments.places.box.empty()) {
+    request.crop = box_to_range(file.volume, arguments.places.box, arguments.frame);
+  }
+  ChosenScan scan;
+  scan.grid = file.volume;
+  if (arguments.report) {
+    scan.facts = facts_of(arguments.input, file.volume, file.format, file.warnings);
+  }
+  if (memory_gb) {
+    Settings part = settings;
+    part.crop = request.crop;
+    require_memory(file.volume, part, *memory_gb);
+  }
+  scan.object = choose_object(std::move(file.volume), request);
+  for (const std::string& note : scan.object.notes) log_info(note);
+  for (const std::string& warning : scan.object.warnings) log_warning(warning);
+  scan.report = report_of(arguments, request, scan.object);
+  return scan;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "place_options.h"
+
+#include "arguments.h"
+#include "log.h"
+#include "mesamis/label_files/read_labels.h"
+#include "mesamis/object/places.h"
+
+namespace mesamis {
+namespace {
+
+constexpr const char* kGroup = "Which object";
+constexpr const char* kBody = "body";
+
+std::string tissue_names() {
+  std::string names;
+  for (const Tissue& tissue : tissue_table()) names += tissue.name + " ";
+  return names + "or LO:HI";
+}
+
+LabelMap read_marks(const std::filesystem::path& path) {
+  LabelFile file = read_label_map(path);
+  for (const std::string& warning : file.warnings) log_warning(warning);
+  return std::move(file.map);
+}
+
+/// A value that is written wrongly is an error of usage that names its option.
+template <class Parse>
+void require_written(const std::string& option, const Parse& parse) {
+  try {
+    parse();
+  } catch (const InputError& error) {
+    throw CLI::ValidationError(option, error.what());
+  }
+}
+
+[[noreturn]] void refuse_pair(const std::string& option, const std::string& other) {
+  throw CLI::ValidationError(option, "expected it without " + other + ", found both");
+}
+
+}  // namespace
+
+void add_place_options(CLI::App& command, PlaceArguments& a) {
+  command.add_option("--tissue", a.tissue, "What is meant, in native units: " + tissue_names())
+      ->group(kGroup);
+  command
+      .add_option("--mask", a.mask,
+                  "Label map: only what lies within --margin (2 mm) of a marked voxel")
+      ->group(kGroup);
+  command
+      .add_option("--seed", a.seeds,
+                  "X,Y,Z, mm, in the frame of --frame: the island with this point alone; several: "
+                  "what touches is split, an object for each")
+      ->allow_extra_args(false)
+      ->group(kGroup);
+  command
+      .add_option("--box", a.box,
+                  "X0:X1,Y0:Y1,Z0:Z1, mm, in the frame of --frame: the part of the scan; ends may "
+                  "be left out")
+      ->group(kGroup);
+  command
+      .add_option("--remove", a.remove,
+                  "Label map of what goes; body: all outside of the patient, refused where none is "
+                  "found")
+      ->group(kGroup);
+  command
+      .add_flag("--keep-surroundings", a.keep_surroundings,
+                "Leave table and head rest, which go where a patient is found in CT")
+      ->group(kGroup);
+}
+
+void require_places(const PlaceArguments& places, const LabelArguments& labels,
+                    const Settings& settings) {
+  if (!places.tissue.empty()) require_written("--tissue", [&] { parse_tissue(places.tissue); });
+  for (const std::string& seed : places.seeds) {
+    require_written("--seed", [&] { parse_point(seed, Frame::kLps); });
+  }
+  if (!places.box.empty()) {
+    require_written("--box", [&] { parse_box(places.box); });
+    if (!(settings.crop == CropRange{})) refuse_pair("--box", "--crop");
+  }
+  if (places.remove == kBody && places.keep_surroundings) {
+    refuse_pair("--remove body", "--keep-surroundings");
+  }
+  if (labels.given() && places.choose()) {
+    refuse_pair("--labels", "--tissue, --mask and --seed");
+  }
+}
+
+TissueKind tissue_kind(const PlaceArguments& places) {
+  return places.tissue.empty() ? TissueKind::kBright : parse_tissue(places.tissue).kind;
+}
+
+ObjectRequest object_request(const PlaceArguments& places, const LabelArguments& labels,
+                             const Settings& settings, Frame frame) {
+  ObjectRequest request = object_request(settings);
+  if (!places.tissue.empty()) request.tissue = parse_tissue(places.tissue);
+  for (const std::string& seed : places.seeds) request.seeds.push_back(parse_point(seed, frame));
+  if (!places.mask.empty()) request.mask = read_marks(places.mask);
+  request.margin = labels.margin.value_or(request.margin);
+  const bool body = places.remove == kBody;
+  if (!places.remove.empty() && !body) request.remove = read_marks(places.remove);
+  if (body) {
+    request.surroundings = SurroundingsRule::kRemove;
+  } else if (places.keep_surroundings || labels.given()) {
+    request.surroundings = SurroundingsRule::kKeep;
+  }
+  if (labels.given()) request.measure_level = false;
+  return request;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "label_options.h"
+#include "mesamis/base/frame.h"
+#include "mesamis/method/chosen_run.h"
+
+/// The options that say by a tissue, a place or a mask which object is meant.
+namespace mesamis {
+
+struct PlaceArguments {
+  std::filesystem::path mask;      ///< --mask, may be empty
+  std::vector<std::string> seeds;  ///< --seed, "X,Y,Z", mm
+  std::string box;                 ///< --box, mm; may be empty
+  std::string remove;              ///< --remove, a file or "body"; may be empty
+  std::string tissue;              ///< --tissue, may be empty
+  bool keep_surroundings = false;  ///< --keep-surroundings
+
+  /// Whether they say which object is meant, as labels do.
+  bool choose() const { return !mask.empty() || !seeds.empty() || !tissue.empty(); }
+  /// Whether they say anything about a scan.
+  bool given() const { return choose() || !box.empty() || !remove.empty() || keep_surroundings; }
+};
+
+/// Adds the options. `arguments` must outlive the parsing.
+void add_place_options(CLI::App& command, PlaceArguments& arguments);
+
+/// Checks what needs no scan: how tissue, seeds and box are written, and what does not go together.
+/// @throws CLI::ValidationError
+void require_places(const PlaceArguments& places, const LabelArguments& labels,
+                    const Settings& settings);
+
+/// The kind of the tissue asked for: only a bright one leaves the grey values as they are.
+/// @throws InputError  as parse_tissue().
+TissueKind tissue_kind(const PlaceArguments& places);
+
+/// What the arguments ask for; the box is open until the scan is read. Reads the label maps, and
+/// logs their readers' warnings.
+/// @param frame  of the seeds.
+/// @throws InputError  as read_label_map() and parse_point().
+ObjectRequest object_request(const PlaceArguments& places, const LabelArguments& labels,
+                             const Settings& settings, Frame frame);
+
+}  // namespace mesamis

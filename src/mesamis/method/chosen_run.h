@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mesamis/base/progress.h"
+#include "mesamis/method/label_surfaces.h"
+#include "mesamis/method/mes_amis.h"
+#include "mesamis/method/settings.h"
+#include "mesamis/object/choose_object.h"
+
+/// Runs on the image of a chosen object. Whatever they say in native units is in those of the scan,
+/// also where the image is mirrored; for a range of values it is by how much a sample lies within.
+namespace mesamis {
+
+/// Makes the request that belongs to the settings of a run: their crop, their level, and whether a
+/// level is needed.
+/// @throws nothing
+ObjectRequest object_request(const Settings& settings);
+
+/// Makes the settings of mes_amis() for the image of a chosen object: no crop, which has been done;
+/// the object's level; window and T mirrored for a dark object; of one seed the largest island.
+/// @param settings  as the user gave them, units of the scan.
+/// @throws nothing
+Settings settings_for(const ChosenObject& object, Settings settings);
+
+/// Turns what a run on the image used back to the units and the voxels of the scan: the settings of
+/// these parameters repeat the run.
+/// @throws nothing
+Parameters in_scan_units(Parameters parameters, const ChosenObject& object);
+
+/// Runs the method on the image of a chosen object.
+/// @param object    of choose_object(), without parts.
+/// @param settings  as the user gave them, units of the scan.
+/// @param progress  optional.
+/// @return as mes_amis(), parameters in the units of the scan; u is what it is in the image.
+/// @throws InputError, Cancelled  as mes_amis(). Cost as there.
+Result run_on_object(const ChosenObject& object, const Settings& settings,
+                     const Progress& progress = {});
+
+/// Finds the parts that several seeds split an object into.
+/// @param object    of choose_object(), with parts.
+/// @param settings, progress  as for run_on_object().
+/// @return as find_labelled_objects(), levels in the units of the scan.
+/// @throws InputError, Cancelled  as find_labelled_objects(). Cost as there.
+LabelResult run_on_parts(const ChosenObject& object, const Settings& settings,
+                         const Progress& progress = {});
+
+}  // namespace mesamis

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/object/choose_object.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "mesamis/base/error.h"
+#include "mesamis/base/median.h"
+#include "mesamis/image/grey_values.h"
+#include "mesamis/object/keep.h"
+#include "mesamis/object/mirror.h"
+#include "mesamis/object/padding.h"
+#include "mesamis/object/places.h"
+#include "mesamis/object/split_at_seeds.h"
+#include "mesamis/object/tissue_level.h"
+#include "mesamis/object/voxel_islands.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kAirHu = -1000;
+
+/// A text with a number in it.
+template <class... Values>
+std::string line(const char* format, Values... values) {
+  std::array<char, 300> text;
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+/// Whatever is bright: what a run without a tissue looks for.
+Tissue bright_tissue() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {.name = "the object",
+          .values = {-kInfinity, kInfinity},
+          .levels = {-kInfinity, kInfinity},
+          .hounsfield = false};
+}
+
+VoxelMask cropped_mask(const VoxelMask& mask, const VoxelGrid& grid, const CropRange& range) {
+  const auto size = cropped_size(grid, range);
+  const auto& [i, j, k] = range.begin;
+  VoxelMask part;
+  part.reserve(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+               static_cast<std::size_t>(size[2]));
+  for (Index z = k; z < k + size[2]; ++z) {
+    for (Index y = j; y < j + size[1]; ++y) {
+      const auto row = mask.begin() + static_cast<std::ptrdiff_t>(grid.offset(i, y, z));
+      part.insert(part.end(), row, row + size[0]);
+    }
+  }
+  return part;
+}
+
+/// The marks of one mask that another lacks.
+VoxelMask only_in(const VoxelMask& mask, const VoxelMask& other) {
+  VoxelMask rest(mask.size());
+  for (std::size_t n = 0; n < rest.size(); ++n) rest[n] = mask[n] != 0 && other[n] == 0;
+  return rest;
+}
+
+/// What a mask is surrounded by: the median from one to three voxels beside it.
+double value_around(const VolumeView& volume, const VoxelMask& grown) {
+  const VoxelMask ring = only_in(dilated(grown, volume, 2 * volume.voxel_size()), grown);
+  std::vector<double> values;
+  for (std::size_t n = 0; n < ring.size(); ++n) {
+    if (ring[n] != 0) values.push_back(volume.samples[n]);
+  }
+  return values.empty() ? sample_range(volume.samples).first : median(values);
+}
+
+/// The steps of choose_object().
+class Choice {
+ public:
+  Choice(Volume scan, const ObjectRequest& request)
+      : request_(request), in_hounsfield_(is_hounsfield(scan)) {
+    chosen_.volume = std::move(scan);
+    chosen_.crop = request.crop;
+    if (request.tissue) {
+      chosen_.kind = request.tissue->kind;
+      chosen_.tissue = request.tissue->name;
+    }
+  }
+
+  ChosenObject run() {
+    cropped_size(chosen_.volume, request_.crop);  // refused before any work
+    for (const Vec3& seed : request_.seeds) voxel_at(chosen_.volume, seed);
+    fill_padding();
+    remove_surroundings();
+    if (chosen_.kind == TissueKind::kBright) remove_marked();
+    find_level();
+    crop_all();
+    if (needs_level_of_crop()) set_level(find_tissue_level(chosen_.volume, bright_tissue()), true);
+    if (chosen_.kind != TissueKind::kBright) turn();
+    if (request_.mask) keep_mask();
+    if (!request_.seeds.empty()) keep_seeds();
+    return std::move(chosen_);
+  }
+
+ private:
+  void fill_padding() {
+    auto padding = find_padding(chosen_.volume);
+    if (!padding) return;
+    const double value =
+        in_hounsfield_ ? kAirHu
+                       : quantiles({{}, samples_outside(chosen_.volume, padding->mask)}, {0.05})[0];
+    chosen_.volume = filled(chosen_.volume, padding->mask, value);
+    chosen_.padding = FilledPadding{padding->voxels, padding->value, value};
+    chosen_.unmeasured = std::move(padding->mask);
+    chosen_.notes.push_back(
+        line("padding: %zu voxels of %g, which the scanner did not measure, "
+             "are filled with %g",
+             padding->voxels, padding->value, value));
+  }
+
+  void remove_surroundings() {
+    if (request_.surroundings == SurroundingsRule::kKeep) return;
+    const bool asked = request_.surroundings == SurroundingsRule::kRemove;
+    body_ = find_body(chosen_.volume);
+    if (!body_ && asked) {
+      throw InputError("remove: expected a patient's body in a CT scan, found none");
+    }
+    if (!body_ || body_->removed.empty()) return;
+    chosen_.volume = without_surroundings(chosen_.volume, *body_);
+    chosen_.removed = body_->removed;
+    for (const Surroundings& thing : body_->removed) {
+      chosen_.notes.push_back(line("removed: %s, %.3g cm^3; --keep-surroundings leaves it",
+                                   thing.what.c_str(), thing.mm3 / 1000));
+    }
+  }
+
+  void remove_marked() {
+    if (!request_.remove) return;
+    const VolumeView volume = chosen_.volume;
+    const auto mask = mask_on(*request_.remove, request_.remove->segments, volume);
+    const std::size_t voxels = count_marked(mask);
+    if (voxels == 0) throw InputError("remove: expected marks within the scan, found none");
+    const VoxelMask grown = dilated(mask, volume, volume.voxel_size());
+    const double around = value_around(volume, grown);
+    const Vec3& side = volume.spacing;
+    chosen_.volume = without(volume, grown, {.margin = 0, .background = around});
+    chosen_.removed.push_back(
+        {"marked by a label map", static_cast<double>(voxels) * side.x * side.y * side.z});
+  }
+
+  bool is_part() const {
+    return !(request_.crop == CropRange{}) || request_.mask || !request_.seeds.empty();
+  }
+
+  /// In the units of the scan, but 0 for a range.
+  void find_level() {
+    if (request_.tissue && request_.tissue->kind == TissueKind::kRange) {
+      chosen_.level = request_.level.value_or(0);
+      chosen_.level_from = request_.level ? LevelSource::kUser : LevelSource::kTissue;
+    } else if (request_.level) {
+      chosen_.level = request_.level;
+      chosen_.level_from = LevelSource::kUser;
+    } else if (request_.tissue) {
+      set_level(find_tissue_level(chosen_.volume, *request_.tissue), false);
+    } else if (in_hounsfield_ && is_part() && wants_level()) {
+      set_level(find_tissue_level(chosen_.volume, bright_tissue()), false);
+    }
+  }
+
+  bool wants_level() const { return request_.measure_level || !request_.seeds.empty(); }
+
+  bool needs_level_of_crop() const {
+    return !chosen_.level && wants_level() && (request_.mask || !request_.seeds.empty());
+  }
+
+  void set_level(const TissueLevel& found, bool in_crop) {
+    chosen_.level = found.level;
+    chosen_.level_uncertainty = found.uncertainty;
+    if (found.contrast.difference() != 0) background_ = found.contrast.background;
+    chosen_.level_from = !found.measured ? LevelSource::kTissue
+                         : in_crop       ? LevelSource::kCrop
+                                         : LevelSource::kScan;
+    const bool given =
+        request_.tissue && request_.tissue->levels.low == request_.tissue->levels.high;
+    if (found.measured || given) return;
+    chosen_.warnings.push_back(line(
+        "tissue: the level %.4g is %s; %s may not be in this scan", found.level,
+        found.bounded ? "an end of its range" : "where the search starts, as nothing was found",
+        request_.tissue ? chosen_.tissue.c_str() : "the object"));
+  }
+
+  void crop_all() {
+    if (request_.crop == CropRange{}) return;
+    if (!chosen_.unmeasured.empty()) {
+      chosen_.unmeasured = cropped_mask(chosen_.unmeasured, chosen_.volume, request_.crop);
+    }
+    if (body_) body_->mask = cropped_mask(body_->mask, chosen_.volume, request_.crop);
+    chosen_.volume = crop(chosen_.volume, request_.crop);
+  }
+
+  /// Makes a dark object, or a range of values, bright.
+  void turn() {
+    if (chosen_.kind == TissueKind::kRange) {
+      chosen_.volume = within_range(std::move(chosen_.volume), request_.tissue->values);
+      chosen_.volume.modality = "within range";
+    } else {
+      chosen_.volume = mirrored(std::move(chosen_.volume));
+      chosen_.volume.modality = "mirrored";
+      chosen_.level = mirrored(*chosen_.level);
+      if (background_) background_ = mirrored(*background_);
+      if (request_.tissue->in_body) darken_around_body();
+    }
+    remove_marked();
+  }
+
+  /// The air around the patient is as dark as that within.
+  void darken_around_body() {
+    if (!body_) {
+      chosen_.warnings.push_back("tissue: no body was found; the air around it comes along");
+      return;
+    }
+    const VolumeView volume = chosen_.volume;
+    const VoxelMask inside = complement(dilated(complement(body_->mask), volume, body_->grain));
+    chosen_.volume = kept_to(volume, inside, {.margin = 0, .background = background()});
+  }
+
+  /// What falls away falls to this: what is around the object.
+  double background() const {
+    if (background_ && (!chosen_.level || *background_ < *chosen_.level)) return *background_;
+    if (!chosen_.level) return otsu_split(chosen_.volume).mean_below;
+    return otsu_split(chosen_.volume, *chosen_.level).mean_above;
+  }
+
+  void keep_mask() {
+    const auto mask = mask_on(*request_.mask, request_.mask->segments, chosen_.volume);
+    chosen_.volume =
+        kept_to(chosen_.volume, mask, {.margin = request_.margin, .background = background()});
+  }
+
+  void keep_seeds() {
+    std::vector<std::array<Index, 3>> places;
+    for (const Vec3& seed : request_.seeds) places.push_back(voxel_at(chosen_.volume, seed));
+    const VoxelMask above = mask_above(chosen_.volume, *chosen_.level);
+    chosen_.alone = places.size() == 1;
+    if (chosen_.alone) {
+      darken_others(above, island_at(above, chosen_.volume, places[0]));
+      return;
+    }
+    chosen_.parts = split_at_seeds(chosen_.volume, above, *chosen_.level, places);
+    const auto& labels = chosen_.parts->layers[0];
+    VoxelMask wanted(labels.size());
+    for (std::size_t n = 0; n < wanted.size(); ++n) wanted[n] = labels[n] != 0;
+    darken_others(above, wanted);
+  }
+
+  /// Other islands go, with the blur around them as far as it is not the object's own.
+  void darken_others(const VoxelMask& above, const VoxelMask& wanted) {
+    const VoxelMask others = only_in(above, wanted);
+    if (count_marked(others) == 0) return;
+    Volume& volume = chosen_.volume;
+    const double side = volume.voxel_size();
+    const VoxelMask blur = only_in(dilated(others, volume, side), dilated(wanted, volume, side));
+    const auto low = static_cast<float>(background());
+    for (std::size_t n = 0; n < others.size(); ++n) {
+      if (others[n] != 0 || blur[n] != 0) volume.samples[n] = std::min(volume.samples[n], low);
+    }
+  }
+
+  const ObjectRequest& request_;
+  bool in_hounsfield_;
+  ChosenObject chosen_;
+  std::optional<Body> body_;
+  std::optional<double> background_;  // measured at the object's surface
+};
+
+}  // namespace
+
+ChosenObject choose_object(Volume scan, const ObjectRequest& request) {
+  return Choice(std::move(scan), request).run();
+}
+
+std::vector<std::string> surface_warnings(const ChosenObject& object, double level) {
+  constexpr double kMostAtBorder = 0.05;
+  std::vector<std::string> warnings;
+  const bool guessed = object.tissue.empty() && object.level_from != LevelSource::kUser;
+  if (guessed && surface_at_level(object.volume, level) == "skin") {
+    warnings.push_back(
+        line("surface: the level %.4g HU is likely that of the skin; --tissue says what is meant",
+             level));
+  }
+  if (object.unmeasured.empty()) return warnings;
+  const double share = share_at_border(object.volume, object.unmeasured, level);
+  if (share > kMostAtBorder) {
+    warnings.push_back(
+        line("surface: %.0f %% of it is likely the border of the padding, where the "
+             "field of view ends",
+             100 * share));
+  }
+  return warnings;
+}
+
+}  // namespace mesamis

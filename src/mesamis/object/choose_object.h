@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesamis/image/label_map.h"
+#include "mesamis/image/volume.h"
+#include "mesamis/object/body.h"
+#include "mesamis/object/tissue.h"
+#include "mesamis/object/voxel_distance.h"
+
+/// From a scan and what a user says of the object to an image that shows this object alone.
+namespace mesamis {
+
+/// What happens to table, head rest and whatever else is outside of the patient.
+enum class SurroundingsRule {
+  kRemoveIfBody,  ///< removed where find_body() finds a patient
+  kRemove,        ///< removed; refused where there is no patient
+  kKeep           ///< they stay
+};
+
+/// Which object of a scan is meant.
+struct ObjectRequest {
+  CropRange crop;                ///< voxels of the scan
+  std::optional<Tissue> tissue;  ///< nothing: whatever is bright
+  std::optional<double> level;   ///< native units of the scan; comes before the tissue's
+  bool measure_level = true;     ///< false: nobody needs one but tissues and seeds
+  SurroundingsRule surroundings = SurroundingsRule::kRemoveIfBody;
+  std::optional<LabelMap> remove;  ///< what is marked in any of its segments goes
+  std::optional<LabelMap> mask;    ///< what is marked in any of its segments stays
+  double margin = 2;               ///< mm, >= 0, around the mask; see KeepOptions
+  std::vector<Vec3> seeds;         ///< LPS, mm; one: that island alone; more: a part for each
+};
+
+/// Where a level comes from.
+enum class LevelSource {
+  kRun,    ///< the run measures it
+  kUser,   ///< given
+  kScan,   ///< measured in the whole scan
+  kCrop,   ///< measured in the cropped scan
+  kTissue  ///< an end of the tissue's range, or where its search starts
+};
+
+/// Padding that was filled.
+struct FilledPadding {
+  std::size_t voxels = 0;
+  double value = 0;   ///< that of most of it, native units
+  double filled = 0;  ///< what it is now, native units
+};
+
+/// The image of an object, and how it was made.
+struct ChosenObject {
+  Volume volume;                          ///< the object is brighter than what is around it
+  TissueKind kind = TissueKind::kBright;  ///< dark: mirrored(); range: within_range()
+  std::string tissue;                     ///< its name; empty: none was asked for
+  std::optional<double> level;            ///< units of the volume; nothing: the run measures it
+  double level_uncertainty = 0;           ///< native units; 0: not known
+  LevelSource level_from = LevelSource::kRun;
+  CropRange crop;                        ///< the part of the scan that the volume is
+  std::vector<Surroundings> removed;     ///< from the whole scan
+  std::optional<FilledPadding> padding;  ///< of the whole scan
+  VoxelMask unmeasured;                  ///< the padding, by voxels of the volume; empty: none
+  std::optional<LabelMap> parts;         ///< of two seeds and more, see split_at_seeds()
+  bool alone = false;                    ///< one seed: the volume shows a single island
+  std::vector<std::string> notes;        ///< one line each: what was done unasked
+  std::vector<std::string> warnings;     ///< one line each: what may not be what was meant
+};
+
+/// Makes the image of the object that is meant.
+///
+/// In this order: padding is filled (CT: with air, -1000 HU; else with the value that a twentieth
+/// of the other samples do not exceed); what is outside of the patient goes, see
+/// without_surroundings(); what is marked to be removed falls to the median of what is around it;
+/// the level is measured in the whole scan; the scan is cropped; a dark object or a range of values
+/// becomes bright; of tissues in the body alone the air around the patient goes; what lies beyond
+/// the mask goes; at the level, islands without a seed go, and several seeds split what touches.
+///
+/// A level is measured here for a tissue, in CT for a crop, a mask or seeds, and in other scans for
+/// a mask or seeds, there in the crop. Without a tissue it is the number that a run finds in the
+/// whole scan. Where nothing of all this is asked for, and there is no padding and nothing around a
+/// patient, the samples do not change.
+///
+/// @param scan     usable, see require_usable(); taken over, pass it with std::move() to save the
+///                 copy.
+/// @param request  see there.
+/// @throws InputError  if the crop, a seed or a label map does not fit the scan, a tissue needs
+///                     Hounsfield units, a body that is to be removed is not found, or as
+///                     find_tissue_level() and split_at_seeds().
+///
+/// O(voxels), as the steps asked for; one or two copies of the samples at a time, and about 30
+/// bytes per voxel that find_body() looks at.
+ChosenObject choose_object(Volume scan, const ObjectRequest& request);
+
+/// Says in words what a surface may show instead of what was meant: the skin, where neither tissue
+/// nor level were given, or the border of what the scanner measured.
+/// @param level  of the surface, units of the volume.
+/// @return one line each.
+/// @throws nothing
+///
+/// O(voxels).
+std::vector<std::string> surface_warnings(const ChosenObject& object, double level);
+
+}  // namespace mesamis
