@@ -126,10 +126,11 @@ class Choice {
     if (!body_ || body_->removed.empty()) return;
     chosen_.volume = without_surroundings(chosen_.volume, *body_);
     chosen_.removed = body_->removed;
+    std::string things;
     for (const Surroundings& thing : body_->removed) {
-      chosen_.notes.push_back(line("removed: %s, %.3g cm^3; --keep-surroundings leaves it",
-                                   thing.what.c_str(), thing.mm3 / 1000));
+      things += line("%s, %.3g cm^3; ", thing.what.c_str(), thing.mm3 / 1000);
     }
+    chosen_.notes.push_back("removed: " + things + "--keep-surroundings leaves it");
   }
 
   void remove_marked() {
@@ -235,20 +236,38 @@ class Choice {
         kept_to(chosen_.volume, mask, {.margin = request_.margin, .background = background()});
   }
 
+  /// A seed in a cavity, as in a marrow canal, counts for what encloses it.
   void keep_seeds() {
+    const VolumeView volume = chosen_.volume;
+    const VoxelMask above = mask_above(volume, *chosen_.level);
+    const VoxelMask solid = without_cavities(above, volume);
     std::vector<std::array<Index, 3>> places;
-    for (const Vec3& seed : request_.seeds) places.push_back(voxel_at(chosen_.volume, seed));
-    const VoxelMask above = mask_above(chosen_.volume, *chosen_.level);
+    for (const Vec3& seed : request_.seeds) places.push_back(place_of(seed, solid));
     chosen_.alone = places.size() == 1;
     if (chosen_.alone) {
-      darken_others(above, island_at(above, chosen_.volume, places[0]));
+      darken_others(above, island_at(solid, volume, places[0]));
       return;
     }
-    chosen_.parts = split_at_seeds(chosen_.volume, above, *chosen_.level, places);
+    chosen_.parts = split_at_seeds(volume, solid, *chosen_.level, places);
     const auto& labels = chosen_.parts->layers[0];
     VoxelMask wanted(labels.size());
     for (std::size_t n = 0; n < wanted.size(); ++n) wanted[n] = labels[n] != 0;
     darken_others(above, wanted);
+  }
+
+  std::array<Index, 3> place_of(const Vec3& seed, const VoxelMask& solid) const {
+    const auto place = voxel_at(chosen_.volume, seed);
+    try {
+      nearest_marked(solid, chosen_.volume, place, kBesideMm);
+    } catch (const InputError&) {
+      const bool dark = chosen_.kind == TissueKind::kDark;
+      throw InputError(
+          line("seed: expected values %s %.4g within %g mm of %g,%g,%g (LPS), found "
+               "none",
+               dark ? "below" : "above", dark ? -*chosen_.level : *chosen_.level, kBesideMm, seed.x,
+               seed.y, seed.z));
+    }
+    return place;
   }
 
   /// Other islands go, with the blur around them as far as it is not the object's own.
