@@ -56,6 +56,17 @@ std::string box_text(const Box& box) {
   return text;
 }
 
+TEST(ParseBox, KeepsOpenEndsOpen) {
+  const Box box = parse_box("-5:10,,:2.5");
+  EXPECT_EQ(box.lo.x, -5);
+  EXPECT_EQ(box.hi.x, 10);
+  EXPECT_TRUE(std::isinf(box.lo.y) && std::isinf(box.hi.y) && std::isinf(box.lo.z));
+  EXPECT_EQ(box.hi.z, 2.5);
+  for (const auto* text : {"", "1:2", "2:1,,", "1:2,3:4,5:6,7:8", "a:b,,"}) {
+    EXPECT_REFUSED(parse_box(text), HasSubstr("box: expected X0:X1,Y0:Y1,Z0:Z1"));
+  }
+}
+
 TEST(ParsePoint, ReadsThreeNumbersInTheirFrame) {
   expect_near(parse_point("1,-2.5,3e1", Frame::kLps), {1, -2.5, 30});
   expect_near(parse_point(" 1, +2 ,3", Frame::kRas), {-1, -2, 3});

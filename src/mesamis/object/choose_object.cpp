@@ -21,7 +21,7 @@
 namespace mesamis {
 namespace {
 
-constexpr double kAirHu = -1000;
+constexpr double kAirHu = -1000, kSoftHu = 40;
 
 /// A text with a number in it.
 template <class... Values>
@@ -78,6 +78,7 @@ class Choice {
   Choice(Volume scan, const ObjectRequest& request)
       : request_(request), in_hounsfield_(is_hounsfield(scan)) {
     chosen_.volume = std::move(scan);
+    if (in_hounsfield_) chosen_.volume.modality = "CT";  // a part without air tells it no more
     chosen_.crop = request.crop;
     if (request.tissue) {
       chosen_.kind = request.tissue->kind;
@@ -91,6 +92,7 @@ class Choice {
     fill_padding();
     remove_surroundings();
     if (chosen_.kind == TissueKind::kBright) remove_marked();
+    if (chosen_.kind == TissueKind::kDark && request_.tissue->in_body) fill_around_body();
     find_level();
     crop_all();
     if (needs_level_of_crop()) set_level(find_tissue_level(chosen_.volume, bright_tissue()), true);
@@ -131,6 +133,19 @@ class Choice {
       things += line("%s, %.3g cm^3; ", thing.what.c_str(), thing.mm3 / 1000);
     }
     chosen_.notes.push_back("removed: " + things + "--keep-surroundings leaves it");
+  }
+
+  /// The air around the patient is as dark as that within, and has more surface: it goes first.
+  void fill_around_body() {
+    if (!body_) {
+      chosen_.warnings.push_back("tissue: no body was found; the air around it comes along");
+      return;
+    }
+    const VoxelGrid& grid = chosen_.volume;
+    const VoxelMask inside = complement(dilated(complement(body_->mask), grid, body_->grain));
+    const Volume turned = mirrored(std::move(chosen_.volume));
+    chosen_.volume =
+        mirrored(kept_to(turned, inside, {.margin = 0, .background = mirrored(kSoftHu)}));
   }
 
   void remove_marked() {
@@ -193,7 +208,6 @@ class Choice {
     if (!chosen_.unmeasured.empty()) {
       chosen_.unmeasured = cropped_mask(chosen_.unmeasured, chosen_.volume, request_.crop);
     }
-    if (body_) body_->mask = cropped_mask(body_->mask, chosen_.volume, request_.crop);
     chosen_.volume = crop(chosen_.volume, request_.crop);
   }
 
@@ -207,20 +221,8 @@ class Choice {
       chosen_.volume.modality = "mirrored";
       chosen_.level = mirrored(*chosen_.level);
       if (background_) background_ = mirrored(*background_);
-      if (request_.tissue->in_body) darken_around_body();
     }
     remove_marked();
-  }
-
-  /// The air around the patient is as dark as that within.
-  void darken_around_body() {
-    if (!body_) {
-      chosen_.warnings.push_back("tissue: no body was found; the air around it comes along");
-      return;
-    }
-    const VolumeView volume = chosen_.volume;
-    const VoxelMask inside = complement(dilated(complement(body_->mask), volume, body_->grain));
-    chosen_.volume = kept_to(volume, inside, {.margin = 0, .background = background()});
   }
 
   /// What falls away falls to this: what is around the object.

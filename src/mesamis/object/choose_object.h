@@ -23,15 +23,15 @@ enum class SurroundingsRule {
 
 /// Which object of a scan is meant.
 struct ObjectRequest {
-  CropRange crop;                ///< voxels of the scan
-  std::optional<Tissue> tissue;  ///< nothing: whatever is bright
-  std::optional<double> level;   ///< native units of the scan; comes before the tissue's
-  bool measure_level = true;     ///< false: nobody needs one but tissues and seeds
+  CropRange crop{};                ///< voxels of the scan
+  std::optional<Tissue> tissue{};  ///< nothing: whatever is bright
+  std::optional<double> level{};   ///< native units of the scan; comes before the tissue's
+  bool measure_level = true;       ///< false: nobody needs one but tissues and seeds
   SurroundingsRule surroundings = SurroundingsRule::kRemoveIfBody;
-  std::optional<LabelMap> remove;  ///< what is marked in any of its segments goes
-  std::optional<LabelMap> mask;    ///< what is marked in any of its segments stays
-  double margin = 2;               ///< mm, >= 0, around the mask; see KeepOptions
-  std::vector<Vec3> seeds;         ///< LPS, mm; one: that island alone; more: a part for each
+  std::optional<LabelMap> remove{};  ///< what is marked in any of its segments goes
+  std::optional<LabelMap> mask{};    ///< what is marked in any of its segments stays
+  double margin = 2;                 ///< mm, >= 0, around the mask; see KeepOptions
+  std::vector<Vec3> seeds{};         ///< LPS, mm; one: that island alone; more: a part for each
 };
 
 /// Where a level comes from.
@@ -72,10 +72,10 @@ struct ChosenObject {
 ///
 /// In this order: padding is filled (CT: with air, -1000 HU; else with the value that a twentieth
 /// of the other samples do not exceed); what is outside of the patient goes, see
-/// without_surroundings(); what is marked to be removed falls to the median of what is around it;
-/// the level is measured in the whole scan; the scan is cropped; a dark object or a range of values
-/// becomes bright; of tissues in the body alone the air around the patient goes; what lies beyond
-/// the mask goes; at the level, islands without a seed go, and several seeds split what touches.
+/// without_surroundings(), and for a dark tissue of the body the air around it too; what is marked
+/// to be removed falls to the median of what is around it; the level is measured in the whole scan;
+/// the scan is cropped; a dark object or a range of values becomes bright; what lies beyond the
+/// mask goes; at the level, islands without a seed go, and several seeds split what touches.
 ///
 /// A level is measured here for a tissue, in CT for a crop, a mask or seeds, and in other scans for
 /// a mask or seeds, there in the crop. Without a tissue it is the number that a run finds in the
