@@ -29,7 +29,7 @@ void add_label_options(CLI::App& command, LabelArguments& a) {
   command.add_option(
       "--label-names", a.names,
       "Names and colours of the labels: ITK-SNAP .label, Slicer .ctbl, N NAME R G B");
-  command.add_option("--margin", a.margin, "How far labels may be wrong, mm")
+  command.add_option("--margin", a.margin, "How far labels may be wrong, or around --mask, mm")
       ->check(CLI::PositiveNumber);
 }
 

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/chosen_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "mesamis/object/mirror.h"
+#include "support/ball_volume.h"
+#include "support/sampled_volume.h"
+
+namespace mesamis {
+namespace {
+
+Settings preview() {
+  Settings settings;
+  settings.preview = true;
+  settings.tolerance = 0.02;
+  return settings;
+}
+
+/// 200 in balls of 7 mm, 100 elsewhere.
+Volume balls(const std::vector<Vec3>& middles, const std::array<Index, 3>& size) {
+  return sampled_volume(size, {1, 1, 1}, [&](const Vec3& p) {
+    double inside = 0;
+    for (const Vec3& m : middles) inside = std::max(inside, blurred_ball(norm(p - m), 7, 0.7));
+    return 100 + 100 * inside;
+  });
+}
+
+ChosenObject choose(Volume volume, const Settings& settings, ObjectRequest request) {
+  request.crop = settings.crop;
+  request.level = settings.level;
+  return choose_object(std::move(volume), request);
+}
+
+double ball_volume() { return 4.0 / 3 * M_PI * 343; }
+
+TEST(RunOnObject, OfOneSeedDeliversOneClosedIsland) {
+  const Volume scan = balls({{12, 12, 12}, {30, 12, 12}}, {44, 24, 24});
+  const ChosenObject object = choose(scan, preview(), {.seeds = {{30, 12, 12}}});
+  const Result result = run_on_object(object, preview());
+  const SurfaceCheck check = check_surface(result.surface);
+  EXPECT_EQ(solid_flaws_of(check), "");
+  EXPECT_EQ(check.components, 1);
+  EXPECT_NEAR(check.volume, ball_volume(), 0.03 * ball_volume());
+  for (const Vec3& p : result.surface.points) ASSERT_NEAR(norm(p - Vec3{30, 12, 12}), 7, 0.3);
+}
+
+TEST(RunOnObject, WithNothingAskedIsTheMethodItself) {
+  const Volume scan = make_ball({.size = 24, .radius = 7});
+  const Result plain = mes_amis(scan, preview());
+  const Result chosen = run_on_object(choose_object(scan, {}), preview());
+  EXPECT_EQ(chosen.surface.points, plain.surface.points);
+  EXPECT_EQ(chosen.parameters.level, plain.parameters.level);
+  EXPECT_EQ(chosen.parameters.crop, plain.parameters.crop);
+}
+
+TEST(RunOnObject, OfADarkObjectTellsNativeUnits) {
+  const BallVolume bright{.size = 26, .radius = 7};
+  const Volume scan = make_ball(bright);
+  const Result reference = mes_amis(scan, preview());
+  const ChosenObject object = choose(mirrored(scan), preview(), {.tissue = parse_tissue("dark")});
+  const Result dark = run_on_object(object, preview());
+  EXPECT_NEAR(dark.parameters.level, -reference.parameters.level, 1e-3);
+  EXPECT_LT(dark.parameters.grey.low, dark.parameters.level);
+  EXPECT_GT(dark.parameters.grey.high, dark.parameters.level);
+  EXPECT_NEAR(check_surface(dark.surface).volume, check_surface(reference.surface).volume, 1);
+
+  // The settings used, given again, repeat the run.
+  const Settings again = settings_of(dark.parameters);
+  const Result repeated =
+      run_on_object(choose(mirrored(scan), again, {.tissue = parse_tissue("dark")}), again);
+  EXPECT_EQ(repeated.surface.points, dark.surface.points);
+  EXPECT_EQ(repeated.parameters.grey.low, dark.parameters.grey.low);
+  EXPECT_EQ(repeated.parameters.grey.threshold, dark.parameters.grey.threshold);
+}
+
+TEST(RunOnObject, TellsTheCropThatRepeatsIt) {
+  Settings settings = preview();
+  settings.crop = {{4, 0, 0}, {24, -1, -1}};
+  const Volume scan = balls({{13, 12, 12}}, {32, 24, 24});
+  const Result result = run_on_object(choose(scan, settings, {}), settings);
+  EXPECT_EQ(result.parameters.crop, settings.crop);
+  EXPECT_EQ(result.surface.points, mes_amis(scan, settings).surface.points);
+}
+
+/// Triangles by the places of their corners, in any order and turn.
+std::set<std::set<std::array<double, 3>>> triangle_set(const TriMesh& mesh) {
+  std::set<std::set<std::array<double, 3>>> triangles;
+  for (const Triangle& t : mesh.triangles) {
+    std::set<std::array<double, 3>> corners;
+    for (const Index n : t) {
+      const Vec3& p = mesh.points[static_cast<std::size_t>(n)];
+      corners.insert({p.x, p.y, p.z});
+    }
+    triangles.insert(corners);
+  }
+  return triangles;
+}
+
+TEST(RunOnParts, SplitsTouchingBallsIntoClosedPartsThatShareTheirBoundary) {
+  const Vec3 left{12, 12, 12}, right{24.5, 12, 12};
+  const Volume scan = balls({left, right}, {38, 25, 25});
+  const ChosenObject object = choose(scan, preview(), {.level = 150, .seeds = {left, right}});
+  const LabelResult result = run_on_parts(object, preview());
+  ASSERT_EQ(result.objects.size(), 2U);
+  for (const LabelledObject& part : result.objects) {
+    const SurfaceCheck check = check_surface(part.surface);
+    EXPECT_EQ(solid_flaws_of(check), "") << part.segment.name;
+    EXPECT_EQ(check.components, 1);
+    EXPECT_NEAR(check.volume, ball_volume(), 0.05 * ball_volume());
+  }
+  const auto first = triangle_set(result.objects[0].surface);
+  const auto second = triangle_set(result.objects[1].surface);
+  std::size_t shared = 0;
+  for (const auto& triangle : first) {
+    if (!second.contains(triangle)) continue;
+    ++shared;
+    for (const auto& p : triangle) EXPECT_NEAR(p[0], 18.25, 1.5) << "half way";
+  }
+  EXPECT_GT(shared, 4U);
+}
+
+TEST(SettingsFor, LeaveTheLevelOpenWhereNobodyMeasuredIt) {
+  const ChosenObject plain;
+  EXPECT_FALSE(settings_for(plain, {}).level);
+  ChosenObject measured;
+  measured.level = 70;
+  measured.level_from = LevelSource::kScan;
+  EXPECT_EQ(settings_for(measured, {}).level, 70);
+  Settings paper;
+  paper.threshold_rule = ThresholdRule::kPaper;
+  EXPECT_FALSE(settings_for(measured, paper).level) << "it lies between T and the object";
+  EXPECT_FALSE(object_request(paper).measure_level);
+}
+
+TEST(InScanUnits, TurnsWhatSettingsForTurned) {
+  ChosenObject dark;
+  dark.kind = TissueKind::kDark;
+  dark.level = 400;
+  dark.level_from = LevelSource::kScan;
+  Settings asked;
+  asked.window = Window{-900, 100};
+  asked.threshold_rule = ThresholdRule::kValue;
+  asked.threshold = -20;
+  const Settings run = settings_for(dark, asked);
+  EXPECT_EQ(run.window->low, -100);
+  EXPECT_EQ(run.window->high, 900);
+  EXPECT_EQ(run.threshold, 20);
+  Parameters p;
+  p.grey = {run.window->low, run.window->high, run.threshold};
+  p.level = 400;
+  const Parameters told = in_scan_units(p, dark);
+  EXPECT_EQ(told.level, -400);
+  EXPECT_EQ(told.grey.low, -900);
+  EXPECT_EQ(told.grey.high, 100);
+  EXPECT_EQ(told.grey.threshold, -20);
+}
+
+}  // namespace
+}  // namespace mesamis
