@@ -67,7 +67,7 @@ Result run_on_object(const ChosenObject& object, const Settings& settings,
 
 LabelResult run_on_parts(const ChosenObject& object, const Settings& settings,
                          const Progress& progress) {
-  LabelResult result = find_labelled_objects(object.volume, *object.parts, {},
+  LabelResult result = find_labelled_objects(object.volume, {*object.parts},
                                              settings_for(object, settings), progress);
   result.parameters = in_scan_units(result.parameters, object);
   if (object.kind == TissueKind::kDark) {
