@@ -41,7 +41,8 @@ class ObjParser {
  private:
   void read_comment(std::string_view whole, std::string_view rest) {
     if (!frame_) frame_ = frame_named_in(whole);
-    if (take_word(rest) == kLabelComment && object_ < 0) next_.label = object_label_in(trimmed(rest));
+    if (take_word(rest) == kLabelComment && object_ < 0)
+      next_.label = object_label_in(trimmed(rest));
   }
 
   void begin_object(std::string_view name) {
