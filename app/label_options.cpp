@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "label_options.h"
 
+#include <algorithm>
+
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/label_files/label_table.h"
@@ -16,9 +18,10 @@ void log_all(const std::vector<std::string>& warnings) {
 }  // namespace
 
 void add_label_options(CLI::App& command, LabelArguments& a) {
-  CLI::Option* const labels = command.add_option(
-      "--labels", a.file,
-      "Label map that says which objects are meant: NIfTI, NRRD, .seg.nrrd, MetaImage, DICOM SEG");
+  CLI::Option* const labels =
+      command.add_option("--labels", a.file,
+                         "Label map that says which objects are meant: NIfTI, NRRD, .seg.nrrd, "
+                         "MetaImage, TIFF, DICOM SEG");
   command
       .add_option("--probabilities", a.probabilities,
                   "Instead of --labels: one volume of probabilities per object, or one of four "
@@ -50,7 +53,9 @@ LabelMap read_labels(const LabelArguments& a) {
 LabelRequest label_request(const LabelArguments& a, const LabelMap& map) {
   LabelRequest request{map};
   for (const std::string& wanted : a.chosen) {
-    request.chosen.push_back(find_segment(map.segments, wanted));
+    const Segment segment = find_segment(map.segments, wanted);
+    const auto end = request.chosen.end();
+    if (std::find(request.chosen.begin(), end, segment) == end) request.chosen.push_back(segment);
   }
   request.margin = a.margin;
   return request;

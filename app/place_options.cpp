@@ -82,6 +82,9 @@ void require_places(const PlaceArguments& places, const LabelArguments& labels,
   if (places.remove == kBody && places.keep_surroundings) {
     refuse_pair("--remove body", "--keep-surroundings");
   }
+  if (!labels.given() && !(labels.chosen.empty() && labels.names.empty())) {
+    throw CLI::ValidationError("--label", "expected --labels beside it, found none");
+  }
   if (labels.given() && places.choose()) {
     refuse_pair("--labels", "--tissue, --mask and --seed");
   }

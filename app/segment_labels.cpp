@@ -43,12 +43,18 @@ std::vector<NamedSurface> named_surfaces(const LabelResult& result) {
   return named;
 }
 
-/// One file per object. The rest of the name stands where {label} is, or before the extension.
-std::vector<fs::path> paths_of(const fs::path& path, const std::vector<NamedSurface>& objects) {
-  std::string text = path.filename().string();
+bool names_each(const fs::path& path) {
+  return path.filename().string().find(kPlaceholder) != std::string::npos;
+}
+
+/// One file per object. The object's name stands where {label} is, or before the extension.
+/// @param several  more than one object was asked for.
+std::vector<fs::path> paths_of(const fs::path& path, const std::vector<NamedSurface>& objects,
+                               bool several) {
+  const std::string text = path.filename().string();
   const auto at = text.find(kPlaceholder);
   if (at == std::string::npos) {
-    return objects.size() == 1 ? std::vector<fs::path>{path} : object_paths(path, objects);
+    return several ? object_paths(path, objects) : std::vector<fs::path>{path};
   }
   // object_paths() makes "x-NAME.e" of "x.e": names safe for files, all different.
   const auto numbered = object_paths(fs::path("x" + path.extension().string()), objects);
@@ -70,8 +76,8 @@ SurfaceWriteOptions write_options(const LabelRun& run, const std::string& name) 
 }
 
 void write_each(const fs::path& path, const LabelRun& run, const LabelResult& result,
-                const std::vector<NamedSurface>& objects) {
-  const auto paths = paths_of(path, objects);
+                const std::vector<NamedSurface>& objects, bool several) {
+  const auto paths = paths_of(path, objects, several);
   for (std::size_t n = 0; n < objects.size(); ++n) {
     SurfaceWriteOptions as = write_options(run, objects[n].name);
     const auto& expected = result.objects[n].expected_error;
@@ -80,16 +86,14 @@ void write_each(const fs::path& path, const LabelRun& run, const LabelResult& re
   }
 }
 
-void write_surfaces(const LabelRun& run, const LabelResult& result) {
+void write_surfaces(const LabelRun& run, const LabelResult& result, bool several) {
   const std::vector<NamedSurface> objects = named_surfaces(result);
   const std::vector<NamedSurface> rounded = rounded_together(objects);
   for (const fs::path& path : run.surfaces) {
-    const bool together =
-        holds_objects(path) && path.filename().string().find(kPlaceholder) == std::string::npos;
-    if (together) {
+    if (holds_objects(path) && !names_each(path)) {
       write_objects(path, objects, write_options(run, run.name));
     } else {
-      write_each(path, run, result, lower_extension(path) == ".stl" ? rounded : objects);
+      write_each(path, run, result, lower_extension(path) == ".stl" ? rounded : objects, several);
     }
   }
 }
@@ -114,14 +118,30 @@ void write_report(const LabelRun& run, const LabelResult& result,
   write_json(run.report, report);
 }
 
+/// Tells what was asked for and not found.
+/// @throws InputError  if that is all.
+void require_found(const LabelResult& result, const std::vector<Segment>& wanted) {
+  if (result.objects.empty()) {
+    throw InputError("labels: expected a surface of at least one object, found none");
+  }
+  for (const Segment& s : wanted) {
+    const bool found = std::any_of(result.objects.begin(), result.objects.end(),
+                                   [&](const LabelledObject& o) { return o.segment == s; });
+    if (!found) log_warning("labels: nothing was found of '" + s.name + "'");
+  }
+}
+
 /// Writes what was found.
+/// @param wanted  the objects that were asked for.
 /// @return the exit status.
-int deliver(const LabelRun& run, const LabelResult& result, const ChosenScan& scan) {
+int deliver(const LabelRun& run, const LabelResult& result, const ChosenScan& scan,
+            const std::vector<Segment>& wanted) {
+  require_found(result, wanted);
   std::vector<SurfaceCheck> checks;
   for (const LabelledObject& object : result.objects) {
     checks.push_back(check_surface(object.surface));
   }
-  write_surfaces(run, result);
+  write_surfaces(run, result, wanted.size() > 1);
   if (!run.labelmap.empty()) write_label_map(run.labelmap, found_labels(result, scan.grid));
   if (!run.report.empty()) write_report(run, result, checks, scan);
   const Verdict verdict = judge(result, checks);
@@ -132,12 +152,45 @@ int deliver(const LabelRun& run, const LabelResult& result, const ChosenScan& sc
 }  // namespace
 
 void require_labelmap(const fs::path& path) {
-  require_output(path, {".nii", ".gz", ".nrrd"}, "--labelmap");
+  const bool packed = lower_extension(path) == ".gz" && lower_extension(path.stem()) == ".nii";
+  require_output(path, {".nii", packed ? ".gz" : ".nii.gz", ".nrrd"}, "--labelmap");
 }
 
+namespace {
+
+/// Where the error at each point is asked for, a file of one object each must have a place for it.
+void require_error_place(const LabelRun& run) {
+  const auto holds = [](const fs::path& path) {
+    return carries_arrays(path) && (names_each(path) || !holds_objects(path));
+  };
+  if (run.error && std::none_of(run.surfaces.begin(), run.surfaces.end(), holds)) {
+    throw CLI::ValidationError(
+        "--error", "expected a .ply, or a .vtp with {label} in its name, for several objects");
+  }
+  if (run.error && run.scan.input.empty()) {
+    throw CLI::ValidationError("--error", "expected a scan beside the labels, found none");
+  }
+}
+
+/// A NIfTI file has one layer.
+void require_layers(const LabelRun& run, const std::vector<Segment>& wanted) {
+  if (run.labelmap.empty() || lower_extension(run.labelmap) == ".nrrd") return;
+  for (const Segment& s : wanted) {
+    if (s.layer != wanted.front().layer) {
+      throw InputError("--labelmap: expected a .nrrd or .seg.nrrd, as '" + s.name +
+                       "' may overlap others, found " + run.labelmap.string());
+    }
+  }
+}
+
+}  // namespace
+
 int run_labels(const LabelRun& run, const CommonOptions& common) {
+  require_error_place(run);
   const LabelMap labels = read_labels(run.scan.labels);
   const LabelRequest request = label_request(run.scan.labels, labels);
+  const std::vector<Segment>& wanted = request.chosen.empty() ? labels.segments : request.chosen;
+  require_layers(run, wanted);
   const bool alone = run.scan.input.empty();
   ChosenScan scan;
   if (alone) {
@@ -146,18 +199,20 @@ int run_labels(const LabelRun& run, const CommonOptions& common) {
     scan = read_chosen_scan(run.scan, run.settings, {});
   }
   ProgressDisplay display(common.quiet);
-  const LabelResult result =
+  LabelResult result =
       alone ? surfaces_of_labels(request, run.settings, display.callback())
             : find_labelled_objects(scan.object.volume, request, run.settings, display.callback());
+  if (!alone) result.parameters = in_scan_units(result.parameters, scan.object);
   display.finish();
-  return deliver(run, result, scan);
+  return deliver(run, result, scan, wanted);
 }
 
 int run_parts(const LabelRun& run, const ChosenScan& scan, const CommonOptions& common) {
+  require_error_place(run);
   ProgressDisplay display(common.quiet);
   const LabelResult result = run_on_parts(scan.object, run.settings, display.callback());
   display.finish();
-  return deliver(run, result, scan);
+  return deliver(run, result, scan, scan.object.parts->segments);
 }
 
 }  // namespace mesamis

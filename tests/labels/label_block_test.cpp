@@ -31,7 +31,6 @@ TEST(LabelBlock, LeavesRoomToAllSides) {
   ASSERT_TRUE(block.has_value());
   EXPECT_EQ(block->begin, (std::array<Index, 3>{4 - 6, 3 - 6, 2 - 6})) << "two voxels and four";
   EXPECT_EQ(block->size, (std::array<Index, 3>{14, 14, 14}));
-  EXPECT_FALSE(block->within(map));
   EXPECT_FALSE(block_around(map, std::vector{map.segments[2]}, 3).has_value());
 }
 
@@ -40,7 +39,6 @@ TEST(LabelBlock, IsClippedToTheGrid) {
   const LabelBlock part = clipped(*block_around(map, std::vector{map.segments[0]}, 3), map);
   EXPECT_EQ(part.begin, (std::array<Index, 3>{0, 0, 0}));
   EXPECT_EQ(part.size, map.size);
-  EXPECT_TRUE(part.within(map));
   const LabelBlock flat = clipped({{9, 7, 5}, {1, 1, 1}}, map);
   EXPECT_EQ(flat.begin, (std::array<Index, 3>{8, 6, 4}));
   EXPECT_EQ(flat.size, (std::array<Index, 3>{2, 2, 2}));
@@ -58,6 +56,23 @@ TEST(LabelBlock, HoldsTheLabelsWhereTheyLieInTheWorld) {
   EXPECT_EQ(labels[grid.offset(6, 4, 2)], 3);
   EXPECT_EQ(labels[grid.offset(7, 5, 3)], 3);
   EXPECT_EQ(std::accumulate(labels.begin(), labels.end(), 0), 5 + 8 * 3);
+}
+
+TEST(LabelBlock, OfAnySizeAndPlaceHoldsWhatIsThere) {
+  const LabelMap map = small_map();
+  for (Index begin = -6; begin < 12; ++begin) {
+    for (const Index size : {1, 2, 3, 9}) {
+      const LabelBlock block{{begin, begin, begin}, {size, size, size}};
+      const auto labels = labels_in(map, 0, block);
+      const VoxelGrid grid = grid_of(map, block);
+      ASSERT_EQ(labels.size(), grid.voxel_count());
+      for (Index i = 0; i < size; ++i) {  // along the diagonal
+        const Index at = begin + i;
+        const bool inside = at >= 0 && at < 6;
+        EXPECT_EQ(labels[grid.offset(i, i, i)], inside ? map.layers[0][map.offset(at, at, at)] : 0);
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -207,12 +207,15 @@ TEST(LabelSurfaces, AreTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(LabelSurfaces, RefuseLabelsBesideTheScan) {
+TEST(LabelSurfaces, RefuseWhatIsNotThere) {
   const Volume scan = scan_of(200, 130, 50, 4);
   LabelMap labels = labels_of(1, 0);
   labels.origin.x = 500;
   EXPECT_REFUSED(find_labelled_objects(scan, {labels}, {}),
                  ::testing::HasSubstr("expected voxels of chosen labels"));
+  LabelMap many = labels_of(1, 0);
+  for (Index label = 3; label < 5000; ++label) many.segments.push_back({"one", label, 0, {}});
+  EXPECT_REFUSED(surfaces_of_labels({many}, {}), ::testing::HasSubstr("at most 4096"));
   LabelMap none = labels_of(1, 0);
   none.segments.push_back({"third", 3, 0, {}});
   EXPECT_REFUSED(surfaces_of_labels({none, {none.segments[2]}}, {}),

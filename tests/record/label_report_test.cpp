@@ -3,11 +3,22 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace mesamis {
 namespace {
 
 const TriMesh kTetrahedron{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                            {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+
+LabelledObject object_of(const std::string& name, Index label, const TriMesh& surface) {
+  LabelledObject object;
+  object.segment.name = name;
+  object.segment.label = label;
+  object.surface = surface;
+  object.triangles_extracted = 90;
+  return object;
+}
 
 LabelResult two_objects() {
   LabelResult result;
@@ -16,8 +27,9 @@ LabelResult two_objects() {
   result.parameters.tolerance = 0.1;
   TriMesh open = kTetrahedron;
   open.triangles.pop_back();
-  result.objects.push_back({{"femur", 3, 0, {1, 2, 3}}, kTetrahedron, {0.1, 0.1, 0.1, 0.1}, 90});
-  result.objects.push_back({{"hip", 4, 0, {4, 5, 6}}, open, {}, 80});
+  result.objects.push_back(object_of("femur", 3, kTetrahedron));
+  result.objects.back().expected_error = {0.1, 0.1, 0.1, 0.1};
+  result.objects.push_back(object_of("hip", 4, open));
   result.boundaries = {{"", "femur", 150, -300, true}, {"femur", "hip", 260, 12, false}};
   return result;
 }

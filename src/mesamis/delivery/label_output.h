@@ -25,7 +25,7 @@ struct FoundObject {
 /// @throws nothing
 ///
 /// O(voxels * layers + triangles + crossings of the lines, up to a logarithm). Memory: the labels,
-/// and 16 bytes per crossing. The same labels for any number of threads.
+/// and 24 bytes per crossing. The same labels for any number of threads.
 LabelMap label_map_of(const VoxelGrid& grid, std::span<const FoundObject> objects);
 
 }  // namespace mesamis

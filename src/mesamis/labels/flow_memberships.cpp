@@ -20,12 +20,12 @@ using Place = std::array<Index, 3>;
 
 constexpr float kLeastMembership = 1e-4F;  // what is less decides nothing
 constexpr int kMostIterations = 500;
-constexpr Index kCertainNode = -1, kBeyond = -2;
+constexpr Index kKnown = -1;  // no unknown: certain, or beyond reach
 
 /// The system of one label, at the nodes where its membership is open.
 struct Unknowns {
   std::vector<std::size_t> nodes;               // of the grid, increasing
-  std::vector<std::array<Index, 6>> neighbors;  // unknowns; kCertainNode, kBeyond
+  std::vector<std::array<Index, 6>> neighbors;  // unknowns, or kKnown
   std::vector<std::array<double, 6>> conductance;
   std::vector<double> diagonal, right;
 };
@@ -166,7 +166,7 @@ class LabelFlow {
     const Window w = window_around(extent);
     const std::vector<std::uint8_t> mark = reached(label, w);
     Unknowns system;
-    std::vector<Index> unknown(mark.size(), kBeyond);
+    std::vector<Index> unknown(mark.size(), kKnown);
     for (std::size_t n = 0; n < mark.size(); ++n) {
       if (mark[n] == 0) continue;
       unknown[n] = static_cast<Index>(system.nodes.size());
@@ -185,7 +185,7 @@ class LabelFlow {
     const double sure = mass_ * weight_[node];
     double diagonal = sure, right = sure * membership_of(smooth_, node, label);
     std::array<Index, 6> neighbors;
-    neighbors.fill(kBeyond);
+    neighbors.fill(kKnown);
     std::array<double, 6> conductance{};
     for_each_beside(w, n, [&](std::size_t d, std::size_t m) {
       const std::size_t other = node_of(w, w.place(m));
@@ -430,10 +430,12 @@ void require_fields(const LabelGrid& grid, const FlowFields& fields, const FlowO
   if (fields.smooth.material.size() != nodes) {
     throw InputError("flow of labels: expected smooth_memberships() of the same labels");
   }
-  const bool in_range = o.reach > 0 && o.beta > 0 && o.eta >= 0 && o.unit_mm > 0 &&
-                        o.tolerance > 0 && o.tolerance < 1;
+  const bool in_range = o.reach > 0 && std::isfinite(o.reach) && o.beta > 0 && o.eta >= 0 &&
+                        o.unit_mm > 0 && o.tolerance > 0 && o.tolerance < 1;
   if (!in_range) {
-    throw InputError("flow of labels: expected a reach, beta and a unit above 0, eta of 0 or more");
+    throw InputError(
+        "flow of labels: expected a finite reach, beta and a unit above 0, eta of 0 or more, a "
+        "tolerance of 0 to 1");
   }
 }
 

@@ -13,7 +13,8 @@ struct FlowOptions {
   double beta = 2;          ///< weight of smoothness, as in the functional (2), units squared, > 0
   double eta = 1e-6;        ///< conductance that an edge leaves, as there, >= 0
   double unit_mm = 1;       ///< the length unit of beta, mm, > 0
-  double reach = 5;         ///< mm, > 0: how far from its own voxels a label may go; twice the
+  double reach = 5;         ///< mm, > 0: a label goes no further than this over the shortest
+                            ///< spacing, in steps along the axes, from its own voxels; twice the
                             ///< margin of label_confidence() is enough
   double tolerance = 1e-3;  ///< relative residual of each solve, 0 to 1
 };

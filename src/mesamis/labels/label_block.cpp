@@ -30,13 +30,6 @@ std::optional<CropRange> range_of_all(const LabelMap& map, std::span<const Segme
 
 }  // namespace
 
-bool LabelBlock::within(const VoxelGrid& grid) const noexcept {
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (begin[a] < 0 || begin[a] + size[a] > grid.size[a]) return false;
-  }
-  return true;
-}
-
 std::optional<LabelBlock> block_around(const LabelMap& map, std::span<const Segment> chosen,
                                        double room) {
   const auto range = range_of_all(map, chosen);
@@ -74,16 +67,18 @@ std::vector<std::uint16_t> labels_in(const LabelMap& map, Index layer, const Lab
   VoxelGrid grid;
   grid.size = block.size;
   std::vector<std::uint16_t> part(grid.voxel_count(), 0);
-  const LabelBlock held = clipped(block, map);
+  std::array<Index, 3> lo, hi;  // of what lies within both, hi beyond the last
+  for (std::size_t a = 0; a < 3; ++a) {
+    lo[a] = std::max(0, block.begin[a]);
+    hi[a] = std::min(map.size[a], block.begin[a] + block.size[a]);
+    if (hi[a] <= lo[a]) return part;
+  }
   const std::vector<std::uint16_t>& from = map.layers[static_cast<std::size_t>(layer)];
-  for (Index k = 0; k < held.size[2]; ++k) {
-    for (Index j = 0; j < held.size[1]; ++j) {
-      const std::array at{held.begin[0], held.begin[1] + j, held.begin[2] + k};
-      const std::array to{at[0] - block.begin[0], at[1] - block.begin[1], at[2] - block.begin[2]};
-      if (std::min({to[0], to[1], to[2]}) < 0) continue;
-      std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(map.offset(at[0], at[1], at[2])),
-                  held.size[0],
-                  part.begin() + static_cast<std::ptrdiff_t>(grid.offset(to[0], to[1], to[2])));
+  for (Index k = lo[2]; k < hi[2]; ++k) {
+    for (Index j = lo[1]; j < hi[1]; ++j) {
+      const auto row = from.begin() + static_cast<std::ptrdiff_t>(map.offset(lo[0], j, k));
+      const auto to = grid.offset(lo[0] - block.begin[0], j - block.begin[1], k - block.begin[2]);
+      std::copy_n(row, hi[0] - lo[0], part.begin() + static_cast<std::ptrdiff_t>(to));
     }
   }
   return part;

@@ -14,9 +14,6 @@ namespace mesamis {
 /// A block of voxels of a grid; it may reach beyond it.
 struct LabelBlock {
   std::array<Index, 3> begin{}, size{};  ///< voxels
-
-  /// Whether it lies within a grid.
-  bool within(const VoxelGrid& grid) const noexcept;
 };
 
 /// Finds the block around segments of a label map.
@@ -25,7 +22,7 @@ struct LabelBlock {
 /// @return at least 2 voxels along each axis; nothing if no chosen segment has a voxel.
 /// @throws nothing
 ///
-/// O(voxels * segments).
+/// O(voxels * layers + segments * chosen).
 std::optional<LabelBlock> block_around(const LabelMap& map, std::span<const Segment> chosen,
                                        double room);
 

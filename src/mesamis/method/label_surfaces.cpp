@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "mesamis/base/error.h"
@@ -29,8 +32,10 @@ namespace mesamis {
 namespace {
 
 constexpr double kMarginOfLabels = 2.5, kMarginOfScan = 2.5;  // voxels
-constexpr double kToleranceOfLabels = 0.1;                    // voxels: they are no more exact
-constexpr double kReach = 2;                                  // margins that a label may flow
+constexpr std::size_t kMostObjects = 4096;
+constexpr double kMostMargin = 50;          // voxels of the scan
+constexpr double kToleranceOfLabels = 0.1;  // voxels: they are no more exact
+constexpr double kReach = 2;                // margins that a label may flow
 
 /// The layers of those segments, increasing.
 std::vector<Index> layers_of(const std::vector<Segment>& segments) {
@@ -57,15 +62,16 @@ void bring_to_world(const VoxelGrid& grid, PartitionSurface& partition) {
   for (Triangle& t : partition.triangles) std::swap(t[1], t[2]);
 }
 
-/// Native units half way between what is chosen and what is not.
-double level_between(const Volume& scan, std::span<const std::uint16_t> labels,
-                     const std::vector<char>& chosen) {
+/// Native units half way between what is chosen and what is not; nothing where they are alike.
+std::optional<double> level_between(const Volume& scan, std::span<const std::uint16_t> labels,
+                                    const std::vector<char>& chosen) {
   std::vector<double> in, out;
   for (std::size_t n = 0; n < labels.size(); ++n) {
     (chosen[labels[n]] != 0 ? in : out).push_back(scan.samples[n]);
   }
-  if (in.empty() || out.empty()) return 0;
-  return (median(in) + median(out)) / 2;
+  if (in.empty() || out.empty()) return std::nullopt;
+  const double a = median(in), b = median(out);
+  return a == b ? std::nullopt : std::optional((a + b) / 2);
 }
 
 /// The edges of an image, one v per voxel, and what was prepared for it.
@@ -74,7 +80,7 @@ struct Edges {
   std::vector<float> v;
 };
 
-Edges find_edges(const Volume& scan, Settings settings, double level) {
+Edges find_edges(const Volume& scan, Settings settings, std::optional<double> level) {
   settings.crop = {};
   settings.stride = {1, 1, 1};
   settings.preview = true;  // no mesh is made
@@ -113,7 +119,9 @@ class LabelRun {
       : settings_(settings),
         progress_(progress),
         labels_(request.map),
-        chosen_(request.chosen.empty() ? request.map.segments : request.chosen) {}
+        chosen_(request.chosen.empty() ? request.map.segments : request.chosen) {
+    require_chosen();
+  }
 
   LabelResult with_image(const VolumeView& scan, double margin) {
     Stopwatch all, watch;
@@ -129,6 +137,8 @@ class LabelRun {
       const auto labels = labels_in(on_scan, layer, block);
       const Edges edges = find_edges(part, settings_, level_between(part, labels, marks));
       result_.parameters = edges.prepared.parameters;
+      result_.parameters.preview = settings_.preview;
+      result_.parameters.min_volume = settings_.min_volume.value_or(0);
       result_.parameters.crop = range;
       result_.image = edges.prepared.measured;
       result_.seconds.prepare += watch.lap();
@@ -164,6 +174,24 @@ class LabelRun {
   }
 
  private:
+  /// A map of too many objects is no label map.
+  void require_chosen() const {
+    if (chosen_.size() > kMostObjects) {
+      throw InputError("labels: expected at most " + std::to_string(kMostObjects) +
+                       " objects, found " + std::to_string(chosen_.size()) +
+                       "; choose some of them");
+    }
+    std::set<std::pair<Index, Index>> known, seen;
+    for (const Segment& s : labels_.segments) known.emplace(s.layer, s.label);
+    for (const Segment& s : chosen_) {
+      const std::pair key(s.layer, s.label);
+      if (known.count(key) == 0 || !seen.insert(key).second) {
+        throw InputError("labels: expected each chosen object once and of the map, found '" +
+                         s.name + "'" + (known.count(key) == 0 ? " of another" : " twice"));
+      }
+    }
+  }
+
   LabelBlock require_block(const LabelMap& map, double room) const {
     const auto block = block_around(map, chosen_, room);
     if (block) return *block;
@@ -229,7 +257,7 @@ class LabelRun {
       if (object.surface.triangles.empty()) continue;
       if (run != nullptr) {
         ErrorOptions delivered = run->error;
-        delivered.decimated = result_.decimated;
+        delivered.decimated = decimated_;
         object.expected_error = expected_error(object.surface, run->image, delivered);
       }
       result_.objects.push_back(std::move(object));
@@ -238,6 +266,7 @@ class LabelRun {
 
   void decimate(PartitionSurface& partition, double voxel, const RunInput* run) {
     Parameters& p = result_.parameters;
+    decimated_ = 0;
     p.tolerance = settings_.tolerance.value_or(default_tolerance_of(partition, voxel, run));
     p.triangles = settings_.triangles.value_or(0);
     if (p.tolerance == 0 || partition.triangles.empty()) return;
@@ -255,7 +284,8 @@ class LabelRun {
     options.quick = settings_.preview && std::isfinite(options.tolerance);
     DecimateReport report;
     partition = decimate_partition(partition, options, &report);
-    result_.decimated = shift + std::max(report.original_to_result, report.result_to_original);
+    decimated_ = shift + std::max(report.original_to_result, report.result_to_original);
+    result_.decimated = std::max(result_.decimated, decimated_);
   }
 
   double default_tolerance_of(const PartitionSurface& partition, double voxel,
@@ -279,21 +309,29 @@ class LabelRun {
   const Progress& progress_;
   const LabelMap& labels_;
   std::vector<Segment> chosen_;
+  double decimated_ = 0;  // of the present layer, mm
   LabelResult result_;
 };
 
 }  // namespace
 
 double label_margin(const VoxelGrid& scan, const VoxelGrid& labels) {
-  return std::max(kMarginOfLabels * labels.voxel_size(), kMarginOfScan * scan.voxel_size());
+  const double voxel = scan.voxel_size();
+  return std::min(kMostMargin * voxel,
+                  std::max(kMarginOfLabels * labels.voxel_size(), kMarginOfScan * voxel));
 }
 
 LabelResult find_labelled_objects(const VolumeView& scan, const LabelRequest& request,
                                   const Settings& settings, const Progress& progress) {
   require_usable(scan);
   require_valid(request.map);
-  LabelRun run(request, settings, progress);
-  return run.with_image(scan, request.margin.value_or(label_margin(scan, request.map)));
+  const double margin = request.margin.value_or(label_margin(scan, request.map));
+  if (!(margin > 0 && margin <= kMostMargin * scan.voxel_size())) {
+    throw InputError("margin: expected more than 0 and at most " +
+                     std::to_string(kMostMargin * scan.voxel_size()) + " mm, found " +
+                     std::to_string(margin));
+  }
+  return LabelRun(request, settings, progress).with_image(scan, margin);
 }
 
 LabelResult surfaces_of_labels(const LabelRequest& request, const Settings& settings,

@@ -21,7 +21,8 @@ namespace mesamis {
 struct LabelRequest {
   const LabelMap& map;             ///< valid; on a grid of its own, world coordinates decide
   std::vector<Segment> chosen{};   ///< of the map; empty: all of them
-  std::optional<double> margin{};  ///< mm, > 0: how far the labels may be wrong; see label_margin()
+  std::optional<double> margin{};  ///< mm, > 0: how far the labels may be wrong;
+                                   ///< at most 50 voxels; see label_margin()
 };
 
 /// One object, world frame (LPS), mm.
@@ -48,7 +49,7 @@ struct LabelResult {
   bool has_image = false;  ///< the image placed the surfaces; else the labels alone
   double margin = 0;       ///< see LabelRequest
   double decimated = 0;    ///< greatest distance by which decimation moved a boundary, mm
-  std::vector<LabelledObject> objects;    ///< in the order of the map's segments
+  std::vector<LabelledObject> objects;    ///< by layer, in the order chosen
   std::vector<LabelBoundary> boundaries;  ///< of the chosen objects; none without an image
   struct Seconds {
     double prepare = 0, flow = 0, surface = 0, printable = 0, total = 0;
@@ -72,18 +73,20 @@ double label_margin(const VoxelGrid& scan, const VoxelGrid& labels);
 /// @param request   see there.
 /// @param settings  those of the image, the functional and the surface's decimation.
 /// @param progress  optional.
-/// @return one object per chosen segment that has voxels within the scan.
-/// @throws InputError  if no chosen label lies within the scan, or the scan cannot be used.
+/// @return one object per chosen segment that has voxels within the scan and keeps some of them.
+/// @throws InputError  if no chosen label lies within the scan, more than 4096 are chosen, or the
+/// scan
+///                     cannot be used.
 /// @throws Cancelled   if progress says stop.
 ///
-/// O(voxels around the labels); about 100 bytes for each. The same bits for any number of threads.
+/// O(voxels of the scan * layers) to bring the labels onto its grid; then O(voxels around the
+/// labels) per layer, about 100 bytes for each. The same bits for any number of threads.
 LabelResult find_labelled_objects(const VolumeView& scan, const LabelRequest& request,
                                   const Settings& settings, const Progress& progress = {});
 
 /// Makes smooth surfaces of a label map alone, see smooth_memberships().
 /// @return one object per chosen segment that has voxels.
-/// @throws InputError  if no chosen label has a voxel, or the map has fewer than 2 voxels along an
-///                     axis.
+/// @throws InputError  if no chosen label has a voxel, or more than 4096 are chosen.
 /// @throws Cancelled   if progress says stop.
 ///
 /// O(voxels around the labels); about 40 bytes for each. The same bits for any number of threads.

@@ -73,7 +73,8 @@ struct ChosenObject {
 /// In this order: padding is filled (CT: with air, -1000 HU; else with the value that a twentieth
 /// of the other samples do not exceed); what is outside of the patient goes, see
 /// without_surroundings(), and for a dark tissue of the body the air around it too; what is marked
-/// to be removed falls to the median of what is around it; the level is measured in the whole scan;
+/// to be removed falls to the median of what is around it (for a dark object or a range of values
+/// later, in the cropped image that has become bright); the level is measured in the whole scan;
 /// the scan is cropped; a dark object or a range of values becomes bright; what lies beyond the
 /// mask goes; at the level, islands without a seed go, and several seeds split what touches.
 ///

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// `mesamis segment` with a label map.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "mesamis/label_files/read_labels.h"
+#include "mesamis/label_files/write_labels.h"
+#include "mesamis/scan_files/write_volume.h"
+#include "mesamis/shape_files/object_files.h"
+#include "mesamis/shape_files/surface_files.h"
+#include "support/ball_volume.h"
+#include "support/run_program.h"
+#include "support/sampled_volume.h"
+
+namespace mesamis {
+namespace {
+
+using testing::HasSubstr;
+
+const Vec3 kLeft{12, 12, 12}, kRight{26, 12, 12};
+constexpr double kRadius = 7;
+
+int label_at(const Vec3& p) {
+  if (norm(p - kLeft) < kRadius) return 1;
+  return norm(p - kRight) < kRadius ? 2 : 0;
+}
+
+/// Two balls that touch, 200 and 160 in 100.
+Volume two_balls() {
+  return sampled_volume({40, 25, 25}, {1, 1, 1}, [](const Vec3& p) {
+    return 100 + std::max(100 * blurred_ball(norm(p - kLeft), kRadius, 0.7),
+                          60 * blurred_ball(norm(p - kRight), kRadius, 0.7));
+  });
+}
+
+/// Their labels on every second voxel.
+LabelMap coarse_labels() {
+  LabelMap map;
+  map.size = {20, 13, 13};
+  map.spacing = {2, 2, 2};
+  map.segments = {{"left ball", 1, 0, {255, 0, 0}}, {"right ball", 2, 0, {0, 0, 255}}};
+  map.layers.resize(1);
+  for (Index k = 0; k < 13; ++k) {
+    for (Index j = 0; j < 13; ++j) {
+      for (Index i = 0; i < 20; ++i) {
+        map.layers[0].push_back(static_cast<std::uint16_t>(label_at({2.0 * i, 2.0 * j, 2.0 * k})));
+      }
+    }
+  }
+  return map;
+}
+
+class SegmentLabels : public testing::Test {
+ protected:
+  SegmentLabels() {
+    write_nrrd(folder / "balls.nrrd", two_balls());
+    write_label_map(folder / "labels.nrrd", coarse_labels());
+  }
+
+  ProgramRun segment(std::vector<std::string> more) {
+    std::vector<std::string> arguments{"segment", "--labels", folder / "labels.nrrd", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(folder, arguments);
+  }
+
+  TempFolder folder;
+};
+
+TEST_F(SegmentLabels, WritesAllObjectsNamedAndColoured) {
+  const ProgramRun run = segment({folder / "balls.nrrd", "-o", folder / "all.vtp", "--report",
+                                  folder / "a.json", "--labelmap", folder / "found.seg.nrrd"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const auto objects = read_objects(folder / "all.vtp");
+  ASSERT_EQ(objects.size(), 2U);
+  EXPECT_EQ(objects[0].name, "left ball");
+  EXPECT_EQ(objects[1].colour, (std::array<std::uint8_t, 3>{0, 0, 255}));
+  for (const Vec3& p : objects[0].surface.points) EXPECT_NEAR(norm(p - kLeft), kRadius, 1.2);
+  const auto report = nlohmann::json::parse(read_bytes(folder / "a.json"));
+  EXPECT_EQ(report["object"]["surfaces"].size(), 2U);
+  EXPECT_EQ(report["object"]["boundaries"][0]["placed_by"], "image");
+  // What was found comes in again, with its names.
+  const LabelMap found = read_label_map(folder / "found.seg.nrrd").map;
+  EXPECT_EQ(found.size, (std::array<Index, 3>{40, 25, 25}));
+  EXPECT_EQ(find_segment(found.segments, "right ball").label, 2);
+  Index wrong = 0;
+  for (Index k = 0; k < 25; ++k) {
+    for (Index j = 0; j < 25; ++j) {
+      for (Index i = 0; i < 40; ++i) {
+        wrong += found.layers[0][found.offset(i, j, k)] != label_at({1.0 * i, 1.0 * j, 1.0 * k});
+      }
+    }
+  }
+  EXPECT_LT(wrong, 200) << "voxels: 0.16 of one over the balls' surfaces of 1230 mm^2";
+}
+
+TEST_F(SegmentLabels, NamesOneFilePerObject) {
+  EXPECT_EQ(segment({folder / "balls.nrrd", "-o", folder / "b_{label}.stl"}).status, 0);
+  EXPECT_TRUE(check_surface(read_surface(folder / "b_left_ball.stl")).closed());
+  EXPECT_TRUE(check_surface(read_surface(folder / "b_right_ball.stl")).closed());
+  EXPECT_EQ(segment({folder / "balls.nrrd", "--label", "2", "-o", folder / "one.stl"}).status, 0);
+  for (const Vec3& p : read_surface(folder / "one.stl").points) {
+    ASSERT_NEAR(norm(p - kRight), kRadius, 2) << "where the balls touch, the brighter one's edge";
+  }
+}
+
+TEST_F(SegmentLabels, NeedsNoScan) {
+  const ProgramRun run = segment({"-o", folder / "alone.3mf", "--report", folder / "a.json"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(read_objects(folder / "alone.3mf").size(), 2U);
+  const auto report = nlohmann::json::parse(read_bytes(folder / "a.json"));
+  EXPECT_FALSE(report.contains("input"));
+}
+
+TEST_F(SegmentLabels, TheReportRepeatsTheRun) {
+  const std::vector<std::string> common{folder / "balls.nrrd", "--crop", "2:,,"};
+  auto first = common, second = common;
+  first.insert(first.end(), {"-o", folder / "first.vtp", "--report", folder / "a.json"});
+  second.erase(second.begin() + 1, second.end());
+  second.insert(second.end(), {"--settings", folder / "a.json", "-o", folder / "second.vtp"});
+  EXPECT_EQ(segment(first).status, 0);
+  const ProgramRun again = segment(second);
+  EXPECT_EQ(again.status, 0) << again.err;
+  const auto a = read_objects(folder / "first.vtp"), b = read_objects(folder / "second.vtp");
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t n = 0; n < a.size(); ++n) EXPECT_EQ(a[n].surface.points, b[n].surface.points);
+}
+
+TEST_F(SegmentLabels, RefusesInOneLine) {
+  const auto expect_refused = [&](std::vector<std::string> more, int status, const char* what) {
+    const ProgramRun run = segment(std::move(more));
+    EXPECT_EQ(run.status, status) << what;
+    EXPECT_THAT(run.err, HasSubstr(what));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  };
+  const std::string scan = folder / "balls.nrrd", out = folder / "x.stl";
+  expect_refused({scan, "-o", out, "--label", "nose"}, 3, "nose");
+  expect_refused({scan, "-o", out, "--mesh", folder / "x.vtu"}, 2, "--mesh");
+  expect_refused({scan, "-o", out, "--error"}, 2, "--error");
+  expect_refused({scan, "--labelmap", folder / "x.gz"}, 2, "--labelmap");
+  expect_refused({scan, "-o", out, "--margin", "nan"}, 3, "margin");
+  expect_refused({scan, "-o", out, "--min-volume", "1e9"}, 3, "found none");
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+}  // namespace
+}  // namespace mesamis
