@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -101,9 +102,14 @@ TEST_F(SegmentLabels, NamesOneFilePerObject) {
   EXPECT_TRUE(check_surface(read_surface(folder / "b_left_ball.stl")).closed());
   EXPECT_TRUE(check_surface(read_surface(folder / "b_right_ball.stl")).closed());
   EXPECT_EQ(segment({folder / "balls.nrrd", "--label", "2", "-o", folder / "one.stl"}).status, 0);
-  for (const Vec3& p : read_surface(folder / "one.stl").points) {
-    ASSERT_NEAR(norm(p - kRight), kRadius, 2) << "where the balls touch, the brighter one's edge";
+  const TriMesh one = read_surface(folder / "one.stl");
+  double sum = 0;
+  for (const Vec3& p : one.points) {
+    const double off = std::abs(norm(p - kRight) - kRadius);
+    ASSERT_LT(off, 5) << "beyond the margin, two and a half labels";
+    sum += off;
   }
+  EXPECT_LT(sum / static_cast<double>(one.points.size()), 0.25) << "voxels";
 }
 
 TEST_F(SegmentLabels, NeedsNoScan) {
