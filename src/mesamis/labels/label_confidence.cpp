@@ -41,7 +41,7 @@ class Depths {
         margin_(static_cast<float>(margin)),
         sweeps_(static_cast<int>(std::ceil(margin / step_))) {
     for (std::size_t a = 0; a < 3; ++a) {
-      most_[a] = static_cast<Index>(margin / grid.spacing[static_cast<int>(a)] + 0.5);
+      most_[a] = static_cast<Index>(std::lround(margin / grid.spacing[static_cast<int>(a)]));
     }
     list_steps();
   }

@@ -40,6 +40,7 @@ constexpr double kReach = 2;                // margins that a label may flow
 /// The layers of those segments, increasing.
 std::vector<Index> layers_of(const std::vector<Segment>& segments) {
   std::vector<Index> layers;
+  layers.reserve(segments.size());
   for (const Segment& s : segments) layers.push_back(s.layer);
   std::sort(layers.begin(), layers.end());
   layers.erase(std::unique(layers.begin(), layers.end()), layers.end());
@@ -298,7 +299,7 @@ class LabelRun {
   }
 
   /// The parts that the settings leave; unless they say so, all of them.
-  TriMesh selected(TriMesh surface) const {
+  TriMesh selected(const TriMesh& surface) const {
     const PartSelection wanted{settings_.min_volume.value_or(0), settings_.keep_largest,
                                settings_.fill_cavities};
     const bool all = wanted.volume_min == 0 && wanted.keep_largest == 0 && !wanted.fill_cavities;
