@@ -8,6 +8,7 @@
 #include <functional>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/self_intersections.h"
@@ -107,17 +108,15 @@ std::size_t shared_points(const LabelResult& found) {
 
 TEST(LabelSurfaces, TheImagePlacesWhatLabelsChoose) {
   const Volume scan = scan_of(200, 130, 50, 4);
-  for (const Index every : {1, 2, 3}) {
-    for (const double shift : {0.0, 0.5 * every}) {
-      const LabelMap labels = labels_of(every, shift);
-      const LabelResult found = find_labelled_objects(scan, {labels}, {});
-      const std::string what = std::to_string(every) + " shifted by " + std::to_string(shift);
-      ASSERT_EQ(found.objects.size(), 2U) << what;
-      expect_closed(found);
-      EXPECT_GT(shared_points(found), 20U) << what;
-      EXPECT_LT(mean_error(1, found.objects[0].surface), 0.15) << what;
-      EXPECT_LT(mean_error(2, found.objects[1].surface), 0.15) << what;
-    }
+  for (const auto& [every, shift] : {std::pair{1, 0.5}, {2, 1.0}, {3, 0.0}}) {
+    const LabelMap labels = labels_of(every, shift);
+    const LabelResult found = find_labelled_objects(scan, {labels}, {});
+    const std::string what = std::to_string(every) + " shifted by " + std::to_string(shift);
+    ASSERT_EQ(found.objects.size(), 2U) << what;
+    expect_closed(found);
+    EXPECT_GT(shared_points(found), 20U) << what;
+    EXPECT_LT(mean_error(1, found.objects[0].surface), 0.15) << what;
+    EXPECT_LT(mean_error(2, found.objects[1].surface), 0.15) << what;
   }
 }
 
