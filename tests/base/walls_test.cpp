@@ -26,7 +26,7 @@ const std::map<std::string, std::set<std::string>> kSees{
     {"surface", {"base", "mesh"}},
     {"decimate", {"base", "mesh", "surface"}},
     {"phantom", {"base", "image", "mesh", "surface"}},
-    {"labels", {"base", "image", "mesh", "surface"}},
+    {"labels", {"base", "image", "mesh", "fem", "surface"}},
     {"method",
      {"base", "image", "restore", "object", "mesh", "fem", "segment", "adapt", "remesh", "surface",
       "decimate", "labels"}},

@@ -37,6 +37,13 @@ TEST(SurfaceMoves, KnowTheNeighboursOfEachPoint) {
   for (std::size_t p = 0; p < 4; ++p) {
     EXPECT_EQ(neighbors.start[p + 1] - neighbors.start[p], 3U) << p;
   }
+  // Three triangles at one edge, two of which run along it in the same direction.
+  const TriMesh book{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}},
+                     {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}}};
+  const Neighbors pages(book);
+  const std::vector<Index> of_first(
+      pages.points.begin(), pages.points.begin() + static_cast<std::ptrdiff_t>(pages.start[1]));
+  EXPECT_EQ(of_first, (std::vector<Index>{1, 4}));
 }
 
 TEST(SurfaceMoves, OffsetsCountWhereTheImageIsSteep) {

@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <random>
+#include <utility>
 #include <vector>
 
+#include "mesamis/surface/label_parts.h"
+#include "mesamis/surface/part_filter.h"
 #include "mesamis/surface/smooth_memberships.h"
 
 namespace mesamis {
@@ -78,6 +81,26 @@ inline OwnedLabels random_blobs(Index n, int count, unsigned seed) {
     }
     return nearest + 1;
   });
+}
+
+/// The parts of labels, one material each; nothing is listed yet.
+inline GridMemberships parts_of(const OwnedLabels& labels) {
+  LabelParts parts = find_label_parts(labels.grid());
+  return {.size = labels.size,
+          .spacing = labels.spacing,
+          .material = std::move(parts.of_node),
+          .label = std::move(parts.label),
+          .first = {},
+          .listed = {},
+          .value = {}};
+}
+
+/// The parts of labels and their memberships by filter_parts().
+inline GridMemberships filtered(const OwnedLabels& labels, double sigma_voxel = 1.5) {
+  GridMemberships grid = parts_of(labels);
+  const std::vector<Index> part = grid.material;
+  filter_parts(part, sigma_voxel, grid);
+  return grid;
 }
 
 }  // namespace mesamis

@@ -3,25 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "mesamis/surface/label_parts.h"
-#include "mesamis/surface/part_filter.h"
 #include "support/label_grids.h"
 
 namespace mesamis {
 namespace {
-
-GridMemberships filtered(const OwnedLabels& labels) {
-  LabelParts parts = find_label_parts(labels.grid());
-  GridMemberships grid{.size = labels.size,
-                       .spacing = labels.spacing,
-                       .material = parts.of_node,
-                       .label = parts.label,
-                       .first = {},
-                       .listed = {},
-                       .value = {}};
-  filter_parts(parts.of_node, 1.5, grid);
-  return grid;
-}
 
 TEST(LiftMemberships, LeavesThickPartsWithFlatBoundaries) {
   const GridMemberships before = filtered(

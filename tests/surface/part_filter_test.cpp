@@ -4,46 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 
-#include "mesamis/surface/label_parts.h"
-#include "mesamis/surface/neighbours.h"
 #include "support/label_grids.h"
 
 namespace mesamis {
 namespace {
-
-GridMemberships filtered(const OwnedLabels& labels, double sigma) {
-  LabelParts parts = find_label_parts(labels.grid());
-  GridMemberships grid{.size = labels.size,
-                       .spacing = labels.spacing,
-                       .material = parts.of_node,
-                       .label = parts.label,
-                       .first = {},
-                       .listed = {},
-                       .value = {}};
-  filter_parts(parts.of_node, sigma, grid);
-  return grid;
-}
-
-TEST(PartFilter, ListsTheOwnMaterialFirstAndThoseOfTheNeighbours) {
-  const GridMemberships grid = filtered(random_blobs(20, 6, 8), 1.2);
-  for (std::size_t n = 0; n < grid.material.size(); ++n) {
-    std::set<Index> expected{grid.material[n]};
-    const Neighbours around(grid.size, static_cast<Index>(n));
-    for (std::size_t i = 0; i < 14; ++i) {
-      if (around[i] != kNoIndex) expected.insert(grid.material[around[i]]);
-    }
-    const auto begin = grid.listed.begin() + grid.first[n];
-    const std::set<Index> listed(begin, grid.listed.begin() + grid.first[n + 1]);
-    if (expected.size() == 1) {
-      EXPECT_TRUE(listed.empty());
-    } else {
-      EXPECT_EQ(listed, expected);
-      EXPECT_EQ(*begin, grid.material[n]);
-    }
-  }
-}
 
 TEST(PartFilter, IsTheSumOfTheKernelOverAHalfSpace) {
   const double sigma = 1.5;

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "mesamis/surface/label_parts.h"
-#include "mesamis/surface/part_filter.h"
 #include "support/label_grids.h"
 
 namespace mesamis {
@@ -18,16 +16,8 @@ struct Yielded {
 };
 
 Yielded yielded(const OwnedLabels& labels) {
-  LabelParts parts = find_label_parts(labels.grid());
-  GridMemberships grid{.size = labels.size,
-                       .spacing = labels.spacing,
-                       .material = parts.of_node,
-                       .label = parts.label,
-                       .first = {},
-                       .listed = {},
-                       .value = {}};
-  filter_parts(parts.of_node, 1.5, grid);
-  Yielded result{.after = labels, .parts_before = std::ssize(parts.label)};
+  GridMemberships grid = filtered(labels);
+  Yielded result{.after = labels, .parts_before = std::ssize(grid.label)};
   result.count = yield_nodes(grid);
   for (std::size_t n = 0; n < grid.material.size(); ++n) {
     result.after.labels[n] =

@@ -18,6 +18,7 @@ constexpr double kBesideThin = 1.5;  // steps: margin beside what is thinner tha
 
 constexpr float kFall = 0.4F;             // steps, by which the depth falls beside a middle
 constexpr double kWrongLabels = 4;        // ridges of fewer labels may be an error
+constexpr Index kMixed = -1;              // no label
 constexpr double kLabelsPerMargin = 0.4;  // a label's side, see label_margin()
 
 using Place = std::array<Index, 3>;
@@ -41,7 +42,8 @@ class Depths {
         margin_(static_cast<float>(margin)),
         sweeps_(static_cast<int>(std::ceil(margin / step_))) {
     for (std::size_t a = 0; a < 3; ++a) {
-      most_[a] = static_cast<Index>(std::lround(margin / grid.spacing[static_cast<int>(a)]));
+      const double steps = margin / grid.spacing[static_cast<int>(a)];
+      steps_of_ball_[a] = std::max(1, static_cast<Index>(std::lround(steps)));
     }
     list_steps();
   }
@@ -65,7 +67,7 @@ class Depths {
  private:
   /// The voxels that begin within the margin, the nearest first, and those around a voxel.
   void list_steps() {
-    const Place most{std::max(1, most_[0]), std::max(1, most_[1]), std::max(1, most_[2])};
+    const Place& most = steps_of_ball_;
     for (Index k = -most[2]; k <= most[2]; ++k) {
       for (Index j = -most[1]; j <= most[1]; ++j) {
         for (Index i = -most[0]; i <= most[0]; ++i) {
@@ -119,10 +121,49 @@ class Depths {
     return {p[0] + by[0], p[1] + by[1], p[2] + by[2]};
   }
 
+  /// Nodes of a line that see another label: their run of equal labels ends within so many steps.
+  /// They become kMixed; the end of the grid ends no run.
+  void mix_line(std::vector<Index>& labels, std::size_t first, std::size_t stride, Index count,
+                Index steps) const {
+    const auto at = [&](Index i) -> Index& {
+      return labels[first + static_cast<std::size_t>(i) * stride];
+    };
+    for (Index begin = 0, end; begin < count; begin = end) {
+      const Index label = at(begin);
+      for (end = begin + 1; end < count && at(end) == label;) ++end;
+      const Index from = begin == 0 ? 0 : begin + steps, to = end == count ? count : end - steps;
+      for (Index i = begin; i < end; ++i) {
+        if (i < from || i >= to) at(i) = kMixed;
+      }
+    }
+  }
+
+  /// The labels of nodes around which the box of the margin holds no other; kMixed elsewhere. Axis
+  /// after axis: the box is of one label if its lines are, and these agree.
+  std::vector<Index> uniform_labels() const {
+    std::vector<Index> labels(grid_.labels.begin(), grid_.labels.end());
+    std::size_t stride = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto count = static_cast<std::size_t>(grid_.size[a]);
+      parallel_for_each(labels.size() / (count * stride), [&](std::size_t slab) {
+        for (std::size_t n = 0; n < stride; ++n) {
+          mix_line(labels, slab * count * stride + n, stride, grid_.size[a], steps_of_ball_[a]);
+        }
+      });
+      stride *= count;
+    }
+    return labels;
+  }
+
   /// To where the nearest voxel of another label begins; at most the margin.
   std::vector<float> depths() const {
+    const std::vector<Index> uniform = uniform_labels();
     std::vector<float> depth(grid_.labels.size());
     for_each_node([&](std::size_t n, const Place& p) {
+      if (uniform[n] != kMixed) {
+        depth[n] = margin_;
+        return;
+      }
       const auto other = std::find_if(ball_.begin(), ball_.end(), [&](const Step& s) {
         return is_inside(moved(p, s.by)) &&
                grid_.labels[n + static_cast<std::size_t>(s.to)] != grid_.labels[n];
@@ -237,16 +278,14 @@ class Depths {
   float step_;  // the shortest
   float margin_;
   int sweeps_;
-  Place most_{};  // steps within the margin
+  Place steps_of_ball_{};  // within the margin, at least one
   std::vector<Step> ball_, around_;
 };
 
 }  // namespace
 
 std::vector<float> label_confidence(const LabelGrid& grid, double margin) {
-  const std::size_t nodes = static_cast<std::size_t>(grid.size[0]) *
-                            static_cast<std::size_t>(grid.size[1]) *
-                            static_cast<std::size_t>(grid.size[2]);
+  const std::size_t nodes = grid.node_count();
   if (grid.labels.size() != nodes) {
     throw InputError("labels: expected " + std::to_string(nodes) + " of them, found " +
                      std::to_string(grid.labels.size()));

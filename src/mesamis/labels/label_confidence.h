@@ -23,8 +23,8 @@ namespace mesamis {
 /// @return one weight per node, no unit. The border of the grid is no border of an object.
 /// @throws InputError  if the sizes do not fit, or the margin is not positive and finite.
 ///
-/// O(nodes * voxels in a ball of the margin) away from borders, less near them. 17 bytes per node.
-/// The same bits for any number of threads.
+/// O(nodes), and near borders times the voxels in a ball of the margin. 17 bytes per node. The same
+/// bits for any number of threads.
 std::vector<float> label_confidence(const LabelGrid& grid, double margin);
 
 /// The weight of what is certain.

@@ -8,4 +8,5 @@ set(ROOM_SOURCES
   flow_memberships.cpp
   label_block.cpp
   label_confidence.cpp
+  label_flow.cpp
   pair_levels.cpp)

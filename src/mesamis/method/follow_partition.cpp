@@ -105,7 +105,6 @@ class Fairing {
       for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
         const Index other = neighbors_.points[n];
         if (on_curve_[p] > on_curve_[static_cast<std::size_t>(other)]) continue;
-        if (on_curve_[p] != 0 && is_listed_before(p, n)) continue;
         sum += points[static_cast<std::size_t>(other)];
         ++count;
       }
@@ -113,14 +112,6 @@ class Fairing {
       if (free_[p] != 0 && count > 1) next[p] += factor * ((1.0 / count) * sum - points[p]);
     });
     return next;
-  }
-
-  /// Edges of several sheets are listed more than once.
-  bool is_listed_before(std::size_t p, std::size_t n) const {
-    const auto list = neighbors_.points.begin();
-    const auto first = list + static_cast<std::ptrdiff_t>(neighbors_.start[p]);
-    const auto here = list + static_cast<std::ptrdiff_t>(n);
-    return std::find(first, here, *here) != here;
   }
 
   const TriMesh& surface_;

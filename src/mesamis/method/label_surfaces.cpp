@@ -31,7 +31,7 @@
 namespace mesamis {
 namespace {
 
-constexpr double kMarginOfLabels = 2.5, kMarginOfScan = 2.5;  // voxels
+constexpr double kMargin = 2.5;  // voxels, of the labels or of the scan
 constexpr std::size_t kMostObjects = 4096;
 constexpr double kMostMargin = 50;          // voxels of the scan
 constexpr double kToleranceOfLabels = 0.1;  // voxels: they are no more exact
@@ -81,14 +81,15 @@ struct Edges {
   std::vector<float> v;
 };
 
-Edges find_edges(const Volume& scan, Settings settings, std::optional<double> level) {
+/// @param settings  with a level, or the run looks for one of its own.
+Edges find_edges(const Volume& scan, Settings settings) {
   settings.crop = {};
   settings.stride = {1, 1, 1};
   settings.preview = true;  // no mesh is made
   settings.surface = SurfaceKind::kSolid;
-  if (!settings.level) settings.level = level;
-  if (settings.threshold_rule == ThresholdRule::kAuto)
+  if (settings.threshold_rule == ThresholdRule::kAuto) {
     settings.threshold_rule = ThresholdRule::kNone;
+  }
   Edges edges{prepare_image(scan, settings), {}};
   const RunInput run(edges.prepared);
   const Parameters& p = run.parameters;
@@ -133,17 +134,18 @@ class LabelRun {
     const LabelBlock block = clipped(require_block(on_scan, margin), scan);
     const CropRange range = range_of(block);
     const Volume part = crop(scan, range);
+    std::optional<Edges> edges;  // of a given level they are those of all layers
     for (const Index layer : layers_of(chosen_)) {
       const std::vector<char> marks = marks_of(chosen_, layer);
       const auto labels = labels_in(on_scan, layer, block);
-      const Edges edges = find_edges(part, settings_, level_between(part, labels, marks));
-      result_.parameters = edges.prepared.parameters;
+      if (!edges || !settings_.level) edges = find_edges(part, with_level(part, labels, marks));
+      result_.parameters = edges->prepared.parameters;
       result_.parameters.preview = settings_.preview;
       result_.parameters.min_volume = settings_.min_volume.value_or(0);
       result_.parameters.crop = range;
-      result_.image = edges.prepared.measured;
+      result_.image = edges->prepared.measured;
       result_.seconds.prepare += watch.lap();
-      place_by_image(layer, {part.size, part.spacing, labels}, marks, edges, watch);
+      place_by_image(layer, {part.size, part.spacing, labels}, marks, *edges, watch);
     }
     result_.seconds.total = all.lap();
     return std::move(result_);
@@ -191,6 +193,14 @@ class LabelRun {
                          s.name + "'" + (known.count(key) == 0 ? " of another" : " twice"));
       }
     }
+  }
+
+  /// The settings with a level: the given one, or that between the chosen labels and the rest.
+  Settings with_level(const Volume& scan, std::span<const std::uint16_t> labels,
+                      const std::vector<char>& marks) const {
+    Settings settings = settings_;
+    if (!settings.level) settings.level = level_between(scan, labels, marks);
+    return settings;
   }
 
   LabelBlock require_block(const LabelMap& map, double room) const {
@@ -318,8 +328,7 @@ class LabelRun {
 
 double label_margin(const VoxelGrid& scan, const VoxelGrid& labels) {
   const double voxel = scan.voxel_size();
-  return std::min(kMostMargin * voxel,
-                  std::max(kMarginOfLabels * labels.voxel_size(), kMarginOfScan * voxel));
+  return std::min(kMostMargin * voxel, kMargin * std::max(labels.voxel_size(), voxel));
 }
 
 LabelResult find_labelled_objects(const VolumeView& scan, const LabelRequest& request,

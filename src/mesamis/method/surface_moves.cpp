@@ -151,16 +151,27 @@ Vec3 FollowSpace::as_in_a_file(const Vec3& point) const {
 }
 
 Neighbors::Neighbors(const TriMesh& surface) : start(surface.points.size() + 1, 0) {
+  std::vector<std::size_t> room(start.size(), 0);
   for (const Triangle& t : surface.triangles) {
-    for (const Index p : t) ++start[static_cast<std::size_t>(p) + 1];
+    for (const Index p : t) ++room[static_cast<std::size_t>(p) + 1];
   }
-  for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
-  std::vector<std::size_t> next(start.begin(), start.end() - 1);
-  points.resize(start.back());
+  for (std::size_t p = 1; p < room.size(); ++p) room[p] += room[p - 1];
+  std::vector<Index> listed(room.back());
+  std::vector<std::size_t> end(room.begin(), room.end() - 1);
   for (const Triangle& t : surface.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
-      points[next[static_cast<std::size_t>(t[i])]++] = t[(i + 1) % 3];
+      const auto p = static_cast<std::size_t>(t[i]);
+      const Index other = t[(i + 1) % 3];
+      // An edge of more than two triangles comes more than once.
+      const auto first = listed.begin() + static_cast<std::ptrdiff_t>(room[p]);
+      const auto last = listed.begin() + static_cast<std::ptrdiff_t>(end[p]);
+      if (std::find(first, last, other) == last) listed[end[p]++] = other;
     }
+  }
+  points.reserve(listed.size());
+  for (std::size_t p = 0; p < end.size(); ++p) {
+    for (std::size_t n = room[p]; n < end[p]; ++n) points.push_back(listed[n]);
+    start[p + 1] = points.size();
   }
 }
 

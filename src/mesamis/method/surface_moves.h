@@ -39,7 +39,8 @@ class FollowSpace {
   Box box_;
 };
 
-/// The neighbours of each point of a surface: those of point p from start[p] to start[p + 1].
+/// The neighbours of each point of a surface, each once: those of point p from start[p] to before
+/// start[p + 1]. Edges may belong to any number of triangles.
 struct Neighbors {
   explicit Neighbors(const TriMesh& surface);
   std::vector<std::size_t> start;

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "mesamis/base/parallel.h"
-#include "mesamis/surface/grid_field.h"
+#include "mesamis/surface/list_materials.h"
 
 namespace mesamis {
 namespace {
@@ -15,6 +15,7 @@ using Place = std::array<Index, 3>;
 
 /// Nodes along each side of the bricks that are filtered at once.
 constexpr Index kBrick = 16;
+
 /// A box of values; i runs fastest.
 struct Values {
   Place size{};
@@ -63,21 +64,12 @@ std::vector<float> gaussian_kernel(double sigma) {
   return kernel;
 }
 
-/// Memberships of one brick's nodes, those at boundaries.
-struct BrickLists {
-  std::vector<Index> nodes;         // increasing along i, j, k within the brick
-  std::vector<std::size_t> counts;  // of each node
-  std::vector<Index> listed;
-  std::vector<float> value;
-};
-
-/// Filters the parts of a grid brick by brick.
+/// Filters the parts of a grid brick by brick, at the nodes that list them.
 class PartFilter {
  public:
-  PartFilter(const Place& size, const std::vector<Index>& part, const std::vector<Index>& owner,
-             double sigma)
-      : size_(size), part_(part), owner_(owner), kernel_(gaussian_kernel(sigma)) {
-    for (std::size_t a = 0; a < 3; ++a) bricks_[a] = (size[a] + kBrick - 1) / kBrick;
+  PartFilter(const std::vector<Index>& part, double sigma, GridMemberships& grid)
+      : size_(grid.size), part_(part), kernel_(gaussian_kernel(sigma)), grid_(grid) {
+    for (std::size_t a = 0; a < 3; ++a) bricks_[a] = (size_[a] + kBrick - 1) / kBrick;
   }
 
   std::size_t brick_count() const {
@@ -85,18 +77,14 @@ class PartFilter {
            static_cast<std::size_t>(bricks_[2]);
   }
 
-  BrickLists run(std::size_t brick) const {
-    BrickLists lists;
-    list_parts(corner_of(brick), lists);
-    const std::vector<Entry> entries = entries_by_part(lists);
-    lists.value.resize(entries.size());
+  void run(std::size_t brick) const {
+    const std::vector<Entry> entries = entries_by_part(corner_of(brick));
     for (auto begin = entries.begin(); begin != entries.end();) {
       const auto end =
           std::find_if(begin, entries.end(), [&](const Entry& e) { return e.part != begin->part; });
-      fill_in({begin, end}, lists);
+      fill_in({begin, end});
       begin = end;
     }
-    return lists;
   }
 
  private:
@@ -106,17 +94,28 @@ class PartFilter {
     std::size_t place;  // in the lists
   };
 
-  static std::vector<Entry> entries_by_part(const BrickLists& lists) {
+  /// What the nodes of a brick list.
+  std::vector<Entry> entries_by_part(const Place& corner) const {
     std::vector<Entry> entries;
-    entries.reserve(lists.listed.size());
-    for (std::size_t n = 0, i = 0; n < lists.nodes.size(); ++n) {
-      for (const std::size_t end = i + lists.counts[n]; i < end; ++i) {
-        entries.push_back({lists.listed[i], lists.nodes[n], i});
+    Place at;
+    for (at[2] = corner[2]; at[2] < std::min(corner[2] + kBrick, size_[2]); ++at[2]) {
+      for (at[1] = corner[1]; at[1] < std::min(corner[1] + kBrick, size_[1]); ++at[1]) {
+        for (at[0] = corner[0]; at[0] < std::min(corner[0] + kBrick, size_[0]); ++at[0]) {
+          add_entries(node_at(at), entries);
+        }
       }
     }
     std::stable_sort(entries.begin(), entries.end(),
                      [](const Entry& a, const Entry& b) { return a.part < b.part; });
     return entries;
+  }
+
+  void add_entries(Index node, std::vector<Entry>& entries) const {
+    const auto n = static_cast<std::size_t>(node);
+    const auto end = static_cast<std::size_t>(grid_.first[n + 1]);
+    for (auto i = static_cast<std::size_t>(grid_.first[n]); i < end; ++i) {
+      entries.push_back({grid_.listed[i], node, i});
+    }
   }
 
   Place corner_of(std::size_t brick) const {
@@ -130,50 +129,8 @@ class PartFilter {
     return {node % size_[0], node / size_[0] % size_[1], node / size_[0] / size_[1]};
   }
 
-  Index owner_at(const Place& p) const { return owner_[static_cast<std::size_t>(node_at(p))]; }
-
-  /// The owner of a neighbour; the node's own beyond the grid.
-  Index owner_beside(const Place& at, const Place& step, Index sign) const {
-    Place to = at;
-    for (std::size_t a = 0; a < 3; ++a) {
-      to[a] += sign * step[a];
-      if (to[a] < 0 || to[a] >= size_[a]) return owner_at(at);
-    }
-    return owner_at(to);
-  }
-
-  /// Lists the nodes at boundaries with their own part and those beside it.
-  void list_parts(const Place& corner, BrickLists& lists) const {
-    Place at;
-    for (at[2] = corner[2]; at[2] < std::min(corner[2] + kBrick, size_[2]); ++at[2]) {
-      for (at[1] = corner[1]; at[1] < std::min(corner[1] + kBrick, size_[1]); ++at[1]) {
-        for (at[0] = corner[0]; at[0] < std::min(corner[0] + kBrick, size_[0]); ++at[0]) {
-          list_node(at, lists);
-        }
-      }
-    }
-  }
-
-  void list_node(const Place& at, BrickLists& lists) const {
-    std::array<Index, 15> parts;
-    parts[0] = owner_at(at);
-    std::size_t count = 1;
-    for (const Place& step : kKuhnSteps) {
-      for (const Index sign : {-1, 1}) {
-        const Index part = owner_beside(at, step, sign);
-        const auto end = parts.begin() + static_cast<std::ptrdiff_t>(count);
-        if (std::find(parts.begin(), end, part) == end) parts[count++] = part;
-      }
-    }
-    if (count == 1) return;
-    lists.nodes.push_back(node_at(at));
-    lists.counts.push_back(count);
-    lists.listed.insert(lists.listed.end(), parts.begin(),
-                        parts.begin() + static_cast<std::ptrdiff_t>(count));
-  }
-
   /// 2 G p - G G p for the indicator p of a part, at the nodes that list it.
-  void fill_in(std::span<const Entry> same, BrickLists& lists) const {
+  void fill_in(std::span<const Entry> same) const {
     Place lo = size_, hi{-1, -1, -1};
     for (const Entry& entry : same) {
       const Place at = place_of(entry.node);
@@ -188,7 +145,7 @@ class PartFilter {
     for (const Entry& entry : same) {
       const Place at = place_of(entry.node);
       const Place in{at[0] - lo[0], at[1] - lo[1], at[2] - lo[2]};
-      lists.value[entry.place] = 2 * value_at(once, in, radius) - value_at(twice, in, 0);
+      grid_.value[entry.place] = 2 * value_at(once, in, radius) - value_at(twice, in, 0);
     }
   }
 
@@ -220,41 +177,17 @@ class PartFilter {
   }
 
   Place size_, bricks_{};
-  const std::vector<Index>&part_, &owner_;
+  const std::vector<Index>& part_;
   std::vector<float> kernel_;
+  GridMemberships& grid_;  // bricks fill in values of their own nodes
 };
-
-/// Brings the lists of all bricks into the order of the nodes.
-void gather(const std::vector<BrickLists>& bricks, GridMemberships& grid) {
-  grid.first.assign(grid.material.size() + 1, 0);
-  for (const BrickLists& brick : bricks) {
-    for (std::size_t n = 0; n < brick.nodes.size(); ++n) {
-      grid.first[static_cast<std::size_t>(brick.nodes[n]) + 1] =
-          static_cast<std::int64_t>(brick.counts[n]);
-    }
-  }
-  for (std::size_t n = 1; n < grid.first.size(); ++n) grid.first[n] += grid.first[n - 1];
-  grid.listed.resize(static_cast<std::size_t>(grid.first.back()));
-  grid.value.resize(grid.listed.size());
-  for (const BrickLists& brick : bricks) {
-    std::ptrdiff_t from = 0;
-    for (std::size_t n = 0; n < brick.nodes.size(); ++n) {
-      const auto count = static_cast<std::ptrdiff_t>(brick.counts[n]);
-      const auto to = grid.first[static_cast<std::size_t>(brick.nodes[n])];
-      std::copy_n(brick.listed.begin() + from, count, grid.listed.begin() + to);
-      std::copy_n(brick.value.begin() + from, count, grid.value.begin() + to);
-      from += count;
-    }
-  }
-}
 
 }  // namespace
 
 void filter_parts(const std::vector<Index>& part, double sigma_voxel, GridMemberships& grid) {
-  const PartFilter filter(grid.size, part, grid.material, sigma_voxel);
-  std::vector<BrickLists> bricks(filter.brick_count());
-  parallel_for_each(bricks.size(), [&](std::size_t b) { bricks[b] = filter.run(b); });
-  gather(bricks, grid);
+  list_materials(grid);
+  const PartFilter filter(part, sigma_voxel, grid);
+  parallel_for_each(filter.brick_count(), [&](std::size_t b) { filter.run(b); });
 }
 
 }  // namespace mesamis

@@ -7,9 +7,8 @@
 
 namespace mesamis {
 
-/// Lists, at each node beside a boundary between materials, its own material first and those of its
-/// neighbours. The membership of each is 2 G p - G G p for the indicator p of a part and a Gaussian
-/// G; beyond the grid p is as at the nearest node.
+/// Lists the materials at each node, see list_materials(). The membership of each is 2 G p - G G p
+/// for the indicator p of a part and a Gaussian G; beyond the grid p is as at the nearest node.
 /// @param part         of each node: where p is 1. The materials of the grid may differ from it.
 /// @param sigma_voxel  of the Gaussian, nodes, along each axis.
 /// @param grid         its size and materials are read; its lists are set.

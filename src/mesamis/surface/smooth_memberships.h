@@ -13,6 +13,12 @@ struct LabelGrid {
   std::array<Index, 3> size{};              ///< nodes along i, j, k; at least 2 each
   Vec3 spacing{1, 1, 1};                    ///< between nodes, mm, > 0
   std::span<const std::uint16_t> labels{};  ///< i runs fastest, then j, k
+
+  /// As many nodes as the size has.
+  std::size_t node_count() const noexcept {
+    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+           static_cast<std::size_t>(size[2]);
+  }
 };
 
 /// How smooth_memberships() smooths.

@@ -22,6 +22,7 @@ set(ROOM_INNER_HEADERS
   box_tree.h
   farthest.h
   half_edges.h
+  list_materials.h
   triangle_intersection.h
   triangle_tree.h)
 set(ROOM_SOURCES
@@ -40,6 +41,7 @@ set(ROOM_SOURCES
   half_edges.cpp
   label_parts.cpp
   lift_memberships.cpp
+  list_materials.cpp
   match_volumes.cpp
   nesting.cpp
   normals.cpp
