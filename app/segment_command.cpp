@@ -134,13 +134,6 @@ void require_surface(const Result& result) {
                                result.parameters.level));
 }
 
-/// Several objects, of labels or of seeds, leave no room for a mesh.
-void require_no_mesh(const SegmentOptions& options, const std::string& why) {
-  if (!options.meshes.empty() || !options.band_meshes.empty()) {
-    throw CLI::ValidationError(why, "expected neither --mesh nor --band-mesh, found one");
-  }
-}
-
 /// What needs no scan to be refused.
 void require_places(const SegmentOptions& options, const Settings& settings) {
   const PlaceArguments& places = options.scan.places;
@@ -148,7 +141,6 @@ void require_places(const SegmentOptions& options, const Settings& settings) {
   if (options.scan.input.empty() && places.given()) {
     throw CLI::ValidationError("input", "expected a scan for the options of places, found none");
   }
-  if (places.seeds.size() > 1) require_no_mesh(options, "--seed, several");
   if (tissue_kind(places) != TissueKind::kBright && !options.meshes.empty()) {
     throw CLI::ValidationError("--mesh",
                                "expected a bright --tissue, whose grey values are those "
@@ -158,7 +150,8 @@ void require_places(const SegmentOptions& options, const Settings& settings) {
 }
 
 LabelRun label_run(const SegmentOptions& o, const Settings& settings) {
-  return {o.scan, o.surfaces, o.labelmap, o.report, o.name, o.error, settings};
+  return {o.scan,     o.surfaces, o.meshes, o.band_meshes, o.mesh,
+          o.labelmap, o.report,   o.name,   o.error,       settings};
 }
 
 void write_labelmap(const fs::path& path, const TriMesh& surface, const VoxelGrid& grid) {
@@ -216,14 +209,11 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   const Settings settings = settings_of(options.settings);
   require_outputs(options);
   require_places(options, settings);
-  if (options.scan.labels.given()) {
-    require_no_mesh(options, "--labels");
-    return run_labels(label_run(options, settings), common);
-  }
+  require_mesh_for(options, settings);
+  if (options.scan.labels.given()) return run_labels(label_run(options, settings), common);
   if (options.scan.input.empty()) {
     throw CLI::ValidationError("input", "expected a scan, found none");
   }
-  require_mesh_for(options, settings);
   const ChosenScan scan = read_chosen_scan(options.scan, settings, common.memory_gb);
   if (scan.object.parts) return run_parts(label_run(options, settings), scan, common);
   return run_on_scan(options, settings, common, scan);

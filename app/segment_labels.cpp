@@ -98,22 +98,32 @@ void write_surfaces(const LabelRun& run, const LabelResult& result, bool several
   }
 }
 
-LabelMap found_labels(const LabelResult& result, const VoxelGrid& grid) {
+std::vector<FoundObject> found_objects(const LabelResult& result) {
   std::vector<FoundObject> found;
   for (const LabelledObject& object : result.objects) {
     found.push_back({object.surface, object.segment});
   }
-  return label_map_of(grid, found);
+  return found;
+}
+
+/// The mesh with the labels that the surfaces have in files.
+MeshOutput mesh_output(const LabelRun& run, const LabelResult& result, const Volume& scan) {
+  const std::vector<NamedSurface> named = named_surfaces(result);
+  std::vector<FoundObject> objects = found_objects(result);
+  for (std::size_t n = 0; n < named.size(); ++n) objects[n].segment.label = named[n].label;
+  return make_mesh_output(*result.mesh, scan, run.mesh, objects);
 }
 
 void write_report(const LabelRun& run, const LabelResult& result,
-                  const std::vector<SurfaceCheck>& checks, const ChosenScan& scan) {
+                  const std::vector<SurfaceCheck>& checks, const ChosenScan& scan,
+                  const std::optional<MeshOutput>& mesh) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   if (scan.facts) report["input"] = input_json(*scan.facts);
   report["output"] = output_json(run.scan.frame);
   report.update(label_run_json(result, checks));
   if (scan.facts) report["object"].update(scan.report);
+  if (mesh) report["mesh"]["region"] = region_json(*mesh);
   add_costs(report);
   write_json(run.report, report);
 }
@@ -141,9 +151,15 @@ int deliver(const LabelRun& run, const LabelResult& result, const ChosenScan& sc
   for (const LabelledObject& object : result.objects) {
     checks.push_back(check_surface(object.surface));
   }
+  std::optional<MeshOutput> mesh;
+  if (!run.meshes.empty()) mesh = mesh_output(run, result, scan.object.volume);
   write_surfaces(run, result, wanted.size() > 1);
-  if (!run.labelmap.empty()) write_label_map(run.labelmap, found_labels(result, scan.grid));
-  if (!run.report.empty()) write_report(run, result, checks, scan);
+  for (const fs::path& path : run.meshes) write_mesh(path, *mesh, run.scan.frame);
+  for (const fs::path& path : run.band_meshes) write_band_mesh(path, *result.mesh, run.scan.frame);
+  if (!run.labelmap.empty()) {
+    write_label_map(run.labelmap, label_map_of(scan.grid, found_objects(result)));
+  }
+  if (!run.report.empty()) write_report(run, result, checks, scan, mesh);
   const Verdict verdict = judge(result, checks);
   if (verdict.outcome != Outcome::kKept) log_error(verdict.message);
   return exit_status(verdict.outcome);
@@ -172,6 +188,13 @@ void require_error_place(const LabelRun& run) {
   }
 }
 
+/// A mesh is made of the scan.
+void require_scan_for_mesh(const LabelRun& run) {
+  if (run.wants_mesh() && run.scan.input.empty()) {
+    throw CLI::ValidationError("--mesh", "expected a scan beside the labels, found none");
+  }
+}
+
 /// A NIfTI file has one layer.
 void require_layers(const LabelRun& run, const std::vector<Segment>& wanted) {
   if (run.labelmap.empty() || lower_extension(run.labelmap) == ".nrrd") return;
@@ -187,8 +210,10 @@ void require_layers(const LabelRun& run, const std::vector<Segment>& wanted) {
 
 int run_labels(const LabelRun& run, const CommonOptions& common) {
   require_error_place(run);
+  require_scan_for_mesh(run);
   const LabelMap labels = read_labels(run.scan.labels);
-  const LabelRequest request = label_request(run.scan.labels, labels);
+  LabelRequest request = label_request(run.scan.labels, labels);
+  request.mesh = run.wants_mesh();
   const std::vector<Segment>& wanted = request.chosen.empty() ? labels.segments : request.chosen;
   require_layers(run, wanted);
   const bool alone = run.scan.input.empty();
@@ -203,6 +228,7 @@ int run_labels(const LabelRun& run, const CommonOptions& common) {
       alone ? surfaces_of_labels(request, run.settings, display.callback())
             : find_labelled_objects(scan.object.volume, request, run.settings, display.callback());
   if (!alone) result.parameters = in_scan_units(result.parameters, scan.object);
+  if (result.mesh) result.mesh->parameters = in_scan_units(result.mesh->parameters, scan.object);
   display.finish();
   return deliver(run, result, scan, wanted);
 }
@@ -210,7 +236,8 @@ int run_labels(const LabelRun& run, const CommonOptions& common) {
 int run_parts(const LabelRun& run, const ChosenScan& scan, const CommonOptions& common) {
   require_error_place(run);
   ProgressDisplay display(common.quiet);
-  const LabelResult result = run_on_parts(scan.object, run.settings, display.callback());
+  const LabelResult result =
+      run_on_parts(scan.object, run.wants_mesh(), run.settings, display.callback());
   display.finish();
   return deliver(run, result, scan, scan.object.parts->segments);
 }

@@ -7,6 +7,7 @@
 
 #include "chosen_scan.h"
 #include "commands.h"
+#include "mesamis/delivery/mesh_output.h"
 #include "mesamis/method/settings.h"
 
 namespace mesamis {
@@ -15,10 +16,14 @@ namespace mesamis {
 struct LabelRun {
   ScanArguments scan;  ///< its input may be empty: the labels alone
   std::vector<std::filesystem::path> surfaces;
+  std::vector<std::filesystem::path> meshes, band_meshes;
+  MeshOptions mesh;                        ///< of the meshes
   std::filesystem::path labelmap, report;  ///< may be empty
   std::string name;                        ///< of the whole in the files
   bool error = false;                      ///< write the error expected at each point
   Settings settings;
+
+  bool wants_mesh() const { return !meshes.empty() || !band_meshes.empty(); }
 };
 
 /// Checks the name of a label map before any work.

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "mesamis/label_files/read_labels.h"
 #include "mesamis/label_files/write_labels.h"
 #include "mesamis/scan_files/write_volume.h"
+#include "mesamis/shape_files/mesh_files.h"
 #include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "support/ball_volume.h"
@@ -134,7 +136,30 @@ TEST_F(SegmentLabels, TheReportRepeatsTheRun) {
   for (std::size_t n = 0; n < a.size(); ++n) EXPECT_EQ(a[n].surface.points, b[n].surface.points);
 }
 
+TEST_F(SegmentLabels, TheMeshHasALabelPerCell) {
+  const ProgramRun run =
+      segment({folder / "balls.nrrd", "--mesh", folder / "a.vtu", "--mesh", folder / "a.msh",
+               "--mesh-region", "object", "--max-tets", "4000", "--report", folder / "r.json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const MeshWithArrays mesh = read_vtu(folder / "a.vtu");
+  std::map<double, double> volume;
+  const auto label = std::find_if(mesh.cell_arrays.begin(), mesh.cell_arrays.end(),
+                                  [](const MeshArray& array) { return array.name == "label"; });
+  ASSERT_NE(label, mesh.cell_arrays.end());
+  for (std::size_t c = 0; c < mesh.mesh.cells.size(); ++c) {
+    volume[label->values[c]] += cell_volume(mesh.mesh, static_cast<Index>(c));
+  }
+  ASSERT_EQ(volume.size(), 2u) << "1 and 2, no background";
+  const auto report = nlohmann::json::parse(read_bytes(folder / "r.json"));
+  EXPECT_EQ(report["mesh"]["region"]["bins"][2]["name"], "L2_right_ball");
+  for (std::size_t n = 0; n < 2; ++n) {
+    const double surface = report["object"]["surfaces"][n]["volume_mm3"];
+    EXPECT_NEAR(volume[static_cast<double>(n) + 1], surface, 0.05 * surface);
+  }
+}
+
 TEST_F(SegmentLabels, RefusesInOneLine) {
+  EXPECT_FAILS(segment({"--mesh", folder / "a.vtu"}), 2, "--mesh: expected a scan");
   const auto expect_refused = [&](std::vector<std::string> more, int status, const char* what) {
     const ProgramRun run = segment(std::move(more));
     EXPECT_EQ(run.status, status) << what;
@@ -143,7 +168,7 @@ TEST_F(SegmentLabels, RefusesInOneLine) {
   };
   const std::string scan = folder / "balls.nrrd", out = folder / "x.stl";
   expect_refused({scan, "-o", out, "--label", "nose"}, 3, "nose");
-  expect_refused({scan, "-o", out, "--mesh", folder / "x.vtu"}, 2, "--mesh");
+  expect_refused({scan, "-o", out, "--mesh", folder / "x.vtu", "--preview"}, 2, "--preview");
   expect_refused({scan, "-o", out, "--error"}, 2, "--error");
   expect_refused({scan, "--labelmap", folder / "x.gz"}, 2, "--labelmap");
   expect_refused({scan, "-o", out, "--margin", "nan"}, 3, "margin");

@@ -124,8 +124,6 @@ TEST_F(SegmentObject, RefusesInOneLineBeforeItReads) {
     return segment(more);
   };
   EXPECT_FAILS(with_mesh({"--tissue", "dark"}), 2, "--mesh: expected a bright --tissue");
-  EXPECT_FAILS(with_mesh({"--seed", "1,2,3", "--seed", "4,5,6"}), 2,
-               "expected neither --mesh nor --band-mesh");
   EXPECT_FAILS(run_program(folder, {"segment", "--labels", folder / "x.nrrd", "-o",
                                     folder / "a.stl", "--remove", "body"}),
                2, "expected a scan");

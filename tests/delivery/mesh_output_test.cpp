@@ -63,6 +63,29 @@ TEST_F(MeshOutputTest, TheBinsShareTheCellsAndTheirVolume) {
   EXPECT_LT(out.volume, 0.5 * 19 * 19 * 19) << "the object alone";
 }
 
+TEST_F(MeshOutputTest, LabelsShareTheCellsAndGoWithThem) {
+  const FoundObject ball{result->surface, {"ball", 5, 0, {}}};
+  const MeshOutput box = make_mesh_output(*result, *volume, {}, {&ball, 1});
+  const MeshOutput object =
+      make_mesh_output(*result, *volume, {.region = MeshRegion::kObject}, {&ball, 1});
+  ASSERT_EQ(box.bins.size(), 2u);
+  EXPECT_EQ(box.sets.sets[1].name, "L5_ball");
+  EXPECT_EQ(box.bins[0].cells + box.bins[1].cells, std::ssize(box.grid.mesh.cells));
+  EXPECT_EQ(box.grid.cell_arrays.back().name, "label");
+  EXPECT_EQ(std::ssize(object.grid.mesh.cells), box.bins[1].cells);
+  EXPECT_EQ(object.grid.cell_arrays.back().values,
+            std::vector<double>(object.grid.mesh.cells.size(), 5));
+  const double truth = check_surface(result->surface).volume;
+  EXPECT_NEAR(object.volume, truth, 0.05 * truth);
+  EXPECT_GT(object.bins[1].native_mean, box.bins[0].native_mean);
+}
+
+TEST_F(MeshOutputTest, ObjectsWithoutACellAreRefused) {
+  EXPECT_REFUSED(make_mesh_output(*result, *volume, {.region = MeshRegion::kObject},
+                                  std::span<const FoundObject>{}),
+                 testing::HasSubstr("expected cells within an object"));
+}
+
 TEST_F(MeshOutputTest, AnEmptyObjectIsRefused) {
   Result empty = *result;
   empty.parameters.level = 1e6;

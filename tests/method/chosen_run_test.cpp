@@ -105,7 +105,7 @@ TEST(RunOnParts, SplitsTouchingBallsIntoClosedPartsThatShareTheirBoundary) {
   const Vec3 left{12, 12, 12}, right{24.5, 12, 12};
   const Volume scan = balls({left, right}, {38, 25, 25});
   const ChosenObject object = choose(scan, preview(), {.level = 150, .seeds = {left, right}});
-  const LabelResult result = run_on_parts(object, preview());
+  const LabelResult result = run_on_parts(object, false, preview());
   ASSERT_EQ(result.objects.size(), 2U);
   for (const LabelledObject& part : result.objects) {
     const SurfaceCheck check = check_surface(part.surface);

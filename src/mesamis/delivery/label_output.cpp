@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/delivery/line_crossing.h"
 
 namespace mesamis {
 namespace {
@@ -19,24 +20,6 @@ struct Crossing {
   double x;         // voxels
   int inward;       // 1 inward, -1 outward, for increasing x
 };
-
-/// A corner of a triangle in voxels, and its number: what is computed of an edge must not depend on
-/// the triangle that asks.
-struct Corner {
-  Vec3 at;
-  Index number = 0;
-};
-
-/// Twice the area of the triangle of an edge and a point, seen along i.
-double side_of(const Corner& a, const Corner& b, double y, double z) {
-  if (a.number > b.number) return -side_of(b, a, y, z);
-  return (b.at.y - a.at.y) * (z - a.at.z) - (b.at.z - a.at.z) * (y - a.at.y);
-}
-
-/// Whether a point is on the left of an edge; of the two directions of an edge exactly one has it.
-bool is_left(const Corner& a, const Corner& b, double side) {
-  return side > 0 || (side == 0 && a.number < b.number);
-}
 
 class Lines {
  public:
@@ -64,32 +47,21 @@ class Lines {
   }
 
   void add(const Triangle& t, std::vector<Crossing>& found) const {
-    const std::array<Corner, 3> c{Corner{voxels_[t[0]], t[0]}, Corner{voxels_[t[1]], t[1]},
-                                  Corner{voxels_[t[2]], t[2]}};
+    const std::array<NumberedCorner, 3> c{
+        {{voxels_[t[0]], t[0]}, {voxels_[t[1]], t[1]}, {voxels_[t[2]], t[2]}}};
     const auto [y0, y1] = std::minmax({c[0].at.y, c[1].at.y, c[2].at.y});
     const auto [z0, z1] = std::minmax({c[0].at.z, c[1].at.z, c[2].at.z});
     for (Index k = first_from(z0); k < grid_.size[2] && k <= z1; ++k) {
-      for (Index j = first_from(y0); j < grid_.size[1] && j <= y1; ++j) cross(c, j, k, found);
+      for (Index j = first_from(y0); j < grid_.size[1] && j <= y1; ++j) {
+        const auto crossing = line_crossing(c, j, k);
+        if (crossing) found.push_back({row_of(j, k), crossing->x, crossing->inward});
+      }
     }
   }
 
-  void cross(const std::array<Corner, 3>& c, Index j, Index k, std::vector<Crossing>& found) const {
-    std::array<double, 3> side;  // opposite of each corner
-    int left = 0;
-    for (std::size_t n = 0; n < 3; ++n) {
-      const Corner &a = c[(n + 1) % 3], &b = c[(n + 2) % 3];
-      side[n] = side_of(a, b, j, k);
-      left += is_left(a, b, side[n]) ? 1 : 0;
-    }
-    if (left != 0 && left != 3) return;
-    const double area = side[0] + side[1] + side[2];
-    if (area == 0) return;
-    const double x = (side[0] * c[0].at.x + side[1] * c[1].at.x + side[2] * c[2].at.x) / area;
-    const std::size_t row = static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.size[1]) +
-                            static_cast<std::size_t>(j);
-    // Seen from outside a triangle turns counter-clockwise: to the left of all edges along i means
-    // that its normal points along i, and a line leaves there.
-    found.push_back({row, x, left == 3 ? -1 : 1});
+  std::size_t row_of(Index j, Index k) const {
+    return static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.size[1]) +
+           static_cast<std::size_t>(j);
   }
 
   const VoxelGrid& grid_;

@@ -7,6 +7,7 @@
 
 #include "mesamis/adapt/estimator.h"
 #include "mesamis/base/error.h"
+#include "mesamis/delivery/cell_labels.h"
 #include "mesamis/fem/transfer.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/mesh/region.h"
@@ -107,34 +108,70 @@ std::string bin_note(const MeshBin& bin) {
   return note.str();
 }
 
-void sort_into_bins(const std::vector<double>& native, MeshOutput& out) {
+/// Cells, volume and mean native value of each set.
+/// @param native  of the cells.
+void measure_sets(const std::vector<double>& native, MeshOutput& out) {
   const TetMesh& mesh = out.grid.mesh;
-  ValueBins sorted = equal_bins(native, out.options.bins);
-  out.bins.resize(sorted.edges.size() - 1);
-  out.sets.sets.reserve(out.bins.size());
   for (std::size_t c = 0; c < native.size(); ++c) {
-    MeshBin& bin = out.bins[sorted.of_value[c]];
+    MeshBin& bin = out.bins[static_cast<std::size_t>(out.sets.of_cell[c])];
     const double volume = cell_volume(mesh, static_cast<Index>(c));
     ++bin.cells;
     bin.volume += volume;
     bin.native_mean += volume * native[c];
     out.volume += volume;
   }
-  for (std::size_t b = 0; b < out.bins.size(); ++b) {
-    MeshBin& bin = out.bins[b];
-    bin.low = sorted.edges[b];
-    bin.high = sorted.edges[b + 1];
+  for (MeshBin& bin : out.bins) {
     if (bin.cells > 0) bin.native_mean /= bin.volume;
-    out.sets.sets.push_back({bin_name(b + 1, out.bins.size()), bin_note(bin)});
   }
-  out.sets.of_cell = std::move(sorted.of_value);
 }
 
-/// Bins as files number them, from 1.
-std::vector<Index> bin_numbers(const MeshOutput& mesh) {
-  std::vector<Index> numbers = mesh.sets.of_cell;
-  for (Index& bin : numbers) ++bin;
+/// Sets by equal ranges of the native value, numbered from 1.
+void sort_into_bins(const std::vector<double>& native, MeshOutput& out) {
+  ValueBins sorted = equal_bins(native, out.options.bins);
+  out.bins.resize(sorted.edges.size() - 1);
+  out.sets.of_cell = std::move(sorted.of_value);
+  for (std::size_t b = 0; b < out.bins.size(); ++b) {
+    out.bins[b].low = sorted.edges[b];
+    out.bins[b].high = sorted.edges[b + 1];
+    out.numbers.push_back(static_cast<Index>(b) + 1);
+  }
+  measure_sets(native, out);
+  for (std::size_t b = 0; b < out.bins.size(); ++b) {
+    out.sets.sets.push_back({bin_name(b + 1, out.bins.size()), bin_note(out.bins[b])});
+  }
+}
+
+/// Sets by label, 0 for the background.
+void sort_by_label(const std::vector<double>& native, CellSets labels,
+                   std::span<const FoundObject> objects, MeshOutput& out) {
+  out.sets = std::move(labels);
+  out.bins.resize(out.sets.sets.size());
+  out.numbers = {0};
+  for (const FoundObject& object : objects) out.numbers.push_back(object.segment.label);
+  std::vector<char> seen(out.bins.size(), 0);
+  for (std::size_t c = 0; c < native.size(); ++c) {
+    const auto set = static_cast<std::size_t>(out.sets.of_cell[c]);
+    MeshBin& bin = out.bins[set];
+    bin.low = seen[set] != 0 ? std::min(bin.low, native[c]) : native[c];
+    bin.high = seen[set] != 0 ? std::max(bin.high, native[c]) : native[c];
+    seen[set] = 1;
+  }
+  measure_sets(native, out);
+}
+
+/// The number of each cell's set.
+std::vector<Index> set_numbers(const MeshOutput& mesh) {
+  std::vector<Index> numbers;
+  numbers.reserve(mesh.sets.of_cell.size());
+  for (const Index set : mesh.sets.of_cell) {
+    numbers.push_back(mesh.numbers[static_cast<std::size_t>(set)]);
+  }
   return numbers;
+}
+
+void add_numbers(const std::string& name, MeshOutput& out) {
+  const std::vector<Index> numbers = set_numbers(out);
+  out.grid.cell_arrays.push_back({name, 1, std::vector<double>(numbers.begin(), numbers.end())});
 }
 
 const MeshArray& array_of(const std::vector<MeshArray>& arrays, std::string_view name) {
@@ -151,7 +188,7 @@ std::vector<std::vector<double>> values_of(const std::vector<MeshArray>& arrays,
 }
 
 void write_medit(const fs::path& path, const MeshOutput& mesh, Frame frame) {
-  write_medit_mesh(path, mesh.grid.mesh, frame, bin_numbers(mesh));
+  write_medit_mesh(path, mesh.grid.mesh, frame, set_numbers(mesh));
   fs::path fields = path;
   write_medit_scalars(fields.replace_extension(".sol"),
                       values_of(mesh.grid.point_arrays, {"u", "v", "f", "u_native", "native"}),
@@ -167,23 +204,59 @@ void write_gmsh(const fs::path& path, const MeshOutput& mesh, Frame frame) {
   write_gmsh(path, grid, mesh.sets, frame);
 }
 
+/// The cells of a region and their fields.
+/// @param native  gets their native values.
+MeshOutput region_of(const Result& result, const Volume& volume, const MeshOptions& options,
+                     const std::vector<Index>& cells, std::vector<double>& native) {
+  RestrictedMesh part = restrict_mesh(result.mesh, cells);
+  ImageMeans means = average_image(volume, part.mesh);
+  MeshOutput out;
+  out.options = options;
+  out.level_native = result.parameters.level;
+  out.components = count_face_parts(part.mesh);
+  add_fields(result, part, means, out.grid);
+  out.grid.mesh = std::move(part.mesh);
+  native = std::move(means.cells);
+  return out;
+}
+
+/// Leaves out the background.
+/// @return the cells that stay, and their sets in `labels`.
+std::vector<Index> labelled_cells(CellSets& labels) {
+  std::vector<Index> cells, sets;
+  for (std::size_t c = 0; c < labels.of_cell.size(); ++c) {
+    if (labels.of_cell[c] == 0) continue;
+    cells.push_back(static_cast<Index>(c));
+    sets.push_back(labels.of_cell[c]);
+  }
+  labels.of_cell = std::move(sets);
+  if (cells.empty()) throw InputError("mesh region: expected cells within an object, found none");
+  return cells;
+}
+
 }  // namespace
 
 MeshOutput make_mesh_output(const Result& result, const Volume& volume,
                             const MeshOptions& options) {
   const bool object = options.region == MeshRegion::kObject;
-  RestrictedMesh part =
-      restrict_mesh(result.mesh, object ? object_cells(result) : all_cells(result.mesh));
-  const ImageMeans native = average_image(volume, part.mesh);
-  MeshOutput out;
-  out.options = options;
-  out.level_native = result.parameters.level;
-  out.components = count_face_parts(part.mesh);
-  add_fields(result, part, native, out.grid);
-  out.grid.mesh = std::move(part.mesh);
-  sort_into_bins(native.cells, out);
-  const std::vector<Index> bins = bin_numbers(out);
-  out.grid.cell_arrays.push_back({"bin", 1, std::vector<double>(bins.begin(), bins.end())});
+  std::vector<double> native;
+  MeshOutput out = region_of(result, volume, options,
+                             object ? object_cells(result) : all_cells(result.mesh), native);
+  sort_into_bins(native, out);
+  add_numbers("bin", out);
+  return out;
+}
+
+MeshOutput make_mesh_output(const Result& result, const Volume& volume, const MeshOptions& options,
+                            std::span<const FoundObject> objects) {
+  const bool object = options.region == MeshRegion::kObject;
+  CellSets labels = label_sets(result.mesh, objects);
+  const auto cells = object ? labelled_cells(labels) : all_cells(result.mesh);
+  std::vector<double> native;
+  MeshOutput out = region_of(result, volume, options, cells, native);
+  out.level_native.reset();
+  sort_by_label(native, std::move(labels), objects, out);
+  add_numbers("label", out);
   return out;
 }
 

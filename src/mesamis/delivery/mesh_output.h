@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "mesamis/delivery/label_output.h"
 #include "mesamis/method/mes_amis.h"
 #include "mesamis/shape_files/mesh_files.h"
 
@@ -18,21 +21,23 @@ struct MeshOptions {
 };
 inline constexpr int kMostBins = 999;
 
-/// Cells whose native value lies in a range.
+/// What is known of a set of cells.
 struct MeshBin {
-  double low = 0, high = 0;  ///< native units
+  double low = 0, high = 0;  ///< of the native values, native units; 0 for an empty set of a label
   std::int64_t cells = 0;
   double volume = 0;       ///< mm^3
-  double native_mean = 0;  ///< by volume; 0 for an empty bin
+  double native_mean = 0;  ///< by volume; 0 for an empty set
 };
 
-/// The mesh of a run as it is written: a region of it, its fields, its cells in bins.
+/// The mesh of a run as it is written: a region of it, its fields, its cells in sets.
 struct MeshOutput {
   MeshOptions options;
-  double level_native = 0;  ///< the object is where u is above it
-  MeshWithArrays grid;      ///< as docs/formats.md lists them
-  std::vector<MeshBin> bins;
-  CellSets sets;                ///< of the bins
+  std::optional<double>
+      level_native;             ///< the object is where u is above it; none: where labels are
+  MeshWithArrays grid;          ///< as docs/formats.md lists them
+  std::vector<MeshBin> bins;    ///< one per set
+  CellSets sets;                ///< of equal ranges of the native value, or of labels
+  std::vector<Index> numbers;   ///< of the sets: bins from 1, or labels with 0 as background
   double volume = 0;            ///< mm^3
   std::int64_t components = 0;  ///< connected by faces
 };
@@ -46,6 +51,17 @@ struct MeshOutput {
 ///
 /// O(voxels + cells). Memory: a copy of the region and of its fields.
 MeshOutput make_mesh_output(const Result& result, const Volume& volume, const MeshOptions& options);
+
+/// The same of a run on labels: the cells are sorted by the object that their centroid lies in, see
+/// label_sets(); the region is all cells, or those of objects.
+/// @param result   of mesh_beside_labels().
+/// @param volume   the scan, or the part of it that the result is of.
+/// @param objects  with labels that differ.
+/// @throws InputError  if the region is that of the objects, and no cell lies within one.
+///
+/// O(voxels + cells), and as label_sets().
+MeshOutput make_mesh_output(const Result& result, const Volume& volume, const MeshOptions& options,
+                            std::span<const FoundObject> objects);
 
 /// Writes the mesh in the format of the extension, one of written_mesh_formats(); .vtu for any
 /// other extension. Each file appears whole or not at all. A .mesh goes with a .sol of the same

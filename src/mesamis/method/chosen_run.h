@@ -38,10 +38,11 @@ Result run_on_object(const ChosenObject& object, const Settings& settings,
 
 /// Finds the parts that several seeds split an object into.
 /// @param object    of choose_object(), with parts.
+/// @param mesh      also make a mesh, as LabelRequest::mesh.
 /// @param settings, progress  as for run_on_object().
 /// @return as find_labelled_objects(), levels in the units of the scan.
 /// @throws InputError, Cancelled  as find_labelled_objects(). Cost as there.
-LabelResult run_on_parts(const ChosenObject& object, const Settings& settings,
+LabelResult run_on_parts(const ChosenObject& object, bool mesh, const Settings& settings,
                          const Progress& progress = {});
 
 }  // namespace mesamis

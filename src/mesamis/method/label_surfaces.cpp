@@ -19,8 +19,10 @@
 #include "mesamis/labels/flow_memberships.h"
 #include "mesamis/labels/label_block.h"
 #include "mesamis/labels/label_confidence.h"
+#include "mesamis/labels/label_image.h"
 #include "mesamis/labels/pair_levels.h"
 #include "mesamis/method/follow_partition.h"
+#include "mesamis/method/label_mesh.h"
 #include "mesamis/method/passes.h"
 #include "mesamis/method/prepare.h"
 #include "mesamis/segment/grid_amis.h"
@@ -121,6 +123,7 @@ class LabelRun {
       : settings_(settings),
         progress_(progress),
         labels_(request.map),
+        wants_mesh_(request.mesh && !settings.preview),
         chosen_(request.chosen.empty() ? request.map.segments : request.chosen) {
     require_chosen();
   }
@@ -147,6 +150,8 @@ class LabelRun {
       result_.seconds.prepare += watch.lap();
       place_by_image(layer, {part.size, part.spacing, labels}, marks, *edges, watch);
     }
+    if (wants_mesh_) make_mesh(part, range);
+    result_.seconds.mesh = watch.lap();
     result_.seconds.total = all.lap();
     return std::move(result_);
   }
@@ -219,6 +224,7 @@ class LabelRun {
     const GridMemberships smooth = smooth_memberships(grid);
     const FlowOptions flow{p.functional.beta, p.functional.eta, p.unit_mm, kReach * result_.margin};
     const GridMemberships memberships = flow_memberships(grid, {smooth, weight, edges.v}, flow);
+    if (wants_mesh_) images_.push_back(label_image(memberships, edges.prepared.grey));
     result_.seconds.flow += watch.lap();
     (void)Stage(progress_, "surface");
     const RunInput run(edges.prepared);
@@ -234,6 +240,15 @@ class LabelRun {
     result_.seconds.surface += watch.lap();
     finish(layer, std::move(partition), run.grey.voxel_size(), &run);
     result_.seconds.printable += watch.lap();
+  }
+
+  void make_mesh(const Volume& part, const CropRange& range) {
+    Settings settings = settings_;
+    settings.crop = {};
+    settings.level = result_.parameters.level;
+    settings.surface = SurfaceKind::kSolid;
+    result_.mesh = mesh_beside_labels(part, images_, settings, progress_);
+    result_.mesh->parameters.crop = range;
   }
 
   void record_boundaries(Index layer, const std::vector<PairLevel>& pairs,
@@ -319,8 +334,10 @@ class LabelRun {
   const Settings& settings_;
   const Progress& progress_;
   const LabelMap& labels_;
+  bool wants_mesh_;
   std::vector<Segment> chosen_;
-  double decimated_ = 0;  // of the present layer, mm
+  std::vector<Volume> images_;  // of the layers, for the mesh
+  double decimated_ = 0;        // of the present layer, mm
   LabelResult result_;
 };
 

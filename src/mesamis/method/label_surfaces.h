@@ -9,6 +9,7 @@
 #include "mesamis/image/label_map.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/method/measured_image.h"
+#include "mesamis/method/mes_amis.h"
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/settings.h"
 #include "mesamis/surface/tri_mesh.h"
@@ -23,6 +24,7 @@ struct LabelRequest {
   std::vector<Segment> chosen{};   ///< of the map; empty: all of them
   std::optional<double> margin{};  ///< mm, > 0: how far the labels may be wrong;
                                    ///< at most 50 voxels; see label_margin()
+  bool mesh = false;               ///< also make a mesh, see LabelResult
 };
 
 /// One object, world frame (LPS), mm.
@@ -51,8 +53,10 @@ struct LabelResult {
   double decimated = 0;    ///< greatest distance by which decimation moved a boundary, mm
   std::vector<LabelledObject> objects;    ///< by layer, in the order chosen
   std::vector<LabelBoundary> boundaries;  ///< of the chosen objects; none without an image
+  /// Around the chosen labels, adapted to the image and to all labels; see mesh_beside_labels().
+  std::optional<Result> mesh;
   struct Seconds {
-    double prepare = 0, flow = 0, surface = 0, printable = 0, total = 0;
+    double prepare = 0, flow = 0, surface = 0, printable = 0, mesh = 0, total = 0;
   } seconds;
 };
 
@@ -67,7 +71,8 @@ double label_margin(const VoxelGrid& scan, const VoxelGrid& labels);
 /// Algorithm 1 finds the edges v of the image; labels flow to the nearest of them within the margin
 /// (flow_memberships()); where memberships are equal is the boundary (extract_partition_on_grid());
 /// each boundary follows the image to its own half maximum (follow_image()); decimation keeps what
-/// objects share. Labels that were not chosen take part: an object ends where they begin.
+/// objects share. The mesh is made last, with no preview. Labels that were not chosen take part: an
+/// object ends where they begin.
 ///
 /// @param scan      native units.
 /// @param request   see there.

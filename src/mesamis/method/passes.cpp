@@ -15,6 +15,7 @@
 #include "mesamis/fem/mesh_space.h"
 #include "mesamis/fem/transfer.h"
 #include "mesamis/mesh/gradation.h"
+#include "mesamis/mesh/metric.h"
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/method/surface_change.h"
 #include "mesamis/remesh/remesh.h"
@@ -73,20 +74,60 @@ CellMetricOptions metric_options(const RunInput& run, std::int64_t cells) {
   return {cells, run.parameters.tau, run.parameters.max_stretch};
 }
 
-/// The metric of the first pass, and whether max_tets acted on it.
-GridMetricField grid_metric(const Pass& pass, const KuhnGrid& grid, const GridFields& fields,
-                            const SizeControl& control) {
+/// The logarithms of the metric that a run's fields ask for, and whether max_tets acted on it.
+std::vector<PackedSym3> log_metrics(const Pass& pass, const KuhnGrid& grid,
+                                    const GridFields& fields, const SizeControl& control) {
   const RunInput& run = pass.run;
   Iteration& record = pass.record;
   GridEstimate estimated = estimate_on_grid(grid, run.parameters.functional, fields,
                                             metric_options(run, grid.cell_count()));
   record.estimator = estimated.sums.zeta();
   record.predicted_tets = estimated.predicted_cells;
-  const double factor = control_sizes_to_log(grid, estimated.node_metrics, control);
-  smooth_log_metrics(grid, estimated.node_metrics, kSmoothingSweeps);
-  record.bounded = factor > 1;
-  if (record.bounded) set_complexity(grid, estimated.node_metrics, control.complexity);
-  return {run.box, grid.size, std::move(estimated.node_metrics)};
+  record.bounded = control_sizes_to_log(grid, estimated.node_metrics, control) > 1;
+  return std::move(estimated.node_metrics);
+}
+
+/// Refines the metric for the edges of the images beside.
+void add_metrics_beside(const Pass& pass, const KuhnGrid& grid, const SizeControl& control,
+                        std::vector<PackedSym3>& logs) {
+  for (const RunInput* other : pass.run.beside) {
+    Iteration unused;
+    const Pass beside{*other, pass.number, pass.stage, unused};
+    const GridPass found = minimise_on_grid(beside);
+    const auto& m = found.minimum;
+    const auto more = log_metrics(beside, grid, {m.u, m.v, found.image(*other)}, control);
+    parallel_for(logs.size(), [&](std::size_t n) {
+      logs[n] = pack(intersect(exp_sym(unpack(logs[n])), exp_sym(unpack(more[n]))));
+    });
+    const double factor = control_sizes_to_log(grid, logs, control);
+    pass.record.bounded |= unused.bounded || factor > 1;
+  }
+}
+
+/// The metric of the first pass, and whether max_tets acted on it.
+GridMetricField grid_metric(const Pass& pass, const KuhnGrid& grid, const GridFields& fields,
+                            const SizeControl& control) {
+  std::vector<PackedSym3> logs = log_metrics(pass, grid, fields, control);
+  add_metrics_beside(pass, grid, control, logs);
+  smooth_log_metrics(grid, logs, kSmoothingSweeps);
+  if (pass.record.bounded) set_complexity(grid, logs, control.complexity);
+  return {pass.run.box, grid.size, std::move(logs)};
+}
+
+/// The metric on a mesh, refined for the edges of the images beside.
+std::vector<Sym3> metric_of_all(const Pass& pass, const TetMesh& mesh, const Minimum& minimum,
+                                const SizeControl& control) {
+  std::vector<Sym3> metric = mesh_metric(pass, mesh, minimum, control);
+  for (const RunInput* other : pass.run.beside) {
+    Iteration unused;
+    const Pass beside{*other, pass.number, pass.stage, unused};
+    const Minimum m = minimise(beside, mesh, {}, other->draft_options());
+    const std::vector<Sym3> more = mesh_metric(beside, mesh, m, control);
+    parallel_for(metric.size(), [&](std::size_t n) { metric[n] = intersect(metric[n], more[n]); });
+    const double factor = control_sizes(metric, m.lumped_mass, control);
+    pass.record.bounded |= unused.bounded || factor > 1;
+  }
+  return metric;
 }
 
 /// Remeshes towards the metric; the fields are still to be carried over. Where max_tets acted, the
@@ -229,18 +270,18 @@ State adapt_from_grid(const Pass& pass) {
   return next;
 }
 
-Minimum minimise(const Pass& pass, const State& state, const AmisOptions& options) {
+Minimum minimise(const Pass& pass, const TetMesh& mesh, Guess guess, const AmisOptions& options) {
   const auto& [run, number, stage, record] = pass;
   Stopwatch watch;
-  const MeshSpace space(state.mesh);
-  record.tets = std::ssize(state.mesh.cells);
-  record.nodes = std::ssize(state.mesh.points);
+  const MeshSpace space(mesh);
+  record.tets = std::ssize(mesh.cells);
+  record.nodes = std::ssize(mesh.points);
   ProjectedImage projection =
       project_image(run.image, space, {run.parameters.unit_mm, options.solver});
   Minimum m;
   m.f = std::move(projection.values);
-  m.u = state.u;
-  m.v = state.v;
+  m.u = std::move(guess.u);
+  m.v = std::move(guess.v);
   stage.advance(0.1);
   record.seconds.project = watch.lap();
   minimise_on(space, options, m, record);
@@ -248,7 +289,7 @@ Minimum minimise(const Pass& pass, const State& state, const AmisOptions& option
   record.amis.solver_converged &= projection.solve.converged;
   stage.advance(0.3);
   record.seconds.amis = watch.lap();
-  record_aspects(state.mesh, record);
+  record_aspects(mesh, record);
   return m;
 }
 
@@ -256,7 +297,7 @@ State adapt(const Pass& pass, const State& state, const Minimum& minimum) {
   Iteration& record = pass.record;
   Stopwatch watch;
   const Sizes sizes = sizes_of(pass, state.cells_per_complexity);
-  const MeshMetricField field(state.mesh, mesh_metric(pass, state.mesh, minimum, sizes.control));
+  const MeshMetricField field(state.mesh, metric_of_all(pass, state.mesh, minimum, sizes.control));
   record.seconds.estimate = watch.lap();
   State next = remeshed(pass, state.mesh, field, sizes);
   record.seconds.remesh = watch.lap();

@@ -47,6 +47,8 @@ struct RunInput {
   const SplineImage& image;  ///< the same between the voxels
   Box box;                   ///< of the voxel centres, length units
   ErrorOptions error;        ///< what is known of the image, grey values
+  /// Images on the same grid to whose edges the meshes are adapted as well; mostly none.
+  std::vector<const RunInput*> beside{};
 
   explicit RunInput(const Prepared& prepared);
   /// How exactly Algorithm 1 is solved on the delivered mesh, and on those before it.
@@ -108,11 +110,16 @@ void minimise_on(const P1Space& space, const AmisOptions& options, Minimum& mini
 std::vector<Sym3> mesh_metric(const Pass& pass, const TetMesh& mesh, const Minimum& minimum,
                               const SizeControl& control);
 
-/// Projects the image onto the mesh and minimises there, from the state's fields.
-Minimum minimise(const Pass& pass, const State& state, const AmisOptions& options);
+/// Where Algorithm 1 starts: nodal fields; empty ones are f and 1.
+struct Guess {
+  std::vector<double> u{}, v{};
+};
+
+/// Projects the image onto the mesh and minimises there.
+Minimum minimise(const Pass& pass, const TetMesh& mesh, Guess guess, const AmisOptions& options);
 
 /// Adaptations from 2 on: estimates, builds the metric, remeshes, carries the fields over. Records
-/// mesh_change beside what minimise() has recorded.
+/// mesh_change beside what minimise() has recorded. Of the images beside, Algorithm 1 starts anew.
 State adapt(const Pass& pass, const State& state, const Minimum& minimum);
 
 /// From length units in the grid's axes to mm in the world frame.

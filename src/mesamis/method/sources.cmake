@@ -4,6 +4,7 @@ set(ROOM_HEADERS
   chosen_run.h
   expected_error.h
   iteration.h
+  label_mesh.h
   label_surfaces.h
   measured_image.h
   memory.h
@@ -19,7 +20,9 @@ set(ROOM_SOURCES
   expected_error.cpp
   follow_image.cpp
   follow_partition.cpp
+  label_mesh.cpp
   label_surfaces.cpp
+  loop.cpp
   memory.cpp
   mes_amis.cpp
   parameters.cpp

@@ -3,6 +3,7 @@
 
 #include "mesamis/method/expected_error.h"
 #include "mesamis/record/report.h"
+#include "mesamis/record/run_summary.h"
 #include "mesamis/record/settings_json.h"
 
 namespace mesamis {
@@ -53,11 +54,11 @@ ordered_json label_run_json(const LabelResult& result, std::span<const SurfaceCh
                       {"surfaces", std::move(objects)},
                       {"boundaries", std::move(boundaries)}};
   if (result.has_image) report["quality"] = image_json(p, result.image);
-  report["seconds_parts"] = {{"prepare", result.seconds.prepare},
-                             {"flow", result.seconds.flow},
-                             {"surface", result.seconds.surface},
-                             {"printable", result.seconds.printable},
-                             {"method", result.seconds.total}};
+  if (result.mesh) report.update(loop_json(summarize(*result.mesh, {})));
+  report["seconds_parts"] = {
+      {"prepare", result.seconds.prepare}, {"flow", result.seconds.flow},
+      {"surface", result.seconds.surface}, {"printable", result.seconds.printable},
+      {"mesh", result.seconds.mesh},       {"method", result.seconds.total}};
   return report;
 }
 

@@ -212,6 +212,17 @@ ordered_json run_json(const Settings& asked, const Result& result, const Surface
   return run_json(asked, summarize(result, surface));
 }
 
+ordered_json loop_json(const RunSummary& run) {
+  ordered_json report;
+  report["iterations"] = ordered_json::array();
+  const std::size_t passes = run.iterations.size();
+  for (std::size_t i = 0; i < passes; ++i) {
+    report["iterations"].push_back(iteration_json(run.iterations[i], i == 0, i + 1 == passes));
+  }
+  report["mesh"] = mesh_json(run);
+  return report;
+}
+
 ordered_json run_json(const Settings& asked, const RunSummary& run) {
   ordered_json report;
   report["settings"] = to_json(settings_of(run.parameters));
@@ -219,12 +230,7 @@ ordered_json run_json(const Settings& asked, const RunSummary& run) {
   report["given"] = given_json(asked);
   report["grey"] = grey_json(run.parameters);
   report["quality"] = quality_json(run);
-  report["iterations"] = ordered_json::array();
-  const std::size_t passes = run.iterations.size();
-  for (std::size_t i = 0; i < passes; ++i) {
-    report["iterations"].push_back(iteration_json(run.iterations[i], i == 0, i + 1 == passes));
-  }
-  report["mesh"] = mesh_json(run);
+  report.update(loop_json(run));
   report["surface"] = surface_json(run);
   report["converged"] = run.converged;
   report["seconds_parts"] = {{"prepare", run.seconds.prepare},
@@ -245,13 +251,14 @@ ordered_json region_json(const MeshOutput& mesh) {
                     {"cells", bin.cells},
                     {"volume_mm3", bin.volume}});
   }
-  return {{"name", object ? "object" : "box"},
-          {"level_native", object ? ordered_json(mesh.level_native) : nullptr},
-          {"cells", mesh.grid.mesh.cells.size()},
-          {"nodes", mesh.grid.mesh.points.size()},
-          {"volume_mm3", mesh.volume},
-          {"components", mesh.components},
-          {"bins", std::move(bins)}};
+  return {
+      {"name", object ? "object" : "box"},
+      {"level_native", object && mesh.level_native ? ordered_json(*mesh.level_native) : nullptr},
+      {"cells", mesh.grid.mesh.cells.size()},
+      {"nodes", mesh.grid.mesh.points.size()},
+      {"volume_mm3", mesh.volume},
+      {"components", mesh.components},
+      {"bins", std::move(bins)}};
 }
 
 }  // namespace mesamis

@@ -64,6 +64,9 @@ nlohmann::ordered_json run_json(const Settings& asked, const Result& result,
 /// The same of a run whose figures were taken before. Throws nothing. O(passes).
 nlohmann::ordered_json run_json(const Settings& asked, const RunSummary& run);
 
+/// Of those the iterations and the mesh alone. Throws nothing. O(passes).
+nlohmann::ordered_json loop_json(const RunSummary& run);
+
 /// The region of a mesh that was written, and its sets of cells. Throws nothing. O(bins).
 nlohmann::ordered_json region_json(const MeshOutput& mesh);
 
