@@ -31,22 +31,34 @@ class LayerBuilder {
 
   /// @return the segment's layer.
   Index add(Index label, const std::vector<std::size_t>& frames) {
+    decode(frames);
     const std::size_t layer = free_layer(frames);
     if (layer == map_.layers.size()) {
       require_voxels(seg_.file, map_, layer + 1);
       map_.layers.emplace_back(map_.voxel_count());
     }
-    for_each_voxel(frames, [&](std::size_t voxel) {
+    for_each_marked(frames, [&](std::size_t voxel) {
       map_.layers[layer][voxel] = static_cast<std::uint16_t>(label);
     });
     return static_cast<Index>(layer);
   }
 
  private:
-  /// The first layer where no voxel of the frames is taken; one behind the last if there is none.
+  /// Marks which pixels of the frames belong to their segment.
+  void decode(const std::vector<std::size_t>& frames) {
+    const double least = seg_.type == SegType::kFractional ? seg_.most / 2 : 1;
+    marks_.clear();
+    for (const std::size_t frame : frames) {
+      read_frame(seg_, frame, pixels_);
+      for (const float pixel : pixels_) marks_.push_back(pixel >= least);
+    }
+  }
+
+  /// The first layer where no marked voxel of the frames is taken; one behind the last if there is
+  /// none.
   std::size_t free_layer(const std::vector<std::size_t>& frames) {
     std::vector<bool> taken(map_.layers.size());
-    for_each_voxel(frames, [&](std::size_t voxel) {
+    for_each_marked(frames, [&](std::size_t voxel) {
       for (std::size_t n = 0; n < taken.size(); ++n) {
         if (map_.layers[n][voxel] != 0) taken[n] = true;
       }
@@ -54,22 +66,22 @@ class LayerBuilder {
     return static_cast<std::size_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
   }
 
-  /// Calls visit(offset) for each voxel of the frames that belongs to their segment.
+  /// Calls visit(offset) for each marked voxel of the frames that were decoded.
   template <class Visit>
-  void for_each_voxel(const std::vector<std::size_t>& frames, Visit visit) {
-    const double least = seg_.type == SegType::kFractional ? seg_.most / 2 : 1;
+  void for_each_marked(const std::vector<std::size_t>& frames, Visit visit) {
+    auto mark = marks_.begin();
     for (const std::size_t frame : frames) {
-      read_frame(seg_, frame, pixels_);
       const std::size_t begin = frame_begin(seg_, frame);
-      for (std::size_t n = 0; n < pixels_.size(); ++n) {
-        if (pixels_[n] >= least) visit(begin + n);
+      for (std::size_t n = 0; n < pixels_.size(); ++n, ++mark) {
+        if (*mark) visit(begin + n);
       }
     }
   }
 
   const SegFile& seg_;
   LabelMap& map_;
-  std::vector<float> pixels_;
+  std::vector<float> pixels_;  // of one frame
+  std::vector<bool> marks_;    // frame by frame
 };
 
 void fill_layers(const SegFile& seg, LabelMap& map) {
