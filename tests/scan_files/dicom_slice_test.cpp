@@ -110,5 +110,17 @@ TEST(DicomSlice, FramesAreFoundInTheirOwnGroupsThenInSharedOnes) {
   EXPECT_EQ(frame_decimals(file, 0, slope, 1), std::nullopt);
 }
 
+TEST(DicomSlice, StepsAreAsLongAsPixelsHoweverLongTheDirectionsAre) {
+  DicomSlice slice;
+  slice.along_row = {0, 1.01, 0};
+  slice.along_column = {0, 0, -0.99};
+  slice.column_step = 0.5;
+  slice.row_step = 2;
+  const auto [column, row, up] = grid_steps(slice, {-3, 0, 0});
+  expect_near(column, {0, 0.5, 0});
+  expect_near(row, {0, 0, -2});
+  EXPECT_EQ(up, (Vec3{-3, 0, 0}));
+}
+
 }  // namespace
 }  // namespace mesamis::detail

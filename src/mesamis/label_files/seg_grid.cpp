@@ -153,9 +153,7 @@ SegGrid grid_of_frames(const DicomFile& file, const DicomPixels& pixels) {
   const DicomSlice lowest = place_frame(file, pixels, heights[0].frame);
   ScanFile scan{file.path, "DICOM", {}, {}, {}};
   set_size(scan, {pixels.columns, pixels.rows, static_cast<std::int64_t>(slice) + 1});
-  set_axes(scan,
-           {lowest.column_step * unit_or_zero(lowest.along_row),
-            lowest.row_step * unit_or_zero(lowest.along_column), fit.step * normal_of(lowest)});
+  set_axes(scan, grid_steps(lowest, fit.step * normal_of(lowest)));
   set_origin(scan, lowest.position);
   out.grid = scan.grid;
   require_voxels(file, out.grid, 1);

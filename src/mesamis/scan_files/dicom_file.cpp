@@ -32,9 +32,7 @@ ScanFile grid_of(const fs::path& path, const DicomSeries& series, const SortedSl
   ScanFile scan{path, "DICOM", {}, {}, series.warnings};
   const DicomSlice& first = stack.slices.front();
   set_size(scan, {first.columns, first.rows, static_cast<std::int64_t>(stack.slices.size())});
-  const auto unit = [](const Vec3& v) { return (1 / norm(v)) * v; };
-  set_axes(scan, {first.column_step * unit(first.along_row),
-                  first.row_step * unit(first.along_column), mean_spacing(stack) * stack.normal});
+  set_axes(scan, grid_steps(first, mean_spacing(stack) * stack.normal));
   set_origin(scan, first.position);
   scan.grid.modality = series.modality;
   return scan;
@@ -45,7 +43,6 @@ struct Stack {
   SortedSlices sorted;
   ScanFile scan;
   ResamplePlan resampling;  ///< where the slices are not the grid's own
-  bool resample = false;
 };
 
 /// Everything but the samples.
@@ -58,16 +55,15 @@ Stack plan(const fs::path& path, const DicomSeries& series, bool resample) {
            "one slice is not a volume: expected at least 2 slices in the series, "
            "found 1");
   }
-  Stack stack{sort_along_normal(series.stacks[0]), {}, {}, false};
+  Stack stack{sort_along_normal(series.stacks[0]), {}, {}};
   if (resample) {
     stack.resampling = plan_resampling(path, stack.sorted);
-    stack.resample = stack.resampling.tilted || stack.resampling.uneven;
   } else {
     require_even_spacing(path, stack.sorted);
     require_no_tilt(path, stack.sorted);
   }
   stack.scan = grid_of(path, series, stack.sorted);
-  if (!stack.resample) return stack;
+  if (!stack.resampling.needed()) return stack;
   static_cast<VoxelGrid&>(stack.scan.grid) = stack.resampling.grid;
   stack.scan.grid.modality = series.modality;
   for (const std::string& note : stack.resampling.notes) stack.scan.warnings.push_back(note);
@@ -146,7 +142,7 @@ VolumeFile read_dicom(const fs::path& path, const ReadOptions& options) {
   const std::size_t stored = static_cast<std::size_t>(first.columns) *
                              static_cast<std::size_t>(first.rows) * stack.sorted.slices.size();
   out.volume.samples = decode(stack.sorted, stored, out.warnings);
-  if (stack.resample) {
+  if (stack.resampling.needed()) {
     out.volume.samples =
         resampled(stack.resampling, {first.columns, first.rows}, out.volume.samples);
   }

@@ -16,8 +16,6 @@ namespace {
 constexpr double kSmallestShare = 0.25;  // of the median distance, between planes
 constexpr double kRoundOff = 1e-6;       // of a pixel or a plane: places count as whole numbers
 
-Vec3 unit(const Vec3& v) { return (1 / norm(v)) * v; }
-
 template <class Check>
 bool passes(const Check& check) {
   try {
@@ -52,7 +50,8 @@ void require_distinct(const std::filesystem::path& path, const SortedSlices& sor
 /// @return what was taken off, pixels.
 std::array<double, 2> set_shifts(const SortedSlices& sorted, ResamplePlan& plan) {
   const DicomSlice& first = sorted.slices.front();
-  const Vec3 along_row = unit(first.along_row), along_column = unit(first.along_column);
+  const Vec3 along_row = unit_or_zero(first.along_row);
+  const Vec3 along_column = unit_or_zero(first.along_column);
   std::array<double, 2> least{0, 0};
   for (const DicomSlice& slice : sorted.slices) {
     const Vec3 d = slice.position - first.position;
@@ -176,11 +175,10 @@ ResamplePlan plan_resampling(const std::filesystem::path& path, const SortedSlic
   if (!(planes <= kMostPlanes)) refuse(path, say("expected at most 1e6 planes, found ", planes));
   set_size(scan, {first.columns + more_pixels(plan, 0), first.rows + more_pixels(plan, 1),
                   static_cast<std::int64_t>(planes)});
-  const Vec3 column = first.column_step * unit(first.along_row);
-  const Vec3 row = first.row_step * unit(first.along_column);
   const double spacing = (sorted.height.back() - sorted.height.front()) / (planes - 1);
-  set_axes(scan, {column, row, spacing * sorted.normal});
-  set_origin(scan, first.position + moved[0] * column + moved[1] * row);
+  const auto steps = grid_steps(first, spacing * sorted.normal);
+  set_axes(scan, steps);
+  set_origin(scan, first.position + moved[0] * steps[0] + moved[1] * steps[1]);
   require_justified(path, sorted, scan.grid);
   plan.grid = scan.grid;
   for (std::size_t n = 0; n < sorted.height.size(); ++n) {

@@ -18,6 +18,8 @@ struct ResamplePlan {
   std::vector<std::array<double, 2>> shift;  ///< per slice: of its first pixel, pixels, >= 0
   bool tilted = false, uneven = false;       ///< else the slices are the grid's own
   std::vector<std::string> notes;            ///< what was done, and what it costs, in words
+
+  bool needed() const noexcept { return tilted || uneven; }
 };
 
 /// Plans the grid of a stack.

@@ -115,6 +115,11 @@ std::optional<std::vector<double>> frame_decimals(const DicomFile& file, std::si
   return FrameTags(file, frame).find(tag.macro, tag.tag, count);
 }
 
+std::array<Vec3, 3> grid_steps(const DicomSlice& slice, const Vec3& up) noexcept {
+  return {slice.column_step * unit_or_zero(slice.along_row),
+          slice.row_step * unit_or_zero(slice.along_column), up};
+}
+
 std::string name_of(const DicomSlice& slice) {
   const std::string name = slice.file.filename().string();
   return slice.frame > 0 ? say(name, " frame ", slice.frame) : name;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -52,6 +53,11 @@ std::optional<std::vector<double>> frame_decimals(const DicomFile& file, std::si
 /// Reads everything but the samples. `problem` describes content that cannot be used; nothing is
 /// thrown for it.
 DicomImage describe_image(const DicomFile& file);
+
+/// The steps from column to column, from row to row and from slice to slice, LPS, mm: what
+/// set_axes() takes.
+/// @param up  the step from slice to slice, LPS, mm.
+std::array<Vec3, 3> grid_steps(const DicomSlice& slice, const Vec3& up) noexcept;
 
 /// "IM0001.dcm", "IM0001.dcm frame 3": how messages name a slice.
 std::string name_of(const DicomSlice& slice);
