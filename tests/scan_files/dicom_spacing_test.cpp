@@ -42,6 +42,10 @@ TEST(DicomSpacing, SortsAlongTheNormal) {
   EXPECT_DOUBLE_EQ(mean_spacing(sorted), 2);
 }
 
+TEST(DicomSpacing, GapsAreThoseOfNeighboursInTheirOrder) {
+  EXPECT_THAT(gaps_of(sort_along_normal(slices_at({7, 0, 4, 2}))), ElementsAre(2, 2, 3));
+}
+
 /// Turning the whole stack changes neither order nor heights.
 TEST(DicomSpacing, DoesNotDependOnTheOrientation) {
   const double c = std::cos(0.7), s = std::sin(0.7);
@@ -77,8 +81,12 @@ TEST(DicomSpacing, MissingSlicesAreCalledSo) {
 }
 
 TEST(DicomSpacing, TwoSlicesAtOnePlaceAreRefused) {
-  EXPECT_REFUSED(check_spacing({0, 2, 4, 4.00005, 6}),
-                 AllOf(HasSubstr("expected one slice per position"), HasSubstr("s2 and s3")));
+  const auto names_both =
+      AllOf(HasSubstr("scan: expected one slice per position"), HasSubstr("s2 and s3"));
+  EXPECT_REFUSED(check_spacing({0, 2, 4, 4.00005, 6}), names_both);
+  const SortedSlices sorted = sort_along_normal(slices_at({0, 2, 4, 4.00005, 6}));
+  EXPECT_REFUSED(require_apart("scan", sorted, 3), names_both);
+  for (const std::size_t n : {1, 2, 4}) EXPECT_NO_THROW(require_apart("scan", sorted, n));
 }
 
 TEST(DicomSpacing, TiltIsRefusedWithItsAngle) {

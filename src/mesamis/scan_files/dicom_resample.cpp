@@ -26,26 +26,6 @@ bool passes(const Check& check) {
   }
 }
 
-/// The distances of neighbours, ascending.
-std::vector<double> sorted_gaps(const SortedSlices& sorted) {
-  std::vector<double> gaps;
-  for (std::size_t n = 1; n < sorted.height.size(); ++n) {
-    gaps.push_back(sorted.height[n] - sorted.height[n - 1]);
-  }
-  std::sort(gaps.begin(), gaps.end());
-  return gaps;
-}
-
-void require_distinct(const std::filesystem::path& path, const SortedSlices& sorted) {
-  for (std::size_t n = 1; n < sorted.height.size(); ++n) {
-    const double gap = sorted.height[n] - sorted.height[n - 1];
-    if (gap > kDuplicateDistance) continue;
-    refuse(path, say("expected one slice per position, found two at the same: ",
-                     name_of(sorted.slices[n - 1]), " and ", name_of(sorted.slices[n]), " (", gap,
-                     " mm apart)"));
-  }
-}
-
 /// Shifts of the slices against the first, pixels; the least of each direction is made 0.
 /// @return what was taken off, pixels.
 std::array<double, 2> set_shifts(const SortedSlices& sorted, ResamplePlan& plan) {
@@ -73,11 +53,9 @@ std::int64_t more_pixels(const ResamplePlan& plan, std::size_t direction) {
   return static_cast<std::int64_t>(std::ceil(std::clamp(most - kRoundOff, 0.0, kFarTooMany)));
 }
 
-/// How many planes there are from the first slice to the last.
-double plane_count(const SortedSlices& sorted, const ResamplePlan& plan) {
-  const double range = sorted.height.back() - sorted.height.front();
-  if (!plan.uneven) return static_cast<double>(sorted.height.size());
-  const std::vector<double> gaps = sorted_gaps(sorted);
+/// How many planes there are over a range of unevenly spaced slices, mm.
+/// @param gaps  distances of neighbours, mm, ascending.
+double plane_count(double range, const std::vector<double>& gaps) {
   const double median = gaps[(gaps.size() - 1) / 2];
   return std::round(range / std::max(gaps.front(), kSmallestShare * median)) + 1;
 }
@@ -106,8 +84,8 @@ void note_tilt(const SortedSlices& sorted, ResamplePlan& plan) {
       "slice covers has the least value"));
 }
 
-void note_uneven(const SortedSlices& sorted, ResamplePlan& plan) {
-  const std::vector<double> gaps = sorted_gaps(sorted);
+/// @param gaps  distances of neighbours, mm, ascending.
+void note_uneven(const std::vector<double>& gaps, ResamplePlan& plan) {
   plan.notes.push_back(say("slices ", gaps.front(), " to ", gaps.back(), " mm apart: resampled to ",
                            plan.grid.spacing.z,
                            " mm, linear between slices; no plane is farther than ", gaps.back() / 2,
@@ -163,19 +141,23 @@ Between slices_around(const std::vector<double>& planes, double k) {
 }  // namespace
 
 ResamplePlan plan_resampling(const std::filesystem::path& path, const SortedSlices& sorted) {
-  require_distinct(path, sorted);
+  for (std::size_t n = 1; n < sorted.height.size(); ++n) require_apart(path, sorted, n);
   ResamplePlan plan;
   plan.uneven = !passes([&] { require_even_spacing(path, sorted); });
   plan.tilted = !passes([&] { require_no_tilt(path, sorted); });
   const auto moved = set_shifts(sorted, plan);
   const DicomSlice& first = sorted.slices.front();
   ScanFile scan{path, "DICOM", {}, {}, {}};
-  const double planes = plane_count(sorted, plan);
+  const double range = sorted.height.back() - sorted.height.front();
+  std::vector<double> gaps = gaps_of(sorted);
+  std::sort(gaps.begin(), gaps.end());
+  const double planes =
+      plan.uneven ? plane_count(range, gaps) : static_cast<double>(sorted.height.size());
   constexpr double kMostPlanes = 1e6;
   if (!(planes <= kMostPlanes)) refuse(path, say("expected at most 1e6 planes, found ", planes));
   set_size(scan, {first.columns + more_pixels(plan, 0), first.rows + more_pixels(plan, 1),
                   static_cast<std::int64_t>(planes)});
-  const double spacing = (sorted.height.back() - sorted.height.front()) / (planes - 1);
+  const double spacing = range / (planes - 1);
   const auto steps = grid_steps(first, spacing * sorted.normal);
   set_axes(scan, steps);
   set_origin(scan, first.position + moved[0] * steps[0] + moved[1] * steps[1]);
@@ -186,7 +168,7 @@ ResamplePlan plan_resampling(const std::filesystem::path& path, const SortedSlic
                                      : static_cast<double>(n));
   }
   if (plan.tilted) note_tilt(sorted, plan);
-  if (plan.uneven) note_uneven(sorted, plan);
+  if (plan.uneven) note_uneven(gaps, plan);
   return plan;
 }
 

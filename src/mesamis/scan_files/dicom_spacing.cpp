@@ -11,13 +11,16 @@ namespace {
 
 constexpr const char* kHint = " (--resample interpolates such stacks)";
 
-/// The lower median of the distances between neighbours.
-double median_gap(const std::vector<double>& height) {
-  std::vector<double> gaps;
-  for (std::size_t n = 1; n < height.size(); ++n) gaps.push_back(height[n] - height[n - 1]);
+/// The lower median.
+double median_gap(std::vector<double> gaps) {
   const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>((gaps.size() - 1) / 2);
   std::nth_element(gaps.begin(), middle, gaps.end());
   return *middle;
+}
+
+/// Those of slice n and of the one below it.
+std::string names_around(const SortedSlices& sorted, std::size_t n) {
+  return name_of(sorted.slices[n - 1]) + " and " + name_of(sorted.slices[n]);
 }
 
 }  // namespace
@@ -39,26 +42,39 @@ double mean_spacing(const SortedSlices& sorted) {
          static_cast<double>(sorted.height.size() - 1);
 }
 
-void require_even_spacing(const std::filesystem::path& path, const SortedSlices& sorted) {
-  const double median = median_gap(sorted.height);
+std::vector<double> gaps_of(const SortedSlices& sorted) {
+  std::vector<double> gaps;
   for (std::size_t n = 1; n < sorted.height.size(); ++n) {
-    const double gap = sorted.height[n] - sorted.height[n - 1];
-    const std::string between = name_of(sorted.slices[n - 1]) + " and " + name_of(sorted.slices[n]);
-    if (gap <= kDuplicateDistance) {
-      refuse(path, say("expected one slice per position, found two at the same: ", between, " (",
-                       gap, " mm apart)"));
-    }
+    gaps.push_back(sorted.height[n] - sorted.height[n - 1]);
+  }
+  return gaps;
+}
+
+void require_apart(const std::filesystem::path& path, const SortedSlices& sorted, std::size_t n) {
+  const double gap = sorted.height[n] - sorted.height[n - 1];
+  if (gap > kDuplicateDistance) return;
+  refuse(path, say("expected one slice per position, found two at the same: ",
+                   names_around(sorted, n), " (", gap, " mm apart)"));
+}
+
+void require_even_spacing(const std::filesystem::path& path, const SortedSlices& sorted) {
+  const std::vector<double> gaps = gaps_of(sorted);
+  const double median = median_gap(gaps);
+  for (std::size_t n = 1; n < sorted.height.size(); ++n) {
+    require_apart(path, sorted, n);
+    const double gap = gaps[n - 1];
     if (std::abs(gap - median) <= kStepTolerance * median) continue;
     const double steps = gap / median;
     const bool missing = steps > 1.5 && std::abs(steps - std::round(steps)) < 0.1;
-    refuse(path, say(missing ? "slices are missing" : "the slices are unevenly spaced", " between ",
-                     between, ": expected ", median, " mm, found ", gap, " mm", kHint));
+    refuse(path,
+           say(missing ? "slices are missing" : "the slices are unevenly spaced", " between ",
+               names_around(sorted, n), ": expected ", median, " mm, found ", gap, " mm", kHint));
   }
 }
 
 void require_no_tilt(const std::filesystem::path& path, const SortedSlices& sorted) {
   const DicomSlice& first = sorted.slices.front();
-  const double median = median_gap(sorted.height);
+  const double median = median_gap(gaps_of(sorted));
   const double drift = kDriftTolerance * std::min({median, first.column_step, first.row_step});
   const auto lateral = [&sorted](const DicomSlice& a, const DicomSlice& b) {
     const Vec3 d = b.position - a.position;

@@ -30,6 +30,15 @@ SortedSlices sort_along_normal(std::vector<DicomSlice> slices);
 /// The mean distance of neighbours, mm: the slice spacing of a stack that passed the checks below.
 double mean_spacing(const SortedSlices& sorted);
 
+/// The distances of neighbours, mm, from the lowest up.
+std::vector<double> gaps_of(const SortedSlices& sorted);
+
+/// Checks that slice n and the one below it do not lie at the same place.
+/// @param path  begins the message.
+/// @param n     1 at least.
+/// @throws InputError  naming the two slices and their distance, if they do.
+void require_apart(const std::filesystem::path& path, const SortedSlices& sorted, std::size_t n);
+
 /// Checks that all neighbours are equally far apart: each distance is within kStepTolerance of
 /// the median.
 /// @param path  begins the message.
