@@ -92,7 +92,7 @@ ScanFile open_slices(const fs::path& directory, const std::vector<fs::path>& fil
   if (first.grid.size[2] != 1) {
     refuse(files[0], say("expected one slice per file, found ", first.grid.size[2]));
   }
-  for (const fs::path& file : files) require_like(first, open_picture(file));
+  for (std::size_t n = 1; n < files.size(); ++n) require_like(first, open_picture(files[n]));
   ScanFile scan = first;
   scan.file = directory;
   scan.format += " slices";
