@@ -9,6 +9,7 @@
 namespace mesamis::detail {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(GreyPixels, TakeOneValueOfThreeThatAreEqual) {
@@ -17,6 +18,26 @@ TEST(GreyPixels, TakeOneValueOfThreeThatAreEqual) {
        {std::array{1U, 1U, 2U}, std::array{1U, 2U, 1U}, std::array{2U, 1U, 1U}}) {
     EXPECT_REFUSED(require_grey("a.png", color, {3, 4}), HasSubstr("at pixel 3, 4"));
   }
+}
+
+TEST(GreyPixels, MakeASliceLineByLine) {
+  ScanFile scan{"a.png", "PNG", {}, {}, {"a warning"}};
+  scan.grid.size = {3, 2, 1};
+  const auto color_at = [](std::int64_t x, std::int64_t y) {
+    const auto grey = static_cast<unsigned>(10 * y + x);
+    return std::array{grey, grey, grey};
+  };
+  const VolumeFile slice = grey_picture(scan, color_at);
+  EXPECT_THAT(slice.volume.samples, ElementsAre(0, 1, 2, 10, 11, 12));
+  EXPECT_EQ(slice.volume.size, scan.grid.size);
+  EXPECT_EQ(slice.format, "PNG");
+  EXPECT_EQ(slice.warnings, scan.warnings);
+  EXPECT_REFUSED(grey_picture(scan,
+                              [](std::int64_t x, std::int64_t y) {
+                                return std::array{0U, 0U, x == 2 && y == 1 ? 1U : 0U};
+                              }),
+                 HasSubstr("a.png: expected a grey picture, found red 0, green 0, blue 1 at pixel "
+                           "2, 1"));
 }
 
 TEST(PictureGrid, TakesTheSpacingOrWarns) {

@@ -109,18 +109,11 @@ ScanFile open_bmp(const std::filesystem::path& file) { return scan_of(file, pars
 
 VolumeFile read_bmp(const std::filesystem::path& file) {
   const Bmp bmp = parse(file);
-  ScanFile scan = scan_of(file, bmp);
-  VolumeFile out{std::move(scan.grid), scan.format, std::move(scan.warnings)};
-  out.volume.samples.reserve(out.volume.voxel_count());
-  for (std::int64_t y = 0; y < bmp.height; ++y) {
+  return grey_picture(scan_of(file, bmp), [&](std::int64_t x, std::int64_t y) {
     const auto stored = static_cast<std::uint64_t>(bmp.bottom_up ? bmp.height - 1 - y : y);
     const std::uint64_t line = bmp.pixels + stored * bmp.line_bytes();
-    for (std::int64_t x = 0; x < bmp.width; ++x) {
-      const auto color = pixel_color(file, bmp, line, static_cast<std::uint64_t>(x));
-      out.volume.samples.push_back(require_grey(file, color, {x, y}));
-    }
-  }
-  return out;
+    return pixel_color(file, bmp, line, static_cast<std::uint64_t>(x));
+  });
 }
 
 }  // namespace mesamis::detail

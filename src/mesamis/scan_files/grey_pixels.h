@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <utility>
 
+#include "mesamis/scan_files/read_volume.h"
 #include "mesamis/scan_files/scan_file.h"
 
 /// Shared by the readers of pictures that hold one slice: PNG and BMP.
@@ -22,5 +24,21 @@ void set_picture_grid(ScanFile& scan, const std::array<std::int64_t, 2>& size, c
 /// @throws InputError  for a pixel of another colour.
 float require_grey(const std::filesystem::path& file, const std::array<unsigned, 3>& color,
                    const std::array<std::int64_t, 2>& pixel);
+
+/// The slice of a grey picture.
+/// @param scan      its header, with its grid.
+/// @param color_at  color_at(x, y): red, green and blue of a pixel.
+/// @throws InputError  as require_grey().
+template <class ColorAt>
+VolumeFile grey_picture(ScanFile scan, const ColorAt& color_at) {
+  VolumeFile out{std::move(scan.grid), scan.format, std::move(scan.warnings)};
+  out.volume.samples.reserve(out.volume.voxel_count());
+  for (std::int64_t y = 0; y < out.volume.size[1]; ++y) {
+    for (std::int64_t x = 0; x < out.volume.size[0]; ++x) {
+      out.volume.samples.push_back(require_grey(scan.file, color_at(x, y), {x, y}));
+    }
+  }
+  return out;
+}
 
 }  // namespace mesamis::detail

@@ -201,16 +201,10 @@ VolumeFile read_png(const std::filesystem::path& file) {
   ScanFile scan = scan_of(file, png);
   std::string lines = unpack(file, png);
   unfilter(file, png, lines);
-  VolumeFile out{std::move(scan.grid), scan.format, std::move(scan.warnings)};
-  out.volume.samples.reserve(out.volume.voxel_count());
-  for (std::int64_t y = 0; y < png.height; ++y) {
+  return grey_picture(std::move(scan), [&](std::int64_t x, std::int64_t y) {
     const char* line = lines.data() + static_cast<std::size_t>(y) * (png.line_bytes() + 1) + 1;
-    for (std::int64_t x = 0; x < png.width; ++x) {
-      const auto color = color_at(png, line, static_cast<std::size_t>(x));
-      out.volume.samples.push_back(require_grey(file, color, {x, y}));
-    }
-  }
-  return out;
+    return color_at(png, line, static_cast<std::size_t>(x));
+  });
 }
 
 }  // namespace mesamis::detail
