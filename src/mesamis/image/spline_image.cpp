@@ -91,6 +91,43 @@ std::array<double, 4> folded(std::array<double, 4> w, const Place& place, Index 
   return {w[0] + below, w[1] - above, w[2] - below, w[3] + above};
 }
 
+/// The spline at a point and, if it is asked for, its gradient, else zero.
+template <bool kGradient>
+ImageValue spline_sum(const SplineImage& image, const Vec3& p) {
+  const VoxelGrid& grid = image.grid;
+  std::array<std::array<double, 4>, 3> weights, slopes;
+  std::array<std::array<Index, 4>, 3> index;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<int>(a);
+    const Place place(p[axis] / grid.spacing[axis], grid.size[a]);
+    weights[a] = folded(spline_weights(place.fraction), place, grid.size[a]);
+    if constexpr (kGradient) {
+      slopes[a] = folded(spline_slopes(place.fraction), place, grid.size[a]);
+    }
+    for (std::size_t n = 0; n < 4; ++n) index[a][n] = place.tap(n, grid.size[a]);
+  }
+  ImageValue sum;
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      const float* row = image.coefficients.data() + grid.offset(0, index[1][j], index[2][k]);
+      double value = 0, slope = 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double coefficient = row[index[0][i]];
+        value += weights[0][i] * coefficient;
+        if constexpr (kGradient) slope += slopes[0][i] * coefficient;
+      }
+      sum.value += weights[1][j] * weights[2][k] * value;
+      if constexpr (kGradient) {
+        sum.gradient.x += weights[1][j] * weights[2][k] * slope;
+        sum.gradient.y += slopes[1][j] * weights[2][k] * value;
+        sum.gradient.z += weights[1][j] * slopes[2][k] * value;
+      }
+    }
+  }
+  for (int a = 0; a < 3; ++a) sum.gradient[a] /= grid.spacing[a];
+  return sum;
+}
+
 }  // namespace
 
 SplineImage interpolating_spline(Volume volume) {
@@ -112,57 +149,10 @@ SplineImage interpolating_spline(Volume volume) {
   return image;
 }
 
-ImageValue spline_at(const SplineImage& image, const Vec3& p) {
-  const VoxelGrid& grid = image.grid;
-  std::array<std::array<double, 4>, 3> weights, slopes;
-  std::array<std::array<Index, 4>, 3> index;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto axis = static_cast<int>(a);
-    const Place place(p[axis] / grid.spacing[axis], grid.size[a]);
-    weights[a] = folded(spline_weights(place.fraction), place, grid.size[a]);
-    slopes[a] = folded(spline_slopes(place.fraction), place, grid.size[a]);
-    for (std::size_t n = 0; n < 4; ++n) index[a][n] = place.tap(n, grid.size[a]);
-  }
-  ImageValue sum;
-  for (std::size_t k = 0; k < 4; ++k) {
-    for (std::size_t j = 0; j < 4; ++j) {
-      const float* row = image.coefficients.data() + grid.offset(0, index[1][j], index[2][k]);
-      double value = 0, slope = 0;
-      for (std::size_t i = 0; i < 4; ++i) {
-        const double coefficient = row[index[0][i]];
-        value += weights[0][i] * coefficient;
-        slope += slopes[0][i] * coefficient;
-      }
-      sum.value += weights[1][j] * weights[2][k] * value;
-      sum.gradient.x += weights[1][j] * weights[2][k] * slope;
-      sum.gradient.y += slopes[1][j] * weights[2][k] * value;
-      sum.gradient.z += weights[1][j] * slopes[2][k] * value;
-    }
-  }
-  for (int a = 0; a < 3; ++a) sum.gradient[a] /= grid.spacing[a];
-  return sum;
-}
+ImageValue spline_at(const SplineImage& image, const Vec3& p) { return spline_sum<true>(image, p); }
 
 double spline_value_at(const SplineImage& image, const Vec3& p) {
-  const VoxelGrid& grid = image.grid;
-  std::array<std::array<double, 4>, 3> weights;
-  std::array<std::array<Index, 4>, 3> index;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto axis = static_cast<int>(a);
-    const Place place(p[axis] / grid.spacing[axis], grid.size[a]);
-    weights[a] = folded(spline_weights(place.fraction), place, grid.size[a]);
-    for (std::size_t n = 0; n < 4; ++n) index[a][n] = place.tap(n, grid.size[a]);
-  }
-  double sum = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    for (std::size_t j = 0; j < 4; ++j) {
-      const float* row = image.coefficients.data() + grid.offset(0, index[1][j], index[2][k]);
-      double value = 0;
-      for (std::size_t i = 0; i < 4; ++i) value += weights[0][i] * row[index[0][i]];
-      sum += weights[1][j] * weights[2][k] * value;
-    }
-  }
-  return sum;
+  return spline_sum<false>(image, p).value;
 }
 
 SplineLine::SplineLine(const SplineImage& image, double y, double z) : image_(image) {
