@@ -5,21 +5,15 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 #include <utility>
 
-#include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/image/refuse.h"
 
 namespace mesamis {
 namespace {
 
-template <class... Part>
-[[noreturn]] void refuse(const Part&... parts) {
-  std::ostringstream line;
-  (line << ... << parts);
-  throw InputError(line.str());
-}
+using detail::refuse;
 
 /// From the voxels of one grid to those of another: both in voxels, the centre of the first at 0.
 class VoxelTransform {

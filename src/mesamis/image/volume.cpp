@@ -2,21 +2,15 @@
 #include "mesamis/image/volume.h"
 
 #include <cmath>
-#include <sstream>
 
-#include "mesamis/base/error.h"
+#include "mesamis/image/refuse.h"
 
 namespace mesamis {
 namespace {
 
-constexpr double kDirectionTolerance = 1e-6;
+using detail::refuse;
 
-template <class... Part>
-[[noreturn]] void refuse(const Part&... parts) {
-  std::ostringstream line;
-  (line << ... << parts);
-  throw InputError(line.str());
-}
+constexpr double kDirectionTolerance = 1e-6;
 
 void require_two_voxels(const std::array<Index, 3>& n) {
   if (std::min({n[0], n[1], n[2]}) >= 2) return;
