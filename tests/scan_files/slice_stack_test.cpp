@@ -118,6 +118,10 @@ TEST(SliceStack, IsListedAsOneVolume) {
   ASSERT_EQ(infos.size(), 1U);
   EXPECT_EQ(infos[0].size, (std::array<Index, 3>{2, 2, 3}));
   EXPECT_EQ(infos[0].problem, "");
+  const Volume volume = read_volume(folder / "").volume;
+  EXPECT_EQ(infos[0].spacing, volume.spacing);
+  EXPECT_EQ(infos[0].origin, volume.origin);
+  EXPECT_EQ(infos[0].direction, volume.direction);
   write_bytes(folder / "3.png", png_bytes(1, 1, "a"));
   EXPECT_THAT(list_volumes(folder / "")[0].problem, HasSubstr("3.png"));
 }

@@ -98,11 +98,7 @@ std::vector<float> decode(const SortedSlices& stack, std::size_t voxels,
 VolumeInfo info_of(const fs::path& path, const DicomSeries& series, bool resample) {
   VolumeInfo info{series.uid, series.description, "DICOM", series.modality, {}, {}, ""};
   try {
-    const ScanFile scan = plan(path, series, resample).scan;
-    info.size = scan.grid.size;
-    info.spacing = scan.grid.spacing;
-    info.origin = scan.grid.origin;
-    info.direction = scan.grid.direction;
+    set_grid(info, plan(path, series, resample).scan.grid);
   } catch (const InputError& error) {
     info.problem = error.what();
   }

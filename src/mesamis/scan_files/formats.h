@@ -64,6 +64,9 @@ VolumeFile read_picture(const std::filesystem::path& file);
 /// Its grid and the type of its samples; they are not read.
 ScanFile open_picture(const std::filesystem::path& file);
 
+/// Takes over size, spacing, origin and direction of a grid.
+void set_grid(VolumeInfo& info, const VoxelGrid& grid);
+
 /// One DICOM series: of a directory and those below it, or the one a file belongs to.
 VolumeFile read_dicom(const std::filesystem::path& path, const ReadOptions& options);
 std::vector<VolumeInfo> list_dicom(const std::filesystem::path& path, const ReadOptions& options);

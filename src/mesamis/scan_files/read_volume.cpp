@@ -124,10 +124,7 @@ VolumeInfo describe(const fs::path& file, const ReadOptions& options) {
     const ScanFile scan = open_header(file, options);
     info.format = scan.format;
     info.modality = scan.grid.modality;
-    info.size = scan.grid.size;
-    info.spacing = scan.grid.spacing;
-    info.origin = scan.grid.origin;
-    info.direction = scan.grid.direction;
+    detail::set_grid(info, scan.grid);
   } catch (const InputError& error) {
     info.problem = error.what();
   }
@@ -184,6 +181,13 @@ VolumeFile detail::read_picture(const fs::path& file) {
 }
 
 ScanFile detail::open_picture(const fs::path& file) { return picture_format_of(file)->open(file); }
+
+void detail::set_grid(VolumeInfo& info, const VoxelGrid& grid) {
+  info.size = grid.size;
+  info.spacing = grid.spacing;
+  info.origin = grid.origin;
+  info.direction = grid.direction;
+}
 
 VolumeFile read_volume(const fs::path& path, const ReadOptions& options) {
   return in_one_line(path, [&] {

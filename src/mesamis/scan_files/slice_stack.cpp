@@ -141,8 +141,7 @@ VolumeInfo describe_slices(const fs::path& directory, const std::vector<fs::path
   try {
     const ScanFile scan = open_slices(directory, files);
     info.format = scan.format;
-    info.size = scan.grid.size;
-    info.spacing = scan.grid.spacing;
+    set_grid(info, scan.grid);
   } catch (const InputError& error) {
     info.problem = error.what();
   }
