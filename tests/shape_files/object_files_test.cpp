@@ -263,6 +263,28 @@ TEST(ObjectPaths, DifferEvenWhereCaseDoesNotCount) {
 }
 
 /// One file per object: each stays as it is, and neighbours share their boundary.
+TEST(JoinedObjects, KeepTheirOwnPointsAndKnowTheirTriangles) {
+  const std::vector<NamedSurface> objects = three_objects();
+  const JoinedObjects all = joined(objects);
+  ASSERT_EQ(all.object_of.size(), all.surface.triangles.size());
+  std::size_t point = 0, triangle = 0;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const TriMesh& surface = objects[i].surface;
+    for (const Triangle& t : surface.triangles) {
+      EXPECT_EQ(all.object_of[triangle], static_cast<Index>(i));
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto corner = static_cast<std::size_t>(all.surface.triangles[triangle][c]);
+        EXPECT_EQ(corner, point + static_cast<std::size_t>(t[c]));
+        EXPECT_EQ(all.surface.points[corner], surface.points[static_cast<std::size_t>(t[c])]);
+      }
+      ++triangle;
+    }
+    point += surface.points.size();
+  }
+  EXPECT_EQ(all.surface.points.size(), point);
+  EXPECT_TRUE(joined(std::span<const NamedSurface>{}).object_of.empty());
+}
+
 TEST(RoundedTogether, KeepsStlFilesOfNeighboursInContact) {
   const TempFolder folder;
   std::vector<NamedSurface> objects = three_objects();

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesamis/base/error.h"
 #include "mesamis/picture/annotation.h"
@@ -233,22 +234,18 @@ struct ColouredTriangles {
 ColouredTriangles visible_triangles(std::span<const NamedSurface> objects,
                                     const PictureOptions& options, const CameraAxes& axes) {
   const Clipper clipper(options.clip, axes);
-  ColouredTriangles result;
-  TriMesh& all = result.surface;
-  std::size_t triangles = 0;
-  for (const auto& [name, colour, label, surface] : objects) {
-    const auto first = static_cast<Index>(all.points.size());
-    all.points.insert(all.points.end(), surface.points.begin(), surface.points.end());
-    triangles += surface.triangles.size();
-    for (const Triangle& t : surface.triangles) {
-      if (!clipper.keeps(surface.points, t)) continue;
-      all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-      result.colours.push_back(colour);
-    }
+  JoinedObjects all = joined(objects);
+  require_drawable(all.surface.points, all.surface.triangles.size());
+  ColouredTriangles shown;
+  for (std::size_t t = 0; t < all.object_of.size(); ++t) {
+    const Triangle& corners = all.surface.triangles[t];
+    if (!clipper.keeps(all.surface.points, corners)) continue;
+    shown.surface.triangles.push_back(corners);
+    shown.colours.push_back(objects[all.object_of[t]].colour);
   }
-  require_drawable(all.points, triangles);
-  if (all.triangles.empty()) refuse_empty(*options.clip, bounding_box(all.points));
-  return result;
+  shown.surface.points = std::move(all.surface.points);
+  if (shown.colours.empty()) refuse_empty(*options.clip, bounding_box(shown.surface.points));
+  return shown;
 }
 
 vtkSmartPointer<vtkPolyData> with_colours(const ColouredTriangles& triangles) {

@@ -283,6 +283,20 @@ std::vector<NamedSurface> rounded_together(std::vector<NamedSurface> objects) {
   return objects;
 }
 
+JoinedObjects joined(std::span<const NamedSurface> objects) {
+  JoinedObjects all;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const auto& [points, triangles] = objects[i].surface;
+    const auto first = static_cast<Index>(all.surface.points.size());
+    all.surface.points.insert(all.surface.points.end(), points.begin(), points.end());
+    for (const auto& [a, b, c] : triangles) {
+      all.surface.triangles.push_back({first + a, first + b, first + c});
+    }
+    all.object_of.resize(all.surface.triangles.size(), static_cast<Index>(i));
+  }
+  return all;
+}
+
 ObjectFile read_object_file(const fs::path& path) {
   ParsedObjects parsed = parse(path);
   drop_empty(parsed);

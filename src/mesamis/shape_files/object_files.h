@@ -77,6 +77,19 @@ std::vector<std::filesystem::path> object_paths(const std::filesystem::path& pat
 /// O(n log n) for n points of all objects.
 std::vector<NamedSurface> rounded_together(std::vector<NamedSurface> objects);
 
+/// Several objects as one surface.
+struct JoinedObjects {
+  TriMesh surface;               ///< mm; each object has its own points
+  std::vector<Index> object_of;  ///< per triangle: its object's place among the objects
+};
+
+/// Joins the surfaces of several objects, one after another.
+/// @param objects  points in mm, at most 2^31 - 1 of all objects.
+/// @throws nothing
+///
+/// O(points and triangles).
+JoinedObjects joined(std::span<const NamedSurface> objects);
+
 /// The objects of a file.
 struct ObjectFile {
   std::vector<NamedSurface> objects;  ///< at least one, each with a triangle

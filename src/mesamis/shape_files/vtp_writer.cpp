@@ -81,26 +81,6 @@ std::vector<VtkArray> object_fields(std::span<const NamedSurface> objects) {
   return {std::move(labels), vtk_texts(kNamesField, names)};
 }
 
-/// The surfaces one after another, and whose each triangle is.
-struct Joined {
-  TriMesh surface;
-  std::vector<Index> object_of;
-};
-
-Joined joined(std::span<const NamedSurface> objects) {
-  Joined all;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    const auto& [points, triangles] = objects[i].surface;
-    const auto first = static_cast<Index>(all.surface.points.size());
-    all.surface.points.insert(all.surface.points.end(), points.begin(), points.end());
-    for (const auto& [a, b, c] : triangles) {
-      all.surface.triangles.push_back({first + a, first + b, first + c});
-    }
-    all.object_of.resize(all.surface.triangles.size(), static_cast<Index>(i));
-  }
-  return all;
-}
-
 }  // namespace
 
 std::string vtp_bytes(const TriMesh& surface, const SurfaceWriteOptions& options) {
@@ -109,7 +89,7 @@ std::string vtp_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
 
 std::string vtp_object_bytes(std::span<const NamedSurface> objects,
                              const SurfaceWriteOptions& options) {
-  const Joined all = joined(objects);
+  const JoinedObjects all = joined(objects);
   const std::vector<Index>& object_of = all.object_of;
   std::vector<VtkArray> fields = field_data(options);
   for (VtkArray& array : object_fields(objects)) fields.push_back(std::move(array));
