@@ -47,6 +47,14 @@ TEST(Orientation, NamesEachBodyAxisOnceHoweverTheGridIsTurned) {
   }
 }
 
+TEST(Orientation, TheBodyAxisIsThatOfTheLargestCoordinate) {
+  EXPECT_EQ(body_axis({-2, 0.5, 1}), 0);
+  EXPECT_EQ(body_axis({0.5, -2, 1}), 1);
+  EXPECT_EQ(body_axis({0.5, 1, -2}), 2);
+  EXPECT_EQ(body_axis({1, -1, 1}), 0);
+  EXPECT_EQ(body_axis({0, -1, 1}), 1);
+}
+
 TEST(Orientation, NamesTheSideADirectionPointsTo) {
   EXPECT_EQ(side_letter({0.6, 0.5, 0.1}), 'L');
   EXPECT_EQ(side_letter({-2, 0.5, 0.1}), 'R');

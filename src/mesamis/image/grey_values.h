@@ -73,6 +73,9 @@ OtsuSplit otsu_split(const VolumeView& volume,
 /// O(voxels) where the modality is unknown.
 bool is_hounsfield(const VolumeView& volume);
 
+/// Nothing is darker than air (-1000 HU): Hounsfield units of this and less are padding.
+inline constexpr float kPaddingHu = -1500;
+
 /// A range of values, native units.
 struct Window {
   double low, high;

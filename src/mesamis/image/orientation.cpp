@@ -10,23 +10,28 @@ namespace {
 
 constexpr std::array<std::array<char, 2>, 3> kLetters{{{'L', 'R'}, {'P', 'A'}, {'S', 'I'}}};
 
-char letter_along(int body_axis, double cosine) {
-  return kLetters[static_cast<std::size_t>(body_axis)][cosine < 0];
+char letter_along(int axis, double cosine) {
+  return kLetters[static_cast<std::size_t>(axis)][cosine < 0];
 }
 
 }  // namespace
 
-char side_letter(const Vec3& direction) noexcept {
+int body_axis(const Vec3& direction) noexcept {
   int axis = 0;
   for (const int other : {1, 2}) {
     if (std::abs(direction[other]) > std::abs(direction[axis])) axis = other;
   }
+  return axis;
+}
+
+char side_letter(const Vec3& direction) noexcept {
+  const int axis = body_axis(direction);
   return letter_along(axis, direction[axis]);
 }
 
 GridOrientation orientation_of(const Mat3& direction) {
-  const auto cosine = [&direction](int body_axis, std::size_t grid_axis) {
-    return direction.rows[static_cast<std::size_t>(body_axis)][static_cast<int>(grid_axis)];
+  const auto cosine = [&direction](int axis, std::size_t grid_axis) {
+    return direction.rows[static_cast<std::size_t>(axis)][static_cast<int>(grid_axis)];
   };
   std::array<int, 3> body{0, 1, 2}, best = body;
   double most = -1;

@@ -8,6 +8,12 @@
 /// How a grid lies in the body.
 namespace mesamis {
 
+/// Finds the body axis nearest to a direction, either way; of equals the first.
+/// @param direction  LPS, not zero, of any unit.
+/// @return 0 x, 1 y, 2 z; no unit.
+/// @throws nothing
+int body_axis(const Vec3& direction) noexcept;
+
 /// Names the side of the body that a direction points to most: L or R, P or A, S or I.
 /// @param direction  LPS, not zero, of any unit.
 /// @throws nothing

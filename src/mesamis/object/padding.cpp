@@ -17,11 +17,10 @@ constexpr float kAir = -1000, kLikeAir = 100;  // HU
 
 /// Marks what is darker than anything in CT can be; empty if there is hardly anything.
 VoxelMask darker_than_air(const VolumeView& volume) {
-  constexpr float kNoTissue = -1500;
   constexpr std::size_t kOneIn = 1000;
   if (!is_hounsfield(volume)) return {};
   VoxelMask mask(volume.samples.size(), 0);
-  for (std::size_t n = 0; n < mask.size(); ++n) mask[n] = volume.samples[n] <= kNoTissue;
+  for (std::size_t n = 0; n < mask.size(); ++n) mask[n] = volume.samples[n] <= kPaddingHu;
   if (count_marked(mask) * kOneIn < mask.size()) return {};
   const VoxelMask sure = mask;
   for (std::size_t n = 0; n < mask.size(); ++n) {

@@ -54,15 +54,6 @@ Index slice_index(const Volume& volume, int axis, int grid_axis, double position
   return std::clamp(static_cast<Index>(std::lround(index)), Index{0}, last);
 }
 
-/// The body axis nearest to a direction: 0 x, 1 y, 2 z.
-int body_axis(const Vec3& direction) {
-  int axis = 0;
-  for (const int other : {1, 2}) {
-    if (std::abs(direction[other]) > std::abs(direction[axis])) axis = other;
-  }
-  return axis;
-}
-
 /// @param side  0: along the bottom; 1: along the left side.
 std::vector<SideTick> ticks_along(const Volume& volume, const SlicePlane& plane, std::size_t side) {
   constexpr int kCount = 6;
@@ -122,8 +113,7 @@ std::array<std::vector<SideTick>, 2> side_ticks(const Volume& volume, const Slic
 
 ValueRange slice_window(const Volume& volume) {
   constexpr double kLow = 0.005, kHigh = 0.995;
-  constexpr float kPadding = -1500;
-  const auto is_padding = [](float value) { return value <= kPadding; };
+  const auto is_padding = [](float value) { return value <= kPaddingHu; };
   const auto& samples = volume.samples;
   if (std::none_of(samples.begin(), samples.end(), is_padding) || !is_hounsfield(volume)) {
     return percentile_range(std::span<const float>(samples), kLow, kHigh);
