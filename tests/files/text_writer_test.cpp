@@ -40,6 +40,12 @@ TEST(TextWriter, MoreThanItsBufferIsWrittenInOrder) {
   EXPECT_TRUE(read_bytes(folder / "a.txt") == expected);
 }
 
+TEST(TextWriter, ShortestDecimalsAreAppendedWithoutASignOfZero) {
+  std::string text;
+  for (const double value : {0.1, -0.0, -2.0, 1.0 / 3}) append_shortest(text += ' ', value);
+  EXPECT_EQ(text, " 0.1 0 -2 0.3333333333333333");
+}
+
 TEST(TextWriter, NumbersReadBackToTheSameBits) {
   const TempFolder folder;
   using Limits = std::numeric_limits<double>;

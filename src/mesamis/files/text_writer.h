@@ -14,6 +14,12 @@
 
 namespace mesamis::detail {
 
+/// Appends the shortest decimals that read back as the same double; never "-0".
+inline void append_shortest(std::string& out, double value) {
+  char text[32];
+  out.append(text, std::to_chars(text, text + sizeof text, value + 0.0).ptr);
+}
+
 /// Writes a text file in pieces of 1 MiB; the file appears with commit(), or not at all.
 class TextWriter {
  public:

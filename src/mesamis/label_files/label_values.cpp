@@ -2,10 +2,10 @@
 #include "mesamis/label_files/label_values.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "mesamis/files/refuse.h"
+#include "mesamis/files/text_writer.h"
 
 namespace mesamis::detail {
 namespace {
@@ -81,9 +81,9 @@ std::optional<std::array<std::uint8_t, 3>> colour_in(const std::array<std::strin
 }
 
 std::string colour_share(std::uint8_t colour) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), colour / 255.0);
-  return {digits.data(), end.ptr};
+  std::string share;
+  append_shortest(share, colour / 255.0);
+  return share;
 }
 
 }  // namespace mesamis::detail

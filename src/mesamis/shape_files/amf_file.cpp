@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "mesamis/files/refuse.h"
+#include "mesamis/files/text_writer.h"
 #include "mesamis/files/xml.h"
 #include "mesamis/shape_files/object_formats.h"
 #include "mesamis/shape_files/polygons.h"

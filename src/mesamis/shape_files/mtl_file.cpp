@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/text_scan.h"
+#include "mesamis/files/text_writer.h"
 #include "mesamis/shape_files/object_formats.h"
 
 namespace mesamis::detail {

@@ -5,6 +5,7 @@
 #include "mesamis/files/byte_source.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/text_scan.h"
+#include "mesamis/files/text_writer.h"
 #include "mesamis/shape_files/object_formats.h"
 
 namespace mesamis::detail {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <charconv>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -36,12 +35,6 @@ std::optional<Frame> frame_named(std::string_view name);
 
 /// The type of the metadata that names the program; write_surface() makes sure that there is one.
 inline constexpr const char* kProducer = "producer";
-
-/// The shortest decimals that read back as the same double; never "-0".
-inline void append_shortest(std::string& out, double value) {
-  char text[32];
-  out.append(text, std::to_chars(text, text + sizeof text, value + 0.0).ptr);
-}
 
 /// Single precision, as the format has it, see round_to_single().
 std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
