@@ -7,6 +7,7 @@
 #include <fstream>
 #include <vector>
 
+#include "mesamis/files/deflate.h"
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 
@@ -14,8 +15,6 @@ namespace mesamis::detail {
 namespace {
 
 constexpr std::size_t kChunk = 1 << 16;
-// The most that deflate can pack: 258 bytes in 2 bits, zlib's own figure.
-constexpr std::uint64_t kMostDeflateRatio = 1032;
 constexpr int kGzipOrZlib = 15 + 32;  // window bits of inflateInit2: detect the wrapper
 
 }  // namespace

@@ -34,7 +34,7 @@ class ByteSource {
   /// @return  the number of bytes skipped; less than n only at the end.
   /// @throws InputError  as read().
   std::uint64_t skip(std::uint64_t n);
-  /// @return  an upper bound of the number of bytes to read: 1032 times the compressed size.
+  /// @return  an upper bound of the bytes to read: kMostDeflateRatio times the compressed size.
   std::uint64_t most_bytes() const;
 
  private:

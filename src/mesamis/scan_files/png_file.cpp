@@ -9,6 +9,7 @@
 
 #include "mesamis/files/byte_source.h"
 #include "mesamis/files/bytes.h"
+#include "mesamis/files/deflate.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
 #include "mesamis/scan_files/grey_pixels.h"
@@ -17,7 +18,6 @@ namespace mesamis::detail {
 namespace {
 
 constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
-constexpr std::uint64_t kMostDeflateRatio = 1032;  // zlib's own figure
 /// Colour types.
 constexpr int kGrey = 0, kRgb = 2, kPalette = 3, kGreyAlpha = 4, kRgba = 6;
 

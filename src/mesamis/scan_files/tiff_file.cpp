@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "mesamis/files/deflate.h"
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
@@ -21,9 +22,9 @@ using TiffHandle = std::unique_ptr<TIFF, CloseTiff>;
 
 int stay_silent(TIFF*, void*, const char*, const char*, va_list) { return 1; }
 
-/// The largest buffer that the file can fill: deflate compresses at most 1032 to 1.
+/// The largest buffer that the file can fill.
 double allocation_bound(const std::filesystem::path& file) {
-  return 1032.0 * static_cast<double>(size_of(file)) + (1 << 20);
+  return 1.0 * kMostDeflateRatio * static_cast<double>(size_of(file)) + (1 << 20);
 }
 
 /// Opens with message handlers and a memory bound of this handle alone; libtiff's global handlers

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "mesamis/files/deflate.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/text_scan.h"
 
@@ -219,7 +220,6 @@ std::uint64_t VtkXml::header_number(StoredArray& stored, std::size_t index) cons
 /// Plain: the number of bytes, the bytes. Packed: the number of blocks, the size of a block and of
 /// the last one if that is smaller, the packed size of each block, the blocks.
 VtkXml::Layout VtkXml::layout_of(StoredArray& stored) const {
-  constexpr std::uint64_t kMostDeflateRatio = 1032;
   const std::size_t size = byte_size(header_type_);
   const std::uint64_t first = header_number(stored, 0);
   if (first > stored.most_bytes()) refuse(file_, "an array is cut off");
