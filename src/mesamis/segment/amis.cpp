@@ -1,30 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/segment/amis.h"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/segment/alternation.h"
 
 namespace mesamis {
 namespace {
-
-void require_size(const char* name, std::size_t found, std::size_t expected) {
-  if (found != expected) {
-    throw InputError(std::string("amis: ") + name + " has " + std::to_string(found) +
-                     " values for " + std::to_string(expected) + " nodes");
-  }
-}
-
-double largest_change(std::span<const double> a, std::span<const double> b) {
-  return parallel_max(a.size(), 0, [&](std::size_t begin, std::size_t end) {
-    double largest = 0;
-    for (std::size_t n = begin; n < end; ++n) largest = std::max(largest, std::abs(a[n] - b[n]));
-    return largest;
-  });
-}
 
 /// The two linear steps, each from and into the current fields.
 class Alternation {
@@ -40,7 +22,7 @@ class Alternation {
     parallel_for(work.size(), [&](std::size_t n) { work[n] = result_.v[n] * result_.v[n]; });
     const auto system = space_.diffusion(work, beta, beta * eta, mass);
     parallel_for(work.size(), [&](std::size_t n) { work[n] = mass[n] * f_[n]; });
-    solve_into(*system, work, result_.u);
+    record(solve(*system, work, result_.u, options_.solver), result_.report);
     finish_half_step();
   }
 
@@ -55,30 +37,12 @@ class Alternation {
     const auto system = space_.diffusion({}, 0, gamma * epsilon, std::move(diagonal));
     std::vector<double> right(mass);
     parallel_for(right.size(), [&](std::size_t n) { right[n] *= well; });
-    solve_into(*system, right, result_.v);
-    clamp_v();
+    record(solve(*system, right, result_.v, options_.solver), result_.report);
+    result_.report.clamped += clamp_v(result_.v, options_.solver.tolerance);
     finish_half_step();
   }
 
  private:
-  void solve_into(const SpdOperator& system, std::span<const double> right,
-                  std::span<double> solution) {
-    const SolveReport solved = solve(system, right, solution, options_.solver);
-    result_.report.solver_iterations += solved.iterations;
-    result_.report.solver_residual = std::max(result_.report.solver_residual, solved.residual);
-    result_.report.solver_converged &= solved.converged;
-  }
-
-  /// Prop. 2.1 holds on Kuhn grids; obtuse cells can break it by a little. What is within the
-  /// solver's accuracy of the interval is not counted.
-  void clamp_v() {
-    const double slack = 10 * options_.solver.tolerance;
-    for (double& value : result_.v) {
-      result_.report.clamped += value < -slack || value > 1 + slack;
-      value = std::clamp(value, 0.0, 1.0);
-    }
-  }
-
   void finish_half_step() {
     if (options_.after_half_step) options_.after_half_step(result_.u, result_.v);
   }

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/segment/grid_amis.h"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
-#include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/single_grid_system.h"
+#include "mesamis/segment/alternation.h"
 
 namespace mesamis {
 namespace {
@@ -26,7 +22,7 @@ class GridAlternation {
       system_.right()[n] = static_cast<float>(mass) * f_[n];
     });
     system_.couple(minimum_.v, beta, beta * eta);
-    solve_into(minimum_.u);
+    record(system_.solve(minimum_.u, options_.solver), minimum_.report);
   }
 
   /// @return the largest change of v.
@@ -41,9 +37,9 @@ class GridAlternation {
     });
     system_.couple({}, 0, gamma * epsilon);
     const std::vector<float> before = minimum_.v;
-    solve_into(minimum_.v);
-    clamp_v();
-    return largest_change(before);
+    record(system_.solve(minimum_.v, options_.solver), minimum_.report);
+    minimum_.report.clamped += clamp_v(minimum_.v, options_.solver.tolerance);
+    return largest_change(minimum_.v, before);
   }
 
   /// The functional of the present fields; the system's diagonal is lost.
@@ -78,33 +74,6 @@ class GridAlternation {
         const GridMass::Row row = system_.mass().row(j, static_cast<Index>(k));
         for (Index i = 0; i < grid_.size[0]; ++i, ++n) body(n, row.at(i));
       }
-    });
-  }
-
-  void solve_into(std::span<float> solution) {
-    const SolveReport solved = system_.solve(solution, options_.solver);
-    AmisReport& report = minimum_.report;
-    report.solver_iterations += solved.iterations;
-    report.solver_residual = std::max(report.solver_residual, solved.residual);
-    report.solver_converged &= solved.converged;
-  }
-
-  /// As on any mesh, see run_amis().
-  void clamp_v() {
-    const double slack = 10 * options_.solver.tolerance;
-    for (float& value : minimum_.v) {
-      minimum_.report.clamped += value < -slack || value > 1 + slack;
-      value = std::clamp(value, 0.0F, 1.0F);
-    }
-  }
-
-  double largest_change(const std::vector<float>& before) const {
-    return parallel_max(before.size(), 0, [&](std::size_t begin, std::size_t end) {
-      float largest = 0;
-      for (std::size_t n = begin; n < end; ++n) {
-        largest = std::max(largest, std::abs(minimum_.v[n] - before[n]));
-      }
-      return double{largest};
     });
   }
 
@@ -149,10 +118,7 @@ GridMinimum run_in_double(const KuhnGrid& grid, std::span<const float> f,
 GridMinimum run_amis_on_grid(const KuhnGrid& grid, std::span<const float> f,
                              const AmisOptions& options) {
   require_valid(options.parameters);
-  if (f.size() != grid.node_count()) {
-    throw InputError("amis: f has " + std::to_string(f.size()) + " values for " +
-                     std::to_string(grid.node_count()) + " nodes");
-  }
+  require_size("f", f.size(), grid.node_count());
   if (options.solver.tolerance >= kLeastSingleTolerance && !options.after_half_step &&
       options.max_iterations > 0) {
     GridMinimum minimum = run_in_single(grid, f, options);
