@@ -33,6 +33,13 @@ class GridAgainstMesh : public ::testing::Test {
   }
 };
 
+TEST_F(GridAgainstMesh, CellsFillTheBox) {
+  EXPECT_EQ(grid_.cell_count(), std::ssize(mesh_.cells));
+  for (Index c = 0; c < std::ssize(mesh_.cells); ++c) {
+    EXPECT_NEAR(grid_.cell_volume(), cell_volume(mesh_, c), 1e-12);
+  }
+}
+
 TEST_F(GridAgainstMesh, LumpedMass) { expect_equal(a_.lumped_mass(), b_.lumped_mass()); }
 
 TEST_F(GridAgainstMesh, GradientSquares) {

@@ -88,7 +88,7 @@ class GridEstimator {
         fields_(fields),
         metric_(metric),
         bricks_{grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1},
-        cell_volume_(grid.spacing.x * grid.spacing.y * grid.spacing.z / 6),
+        cell_volume_(grid.cell_volume()),
         paths_(path_geometries(grid.spacing)) {
     group_patches();
     for (std::size_t path = 0; path < kPaths; ++path) {

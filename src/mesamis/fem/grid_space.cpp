@@ -138,10 +138,6 @@ class EdgeCoefficient {
   double scale_, offset_;
 };
 
-double cell_volume(const KuhnGrid& grid) {
-  return grid.spacing.x * grid.spacing.y * grid.spacing.z / 6;
-}
-
 /// Adds value(brick corner) to the eight corners of every brick of one layer.
 template <class AddBrick>
 void add_bricks_of_layer(const KuhnGrid& grid, Index k, AddBrick&& add) {
@@ -176,7 +172,7 @@ GridSpace::GridSpace(const KuhnGrid& grid) : grid_(grid) {
   }
   lumped_mass_.assign(grid.node_count(), 0);
   const auto stride = grid.stride();
-  const double quarter = cell_volume(grid) / 4;
+  const double quarter = grid.cell_volume() / 4;
   for_each_brick(grid_, [&](std::size_t corner) {
     // The two ends of the main diagonal belong to six cells, every other corner to two.
     for (std::size_t bits = 0; bits < 8; ++bits) {
@@ -195,7 +191,7 @@ std::unique_ptr<SpdOperator> GridSpace::diffusion(std::span<const double> w, dou
   for (int a = 0; a < 3; ++a) {
     conductance[a].assign(node_count(), 0);
     const double h = grid_.spacing[a];
-    const double weight = cell_volume(grid_) / (h * h);
+    const double weight = grid_.cell_volume() / (h * h);
     for_each_node(grid_, [&](Index i, Index j, Index k, std::size_t n) {
       const std::array<Index, 3> at{i, j, k};
       if (at[a] + 1 < grid_.size[a]) conductance[a][n] = weight * coefficient.at(a, at, n);
@@ -207,7 +203,7 @@ std::unique_ptr<SpdOperator> GridSpace::diffusion(std::span<const double> w, dou
 std::vector<double> GridSpace::gradient_squares(std::span<const double> u) const {
   std::vector<double> squares(node_count(), 0);
   const auto stride = grid_.stride();
-  const double quarter = cell_volume(grid_) / 4;
+  const double quarter = grid_.cell_volume() / 4;
   const std::array<double, 3> per_length{1 / (grid_.spacing.x * grid_.spacing.x),
                                          1 / (grid_.spacing.y * grid_.spacing.y),
                                          1 / (grid_.spacing.z * grid_.spacing.z)};

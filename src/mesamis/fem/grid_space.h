@@ -24,6 +24,8 @@ struct KuhnGrid {
   std::int64_t cell_count() const noexcept {
     return 6 * std::int64_t{size[0] - 1} * (size[1] - 1) * (size[2] - 1);
   }
+  /// The volume of each tetrahedron, in the cube of the unit of the spacing.
+  double cell_volume() const noexcept { return spacing.x * spacing.y * spacing.z / 6; }
   /// The steps between the numbers of neighbouring nodes along each axis.
   std::array<std::size_t, 3> stride() const noexcept {
     return {1, static_cast<std::size_t>(size[0]),

@@ -46,22 +46,30 @@ void add(const float* a, const float* b, float factor, std::size_t count, float*
   for (std::size_t i = 0; i < count; ++i) sums[i] += factor * (a[i] + b[i]);
 }
 
-double cell_volume(const KuhnGrid& grid) {
-  return grid.spacing.x * grid.spacing.y * grid.spacing.z / 6;
-}
-
-/// Calls body(j, k) for every line of nodes and returns what it adds up to, in the order of layers.
+/// Adds up body(k) over the layers of nodes, in their order.
 template <class Body>
-double sum_of_lines(const KuhnGrid& grid, Body&& body) {
+double sum_of_layers(const KuhnGrid& grid, Body&& body) {
   std::vector<double> sums(static_cast<std::size_t>(grid.size[2]), 0);
-  parallel_for_each(sums.size(), [&](std::size_t k) {
-    double sum = 0;
-    for (Index j = 0; j < grid.size[1]; ++j) sum += body(j, static_cast<Index>(k));
-    sums[k] = sum;
-  });
+  parallel_for_each(sums.size(), [&](std::size_t k) { sums[k] = body(static_cast<Index>(k)); });
   double sum = 0;
   for (const double of_layer : sums) sum += of_layer;
   return sum;
+}
+
+/// Adds up body(first node, j, k) over the lines of nodes of a layer.
+template <class Body>
+double sum_of_layer(const KuhnGrid& grid, Index k, Body&& body) {
+  const auto stride = grid.stride();
+  std::size_t n = static_cast<std::size_t>(k) * stride[2];
+  double sum = 0;
+  for (Index j = 0; j < grid.size[1]; ++j, n += stride[1]) sum += body(n, j, k);
+  return sum;
+}
+
+/// Adds up body(first node, j, k) over all lines of nodes, layer by layer.
+template <class Body>
+double sum_of_lines(const KuhnGrid& grid, Body&& body) {
+  return sum_of_layers(grid, [&](Index k) { return sum_of_layer(grid, k, body); });
 }
 
 /// The sum of term(i) in four parts, which do not wait for each other.
@@ -78,7 +86,7 @@ double sum_of(std::size_t count, Term&& term) {
 
 }  // namespace
 
-SingleGridSystem::SingleGridSystem(const KuhnGrid& grid) : grid_(grid), mass_(grid) {
+SingleGridSystem::SingleGridSystem(const KuhnGrid& grid) : grid_(grid) {
   for (auto& of_axis : conductance_) of_axis.resize(grid.node_count());
   for (auto* field : {&diagonal_, &r_, &p_, &ap_}) field->resize(grid.node_count());
 }
@@ -147,7 +155,7 @@ void SingleGridSystem::add_cell_coefficients(std::span<const float> v, double sc
   std::array<float, 3> weight;
   for (int a = 0; a < 3; ++a) {
     const double h = grid_.spacing[a];
-    weight[static_cast<std::size_t>(a)] = static_cast<float>(cell_volume(grid_) / (h * h));
+    weight[static_cast<std::size_t>(a)] = static_cast<float>(grid_.cell_volume() / (h * h));
   }
   const float wx = weight[0], wy = weight[1], wz = weight[2];
   for_each_brick_line(grid_, [&](const BrickLine& at, PathLines& paths) {
@@ -172,15 +180,27 @@ void SingleGridSystem::add_cell_coefficients(std::span<const float> v, double sc
 }
 
 /// The diagonal of diag(d) + K(c) on a line of nodes.
-std::vector<float> SingleGridSystem::whole_diagonal(std::size_t n, Index j, Index k) const {
+void SingleGridSystem::find_diagonal(std::size_t n, Index j, Index k, std::span<float> line) const {
   const auto stride = grid_.stride();
-  std::vector<float> d(&diagonal_[n], &diagonal_[n] + stride[1]);
+  float* d = line.data();
+  std::copy_n(&diagonal_[n], stride[1], d);
   const auto& [x, y, z] = conductance_;
-  for (std::size_t a = 0; a < 3; ++a) add(&conductance_[a][n], 1, stride[1], d.data());
-  add(&x[n], 1, stride[1] - 1, d.data() + 1);
-  if (j > 0) add(&y[n - stride[1]], 1, stride[1], d.data());
-  if (k > 0) add(&z[n - stride[2]], 1, stride[1], d.data());
-  return d;
+  for (const auto& of_axis : conductance_) add(&of_axis[n], 1, stride[1], d);
+  add(&x[n], 1, stride[1] - 1, d + 1);
+  if (j > 0) add(&y[n - stride[1]], 1, stride[1], d);
+  if (k > 0) add(&z[n - stride[2]], 1, stride[1], d);
+}
+
+/// Adds up body(first node, whole diagonal) over all lines of nodes, layer by layer.
+template <class Body>
+double SingleGridSystem::sum_with_diagonal(Body&& body) const {
+  return sum_of_layers(grid_, [&](Index k) {
+    std::vector<float> d(grid_.stride()[1]);
+    return sum_of_layer(grid_, k, [&](std::size_t n, Index j, Index) {
+      find_diagonal(n, j, k, d);
+      return body(n, d.data());
+    });
+  });
 }
 
 /// A x into ap_; returns x'A x. Of constants the differences are zero, without round-off: where an
@@ -188,9 +208,7 @@ std::vector<float> SingleGridSystem::whole_diagonal(std::size_t n, Index j, Inde
 double SingleGridSystem::apply(std::span<const float> x) {
   const auto stride = grid_.stride();
   const std::vector<float> nothing(stride[1], 0);
-  return sum_of_lines(grid_, [&](Index j, Index k) {
-    const std::size_t n =
-        static_cast<std::size_t>(k) * stride[2] + static_cast<std::size_t>(j) * stride[1];
+  return sum_of_lines(grid_, [&](std::size_t n, Index j, Index k) {
     const bool has_before_y = j > 0, has_before_z = k > 0;
     const float *d = &diagonal_[n], *cx = &conductance_[0][n], *cy = &conductance_[1][n],
                 *cz = &conductance_[2][n];
@@ -222,34 +240,28 @@ double SingleGridSystem::apply(std::span<const float> x) {
 
 /// p = r / d; returns r'p.
 double SingleGridSystem::start() {
-  const auto stride = grid_.stride();
-  return sum_of_lines(grid_, [&](Index j, Index k) {
-    const std::size_t n =
-        static_cast<std::size_t>(k) * stride[2] + static_cast<std::size_t>(j) * stride[1];
-    const std::vector<float> d = whole_diagonal(n, j, k);
+  const std::size_t count = grid_.stride()[1];
+  return sum_with_diagonal([&](std::size_t n, const float* d) {
     const float* r = &r_[n];
     float* p = &p_[n];
-    for (std::size_t i = 0; i < stride[1]; ++i) p[i] = r[i] / d[i];
-    return sum_of(stride[1], [&](std::size_t i) { return r[i] * p[i]; });
+    for (std::size_t i = 0; i < count; ++i) p[i] = r[i] / d[i];
+    return sum_of(count, [&](std::size_t i) { return r[i] * p[i]; });
   });
 }
 
 /// x += alpha p, r -= alpha A p, and r / d into ap_; returns r'r / d.
 double SingleGridSystem::step(std::span<float> solution, double alpha) {
-  const auto stride = grid_.stride();
+  const std::size_t count = grid_.stride()[1];
   const auto factor = static_cast<float>(alpha);
-  return sum_of_lines(grid_, [&](Index j, Index k) {
-    const std::size_t n =
-        static_cast<std::size_t>(k) * stride[2] + static_cast<std::size_t>(j) * stride[1];
-    const std::vector<float> d = whole_diagonal(n, j, k);
+  return sum_with_diagonal([&](std::size_t n, const float* d) {
     const float* p = &p_[n];
     float *x = &solution[n], *r = &r_[n], *ap = &ap_[n];
-    for (std::size_t i = 0; i < stride[1]; ++i) x[i] += factor * p[i];
-    for (std::size_t i = 0; i < stride[1]; ++i) {
+    for (std::size_t i = 0; i < count; ++i) x[i] += factor * p[i];
+    for (std::size_t i = 0; i < count; ++i) {
       r[i] -= factor * ap[i];
       ap[i] = r[i] / d[i];
     }
-    return sum_of(stride[1], [&](std::size_t i) { return r[i] * ap[i]; });
+    return sum_of(count, [&](std::size_t i) { return r[i] * ap[i]; });
   });
 }
 
@@ -292,7 +304,7 @@ void find_gradient_squares(const KuhnGrid& grid, std::span<const float> u,
     const double h = grid.spacing[a];
     factor[static_cast<std::size_t>(a)] = static_cast<float>(1 / (h * h));
   }
-  const auto quarter = static_cast<float>(cell_volume(grid) / 4);
+  const auto quarter = static_cast<float>(grid.cell_volume() / 4);
   parallel_for(squares.size(), [&](std::size_t n) { squares[n] = 0; });
   for_each_brick_line(grid, [&](const BrickLine& at, PathLines& paths) {
     find_squares(u, at, factor, paths);
@@ -315,10 +327,7 @@ void find_gradient_squares(const KuhnGrid& grid, std::span<const float> u,
 
 double sum_over_nodes(const KuhnGrid& grid, const GridMass& mass,
                       const std::function<double(std::size_t, double)>& term) {
-  const auto stride = grid.stride();
-  return sum_of_lines(grid, [&](Index j, Index k) {
-    const std::size_t n =
-        static_cast<std::size_t>(k) * stride[2] + static_cast<std::size_t>(j) * stride[1];
+  return sum_of_lines(grid, [&](std::size_t n, Index j, Index k) {
     const GridMass::Row row = mass.row(j, k);
     double sum = 0;
     for (Index i = 0; i < grid.size[0]; ++i) {

@@ -29,9 +29,6 @@ class SingleGridSystem {
   /// changes them. O(1).
   /// @throws nothing
   std::vector<float>& right() noexcept { return r_; }
-  /// The lumped masses of the nodes. O(1).
-  /// @throws nothing
-  const GridMass& mass() const noexcept { return mass_; }
 
   /// Adds K(c) with the cell coefficient c_K = scale * (mean of v^2 over the nodes of K) + offset.
   /// @param v  n values of any unit, or empty: then c_K = offset.
@@ -53,14 +50,15 @@ class SingleGridSystem {
 
  private:
   void add_cell_coefficients(std::span<const float> v, double scale, double offset);
-  std::vector<float> whole_diagonal(std::size_t n, Index j, Index k) const;
+  void find_diagonal(std::size_t n, Index j, Index k, std::span<float> line) const;
+  template <class Body>
+  double sum_with_diagonal(Body&& body) const;
   double apply(std::span<const float> x);
   double start();
   double step(std::span<float> x, double alpha);
   void turn(double beta);
 
   KuhnGrid grid_;
-  GridMass mass_;
   std::array<std::vector<float>, 3> conductance_;  // of the edge from n to its next node
   std::vector<float> diagonal_, r_, p_, ap_;
 };

@@ -13,7 +13,7 @@ class GridAlternation {
  public:
   GridAlternation(const KuhnGrid& grid, std::span<const float> f, const AmisOptions& options,
                   GridMinimum& minimum)
-      : grid_(grid), f_(f), options_(options), minimum_(minimum), system_(grid) {}
+      : grid_(grid), f_(f), options_(options), minimum_(minimum), masses_(grid), system_(grid) {}
 
   void step_u() {
     const auto& [epsilon, eta, beta, gamma] = options_.parameters;
@@ -47,18 +47,17 @@ class GridAlternation {
     const auto& [epsilon, eta, beta, gamma] = options_.parameters;
     const std::vector<float>&u = minimum_.u, &v = minimum_.v;
     std::vector<float>& squares = system_.diagonal();
-    const GridMass& masses = system_.mass();
     Energy e;
     find_gradient_squares(grid_, u, squares);
-    e.fidelity = sum_over_nodes(grid_, masses, [&](std::size_t n, double mass) {
+    e.fidelity = sum_over_nodes(grid_, masses_, [&](std::size_t n, double mass) {
       const double d = double{u[n]} - double{f_[n]};
       return mass * d * d;
     });
-    e.smoothing = beta * sum_over_nodes(grid_, masses, [&, h = eta](std::size_t n, double) {
+    e.smoothing = beta * sum_over_nodes(grid_, masses_, [&, h = eta](std::size_t n, double) {
                     return (double{v[n]} * double{v[n]} + h) * double{squares[n]};
                   });
     find_gradient_squares(grid_, v, squares);
-    e.edge = gamma * sum_over_nodes(grid_, masses, [&, eps = epsilon](std::size_t n, double mass) {
+    e.edge = gamma * sum_over_nodes(grid_, masses_, [&, eps = epsilon](std::size_t n, double mass) {
                const double d = double{v[n]} - 1;
                return eps * double{squares[n]} + mass * d * d / (4 * eps);
              });
@@ -71,7 +70,7 @@ class GridAlternation {
     parallel_for_each(static_cast<std::size_t>(grid_.size[2]), [&](std::size_t k) {
       std::size_t n = k * grid_.stride()[2];
       for (Index j = 0; j < grid_.size[1]; ++j) {
-        const GridMass::Row row = system_.mass().row(j, static_cast<Index>(k));
+        const GridMass::Row row = masses_.row(j, static_cast<Index>(k));
         for (Index i = 0; i < grid_.size[0]; ++i, ++n) body(n, row.at(i));
       }
     });
@@ -81,6 +80,7 @@ class GridAlternation {
   std::span<const float> f_;
   const AmisOptions& options_;
   GridMinimum& minimum_;
+  GridMass masses_;
   SingleGridSystem system_;
 };
 
