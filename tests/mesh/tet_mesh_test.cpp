@@ -38,6 +38,19 @@ TEST(BoxMesh, RefusesWhatHasNoBricks) {
   EXPECT_THROW(box_mesh(kBox, {1000, 1000, 1000}), InputError);
 }
 
+TEST(PlanesOf, AreABitEach) {
+  const Box box{{0, 1, 2}, {3, 4, 5}};
+  EXPECT_EQ(planes_of(box, {1, 2, 3}), 0);
+  EXPECT_EQ(planes_of(box, {0, 2, 3}), 1);
+  EXPECT_EQ(planes_of(box, {3, 2, 3}), 2);
+  EXPECT_EQ(planes_of(box, {1, 1, 3}), 4);
+  EXPECT_EQ(planes_of(box, {1, 4, 3}), 8);
+  EXPECT_EQ(planes_of(box, {1, 2, 2}), 16);
+  EXPECT_EQ(planes_of(box, {1, 2, 5}), 32);
+  EXPECT_EQ(planes_of(box, {3, 4, 2}), 2 + 8 + 16);
+  EXPECT_EQ(planes_of(box, {std::nextafter(3.0, 0), 2, 3}), 0);
+}
+
 TEST(Edges, FulfilEulersFormulaOfABall) {
   const TetMesh mesh = perturbed_box(kBox, {3, 2, 4}, 0.2);
   std::size_t inner = 0, outer = 0;

@@ -33,19 +33,6 @@ TEST(WorkingMesh, LoadsAndUnloadsTheSameMesh) {
   EXPECT_EQ(work.cell_count(), std::ssize(mesh.cells));
 }
 
-TEST(WorkingMesh, KnowsThePlanesOfTheBox) {
-  const Box box{{0, 1, 2}, {3, 4, 5}};
-  EXPECT_EQ(planes_of(box, {1, 2, 3}), 0);
-  EXPECT_EQ(planes_of(box, {0, 2, 3}), 1);
-  EXPECT_EQ(planes_of(box, {3, 2, 3}), 2);
-  EXPECT_EQ(planes_of(box, {1, 1, 3}), 4);
-  EXPECT_EQ(planes_of(box, {1, 4, 3}), 8);
-  EXPECT_EQ(planes_of(box, {1, 2, 2}), 16);
-  EXPECT_EQ(planes_of(box, {1, 2, 5}), 32);
-  EXPECT_EQ(planes_of(box, {3, 4, 2}), 2 + 8 + 16);
-  EXPECT_EQ(planes_of(box, {std::nextafter(3.0, 0), 2, 3}), 0);
-}
-
 TEST(WorkingMesh, CompactKeepsTheMeshAndDropsUnusedSlots) {
   SmallMesh small(perturbed_box(kUnitBox, {4, 4, 4}, 0.2), kUniform);
   const auto before = cells_in_space(unload(small.mesh));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,6 +52,19 @@ std::array<Index, 3> sorted_face(const Cell& cell, int face);
 /// @return mm; from +infinity to -infinity if there are no points.
 /// @throws nothing
 Box bounding_box(std::span<const Vec3> points);
+
+/// The planes of a box that hold a point exactly: a bit each, x_lo x_hi y_lo y_hi z_lo z_hi from
+/// the lowest on. O(1).
+/// @param box, p  mm.
+/// @throws nothing
+inline std::uint8_t planes_of(const Box& box, const Vec3& p) noexcept {
+  unsigned mask = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    mask |= unsigned{p[axis] == box.lo[axis]} << (2 * axis);
+    mask |= unsigned{p[axis] == box.hi[axis]} << (2 * axis + 1);
+  }
+  return static_cast<std::uint8_t>(mask);
+}
 
 /// Meshes a box of n[0] x n[1] x n[2] bricks, each cut into the six Kuhn tetrahedra around its main
 /// diagonal. Points run in x fastest; the outer points lie exactly on the box.

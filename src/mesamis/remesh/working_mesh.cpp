@@ -139,15 +139,6 @@ void WorkingMesh::free_cell(Index c) {
   free_cells.push_back(c);
 }
 
-std::uint8_t planes_of(const Box& box, const Vec3& p) {
-  unsigned mask = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (p[axis] == box.lo[axis]) mask |= 1u << (2 * axis);
-    if (p[axis] == box.hi[axis]) mask |= 2u << (2 * axis);
-  }
-  return static_cast<std::uint8_t>(mask);
-}
-
 void set_pending(WorkingMesh& mesh, std::uint8_t operations) {
   for (WorkCell& cell : mesh.cells) {
     cell.pending = static_cast<std::uint8_t>(cell.pending | operations);

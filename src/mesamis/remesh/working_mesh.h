@@ -13,7 +13,7 @@
 /// The remesher's own mesh: data that changes often lies close together in memory.
 namespace mesamis::remeshing {
 
-/// Bits of Vertex::mask: the box planes x_lo x_hi y_lo y_hi z_lo z_hi that hold the vertex.
+/// Bits of Vertex::mask: the planes of the box that hold the vertex, see planes_of().
 inline constexpr std::uint8_t kPlanes = 0x3f;
 /// The vertex is shared with another part and must not change now.
 inline constexpr std::uint8_t kFrozen = 0x80;
@@ -77,9 +77,6 @@ struct WorkingMesh {
   Index new_cell();
   void free_cell(Index c);
 };
-
-/// The planes of the box that hold p exactly.
-std::uint8_t planes_of(const Box& box, const Vec3& p);
 
 /// Whether the operation has not tried this cell since it was made; clears the cell's bit. Cells at
 /// a frozen vertex keep the bit, since not every operation is possible there.
