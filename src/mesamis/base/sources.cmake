@@ -2,6 +2,7 @@
 set(ROOM_HEADERS
   error.h
   frame.h
+  grid_place.h
   median.h
   parallel.h
   progress.h

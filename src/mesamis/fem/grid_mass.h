@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "mesamis/base/grid_place.h"
 #include "mesamis/fem/grid_space.h"
 
 namespace mesamis {
@@ -25,8 +26,7 @@ class GridMass {
   /// Finds the 27 masses. O(1).
   /// @param grid  at least two nodes along each axis.
   /// @throws nothing
-  explicit GridMass(const KuhnGrid& grid)
-      : size_(grid.size), quarter_(grid.spacing.x * grid.spacing.y * grid.spacing.z / 24) {
+  explicit GridMass(const KuhnGrid& grid) : size_(grid.size), quarter_(grid.cell_volume() / 4) {
     for (std::size_t side = 0; side < masses_.size(); ++side) masses_[side] = of_side(side);
   }
 
@@ -41,13 +41,8 @@ class GridMass {
   /// @return in the cube of the unit of the spacing.
   /// @throws nothing
   double at(std::size_t n) const noexcept {
-    const auto node = static_cast<unsigned>(n), nx = static_cast<unsigned>(size_[0]),
-               ny = static_cast<unsigned>(size_[1]);
-    const unsigned line = node / nx, k = line / ny;
-    const std::size_t side = side_of(static_cast<Index>(node - line * nx), size_[0]) +
-                             3 * side_of(static_cast<Index>(line - k * ny), size_[1]) +
-                             9 * side_of(static_cast<Index>(k), size_[2]);
-    return masses_[side];
+    const auto [i, j, k] = grid_place(size_, static_cast<unsigned>(n));
+    return masses_[side_of(i, size_[0]) + 3 * side_of(j, size_[1]) + 9 * side_of(k, size_[2])];
   }
 
  private:

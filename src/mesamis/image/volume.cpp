@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "mesamis/base/error.h"
+#include "mesamis/base/grid_place.h"
 #include "mesamis/image/refuse.h"
 
 namespace mesamis {
@@ -54,10 +56,8 @@ void require_samples(const VolumeView& volume) {
   const auto unknown = std::find_if(f.begin(), f.end(), [](float x) { return !std::isfinite(x); });
   if (unknown != f.end()) {
     const auto at = static_cast<std::size_t>(unknown - f.begin());
-    const auto nx = static_cast<std::size_t>(volume.size[0]);
-    const auto ny = static_cast<std::size_t>(volume.size[1]);
-    refuse("volume: expected finite samples, found ", *unknown, " at voxel ", at % nx, " ",
-           at / nx % ny, " ", at / nx / ny);
+    const auto [i, j, k] = grid_place(volume.size, at);
+    refuse("volume: expected finite samples, found ", *unknown, " at voxel ", i, " ", j, " ", k);
   }
   if (std::all_of(f.begin(), f.end(), [&f](float x) { return x == f[0]; })) {
     refuse("volume: expected samples that differ, found ", f[0], " everywhere");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesamis/base/grid_place.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/text_writer.h"
 
@@ -26,9 +27,8 @@ void for_each_sample(const VoxelGrid& grid, const LayerOrder& order,
 }
 
 std::string place_of(const VoxelGrid& grid, std::size_t voxel) {
-  const auto nx = static_cast<std::size_t>(grid.size[0]);
-  const auto ny = static_cast<std::size_t>(grid.size[1]);
-  return say("voxel ", voxel % nx, " ", voxel / nx % ny, " ", voxel / nx / ny);
+  const auto [i, j, k] = grid_place(grid.size, voxel);
+  return say("voxel ", i, " ", j, " ", k);
 }
 
 }  // namespace

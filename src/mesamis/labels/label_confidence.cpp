@@ -7,6 +7,7 @@
 #include <string>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/grid_place.h"
 #include "mesamis/base/parallel.h"
 
 namespace mesamis {
@@ -237,7 +238,7 @@ class Depths {
   /// Adds the marked neighbours of the same label to a part and marks them as seen.
   void spread(std::size_t n, std::vector<std::uint8_t>& ridge,
               std::vector<std::size_t>& part) const {
-    const Place p = place_of(n);
+    const Place p = grid_place(grid_.size, n);
     for (const Step& s : around_) {
       if (!is_inside(moved(p, s.by))) continue;
       const std::size_t m = n + static_cast<std::size_t>(s.to);
@@ -248,13 +249,6 @@ class Depths {
   }
 
   std::size_t node_at(const Place& p) const { return static_cast<std::size_t>(offset_of(p)); }
-
-  Place place_of(std::size_t n) const {
-    const auto nx = static_cast<std::size_t>(grid_.size[0]);
-    const auto ny = static_cast<std::size_t>(grid_.size[1]);
-    return {static_cast<Index>(n % nx), static_cast<Index>(n / nx % ny),
-            static_cast<Index>(n / nx / ny)};
-  }
 
   /// The depth of the middle, but beside what is thin no more than kBesideThin steps.
   std::vector<float> thin_beside(const std::vector<float>& middle) const {

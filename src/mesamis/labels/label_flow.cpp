@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesamis/base/grid_place.h"
 #include "mesamis/fem/solve.h"
 #include "mesamis/labels/label_confidence.h"
 
@@ -29,15 +30,10 @@ struct LabelFlow::Window {
     return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
            static_cast<std::size_t>(size[2]);
   }
-  Place place(std::size_t n) const {
-    const auto nx = static_cast<std::size_t>(size[0]), ny = static_cast<std::size_t>(size[1]);
-    return {static_cast<Index>(n % nx), static_cast<Index>(n / nx % ny),
-            static_cast<Index>(n / nx / ny)};
-  }
   /// Calls visit(axis, neighbour) for those of the six that lie in the window, in their order.
   template <class Visit>
   void for_each_beside(std::size_t n, Visit&& visit) const {
-    const Place at = place(n);
+    const Place at = grid_place(size, n);
     const std::array<std::ptrdiff_t, 3> stride{1, size[0],
                                                static_cast<std::ptrdiff_t>(size[0]) * size[1]};
     for (const auto& [axis, sign] : kSides) {
@@ -107,7 +103,7 @@ LabelFlow::Window LabelFlow::window_around(const LabelExtent& extent) const {
 }
 
 std::size_t LabelFlow::node_of(const Window& w, std::size_t place) const {
-  const Place in = w.place(place);
+  const Place in = grid_place(w.size, place);
   const auto at = [&](std::size_t a) { return static_cast<std::size_t>(w.lo[a] + in[a]); };
   return at(0) + static_cast<std::size_t>(grid_.size[0]) *
                      (at(1) + static_cast<std::size_t>(grid_.size[1]) * at(2));

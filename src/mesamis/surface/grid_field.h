@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "mesamis/base/grid_place.h"
 #include "mesamis/mesh/kuhn.h"
 #include "mesamis/surface/grid_partition.h"
 
@@ -21,9 +22,7 @@ class GridField {
         close_at_box_(close_at_box),
         stride_{1, grid.size[0], grid.size[0] * grid.size[1]} {}
 
-  std::array<Index, 3> place(Index node) const {
-    return {node % stride_[1], node / stride_[1] % grid_.size[1], node / stride_[2]};
-  }
+  std::array<Index, 3> place(Index node) const { return grid_place(grid_.size, node); }
   Vec3 point(Index node) const {
     const auto [i, j, k] = place(node);
     return {i * grid_.spacing.x, j * grid_.spacing.y, k * grid_.spacing.z};

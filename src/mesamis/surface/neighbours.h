@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "mesamis/base/grid_place.h"
 #include "mesamis/surface/grid_field.h"
 
 namespace mesamis {
@@ -13,8 +14,7 @@ namespace mesamis {
 class Neighbours {
  public:
   Neighbours(const std::array<Index, 3>& size, Index node) {
-    const std::array<Index, 3> at{node % size[0], node / size[0] % size[1],
-                                  node / size[0] / size[1]};
+    const std::array<Index, 3> at = grid_place(size, node);
     for (std::size_t s = 0; s < 7; ++s) {
       const auto& d = kKuhnSteps[s];
       const Index step = d[0] + size[0] * (d[1] + size[1] * d[2]);

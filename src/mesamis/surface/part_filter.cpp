@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "mesamis/base/grid_place.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/list_materials.h"
 
@@ -119,21 +120,17 @@ class PartFilter {
   }
 
   Place corner_of(std::size_t brick) const {
-    const auto b = static_cast<Index>(brick);
-    return {b % bricks_[0] * kBrick, b / bricks_[0] % bricks_[1] * kBrick,
-            b / bricks_[0] / bricks_[1] * kBrick};
+    const Place b = grid_place(bricks_, brick);
+    return {b[0] * kBrick, b[1] * kBrick, b[2] * kBrick};
   }
   Index node_at(const Place& p) const { return p[0] + size_[0] * (p[1] + size_[1] * p[2]); }
   Index part_at(Index node) const { return part_[static_cast<std::size_t>(node)]; }
-  Place place_of(Index node) const {
-    return {node % size_[0], node / size_[0] % size_[1], node / size_[0] / size_[1]};
-  }
 
   /// 2 G p - G G p for the indicator p of a part, at the nodes that list it.
   void fill_in(std::span<const Entry> same) const {
     Place lo = size_, hi{-1, -1, -1};
     for (const Entry& entry : same) {
-      const Place at = place_of(entry.node);
+      const Place at = grid_place(size_, entry.node);
       for (std::size_t a = 0; a < 3; ++a) {
         lo[a] = std::min(lo[a], at[a]);
         hi[a] = std::max(hi[a], at[a]);
@@ -143,7 +140,7 @@ class PartFilter {
     const Values once = smoothed_once(indicator(same.front().part, lo, hi, 2 * radius), kernel_);
     const Values twice = smoothed_once(once, kernel_);
     for (const Entry& entry : same) {
-      const Place at = place_of(entry.node);
+      const Place at = grid_place(size_, entry.node);
       const Place in{at[0] - lo[0], at[1] - lo[1], at[2] - lo[2]};
       grid_.value[entry.place] = 2 * value_at(once, in, radius) - value_at(twice, in, 0);
     }
