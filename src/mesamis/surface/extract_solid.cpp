@@ -7,6 +7,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/box_planes.h"
+#include "mesamis/surface/cell_cuts.h"
 #include "mesamis/surface/extract.h"
 
 namespace mesamis {
@@ -23,11 +24,6 @@ Site site_on(Index a, Index b) {
 Index site_begin(Site s) { return static_cast<Index>(s >> 32); }
 Index site_end(Site s) { return static_cast<Index>(s & 0xffffffffu); }
 
-/// The first two corners of each kCellEdges pair with the other two corners in the order that
-/// makes the four an even permutation.
-constexpr std::array<std::array<int, 4>, 6> kEvenPairs{
-    {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
-
 /// {u > level} on one mesh, cell by cell.
 class Marcher {
  public:
@@ -43,8 +39,7 @@ class Marcher {
     if (a == b) return p;
     // Halves, since the difference of two large values may overflow.
     const double t = (0.5 * level_ - 0.5 * u_[a]) / (0.5 * u_[b] - 0.5 * u_[a]);
-    const double kept = t > kCrossingMargin ? std::min(t, 1 - kCrossingMargin) : kCrossingMargin;
-    return p + kept * (mesh_.points[b] - p);
+    return p + kept_off_ends(t) * (mesh_.points[b] - p);
   }
 
   /// Appends the level set's triangles in the cell, and the caps on its box faces.
@@ -84,7 +79,7 @@ class Marcher {
   void cut_pair(const Cell& cell, const std::array<bool, 4>& in,
                 std::vector<SiteTriangle>& out) const {
     for (const auto& [i, j, k, l] : kEvenPairs) {
-      if (!in[static_cast<std::size_t>(i)] || !in[static_cast<std::size_t>(j)]) continue;
+      if (!in[i] || !in[j]) continue;
       add_quad({site_on(cell[i], cell[k]), site_on(cell[i], cell[l]), site_on(cell[j], cell[l]),
                 site_on(cell[j], cell[k])},
                out);

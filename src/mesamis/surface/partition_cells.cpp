@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/surface/partition_cells.h"
 
-#include "mesamis/base/parallel.h"
-
 namespace mesamis {
 namespace {
 

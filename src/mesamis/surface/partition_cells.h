@@ -8,8 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "mesamis/base/parallel.h"
 #include "mesamis/mesh/tet_mesh.h"
-#include "mesamis/surface/extract.h"
+#include "mesamis/surface/cell_cuts.h"
 #include "mesamis/surface/partition.h"
 
 /// The pieces of a partition's boundaries in one cell. A field says, of each node, its position,
@@ -96,11 +97,6 @@ class PartitionMarcher {
  private:
   using Pieces = std::vector<PartitionPiece>;
 
-  /// The first two corners of each kCellEdges pair with the other two corners in the order that
-  /// makes the four an even permutation.
-  static constexpr std::array<std::array<std::size_t, 4>, 6> kEvenPairs{
-      {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
-
   /// Quarters, since differences of large values may overflow.
   double lead(Index node, Index over, Index under) const {
     return 0.25 * field_.membership(node, over) - 0.25 * field_.membership(node, under);
@@ -109,10 +105,8 @@ class PartitionMarcher {
   Vec3 crossing(Index a, Index b) const {
     const Index at_a = field_.material(a), at_b = field_.material(b);
     const double lead_a = lead(a, at_a, at_b), lead_b = lead(b, at_a, at_b);
-    const double t = lead_a / (lead_a - lead_b);
-    const double kept = t > kCrossingMargin ? std::min(t, 1 - kCrossingMargin) : kCrossingMargin;
     const Vec3 p = field_.point(a);
-    return p + kept * (field_.point(b) - p);
+    return p + kept_off_ends(lead_a / (lead_a - lead_b)) * (field_.point(b) - p);
   }
 
   bool has_equal_materials(const Simplex& s) const {
