@@ -108,10 +108,9 @@ void number_sheets(Sheets& sheets) {
     sets.unite(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]));
     sets.unite(static_cast<std::size_t>(t[1]), static_cast<std::size_t>(t[2]));
   }
-  for (std::size_t p = 0; p < sheets.origin.size(); ++p) {
-    const std::size_t first = sets.find(p);  // never after this point
-    sheets.of_point.push_back(first == p ? sheets.count++ : sheets.of_point[first]);
-  }
+  DisjointSets::Numbers numbers = sets.numbers();
+  sheets.of_point = std::move(numbers.of_item);
+  sheets.count = numbers.count;
 }
 
 void require_manifold(const TriMesh& sheets) {

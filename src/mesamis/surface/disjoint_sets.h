@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "mesamis/base/types.h"
+
 namespace mesamis {
 
 /// Sets of items 0 ... n - 1 that grow together. The smallest item names its set, so that the
@@ -30,6 +32,21 @@ class DisjointSets {
     b = find(b);
     if (a > b) std::swap(a, b);
     parent_[b] = a;
+  }
+
+  /// The number of the set of each item; sets are numbered in the order of their first items.
+  struct Numbers {
+    std::vector<Index> of_item;
+    Index count = 0;  ///< of sets
+  };
+  Numbers numbers() {
+    Numbers numbers;
+    numbers.of_item.reserve(parent_.size());
+    for (std::size_t item = 0; item < parent_.size(); ++item) {
+      const std::size_t first = find(item);  // never after this item
+      numbers.of_item.push_back(first == item ? numbers.count++ : numbers.of_item[first]);
+    }
+    return numbers;
   }
 
  private:

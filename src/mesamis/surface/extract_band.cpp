@@ -92,17 +92,14 @@ TriMesh split_fans(const Skin& skin, const std::vector<Vec3>& nodes) {
   for (std::size_t side = 0; side < skin.opposite.size(); ++side) {
     fans.unite(side, next_corner(skin.opposite[side]));
   }
+  const std::vector<Index> of_corner = fans.numbers().of_item;
   TriMesh surface;
   surface.triangles.resize(skin.triangles.size());
   for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t first = fans.find(3 * t + i);  // never after this corner
-      if (first == 3 * t + i) {
-        surface.triangles[t][i] = static_cast<Index>(surface.points.size());
-        surface.points.push_back(nodes[skin.triangles[t][i]]);
-      } else {
-        surface.triangles[t][i] = surface.triangles[first / 3][first % 3];
-      }
+      const Index fan = of_corner[3 * t + i];
+      if (fan == std::ssize(surface.points)) surface.points.push_back(nodes[skin.triangles[t][i]]);
+      surface.triangles[t][i] = fan;
     }
   }
   return surface;

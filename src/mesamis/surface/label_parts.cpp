@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/surface/label_parts.h"
 
+#include <utility>
+
 #include "mesamis/surface/disjoint_sets.h"
 #include "mesamis/surface/grid_field.h"
 
@@ -21,14 +23,10 @@ LabelParts find_label_parts(const LabelGrid& grid) {
       }
     }
   }
-  LabelParts parts;
-  parts.of_node.reserve(grid.labels.size());
-  for (n = 0; n < grid.labels.size(); ++n) {
-    const std::size_t first = sets.find(n);  // never after this node
-    if (first == n) parts.label.push_back(grid.labels[n]);
-    parts.of_node.push_back(first == n ? static_cast<Index>(parts.label.size()) - 1
-                                       : parts.of_node[first]);
-  }
+  DisjointSets::Numbers numbers = sets.numbers();
+  LabelParts parts{std::move(numbers.of_item), {}};
+  parts.label.resize(static_cast<std::size_t>(numbers.count));
+  for (n = 0; n < grid.labels.size(); ++n) parts.label[parts.of_node[n]] = grid.labels[n];
   return parts;
 }
 
