@@ -22,6 +22,13 @@ TEST(CheckSurface, FindsNothingWrongWithACube) {
   EXPECT_NEAR(check.area, 24, 1e-14);
 }
 
+TEST(SurfaceArea, IsThatOfTheCheck) {
+  const TriMesh open{{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {0, 0, 2}}, {{0, 1, 2}, {0, 3, 1}}};
+  EXPECT_DOUBLE_EQ(surface_area(open), 9);
+  EXPECT_EQ(surface_area(open), check_surface(open).area);
+  EXPECT_EQ(surface_area({}), 0);
+}
+
 TEST(CheckSurface, KeepsTheVolumeFarFromTheOrigin) {
   EXPECT_NEAR(check_surface(cube({1e6, -1e6, 1e6}, 1)).volume, 1, 1e-9);
 }

@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 double patch_side(const TriMesh& surface, const DecimateOptions& options, double per_patch) {
   const auto triangles = static_cast<double>(surface.triangles.size());
   if (triangles < 2 * per_patch || options.triangles > 0) return kInfinity;
-  const double side = std::sqrt(check_surface(surface).area / triangles * per_patch / 2);
+  const double side = std::sqrt(surface_area(surface) / triangles * per_patch / 2);
   return side > 0 ? side : kInfinity;
 }
 

@@ -102,9 +102,11 @@ SurfaceCheck check_surface(const TriMesh& surface) {
   check.nonmanifold_points = count_nonmanifold_points(surface, half_edges);
   count_components(surface, half_edges, check);
   check.volume = sum_over_triangles(surface, cone_volume);
-  check.area = sum_over_triangles(surface, triangle_area);
+  check.area = surface_area(surface);
   return check;
 }
+
+double surface_area(const TriMesh& surface) { return sum_over_triangles(surface, triangle_area); }
 
 std::string flaws_of(const SurfaceCheck& check) {
   const std::array<std::pair<std::int64_t, const char*>, 5> counts{

@@ -54,6 +54,14 @@ struct SurfaceCheck {
 /// threads.
 SurfaceCheck check_surface(const TriMesh& surface);
 
+/// Measures the area of a surface.
+/// @param surface  sound, see require_sound(); mm.
+/// @return mm^2; the bits of SurfaceCheck::area.
+/// @throws nothing
+///
+/// O(n) for n triangles. The same bits for any number of threads.
+double surface_area(const TriMesh& surface);
+
 /// Why a surface is not closed or not a 2-manifold, as "3 open edges, 1 points ..."; "" if it is.
 /// @throws nothing
 std::string flaws_of(const SurfaceCheck& check);
