@@ -74,10 +74,7 @@ int main(int argc, char** argv) {
   const auto partition =
       timed("boundaries", [&] { return extract_partition_on_grid(memberships); });
   std::printf("  %zu triangles\n", partition.triangles.size());
-  const auto objects = timed("objects", [&] {
-    std::vector<TriMesh> all;
-    for (const Index m : materials_of(partition)) all.push_back(object_surface(partition, m));
-    return all;
-  });
+  const auto objects =
+      timed("objects", [&] { return object_surfaces(partition, materials_of(partition)); });
   std::printf("  %zu objects\n", objects.size());
 }

@@ -176,6 +176,25 @@ TEST(ExtractPartition, ABoxOfOneMaterialIsTheBox) {
   EXPECT_TRUE(extract_partition(mesh, fields, {.close_at_box = false}).triangles.empty());
 }
 
+TEST(ExtractPartition, ObjectsTogetherAreTheObjectsAlone) {
+  const TetMesh mesh = box_mesh(kUnit, {4, 4, 4});
+  const PartitionSurface partition =
+      extract_partition(mesh, random_fields(mesh, 4, std::uniform_int_distribution<int>(-1, 1), 3));
+  const std::vector<Index> materials{2, 9, 0, 3};
+  const std::vector<TriMesh> together = object_surfaces(partition, materials);
+  ASSERT_EQ(together.size(), materials.size());
+  EXPECT_TRUE(together[1].points.empty());
+  double volume = 0;
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    const TriMesh alone = object_surface(partition, materials[m]);
+    EXPECT_EQ(together[m].points, alone.points);
+    EXPECT_EQ(together[m].triangles, alone.triangles);
+    EXPECT_EQ(flaws_of(check_surface(together[m])), "");
+    volume += check_surface(together[m]).volume;
+  }
+  EXPECT_NEAR(volume, 1 - volume_of(partition, 1), 1e-12);
+}
+
 TEST(ExtractPartition, OneNodeIsABallAroundIt) {
   const TetMesh mesh = box_mesh(kUnit, {2, 2, 2});
   for (std::size_t node = 0; node < mesh.points.size(); ++node) {

@@ -274,12 +274,15 @@ class LabelRun {
       for (const Index side : sides) ++extracted[side];
     }
     decimate(partition, voxel, run);
+    std::vector<Index> labels;
+    for (const Segment& segment : chosen_) {
+      if (segment.layer == layer) labels.push_back(segment.label);
+    }
+    std::vector<TriMesh> surfaces = object_surfaces(partition, labels);
+    auto surface = surfaces.begin();
     for (const Segment& segment : chosen_) {
       if (segment.layer != layer) continue;
-      LabelledObject object{segment,
-                            selected(object_surface(partition, segment.label)),
-                            {},
-                            extracted[segment.label]};
+      LabelledObject object{segment, selected(std::move(*surface++)), {}, extracted[segment.label]};
       if (object.surface.triangles.empty()) continue;
       if (run != nullptr) {
         ErrorOptions delivered = run->error;
@@ -324,11 +327,12 @@ class LabelRun {
   }
 
   /// The parts that the settings leave; unless they say so, all of them.
-  TriMesh selected(const TriMesh& surface) const {
+  TriMesh selected(TriMesh surface) const {
     const PartSelection wanted{settings_.min_volume.value_or(0), settings_.keep_largest,
                                settings_.fill_cavities};
     const bool all = wanted.volume_min == 0 && wanted.keep_largest == 0 && !wanted.fill_cavities;
-    return all || surface.triangles.empty() ? surface : select_parts(surface, wanted);
+    if (all || surface.triangles.empty()) return surface;
+    return select_parts(surface, wanted);
   }
 
   const Settings& settings_;

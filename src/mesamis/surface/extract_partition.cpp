@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
@@ -62,6 +63,22 @@ void require_memberships(const TetMesh& mesh, Fields memberships) {
   }
 }
 
+/// Gives a surface over all these points those that it uses, in their order.
+void take_points(const std::vector<Vec3>& points, TriMesh& surface) {
+  std::vector<Index> used;
+  used.reserve(3 * surface.triangles.size());
+  for (const Triangle& t : surface.triangles) used.insert(used.end(), t.begin(), t.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  surface.points.reserve(used.size());
+  for (const Index p : used) surface.points.push_back(points[static_cast<std::size_t>(p)]);
+  for (Triangle& t : surface.triangles) {
+    for (Index& p : t) {
+      p = static_cast<Index>(std::lower_bound(used.begin(), used.end(), p) - used.begin());
+    }
+  }
+}
+
 }  // namespace
 
 PartitionSurface extract_partition(const TetMesh& mesh, Fields memberships,
@@ -76,26 +93,31 @@ PartitionSurface extract_partition(const TetMesh& mesh, Fields memberships,
 }
 
 TriMesh object_surface(const PartitionSurface& partition, Index material) {
-  TriMesh surface;
-  std::vector<Index> used;
+  return std::move(object_surfaces(partition, {&material, 1}).front());
+}
+
+std::vector<TriMesh> object_surfaces(const PartitionSurface& partition,
+                                     std::span<const Index> materials) {
+  std::vector<TriMesh> surfaces(materials.size());
+  std::vector<TriMesh*> of_side;  // number + 1, for there is kNoIndex; nullptr: not asked for
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    const auto side = static_cast<std::size_t>(materials[m]) + 1;
+    of_side.resize(std::max(of_side.size(), side + 1), nullptr);
+    of_side[side] = &surfaces[m];
+  }
+  const auto surface_of = [&of_side](Index material) {
+    const auto side = static_cast<std::size_t>(material) + 1;
+    return side < of_side.size() ? of_side[side] : nullptr;
+  };
   for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
+    const auto& [i, j, k] = partition.triangles[t];
     const auto& [behind, before] = partition.sides[t];
-    if (behind != material && before != material) continue;
-    Triangle triangle = partition.triangles[t];
-    if (behind != material) std::swap(triangle[1], triangle[2]);
-    surface.triangles.push_back(triangle);
-    used.insert(used.end(), triangle.begin(), triangle.end());
+    if (TriMesh* surface = surface_of(behind)) surface->triangles.push_back({i, j, k});
+    if (TriMesh* surface = surface_of(before)) surface->triangles.push_back({i, k, j});
   }
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (const Index p : used)
-    surface.points.push_back(partition.points[static_cast<std::size_t>(p)]);
-  for (Triangle& t : surface.triangles) {
-    for (Index& p : t) {
-      p = static_cast<Index>(std::lower_bound(used.begin(), used.end(), p) - used.begin());
-    }
-  }
-  return surface;
+  parallel_for_each(surfaces.size(),
+                    [&](std::size_t m) { take_points(partition.points, surfaces[m]); });
+  return surfaces;
 }
 
 std::vector<Index> materials_of(const PartitionSurface& partition) {

@@ -61,6 +61,16 @@ PartitionSurface extract_partition(const TetMesh& mesh,
 /// O(s + t log t) for t triangles of the material.
 TriMesh object_surface(const PartitionSurface& partition, Index material);
 
+/// Takes the boundaries of several materials out of a partition, in one walk over its triangles.
+/// @param partition  s triangles, mm.
+/// @param materials  each once.
+/// @return what object_surface() returns for each material, in their order; mm.
+/// @throws nothing
+///
+/// O(s + t log t) for t triangles of all these materials.
+std::vector<TriMesh> object_surfaces(const PartitionSurface& partition,
+                                     std::span<const Index> materials);
+
 /// Lists the materials of a partition. O(s) for s triangles, up to a logarithm.
 /// @return increasing; without kNoIndex.
 /// @throws nothing
