@@ -144,7 +144,7 @@ TEST(ModIntersection, KnowsWhatEarlierCollapsesMoved) {
 TEST(ModHausdorff, AgreesWithTheDistanceOfTheWholeSurfaces) {
   const TriMesh surface = sphere();
   const TriangleTree tree(surface);
-  const DecimateTask task{surface, tree, 0.04, 0, {}};
+  const DecimateTask task{surface, {&tree, 1}, 0.04, 0, {}};
   Collapses collapses(surface);
   ModHausdorff rule(collapses.mesh());
   const std::vector<Patch> whole = cut_into_patches(surface.points, cover_of(surface), kInfinity);
@@ -169,7 +169,7 @@ TEST(ModHausdorff, AgreesWithTheDistanceOfTheWholeSurfaces) {
 TEST(ModHausdorff, AllowsAllWithoutATolerance) {
   const TriMesh surface = sphere();
   const TriangleTree tree(surface);
-  const DecimateTask task{surface, tree, kInfinity, 0, {}};
+  const DecimateTask task{surface, {&tree, 1}, kInfinity, 0, {}};
   Collapses collapses(surface);
   ModHausdorff rule(collapses.mesh());
   const std::vector<Patch> whole = cut_into_patches(surface.points, cover_of(surface), kInfinity);

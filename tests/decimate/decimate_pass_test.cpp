@@ -28,7 +28,7 @@ TriMesh torus() {
 
 struct Pass {
   explicit Pass(double tolerance, std::int64_t triangles = 0)
-      : tree(surface), task{surface, tree, tolerance, triangles, [](double) {}} {}
+      : tree(surface), task{surface, {&tree, 1}, tolerance, triangles, [](double) {}} {}
   TriMesh run(const std::vector<char>& held) const {
     std::vector<Patch> one = cut_into_patches(surface.points, cover_of(surface), kInfinity);
     one[0].held = held;

@@ -40,7 +40,7 @@ Triangle from_the_smallest(Triangle t) {
 TEST(DecimatePatch, KeepsRimsAndStaysNear) {
   const TriMesh surface = sphere();
   const TriangleTree tree(surface);
-  const DecimateTask task{surface, tree, 0.05, 0, [](double) {}};
+  const DecimateTask task{surface, {&tree, 1}, 0.05, 0, [](double) {}};
   std::size_t before = 0, after = 0;
   for (const Patch& patch : cut_into_patches(surface.points, cover_of(surface), 0.9)) {
     const DecimatedPatch done = decimate_patch(task, patch);
@@ -64,7 +64,7 @@ TEST(DecimatePatch, KeepsRimsAndStaysNear) {
 TEST(DecimatePatch, StandsForTheSameOriginals) {
   const TriMesh surface = sphere();
   const TriangleTree tree(surface);
-  const DecimateTask task{surface, tree, 0.05, 0, [](double) {}};
+  const DecimateTask task{surface, {&tree, 1}, 0.05, 0, [](double) {}};
   const auto patches = cut_into_patches(surface.points, cover_of(surface), 0.9);
   const auto originals_in = [](const Cover& cover) {
     std::vector<Index> all;

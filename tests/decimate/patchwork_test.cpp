@@ -43,7 +43,7 @@ struct Work {
   PatchworkReport report{};
 
   Work(TriMesh s, double tolerance)
-      : surface(std::move(s)), task{surface, tree, tolerance, 0, [](double) {}} {}
+      : surface(std::move(s)), task{surface, {&tree, 1}, tolerance, 0, [](double) {}} {}
 
   Cover run(double side) {
     return decimate_patchwork(task, cut_into_patches(surface.points, cover_of(surface), side),

@@ -70,6 +70,26 @@ TEST(Sheets, AreManifoldForAllLabels) {
   EXPECT_TRUE(check_surface(sheets.surface).manifold());
 }
 
+TEST(Sheets, AreSplitIntoSurfacesOfTheirOwn) {
+  const Sheets sheets = cut_into_sheets(slabs());
+  const std::vector<TriMesh> split = split_sheets(sheets, sheets.surface.triangles);
+  ASSERT_EQ(std::ssize(split), sheets.count);
+  std::size_t points = 0, triangles = 0;
+  double area = 0;
+  for (const TriMesh& sheet : split) {
+    const SurfaceCheck check = check_surface(sheet);
+    EXPECT_TRUE(check.manifold());
+    EXPECT_EQ(check.components, 1);
+    points += sheet.points.size();
+    triangles += sheet.triangles.size();
+    area += check.area;
+  }
+  EXPECT_EQ(points, sheets.surface.points.size());
+  EXPECT_EQ(triangles, sheets.surface.triangles.size());
+  EXPECT_NEAR(area, 8, 1e-9);  // the cube and two walls in it
+  EXPECT_TRUE(split_sheets(sheets, {})[0].triangles.empty());
+}
+
 TEST(Sheets, RefuseWhatIsNoPartition) {
   const PartitionSurface good = slabs();
   PartitionSurface bad = good;

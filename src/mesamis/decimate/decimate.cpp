@@ -11,9 +11,6 @@
 namespace mesamis {
 namespace {
 
-/// Triangles of a patch, about. Surfaces of less than two are one patch.
-constexpr double kTrianglesPerPatch = 40'000;
-
 void require_decimatable(const TriMesh& surface) {
   if (surface.triangles.empty()) throw InputError("decimate: the surface has no triangle");
   const std::string flaws = flaws_of(check_surface(surface));

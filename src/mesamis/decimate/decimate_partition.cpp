@@ -4,31 +4,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "mesamis/base/parallel.h"
 #include "mesamis/decimate/decimation.h"
 #include "mesamis/decimate/sheets.h"
 #include "mesamis/surface/distance.h"
+#include "mesamis/surface/unused_points.h"
 
 namespace mesamis {
 namespace {
-
-/// Triangles of a patch, about. Surfaces of less than two are one patch.
-constexpr double kTrianglesPerPatch = 40'000;
-
-/// The triangles of each sheet.
-std::vector<TriMesh> split_sheets(const Sheets& sheets, const std::vector<Triangle>& triangles) {
-  std::vector<TriMesh> split(static_cast<std::size_t>(sheets.count));
-  std::vector<Index> place(sheets.origin.size());  // in its sheet
-  for (std::size_t p = 0; p < place.size(); ++p) {
-    std::vector<Vec3>& points = split[sheets.of_point[p]].points;
-    place[p] = static_cast<Index>(points.size());
-    points.push_back(sheets.surface.points[p]);
-  }
-  for (const Triangle& t : triangles) {
-    split[sheets.of_point[t[0]]].triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
-  }
-  return split;
-}
 
 void measure(const Sheets& sheets, const TriMesh& result, double tolerance,
              DecimateReport& report) {
@@ -51,21 +33,15 @@ PartitionSurface joined(const Sheets& sheets, const PartitionSurface& partition,
   for (std::size_t t = 0; t < partition.sides.size(); ++t) {
     sides[sheets.of_point[sheets.surface.triangles[t][0]]] = partition.sides[t];
   }
-  std::vector<Index> place(partition.points.size(), kNoIndex);
-  for (const Triangle& t : triangles) {
-    for (const Index p : t) place[sheets.origin[p]] = 0;
-  }
+  TriMesh all{partition.points, {}};
   PartitionSurface result;
-  for (std::size_t p = 0; p < place.size(); ++p) {
-    if (place[p] == kNoIndex) continue;
-    place[p] = static_cast<Index>(result.points.size());
-    result.points.push_back(partition.points[p]);
-  }
   for (const Triangle& t : triangles) {
-    const auto at = [&](Index p) { return place[sheets.origin[p]]; };
-    result.triangles.push_back({at(t[0]), at(t[1]), at(t[2])});
+    all.triangles.push_back({sheets.origin[t[0]], sheets.origin[t[1]], sheets.origin[t[2]]});
     result.sides.push_back(sides[sheets.of_point[t[0]]]);
   }
+  all = without_unused_points(all);
+  result.points = std::move(all.points);
+  result.triangles = std::move(all.triangles);
   return result;
 }
 

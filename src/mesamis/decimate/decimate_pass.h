@@ -12,20 +12,21 @@ namespace mesamis {
 
 /// The input that all passes of decimate() share.
 struct DecimateTask {
-  const TriMesh& surface;    ///< the original: closed, 2-manifold; or made of sheets
-  const TriangleTree& tree;  ///< of the original
-  double tolerance;          ///< mm; infinity: none
-  std::int64_t triangles;    ///< a pass stops at so many
+  const TriMesh& surface;               ///< the original: closed, 2-manifold; or made of sheets
+  std::span<const TriangleTree> trees;  ///< of the original; of each of its sheets, if any
+  double tolerance;                     ///< mm; infinity: none
+  std::int64_t triangles;               ///< a pass stops at so many
   std::function<void(double)> progress;
   bool quick = false;  ///< only the drift proves that triangles are near; what they stand for is
                        ///< not kept
   /// Of the surface, if it is a partition's; nullptr: none.
   const Sheets* sheets = nullptr;
-  std::span<const TriangleTree> trees{};  ///< of each sheet, if any
 
+  /// The sheet of a point of the surface; 0 if there are none.
+  Index sheet_at(Index point) const { return sheets ? sheets->of_point[point] : 0; }
   /// The tree of what a point of the surface must stay near.
   const TriangleTree& tree_at(Index point) const {
-    return sheets ? trees[static_cast<std::size_t>(sheets->of_point[point])] : tree;
+    return trees[static_cast<std::size_t>(sheet_at(point))];
   }
   /// Of points that are copies of one, the first.
   Index first_copy(Index point) const { return sheets ? sheets->first_copy[point] : point; }

@@ -73,13 +73,11 @@ class Decimation {
     TriMesh placed;
   };
 
-  Index sheet_at(Index point) const { return task_.sheets ? task_.sheets->of_point[point] : 0; }
-
   /// Triangles over the patch's points, and what touches the patch, sheet by sheet.
   std::map<Index, Part> in_their_place(const std::vector<Triangle>& triangles) const {
     std::map<Index, Part> parts;
     const auto place = [&](const Triangle& t) {
-      TriMesh& placed = parts[sheet_at(t[0])].placed;
+      TriMesh& placed = parts[task_.sheet_at(t[0])].placed;
       const auto first = static_cast<Index>(placed.points.size());
       for (const Index p : t) placed.points.push_back(task_.surface.points[p]);
       placed.triangles.push_back({first, first + 1, first + 2});
@@ -89,7 +87,7 @@ class Decimation {
     }
     for (const Triangle& t : patch_.around) place(t);
     for (const Index t : originals_) {
-      parts[sheet_at(task_.surface.triangles[t][0])].originals.push_back(t);
+      parts[task_.sheet_at(task_.surface.triangles[t][0])].originals.push_back(t);
     }
     return parts;
   }

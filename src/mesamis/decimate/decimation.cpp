@@ -30,8 +30,13 @@ class Decimation {
   Decimation(const TriMesh& surface, const Sheets* sheets, const DecimateOptions& options,
              PatchworkReport& report)
       : surface_(surface), sheets_(sheets), options_(options), report_(report) {
-    if (!sheets) trees_.emplace_back(surface);
-    if (sheets) trees_ = trees_of(*sheets);
+    if (!sheets) {
+      trees_.emplace_back(surface);
+    } else {
+      for (const TriMesh& sheet : split_sheets(*sheets, surface.triangles)) {
+        trees_.emplace_back(sheet);
+      }
+    }
   }
 
   /// @param side  of the patches' boxes, mm; infinity: one patch.
@@ -71,27 +76,12 @@ class Decimation {
     };
     const double tolerance = options_.tolerance / (kDistanceSlack * strictness);
     return {.surface = surface_,
-            .tree = trees_.front(),
+            .trees = trees_,
             .tolerance = tolerance,
             .triangles = options_.triangles,
             .progress = tell,
             .quick = options_.quick,
-            .sheets = sheets_,
-            .trees = trees_};
-  }
-
-  static std::vector<TriangleTree> trees_of(const Sheets& sheets) {
-    std::vector<TriMesh> of_sheet(static_cast<std::size_t>(sheets.count));
-    for (const Triangle& t : sheets.surface.triangles) {
-      TriMesh& own = of_sheet[sheets.of_point[t[0]]];
-      const auto first = static_cast<Index>(own.points.size());
-      for (const Index p : t) own.points.push_back(sheets.surface.points[p]);
-      own.triangles.push_back({first, first + 1, first + 2});
-    }
-    std::vector<TriangleTree> trees;
-    trees.reserve(of_sheet.size());
-    for (const TriMesh& own : of_sheet) trees.emplace_back(own);
-    return trees;
+            .sheets = sheets_};
   }
 
   void hold_rims(Patch& patch) const {

@@ -7,6 +7,9 @@
 
 namespace mesamis {
 
+/// Triangles of a patch, about. Surfaces of less than two are one patch.
+inline constexpr double kTrianglesPerPatch = 40'000;
+
 /// Checks the options of decimate() and decimate_partition().
 /// @throws InputError  if one is out of range.
 void require_valid(const DecimateOptions& options);

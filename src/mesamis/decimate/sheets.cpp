@@ -131,4 +131,18 @@ Sheets cut_into_sheets(const PartitionSurface& partition) {
   return sheets;
 }
 
+std::vector<TriMesh> split_sheets(const Sheets& sheets, const std::vector<Triangle>& triangles) {
+  std::vector<TriMesh> split(static_cast<std::size_t>(sheets.count));
+  std::vector<Index> place(sheets.origin.size());  // in its sheet
+  for (std::size_t p = 0; p < place.size(); ++p) {
+    std::vector<Vec3>& points = split[sheets.of_point[p]].points;
+    place[p] = static_cast<Index>(points.size());
+    points.push_back(sheets.surface.points[p]);
+  }
+  for (const Triangle& t : triangles) {
+    split[sheets.of_point[t[0]]].triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
+  }
+  return split;
+}
+
 }  // namespace mesamis

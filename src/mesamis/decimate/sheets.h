@@ -28,4 +28,10 @@ struct Sheets {
 /// O(n log n) for n triangles.
 Sheets cut_into_sheets(const PartitionSurface& partition);
 
+/// The triangles of each sheet, over all points of the sheet.
+/// @param triangles  over the points of the sheets.
+///
+/// O(points + triangles).
+std::vector<TriMesh> split_sheets(const Sheets& sheets, const std::vector<Triangle>& triangles);
+
 }  // namespace mesamis
