@@ -227,8 +227,7 @@ class Lifter {
   }
 
   Lift lift_at(const std::array<Index, 3>& voxel) const {
-    const double share =
-        (guide_.at(voxel[0], voxel[1], voxel[2]) - options_.contrast.background) / contrast_;
+    const double share = share_of(guide_.at(voxel[0], voxel[1], voxel[2]));
     if (share < kFlank * least_ || share > 1 - kFlank * least_) return {};
     const NearbyRange::Range& near = near_.at(voxel[0], voxel[1], voxel[2]);
     const bool may_be_wall = may_hold_sheet(share_of(near.low), share_of(near.high));
