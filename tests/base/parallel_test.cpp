@@ -46,6 +46,24 @@ TEST(Parallel, ThreadsAreLimitedOnlyWithinTheWork) {
   EXPECT_EQ(thread_count(), outside);
 }
 
+TEST(Parallel, CollectsInTheOrderOfTheItems) {
+  std::vector<std::size_t> expected;
+  for (std::size_t i = 0; i < 10'001; ++i) {
+    if (i % 7 == 3) expected.push_back(i);
+  }
+  const auto sevenths = [](std::size_t begin, std::size_t end, std::vector<std::size_t>& found) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i % 7 == 3) found.push_back(i);
+    }
+  };
+  for (const std::size_t block : {1u, 5u, 4096u, 20'000u}) {
+    EXPECT_EQ(
+        with_threads(3, [&] { return parallel_collect<std::size_t>(10'001, block, sevenths); }),
+        expected);
+  }
+  EXPECT_TRUE(parallel_collect<std::size_t>(0, 5, sevenths).empty());
+}
+
 TEST(Parallel, MaxOfNothingIsTheLowest) {
   auto never = [](std::size_t, std::size_t) { return 7.0; };
   EXPECT_EQ(parallel_max(0, -3, never), -3);

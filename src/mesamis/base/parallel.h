@@ -6,6 +6,7 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 /// The one door to threads. Every result is the same to the bit for any number of threads:
 /// the work is cut into blocks of fixed size, and partial sums are added in block order.
@@ -60,6 +61,25 @@ void parallel_for(std::size_t n, Body&& body) {
 template <class Body>
 void parallel_for_each(std::size_t n, Body&& body) {
   parallel_blocks(n, 1, [&body](std::size_t begin, std::size_t) { body(begin); });
+}
+
+/// Collects what body(begin, end, found) appends to its block's vector `found`, for the blocks of
+/// [0, n), see parallel_blocks().
+/// @param block  at least 1.
+/// @return the items of all blocks, in block order. O(items) beside what body takes.
+/// @throws what body throws.
+template <class Item, class Body>
+std::vector<Item> parallel_collect(std::size_t n, std::size_t block, Body&& body) {
+  std::vector<std::vector<Item>> blocks((n + block - 1) / block);
+  parallel_blocks(n, block, [&](std::size_t begin, std::size_t end) {
+    body(begin, end, blocks[begin / block]);
+  });
+  std::size_t count = 0;
+  for (const auto& found : blocks) count += found.size();
+  std::vector<Item> all;
+  all.reserve(count);
+  for (const auto& found : blocks) all.insert(all.end(), found.begin(), found.end());
+  return all;
 }
 
 /// Adds up partial(begin, end) over the blocks of [0, n), in block order.

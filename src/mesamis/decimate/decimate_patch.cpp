@@ -23,19 +23,14 @@ constexpr std::size_t kTrianglesPerBlock = 256;
 template <class CornersOf>
 std::vector<Index> triangles_beyond(std::size_t n, CornersOf corners_at, const TriangleTree& to,
                                     double tolerance) {
-  std::vector<char> beyond(n, 0);
-  parallel_blocks(n, kTrianglesPerBlock, [&](std::size_t begin, std::size_t end) {
-    std::size_t hint = 0;
-    for (std::size_t t = begin; t < end; ++t) {
-      beyond[t] =
-          farthest_distance(corners_at(t), to, {tolerance, tolerance}, hint) > tolerance ? 1 : 0;
-    }
-  });
-  std::vector<Index> found;
-  for (std::size_t t = 0; t < n; ++t) {
-    if (beyond[t] != 0) found.push_back(static_cast<Index>(t));
-  }
-  return found;
+  return parallel_collect<Index>(
+      n, kTrianglesPerBlock, [&](std::size_t begin, std::size_t end, auto& found) {
+        std::size_t hint = 0;
+        for (std::size_t t = begin; t < end; ++t) {
+          const double d = farthest_distance(corners_at(t), to, {tolerance, tolerance}, hint);
+          if (d > tolerance) found.push_back(static_cast<Index>(t));
+        }
+      });
 }
 
 /// Repeats passes over a patch.

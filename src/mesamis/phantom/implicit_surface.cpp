@@ -121,17 +121,13 @@ class SparseGrid {
   /// Their lowest corners, ascending within a layer of blocks, layer by layer.
   std::vector<GridNode> crossed_bricks() const {
     const std::size_t layers = (bricks_[2] + kBlockBricks - 1) / kBlockBricks;
-    std::vector<std::vector<GridNode>> found(layers);
-    parallel_for_each(layers, [&](std::size_t k) {
+    return parallel_collect<GridNode>(layers, 1, [&](std::size_t k, std::size_t, auto& found) {
       for (std::size_t j = 0; j < bricks_[1]; j += kBlockBricks) {
         for (std::size_t i = 0; i < bricks_[0]; i += kBlockBricks) {
-          search_block({i, j, k * kBlockBricks}, found[k]);
+          search_block({i, j, k * kBlockBricks}, found);
         }
       }
     });
-    std::vector<GridNode> all;
-    for (const auto& layer : found) all.insert(all.end(), layer.begin(), layer.end());
-    return all;
   }
 
   void search_block(const std::array<std::size_t, 3>& begin, std::vector<GridNode>& found) const {

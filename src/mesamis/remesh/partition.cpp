@@ -249,13 +249,11 @@ void insert(WorkingMesh& joined, const Part& part) {
 }
 
 void match_border(WorkingMesh& mesh, const std::vector<Part>& parts) {
-  std::vector<std::vector<BorderFace>> by_part(parts.size());
-  parallel_for_each(parts.size(), [&](std::size_t p) {
-    by_part[p] =
-        border_faces(mesh, parts[p].first_cell, static_cast<Index>(parts[p].mesh.cells.size()));
-  });
-  std::vector<BorderFace> faces;
-  for (const auto& list : by_part) faces.insert(faces.end(), list.begin(), list.end());
+  auto faces =
+      parallel_collect<BorderFace>(parts.size(), 1, [&](std::size_t p, std::size_t, auto& found) {
+        found =
+            border_faces(mesh, parts[p].first_cell, static_cast<Index>(parts[p].mesh.cells.size()));
+      });
   std::sort(faces.begin(), faces.end(), [](const BorderFace& a, const BorderFace& b) {
     return std::tie(a.points, a.face) < std::tie(b.points, b.face);
   });

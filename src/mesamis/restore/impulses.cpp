@@ -55,26 +55,22 @@ float median_around(const VolumeView& volume, const std::array<Index, 3>& voxel)
 WithoutImpulses remove_impulses(Volume volume, double difference, double least_share) {
   const VolumeView view = volume;
   const auto layers = static_cast<std::size_t>(volume.size[2]);
-  std::vector<std::vector<std::pair<std::size_t, float>>> found(layers);
-  parallel_for_each(layers, [&](std::size_t layer) {
-    const auto k = static_cast<Index>(layer);
-    for (Index j = 0; j < view.size[1]; ++j) {
-      for (Index i = 0; i < view.size[0]; ++i) {
-        if (is_impulse(view, {i, j, k}, static_cast<float>(difference))) {
-          found[layer].emplace_back(view.offset(i, j, k), median_around(view, {i, j, k}));
+  const auto found = parallel_collect<std::pair<std::size_t, float>>(
+      layers, 1, [&](std::size_t layer, std::size_t, auto& impulses) {
+        const auto k = static_cast<Index>(layer);
+        for (Index j = 0; j < view.size[1]; ++j) {
+          for (Index i = 0; i < view.size[0]; ++i) {
+            if (is_impulse(view, {i, j, k}, static_cast<float>(difference))) {
+              impulses.emplace_back(view.offset(i, j, k), median_around(view, {i, j, k}));
+            }
+          }
         }
-      }
-    }
-  });
-  std::size_t count = 0;
-  for (const auto& layer : found) count += layer.size();
-  if (static_cast<double>(count) / static_cast<double>(volume.voxel_count()) < least_share) {
-    return {std::move(volume), 0};
-  }
-  for (const auto& layer : found) {
-    for (const auto& [voxel, value] : layer) volume.samples[voxel] = value;
-  }
-  return {std::move(volume), count};
+      });
+  const double share =
+      static_cast<double>(found.size()) / static_cast<double>(volume.voxel_count());
+  if (share < least_share) return {std::move(volume), 0};
+  for (const auto& [voxel, value] : found) volume.samples[voxel] = value;
+  return {std::move(volume), found.size()};
 }
 
 }  // namespace mesamis

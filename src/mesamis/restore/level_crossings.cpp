@@ -155,14 +155,10 @@ std::vector<SurfacePoint> crossing_points(const VolumeView& volume, double level
   std::vector<std::size_t> first{0};
   for (const Counts& layer : counts) first.push_back(first.back() + sum(layer));
   const std::size_t every = std::max<std::size_t>(1, first.back() / std::max<std::size_t>(1, most));
-  std::vector<std::vector<SurfacePoint>> layers(counts.size());
-  parallel_for_each(layers.size(), [&](std::size_t k) {
-    layers[k] = crossings_of_layer(volume, level, static_cast<Index>(k), first[k], every);
-  });
-  std::vector<SurfacePoint> points;
-  points.reserve(first.back() / every + 1);
-  for (const auto& layer : layers) points.insert(points.end(), layer.begin(), layer.end());
-  return points;
+  return parallel_collect<SurfacePoint>(
+      counts.size(), 1, [&](std::size_t k, std::size_t, auto& found) {
+        found = crossings_of_layer(volume, level, static_cast<Index>(k), first[k], every);
+      });
 }
 
 double level_area(const VolumeView& volume, double level) {

@@ -128,13 +128,11 @@ Vec3 exact_position(const TetMesh& mesh, Site site,
 
 /// All triangles in the order of the cells.
 std::vector<SiteTriangle> march_all(const TetMesh& mesh, const Marcher& marcher) {
-  std::vector<std::vector<SiteTriangle>> blocks((mesh.cells.size() + kBlock - 1) / kBlock);
-  parallel_blocks(mesh.cells.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) marcher.march(mesh.cells[c], blocks[begin / kBlock]);
-  });
-  std::vector<SiteTriangle> triangles;
-  for (const auto& block : blocks) triangles.insert(triangles.end(), block.begin(), block.end());
-  return triangles;
+  return parallel_collect<SiteTriangle>(mesh.cells.size(), kBlock,
+                                        [&](std::size_t begin, std::size_t end, auto& found) {
+                                          for (std::size_t c = begin; c < end; ++c)
+                                            marcher.march(mesh.cells[c], found);
+                                        });
 }
 
 std::vector<Site> unique_sites(const std::vector<SiteTriangle>& triangles) {

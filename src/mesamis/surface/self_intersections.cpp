@@ -25,9 +25,7 @@ std::vector<Box> boxes_of(const TriMesh& surface) {
 }
 
 /// Each once, in ascending order.
-std::vector<TrianglePair> sorted_once(const std::vector<std::vector<TrianglePair>>& blocks) {
-  std::vector<TrianglePair> pairs;
-  for (const auto& block : blocks) pairs.insert(pairs.end(), block.begin(), block.end());
+std::vector<TrianglePair> sorted_once(std::vector<TrianglePair> pairs) {
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
@@ -63,28 +61,25 @@ void SelfIntersections::for_each_met(Index t, Index first, Visit&& visit) const 
 
 std::vector<TrianglePair> SelfIntersections::all() const {
   const std::size_t count = surface_.triangles.size();
-  std::vector<std::vector<TrianglePair>> blocks((count + kBlock - 1) / kBlock);
-  parallel_blocks(count, kBlock, [&](std::size_t begin, std::size_t end) {
-    auto& found = blocks[begin / kBlock];
-    for (auto t = static_cast<Index>(begin); t < static_cast<Index>(end); ++t) {
-      for_each_met(t, t, [&](Index other) { found.push_back({t, other}); });
-    }
-  });
-  return sorted_once(blocks);
+  return sorted_once(parallel_collect<TrianglePair>(
+      count, kBlock, [&](std::size_t begin, std::size_t end, auto& found) {
+        for (auto t = static_cast<Index>(begin); t < static_cast<Index>(end); ++t) {
+          for_each_met(t, t, [&](Index other) { found.push_back({t, other}); });
+        }
+      }));
 }
 
 std::vector<TrianglePair> SelfIntersections::after_move_of(std::span<const Index> triangles) {
   for (const Index t : triangles) tree_->update(static_cast<std::size_t>(t), box_of(t));
-  std::vector<std::vector<TrianglePair>> blocks((triangles.size() + kBlock - 1) / kBlock);
-  parallel_blocks(triangles.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index t = triangles[i];
-      for_each_met(t, 0, [&](Index other) {
-        blocks[begin / kBlock].push_back({std::min(t, other), std::max(t, other)});
-      });
-    }
-  });
-  return sorted_once(blocks);
+  return sorted_once(parallel_collect<TrianglePair>(
+      triangles.size(), kBlock, [&](std::size_t begin, std::size_t end, auto& found) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const Index t = triangles[i];
+          for_each_met(t, 0, [&](Index other) {
+            found.push_back({std::min(t, other), std::max(t, other)});
+          });
+        }
+      }));
 }
 
 }  // namespace mesamis
