@@ -2,38 +2,19 @@
 // What surfaces of labels alone take, on all threads: 105 labels on ten million voxels.
 //
 //   bench_labels [N [LABELS]]     N^3 voxels; default 215, 105 labels
-#include <sys/resource.h>
-
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <random>
 #include <vector>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/smooth_memberships.h"
+#include "timed.h"
 
 namespace {
 
 using namespace mesamis;
-
-/// Runs the work once and prints its time, that of all processors together, and the most memory
-/// until now.
-template <class Work>
-auto timed(const char* what, Work work) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::clock_t ticks = std::clock();
-  auto result = work();
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  const double processors = static_cast<double>(std::clock() - ticks) / CLOCKS_PER_SEC;
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  std::printf("%-24s %7.2f s  %7.2f s of processors  %6.2f GB\n", what, time.count(), processors,
-              static_cast<double>(usage.ru_maxrss) / (1 << 20));
-  return result;
-}
 
 /// The label of the nearest of random points; 0 beyond a ball.
 std::vector<std::uint16_t> blobs(Index n, int count) {

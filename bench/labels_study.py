@@ -21,6 +21,7 @@ from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 from mesamis_runs import run
 from rivals import PASS_BANDS, sinc
+from volumes import Volume, write_nrrd
 
 SIDE = 96
 BLUR, NOISE, SUBSAMPLES = 0.7, 6.0, 3
@@ -124,13 +125,8 @@ def cases(bodies):
     yield "every 2, 5 % of the border wrong", with_wrong(coarse, 0.05, 3), 2, 0.5
 
 
-def write_nrrd(path, array, spacing, first):
-    kind = {"uint8": "uint8", "float32": "float"}[str(array.dtype)]
-    size = " ".join(map(str, array.shape))
-    head = (f"NRRD0004\ntype: {kind}\ndimension: 3\nspace: left-posterior-superior\nsizes: {size}\n"
-            f"space directions: ({spacing},0,0) (0,{spacing},0) (0,0,{spacing})\nkinds: domain domain domain\n"
-            f"endian: little\nencoding: raw\nspace origin: ({first},{first},{first})\n\n")
-    path.write_bytes(head.encode() + array.tobytes(order="F"))
+def write_cube(path, values, spacing, first):
+    write_nrrd(path, Volume(values, numpy.full(3, spacing), numpy.full(3, first)))
 
 
 def mean_distance(bodies, surfaces):
@@ -188,10 +184,10 @@ def main():
     arguments.folder.mkdir(parents=True, exist_ok=True)
     bodies, values = JUDGING if arguments.judging else GUIDING
     scan = arguments.folder / "scan.nrrd"
-    write_nrrd(scan, image_of(bodies, values, 1), 1, 0)
+    write_cube(scan, image_of(bodies, values, 1), 1, 0)
     print("| labels | with the image | labels alone | windowed sinc, tuned | image / sinc |\n|---|---|---|---|---|")
     for name, labels, spacing, first in cases(bodies):
-        write_nrrd(arguments.folder / "labels.nrrd", labels, spacing, first)
+        write_cube(arguments.folder / "labels.nrrd", labels, spacing, first)
         placed, alone = ours(arguments.folder, bodies, scan), ours(arguments.folder, bodies)
         smoothed = rival(bodies, labels, spacing, first)
         print(f"| {name} | {placed:.3f} | {alone:.3f} | {smoothed:.3f} | {placed / smoothed:.2f} |", flush=True)

@@ -4,11 +4,9 @@
 // triangles.
 //
 //   bench_surface [N]     N^3 bricks of six cells; default 60, 1.3 million cells
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/tet_mesh.h"
@@ -17,22 +15,11 @@
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/extract.h"
 #include "mesamis/surface/sampling.h"
+#include "timed.h"
 
 namespace {
 
 using namespace mesamis;
-
-/// Runs the work once and prints its time, and that of all processors together.
-template <class Work>
-auto timed(const char* what, Work work) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::clock_t ticks = std::clock();
-  auto result = work();
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  const double processors = static_cast<double>(std::clock() - ticks) / CLOCKS_PER_SEC;
-  std::printf("%-42s %7.2f s  %7.2f s of processors\n", what, time.count(), processors);
-  return result;
-}
 
 double wave(const Vec3& p, double frequency) {
   return std::sin(frequency * p.x) * std::cos(frequency * p.y) +

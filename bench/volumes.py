@@ -62,13 +62,15 @@ def read_nifti(path):
 
 
 def write_nrrd(path, volume):
+    """Labels, which are bytes, stay bytes; any other values are written in single precision."""
+    kind = "uchar" if volume.values.dtype == np.uint8 else "float"
     directions = " ".join("(" + ",".join(f"{s:.9g}" if a == b else "0" for b in range(3)) + ")"
                           for a, s in enumerate(volume.spacing))
-    head = ["NRRD0004", "type: float", "dimension: 3", "space: left-posterior-superior",
+    head = ["NRRD0004", f"type: {kind}", "dimension: 3", "space: left-posterior-superior",
             "sizes: %d %d %d" % volume.values.shape, f"space directions: {directions}",
             "kinds: domain domain domain", "endian: little", "encoding: raw",
             "space origin: (" + ",".join(f"{x:.9g}" for x in volume.origin) + ")"]
-    data = volume.values.astype("<f4").tobytes(order="F")
+    data = volume.values.astype("<" + NRRD_TYPES[kind]).tobytes(order="F")
     path.write_bytes("\n".join(head).encode() + b"\n\n" + data)
 
 
