@@ -61,6 +61,26 @@ TEST(FlowMemberships, GoesNoFurtherThanTheMargin) {
   EXPECT_LE(std::abs(of_label(flow(labels, edge_at(labels, 16.5))) - 20), kMargin);
 }
 
+TEST(FlowMemberships, ReportsHowItsSystemsWereSolved) {
+  const OwnedLabels labels = half_space(12);
+  const GridMemberships smooth = smooth_memberships(labels.grid());
+  const auto weight = label_confidence(labels.grid(), kMargin);
+  const auto edges = edge_at(labels, 11.5);
+  const auto report_with = [&](double tolerance) {
+    FlowReport report;
+    flow_memberships(labels.grid(), {smooth, weight, edges},
+                     {.reach = 2 * kMargin, .tolerance = tolerance}, &report);
+    return report;
+  };
+  const FlowReport coarse = report_with(1e-3), fine = report_with(1e-9),
+                   never = report_with(1e-300);
+  EXPECT_TRUE(coarse.solver_converged && fine.solver_converged);
+  EXPECT_LE(fine.solver_residual, 2e-9);
+  EXPECT_LE(coarse.solver_residual, 2e-3);
+  EXPECT_GT(fine.solver_iterations, coarse.solver_iterations);
+  EXPECT_FALSE(never.solver_converged);
+}
+
 TEST(FlowMemberships, KeepsAVoxelAlone) {
   OwnedLabels labels = labels_where({11, 11, 11}, {1, 1, 1}, [](const Vec3&) { return 0; });
   labels.at(5, 5, 5) = 9;

@@ -113,6 +113,7 @@ TEST(LabelSurfaces, TheImagePlacesWhatLabelsChoose) {
     const LabelResult found = find_labelled_objects(scan, {labels}, {});
     const std::string what = std::to_string(every) + " shifted by " + std::to_string(shift);
     ASSERT_EQ(found.objects.size(), 2U) << what;
+    EXPECT_TRUE(found.flow_converged) << what;
     expect_closed(found);
     EXPECT_GT(shared_points(found), 20U) << what;
     EXPECT_LT(mean_error(1, found.objects[0].surface), 0.15) << what;

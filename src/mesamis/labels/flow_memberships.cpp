@@ -160,10 +160,22 @@ void require_fields(const LabelGrid& grid, const FlowFields& fields, const FlowO
   }
 }
 
+FlowReport report_of(const std::vector<LabelAt>& labels,
+                     const std::vector<LabelMembership>& solved) {
+  FlowReport report;
+  for (std::size_t m = 0; m < labels.size(); ++m) {
+    if (labels[m].first == 0) continue;
+    report.solver_iterations += solved[m].solved.iterations;
+    report.solver_residual = std::max(report.solver_residual, solved[m].solved.residual);
+    report.solver_converged &= solved[m].solved.converged;
+  }
+  return report;
+}
+
 }  // namespace
 
 GridMemberships flow_memberships(const LabelGrid& grid, const FlowFields& fields,
-                                 const FlowOptions& options) {
+                                 const FlowOptions& options, FlowReport* report) {
   require_fields(grid, fields, options);
   const auto labels = extents_of(grid);
   const LabelFlow flow(grid, fields, options);
@@ -171,6 +183,7 @@ GridMemberships flow_memberships(const LabelGrid& grid, const FlowFields& fields
   parallel_for_each(labels.size(), [&](std::size_t m) {
     if (labels[m].first != 0) solved[m] = flow.solve(labels[m].first, labels[m].second);
   });
+  if (report) *report = report_of(labels, solved);
   return Assembly(grid, fields, labels, solved).run();
 }
 

@@ -19,6 +19,13 @@ struct FlowOptions {
   double tolerance = 1e-3;  ///< relative residual of each solve, 0 to 1
 };
 
+/// How the systems of the flow were solved.
+struct FlowReport {
+  int solver_iterations = 0;     ///< conjugate gradient steps, in all
+  double solver_residual = 0;    ///< largest relative residual of any solve
+  bool solver_converged = true;  ///< every solve reached the tolerance
+};
+
 /// What labels flow on: one value per node each.
 struct FlowFields {
   const GridMemberships& smooth;  ///< l: smooth_memberships() of the labels. Where they are certain
@@ -41,6 +48,7 @@ struct FlowFields {
 /// and the label is within reach: connected through such nodes, no more than so many steps away.
 /// @param grid    labels at the nodes, mm.
 /// @param fields  see there.
+/// @param report  optional; overwritten. Reaching an iteration limit is no error: it says so.
 /// @return a material per label that occurs, in increasing order, 0 among them even where it does
 ///         not occur.
 /// @throws InputError  if the sizes do not fit or an option is out of range.
@@ -48,6 +56,6 @@ struct FlowFields {
 /// O(nodes * iterations) over the nodes near the labels' borders. The same bits for any number of
 /// threads.
 GridMemberships flow_memberships(const LabelGrid& grid, const FlowFields& fields,
-                                 const FlowOptions& options);
+                                 const FlowOptions& options, FlowReport* report = nullptr);
 
 }  // namespace mesamis

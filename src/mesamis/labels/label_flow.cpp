@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "mesamis/base/grid_place.h"
-#include "mesamis/fem/solve.h"
 #include "mesamis/labels/label_confidence.h"
 
 namespace mesamis {
@@ -80,8 +79,8 @@ LabelMembership LabelFlow::solve(std::uint16_t label, const LabelExtent& extent)
   System system = collect(label, extent);
   std::vector<double> p(system.nodes.size(), 0);
   const MatrixOperator matrix(std::move(system.matrix));
-  mesamis::solve(matrix, system.right, p, {.tolerance = options_.tolerance});
   LabelMembership found;
+  found.solved = mesamis::solve(matrix, system.right, p, {.tolerance = options_.tolerance});
   for (std::size_t n = 0; n < p.size(); ++n) {
     const auto value = static_cast<float>(std::clamp(p[n], 0.0, 1.0));
     if (value < kLeastMembership) continue;
@@ -104,7 +103,10 @@ LabelFlow::Window LabelFlow::window_around(const LabelExtent& extent) const {
 
 std::size_t LabelFlow::node_of(const Window& w, std::size_t place) const {
   const Place in = grid_place(w.size, place);
-  const auto at = [&](std::size_t a) { return static_cast<std::size_t>(w.lo[a] + in[a]); };
+  const auto at = [&](std::size_t a) {
+    const Index along = w.lo[a] + in[a];
+    return static_cast<std::size_t>(along);
+  };
   return at(0) + static_cast<std::size_t>(grid_.size[0]) *
                      (at(1) + static_cast<std::size_t>(grid_.size[1]) * at(2));
 }
@@ -156,7 +158,8 @@ void LabelFlow::add_row(std::uint16_t label, const Window& w, std::size_t place,
   const std::size_t node = node_of(w, place);
   const double sure = mass_ * fields_.weight[node];
   double diagonal = sure, right = sure * smooth_membership(fields_.smooth, node, label);
-  auto& [row_start, columns, values] = system.matrix;
+  std::vector<Index>& columns = system.matrix.columns;
+  std::vector<double>& values = system.matrix.values;
   std::size_t at_diagonal = columns.size();
   w.for_each_beside(place, [&](std::size_t axis, std::size_t m) {
     const std::size_t other = node_of(w, m);
@@ -174,7 +177,7 @@ void LabelFlow::add_row(std::uint16_t label, const Window& w, std::size_t place,
   const auto before = static_cast<std::ptrdiff_t>(at_diagonal);
   columns.insert(columns.begin() + before, unknown[place]);
   values.insert(values.begin() + before, diagonal);
-  row_start.push_back(std::ssize(columns));
+  system.matrix.row_start.push_back(std::ssize(columns));
   system.right.push_back(right);
 }
 

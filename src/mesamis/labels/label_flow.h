@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesamis/fem/solve.h"
 #include "mesamis/labels/flow_memberships.h"
 
 namespace mesamis {
@@ -18,6 +19,7 @@ struct LabelExtent {
 struct LabelMembership {
   std::vector<std::size_t> nodes;  ///< of the grid, increasing
   std::vector<float> value;        ///< 0 to 1; what is next to nothing is left out
+  SolveReport solved;
 };
 
 /// What smooth_memberships() says of a label at a node: 0 to 1. O(1).

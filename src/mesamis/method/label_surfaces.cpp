@@ -223,7 +223,10 @@ class LabelRun {
     const auto weight = label_confidence(grid, result_.margin);
     const GridMemberships smooth = smooth_memberships(grid);
     const FlowOptions flow{p.functional.beta, p.functional.eta, p.unit_mm, kReach * result_.margin};
-    const GridMemberships memberships = flow_memberships(grid, {smooth, weight, edges.v}, flow);
+    FlowReport solved;
+    const GridMemberships memberships =
+        flow_memberships(grid, {smooth, weight, edges.v}, flow, &solved);
+    result_.flow_converged &= solved.solver_converged;
     if (wants_mesh_) images_.push_back(label_image(memberships, edges.prepared.grey));
     result_.seconds.flow += watch.lap();
     (void)Stage(progress_, "surface");

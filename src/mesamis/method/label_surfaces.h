@@ -58,6 +58,7 @@ struct LabelResult {
   struct Seconds {
     double prepare = 0, flow = 0, surface = 0, printable = 0, mesh = 0, total = 0;
   } seconds;
+  bool flow_converged = true;  ///< every system of the labels' flow was solved to its tolerance
 };
 
 /// How far labels may be wrong, if the user does not say: two and a half of their own voxels (the
