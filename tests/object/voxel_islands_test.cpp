@@ -92,9 +92,11 @@ TEST(NearestMarked, IsThatOfBruteForce) {
       expected = m;
     });
     if (expected < mask.size()) {
+      EXPECT_EQ(find_marked(mask, grid, v, kMost), expected);
       EXPECT_EQ(nearest_marked(mask, grid, v, kMost), expected);
     } else {
       ++refused;
+      EXPECT_FALSE(find_marked(mask, grid, v, kMost));
       EXPECT_REFUSED(nearest_marked(mask, grid, v, kMost), HasSubstr("within 3 mm"));
     }
   });

@@ -259,17 +259,13 @@ class Choice {
 
   std::array<Index, 3> place_of(const Vec3& seed, const VoxelMask& solid) const {
     const auto place = voxel_at(chosen_.volume, seed);
-    try {
-      nearest_marked(solid, chosen_.volume, place, kBesideMm);
-    } catch (const InputError&) {
-      const bool dark = chosen_.kind == TissueKind::kDark;
-      throw InputError(
-          line("seed: expected values %s %.4g within %g mm of %g,%g,%g (LPS), found "
-               "none",
-               dark ? "below" : "above", dark ? -*chosen_.level : *chosen_.level, kBesideMm, seed.x,
-               seed.y, seed.z));
-    }
-    return place;
+    if (find_marked(solid, chosen_.volume, place, kBesideMm)) return place;
+    const bool dark = chosen_.kind == TissueKind::kDark;
+    throw InputError(
+        line("seed: expected values %s %.4g within %g mm of %g,%g,%g (LPS), found "
+             "none",
+             dark ? "below" : "above", dark ? -*chosen_.level : *chosen_.level, kBesideMm, seed.x,
+             seed.y, seed.z));
   }
 
   /// Other islands go, with the blur around them as far as it is not the object's own.

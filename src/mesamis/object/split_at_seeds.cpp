@@ -27,20 +27,20 @@ double bright_value(const VolumeView& volume, std::span<const std::uint8_t> mask
   return *tenth > level ? *tenth : level + 1;
 }
 
-/// The depth in the solid, mm. What is beyond the grid counts as within it.
-std::vector<float> depths(const VoxelMask& solid, const VoxelGrid& grid) {
-  std::vector<float> depth = distance_to_mask(complement(solid), grid);
+/// The depth in a mask, mm. What is beyond the grid counts as within it.
+std::vector<float> depths(std::span<const std::uint8_t> mask, const VoxelGrid& grid) {
+  std::vector<float> depth = distance_to_mask(complement(mask), grid);
   const auto farthest = static_cast<float>(norm(grid.box().extent()));
   for (float& mm : depth) mm = std::min(mm, farthest);
   return depth;
 }
 
-/// Depth times brightness, see the header; cavities are as bright as can be.
+/// Depth times brightness, see the header.
 std::vector<float> strengths(const VolumeView& volume, std::span<const std::uint8_t> mask,
                              double level, std::vector<float> depth) {
   const double bright = bright_value(volume, mask, level);
   parallel_for(depth.size(), [&](std::size_t n) {
-    const double above = mask[n] != 0 ? (volume.samples[n] - level) / (bright - level) : 1;
+    const double above = (volume.samples[n] - level) / (bright - level);
     depth[n] *= static_cast<float>(std::clamp(above, 0.0, 1.0));
   });
   return depth;
@@ -102,8 +102,8 @@ struct Candidate {
 /// The watershed.
 class Flood {
  public:
-  Flood(const VoxelGrid& grid, const VoxelMask& solid, std::vector<float> strength)
-      : grid_(grid), solid_(solid), strength_(std::move(strength)), labels_(solid.size(), 0) {}
+  Flood(const VoxelGrid& grid, std::span<const std::uint8_t> mask, std::vector<float> strength)
+      : grid_(grid), mask_(mask), strength_(std::move(strength)), labels_(mask.size(), 0) {}
 
   void add_seed(std::size_t voxel, std::uint16_t label) {
     open_.push({kSeedStrength, 0, voxel, label});
@@ -124,12 +124,12 @@ class Flood {
   void take(const Candidate& c) {
     labels_[c.voxel] = c.label;
     for_each_neighbour(grid_, c.voxel, [&](std::size_t n, int) {
-      if (solid_[n] != 0 && labels_[n] == 0) open_.push({strength_[n], c.step + 1, n, c.label});
+      if (mask_[n] != 0 && labels_[n] == 0) open_.push({strength_[n], c.step + 1, n, c.label});
     });
   }
 
   const VoxelGrid& grid_;
-  const VoxelMask& solid_;
+  std::span<const std::uint8_t> mask_;
   std::vector<float> strength_;
   std::vector<std::uint16_t> labels_;
   std::priority_queue<Candidate> open_;
@@ -164,12 +164,11 @@ LabelMap split_at_seeds(const VolumeView& volume, std::span<const std::uint8_t> 
                      std::to_string(seeds.size()));
   }
   const std::vector<std::size_t> places = places_of(seeds, mask, volume);
-  const VoxelMask solid = without_cavities(mask, volume);
-  const std::vector<float> depth = depths(solid, volume);
+  const std::vector<float> depth = depths(mask, volume);
   std::vector<std::size_t> tops;
   tops.reserve(places.size());
   for (const std::size_t place : places) tops.push_back(climb(volume, depth, place));
-  Flood flood(volume, solid, strengths(volume, mask, level, depth));
+  Flood flood(volume, mask, strengths(volume, mask, level, depth));
   LabelMap map{volume, {}, {}};
   for (std::size_t n = 0; n < places.size(); ++n) {
     const auto label = static_cast<Index>(n + 1);
@@ -179,8 +178,6 @@ LabelMap split_at_seeds(const VolumeView& volume, std::span<const std::uint8_t> 
     map.segments.push_back({"part " + std::to_string(label), label, 0, default_colour(label)});
   }
   map.layers.push_back(flood.run());
-  auto& labels = map.layers.front();
-  for (std::size_t n = 0; n < labels.size(); ++n) labels[n] = mask[n] != 0 ? labels[n] : 0;
   return map;
 }
 

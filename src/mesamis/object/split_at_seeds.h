@@ -13,12 +13,12 @@ namespace mesamis {
 
 /// Splits objects that touch: each seed gets the part of the mask that belongs to it.
 ///
-/// A watershed from the seeds through the mask with its cavities filled. The strength of a voxel is
-/// its depth (mm to the nearest voxel outside) times its brightness (0 at the level, 1 at the value
-/// that a tenth of the marked samples exceed, and in cavities). Strong voxels are given away first:
-/// always the strongest voxel next to a part joins that part. Parts therefore meet where the way
-/// from one to the other is weakest: in a dark cleft, where the gradient runs across the way, or in
-/// a narrow neck, also where no edge is seen. Among voxels of equal strength the one reached
+/// A watershed from the seeds through the mask. The strength of a voxel is its depth (mm to the
+/// nearest voxel that is not marked) times its brightness (0 at the level and below, as in a marked
+/// cavity; 1 at the value that a tenth of the marked samples exceed). Strong voxels are given away
+/// first: always the strongest voxel next to a part joins that part. Parts therefore meet where the
+/// way from one to the other is weakest: in a dark cleft, where the gradient runs across the way,
+/// or in a narrow neck, also where no edge is seen. Among voxels of equal strength the one reached
 /// earlier goes first, then the one of the smaller index, so that equal parts meet half way.
 ///
 /// From its place a seed first climbs to where the object is deepest, by steps within the ball that
@@ -26,7 +26,9 @@ namespace mesamis {
 /// the same voxel.
 ///
 /// @param volume  native units.
-/// @param mask    one mark per voxel: the objects together, such as mask_above() of the level.
+/// @param mask    one mark per voxel: the objects together, cavities marked, such as
+///                without_cavities() of mask_above(). A cavity that is left open is outside, and
+///                the wall around it thin.
 /// @param level   native units: of the objects' surface.
 /// @param seeds   at least 1, voxels within the grid; each counts for the marked voxel nearest to
 ///                it, within kBesideMm.

@@ -72,14 +72,14 @@ VoxelMask mask_of_island(const VoxelIslands& islands, Index island) {
   return mask;
 }
 
-std::size_t nearest_marked(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
-                           const std::array<Index, 3>& from, double most_mm) {
+std::optional<std::size_t> find_marked(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
+                                       const std::array<Index, 3>& from, double most_mm) {
   require_mask_of(mask, grid);
   const auto in_x = voxels_around(grid, 0, from[0], most_mm);
   const auto in_y = voxels_around(grid, 1, from[1], most_mm);
   const auto in_z = voxels_around(grid, 2, from[2], most_mm);
   double least = most_mm * (1 + 1e-9);
-  std::size_t nearest = mask.size();
+  std::optional<std::size_t> nearest;
   for (Index k = in_z[0]; k <= in_z[1]; ++k) {
     for (Index j = in_y[0]; j <= in_y[1]; ++j) {
       for (Index i = in_x[0]; i <= in_x[1]; ++i) {
@@ -87,13 +87,18 @@ std::size_t nearest_marked(std::span<const std::uint8_t> mask, const VoxelGrid& 
         if (mask[n] == 0) continue;
         const double mm = norm(Vec3{(i - from[0]) * grid.spacing.x, (j - from[1]) * grid.spacing.y,
                                     (k - from[2]) * grid.spacing.z});
-        if (mm > least || (mm == least && nearest < mask.size())) continue;
+        if (mm > least || (mm == least && nearest)) continue;
         least = mm;
         nearest = n;
       }
     }
   }
-  if (nearest < mask.size()) return nearest;
+  return nearest;
+}
+
+std::size_t nearest_marked(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
+                           const std::array<Index, 3>& from, double most_mm) {
+  if (const auto nearest = find_marked(mask, grid, from, most_mm)) return *nearest;
   std::array<char, 96> text;
   std::snprintf(text.data(), text.size(),
                 "place: expected one of the object, found nothing of it within %g mm", most_mm);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,10 +49,17 @@ VoxelMask mask_of_island(const VoxelIslands& islands, Index island);
 /// Finds the marked voxel nearest to a voxel.
 /// @param from     within the grid.
 /// @param most_mm  no further than this between the centres, mm, 0 to 100.
-/// @return its place among the samples, of several as near the first.
-/// @throws InputError  if there is none, or the mask does not fit the grid.
+/// @return its place among the samples, of several as near the first; nothing if there is none.
+/// @throws InputError  if the mask does not fit the grid.
 ///
 /// O(voxels within that distance).
+std::optional<std::size_t> find_marked(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
+                                       const std::array<Index, 3>& from, double most_mm);
+
+/// The same where there must be one.
+/// @param from, most_mm  as for find_marked(). Cost as there.
+/// @return its place among the samples, of several as near the first.
+/// @throws InputError  if there is none, or the mask does not fit the grid.
 std::size_t nearest_marked(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
                            const std::array<Index, 3>& from, double most_mm);
 
