@@ -89,6 +89,17 @@ TEST(SampleRange, IsTheLeastAndTheLargest) {
   EXPECT_EQ(sample_range(std::vector<float>{3}), std::pair(3.0F, 3.0F));
 }
 
+TEST(Clamped, BoundsTheSamplesAndKeepsTheGrid) {
+  Volume scan = sampled_volume({5, 4, 3}, {1, 1.5, 0.8}, [](const Vec3& p) { return 10 * p.x; });
+  scan.modality = "CT";
+  const Volume found = clamped(scan, {5, 25.5});
+  EXPECT_EQ(found.spacing.y, 1.5);
+  EXPECT_EQ(found.modality, "CT");
+  for (Index i = 0; i < 5; ++i) {
+    EXPECT_EQ(found.at(i, 3, 2), std::min(std::max(10.0F * static_cast<float>(i), 5.0F), 25.5F));
+  }
+}
+
 /// The mean of neighbours along each axis in turn, the border repeated.
 TEST(Smoothed, IsTheProductOfThreeFilters) {
   std::mt19937 generator(4);

@@ -22,6 +22,19 @@ Volume ball_and_plates(double plates_to) {
   return gaussian_smoothed(std::move(volume), 0.8);
 }
 
+TEST(WindowWithRoom, HoldsHalfTheContrastOnBothSidesOfTheLevel) {
+  const Volume volume = ball_and_plates(60);
+  const Window usual = default_window(volume, 120);
+  const auto window = [&](double background, double object, double level) {
+    return window_with_room(volume, {background, object, 0}, level);
+  };
+  EXPECT_EQ(window(120, 130, 175).low, usual.low) << "there is room";
+  EXPECT_EQ(window(120, 130, 175).high, usual.high);
+  EXPECT_EQ(window(120, 230, usual.low).low, usual.low - 55);
+  EXPECT_EQ(window(120, 230, usual.high).high, usual.high + 55);
+  EXPECT_EQ(window(230, 120, usual.high).high, usual.high + 55) << "a dark object";
+}
+
 TEST(ObjectEdge, IsThatOfTheThickPart) {
   const Volume volume = ball_and_plates(60);
   const HalfMaximumLevel seen = find_half_maximum_level(volume);

@@ -220,6 +220,15 @@ Window default_window(const VolumeView& volume, double background) {
   return {low, high};
 }
 
+Volume clamped(const VolumeView& volume, const Window& window) {
+  Volume result{volume, std::vector<float>(volume.samples.size())};
+  const auto low = static_cast<float>(window.low), high = static_cast<float>(window.high);
+  parallel_for(result.samples.size(), [&](std::size_t n) {
+    result.samples[n] = std::clamp(volume.samples[n], low, high);
+  });
+  return result;
+}
+
 Volume smoothed(const VolumeView& volume) {
   constexpr std::size_t kLayers = 16;  // that one thread smooths; one more on either side is read
   Volume result{volume, std::vector<float>(volume.samples.size())};

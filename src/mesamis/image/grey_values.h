@@ -94,6 +94,14 @@ struct Window {
 /// O(voxels).
 Window default_window(const VolumeView& volume, double background);
 
+/// Bounds all samples by a window: what lies beyond takes the value of its end.
+/// @param window  native units; low at most high.
+/// @return native units.
+/// @throws nothing
+///
+/// O(voxels), in threads; a copy of the samples.
+Volume clamped(const VolumeView& volume, const Window& window);
+
 /// Smooths an image by the binomial filter 1 2 1 along each axis: a Gaussian of standard deviation
 /// 0.7 voxels. Beyond the border the last sample is repeated. An axis along which voxels are more
 /// than twice as long as along the shortest is not smoothed: slices that far apart show different

@@ -2,7 +2,6 @@
 #include "mesamis/method/prepare.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -29,22 +28,6 @@ constexpr double kPaperThreshold = 140;
 double default_h_max(const VoxelGrid& volume, double unit_mm) {
   const Vec3 extent = volume.box().extent();
   return std::max({extent.x, extent.y, extent.z}) / 4 / unit_mm;
-}
-
-/// The default, widened where the level has no room for an edge on both its sides.
-Window choose_window(const VolumeView& volume, const ObjectContrast& contrast, double level) {
-  const Window window = default_window(volume, contrast.background);
-  const double room = std::abs(contrast.object - contrast.background) / 2;
-  return {std::min(window.low, level - room), std::max(window.high, level + room)};
-}
-
-/// Values beyond the window (air, metal) must not ring when the blur is undone, nor count as noise.
-Volume clamped(const VolumeView& scan, const Window& window) {
-  Volume volume{scan, std::vector<float>(scan.samples.size())};
-  const auto low = static_cast<float>(window.low), high = static_cast<float>(window.high);
-  parallel_for(volume.samples.size(),
-               [&](std::size_t n) { volume.samples[n] = std::clamp(scan.samples[n], low, high); });
-  return volume;
 }
 
 /// Settings that are taken over, and those that follow from the volume's grid alone.
@@ -203,7 +186,7 @@ Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
     throw InputError("level: found no object that stands out of the noise; expected --level");
   }
   const Window window = settings.window.value_or(
-      choose_window(volume, seen.contrast, settings.level.value_or(seen.level)));
+      window_with_room(volume, seen.contrast, settings.level.value_or(seen.level)));
   p.grey = {window.low, window.high, window.low};
   Volume scan = clamped(volume, window);
   const HalfMaximumLevel object = find_object_edge(scan, seen);

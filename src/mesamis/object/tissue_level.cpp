@@ -2,7 +2,6 @@
 #include "mesamis/object/tissue_level.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "mesamis/base/error.h"
@@ -13,22 +12,12 @@
 namespace mesamis {
 namespace {
 
-/// The default window, with room for an edge on both sides of the level.
-Window window_around(const VolumeView& volume, const HalfMaximumLevel& seen) {
-  const Window window = default_window(volume, seen.contrast.background);
-  const double room = std::abs(seen.contrast.difference()) / 2;
-  return {std::min(window.low, seen.level - room), std::max(window.high, seen.level + room)};
-}
-
 /// The edge of the bright object of a volume.
 HalfMaximumLevel measure(const VolumeView& volume, const std::optional<double>& start) {
   const HalfMaximumLevel seen = find_half_maximum_level(volume, {.start = start});
   if (!(seen.contrast.difference() > 0)) return seen;
-  const Window window = window_around(volume, seen);
-  const auto low = static_cast<float>(window.low), high = static_cast<float>(window.high);
-  Volume clamped = copy_volume(volume);
-  for (float& x : clamped.samples) x = std::clamp(x, low, high);
-  return find_object_edge(clamped, seen);
+  const Window window = window_with_room(volume, seen.contrast, seen.level);
+  return find_object_edge(clamped(volume, window), seen);
 }
 
 /// The same for the dark object, in the units of the volume.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesamis/image/grey_values.h"
 #include "mesamis/restore/edge_level.h"
 #include "mesamis/restore/scan_quality.h"
 #include "mesamis/restore/thick_places.h"
@@ -58,6 +57,12 @@ double share_of_whole_surface(const VolumeView& volume, const VolumeView& guide,
 }
 
 }  // namespace
+
+Window window_with_room(const VolumeView& volume, const ObjectContrast& contrast, double level) {
+  const Window window = default_window(volume, contrast.background);
+  const double room = std::abs(contrast.difference()) / 2;
+  return {std::min(window.low, level - room), std::max(window.high, level + room)};
+}
 
 HalfMaximumLevel find_object_edge(const VolumeView& volume, const HalfMaximumLevel& seen) {
   if (!(seen.contrast.difference() > 0)) return seen;

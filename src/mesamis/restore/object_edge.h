@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "mesamis/image/grey_values.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/restore/half_maximum_level.h"
 
 namespace mesamis {
+
+/// Chooses the window in which an object's edge is measured: the default one, widened where the
+/// level has no room for half the contrast on both its sides. What lies beyond it (air, metal) must
+/// not ring when the blur is undone, nor count as noise.
+/// @param volume    at least one sample, all finite.
+/// @param contrast  of the object, native units.
+/// @param level     native units.
+/// @return native units; low at most high.
+/// @throws nothing
+///
+/// O(voxels).
+Window window_with_room(const VolumeView& volume, const ObjectContrast& contrast, double level);
 
 /// Measures an object's level and contrast where it is thick.
 ///
