@@ -39,6 +39,18 @@ auto as_usage(const Check& check) {
   }
 }
 
+/// Parses the value of an option. A value that is written wrongly is an error of usage that names
+/// its option.
+/// @throws CLI::ValidationError  with the message of the InputError.
+template <class Parse>
+auto parsed(const std::string& option, const Parse& parse) {
+  try {
+    return parse();
+  } catch (const InputError& error) {
+    throw CLI::ValidationError(option, error.what());
+  }
+}
+
 /// Replaces control characters, so that the text is one line of a message.
 std::string one_line(const std::string& text);
 

@@ -24,16 +24,6 @@ LabelMap read_marks(const std::filesystem::path& path) {
   return std::move(file.map);
 }
 
-/// A value that is written wrongly is an error of usage that names its option.
-template <class Parse>
-void require_written(const std::string& option, const Parse& parse) {
-  try {
-    parse();
-  } catch (const InputError& error) {
-    throw CLI::ValidationError(option, error.what());
-  }
-}
-
 [[noreturn]] void refuse_pair(const std::string& option, const std::string& other) {
   throw CLI::ValidationError(option, "expected it without " + other + ", found both");
 }
@@ -71,12 +61,12 @@ void add_place_options(CLI::App& command, PlaceArguments& a) {
 
 void require_places(const PlaceArguments& places, const LabelArguments& labels,
                     const Settings& settings) {
-  if (!places.tissue.empty()) require_written("--tissue", [&] { parse_tissue(places.tissue); });
+  if (!places.tissue.empty()) parsed("--tissue", [&] { return parse_tissue(places.tissue); });
   for (const std::string& seed : places.seeds) {
-    require_written("--seed", [&] { parse_point(seed, Frame::kLps); });
+    parsed("--seed", [&] { return parse_point(seed, Frame::kLps); });
   }
   if (!places.box.empty()) {
-    require_written("--box", [&] { parse_box(places.box); });
+    parsed("--box", [&] { return parse_box(places.box); });
     if (!(settings.crop == CropRange{})) refuse_pair("--box", "--crop");
   }
   if (places.remove == kBody && places.keep_surroundings) {

@@ -15,11 +15,7 @@ void add_read_options(CLI::App& command, ReadOptions& options) {
   command.add_option_function<std::string>(
       "--raw",
       [&options](const std::string& text) {
-        try {
-          options.raw = parse_raw_layout(text);
-        } catch (const InputError& error) {
-          throw CLI::ValidationError("--raw", error.what());
-        }
+        options.raw = parsed("--raw", [&] { return parse_raw_layout(text); });
       },
       "NX,NY,NZ,TYPE[,HEADERBYTES]: the input is a raw file; TYPE uint8 int16 uint16 int32 float32 "
       "float64, with be behind it if big endian");

@@ -60,13 +60,11 @@ void add_value(CLI::App& command, const Setting& setting, SettingsArguments& arg
 /// Errors name the option as it was written.
 void apply_override(Settings& settings, const SettingsArguments::Override& override) {
   const Setting& setting = find_setting(override.name);
-  try {
+  parsed(option_of(setting), [&] {
     const SettingValue value = parse_value(setting, override.text);
     check_value(setting, value);
     setting.set(settings, value);
-  } catch (const InputError& error) {
-    throw CLI::ValidationError(option_of(setting), error.what());
-  }
+  });
 }
 
 }  // namespace
@@ -103,11 +101,9 @@ void add_frame_option(CLI::App& command, Frame& frame) {
 
 CropRange parse_crop(const std::string& text, const std::string& option) {
   Settings settings;
-  try {
+  parsed(option, [&] {
     set_setting(settings, find_setting("crop"), parse_value(find_setting("crop"), text));
-  } catch (const InputError& error) {
-    throw CLI::ValidationError(option, error.what());
-  }
+  });
   return settings.crop;
 }
 
