@@ -2,7 +2,6 @@
 #include "mesamis/object/places.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "mesamis/base/error.h"
+#include "mesamis/object/written.h"
 
 namespace mesamis {
 namespace {
@@ -20,12 +20,7 @@ constexpr double kRounding = 1e-6;  // voxels
 
 /// A text as part of a message: short, and in one line.
 std::string quoted(std::string_view text) {
-  constexpr std::size_t kMost = 60;
-  std::string line(text.substr(0, kMost));
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  }
-  return "\"" + line + (text.size() > kMost ? "...\"" : "\"");
+  return "\"" + quotable(text) + (text.size() > kMostQuoted ? "...\"" : "\"");
 }
 
 std::vector<std::string_view> split(std::string_view text, char mark) {
@@ -44,14 +39,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-std::optional<double> number(std::string_view text) {
-  text = trimmed(text);
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
+std::optional<double> number(std::string_view text) { return written_number(trimmed(text)); }
 
 /// One end of a box; open if nothing is written.
 std::optional<double> end_of_box(std::string_view text, double open) {

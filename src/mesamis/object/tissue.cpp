@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <limits>
 
 #include "mesamis/base/error.h"
+#include "mesamis/object/written.h"
 
 namespace mesamis {
 namespace {
@@ -60,27 +59,13 @@ std::string names_of_table() {
 }
 
 [[noreturn]] void refuse(std::string_view text) {
-  constexpr std::size_t kMost = 60;
-  std::string found(text.substr(0, kMost));
-  for (char& c : found) {
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  }
   throw InputError("tissue: expected " + names_of_table() + "or LO:HI with LO below HI, found \"" +
-                   found + "\"");
-}
-
-/// One end of a range; open if nothing is written.
-std::optional<double> end_of_range(std::string_view text) {
-  double value = 0;
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+                   quotable(text) + "\"");
 }
 
 Tissue parse_range(std::string_view text, std::size_t colon) {
   const std::string_view low_text = text.substr(0, colon), high_text = text.substr(colon + 1);
-  const auto low = end_of_range(low_text), high = end_of_range(high_text);
+  const auto low = written_number(low_text), high = written_number(high_text);
   if ((!low && !low_text.empty()) || (!high && !high_text.empty())) refuse(text);
   if ((!low && !high) || (low && high && !(*low < *high))) refuse(text);
   Tissue tissue;
