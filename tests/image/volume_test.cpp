@@ -154,6 +154,34 @@ TEST(Volume, CropKeepsSamplesAndTheirPlaceInTheWorld) {
       }
 }
 
+TEST(Volume, CropOfMarksKeepsThoseOfTheSameVoxels) {
+  const Volume v = oblique();
+  std::vector<std::uint8_t> marks(v.voxel_count());
+  for (std::size_t n = 0; n < marks.size(); ++n) marks[n] = static_cast<std::uint8_t>(n);
+  const CropRange range{{1, 0, 2}, {4, -1, 5}};
+  const auto kept = crop(marks, v, range);
+  const Volume part = crop(v, range);
+  ASSERT_EQ(kept.size(), part.voxel_count());
+  for (std::size_t n = 0; n < kept.size(); ++n) {
+    const auto [i, j, k] = part.voxel(n);
+    EXPECT_EQ(kept[n], marks[v.offset(i + 1, j, k + 2)]);
+  }
+  EXPECT_REFUSED(crop(marks, v, {{3, 0, 0}, {3, -1, -1}}), HasSubstr("crop"));
+}
+
+TEST(VoxelGrid, TellsTheVoxelOfEachPlace) {
+  const VoxelGrid grid = oblique();
+  for (Index k = 0; k < grid.size[2]; ++k)
+    for (Index j = 0; j < grid.size[1]; ++j)
+      for (Index i = 0; i < grid.size[0]; ++i)
+        EXPECT_EQ(grid.voxel(grid.offset(i, j, k)), (std::array<Index, 3>{i, j, k}));
+}
+
+TEST(VoxelGrid, TellsTheVolumeOfAVoxel) {
+  EXPECT_EQ((VoxelGrid{.spacing = {0.5, 2, 3}}.voxel_volume()), 3);
+  EXPECT_NEAR((VoxelGrid{.spacing = {0.5, 2, 8}}.voxel_size()), 2, 1e-15);
+}
+
 TEST(Volume, CropRefusesRangesOutsideEmptyOrThin) {
   const Volume v = oblique();
   EXPECT_THROW(crop(v, {{-1, 0, 0}, {-1, -1, -1}}), InputError);

@@ -93,6 +93,24 @@ TEST(Dilated, ByLessThanNothingIsRefused) {
   EXPECT_REFUSED(dilated(mask, grid, std::nan("")), HasSubstr("margin"));
 }
 
+TEST(Eroded, MarksWhatIsFartherThanTheDistanceFromWhatIsNotMarked) {
+  const VoxelGrid grid = grid_of({13, 9, 7}, {0.7, 1.3, 2.9});
+  const VoxelMask mask = random_mask(grid, 0.98);
+  const auto distance = by_brute_force(complement(mask), grid);
+  for (const double mm : {0.0, 0.7, 1.3, 2.0}) {
+    const VoxelMask core = eroded(mask, grid, mm);
+    for (std::size_t n = 0; n < mask.size(); ++n) {
+      ASSERT_EQ(core[n], distance[n] > mm * (1 + 1e-6)) << mm << " mm, voxel " << n;
+    }
+  }
+  EXPECT_EQ(eroded(VoxelMask(mask.size(), 1), grid, 5), VoxelMask(mask.size(), 1));
+  EXPECT_REFUSED(eroded(mask, grid, -1), HasSubstr("margin"));
+}
+
+TEST(OnlyIn, KeepsWhatTheOtherLacks) {
+  EXPECT_EQ(only_in(VoxelMask{0, 1, 255, 9}, VoxelMask{0, 0, 2, 0}), (VoxelMask{0, 1, 0, 1}));
+}
+
 TEST(Complement, SwapsInsideAndOutside) {
   EXPECT_EQ(complement(VoxelMask{0, 1, 255, 0}), (VoxelMask{1, 0, 0, 1}));
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "mesamis/base/error.h"
-#include "mesamis/base/grid_place.h"
 #include "mesamis/image/refuse.h"
 
 namespace mesamis {
@@ -55,8 +54,7 @@ void require_samples(const VolumeView& volume) {
   const std::span<const float> f = volume.samples;
   const auto unknown = std::find_if(f.begin(), f.end(), [](float x) { return !std::isfinite(x); });
   if (unknown != f.end()) {
-    const auto at = static_cast<std::size_t>(unknown - f.begin());
-    const auto [i, j, k] = grid_place(volume.size, at);
+    const auto [i, j, k] = volume.voxel(static_cast<std::size_t>(unknown - f.begin()));
     refuse("volume: expected finite samples, found ", *unknown, " at voxel ", i, " ", j, " ", k);
   }
   if (std::all_of(f.begin(), f.end(), [&f](float x) { return x == f[0]; })) {
@@ -68,6 +66,25 @@ void require_samples(const VolumeView& volume) {
 struct Selection {
   std::array<Index, 3> begin, count, stride;
 };
+
+/// @param values  one per voxel.
+template <class Value>
+std::vector<Value> select(std::span<const Value> values, const VoxelGrid& grid,
+                          const Selection& kept) {
+  const auto& [begin, count, stride] = kept;
+  std::vector<Value> out;
+  out.reserve(VoxelGrid{.size = count}.voxel_count());
+  for (Index k = 0; k < count[2]; ++k) {
+    for (Index j = 0; j < count[1]; ++j) {
+      const Value* line =
+          values.data() + grid.offset(begin[0], begin[1] + j * stride[1], begin[2] + k * stride[2]);
+      for (Index i = 0; i < count[0]; ++i) {
+        out.push_back(line[static_cast<std::ptrdiff_t>(i) * stride[0]]);
+      }
+    }
+  }
+  return out;
+}
 
 Volume select(const VolumeView& volume, const Selection& kept) {
   Volume out;
@@ -81,17 +98,7 @@ Volume select(const VolumeView& volume, const Selection& kept) {
     out.spacing[a] = volume.spacing[a] * kept.stride[s];
   }
   out.origin = volume.to_world(corner);
-  out.samples.reserve(out.voxel_count());
-  for (Index k = 0; k < kept.count[2]; ++k) {
-    for (Index j = 0; j < kept.count[1]; ++j) {
-      const float* line =
-          volume.samples.data() + volume.offset(kept.begin[0], kept.begin[1] + j * kept.stride[1],
-                                                kept.begin[2] + k * kept.stride[2]);
-      for (Index i = 0; i < kept.count[0]; ++i) {
-        out.samples.push_back(line[static_cast<std::ptrdiff_t>(i) * kept.stride[0]]);
-      }
-    }
-  }
+  out.samples = select(volume.samples, volume, kept);
   return out;
 }
 
@@ -128,6 +135,11 @@ std::array<Index, 3> cropped_size(const VoxelGrid& volume, const CropRange& rang
 
 Volume crop(const VolumeView& volume, const CropRange& range) {
   return select(volume, {range.begin, cropped_size(volume, range), {1, 1, 1}});
+}
+
+std::vector<std::uint8_t> crop(std::span<const std::uint8_t> marks, const VoxelGrid& grid,
+                               const CropRange& range) {
+  return select(marks, grid, {range.begin, cropped_size(grid, range), {1, 1, 1}});
 }
 
 Volume subsample(const VolumeView& volume, const std::array<Index, 3>& stride) {

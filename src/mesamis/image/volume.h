@@ -6,10 +6,12 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "mesamis/base/grid_place.h"
 #include "mesamis/base/types.h"
 
 namespace mesamis {
@@ -39,14 +41,20 @@ struct VoxelGrid {
                static_cast<std::size_t>(size[0]) +
            static_cast<std::size_t>(i);
   }
+  /// The voxel (i, j, k) at a place among the samples: the other way round.
+  std::array<Index, 3> voxel(std::size_t place) const noexcept {
+    return grid_place(size, place);
+  }
 
   /// The box spanned by the voxel centres, in the grid's own axes, mm: [0, (n-1) s] per direction.
   Box box() const noexcept {
     return {{0, 0, 0},
             {(size[0] - 1) * spacing.x, (size[1] - 1) * spacing.y, (size[2] - 1) * spacing.z}};
   }
+  /// The volume of a voxel, mm^3.
+  double voxel_volume() const noexcept { return spacing.x * spacing.y * spacing.z; }
   /// The geometric mean of the spacing, mm.
-  double voxel_size() const noexcept { return std::cbrt(spacing.x * spacing.y * spacing.z); }
+  double voxel_size() const noexcept { return std::cbrt(voxel_volume()); }
   /// The shortest side of a voxel, mm.
   double shortest_side() const noexcept { return std::min({spacing.x, spacing.y, spacing.z}); }
   /// From the grid's own axes (mm) to the world (LPS, mm).
@@ -108,6 +116,14 @@ std::array<Index, 3> cropped_size(const VoxelGrid& volume, const CropRange& rang
 /// @throws InputError  as cropped_size().
 /// O(voxels kept).
 Volume crop(const VolumeView& volume, const CropRange& range);
+
+/// Copies the marks inside the range.
+/// @param marks  one per voxel of the grid; i runs fastest, then j, k.
+/// @return in the same order.
+/// @throws InputError  as cropped_size().
+/// O(voxels kept).
+std::vector<std::uint8_t> crop(std::span<const std::uint8_t> marks, const VoxelGrid& grid,
+                               const CropRange& range);
 
 /// Keeps every stride-th voxel, starting with the first; world positions are kept.
 /// @param stride  voxels along each axis, >= 1.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesamis/base/grid_place.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/text_writer.h"
 
@@ -27,7 +26,7 @@ void for_each_sample(const VoxelGrid& grid, const LayerOrder& order,
 }
 
 std::string place_of(const VoxelGrid& grid, std::size_t voxel) {
-  const auto [i, j, k] = grid_place(grid.size, voxel);
+  const auto [i, j, k] = grid.voxel(voxel);
   return say("voxel ", i, " ", j, " ", k);
 }
 

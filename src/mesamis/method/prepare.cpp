@@ -59,7 +59,7 @@ Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
   p.surface = s.surface;
   p.follow = s.follow;
   p.band_threshold = s.band_threshold;
-  p.min_volume = s.min_volume.value_or(kDefaultMinVolume * voxel.x * voxel.y * voxel.z);
+  p.min_volume = s.min_volume.value_or(kDefaultMinVolume * volume.voxel_volume());
   p.keep_largest = s.keep_largest;
   p.fill_cavities = s.fill_cavities;
   p.tolerance = s.tolerance.value_or(std::numeric_limits<double>::infinity());

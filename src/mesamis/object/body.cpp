@@ -22,8 +22,6 @@ constexpr double kLongPart = 100;  // mm
 
 std::size_t at(Index n) { return static_cast<std::size_t>(n); }
 
-double voxel_mm3(const VoxelGrid& grid) { return grid.spacing.x * grid.spacing.y * grid.spacing.z; }
-
 /// Voxels about 2 mm apart suffice.
 std::array<Index, 3> coarse_stride(const VoxelGrid& grid) {
   constexpr double kApart = 2;  // mm
@@ -44,11 +42,6 @@ int patient_axis(const VoxelGrid& grid) {
     if (std::abs(z[a]) > std::abs(z[axis]) + 1e-6) axis = a;
   }
   return axis;
-}
-
-/// The centres of the balls that fit into a mask.
-VoxelMask eroded(const VoxelMask& mask, const VoxelGrid& grid, double mm) {
-  return complement(dilated(complement(mask), grid, mm));
 }
 
 /// What balls that fit into a mask reach.
@@ -135,8 +128,7 @@ std::vector<std::uint8_t> touch(const VoxelIslands& islands, const VoxelMask& ma
 /// Gives back what the opening took from the body: short parts that hang on, and what lies in its
 /// hollows.
 void add_thin_parts(VoxelMask& body, const VoxelMask& solid, const VoxelGrid& grid) {
-  VoxelMask rest(body.size());
-  for (std::size_t n = 0; n < rest.size(); ++n) rest[n] = solid[n] != 0 && body[n] == 0;
+  const VoxelMask rest = only_in(solid, body);
   const VoxelIslands parts = find_islands(rest, grid);
   const std::vector<CropRange> ranges = ranges_of(parts, grid);
   const std::vector<std::uint8_t> hangs_on = touch(parts, body, grid);
@@ -169,16 +161,14 @@ void fill_enclosed(VoxelMask& body, const VolumeView& volume) {
 /// What is dense and not in the body, by name.
 std::vector<Surroundings> name_surroundings(const VoxelMask& body, const VoxelMask& dense,
                                             const VoxelGrid& grid) {
-  VoxelMask rest(body.size());
-  for (std::size_t n = 0; n < rest.size(); ++n) rest[n] = dense[n] != 0 && body[n] == 0;
-  const VoxelIslands islands = find_islands(rest, grid);
+  const VoxelIslands islands = find_islands(only_in(dense, body), grid);
   const std::vector<CropRange> ranges = ranges_of(islands, grid);
   const auto axis = at(patient_axis(grid));
   std::vector<Surroundings> kinds{{"table or head rest", 0}, {"other objects", 0}};
   for (std::size_t island = 0; island < ranges.size(); ++island) {
     const bool is_long =
         2 * (ranges[island].end[axis] - ranges[island].begin[axis]) >= grid.size[axis];
-    kinds[is_long ? 0 : 1].mm3 += static_cast<double>(islands.voxels[island]) * voxel_mm3(grid);
+    kinds[is_long ? 0 : 1].mm3 += static_cast<double>(islands.voxels[island]) * grid.voxel_volume();
   }
   std::erase_if(kinds, [](const Surroundings& kind) { return kind.mm3 == 0; });
   std::stable_sort(kinds.begin(), kinds.end(),
@@ -189,14 +179,12 @@ std::vector<Surroundings> name_surroundings(const VoxelMask& body, const VoxelMa
 /// The mark of the nearest coarse voxel for every voxel.
 VoxelMask spread_out(const VoxelMask& coarse, const VoxelGrid& from, const VoxelGrid& grid,
                      const std::array<Index, 3>& stride) {
-  const auto nearest = [&](std::size_t n, std::size_t axis) {
-    const Index rounded = (static_cast<Index>(n) + stride[axis] / 2) / stride[axis];
-    return std::min(rounded, from.size[axis] - 1);
+  const auto nearest = [&](Index n, std::size_t axis) {
+    return std::min((n + stride[axis] / 2) / stride[axis], from.size[axis] - 1);
   };
   VoxelMask mask(grid.voxel_count());
-  const std::size_t nx = at(grid.size[0]), ny = at(grid.size[1]);
   parallel_for(mask.size(), [&](std::size_t n) {
-    const std::size_t i = n % nx, j = n / nx % ny, k = n / (nx * ny);
+    const auto [i, j, k] = grid.voxel(n);
     mask[n] = coarse[from.offset(nearest(i, 0), nearest(j, 1), nearest(k, 2))];
   });
   return mask;
@@ -220,7 +208,7 @@ std::optional<Body> find_body(const VolumeView& volume) {
   Body body;
   body.grain = std::max({coarse.spacing.x, coarse.spacing.y, coarse.spacing.z});
   body.removed = name_surroundings(inside, dense, coarse);
-  body.mm3 = static_cast<double>(count_marked(inside)) * voxel_mm3(coarse);
+  body.mm3 = static_cast<double>(count_marked(inside)) * coarse.voxel_volume();
   body.mask = spread_out(inside, coarse, volume, stride);
   return body;
 }

@@ -40,28 +40,6 @@ Tissue bright_tissue() {
           .hounsfield = false};
 }
 
-VoxelMask cropped_mask(const VoxelMask& mask, const VoxelGrid& grid, const CropRange& range) {
-  const auto size = cropped_size(grid, range);
-  const auto& [i, j, k] = range.begin;
-  VoxelMask part;
-  part.reserve(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
-               static_cast<std::size_t>(size[2]));
-  for (Index z = k; z < k + size[2]; ++z) {
-    for (Index y = j; y < j + size[1]; ++y) {
-      const auto row = mask.begin() + static_cast<std::ptrdiff_t>(grid.offset(i, y, z));
-      part.insert(part.end(), row, row + size[0]);
-    }
-  }
-  return part;
-}
-
-/// The marks of one mask that another lacks.
-VoxelMask only_in(const VoxelMask& mask, const VoxelMask& other) {
-  VoxelMask rest(mask.size());
-  for (std::size_t n = 0; n < rest.size(); ++n) rest[n] = mask[n] != 0 && other[n] == 0;
-  return rest;
-}
-
 /// What a mask is surrounded by: the median from one to three voxels beside it.
 double value_around(const VolumeView& volume, const VoxelMask& grown) {
   const VoxelMask ring = only_in(dilated(grown, volume, 2 * volume.voxel_size()), grown);
@@ -142,7 +120,7 @@ class Choice {
       return;
     }
     const VoxelGrid& grid = chosen_.volume;
-    const VoxelMask inside = complement(dilated(complement(body_->mask), grid, body_->grain));
+    const VoxelMask inside = eroded(body_->mask, grid, body_->grain);
     const Volume turned = mirrored(std::move(chosen_.volume));
     chosen_.volume =
         mirrored(kept_to(turned, inside, {.margin = 0, .background = mirrored(kSoftHu)}));
@@ -206,7 +184,7 @@ class Choice {
   void crop_all() {
     if (request_.crop == CropRange{}) return;
     if (!chosen_.unmeasured.empty()) {
-      chosen_.unmeasured = cropped_mask(chosen_.unmeasured, chosen_.volume, request_.crop);
+      chosen_.unmeasured = crop(chosen_.unmeasured, chosen_.volume, request_.crop);
     }
     chosen_.volume = crop(chosen_.volume, request_.crop);
   }

@@ -46,19 +46,12 @@ std::vector<float> strengths(const VolumeView& volume, std::span<const std::uint
   return depth;
 }
 
-std::array<Index, 3> voxel_of(const VoxelGrid& grid, std::size_t place) {
-  const auto nx = static_cast<std::size_t>(grid.size[0]),
-             ny = static_cast<std::size_t>(grid.size[1]);
-  return {static_cast<Index>(place % nx), static_cast<Index>(place / nx % ny),
-          static_cast<Index>(place / (nx * ny))};
-}
-
 /// The deepest marked voxel within the ball around a voxel that its depth makes, and one voxel
 /// more.
 std::size_t deepest_nearby(const VoxelGrid& grid, const std::vector<float>& depth,
                            std::size_t from) {
   const double most = depth[from] + std::max({grid.spacing.x, grid.spacing.y, grid.spacing.z});
-  const auto v = voxel_of(grid, from);
+  const auto v = grid.voxel(from);
   std::array<std::array<Index, 2>, 3> range;
   for (std::size_t a = 0; a < 3; ++a)
     range[a] = voxels_around(grid, static_cast<int>(a), v[a], most);

@@ -104,10 +104,20 @@ VoxelMask dilated(std::span<const std::uint8_t> mask, const VoxelGrid& grid, dou
   return grown;
 }
 
+VoxelMask eroded(std::span<const std::uint8_t> mask, const VoxelGrid& grid, double mm) {
+  return complement(dilated(complement(mask), grid, mm));
+}
+
 VoxelMask complement(std::span<const std::uint8_t> mask) {
   VoxelMask other(mask.size());
   parallel_for(mask.size(), [&](std::size_t n) { other[n] = mask[n] == 0; });
   return other;
+}
+
+VoxelMask only_in(std::span<const std::uint8_t> mask, std::span<const std::uint8_t> other) {
+  VoxelMask rest(mask.size());
+  parallel_for(mask.size(), [&](std::size_t n) { rest[n] = mask[n] != 0 && other[n] == 0; });
+  return rest;
 }
 
 std::size_t count_marked(std::span<const std::uint8_t> mask) {

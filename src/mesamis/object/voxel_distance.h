@@ -37,12 +37,27 @@ std::vector<float> distance_to_mask(std::span<const std::uint8_t> mask, const Vo
 /// O(voxels), in threads.
 VoxelMask dilated(std::span<const std::uint8_t> mask, const VoxelGrid& grid, double mm);
 
+/// Shrinks a mask to the centres of the balls that fit into it; what is beyond the grid counts as
+/// within it.
+/// @param mm  radius of the balls, as for dilated().
+/// @return 1 inside, 0 outside.
+/// @throws InputError  as dilated(). Cost as there.
+VoxelMask eroded(std::span<const std::uint8_t> mask, const VoxelGrid& grid, double mm);
+
 /// Swaps inside and outside.
 /// @return 1 inside, 0 outside.
 /// @throws nothing
 ///
 /// O(voxels).
 VoxelMask complement(std::span<const std::uint8_t> mask);
+
+/// Keeps the marks of one mask that another lacks.
+/// @param other  as many marks.
+/// @return 1 inside, 0 outside.
+/// @throws nothing
+///
+/// O(voxels).
+VoxelMask only_in(std::span<const std::uint8_t> mask, std::span<const std::uint8_t> other);
 
 /// Counts the marked voxels.
 /// @throws nothing
