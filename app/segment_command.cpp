@@ -175,8 +175,7 @@ void write_report(const SegmentOptions& options, const ChosenScan& scan,
 /// Warns where the surface may show something else than what was meant.
 void log_surface(const ChosenObject& object, const Parameters& p) {
   if (p.surface != SurfaceKind::kSolid) return;
-  const double level = object.kind == TissueKind::kDark ? -p.level : p.level;
-  for (const std::string& warning : surface_warnings(object, level)) log_warning(warning);
+  for (const std::string& warning : surface_warnings(object, p.level)) log_warning(warning);
 }
 
 int run_on_scan(const SegmentOptions& options, const Settings& settings,

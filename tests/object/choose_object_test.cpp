@@ -283,6 +283,9 @@ TEST(SurfaceWarnings, NameTheBorderOfTheFieldOfView) {
   const ChosenObject chosen = choose_object(scan, {.tissue = parse_tissue("skin")});
   EXPECT_THAT(surface_warnings(chosen, -450), testing::ElementsAre(HasSubstr("field of view")));
   EXPECT_TRUE(surface_warnings(chosen, 350).empty()) << "the spine lies within";
+  const ChosenObject dark = choose_object(scan, {.tissue = parse_tissue("dark"), .level = -450});
+  EXPECT_THAT(surface_warnings(dark, -450), testing::ElementsAre(HasSubstr("field of view")));
+  EXPECT_TRUE(surface_warnings(dark, 350).empty());
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ TEST(Tissues, OfTheTableSearchWithinTheirLevels) {
   for (const Tissue& tissue : tissue_table()) {
     EXPECT_LT(tissue.values.low, tissue.values.high) << tissue.name;
     EXPECT_LT(tissue.levels.low, tissue.levels.high) << tissue.name;
+    EXPECT_FALSE(tissue.level_is_given()) << tissue.name;
     EXPECT_FALSE(tissue.help.empty()) << tissue.name;
     EXPECT_EQ(tissue.start.has_value(), tissue.hounsfield) << tissue.name;
     if (!tissue.start) continue;
@@ -52,6 +53,7 @@ TEST(Tissues, AreRangesOfValues) {
   const Tissue dark = parse_tissue(":-500");
   EXPECT_EQ(dark.kind, TissueKind::kDark);
   EXPECT_EQ(dark.levels.high, -500);
+  EXPECT_TRUE(bright.level_is_given() && dark.level_is_given());
   EXPECT_TRUE(std::isinf(dark.values.low));
 }
 

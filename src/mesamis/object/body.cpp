@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesamis/base/median.h"
 #include "mesamis/base/parallel.h"
@@ -213,9 +214,9 @@ std::optional<Body> find_body(const VolumeView& volume) {
   return body;
 }
 
-Volume without_surroundings(const VolumeView& volume, const Body& body) {
+Volume without_surroundings(Volume volume, const Body& body) {
   constexpr double kAir = -1000;  // HU
-  return kept_to(volume, body.mask, {.margin = body.grain, .background = kAir});
+  return kept_to(std::move(volume), body.mask, {.margin = body.grain, .background = kAir});
 }
 
 }  // namespace mesamis

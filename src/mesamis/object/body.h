@@ -53,11 +53,12 @@ std::optional<Body> find_body(const VolumeView& volume);
 
 /// Replaces what is bright outside of the body by air, see kept_to(): within the mask's grain of
 /// the body nothing changes.
-/// @param body  of this volume.
+/// @param volume  native units; taken over, pass it with std::move() to save the copy.
+/// @param body    of this volume.
 /// @return native units.
 /// @throws InputError  if the mask does not fit the volume or is empty.
 ///
 /// O(voxels), as kept_to().
-Volume without_surroundings(const VolumeView& volume, const Body& body);
+Volume without_surroundings(Volume volume, const Body& body);
 
 }  // namespace mesamis

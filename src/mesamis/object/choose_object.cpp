@@ -87,7 +87,7 @@ class Choice {
     const double value =
         in_hounsfield_ ? kAirHu
                        : quantiles({{}, samples_outside(chosen_.volume, padding->mask)}, {0.05})[0];
-    chosen_.volume = filled(chosen_.volume, padding->mask, value);
+    chosen_.volume = filled(std::move(chosen_.volume), padding->mask, value);
     chosen_.padding = FilledPadding{padding->voxels, padding->value, value};
     chosen_.unmeasured = std::move(padding->mask);
     chosen_.notes.push_back(
@@ -104,7 +104,7 @@ class Choice {
       throw InputError("remove: expected a patient's body in a CT scan, found none");
     }
     if (!body_ || body_->removed.empty()) return;
-    chosen_.volume = without_surroundings(chosen_.volume, *body_);
+    chosen_.volume = without_surroundings(std::move(chosen_.volume), *body_);
     chosen_.removed = body_->removed;
     std::string things;
     for (const Surroundings& thing : body_->removed) {
@@ -119,11 +119,9 @@ class Choice {
       chosen_.warnings.push_back("tissue: no body was found; the air around it comes along");
       return;
     }
-    const VoxelGrid& grid = chosen_.volume;
-    const VoxelMask inside = eroded(body_->mask, grid, body_->grain);
-    const Volume turned = mirrored(std::move(chosen_.volume));
-    chosen_.volume =
-        mirrored(kept_to(turned, inside, {.margin = 0, .background = mirrored(kSoftHu)}));
+    const VoxelMask inside = eroded(body_->mask, chosen_.volume, body_->grain);
+    chosen_.volume = mirrored(kept_to(mirrored(std::move(chosen_.volume)), inside,
+                                      {.margin = 0, .background = mirrored(kSoftHu)}));
   }
 
   void remove_marked() {
@@ -134,8 +132,8 @@ class Choice {
     if (voxels == 0) throw InputError("remove: expected marks within the scan, found none");
     const VoxelMask grown = dilated(mask, volume, volume.voxel_size());
     const double around = value_around(volume, grown);
-    const Vec3& side = volume.spacing;
-    chosen_.volume = without(volume, grown, {.margin = 0, .background = around});
+    const Vec3 side = volume.spacing;
+    chosen_.volume = without(std::move(chosen_.volume), grown, {.margin = 0, .background = around});
     chosen_.removed.push_back(
         {"marked by a label map", static_cast<double>(voxels) * side.x * side.y * side.z});
   }
@@ -172,8 +170,7 @@ class Choice {
     chosen_.level_from = !found.measured ? LevelSource::kTissue
                          : in_crop       ? LevelSource::kCrop
                                          : LevelSource::kScan;
-    const bool given =
-        request_.tissue && request_.tissue->levels.low == request_.tissue->levels.high;
+    const bool given = request_.tissue && request_.tissue->level_is_given();
     if (found.measured || given) return;
     chosen_.warnings.push_back(line(
         "tissue: the level %.4g is %s; %s may not be in this scan", found.level,
@@ -212,8 +209,9 @@ class Choice {
 
   void keep_mask() {
     const auto mask = mask_on(*request_.mask, request_.mask->segments, chosen_.volume);
+    const double low = background();
     chosen_.volume =
-        kept_to(chosen_.volume, mask, {.margin = request_.margin, .background = background()});
+        kept_to(std::move(chosen_.volume), mask, {.margin = request_.margin, .background = low});
   }
 
   /// A seed in a cavity, as in a marrow canal, counts for what encloses it.
@@ -274,15 +272,16 @@ ChosenObject choose_object(Volume scan, const ObjectRequest& request) {
 
 std::vector<std::string> surface_warnings(const ChosenObject& object, double level) {
   constexpr double kMostAtBorder = 0.05;
+  const double in_image = object.kind == TissueKind::kDark ? mirrored(level) : level;
   std::vector<std::string> warnings;
   const bool guessed = object.tissue.empty() && object.level_from != LevelSource::kUser;
-  if (guessed && surface_at_level(object.volume, level) == "skin") {
+  if (guessed && surface_at_level(object.volume, in_image) == "skin") {
     warnings.push_back(
         line("surface: the level %.4g HU is likely that of the skin; --tissue says what is meant",
              level));
   }
   if (object.unmeasured.empty()) return warnings;
-  const double share = share_at_border(object.volume, object.unmeasured, level);
+  const double share = share_at_border(object.volume, object.unmeasured, in_image);
   if (share > kMostAtBorder) {
     warnings.push_back(
         line("surface: %.0f %% of it is likely the border of the padding, where the "

@@ -96,7 +96,7 @@ ChosenObject choose_object(Volume scan, const ObjectRequest& request);
 
 /// Says in words what a surface may show instead of what was meant: the skin, where neither tissue
 /// nor level were given, or the border of what the scanner measured.
-/// @param level  of the surface, units of the volume.
+/// @param level  of the surface, units of the scan, as run_on_object() tells it.
 /// @return one line each.
 /// @throws nothing
 ///

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
@@ -34,27 +35,24 @@ void require_valid(const KeepOptions& options) {
 
 }  // namespace
 
-Volume kept_to(const VolumeView& volume, std::span<const std::uint8_t> mask,
-               const KeepOptions& options) {
+Volume kept_to(Volume volume, std::span<const std::uint8_t> mask, const KeepOptions& options) {
   require_valid(options);
   require_mask_of(mask, volume);
   if (count_marked(mask) == 0) throw InputError("mask: expected an object, found no voxel marked");
   const std::vector<float> distance = distance_to_mask(mask, volume);
   const double background = options.background, width = kFade * volume.voxel_size();
-  Volume kept = copy_volume(volume);
-  parallel_for(kept.samples.size(), [&](std::size_t n) {
+  parallel_for(volume.samples.size(), [&](std::size_t n) {
     const double beyond = distance[n] - options.margin;
-    const double above = kept.samples[n] - background;
+    const double above = volume.samples[n] - background;
     if (beyond <= kRounding * options.margin || above <= 0) return;
-    kept.samples[n] = static_cast<float>(background + fade(beyond / width) * above);
+    volume.samples[n] = static_cast<float>(background + fade(beyond / width) * above);
   });
-  return kept;
+  return volume;
 }
 
-Volume without(const VolumeView& volume, std::span<const std::uint8_t> mask,
-               const KeepOptions& options) {
+Volume without(Volume volume, std::span<const std::uint8_t> mask, const KeepOptions& options) {
   require_mask_of(mask, volume);
-  return kept_to(volume, complement(mask), options);
+  return kept_to(std::move(volume), complement(mask), options);
 }
 
 }  // namespace mesamis

@@ -221,13 +221,12 @@ std::vector<float> samples_outside(const VolumeView& volume, std::span<const std
   return samples;
 }
 
-Volume filled(const VolumeView& volume, std::span<const std::uint8_t> mask, double value) {
+Volume filled(Volume volume, std::span<const std::uint8_t> mask, double value) {
   require_mask_of(mask, volume);
-  Volume result = copy_volume(volume);
-  parallel_for(result.samples.size(), [&](std::size_t n) {
-    if (mask[n] != 0) result.samples[n] = static_cast<float>(value);
+  parallel_for(volume.samples.size(), [&](std::size_t n) {
+    if (mask[n] != 0) volume.samples[n] = static_cast<float>(value);
   });
-  return result;
+  return volume;
 }
 
 double share_at_border(const VolumeView& volume, std::span<const std::uint8_t> mask, double level) {

@@ -51,11 +51,12 @@ std::optional<Padding> find_padding(const VolumeView& volume);
 std::vector<float> samples_outside(const VolumeView& volume, std::span<const std::uint8_t> mask);
 
 /// Sets all marked samples to a value: that of the background (air), so that padding looks like it.
-/// @param value  native units.
+/// @param volume  native units; taken over, pass it with std::move() to save the copy.
+/// @param value   native units.
 /// @throws InputError  if the mask does not fit the volume.
 ///
-/// O(voxels), a copy of the samples.
-Volume filled(const VolumeView& volume, std::span<const std::uint8_t> mask, double value);
+/// O(voxels).
+Volume filled(Volume volume, std::span<const std::uint8_t> mask, double value);
 
 /// Finds how much of a level's surface is the border of the padding: of all crossings of the grid
 /// lines with the level, those between a marked and an unmarked voxel. More than a few per cent,

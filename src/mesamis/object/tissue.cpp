@@ -110,8 +110,8 @@ std::string surface_at_level(const VolumeView& volume, double level) {
                                       {130, "vessels or spongy bone"},
                                       {2200, "bone"},
                                       {kInfinity, "metal"}}};
-  const auto [least, most] = std::minmax_element(volume.samples.begin(), volume.samples.end());
-  if (!(*least <= level && *most > level) || !is_hounsfield(volume)) return "";
+  const auto [least, most] = sample_range(volume.samples);
+  if (!(least <= level && most > level) || !is_hounsfield(volume)) return "";
   return std::find_if(kRows.begin(), kRows.end(),
                       [level](const Row& row) { return level < row.below; })
       ->name;

@@ -29,6 +29,9 @@ struct Tissue {
   std::string help{};             ///< one line for a user
   bool in_body = true;            ///< what is outside of the patient is no part of it
   bool hounsfield = true;         ///< the values mean something only in CT
+
+  /// Whether the user named the level, by a range of values: nothing is measured.
+  bool level_is_given() const noexcept { return levels.low == levels.high; }
 };
 
 /// The presets, in the order in which help lists them: bone, teeth, soft, skin, lung, airway,

@@ -32,8 +32,6 @@ HalfMaximumLevel measure_dark(const VolumeView& volume, const std::optional<doub
   return object;
 }
 
-bool is_given(const Tissue& tissue) { return tissue.levels.low == tissue.levels.high; }
-
 void require_hounsfield(const VolumeView& scan, const Tissue& tissue) {
   if (!tissue.hounsfield || is_hounsfield(scan)) return;
   throw InputError("tissue: expected a CT scan in Hounsfield units for " + tissue.name +
@@ -45,7 +43,7 @@ void require_hounsfield(const VolumeView& scan, const Tissue& tissue) {
 TissueLevel find_tissue_level(const VolumeView& scan, const Tissue& tissue) {
   require_hounsfield(scan, tissue);
   TissueLevel result;
-  if (is_given(tissue)) {
+  if (tissue.level_is_given()) {
     result.level = tissue.levels.low;
     return result;
   }
