@@ -237,7 +237,7 @@ int run_parts(const LabelRun& run, const ChosenScan& scan, const CommonOptions& 
   require_error_place(run);
   ProgressDisplay display(common.quiet);
   const LabelResult result =
-      run_on_parts(scan.object, run.wants_mesh(), run.settings, display.callback());
+      run_on_labels(scan.object, {.map = *scan.object.parts, .mesh = run.wants_mesh()}, run.settings, display.callback());
   display.finish();
   return deliver(run, result, scan, scan.object.parts->segments);
 }

@@ -101,11 +101,11 @@ std::set<std::set<std::array<double, 3>>> triangle_set(const TriMesh& mesh) {
   return triangles;
 }
 
-TEST(RunOnParts, SplitsTouchingBallsIntoClosedPartsThatShareTheirBoundary) {
+TEST(RunOnLabels, MakesClosedPartsOfTouchingBallsIntoClosedPartsThatShareTheirBoundary) {
   const Vec3 left{12, 12, 12}, right{24.5, 12, 12};
   const Volume scan = balls({left, right}, {38, 25, 25});
   const ChosenObject object = choose(scan, preview(), {.level = 150, .seeds = {left, right}});
-  const LabelResult result = run_on_parts(object, false, preview());
+  const LabelResult result = run_on_labels(object, {*object.parts}, preview());
   ASSERT_EQ(result.objects.size(), 2U);
   for (const LabelledObject& part : result.objects) {
     const SurfaceCheck check = check_surface(part.surface);
@@ -122,6 +122,40 @@ TEST(RunOnParts, SplitsTouchingBallsIntoClosedPartsThatShareTheirBoundary) {
     for (const auto& p : triangle) EXPECT_NEAR(p[0], 18.25, 1.5) << "half way";
   }
   EXPECT_GT(shared, 4U);
+}
+
+/// A ball of 7 mm, marked by a label.
+LabelMap label_of_ball(const VoxelGrid& grid, const Vec3& middle) {
+  LabelMap map{grid, {{}}, {{"ball", 1, 0, {}}}};
+  for (std::size_t n = 0; n < grid.voxel_count(); ++n) {
+    const auto [i, j, k] = grid.voxel(n);
+    map.layers[0].push_back(norm(Vec3{double(i), double(j), double(k)} - middle) < 6.5 ? 1 : 0);
+  }
+  return map;
+}
+
+TEST(RunOnLabels, TellsLevelsAndCropOfTheScanAlsoWhereTheImageIsMirrored) {
+  const Vec3 middle{32, 12, 12};
+  const Volume scan = balls({middle}, {64, 24, 24});
+  const LabelMap map = label_of_ball(scan, middle);
+  Settings settings = preview();
+  const LabelResult whole = run_on_labels(choose(scan, settings, {}), {map}, settings);
+  settings.crop = {{6, 0, 0}, {58, -1, -1}};
+  const LabelResult bright = run_on_labels(choose(scan, settings, {}), {map}, settings);
+  const ChosenObject object = choose(mirrored(scan), settings, {.tissue = parse_tissue("dark")});
+  const LabelResult dark = run_on_labels(object, {map}, settings);
+  ASSERT_GT(whole.parameters.crop.begin[0], 6) << "the crop leaves what is looked at";
+  for (const LabelResult* result : {&bright, &dark}) {
+    EXPECT_EQ(result->parameters.crop, whole.parameters.crop);
+    ASSERT_EQ(result->boundaries.size(), 1U);
+    EXPECT_NEAR(std::abs(result->boundaries[0].level), 150, 2);
+    ASSERT_EQ(result->objects.size(), 1U);
+    EXPECT_NEAR(check_surface(result->objects[0].surface).volume, ball_volume(),
+                0.03 * ball_volume());
+  }
+  EXPECT_GT(bright.boundaries[0].level, 0);
+  EXPECT_LT(dark.boundaries[0].level, 0);
+  EXPECT_NEAR(dark.boundaries[0].contrast, -bright.boundaries[0].contrast, 2);
 }
 
 TEST(SettingsFor, LeaveTheLevelOpenWhereNobodyMeasuredIt) {

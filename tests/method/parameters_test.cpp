@@ -79,5 +79,17 @@ TEST(PreviewStride, HasAtMostThreeMillionNodes) {
   }
 }
 
+TEST(StrideOf, IsTheGivenOneOrThatOfTheRun) {
+  const std::array<Index, 3> voxels{500, 500, 500};
+  const Vec3 spacing{1, 1, 1};
+  Settings settings;
+  EXPECT_EQ(stride_of(settings, voxels, spacing), default_stride(voxels, spacing));
+  settings.preview = true;
+  EXPECT_EQ(stride_of(settings, voxels, spacing), preview_stride(voxels, spacing));
+  EXPECT_NE(preview_stride(voxels, spacing), default_stride(voxels, spacing));
+  settings.stride = {3, 1, 2};
+  EXPECT_EQ(stride_of(settings, voxels, spacing), *settings.stride);
+}
+
 }  // namespace
 }  // namespace mesamis

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "mesamis/base/error.h"
 #include "mesamis/image/refuse.h"
 
 namespace mesamis {

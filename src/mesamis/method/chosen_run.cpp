@@ -65,10 +65,10 @@ Result run_on_object(const ChosenObject& object, const Settings& settings,
   return result;
 }
 
-LabelResult run_on_parts(const ChosenObject& object, bool mesh, const Settings& settings,
-                         const Progress& progress) {
-  LabelResult result = find_labelled_objects(object.volume, {.map = *object.parts, .mesh = mesh},
-                                             settings_for(object, settings), progress);
+LabelResult run_on_labels(const ChosenObject& object, const LabelRequest& request,
+                          const Settings& settings, const Progress& progress) {
+  LabelResult result =
+      find_labelled_objects(object.volume, request, settings_for(object, settings), progress);
   result.parameters = in_scan_units(result.parameters, object);
   if (result.mesh) result.mesh->parameters = in_scan_units(result.mesh->parameters, object);
   if (object.kind == TissueKind::kDark) {

@@ -36,13 +36,14 @@ Parameters in_scan_units(Parameters parameters, const ChosenObject& object);
 Result run_on_object(const ChosenObject& object, const Settings& settings,
                      const Progress& progress = {});
 
-/// Finds the parts that several seeds split an object into.
-/// @param object    of choose_object(), with parts.
-/// @param mesh      also make a mesh, as LabelRequest::mesh.
+/// Finds the objects of a label map in the image of a chosen object.
+/// @param object    of choose_object().
+/// @param request   labels on a grid of their own, or the parts of the object that several seeds
+/// split.
 /// @param settings, progress  as for run_on_object().
 /// @return as find_labelled_objects(), levels in the units of the scan.
 /// @throws InputError, Cancelled  as find_labelled_objects(). Cost as there.
-LabelResult run_on_parts(const ChosenObject& object, bool mesh, const Settings& settings,
-                         const Progress& progress = {});
+LabelResult run_on_labels(const ChosenObject& object, const LabelRequest& request,
+                          const Settings& settings, const Progress& progress = {});
 
 }  // namespace mesamis

@@ -21,12 +21,6 @@ constexpr double kBytesPerDoubleNode = 112;  // where the fields are solved in d
 constexpr double kBytesPerCell = 450;        // of the adapted meshes
 constexpr double kBytesOfProgram = 5e7;
 
-std::array<Index, 3> stride_of(const VoxelGrid& volume, const Settings& settings) {
-  const std::array<Index, 3> size = cropped_size(volume, settings.crop);
-  return settings.stride.value_or(settings.preview ? preview_stride(size, volume.spacing)
-                                                   : default_stride(size, volume.spacing));
-}
-
 /// See run_amis_on_grid(). Above this beta its conjugate gradients may need too many iterations.
 double bytes_per_node(const Settings& settings) {
   constexpr double kMostBeta = 10;
@@ -43,7 +37,7 @@ double product(const std::array<Index, 3>& n) {
 double memory_needed(const VoxelGrid& volume, const Settings& settings) {
   const std::array<Index, 3> size = cropped_size(volume, settings.crop);
   const double voxels = product(size),
-               nodes = product(first_grid_size(size, stride_of(volume, settings)));
+               nodes = product(first_grid_size(size, stride_of(settings, size, volume.spacing)));
   const double cells = settings.preview    ? 0
                        : settings.max_tets ? static_cast<double>(*settings.max_tets)
                                            : std::min<double>(kMostTets, 12 * voxels);
@@ -55,7 +49,8 @@ double memory_needed(const VoxelGrid& volume, const Settings& settings) {
 std::optional<std::array<Index, 3>> stride_that_fits(const VoxelGrid& volume, Settings settings,
                                                      double bytes) {
   constexpr Index kMostStride = 8;
-  auto& stride = settings.stride.emplace(stride_of(volume, settings));
+  const std::array<Index, 3> size = cropped_size(volume, settings.crop);
+  auto& stride = settings.stride.emplace(stride_of(settings, size, volume.spacing));
   while (memory_needed(volume, settings) > bytes) {
     std::size_t shortest = 3;
     for (std::size_t a = 0; a < 3; ++a) {

@@ -91,6 +91,12 @@ std::array<Index, 3> preview_stride(const std::array<Index, 3>& voxels, const Ve
   return stride;
 }
 
+std::array<Index, 3> stride_of(const Settings& settings, const std::array<Index, 3>& voxels,
+                               const Vec3& spacing) {
+  return settings.stride.value_or(settings.preview ? preview_stride(voxels, spacing)
+                                                   : default_stride(voxels, spacing));
+}
+
 double default_tolerance(double voxel, double expected_error, double accuracy) {
   constexpr double kLeast = 0.03, kMost = 0.1, kFinest = 0.01;  // voxels
   if (accuracy > 0) return std::max(accuracy / 2, kFinest * voxel);

@@ -112,6 +112,15 @@ std::array<Index, 3> default_stride(const std::array<Index, 3>& voxels, const Ve
 /// O(1).
 std::array<Index, 3> preview_stride(const std::array<Index, 3>& voxels, const Vec3& spacing);
 
+/// The stride of a run: the given one, or the default, that of a preview for a preview.
+/// @param voxels, spacing  as for default_stride().
+/// @return voxels per node, at least 1.
+/// @throws nothing
+///
+/// O(1).
+std::array<Index, 3> stride_of(const Settings& settings, const std::array<Index, 3>& voxels,
+                               const Vec3& spacing);
+
 /// The default of tolerance: how far the surface is expected to be from the truth, but no less than
 /// 0.03 and no more than 0.1 voxel: a surface that is kept closer keeps detail smaller than its
 /// error. Half of the accuracy, if that is asked for, but no less than 0.01 voxel.

@@ -32,12 +32,10 @@ double default_h_max(const VoxelGrid& volume, double unit_mm) {
 
 /// Settings that are taken over, and those that follow from the volume's grid alone.
 Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
-  const Vec3& voxel = volume.spacing;
   const double unit_mm = s.length_unit == LengthUnit::kMm ? 1 : volume.voxel_size();
   Parameters p;
   p.crop = s.crop;
-  p.stride = s.stride.value_or(s.preview ? preview_stride(volume.size, voxel)
-                                         : default_stride(volume.size, voxel));
+  p.stride = stride_of(s, volume.size, volume.spacing);
   p.restore = s.restore;
   p.length_unit = s.length_unit;
   p.unit_mm = unit_mm;
