@@ -62,6 +62,16 @@ TEST(FactsOf, AreThoseOfTheScan) {
   EXPECT_LT(json["range"][0], json["range"][1]);
 }
 
+TEST(ErrorJson, HasMeanPercentileAndGreatest) {
+  EXPECT_EQ(error_json({0.1, 0.2, 0.5}).dump(), R"({"mean":0.1,"p95":0.2,"max":0.5})");
+}
+
+TEST(Producer, IsTheProgramItsVersionAndItsCommit) {
+  const auto program = program_json();
+  EXPECT_EQ(producer(), "mesamis " + program["version"].get<std::string>() + " (" +
+                            program["commit"].get<std::string>() + ")");
+}
+
 TEST(ProgramJson, NamesTheProgramAndItsCommit) {
   EXPECT_EQ(program_json()["name"], "mesamis");
   EXPECT_THAT(program_json()["version"].get<std::string>(), testing::MatchesRegex("[0-9.]+"));

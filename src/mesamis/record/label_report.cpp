@@ -11,12 +11,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json error_json(const LabelledObject& object) {
-  if (object.expected_error.empty()) return nullptr;
-  const ErrorSummary e = summarize_error(object.surface, object.expected_error);
-  return {{"mean", e.mean}, {"p95", e.percentile95}, {"max", e.most}};
-}
-
 ordered_json object_json(const LabelledObject& object, const SurfaceCheck& check) {
   ordered_json j{{"name", object.segment.name},
                  {"label", object.segment.label},
@@ -24,7 +18,9 @@ ordered_json object_json(const LabelledObject& object, const SurfaceCheck& check
                  {"colour", object.segment.colour},
                  {"triangles_extracted", object.triangles_extracted}};
   j.update(check_json(object.surface, check));
-  j["expected_error_mm"] = error_json(object);
+  const auto& expected = object.expected_error;
+  j["expected_error_mm"] = expected.empty() ? ordered_json(nullptr)
+                                            : error_json(summarize_error(object.surface, expected));
   return j;
 }
 

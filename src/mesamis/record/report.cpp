@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/record/report.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/version.h"
 #include "mesamis/files/sha256.h"
+#include "mesamis/image/grey_values.h"
 #include "mesamis/method/setting_table.h"
 #include "mesamis/record/json_file.h"
 #include "mesamis/record/settings_json.h"
@@ -109,9 +109,7 @@ ordered_json surface_json(const RunSummary& run) {
 ordered_json quality_json(const RunSummary& run) {
   ordered_json expected;
   if (run.parameters.surface == SurfaceKind::kSolid) {
-    expected = {{"mean", run.expected_error.mean},
-                {"p95", run.expected_error.percentile95},
-                {"max", run.expected_error.most}};
+    expected = error_json(run.expected_error);
   }
   ordered_json quality = image_json(run.parameters, run.image);
   quality["expected_error_mm"] = std::move(expected);
@@ -157,9 +155,9 @@ InputFacts facts_of(const std::filesystem::path& path, const Volume& volume,
   InputFacts facts{path, format, sha256(path), volume.modality, volume.size,     volume.spacing,
                    0,    0,      warnings,     volume.origin,   volume.direction};
   if (!volume.samples.empty()) {
-    const auto [low, high] = std::minmax_element(volume.samples.begin(), volume.samples.end());
-    facts.lowest = *low;
-    facts.highest = *high;
+    const auto [low, high] = sample_range(volume.samples);
+    facts.lowest = low;
+    facts.highest = high;
   }
   return facts;
 }
@@ -191,6 +189,8 @@ ordered_json program_json() {
   return {{"name", "mesamis"}, {"version", version()}, {"commit", commit()}};
 }
 
+std::string producer() { return std::string("mesamis ") + version() + " (" + commit() + ")"; }
+
 ordered_json output_json(Frame frame) {
   return {{"frame", frame == Frame::kRas ? "ras" : "lps"}, {"threads", thread_count()}};
 }
@@ -201,6 +201,10 @@ ordered_json printable_json(const PrintableReport& printable, double tolerance) 
           {"distance_extracted_to_result_max", printable.extracted_to_result},
           {"distance_result_to_extracted_max", printable.result_to_extracted},
           {"parts", parts_json(printable.parts)}};
+}
+
+ordered_json error_json(const ErrorSummary& error) {
+  return {{"mean", error.mean}, {"p95", error.percentile95}, {"max", error.most}};
 }
 
 ordered_json check_json(const TriMesh& surface, const SurfaceCheck& check) {

@@ -9,6 +9,7 @@
 #include "mesamis/base/types.h"
 #include "mesamis/delivery/mesh_output.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/method/expected_error.h"
 #include "mesamis/method/mes_amis.h"
 #include "mesamis/record/run_summary.h"
 #include "mesamis/surface/tri_mesh.h"
@@ -40,6 +41,9 @@ nlohmann::ordered_json input_json(const InputFacts& input);
 /// The entry "program" of every report: name, version, commit. Throws nothing.
 nlohmann::ordered_json program_json();
 
+/// The program as the producer of a file: "mesamis VERSION (COMMIT)". Throws nothing. O(1).
+std::string producer();
+
 /// The entry "output": the frame of the files written, the threads used. Throws nothing.
 nlohmann::ordered_json output_json(Frame frame);
 
@@ -50,6 +54,9 @@ nlohmann::ordered_json printable_json(const PrintableReport& printable, double t
 /// What was found out about a scan: noise, blur, contrast, as docs/formats.md lists them. O(1).
 /// Throws nothing.
 nlohmann::ordered_json image_json(const Parameters& parameters, const MeasuredImage& image);
+
+/// How near to the truth a surface can be expected to be: mean, p95, max, mm. O(1). Throws nothing.
+nlohmann::ordered_json error_json(const ErrorSummary& error);
 
 /// The counts, volume and area of a surface, and whether it is closed. Throws nothing. O(1).
 nlohmann::ordered_json check_json(const TriMesh& surface, const SurfaceCheck& check);
