@@ -36,12 +36,16 @@ void add_label_options(CLI::App& command, LabelArguments& a) {
       ->check(CLI::PositiveNumber);
 }
 
+LabelMap read_marks(const std::filesystem::path& path) {
+  LabelFile file = read_label_map(path);
+  log_all(file.warnings);
+  return std::move(file.map);
+}
+
 LabelMap read_labels(const LabelArguments& a) {
   LabelMap map;
   if (!a.file.empty()) {
-    LabelFile file = read_label_map(a.file);
-    log_all(file.warnings);
-    map = std::move(file.map);
+    map = read_marks(a.file);
   } else {
     ProbabilityFile file = read_probabilities(a.probabilities);
     log_all(file.warnings);

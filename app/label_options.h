@@ -26,6 +26,10 @@ struct LabelArguments {
 /// Adds the options. `arguments` must outlive the parsing.
 void add_label_options(CLI::App& command, LabelArguments& arguments);
 
+/// Reads a label map and logs the reader's warnings.
+/// @throws InputError  as read_label_map().
+LabelMap read_marks(const std::filesystem::path& path);
+
 /// Reads the label map, logs the reader's warnings, and names its labels.
 /// @throws InputError  as the readers.
 LabelMap read_labels(const LabelArguments& arguments);

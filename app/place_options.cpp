@@ -2,8 +2,6 @@
 #include "place_options.h"
 
 #include "arguments.h"
-#include "log.h"
-#include "mesamis/label_files/read_labels.h"
 #include "mesamis/object/places.h"
 
 namespace mesamis {
@@ -16,12 +14,6 @@ std::string tissue_names() {
   std::string names;
   for (const Tissue& tissue : tissue_table()) names += tissue.name + " ";
   return names + "or LO:HI";
-}
-
-LabelMap read_marks(const std::filesystem::path& path) {
-  LabelFile file = read_label_map(path);
-  for (const std::string& warning : file.warnings) log_warning(warning);
-  return std::move(file.map);
 }
 
 [[noreturn]] void refuse_pair(const std::string& option, const std::string& other) {

@@ -14,7 +14,6 @@
 #include "costs.h"
 #include "log.h"
 #include "mesamis/base/error.h"
-#include "mesamis/base/version.h"
 #include "mesamis/delivery/label_output.h"
 #include "mesamis/delivery/mesh_output.h"
 #include "mesamis/label_files/write_labels.h"
@@ -36,13 +35,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct SegmentOptions {
-  ScanArguments scan;
-  fs::path report, labelmap;
-  std::vector<fs::path> surfaces, meshes, band_meshes;
-  std::string name = "mesamis surface";  // never the scan's, which may be the patient's
-  bool error = false;
-  MeshOptions mesh;
+struct SegmentOptions : SegmentRun {
   SettingsArguments settings;
 };
 
@@ -68,12 +61,11 @@ SurfaceWriteOptions surface_options(const SegmentOptions& options, const Result&
                                     double voxel) {
   const bool grey = !result.mesh.cells.empty() &&
                     std::any_of(options.surfaces.begin(), options.surfaces.end(), carries_grey);
-  const std::string program = std::string("mesamis ") + version() + " (" + commit() + ")";
   SurfaceWriteOptions as{
       options.scan.frame,
       options.name + (result.parameters.preview ? " (preview)" : ""),
       grey ? surface_grey(result, voxel) : std::vector<double>{},
-      {{"producer", program}, {"settings", to_json(settings_of(result.parameters)).dump()}}};
+      {{"producer", producer()}, {"settings", to_json(settings_of(result.parameters)).dump()}}};
   if (options.error && !result.expected_error.empty()) {
     as.point_arrays.push_back({"expected_error", result.expected_error});
   }
@@ -108,14 +100,6 @@ void require_outputs(const SegmentOptions& options) {
   if (!options.report.empty()) require_output(options.report, {".json"}, "--report");
 }
 
-/// A preview makes no mesh, and without one there are no grey values below the surface.
-void require_mesh_for(const SegmentOptions& options, const Settings& settings) {
-  if (!settings.preview) return;
-  if (!options.meshes.empty() || !options.band_meshes.empty()) {
-    throw CLI::ValidationError("--preview", "expected neither --mesh nor --band-mesh, found one");
-  }
-}
-
 /// There must be something to write; which bound left nothing is what the user can change.
 void require_surface(const Result& result) {
   if (!result.surface.triangles.empty()) return;
@@ -134,6 +118,13 @@ void require_surface(const Result& result) {
                                result.parameters.level));
 }
 
+/// A preview makes no mesh.
+void require_mesh_for(const SegmentOptions& options, const Settings& settings) {
+  if (settings.preview && options.wants_mesh()) {
+    throw CLI::ValidationError("--preview", "expected neither --mesh nor --band-mesh, found one");
+  }
+}
+
 /// What needs no scan to be refused.
 void require_places(const SegmentOptions& options, const Settings& settings) {
   const PlaceArguments& places = options.scan.places;
@@ -147,11 +138,6 @@ void require_places(const SegmentOptions& options, const Settings& settings) {
                                "of the scan, found " +
                                    places.tissue);
   }
-}
-
-LabelRun label_run(const SegmentOptions& o, const Settings& settings) {
-  return {o.scan,     o.surfaces, o.meshes, o.band_meshes, o.mesh,
-          o.labelmap, o.report,   o.name,   o.error,       settings};
 }
 
 void write_labelmap(const fs::path& path, const TriMesh& surface, const VoxelGrid& grid) {
@@ -209,12 +195,12 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   require_outputs(options);
   require_places(options, settings);
   require_mesh_for(options, settings);
-  if (options.scan.labels.given()) return run_labels(label_run(options, settings), common);
+  if (options.scan.labels.given()) return run_labels(options, settings, common);
   if (options.scan.input.empty()) {
     throw CLI::ValidationError("input", "expected a scan, found none");
   }
   const ChosenScan scan = read_chosen_scan(options.scan, settings, common.memory_gb);
-  if (scan.object.parts) return run_parts(label_run(options, settings), scan, common);
+  if (scan.object.parts) return run_parts(options, settings, scan, common);
   return run_on_scan(options, settings, common, scan);
 }
 

@@ -6,7 +6,6 @@
 #include "costs.h"
 #include "log.h"
 #include "mesamis/base/error.h"
-#include "mesamis/base/version.h"
 #include "mesamis/delivery/label_output.h"
 #include "mesamis/label_files/write_labels.h"
 #include "mesamis/record/json_file.h"
@@ -67,15 +66,15 @@ std::vector<fs::path> paths_of(const fs::path& path, const std::vector<NamedSurf
   return paths;
 }
 
-SurfaceWriteOptions write_options(const LabelRun& run, const std::string& name) {
+SurfaceWriteOptions write_options(const SegmentRun& run, const std::string& name) {
   SurfaceWriteOptions as;
   as.frame = run.scan.frame;
   as.name = name;
-  as.metadata = {{"producer", std::string("mesamis ") + version() + " (" + commit() + ")"}};
+  as.metadata = {{"producer", producer()}};
   return as;
 }
 
-void write_each(const fs::path& path, const LabelRun& run, const LabelResult& result,
+void write_each(const fs::path& path, const SegmentRun& run, const LabelResult& result,
                 const std::vector<NamedSurface>& objects, bool several) {
   const auto paths = paths_of(path, objects, several);
   for (std::size_t n = 0; n < objects.size(); ++n) {
@@ -86,14 +85,16 @@ void write_each(const fs::path& path, const LabelRun& run, const LabelResult& re
   }
 }
 
-void write_surfaces(const LabelRun& run, const LabelResult& result, bool several) {
+void write_surfaces(const SegmentRun& run, const LabelResult& result, bool several) {
   const std::vector<NamedSurface> objects = named_surfaces(result);
-  const std::vector<NamedSurface> rounded = rounded_together(objects);
+  std::vector<NamedSurface> rounded;  // for files of one object each in single precision
   for (const fs::path& path : run.surfaces) {
     if (holds_objects(path) && !names_each(path)) {
       write_objects(path, objects, write_options(run, run.name));
     } else {
-      write_each(path, run, result, lower_extension(path) == ".stl" ? rounded : objects, several);
+      const bool single = lower_extension(path) == ".stl";
+      if (single && rounded.empty()) rounded = rounded_together(objects);
+      write_each(path, run, result, single ? rounded : objects, several);
     }
   }
 }
@@ -107,14 +108,14 @@ std::vector<FoundObject> found_objects(const LabelResult& result) {
 }
 
 /// The mesh with the labels that the surfaces have in files.
-MeshOutput mesh_output(const LabelRun& run, const LabelResult& result, const Volume& scan) {
+MeshOutput mesh_output(const SegmentRun& run, const LabelResult& result, const Volume& scan) {
   const std::vector<NamedSurface> named = named_surfaces(result);
   std::vector<FoundObject> objects = found_objects(result);
   for (std::size_t n = 0; n < named.size(); ++n) objects[n].segment.label = named[n].label;
   return make_mesh_output(*result.mesh, scan, run.mesh, objects);
 }
 
-void write_report(const LabelRun& run, const LabelResult& result,
+void write_report(const SegmentRun& run, const LabelResult& result,
                   const std::vector<SurfaceCheck>& checks, const ChosenScan& scan,
                   const std::optional<MeshOutput>& mesh) {
   nlohmann::ordered_json report;
@@ -144,7 +145,7 @@ void require_found(const LabelResult& result, const std::vector<Segment>& wanted
 /// Writes what was found.
 /// @param wanted  the objects that were asked for.
 /// @return the exit status.
-int deliver(const LabelRun& run, const LabelResult& result, const ChosenScan& scan,
+int deliver(const SegmentRun& run, const LabelResult& result, const ChosenScan& scan,
             const std::vector<Segment>& wanted) {
   require_found(result, wanted);
   std::vector<SurfaceCheck> checks;
@@ -175,7 +176,7 @@ void require_labelmap(const fs::path& path) {
 namespace {
 
 /// Where the error at each point is asked for, a file of one object each must have a place for it.
-void require_error_place(const LabelRun& run) {
+void require_error_place(const SegmentRun& run) {
   const auto holds = [](const fs::path& path) {
     return carries_arrays(path) && (names_each(path) || !holds_objects(path));
   };
@@ -189,14 +190,14 @@ void require_error_place(const LabelRun& run) {
 }
 
 /// A mesh is made of the scan.
-void require_scan_for_mesh(const LabelRun& run) {
+void require_scan_for_mesh(const SegmentRun& run) {
   if (run.wants_mesh() && run.scan.input.empty()) {
     throw CLI::ValidationError("--mesh", "expected a scan beside the labels, found none");
   }
 }
 
 /// A NIfTI file has one layer.
-void require_layers(const LabelRun& run, const std::vector<Segment>& wanted) {
+void require_layers(const SegmentRun& run, const std::vector<Segment>& wanted) {
   if (run.labelmap.empty() || lower_extension(run.labelmap) == ".nrrd") return;
   for (const Segment& s : wanted) {
     if (s.layer != wanted.front().layer) {
@@ -208,7 +209,7 @@ void require_layers(const LabelRun& run, const std::vector<Segment>& wanted) {
 
 }  // namespace
 
-int run_labels(const LabelRun& run, const CommonOptions& common) {
+int run_labels(const SegmentRun& run, const Settings& settings, const CommonOptions& common) {
   require_error_place(run);
   require_scan_for_mesh(run);
   const LabelMap labels = read_labels(run.scan.labels);
@@ -221,23 +222,22 @@ int run_labels(const LabelRun& run, const CommonOptions& common) {
   if (alone) {
     scan.grid = labels;
   } else {
-    scan = read_chosen_scan(run.scan, run.settings, {});
+    scan = read_chosen_scan(run.scan, settings, {});
   }
   ProgressDisplay display(common.quiet);
-  LabelResult result =
-      alone ? surfaces_of_labels(request, run.settings, display.callback())
-            : find_labelled_objects(scan.object.volume, request, run.settings, display.callback());
-  if (!alone) result.parameters = in_scan_units(result.parameters, scan.object);
-  if (result.mesh) result.mesh->parameters = in_scan_units(result.mesh->parameters, scan.object);
+  const LabelResult result =
+      alone ? surfaces_of_labels(request, settings, display.callback())
+            : run_on_labels(scan.object, request, settings, display.callback());
   display.finish();
   return deliver(run, result, scan, wanted);
 }
 
-int run_parts(const LabelRun& run, const ChosenScan& scan, const CommonOptions& common) {
+int run_parts(const SegmentRun& run, const Settings& settings, const ChosenScan& scan,
+              const CommonOptions& common) {
   require_error_place(run);
   ProgressDisplay display(common.quiet);
-  const LabelResult result =
-      run_on_labels(scan.object, {.map = *scan.object.parts, .mesh = run.wants_mesh()}, run.settings, display.callback());
+  const LabelRequest parts{.map = *scan.object.parts, .mesh = run.wants_mesh()};
+  const LabelResult result = run_on_labels(scan.object, parts, settings, display.callback());
   display.finish();
   return deliver(run, result, scan, scan.object.parts->segments);
 }

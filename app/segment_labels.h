@@ -12,16 +12,16 @@
 
 namespace mesamis {
 
-/// What a run of `segment` on labels reads and writes.
-struct LabelRun {
+/// What a run of `segment` reads and writes, whether of one object or of several.
+struct SegmentRun {
   ScanArguments scan;  ///< its input may be empty: the labels alone
   std::vector<std::filesystem::path> surfaces;
   std::vector<std::filesystem::path> meshes, band_meshes;
   MeshOptions mesh;                        ///< of the meshes
   std::filesystem::path labelmap, report;  ///< may be empty
-  std::string name;                        ///< of the whole in the files
-  bool error = false;                      ///< write the error expected at each point
-  Settings settings;
+  /// Of the whole in the files; never the scan's, which may be the patient's.
+  std::string name = "mesamis surface";
+  bool error = false;  ///< write the error expected at each point
 
   bool wants_mesh() const { return !meshes.empty() || !band_meshes.empty(); }
 };
@@ -32,10 +32,11 @@ void require_labelmap(const std::filesystem::path& path);
 
 /// Finds the objects of a label map and writes them.
 /// @return the exit status.
-int run_labels(const LabelRun& run, const CommonOptions& common);
+int run_labels(const SegmentRun& run, const Settings& settings, const CommonOptions& common);
 
 /// Finds the parts that several seeds split an object into, and writes them as objects.
 /// @return the exit status.
-int run_parts(const LabelRun& run, const ChosenScan& scan, const CommonOptions& common);
+int run_parts(const SegmentRun& run, const Settings& settings, const ChosenScan& scan,
+              const CommonOptions& common);
 
 }  // namespace mesamis

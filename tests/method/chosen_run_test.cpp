@@ -101,7 +101,7 @@ std::set<std::set<std::array<double, 3>>> triangle_set(const TriMesh& mesh) {
   return triangles;
 }
 
-TEST(RunOnLabels, MakesClosedPartsOfTouchingBallsIntoClosedPartsThatShareTheirBoundary) {
+TEST(RunOnLabels, MakesClosedPartsOfTouchingBallsThatShareTheirBoundary) {
   const Vec3 left{12, 12, 12}, right{24.5, 12, 12};
   const Volume scan = balls({left, right}, {38, 25, 25});
   const ChosenObject object = choose(scan, preview(), {.level = 150, .seeds = {left, right}});
