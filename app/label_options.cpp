@@ -42,20 +42,24 @@ LabelMap read_marks(const std::filesystem::path& path) {
   return std::move(file.map);
 }
 
-LabelMap read_labels(const LabelArguments& a) {
-  LabelMap map;
+NamedLabels read_labels(const LabelArguments& a) {
+  NamedLabels labels;
   if (!a.file.empty()) {
-    map = read_marks(a.file);
+    labels.map = read_marks(a.file);
   } else {
     ProbabilityFile file = read_probabilities(a.probabilities);
     log_all(file.warnings);
-    map = most_probable(file.probabilities);
+    labels.map = most_probable(file.probabilities);
+    labels.probabilities = std::move(file.probabilities);
   }
-  return a.names.empty() ? map : with_names(std::move(map), read_label_table(a.names));
+  if (!a.names.empty()) labels.map = with_names(std::move(labels.map), read_label_table(a.names));
+  return labels;
 }
 
-LabelRequest label_request(const LabelArguments& a, const LabelMap& map) {
+LabelRequest label_request(const LabelArguments& a, const NamedLabels& labels) {
+  const LabelMap& map = labels.map;
   LabelRequest request{map};
+  if (labels.probabilities) request.probabilities = &*labels.probabilities;
   for (const std::string& wanted : a.chosen) {
     const Segment segment = find_segment(map.segments, wanted);
     const auto end = request.chosen.end();

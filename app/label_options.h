@@ -30,12 +30,18 @@ void add_label_options(CLI::App& command, LabelArguments& arguments);
 /// @throws InputError  as read_label_map().
 LabelMap read_marks(const std::filesystem::path& path);
 
+/// Labels, and where they come of probabilities those too.
+struct NamedLabels {
+  LabelMap map;
+  std::optional<Probabilities> probabilities;
+};
+
 /// Reads the label map, logs the reader's warnings, and names its labels.
 /// @throws InputError  as the readers.
-LabelMap read_labels(const LabelArguments& arguments);
+NamedLabels read_labels(const LabelArguments& arguments);
 
-/// The labels that the options choose.
+/// The labels that the options choose; refers to them.
 /// @throws InputError  as find_segment().
-LabelRequest label_request(const LabelArguments& arguments, const LabelMap& map);
+LabelRequest label_request(const LabelArguments& arguments, const NamedLabels& labels);
 
 }  // namespace mesamis

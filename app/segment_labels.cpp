@@ -212,15 +212,16 @@ void require_layers(const SegmentRun& run, const std::vector<Segment>& wanted) {
 int run_labels(const SegmentRun& run, const Settings& settings, const CommonOptions& common) {
   require_error_place(run);
   require_scan_for_mesh(run);
-  const LabelMap labels = read_labels(run.scan.labels);
+  const NamedLabels labels = read_labels(run.scan.labels);
   LabelRequest request = label_request(run.scan.labels, labels);
   request.mesh = run.wants_mesh();
-  const std::vector<Segment>& wanted = request.chosen.empty() ? labels.segments : request.chosen;
+  const std::vector<Segment>& wanted =
+      request.chosen.empty() ? labels.map.segments : request.chosen;
   require_layers(run, wanted);
   const bool alone = run.scan.input.empty();
   ChosenScan scan;
   if (alone) {
-    scan.grid = labels;
+    scan.grid = labels.map;
   } else {
     scan = read_chosen_scan(run.scan, settings, {});
   }

@@ -122,6 +122,30 @@ TEST_F(SegmentLabels, NeedsNoScan) {
   EXPECT_FALSE(report.contains("input"));
 }
 
+TEST_F(SegmentLabels, ProbabilitiesPlaceTheSurfaceBetweenTheVoxels) {
+  for (const Vec3& middle : {kLeft, kRight}) {
+    const auto ramp = [&](const Vec3& p) {
+      return std::clamp(0.5 + (kRadius - norm(p - middle)) / 3, 0.0, 1.0);
+    };
+    write_nrrd(folder / (middle.x == kLeft.x ? "left.nrrd" : "right.nrrd"),
+               sampled_volume({40, 25, 25}, {1, 1, 1}, ramp));
+  }
+  const ProgramRun run =
+      run_program(folder, {"segment", "--probabilities", folder / "left.nrrd", folder / "right.nrrd",
+                           "-o", folder / "p.vtp", "--tolerance", "0.01", "--quiet"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto objects = read_objects(folder / "p.vtp");
+  ASSERT_EQ(objects.size(), 2U);
+  EXPECT_EQ(objects[0].name, "left");
+  double sum = 0, count = 0;
+  for (const Vec3& p : objects[0].surface.points) {
+    if (p.x > 17) continue;  // away from where the balls touch
+    sum += std::abs(norm(p - kLeft) - kRadius);
+    ++count;
+  }
+  EXPECT_LT(sum / count, 0.05) << "voxels";
+}
+
 TEST_F(SegmentLabels, TheReportRepeatsTheRun) {
   const std::vector<std::string> common{folder / "balls.nrrd", "--crop", "2:,,"};
   auto first = common, second = common;

@@ -21,6 +21,7 @@
 #include "mesamis/labels/label_confidence.h"
 #include "mesamis/labels/label_image.h"
 #include "mesamis/labels/pair_levels.h"
+#include "mesamis/labels/probable_memberships.h"
 #include "mesamis/method/follow_partition.h"
 #include "mesamis/method/label_mesh.h"
 #include "mesamis/method/passes.h"
@@ -123,6 +124,7 @@ class LabelRun {
       : settings_(settings),
         progress_(progress),
         labels_(request.map),
+        probabilities_(request.probabilities),
         wants_mesh_(request.mesh && !settings.preview),
         chosen_(request.chosen.empty() ? request.map.segments : request.chosen) {
     require_chosen();
@@ -140,7 +142,7 @@ class LabelRun {
     std::optional<Edges> edges;  // of a given level they are those of all layers
     for (const Index layer : layers_of(chosen_)) {
       const std::vector<char> marks = marks_of(chosen_, layer);
-      const auto labels = labels_in(on_scan, layer, block);
+      auto labels = labels_in(on_scan, layer, block);
       if (!edges || !settings_.level) edges = find_edges(part, with_level(part, labels, marks));
       result_.parameters = edges->prepared.parameters;
       result_.parameters.preview = settings_.preview;
@@ -148,7 +150,7 @@ class LabelRun {
       result_.parameters.crop = range;
       result_.image = edges->prepared.measured;
       result_.seconds.prepare += watch.lap();
-      place_by_image(layer, {part.size, part.spacing, labels}, marks, *edges, watch);
+      place_by_image(layer, std::move(labels), marks, *edges, watch);
     }
     if (wants_mesh_) make_mesh(part, range);
     result_.seconds.mesh = watch.lap();
@@ -163,10 +165,10 @@ class LabelRun {
     const VoxelGrid grid = grid_of(labels_, block);
     for (const Index layer : layers_of(chosen_)) {
       const std::vector<char> marks = marks_of(chosen_, layer);
-      const auto labels = labels_in(labels_, layer, block);
+      auto labels = labels_in(labels_, layer, block);
       result_.seconds.prepare += watch.lap();
       (void)Stage(progress_, "smoothing the labels");
-      const GridMemberships memberships = smooth_memberships({grid.size, grid.spacing, labels});
+      const GridMemberships memberships = without_image(grid, labels);
       result_.seconds.flow += watch.lap();
       (void)Stage(progress_, "surface");
       PartitionSurface partition = extract_partition_on_grid(memberships);
@@ -216,12 +218,23 @@ class LabelRun {
                      " within the grid, found none");
   }
 
-  void place_by_image(Index layer, const LabelGrid& grid, const std::vector<char>& marks,
-                      const Edges& edges, Stopwatch& watch) {
+  /// Where the boundaries are by the labels alone.
+  /// @param labels  of the grid; with probabilities they become those that win there.
+  GridMemberships without_image(const VoxelGrid& grid, std::vector<std::uint16_t>& labels) const {
+    if (probabilities_ == nullptr) return smooth_memberships({grid.size, grid.spacing, labels});
+    GridMemberships found = probable_memberships(*probabilities_, grid);
+    labels = winning_labels(found);
+    return found;
+  }
+
+  void place_by_image(Index layer, std::vector<std::uint16_t> labels,
+                      const std::vector<char>& marks, const Edges& edges, Stopwatch& watch) {
     (void)Stage(progress_, "flow of the labels");
     const Parameters& p = edges.prepared.parameters;
+    const VoxelGrid& voxels = edges.prepared.grey;
+    const GridMemberships smooth = without_image(voxels, labels);
+    const LabelGrid grid{voxels.size, voxels.spacing, labels};
     const auto weight = label_confidence(grid, result_.margin);
-    const GridMemberships smooth = smooth_memberships(grid);
     const FlowOptions flow{p.functional.beta, p.functional.eta, p.unit_mm, kReach * result_.margin};
     FlowReport solved;
     const GridMemberships memberships =
@@ -341,6 +354,7 @@ class LabelRun {
   const Settings& settings_;
   const Progress& progress_;
   const LabelMap& labels_;
+  const Probabilities* probabilities_;  // or null
   bool wants_mesh_;
   std::vector<Segment> chosen_;
   std::vector<Volume> images_;  // of the layers, for the mesh

@@ -25,6 +25,10 @@ struct LabelRequest {
   std::optional<double> margin{};  ///< mm, > 0: how far the labels may be wrong;
                                    ///< at most 50 voxels; see label_margin()
   bool mesh = false;               ///< also make a mesh, see LabelResult
+  /// Of which the map is most_probable(); it must live as long. Boundaries without an image are
+  /// then where two objects are as probable, see probable_memberships(); none: see
+  /// smooth_memberships().
+  const Probabilities* probabilities = nullptr;
 };
 
 /// One object, world frame (LPS), mm.

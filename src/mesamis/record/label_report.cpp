@@ -49,6 +49,7 @@ ordered_json label_run_json(const LabelResult& result, std::span<const SurfaceCh
                       {"tolerance_mm", p.tolerance},
                       {"surfaces", std::move(objects)},
                       {"boundaries", std::move(boundaries)}};
+  if (result.has_image) report["converged"] = result.flow_converged;
   if (result.has_image) report["quality"] = image_json(p, result.image);
   if (result.mesh) report.update(loop_json(summarize(*result.mesh, {})));
   report["seconds_parts"] = {
