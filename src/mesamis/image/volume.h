@@ -42,9 +42,7 @@ struct VoxelGrid {
            static_cast<std::size_t>(i);
   }
   /// The voxel (i, j, k) at a place among the samples: the other way round.
-  std::array<Index, 3> voxel(std::size_t place) const noexcept {
-    return grid_place(size, place);
-  }
+  std::array<Index, 3> voxel(std::size_t place) const noexcept { return grid_place(size, place); }
 
   /// The box spanned by the voxel centres, in the grid's own axes, mm: [0, (n-1) s] per direction.
   Box box() const noexcept {
