@@ -16,15 +16,16 @@
 namespace mesamis {
 namespace {
 
-/// The value that a tenth of the marked samples exceed; at least a little above the level.
+/// The value that a tenth of the marked samples above the level exceed.
 double bright_value(const VolumeView& volume, std::span<const std::uint8_t> mask, double level) {
   std::vector<float> marked;
   for (std::size_t n = 0; n < mask.size(); ++n) {
-    if (mask[n] != 0) marked.push_back(volume.samples[n]);
+    if (mask[n] != 0 && volume.samples[n] > level) marked.push_back(volume.samples[n]);
   }
+  if (marked.empty()) return level + 1;
   const auto tenth = marked.begin() + static_cast<std::ptrdiff_t>(marked.size() * 9 / 10);
   std::nth_element(marked.begin(), tenth, marked.end());
-  return *tenth > level ? *tenth : level + 1;
+  return *tenth;
 }
 
 /// The depth in a mask, mm. What is beyond the grid counts as within it.
@@ -35,12 +36,13 @@ std::vector<float> depths(std::span<const std::uint8_t> mask, const VoxelGrid& g
   return depth;
 }
 
-/// Depth times brightness, see the header.
+/// Depth times brightness, see the header; what is marked but not above the level is a cavity.
 std::vector<float> strengths(const VolumeView& volume, std::span<const std::uint8_t> mask,
                              double level, std::vector<float> depth) {
   const double bright = bright_value(volume, mask, level);
   parallel_for(depth.size(), [&](std::size_t n) {
-    const double above = (volume.samples[n] - level) / (bright - level);
+    const double value = volume.samples[n];
+    const double above = value > level ? (value - level) / (bright - level) : 1;
     depth[n] *= static_cast<float>(std::clamp(above, 0.0, 1.0));
   });
   return depth;

@@ -14,12 +14,13 @@ namespace mesamis {
 /// Splits objects that touch: each seed gets the part of the mask that belongs to it.
 ///
 /// A watershed from the seeds through the mask. The strength of a voxel is its depth (mm to the
-/// nearest voxel that is not marked) times its brightness (0 at the level and below, as in a marked
-/// cavity; 1 at the value that a tenth of the marked samples exceed). Strong voxels are given away
-/// first: always the strongest voxel next to a part joins that part. Parts therefore meet where the
-/// way from one to the other is weakest: in a dark cleft, where the gradient runs across the way,
-/// or in a narrow neck, also where no edge is seen. Among voxels of equal strength the one reached
-/// earlier goes first, then the one of the smaller index, so that equal parts meet half way.
+/// nearest voxel that is not marked) times its brightness (0 at the level, 1 at the value that a
+/// tenth of the marked samples above it exceed, and 1 in a marked cavity). Strong voxels are given
+/// away first: always the strongest voxel next to a part joins that part. Parts therefore meet
+/// where the way from one to the other is weakest: in a dark cleft, where the gradient runs across
+/// the way, or in a narrow neck, also where no edge is seen. Among voxels of equal strength the one
+/// reached earlier goes first, then the one of the smaller index, so that equal parts meet half
+/// way.
 ///
 /// From its place a seed first climbs to where the object is deepest, by steps within the ball that
 /// fits there, so that it matters little where in its part it lies; not if two seeds would come to
