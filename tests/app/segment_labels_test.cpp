@@ -130,9 +130,9 @@ TEST_F(SegmentLabels, ProbabilitiesPlaceTheSurfaceBetweenTheVoxels) {
     write_nrrd(folder / (middle.x == kLeft.x ? "left.nrrd" : "right.nrrd"),
                sampled_volume({40, 25, 25}, {1, 1, 1}, ramp));
   }
-  const ProgramRun run =
-      run_program(folder, {"segment", "--probabilities", folder / "left.nrrd", folder / "right.nrrd",
-                           "-o", folder / "p.vtp", "--tolerance", "0.01", "--quiet"});
+  const ProgramRun run = run_program(
+      folder, {"segment", "--probabilities", folder / "left.nrrd", folder / "right.nrrd", "-o",
+               folder / "p.vtp", "--tolerance", "0.01", "--quiet"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto objects = read_objects(folder / "p.vtp");
   ASSERT_EQ(objects.size(), 2U);
