@@ -46,10 +46,9 @@ TEST(AtomicFile, ReplacesAFile) {
   EXPECT_EQ(read_bytes(folder / "a.stl"), "new");
 }
 
-TEST(AtomicFile, TemporaryLiesBesideAndKeepsTheExtension) {
+TEST(AtomicFile, TemporaryLiesBesideUnderANameOfItsOwn) {
   const TempFolder folder;
   const AtomicFile one(folder / "a.b.vtp"), two(folder / "a.b.vtp");
-  EXPECT_EQ(one.temporary_path().extension(), ".vtp");
   EXPECT_EQ(one.temporary_path().parent_path(), (folder / "a").parent_path());
   EXPECT_NE(one.temporary_path(), two.temporary_path());
 }
@@ -75,6 +74,63 @@ TEST(AtomicFile, RefusesWhereNoFileCanBe) {
   EXPECT_REFUSED(AtomicFile(folder / ""), HasSubstr("expected the name of a file"));
   EXPECT_REFUSED(AtomicFile(folder / std::string(300, 'x')), HasSubstr("cannot be written"));
   EXPECT_EQ(folder.file_count(), 0u);
+}
+
+TEST(AtomicFile, TakesTheLongestNameAndKnowsALongerOneAtOnce) {
+  const TempFolder folder;
+  AtomicFile file(folder / std::string(255, 'x'));
+  file.commit();
+  EXPECT_REFUSED(AtomicFile(folder / std::string(256, 'x')), testing::HasSubstr("name too long"));
+}
+
+TEST(AtomicFile, KeepsTheModeOfWhatItReplaces) {
+  const TempFolder folder;
+  write_bytes(folder / "a.stl", "old");
+  namespace fs = std::filesystem;
+  fs::permissions(folder / "a.stl", fs::perms{0640});
+  write_file(folder / "a.stl", "new");
+  EXPECT_EQ(fs::status(folder / "a.stl").permissions(), fs::perms{0640});
+  EXPECT_EQ(read_bytes(folder / "a.stl"), "new");
+}
+
+TEST(AtomicFile, FollowsLinksThereOrNot) {
+  const TempFolder folder;
+  namespace fs = std::filesystem;
+  fs::create_directory(folder / "far");
+  fs::create_symlink("far/real.stl", folder / "near.stl");
+  fs::create_symlink("near.stl", folder / "a.stl");
+  for (const std::string bytes : {"one", "two"}) {  // the file is made, then replaced
+    write_file(folder / "a.stl", bytes);
+    EXPECT_TRUE(fs::is_symlink(folder / "a.stl"));
+    EXPECT_TRUE(fs::is_symlink(folder / "near.stl"));
+    EXPECT_EQ(read_bytes(folder / "far/real.stl"), bytes);
+  }
+}
+
+TEST(AtomicFile, RefusesLinksInACircle) {
+  const TempFolder folder;
+  std::filesystem::create_symlink("b.stl", folder / "a.stl");
+  std::filesystem::create_symlink("a.stl", folder / "b.stl");
+  EXPECT_REFUSED(AtomicFile(folder / "a.stl"), testing::HasSubstr("a.stl: cannot be written"));
+}
+
+/// Leaves the temporary file of a process that was killed.
+void leave_behind(const std::filesystem::path& target) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const AtomicFile file(target);
+    kill(getpid(), SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+}
+
+TEST(AtomicFile, RemovesWhatAKilledProcessLeft) {
+  const TempFolder folder;
+  leave_behind(folder / "a.stl");
+  ASSERT_EQ(folder.file_count(), 1u);
+  write_file(folder / "b.vtu", "whole");
+  EXPECT_EQ(folder.file_count(), 1u);
+  EXPECT_TRUE(std::filesystem::exists(folder / "b.vtu"));
 }
 
 TEST(AtomicFile, CommitSaysWhenTheTargetBecameADirectory) {

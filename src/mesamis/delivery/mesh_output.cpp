@@ -9,6 +9,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/delivery/cell_labels.h"
 #include "mesamis/fem/transfer.h"
+#include "mesamis/files/output_set.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/mesh/region.h"
 #include "mesamis/mesh/value_bins.h"
@@ -188,11 +189,13 @@ std::vector<std::vector<double>> values_of(const std::vector<MeshArray>& arrays,
 }
 
 void write_medit(const fs::path& path, const MeshOutput& mesh, Frame frame) {
+  OutputSet both;
   write_medit_mesh(path, mesh.grid.mesh, frame, set_numbers(mesh));
   fs::path fields = path;
   write_medit_scalars(fields.replace_extension(".sol"),
                       values_of(mesh.grid.point_arrays, {"u", "v", "f", "u_native", "native"}),
                       values_of(mesh.grid.cell_arrays, {"u", "u_native", "native"}));
+  both.commit();
 }
 
 void write_gmsh(const fs::path& path, const MeshOutput& mesh, Frame frame) {

@@ -2,22 +2,29 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 namespace mesamis {
 
+namespace detail {
+class PendingFile;
+}
+
 /// A file that appears whole or not at all. The caller writes to temporary_path(); commit() renames
 /// that file to the target. Without commit(), the destructor or remove_unfinished_files() removes
-/// it.
+/// it. What a killed process leaves is removed by the next AtomicFile in the folder.
+///
+/// A target that is a link stays one: the file that it leads to is replaced. A file that is replaced
+/// hands on its mode.
 class AtomicFile {
  public:
   /// Creates the empty temporary file.
   ///
   /// @param target  name of a file that exists or not, in a directory that exists. The temporary
-  /// file
-  ///                lies in the same directory and has the same extension.
-  /// @throws InputError  if the directory does not exist or cannot be written to, or if the target
-  ///                     exists and is not a regular file.
+  ///                file lies in the same directory, under a name of its own.
+  /// @throws InputError  if the directory does not exist or cannot be written to, if the name is
+  ///                     too long, or if the target exists and is not a regular file.
   explicit AtomicFile(std::filesystem::path target);
   /// Removes the temporary file, unless it was committed.
   ~AtomicFile();
@@ -26,15 +33,16 @@ class AtomicFile {
 
   /// @return  the absolute path of the temporary file.
   const std::filesystem::path& temporary_path() const noexcept { return temporary_; }
-  /// Renames the temporary file to the target, replacing it. The caller has closed the file and
-  /// checked that everything was written.
-  /// @throws InputError  if the file cannot be renamed; the target is then as it was.
+  /// Brings the temporary file to the disk and renames it to the target, replacing it; while an
+  /// OutputSet lives on this thread, the set renames it. Call it once, when the file is closed and
+  /// everything is known to be written.
+  /// @throws InputError  if a byte does not reach the disk or the file cannot be renamed; the target
+  ///                     is then as it was.
   void commit();
 
  private:
-  std::filesystem::path target_, temporary_;
-  int slot_;
-  bool committed_ = false;
+  std::unique_ptr<detail::PendingFile> file_;  ///< none once it is committed
+  std::filesystem::path temporary_;
 };
 
 /// Writes a whole file at once, through an AtomicFile.
@@ -44,9 +52,9 @@ class AtomicFile {
 /// @throws InputError  if the file cannot be written; it is then as it was.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Removes the temporary files that are not committed, of all AtomicFile objects of the process. A
+/// Removes the temporary files that are not renamed, of all AtomicFile objects of the process. A
 /// signal handler may call it: it allocates nothing, takes no lock and keeps errno. It reaches at
-/// most 64 files at a time; further ones are removed by their destructors only.
+/// most 1024 files at a time; further ones are removed by their destructors only.
 void remove_unfinished_files() noexcept;
 
 }  // namespace mesamis

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   atomic_file.h
+  output_set.h
   sha256.h)
 # For the rooms above alone: not installed.
 set(ROOM_INNER_HEADERS
@@ -10,6 +11,7 @@ set(ROOM_INNER_HEADERS
   file_list.h
   in_one_line.h
   number_type.h
+  owned_file.h
   refuse.h
   text_scan.h
   text_writer.h
@@ -19,6 +21,9 @@ set(ROOM_SOURCES
   byte_source.cpp
   deflate.cpp
   file_list.cpp
+  output_set.cpp
+  owned_file.cpp
+  pending_file.cpp
   refuse.cpp
   sha256.cpp
   xml.cpp)

@@ -2,7 +2,6 @@
 #include "mesamis/shape_files/object_files.h"
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <set>
 
@@ -10,6 +9,7 @@
 #include "mesamis/decimate/round_together.h"
 #include "mesamis/files/atomic_file.h"
 #include "mesamis/files/byte_source.h"
+#include "mesamis/files/output_set.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/shape_files/object_formats.h"
 
@@ -91,30 +91,15 @@ std::vector<NamedSurface> prepared(Objects objects, const Format& format,
   return format.single ? rounded_together(std::move(result)) : result;
 }
 
-void fill(const AtomicFile& file, const std::string& bytes) {
-  std::ofstream out(file.temporary_path(), std::ios::binary);
-  out << bytes;
-  out.close();
-  if (!out) refuse(file.temporary_path(), "cannot be written; is the disk full?");
-}
-
-/// Both files are complete before the first of them appears.
+/// Both files appear together.
 void write_obj(const fs::path& path, Objects objects, const SurfaceWriteOptions& options) {
   const fs::path materials = fs::path(path).replace_extension(".mtl");
   const std::string name = materials.filename().string();
   if (one_line(name) != name) refuse(path, "expected a name of one line");
-  AtomicFile obj(path), mtl(materials);
-  fill(mtl, mtl_bytes(objects));
-  fill(obj, obj_object_bytes(objects, options, name));
-  std::error_code error;
-  const bool is_new = !fs::exists(materials, error);
-  mtl.commit();
-  try {
-    obj.commit();
-  } catch (const InputError&) {
-    if (is_new) fs::remove(materials, error);
-    throw;
-  }
+  OutputSet both;
+  write_file(materials, mtl_bytes(objects));
+  write_file(path, obj_object_bytes(objects, options, name));
+  both.commit();
 }
 
 // ---------------------------------------------------------------- names

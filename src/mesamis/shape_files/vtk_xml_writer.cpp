@@ -79,9 +79,9 @@ class Writer {
 
   void write(const VtkFile& file) {
     write_header(file);
-    const auto first = out_.tellp();
+    const auto first = here();
     for_each_array(file, [&](const VtkArray& array) {
-      offsets_.push_back(out_.tellp() - first);
+      offsets_.push_back(here() - first);
       write_data(array);
     });
     out_ << "\n  </AppendedData>\n</VTKFile>\n";
@@ -92,6 +92,13 @@ class Writer {
   }
 
  private:
+  /// The stream itself does not fail where its place cannot be told.
+  std::streampos here() {
+    const std::streampos place = out_.tellp();
+    if (place == std::streampos(-1)) out_.setstate(std::ios::failbit);
+    return place;
+  }
+
   template <class Visit>
   static void for_each_array(const VtkFile& file, Visit visit) {
     for (const VtkArray& array : file.field_data) visit(array);
@@ -134,7 +141,7 @@ class Writer {
     out_ << " format=\"appended\"";
     if (!is_text) write_range(array);
     out_ << " offset=\"";
-    offset_places_.push_back(out_.tellp());
+    offset_places_.push_back(here());
     out_ << fixed_width("") << "/>\n";
   }
 
@@ -153,13 +160,13 @@ class Writer {
     const std::size_t bytes = array.values * array.value_size;
     const std::size_t blocks = (bytes + kBlockBytes - 1) / kBlockBytes;
     std::vector<std::uint64_t> header{blocks, kBlockBytes, bytes % kBlockBytes};
-    const auto place = out_.tellp();
+    const auto place = here();
     header.resize(3 + blocks);
     write_numbers(header);
     std::size_t block = 3;
     visit_blocks(array, kBlockBytes / array.value_size,
                  [&](const std::string& plain) { header[block++] = write_packed(plain); });
-    const auto end = out_.tellp();
+    const auto end = here();
     out_.seekp(place);
     write_numbers(header);
     out_.seekp(end);

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/files/output_set.h"
+
+#include <set>
+#include <string>
+#include <system_error>
+
+#include "mesamis/base/error.h"
+#include "mesamis/files/pending_file.h"
+#include "mesamis/files/refuse.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+
+thread_local OutputSet* innermost = nullptr;
+
+/// The one name of a file that is there or not.
+fs::path identity(const fs::path& path) {
+  const fs::path place = detail::without_links(path);
+  std::error_code error;
+  const fs::path folder = fs::canonical(place.parent_path(), error);
+  return error ? place.lexically_normal() : folder / place.filename();
+}
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;  // of files that are not there
+  return identity(a) == identity(b) || (fs::equivalent(a, b, error) && !error);
+}
+
+}  // namespace
+
+OutputSet::OutputSet() : outer_(innermost) { innermost = this; }
+
+OutputSet::~OutputSet() { innermost = outer_; }
+
+OutputSet* OutputSet::current() noexcept { return innermost; }
+
+void OutputSet::add(std::unique_ptr<detail::PendingFile> file) {
+  files_.push_back(std::move(file));
+}
+
+std::vector<OutputSet::Member> OutputSet::members() const {
+  std::vector<Member> members;
+  for (const auto& file : files_) members.push_back({file->target(), file->temporary()});
+  return members;
+}
+
+void OutputSet::commit() {
+  if (outer_ != nullptr) {
+    for (auto& file : files_) outer_->add(std::move(file));
+    return files_.clear();
+  }
+  replace_all();
+  std::set<fs::path> folders;
+  for (const auto& file : files_) folders.insert(file->folder());
+  files_.clear();
+  for (const fs::path& folder : folders) detail::flush_folder(folder);
+}
+
+void OutputSet::replace_all() {
+  auto next = files_.begin();
+  try {
+    for (; next != files_.end(); ++next) (*next)->replace();
+  } catch (const InputError&) {
+    while (next != files_.begin()) (*--next)->put_back();
+    throw;
+  }
+}
+
+void require_writable(const fs::path& target) { const detail::PendingFile tried(target); }
+
+void require_distinct(std::span<const fs::path> outputs, std::span<const fs::path> inputs) {
+  std::set<fs::path> seen;
+  for (const fs::path& output : outputs) {
+    if (output.empty()) continue;
+    if (!seen.insert(identity(output)).second) {
+      detail::refuse(output, "expected a file of its own for each output, found it twice");
+    }
+    for (const fs::path& input : inputs) {
+      if (input.empty() || !is_same_file(output, input)) continue;
+      detail::refuse(output, "expected another file than the input, found " + input.string());
+    }
+  }
+}
+
+}  // namespace mesamis

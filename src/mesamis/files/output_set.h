@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace mesamis {
+
+namespace detail {
+class PendingFile;
+}
+
+/// Files that appear together, when all of them are whole on the disk, or none of them.
+///
+/// While one lives, AtomicFile::commit() on its thread, and with it every writer, hands the file to
+/// the set instead of renaming it. commit() renames them all, in the order in which they came; the
+/// destructor removes those that it has not renamed. A set in a set hands its files to the outer
+/// one.
+class OutputSet {
+ public:
+  /// A file that is whole but not in its place yet.
+  struct Member {
+    std::filesystem::path target, temporary;
+  };
+
+  /// Begins an empty set.
+  /// @throws nothing
+  OutputSet();
+  /// Removes the files that are not renamed. On the thread of the constructor, sets within first.
+  ~OutputSet();
+  OutputSet(const OutputSet&) = delete;
+  OutputSet& operator=(const OutputSet&) = delete;
+
+  /// Tells which files wait in this set, in the order in which they came.
+  /// @throws nothing
+  std::vector<Member> members() const;
+  /// Renames all files, and brings the names to the disk.
+  /// @throws InputError  if one cannot be renamed; all are then as they were. On file systems that
+  ///                     cannot exchange two files, files that were replaced before it are new.
+  ///
+  /// Only renames lie between the first new file and the last: microseconds on a local disk.
+  void commit();
+
+ private:
+  friend class AtomicFile;
+  static OutputSet* current() noexcept;
+  void add(std::unique_ptr<detail::PendingFile> file);
+  void replace_all();
+
+  OutputSet* outer_;
+  std::vector<std::unique_ptr<detail::PendingFile>> files_;
+};
+
+/// Refuses a file that could not be written at the end of long work, by the same rules as
+/// AtomicFile. Leaves nothing behind.
+/// @throws InputError  as AtomicFile.
+void require_writable(const std::filesystem::path& target);
+
+/// Refuses files that would be written over each other or over an input. Two paths are one file
+/// also by way of links and of ".." in a path.
+/// @param outputs, inputs  files and folders that exist or not; empty paths are left out.
+/// @throws InputError  naming the file.
+///
+/// O(n log n + n m) for n outputs and m inputs.
+void require_distinct(std::span<const std::filesystem::path> outputs,
+                      std::span<const std::filesystem::path> inputs);
+
+}  // namespace mesamis
