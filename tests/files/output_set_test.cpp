@@ -125,6 +125,8 @@ TEST(RequireDistinct, KnowsAFileByAnyOfItsNames) {
   for (const char* name : {"scan", "link", "hard", "d/../scan"}) {
     refuses({folder / name}, "expected another file than the input");
   }
+  fs::create_symlink("circle", folder / "circle");
+  require_distinct(std::vector{folder / "a"}, std::vector{folder / "circle"});
   require_distinct(std::vector{folder / "a", folder / "b", fs::path(), fs::path()},
                    std::vector{folder / "scan", folder / "missing", fs::path()});
 }

@@ -2,6 +2,9 @@
 #include "mesamis/printing/temporary_folder.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "mesamis/base/error.h"
 #include "support/temp_folder.h"
@@ -23,6 +26,25 @@ TEST(TemporaryFolder, IsPrivateAndRemovedWithItsContent) {
     EXPECT_NE(TemporaryFolder("test").path(), path);
   }
   EXPECT_EQ(place.file_count(), 0);
+}
+
+TEST(TemporaryFolder, RemovesWhatAKilledProcessLeftAndNothingElse) {
+  const TempFolder place;
+  const Variable temporary("TMPDIR", place.path());
+  const TemporaryFolder alive("test");
+  write_bytes(place / "mesamis-test-abcdef/file", "nobody says that its owner is gone");
+  const pid_t child = fork();
+  if (child == 0) {
+    const TemporaryFolder folder("test"), other("other");
+    write_bytes(folder.path() / "deep/file", "x");
+    kill(getpid(), SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+  ASSERT_EQ(place.file_count(), 4);
+  const TemporaryFolder next("test");
+  EXPECT_EQ(place.file_count(), 4) << "that of the other purpose stays, one comes";
+  EXPECT_TRUE(std::filesystem::exists(alive.path()));
+  EXPECT_TRUE(std::filesystem::exists(place / "mesamis-test-abcdef/file"));
 }
 
 TEST(TemporaryFolder, IsRefusedWhereThereIsNoPlaceForIt) {

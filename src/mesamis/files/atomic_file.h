@@ -15,8 +15,8 @@ class PendingFile;
 /// that file to the target. Without commit(), the destructor or remove_unfinished_files() removes
 /// it. What a killed process leaves is removed by the next AtomicFile in the folder.
 ///
-/// A target that is a link stays one: the file that it leads to is replaced. A file that is replaced
-/// hands on its mode.
+/// A target that is a link stays one: the file that it leads to is replaced. A file that is
+/// replaced hands on its mode.
 class AtomicFile {
  public:
   /// Creates the empty temporary file.
@@ -36,7 +36,8 @@ class AtomicFile {
   /// Brings the temporary file to the disk and renames it to the target, replacing it; while an
   /// OutputSet lives on this thread, the set renames it. Call it once, when the file is closed and
   /// everything is known to be written.
-  /// @throws InputError  if a byte does not reach the disk or the file cannot be renamed; the target
+  /// @throws InputError  if a byte does not reach the disk or the file cannot be renamed; the
+  /// target
   ///                     is then as it was.
   void commit();
 

@@ -24,9 +24,14 @@ fs::path identity(const fs::path& path) {
   return error ? place.lexically_normal() : folder / place.filename();
 }
 
-bool is_same_file(const fs::path& a, const fs::path& b) {
+bool is_same_file(const fs::path& output, const fs::path& input) {
   std::error_code error;  // of files that are not there
-  return identity(a) == identity(b) || (fs::equivalent(a, b, error) && !error);
+  if (fs::equivalent(output, input, error) && !error) return true;
+  try {
+    return identity(output) == identity(input);
+  } catch (const InputError&) {  // an input that is none is for its reader to refuse
+    return false;
+  }
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ class PendingFile;
 /// While one lives, AtomicFile::commit() on its thread, and with it every writer, hands the file to
 /// the set instead of renaming it. commit() renames them all, in the order in which they came; the
 /// destructor removes those that it has not renamed. A set in a set hands its files to the outer
-/// one.
+/// one. What is to be read again before the end, like the input of another program, is written
+/// before a set begins.
 class OutputSet {
  public:
   /// A file that is whole but not in its place yet.
@@ -33,7 +34,7 @@ class OutputSet {
   OutputSet(const OutputSet&) = delete;
   OutputSet& operator=(const OutputSet&) = delete;
 
-  /// Tells which files wait in this set, in the order in which they came.
+  /// Tells which files wait in this set, in the order in which they came. O(files).
   /// @throws nothing
   std::vector<Member> members() const;
   /// Renames all files, and brings the names to the disk.

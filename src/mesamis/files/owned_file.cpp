@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/files/owned_file.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -52,15 +53,15 @@ bool is_owned_name(std::string_view name) {
     return false;
   }
   const std::string_view digits = name.substr(kBegin.size(), kDigits);
-  return std::all_of(digits.begin(), digits.end(), [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-  });
+  return std::all_of(digits.begin(), digits.end(),
+                     [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
 }
 
+/// @param folder  descriptor of the folder that the path begins in.
 /// @return  a descriptor that holds the lock of an abandoned file; -1 if there is an owner.
-int take_over(const fs::path& file) noexcept {
+int take_over(int folder, const char* file) noexcept {
   // Not a link, and without waiting for whoever is at the other end of a pipe.
-  Descriptor opened(open(file.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  Descriptor opened(openat(folder, file, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat facts {};
   const bool mine = opened.get() >= 0 && fstat(opened.get(), &facts) == 0 &&
                     S_ISREG(facts.st_mode) && facts.st_uid == geteuid();
@@ -72,8 +73,8 @@ int take_over(const fs::path& file) noexcept {
 fs::path new_name(const fs::path& folder) {
   std::uint64_t number = 0;
   if (getentropy(&number, sizeof number) != 0) {
-    throw InputError(folder.string() + ": no random name: " +
-                     std::generic_category().message(errno));
+    throw InputError(folder.string() +
+                     ": no random name: " + std::generic_category().message(errno));
   }
   char digits[kDigits + 1];
   std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(number));
@@ -93,17 +94,21 @@ int create_owned(const fs::path& file) noexcept {
   return made.release();
 }
 
-bool is_abandoned(const fs::path& file) noexcept { return Descriptor(take_over(file)).get() >= 0; }
+bool is_abandoned(const fs::path& file) noexcept {
+  return Descriptor(take_over(AT_FDCWD, file.c_str())).get() >= 0;
+}
 
+/// Without std::filesystem, whose iterators end the program where memory does.
 void remove_abandoned(const fs::path& folder) noexcept {
-  try {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-      if (!is_owned_name(entry.path().filename().string())) continue;
-      const Descriptor abandoned(take_over(entry.path()));  // locked until it is gone
-      if (abandoned.get() >= 0) unlink(entry.path().c_str());
-    }
-  } catch (const std::exception&) {  // a folder that cannot be listed keeps what is in it
+  DIR* const entries = opendir(folder.c_str());
+  if (entries == nullptr) return;  // a folder that cannot be listed keeps what is in it
+  const int place = dirfd(entries);
+  while (const dirent* entry = readdir(entries)) {
+    if (!is_owned_name(entry->d_name)) continue;
+    const Descriptor abandoned(take_over(place, entry->d_name));  // locked until it is gone
+    if (abandoned.get() >= 0) unlinkat(place, entry->d_name, 0);
   }
+  closedir(entries);
 }
 
 }  // namespace mesamis::detail

@@ -7,7 +7,8 @@ set(ROOM_HEADERS
   prusa_info.h
   slice_settings.h
   slice_surface.h
-  slicer.h)
+  slicer.h
+  temporary_folder.h)
 set(ROOM_SOURCES
   check_printable.cpp
   child_process.cpp
