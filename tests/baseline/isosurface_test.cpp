@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "mesamis/base/error.h"
@@ -54,7 +56,9 @@ TEST(Isosurface, ClosesWhatLeavesTheVolumeOnItsBox) {
 TEST(Isosurface, RefusesALevelNothingCrosses) {
   EXPECT_THROW(isosurface(make_ball({}), 1e6), InputError);
   EXPECT_THROW(isosurface(make_ball({}), 1e6, {.close_at_box = true}), InputError);
-  EXPECT_THROW(isosurface(make_ball({}), 175, {.smooth_voxels = -1}), InputError);
+  for (const double bad : {-1.0, 7e8, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    EXPECT_THROW(isosurface(make_ball({}), 175, {.smooth_voxels = bad}), InputError) << bad;
+  }
 }
 
 }  // namespace

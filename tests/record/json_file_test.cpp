@@ -43,6 +43,29 @@ TEST(JsonFile, SaysWhereItIsNotJson) {
   EXPECT_REFUSED(read_json(folder / "."), HasSubstr("cannot be opened"));
 }
 
+TEST(JsonFile, RefusesWhatIsNestedDeeply) {
+  const TempFolder folder;
+  const auto nested = [](std::size_t depth) {
+    return std::string(depth, '[') + std::string(depth, ']');
+  };
+  write_bytes(folder / "a.json", nested(64));
+  EXPECT_NO_THROW(read_json(folder / "a.json"));
+  for (const std::size_t depth : {std::size_t{65}, std::size_t{100'000}}) {
+    write_bytes(folder / "a.json", "{\"tau\": " + nested(depth) + "}");
+    EXPECT_REFUSED(read_json(folder / "a.json"), HasSubstr("at most 64 levels"));
+  }
+}
+
+TEST(JsonFile, RefusesAKeyThatComesTwiceInOneObject) {
+  const TempFolder folder;
+  write_bytes(folder / "a.json", R"({"a": {"x": 1}, "b": {"x": 1}, "c": [{"x": 1}, {"x": 2}]})");
+  EXPECT_NO_THROW(read_json(folder / "a.json"));
+  for (const char* text : {R"({"a": 1, "a": 1})", R"([{"b": {"a": [], "c": {}, "a": {}}}])"}) {
+    write_bytes(folder / "a.json", text);
+    EXPECT_REFUSED(read_json(folder / "a.json"), HasSubstr("each key once, found \"a\" twice"));
+  }
+}
+
 TEST(VecJson, IsAList) { EXPECT_EQ(vec_json({1, 2.5, -3}).dump(), "[1.0,2.5,-3.0]"); }
 
 }  // namespace

@@ -117,11 +117,16 @@ TriMesh in_world(vtkPolyData& surface, const Volume& volume) {
 
 }  // namespace
 
-TriMesh isosurface(const Volume& volume, double level, const IsosurfaceOptions& options) {
-  if (!(options.smooth_voxels >= 0)) {
-    throw InputError("smooth: expected 0 or more voxels, found " +
+void require_valid(const IsosurfaceOptions& options) {
+  constexpr double kMost = 100;  // voxels, as of gaussian_smoothed()
+  if (!(options.smooth_voxels >= 0 && options.smooth_voxels <= kMost)) {
+    throw InputError("smooth: expected 0 to 100 voxels, found " +
                      std::to_string(options.smooth_voxels));
   }
+}
+
+TriMesh isosurface(const Volume& volume, double level, const IsosurfaceOptions& options) {
+  require_valid(options);
   vtkSmartPointer<vtkImageData> image = image_of(volume);
   if (options.smooth_voxels > 0) image = smoothed(image, options.smooth_voxels);
   const double* range = image->GetScalarRange();

@@ -10,10 +10,14 @@ namespace mesamis {
 
 struct IsosurfaceOptions {
   double smooth_voxels = 0;   ///< Gaussian applied first: standard deviation, voxels of each axis,
-                              ///< >= 0; 0: none
+                              ///< 0 to 100; 0: none
   std::size_t triangles = 0;  ///< decimate by quadrics to about this many; 0: keep all
   bool close_at_box = false;  ///< close the surface where the object leaves the volume
 };
+
+/// Checks options before any work.
+/// @throws InputError  for a standard deviation that is not 0 to 100 voxels.
+void require_valid(const IsosurfaceOptions& options);
 
 /// Extracts the isosurface of a volume, to compare with.
 ///
@@ -26,7 +30,7 @@ struct IsosurfaceOptions {
 /// @return triangles in LPS mm, oriented outward where the object is brighter. Open where the
 /// object
 ///         leaves the volume, unless options.close_at_box.
-/// @throws InputError      if options.smooth_voxels is negative, or no value of the (smoothed)
+/// @throws InputError      if options.smooth_voxels is out of range, or no value of the (smoothed)
 /// volume
 ///                         is below or none is above the level.
 /// @throws NumericalError  if a filter of VTK fails.

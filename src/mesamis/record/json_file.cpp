@@ -2,11 +2,47 @@
 #include "mesamis/record/json_file.h"
 
 #include <fstream>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "mesamis/base/error.h"
 #include "mesamis/files/atomic_file.h"
 
 namespace mesamis {
+namespace {
+
+using nlohmann::json;
+
+/// Watches a parser: nothing is nested deeply, as much of what is done with a value goes down with
+/// it, and no object has a key twice, of which the parser would take the last.
+class Strictness {
+ public:
+  explicit Strictness(const std::filesystem::path& path) : path_(path) {}
+
+  bool operator()(int depth, json::parse_event_t event, const json& value) {
+    constexpr int kDeepest = 64;
+    if (depth > kDeepest) refuse("at most 64 levels of lists and objects");
+    if (event == json::parse_event_t::object_start) keys_.emplace_back();
+    if (event == json::parse_event_t::object_end) keys_.pop_back();
+    if (event == json::parse_event_t::key &&
+        !keys_.back().insert(value.get<std::string>()).second) {
+      refuse("each key once", value.dump() + " twice");
+    }
+    return true;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& expected, const std::string& found = "more") const {
+    throw InputError(path_.string() + ": expected JSON with " + expected + ", found " + found);
+  }
+
+  std::filesystem::path path_;
+  std::vector<std::set<std::string>> keys_;  // of the objects that are open
+};
+
+}  // namespace
 
 void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& value) {
   write_file(path,
@@ -19,7 +55,8 @@ nlohmann::json read_json(const std::filesystem::path& path) {
     throw InputError(path.string() + ": cannot be opened");
   }
   try {
-    return nlohmann::json::parse(in);
+    Strictness strictness(path);
+    return nlohmann::json::parse(in, std::ref(strictness));
   } catch (const nlohmann::json::parse_error& error) {
     throw InputError(path.string() + ": expected JSON, found something else at byte " +
                      std::to_string(error.byte));

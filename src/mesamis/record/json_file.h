@@ -14,7 +14,9 @@ namespace mesamis {
 void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& value);
 
 /// Reads a JSON file. O(bytes of the file).
-/// @throws InputError  if the file cannot be read or is not JSON; the message says where.
+/// @throws InputError  if the file cannot be read, is not JSON, nests more than 64 lists and
+/// objects
+///                     or has an object with a key twice; the message says where or which.
 nlohmann::json read_json(const std::filesystem::path& path);
 
 /// A point or vector as [x, y, z], in mm or whatever unit it has. Throws nothing.
