@@ -29,6 +29,19 @@ TEST(Loop, MakesNoMoreMeshesThanAreAllowed) {
   }
 }
 
+TEST(Loop, StopsBetweenTwoMeshesWhenTheCallerHasEnough) {
+  const Prepared prepared = prepared_ball(3, false);
+  for (const int made : {1, 2}) {
+    int asked = 0;
+    const Loop loop = run_loop(RunInput(prepared), {}, [&] { return ++asked == made; });
+    EXPECT_EQ(asked, made) << "once before each adaptation from the second on";
+    EXPECT_TRUE(loop.stopped);
+    EXPECT_EQ(std::ssize(loop.passes), made + 1);
+    EXPECT_EQ(loop.minimum.u.size(), loop.state.mesh.points.size()) << "a whole result";
+  }
+  EXPECT_FALSE(run_loop(RunInput(prepared), {}, [] { return false; }).stopped);
+}
+
 TEST(Loop, TellsItsStagesInOrder) {
   const Prepared prepared = prepared_ball(2, false);
   std::vector<std::string> stages;

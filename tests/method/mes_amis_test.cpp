@@ -127,6 +127,50 @@ TEST(MesAmis, TellsTheGreyValueBeneathTheSurface) {
   }
 }
 
+TEST(MesAmis, StoppedItDeliversTheLastMeshAndSaysSo) {
+  const Volume volume = make_ball(ball());
+  const auto run = [&volume](int threads) {
+    int asked = 0;
+    return with_threads(
+        threads, [&] { return mes_amis(volume, small_run(), {}, [&] { return ++asked == 2; }); });
+  };
+  const Result result = run(1);
+  EXPECT_TRUE(result.stopped);
+  EXPECT_FALSE(result.converged);
+  EXPECT_EQ(result.iterations.size(), 2u) << "one adaptation and the final minimisation";
+  EXPECT_NO_THROW(validate(result.mesh, volume.box()));
+  EXPECT_TRUE(check_surface(result.surface).closed());
+  EXPECT_EQ(result.expected_error.size(), result.surface.points.size());
+  EXPECT_EQ(run(2).surface.points, result.surface.points);
+}
+
+TEST(MesAmis, StoppedBeforeItsFirstPassItDeliversThePreview) {
+  const Volume volume = make_ball(ball());
+  Settings settings = small_run();
+  const Result stopped = mes_amis(volume, settings, {}, [] { return true; });
+  settings.preview = true;
+  const Result preview = mes_amis(volume, settings, {}, [] { return true; });
+  EXPECT_TRUE(stopped.stopped);
+  EXPECT_FALSE(stopped.converged);
+  EXPECT_TRUE(stopped.mesh.cells.empty());
+  EXPECT_TRUE(stopped.parameters.preview);
+  EXPECT_FALSE(preview.stopped) << "it is what was asked for";
+  EXPECT_EQ(stopped.surface.points, preview.surface.points);
+  settings = small_run();
+  settings.surface = SurfaceKind::kBand;
+  const Result band = mes_amis(volume, settings, {}, [] { return true; });
+  EXPECT_TRUE(band.stopped);
+  EXPECT_EQ(band.iterations.size(), 2u) << "a band has no preview";
+}
+
+TEST(MesAmis, OneThatNeverHasEnoughChangesNothing) {
+  const Volume volume = make_ball(ball());
+  const Result a = mes_amis(volume, small_run());
+  const Result b = mes_amis(volume, small_run(), {}, [] { return false; });
+  EXPECT_FALSE(b.stopped);
+  EXPECT_EQ(a.surface.points, b.surface.points);
+}
+
 TEST(MesAmis, TheSameBitsForAnyNumberOfThreads) {
   const Volume volume = make_ball(ball());
   const Result a = with_threads(1, [&] { return mes_amis(volume, small_run()); });

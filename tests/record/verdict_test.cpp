@@ -47,6 +47,17 @@ TEST(Verdict, AnUnmetToleranceCountsForSolidsAlone) {
   EXPECT_EQ(far.verdict().outcome, Outcome::kKept);
 }
 
+TEST(Verdict, ARunThatWasStoppedSaysWhere) {
+  Case stopped;
+  stopped.result.stopped = true;
+  stopped.result.converged = false;
+  stopped.result.parameters.adaptations = 8;
+  EXPECT_EQ(stopped.verdict().outcome, Outcome::kNotConverged);
+  EXPECT_THAT(stopped.verdict().message, HasSubstr("time limit after 2 of at most 8 adaptations"));
+  stopped.result.parameters.preview = true;
+  EXPECT_THAT(stopped.verdict().message, HasSubstr("the surface is a preview"));
+}
+
 TEST(Verdict, AnAccuracyThatTheScanDoesNotPermitIsUnmet) {
   Case coarse;
   coarse.result.expected_error.assign(coarse.result.surface.points.size(), 0.3);

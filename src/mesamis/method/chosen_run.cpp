@@ -55,9 +55,9 @@ Parameters in_scan_units(Parameters p, const ChosenObject& object) {
   return p;
 }
 
-Result run_on_object(const ChosenObject& object, const Settings& settings,
-                     const Progress& progress) {
-  Result result = mes_amis(object.volume, settings_for(object, settings), progress);
+Result run_on_object(const ChosenObject& object, const Settings& settings, const Progress& progress,
+                     const HasEnough& enough) {
+  Result result = mes_amis(object.volume, settings_for(object, settings), progress, enough);
   result.parameters = in_scan_units(result.parameters, object);
   if (object.level_uncertainty > 0) {
     result.image.level_uncertainty = object.level_uncertainty;

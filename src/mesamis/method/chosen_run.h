@@ -30,11 +30,11 @@ Parameters in_scan_units(Parameters parameters, const ChosenObject& object);
 /// Runs the method on the image of a chosen object.
 /// @param object    of choose_object(), without parts.
 /// @param settings  as the user gave them, units of the scan.
-/// @param progress  optional.
+/// @param progress, enough  optional, as for mes_amis().
 /// @return as mes_amis(), parameters in the units of the scan; u is what it is in the image.
 /// @throws InputError, Cancelled  as mes_amis(). Cost as there.
 Result run_on_object(const ChosenObject& object, const Settings& settings,
-                     const Progress& progress = {});
+                     const Progress& progress = {}, const HasEnough& enough = {});
 
 /// Finds the objects of a label map in the image of a chosen object.
 /// @param object    of choose_object().

@@ -43,7 +43,7 @@ std::vector<Sym3> world_metric(const RunInput& run, const std::vector<Sym3>& met
 
 }  // namespace
 
-Loop run_loop(const RunInput& run, const Progress& progress) {
+Loop run_loop(const RunInput& run, const Progress& progress, const HasEnough& enough) {
   const Parameters& p = run.parameters;
   Loop loop;
   const auto minimise_last = [&](const Pass& pass, const AmisOptions& options) {
@@ -56,6 +56,8 @@ Loop run_loop(const RunInput& run, const Progress& progress) {
   const Stage first(progress, adaptation_name(1, p) + ", on the voxel grid");
   loop.state = adapt_from_grid({run, 1, first, loop.passes.emplace_back()});
   for (int k = 2; k <= p.adaptations && !loop.settled; ++k) {
+    loop.stopped = enough && enough();
+    if (loop.stopped) break;
     const Stage stage(progress, adaptation_name(k, p));
     const Pass pass{run, k, stage, loop.passes.emplace_back()};
     loop.state = adapt(pass, loop.state, minimise_last(pass, run.draft_options()));
@@ -70,6 +72,7 @@ Loop run_loop(const RunInput& run, const Progress& progress) {
 void deliver_mesh(const RunInput& run, Loop loop, Result& result) {
   TetMesh& mesh = loop.state.mesh;
   result.converged = has_converged(loop);
+  result.stopped = loop.stopped;
   result.fit = measure_fit(mesh, loop.state.metric);
   bring_to_world(run, mesh.points);
   if (determinant(run.grey.direction) < 0) {

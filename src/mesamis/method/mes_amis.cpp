@@ -62,8 +62,9 @@ void finish_surface(const RunInput& run, const Settings& settings, const Progres
 }
 
 /// All passes, and the surface that comes of them.
-void run_full(const RunInput& run, const Progress& progress, Result& result) {
-  Loop loop = run_loop(run, progress);
+void run_full(const RunInput& run, const Progress& progress, const HasEnough& enough,
+              Result& result) {
+  Loop loop = run_loop(run, progress, enough);
   Stopwatch watch;
   (void)Stage(progress, "surface");
   result.surface = extract_surface(run, loop);
@@ -84,7 +85,13 @@ void run_preview(const RunInput& run, const Progress& progress, Result& result) 
   deliver_surface(run, result.surface);
 }
 
-Result run_on(const VolumeView& volume, const Settings& settings, const Progress& progress) {
+/// What a run that has enough before its first pass can still deliver.
+bool stops_at_preview(const Parameters& p, const HasEnough& enough) {
+  return !p.preview && p.surface == SurfaceKind::kSolid && enough && enough();
+}
+
+Result run_on(const VolumeView& volume, const Settings& settings, const Progress& progress,
+              const HasEnough& enough) {
   Stopwatch watch;
   Result result;
   Parameters& p = result.parameters;
@@ -95,7 +102,14 @@ Result run_on(const VolumeView& volume, const Settings& settings, const Progress
   result.seconds.prepare = watch.lap();
 
   const RunInput run(prepared);
-  (p.preview ? run_preview : run_full)(run, progress, result);
+  result.stopped = stops_at_preview(p, enough);
+  p.preview |= result.stopped;
+  if (p.preview) {
+    run_preview(run, progress, result);
+  } else {
+    run_full(run, progress, enough, result);
+  }
+  result.converged &= !result.stopped;
   watch.lap();
   finish_surface(run, settings, progress, result);
   result.seconds.printable = watch.lap();
@@ -104,13 +118,14 @@ Result run_on(const VolumeView& volume, const Settings& settings, const Progress
 
 }  // namespace
 
-Result mes_amis(const VolumeView& volume, const Settings& settings, const Progress& progress) {
+Result mes_amis(const VolumeView& volume, const Settings& settings, const Progress& progress,
+                const HasEnough& enough) {
   Stopwatch watch;
   require_valid(settings);
   require_usable(volume);
   Result result = settings.crop == CropRange{}
-                      ? run_on(volume, settings, progress)
-                      : run_on(crop(volume, settings.crop), settings, progress);
+                      ? run_on(volume, settings, progress, enough)
+                      : run_on(crop(volume, settings.crop), settings, progress, enough);
   result.seconds.total = watch.lap();
   return result;
 }

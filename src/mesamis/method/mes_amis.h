@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "mesamis/base/progress.h"
@@ -16,6 +17,10 @@
 
 /// The whole method: a scan in, a surface and an adapted mesh out.
 namespace mesamis {
+
+/// Asked between the passes of a run, never inside one. If it returns true, the run makes a whole
+/// result of the passes it has made, and says that it was stopped.
+using HasEnough = std::function<bool()>;
 
 /// What a run delivers. Points are in the world frame (LPS), in mm.
 struct Result {
@@ -37,6 +42,7 @@ struct Result {
   struct Seconds {
     double prepare = 0, surface = 0, printable = 0, total = 0;
   } seconds;
+  bool stopped = false;  ///< the caller had enough before the loop had settled
 };
 
 /// Algorithm 2 (MES AMIS). Minimises on the voxel grid, then on adapted meshes, until the loop has
@@ -50,13 +56,20 @@ struct Result {
 /// @param settings  valid, see require_valid().
 /// @param progress  optional; stages "preparation", "adaptation k of n", "final minimisation",
 ///                  "surface", "decimation".
-/// @return the same bits for any number of threads (see with_threads()).
+/// @param enough    optional; asked before each pass. Stopped before the first one, a run for a
+/// solid
+///                  delivers its preview, without a mesh; a band needs one adaptation. Stopped
+///                  later, it minimises on the last mesh that it has made, and extracts the surface
+///                  from it.
+/// @return the same bits for any number of threads (see with_threads()); of a run that was stopped,
+///         bits that depend on the pass at which it was.
 /// @throws InputError  if the volume or a setting cannot be used.
 /// @throws Cancelled   if progress says stop.
 ///
 /// Time grows with the number of voxels and with the number of cells times the adaptations; memory
 /// is about memory_needed().
-Result mes_amis(const VolumeView& volume, const Settings& settings, const Progress& progress = {});
+Result mes_amis(const VolumeView& volume, const Settings& settings, const Progress& progress = {},
+                const HasEnough& enough = {});
 
 /// Finds grey values for the points of the result's surface: of a band u itself; of a solid, where
 /// u is the level everywhere, the maximum within two voxels below it.

@@ -195,6 +195,16 @@ ordered_json output_json(Frame frame) {
   return {{"frame", frame == Frame::kRas ? "ras" : "lps"}, {"threads", thread_count()}};
 }
 
+ordered_json files_json(const OutputSet& set) {
+  ordered_json files = ordered_json::array();
+  for (const OutputSet::Member& file : set.members()) {
+    files.push_back({{"path", file.target.string()},
+                     {"bytes", std::filesystem::file_size(file.temporary)},
+                     {"sha256", sha256(file.temporary)}});
+  }
+  return files;
+}
+
 ordered_json printable_json(const PrintableReport& printable, double tolerance) {
   return {{"tolerance_mm", std::isfinite(tolerance) ? ordered_json(tolerance) : nullptr},
           {"triangles_extracted", printable.triangles_extracted},
@@ -237,6 +247,7 @@ ordered_json run_json(const Settings& asked, const RunSummary& run) {
   report.update(loop_json(run));
   report["surface"] = surface_json(run);
   report["converged"] = run.converged;
+  report["stopped"] = run.stopped;
   report["seconds_parts"] = {{"prepare", run.seconds.prepare},
                              {"surface", run.seconds.surface},
                              {"printable", run.seconds.printable},

@@ -8,6 +8,7 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/delivery/mesh_output.h"
+#include "mesamis/files/output_set.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/method/expected_error.h"
 #include "mesamis/method/mes_amis.h"
@@ -47,6 +48,11 @@ std::string producer();
 /// The entry "output": the frame of the files written, the threads used. Throws nothing.
 nlohmann::ordered_json output_json(Frame frame);
 
+/// The entry "files": path, bytes and sha256 of each file of a set. A set of files is whole where
+/// they are those of the report that lies beside them, which belongs to the set and comes last.
+/// @throws InputError  if a file cannot be read again. O(bytes of the files).
+nlohmann::ordered_json files_json(const OutputSet& set);
+
 /// How a solid was made printable: tolerance, triangles before, distances (mm), parts.
 /// @param tolerance  mm; infinite where there was no bound. Throws nothing.
 nlohmann::ordered_json printable_json(const PrintableReport& printable, double tolerance);
@@ -62,7 +68,7 @@ nlohmann::ordered_json error_json(const ErrorSummary& error);
 nlohmann::ordered_json check_json(const TriMesh& surface, const SurfaceCheck& check);
 
 /// What a report says of a run itself: settings, chosen, given, grey, image, iterations, mesh,
-/// surface, converged, seconds_parts.
+/// surface, converged, stopped, seconds_parts.
 /// @param asked  the settings the run was started with, to tell what was chosen.
 /// @throws InputError  as summarize(). Cost as there.
 nlohmann::ordered_json run_json(const Settings& asked, const Result& result,

@@ -36,6 +36,7 @@ RunSummary summarize(const Result& result, const SurfaceCheck& check) {
   summary.printable = result.printable;
   summary.converged = result.converged;
   summary.seconds = result.seconds;
+  summary.stopped = result.stopped;
   return summary;
 }
 

@@ -25,6 +25,7 @@ struct RunSummary {
   PrintableReport printable;
   bool converged = false;
   Result::Seconds seconds;
+  bool stopped = false;  ///< see Result::stopped
 
   /// The functional's value after the last minimisation, grey value^2 mm^3. Throws nothing.
   double energy_mm3() const;

@@ -8,6 +8,13 @@
 namespace mesamis {
 namespace {
 
+std::string why_stopped(const Result& result) {
+  const std::string when = "not converged: stopped by the time limit ";
+  if (result.parameters.preview) return when + "before the first mesh; the surface is a preview";
+  return when + "after " + std::to_string(result.iterations.size() - 1) + " of at most " +
+         std::to_string(result.parameters.adaptations) + " adaptations";
+}
+
 std::string why_not_converged(const Result& result) {
   const auto& passes = result.iterations;
   for (const Iteration& pass : passes) {
@@ -17,6 +24,7 @@ std::string why_not_converged(const Result& result) {
              std::to_string(pass.amis.solver_tolerance);
     }
   }
+  if (result.stopped) return why_stopped(result);
   if (result.parameters.adaptations == 1) {
     return "not converged: one adaptation cannot show that anything has settled, expected 2 or "
            "more";
