@@ -58,6 +58,7 @@ BaselineOptions options_of(const BaselineCommand& command) {
 void require_all(const BaselineCommand& command) {
   require_output(command.output, written_surface_formats(), "--output");
   if (!command.report.empty()) require_output(command.report, {".json"}, "--report");
+  require_distinct_files({command.output, command.report}, {command.input});
   if (command.is_geodesic() && !has_geodesic_contour()) {
     throw CLI::ValidationError(
         "--method geodesic: not in this program, which was built without ITK");
@@ -66,7 +67,10 @@ void require_all(const BaselineCommand& command) {
     if (command.is_geodesic() || option->count() == 0) continue;
     throw CLI::ValidationError(option->get_name() + " is for --method geodesic");
   }
-  if (command.is_geodesic()) as_usage([&command] { require_valid(options_of(command).geodesic); });
+  as_usage([options = options_of(command)] {
+    options.method == BaselineMethod::kGeodesic ? require_valid(options.geodesic)
+                                                : require_valid(options.isosurface);
+  });
 }
 
 BaselineSurface run_method(const Volume& volume, const BaselineCommand& command, bool quiet) {
@@ -106,7 +110,8 @@ ordered_json chosen(const BaselineCommand& command) {
   return names;
 }
 
-void write_report(const BaselineCommand& command, const BaselineSurface& made) {
+void write_report(const BaselineCommand& command, const BaselineSurface& made,
+                  const OutputSet& set) {
   ordered_json report;
   report["program"] = program_json();
   report["input"] = {{"path", command.input.string()}};
@@ -121,6 +126,7 @@ void write_report(const BaselineCommand& command, const BaselineSurface& made) {
   report["surface"] = check_json(made.surface, check_surface(made.surface));
   report["converged"] = made.converged();
   report["seconds_parts"] = {{"method", made.seconds}};
+  report["files"] = files_json(set);
   add_costs(report);
   write_json(command.report, report);
 }
@@ -147,8 +153,10 @@ int run_baseline(const BaselineCommand& command, const CommonOptions& common) {
   const VolumeFile file = read_scan(command.input, command.read);
   const BaselineSurface made = run_method(file.volume, command, common.quiet);
   warn_of_triangles(command.isosurface.triangles, made.surface.triangles.size());
+  OutputSet set;
   write_surface(command.output, made.surface);
-  if (!command.report.empty()) write_report(command, made);
+  if (!command.report.empty()) write_report(command, made, set);
+  commit(set);
   std::cout << made.surface.triangles.size() << " triangles ";
   if (made.contour)
     std::cout << "after " << made.contour->iterations << " iterations from ";

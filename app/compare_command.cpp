@@ -46,8 +46,7 @@ Box box_of(const std::string& text) {
 }
 
 void write_report(const CompareCommand& command, const SurfacePair& pair,
-                  const DirectedDistances& surface_to_reference,
-                  const DirectedDistances& reference_to_surface) {
+                  const std::vector<DirectedDistances>& directions, const OutputSet& set) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   report["reference"] = command.reference.string();
@@ -58,10 +57,9 @@ void write_report(const CompareCommand& command, const SurfacePair& pair,
     const auto& [lo, hi] = *command.part;
     report["box"] = {lo.x, lo.y, lo.z, hi.x, hi.y, hi.z};
   }
-  for (const DirectedDistances* d : {&surface_to_reference, &reference_to_surface}) {
-    report[d->name] = distances_json(*d);
-  }
-  report["paper"] = paper_distances_json(reference_to_surface);
+  for (const DirectedDistances& d : directions) report[d.name] = distances_json(d);
+  report["paper"] = paper_distances_json(directions[1]);
+  report["files"] = files_json(set);
   add_costs(report);
   write_json(command.report, report);
 }
@@ -81,14 +79,22 @@ void print_line(const std::string& name, const char* how, const std::vector<doub
               s.rms, s.p95, s.p99, s.max);
 }
 
+void require_all(const CompareCommand& command) {
+  const auto& [reference, surface, report, histogram, colored, frames, part] = command;
+  if (!colored.empty()) require_output(colored, {".vtp"}, "--colored");
+  if (!report.empty()) require_writable(report);
+  if (!histogram.empty()) require_writable(histogram);
+  require_distinct_files({report, histogram, colored}, {reference, surface});
+}
+
 int run_compare(const CompareCommand& command) {
-  if (!command.colored.empty()) require_output(command.colored, {".vtp"}, "--colored");
+  require_all(command);
   const SurfacePair pair = read_pair(command.reference, command.surface, command.frames);
   for (const std::string& warning : pair.warnings) log_warning(warning);
   const std::vector<DirectedDistances> directions{
       measure_distances("surface_to_reference", pair.surface, pair.reference, command.part),
       measure_distances("reference_to_surface", pair.reference, pair.surface, command.part)};
-  if (!command.report.empty()) write_report(command, pair, directions[0], directions[1]);
+  OutputSet set;
   if (!command.histogram.empty()) {
     write_file(command.histogram, to_csv(histogram_of(directions)));
   }
@@ -97,6 +103,8 @@ int run_compare(const CompareCommand& command) {
                   command.part ? distances_to_surface(pair.surface.points, pair.reference)
                                : directions[0].from_vertices);
   }
+  if (!command.report.empty()) write_report(command, pair, directions, set);
+  commit(set);
   std::printf("%-22s %-8s %9s %9s %9s %9s %9s %9s\n", "distance, mm", "from", "points", "mean",
               "rms", "p95", "p99", "max");
   for (const DirectedDistances& d : directions) {

@@ -57,10 +57,16 @@ void require_valid_options(const DecimateCommand& command) {
   });
 }
 
-int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
+void require_all(const DecimateCommand& command) {
+  require_utf8(command.name, "--name");
   require_output(command.output, written_surface_formats(), "--output");
   if (!command.report.empty()) require_output(command.report, {".json"}, "--report");
+  require_distinct_files({command.output, command.report}, {command.input});
   require_valid_options(command);
+}
+
+int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
+  require_all(command);
   const double tolerance = command.tolerance.value_or(std::numeric_limits<double>::infinity());
   const SurfaceFile file = read_closed(command.input);
   const TriMesh surface = in_lps(file);
@@ -76,6 +82,7 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
     throw InputError(command.input.string() + ": every part is smaller than --min-volume");
   }
   const auto frame = file.frame ? std::optional(Frame::kLps) : std::nullopt;
+  OutputSet set;
   write_surface(command.output, result, {.frame = frame, .name = command.name});
   const SurfaceCheck check = check_surface(result);
   if (!command.report.empty()) {
@@ -85,9 +92,11 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
     report["surface"] = printable_json(printable, tolerance);
     report["surface"].update(check_json(result, check));
     report["surface"]["self_intersections"] = find_self_intersections(result).size();
+    report["files"] = files_json(set);
     add_costs(report);
     write_json(command.report, report);
   }
+  commit(set);
   std::cout << result.triangles.size() << " of " << surface.triangles.size()
             << " triangles, at most " << printable.extracted_to_result << " mm there and "
             << printable.result_to_extracted << " mm back\n";

@@ -13,19 +13,24 @@
 namespace mesamis {
 namespace {
 
-bool bar_allowed = false;
+bool bar_allowed = false, is_json = false;
+
+constexpr const char* kJsonTime = R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z",)";
 
 void append(const std::string& text, spdlog::memory_buf_t& to) {
   to.append(text.data(), text.data() + text.size());
 }
 
-/// The message as a JSON string, quotes included.
+/// As a JSON string, quotes included.
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 class JsonMessage : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm&,
               spdlog::memory_buf_t& to) override {
-    const std::string text(message.payload.data(), message.payload.size());
-    append(nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), to);
+    append(quoted({message.payload.data(), message.payload.size()}), to);
   }
   std::unique_ptr<custom_flag_formatter> clone() const override {
     return std::make_unique<JsonMessage>();
@@ -44,16 +49,22 @@ class LevelPrefix : public spdlog::custom_flag_formatter {
   }
 };
 
+/// With what stands before it, a line has 500 characters at most.
+std::string line_of(const std::string& message) {
+  constexpr std::size_t kLongest = 470;
+  return shortened(one_line(message), kLongest);
+}
+
 }  // namespace
 
 void set_up_log(const CommonOptions& options) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   bar_allowed = terminal && !options.log_json && !options.quiet;
+  is_json = options.log_json;
   auto formatter = std::make_unique<spdlog::pattern_formatter>();
   formatter->add_flag<JsonMessage>('J').add_flag<LevelPrefix>('W');
-  formatter->set_pattern(options.log_json
-                             ? R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z","level":"%l","message":%J})"
-                             : std::string(bar_allowed ? kWipeLine : "") + "mesamis: %W%v");
+  formatter->set_pattern(is_json ? std::string(kJsonTime) + R"("level":"%l","message":%J})"
+                                 : std::string(bar_allowed ? kWipeLine : "") + "mesamis: %W%v");
   auto logger = std::make_shared<spdlog::logger>("mesamis",
                                                  std::make_shared<spdlog::sinks::stderr_sink_mt>());
   logger->set_formatter(std::move(formatter));
@@ -63,13 +74,23 @@ void set_up_log(const CommonOptions& options) {
 }
 
 void log_info(const std::string& message) {
-  spdlog::default_logger_raw()->info(spdlog::string_view_t(one_line(message)));
+  spdlog::default_logger_raw()->info(spdlog::string_view_t(line_of(message)));
 }
 void log_warning(const std::string& message) {
-  spdlog::default_logger_raw()->warn(spdlog::string_view_t(one_line(message)));
+  spdlog::default_logger_raw()->warn(spdlog::string_view_t(line_of(message)));
 }
 void log_error(const std::string& message) {
-  spdlog::default_logger_raw()->error(spdlog::string_view_t(one_line(message)));
+  spdlog::default_logger_raw()->error(spdlog::string_view_t(line_of(message)));
+}
+
+bool log_is_json() { return is_json; }
+
+void log_progress(const std::string& stage, double fraction) {
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  formatter->set_pattern(std::string(kJsonTime) + R"("level":"progress",%v})");
+  spdlog::logger logger("progress", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  logger.set_formatter(std::move(formatter));
+  logger.info(R"("stage":)" + quoted(stage) + R"(,"fraction":)" + nlohmann::json(fraction).dump());
 }
 
 bool log_allows_bar() { return bar_allowed; }

@@ -5,7 +5,8 @@
 
 #include "commands.h"
 
-/// Messages of the program on stderr, one line each.
+/// Messages of the program on stderr, one line of at most 500 characters each; of a longer one the
+/// beginning and the end.
 namespace mesamis {
 
 /// Call once, before anything is logged. With --quiet only errors appear.
@@ -14,6 +15,13 @@ void set_up_log(const CommonOptions& options);
 void log_info(const std::string& message);
 void log_warning(const std::string& message);
 void log_error(const std::string& message);
+
+/// Whether the lines are for programs (--log-json).
+bool log_is_json();
+
+/// For programs: how far a stage has come, in a line of its own, level "progress".
+/// @param fraction  0 to 1.
+void log_progress(const std::string& stage, double fraction);
 
 /// Whether a progress bar may be drawn: stderr is a terminal and its lines are for people.
 bool log_allows_bar();

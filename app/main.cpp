@@ -6,8 +6,13 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 #include "arguments.h"
 #include "commands.h"
@@ -17,6 +22,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/version.h"
 #include "mesamis/files/atomic_file.h"
+#include "streams.h"
 
 namespace mesamis {
 namespace {
@@ -42,7 +48,7 @@ void handle_signals() {
 
 void add_common_options(CLI::App& app, CommonOptions& common) {
   app.add_flag("--quiet", common.quiet, "Nothing on stderr but errors");
-  app.add_flag("--log-json", common.log_json, "Log on stderr as JSON lines");
+  app.add_flag("--log-json", common.log_json, "Log and progress on stderr as JSON, a line each");
   app.add_option("--threads", common.threads, "Threads at most (default: all)")
       ->check(CLI::Range(1, 1024));
   app.add_option("--memory", common.memory_gb,
@@ -72,6 +78,37 @@ void add_commands(CLI::App& app, CommonOptions& common, Action& action) {
   add_slice_command(app, common, action);
 }
 
+/// Writes one line without taking memory.
+void tell(const char* line) {
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, line, std::strlen(line));
+}
+
+[[noreturn]] void end_without_memory() {
+  constexpr const char* kText = "mesamis: not enough memory\n";
+  constexpr const char* kJson = "{\"level\":\"error\",\"message\":\"not enough memory\"}\n";
+  tell(log_is_json() ? kJson : kText);
+  _exit(kExitInput);
+}
+
+/// An exception that nobody catches: thrown where none may be, in our libraries as well, which is
+/// how most of them meet the end of memory.
+[[noreturn]] void on_terminate() noexcept {
+  remove_unfinished_files();
+  try {
+    if (const auto error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    end_without_memory();
+  } catch (...) {  // a bug: ends as one
+  }
+  tell("mesamis: internal error: an exception that nobody expects\n");
+  _exit(kExitInternal);
+}
+
+/// What TBB throws where the system has no thread left; it has no type of its own.
+bool is_lack_of_threads(const std::exception& error) {
+  return std::string_view(error.what()).starts_with("pthread_create");
+}
+
 int run(const Action& action) {
   try {
     return action();
@@ -86,10 +123,17 @@ int run(const Action& action) {
   } catch (const NumericalError& error) {
     log_error(error.what());
     return kExitNotConverged;
+  } catch (const std::filesystem::filesystem_error& error) {
+    log_error(error.path1().string() + ": " + error.code().message());
+    return kExitInput;
   } catch (const std::bad_alloc&) {
     log_error("not enough memory for this input");
     return kExitInput;
   } catch (const std::exception& error) {
+    if (is_lack_of_threads(error)) {
+      log_error("no thread can be started; --threads 1 needs none");
+      return kExitInput;
+    }
     log_error(std::string("internal error: ") + error.what());
     return kExitInternal;
   }
@@ -117,6 +161,7 @@ int run_program(int count, char** arguments) {
   try {
     app.parse(count, arguments);
   } catch (const CLI::Success& request) {  // --help, --version
+    set_up_log(common);
     return app.exit(request);
   } catch (const CLI::ParseError& error) {
     set_up_log(common);
@@ -129,10 +174,21 @@ int run_program(int count, char** arguments) {
   return status;
 }
 
+/// A result that did not reach its reader is none.
+int with_stdout_written(int status) {
+  const int error = flush_stdout();
+  if (error == 0 || status != kExitDone) return status;
+  log_error("stdout: cannot be written: " + std::generic_category().message(error));
+  return kExitInput;
+}
+
 }  // namespace
 }  // namespace mesamis
 
 int main(int count, char** arguments) {
+  std::set_terminate(mesamis::on_terminate);
+  mesamis::open_closed_streams();
+  mesamis::lift_limits();
   mesamis::handle_signals();
-  return mesamis::run_program(count, arguments);
+  return mesamis::with_stdout_written(mesamis::run_program(count, arguments));
 }

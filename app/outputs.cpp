@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "arguments.h"
+#include "interrupt.h"
 #include "mesamis/base/error.h"
 
 namespace mesamis {
@@ -16,9 +18,22 @@ void require_output(const std::filesystem::path& path, const std::vector<std::st
                                            ", found '" + path.string() + "'");
   }
   const auto folder = path.parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+  std::error_code error;
+  const auto type = std::filesystem::status(folder, error).type();
+  using enum std::filesystem::file_type;  // none: a folder that cannot be entered
+  if (!folder.empty() && type != directory && type != none) {
     throw InputError(path.string() + ": there is no folder " + folder.string());
   }
+  require_writable(path);
+}
+
+void require_distinct_files(const Paths& outputs, const Paths& inputs) {
+  as_usage([&] { require_distinct(outputs, inputs); });
+}
+
+void commit(OutputSet& set) {
+  const HeldInterrupts held;
+  set.commit();
 }
 
 std::string listed(const std::string& what, const std::vector<std::string>& extensions) {

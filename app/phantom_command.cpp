@@ -52,6 +52,7 @@ Phantom require_all(const PhantomCommand& command) {
     require_output(command.truth, written_surface_formats(), "--truth");
   }
   if (!command.report.empty()) require_output(command.report, {".json"}, "--report");
+  require_distinct_files({command.output, command.truth, command.report}, {});
   return as_usage([&command] {
     require_valid(command.degrade);
     return make_phantom(command.name, command.size, command.spacing);
@@ -96,12 +97,13 @@ int status_of(const PhantomTruth& truth) {
   return kExitNotConverged;
 }
 
-void write_report(const PhantomCommand& command, const Phantom& phantom,
-                  const PhantomTruth& truth) {
+void write_report(const PhantomCommand& command, const Phantom& phantom, const PhantomTruth& truth,
+                  const OutputSet& set) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   report["settings"] = phantom_settings(command, phantom);
   if (!command.truth.empty()) report["truth"] = truth_json(truth, phantom);
+  report["files"] = files_json(set);
   add_costs(report);
   write_json(command.report, report);
 }
@@ -109,6 +111,7 @@ void write_report(const PhantomCommand& command, const Phantom& phantom,
 int run_phantom(const PhantomCommand& command) {
   if (command.list) return print_list();
   const Phantom phantom = require_all(command);
+  OutputSet set;
   write_nrrd(command.output, degrade(sample_phantom(phantom, command.samples), command.degrade),
              {.type = command.type == "short" ? SampleType::kShort : SampleType::kFloat,
               .gzip = command.gzip});
@@ -117,7 +120,8 @@ int run_phantom(const PhantomCommand& command) {
     truth = make_truth(phantom);
     write_surface(command.truth, truth.surface, {.name = phantom.name});
   }
-  if (!command.report.empty()) write_report(command, phantom, truth);
+  if (!command.report.empty()) write_report(command, phantom, truth, set);
+  commit(set);
   std::cout << phantom.name << ": " << phantom.size[0] << " x " << phantom.size[1] << " x "
             << phantom.size[2] << " voxels";
   if (!command.truth.empty()) {

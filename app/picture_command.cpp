@@ -13,6 +13,7 @@
 #include "mesamis/shape_files/file_kind.h"
 #include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "outputs.h"
 #include "scan.h"
 #include "virtual_display.h"
 
@@ -110,6 +111,8 @@ void draw_mesh_file(const PictureCommand& command) {
 }
 
 int run_picture(const PictureCommand& command) {
+  require_writable(command.output);
+  require_distinct_files({command.output}, {command.input, command.outline});
   const FileKind kind = command.read.raw ? FileKind::kVolume : kind_of(command.input);
   if (kind != FileKind::kVolume && !command.outline.empty()) {
     throw InputError(command.input.string() + ": --outline is for slices of a volume");

@@ -16,6 +16,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kBetweenBars = 100ms;
+constexpr auto kBetweenJson = 500ms;
 constexpr auto kBetweenLines = 2s;
 constexpr double kSecondsBeforeEstimate = 1;
 
@@ -55,7 +56,9 @@ void ProgressDisplay::show(std::string_view stage, double fraction) {
   // A stage that starts over, for instance on the next mesh, is timed anew.
   if (stage != stage_ || fraction < fraction_at_start_) enter(stage, fraction);
   const auto now = Clock::now();
-  if (!log_allows_bar()) {
+  if (log_is_json()) {
+    log_json(now, fraction);
+  } else if (!log_allows_bar()) {
     log_stage(now);
   } else if (!drawn_ || now - last_drawn_ >= kBetweenBars) {
     last_drawn_ = now;
@@ -69,6 +72,13 @@ void ProgressDisplay::log_stage(Clock::time_point now) {
   last_line_ = now;
   logged_ = true;
   log_info(stage_);
+}
+
+void ProgressDisplay::log_json(Clock::time_point now, double fraction) {
+  if (logged_ && now - last_line_ < kBetweenJson) return;
+  last_line_ = now;
+  logged_ = true;
+  log_progress(stage_, fraction);
 }
 
 void ProgressDisplay::enter(std::string_view stage, double fraction) {

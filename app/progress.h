@@ -10,8 +10,9 @@
 namespace mesamis {
 
 /// Shows the progress of long work on stderr. On a terminal: one line with the stage, a bar, the
-/// percentage and the time left in this stage. Otherwise: a log line for each stage, at most one in
-/// two seconds; a shorter stage may have none.
+/// percentage and the time left in this stage. With --log-json: a line of JSON at the beginning of
+/// each stage, then at most one in half a second. Otherwise: a log line for each stage, at most one
+/// in two seconds; a shorter stage may have none.
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(bool quiet) : quiet_(quiet) {}
@@ -29,6 +30,7 @@ class ProgressDisplay {
   void show(std::string_view stage, double fraction);
   void enter(std::string_view stage, double fraction);
   void log_stage(Clock::time_point now);
+  void log_json(Clock::time_point now, double fraction);
   void draw_bar(double fraction);
 
   bool quiet_;

@@ -61,7 +61,7 @@ AdaptedMesh build(const Background& background, const RemeshCommand& command, bo
 }
 
 void write_report(const RemeshCommand& command, const Background& background,
-                  const AdaptedMesh& adapted) {
+                  const AdaptedMesh& adapted, const OutputSet& set) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   report["input"] = {{"mesh", command.mesh.string()},
@@ -74,6 +74,7 @@ void write_report(const RemeshCommand& command, const Background& background,
   report["mesh"] = fit_json(adapted);
   report["remesh"] = remesh_json(adapted.report);
   report["converged"] = adapted.report.converged;
+  report["files"] = files_json(set);
   add_costs(report);
   write_json(command.report, report);
 }
@@ -81,10 +82,13 @@ void write_report(const RemeshCommand& command, const Background& background,
 int run_remesh(const RemeshCommand& command, const CommonOptions& common) {
   require_output(command.output, {".mesh"}, "--output");
   if (!command.report.empty()) require_output(command.report, {".json"}, "--report");
+  require_distinct_files({command.output, command.report}, {command.mesh, command.metric});
   const Background background = read_background(command);
   const AdaptedMesh adapted = build(background, command, common.quiet);
+  OutputSet set;
   write_medit_mesh(command.output, adapted.mesh);
-  if (!command.report.empty()) write_report(command, background, adapted);
+  if (!command.report.empty()) write_report(command, background, adapted, set);
+  commit(set);
   std::cout << adapted.mesh.cells.size() << " tetrahedra, " << adapted.mesh.points.size()
             << " vertices, " << 100 * adapted.fit.unit_edge_fraction
             << " % unit edges, quality at least " << adapted.fit.quality_min << ", on average "

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "arguments.h"
 #include "chosen_scan.h"
 #include "commands.h"
 #include "costs.h"
@@ -25,6 +26,7 @@
 #include "mesamis/shape_files/surface_files.h"
 #include "outputs.h"
 #include "place_options.h"
+#include "process.h"
 #include "progress.h"
 #include "scan.h"
 #include "segment_labels.h"
@@ -37,6 +39,7 @@ namespace fs = std::filesystem;
 
 struct SegmentOptions : SegmentRun {
   SettingsArguments settings;
+  std::optional<double> time_limit;  // s, from the start of the program
 };
 
 /// Options of the files alone, as --frame: no setting of the run depends on them.
@@ -83,8 +86,32 @@ void require_some_output(const SegmentOptions& options) {
       "expected --output, --mesh, --band-mesh, --labelmap or --report, found nothing to write");
 }
 
+/// A Medit mesh has its fields in a file of their own.
+fs::path fields_beside(const fs::path& mesh) { return fs::path(mesh).replace_extension(".sol"); }
+
+Paths outputs_of(const SegmentOptions& options) {
+  Paths outputs{options.labelmap, options.report};
+  for (const auto* paths : {&options.surfaces, &options.meshes, &options.band_meshes}) {
+    outputs.insert(outputs.end(), paths->begin(), paths->end());
+  }
+  for (const fs::path& mesh : options.meshes) {
+    if (lower_extension(mesh) == ".mesh") outputs.push_back(fields_beside(mesh));
+  }
+  return outputs;
+}
+
+Paths inputs_of(const SegmentOptions& options) {
+  const ScanArguments& scan = options.scan;
+  Paths inputs{scan.input,       scan.labels.file,   scan.labels.names,
+               scan.places.mask, scan.places.remove, options.settings.file};
+  const Paths& more = scan.labels.probabilities;
+  inputs.insert(inputs.end(), more.begin(), more.end());
+  return inputs;
+}
+
 void require_outputs(const SegmentOptions& options) {
   require_some_output(options);
+  require_utf8(options.name, "--name");
   for (const fs::path& path : options.surfaces) {
     require_output(path, written_surface_formats(), "--output");
   }
@@ -95,9 +122,13 @@ void require_outputs(const SegmentOptions& options) {
   for (const fs::path& path : options.meshes) {
     require_output(path, written_mesh_formats(), "--mesh");
   }
+  for (const fs::path& path : options.meshes) {
+    if (lower_extension(path) == ".mesh") require_writable(fields_beside(path));
+  }
   for (const fs::path& path : options.band_meshes) require_output(path, {".vtu"}, "--band-mesh");
   if (!options.labelmap.empty()) require_labelmap(options.labelmap);
   if (!options.report.empty()) require_output(options.report, {".json"}, "--report");
+  require_distinct_files(outputs_of(options), inputs_of(options));
 }
 
 /// There must be something to write; which bound left nothing is what the user can change.
@@ -145,15 +176,15 @@ void write_labelmap(const fs::path& path, const TriMesh& surface, const VoxelGri
   write_label_map(path, label_map_of(grid, {&object, 1}));
 }
 
-void write_report(const SegmentOptions& options, const ChosenScan& scan,
-                  const nlohmann::ordered_json& run, const std::optional<MeshOutput>& mesh) {
+void write_report(const SegmentOptions& options, const ChosenScan& scan, nlohmann::ordered_json run,
+                  const OutputSet& set) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   report["input"] = input_json(*scan.facts);
   report["output"] = output_json(options.scan.frame);
   report["object"] = scan.report;
-  report.update(run);
-  if (mesh) report["mesh"]["region"] = region_json(*mesh);
+  report.update(std::move(run));
+  report["files"] = files_json(set);
   add_costs(report);
   write_json(options.report, report);
 }
@@ -164,30 +195,59 @@ void log_surface(const ChosenObject& object, const Parameters& p) {
   for (const std::string& warning : surface_warnings(object, p.level)) log_warning(warning);
 }
 
+/// Enough once the limit has passed.
+HasEnough time_limit(const SegmentOptions& options) {
+  if (!options.time_limit) return {};
+  return [limit = *options.time_limit] { return wall_seconds() >= limit; };
+}
+
+void warn_of_missing_meshes(const SegmentOptions& options, const Result& result) {
+  if (!result.mesh.cells.empty() || (options.meshes.empty() && options.band_meshes.empty())) return;
+  log_warning("--time-limit: no mesh was made in this time, none is written");
+}
+
+/// @param mesh  none for a run that was stopped before its first mesh.
+void write_meshes(const SegmentOptions& options, const Result& result,
+                  const std::optional<MeshOutput>& mesh) {
+  if (result.mesh.cells.empty()) return;
+  const Frame frame = options.scan.frame;
+  for (const fs::path& path : options.meshes) write_mesh(path, *mesh, frame);
+  for (const fs::path& path : options.band_meshes) write_band_mesh(path, result, frame);
+}
+
 int run_on_scan(const SegmentOptions& options, const Settings& settings,
                 const CommonOptions& common, const ChosenScan& scan) {
   ProgressDisplay display(common.quiet);
-  const Result result = run_on_object(scan.object, settings, display.callback());
+  const Result result =
+      run_on_object(scan.object, settings, display.callback(), time_limit(options));
   display.finish();
+  if (result.stopped) warn_of_missing_meshes(options, result);
   log_surface(scan.object, result.parameters);
   const SurfaceCheck check = check_surface(result.surface);
   const Volume& volume = scan.object.volume;
   std::optional<MeshOutput> mesh;  // before any file is written: it may be refused
-  if (!options.meshes.empty()) mesh = make_mesh_output(result, volume, options.mesh);
+  const bool has_mesh = !result.mesh.cells.empty();
+  if (has_mesh && !options.meshes.empty()) mesh = make_mesh_output(result, volume, options.mesh);
   if (!options.surfaces.empty()) require_surface(result);
   const auto surface_as = surface_options(options, result, volume.voxel_size());
+  OutputSet set;
   for (const fs::path& path : options.surfaces) write_surface(path, result.surface, surface_as);
-  for (const fs::path& path : options.meshes) write_mesh(path, *mesh, options.scan.frame);
+  write_meshes(options, result, mesh);
   if (!options.labelmap.empty()) write_labelmap(options.labelmap, result.surface, scan.grid);
-  for (const fs::path& path : options.band_meshes) {
-    write_band_mesh(path, result, options.scan.frame);
-  }
   if (!options.report.empty()) {
-    write_report(options, scan, run_json(settings, result, check), mesh);
+    auto run = run_json(settings, result, check);
+    if (mesh) run["mesh"]["region"] = region_json(*mesh);
+    write_report(options, scan, std::move(run), set);
   }
+  commit(set);
   const Verdict verdict = judge(result, check);
   if (verdict.outcome != Outcome::kKept) log_error(verdict.message);
   return exit_status(verdict.outcome);
+}
+
+void require_one_object(const SegmentOptions& options, bool several) {
+  if (!several || !options.time_limit) return;
+  throw CLI::ValidationError("--time-limit", "expected a run for one object, found several");
 }
 
 int run_segment(const SegmentOptions& options, const CommonOptions& common) {
@@ -195,11 +255,13 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   require_outputs(options);
   require_places(options, settings);
   require_mesh_for(options, settings);
+  require_one_object(options, options.scan.labels.given());
   if (options.scan.labels.given()) return run_labels(options, settings, common);
   if (options.scan.input.empty()) {
     throw CLI::ValidationError("input", "expected a scan, found none");
   }
   const ChosenScan scan = read_chosen_scan(options.scan, settings, common.memory_gb);
+  require_one_object(options, scan.object.parts.has_value());
   if (scan.object.parts) return run_parts(options, settings, scan, common);
   return run_on_scan(options, settings, common, scan);
 }
@@ -225,6 +287,11 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   command->add_option("--report", options->report, "Report: .json");
   add_read_options(*command, options->scan.read);
   add_frame_option(*command, options->scan.frame);
+  command
+      ->add_option("--time-limit", options->time_limit,
+                   "Seconds after which no further mesh is begun; the surface of the last one is "
+                   "written (exit status 4)")
+      ->check(CLI::PositiveNumber);
   command->add_option("--name", options->name, "The object's name in the surfaces written");
   add_settings_options(*command, options->settings);
   command->callback([options, &common, &action] {

@@ -28,17 +28,24 @@ bool holds_objects(const fs::path& path) {
 }
 
 /// Each object with a number of its own: its label, or where layers share labels a running one.
-std::vector<NamedSurface> named_surfaces(const LabelResult& result) {
+std::vector<NamedSurface> named_segments(const std::vector<Segment>& segments) {
   std::vector<NamedSurface> named;
   std::vector<Index> labels;
-  for (const LabelledObject& object : result.objects) labels.push_back(object.segment.label);
+  for (const Segment& s : segments) labels.push_back(s.label);
   std::sort(labels.begin(), labels.end());
   const bool unique = std::adjacent_find(labels.begin(), labels.end()) == labels.end();
-  for (const LabelledObject& object : result.objects) {
-    const Segment& s = object.segment;
+  for (const Segment& s : segments) {
     const Index label = unique ? s.label : static_cast<Index>(named.size()) + 1;
-    named.push_back({s.name, s.colour, label, object.surface});
+    named.push_back({s.name, s.colour, label, {}});
   }
+  return named;
+}
+
+std::vector<NamedSurface> named_surfaces(const LabelResult& result) {
+  std::vector<Segment> segments;
+  for (const LabelledObject& object : result.objects) segments.push_back(object.segment);
+  std::vector<NamedSurface> named = named_segments(segments);
+  for (std::size_t n = 0; n < named.size(); ++n) named[n].surface = result.objects[n].surface;
   return named;
 }
 
@@ -115,16 +122,15 @@ MeshOutput mesh_output(const SegmentRun& run, const LabelResult& result, const V
   return make_mesh_output(*result.mesh, scan, run.mesh, objects);
 }
 
-void write_report(const SegmentRun& run, const LabelResult& result,
-                  const std::vector<SurfaceCheck>& checks, const ChosenScan& scan,
-                  const std::optional<MeshOutput>& mesh) {
+void write_report(const SegmentRun& run, const nlohmann::ordered_json& found, const ChosenScan& scan,
+                  const OutputSet& set) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   if (scan.facts) report["input"] = input_json(*scan.facts);
   report["output"] = output_json(run.scan.frame);
-  report.update(label_run_json(result, checks));
+  report.update(found);
   if (scan.facts) report["object"].update(scan.report);
-  if (mesh) report["mesh"]["region"] = region_json(*mesh);
+  report["files"] = files_json(set);
   add_costs(report);
   write_json(run.report, report);
 }
@@ -154,13 +160,19 @@ int deliver(const SegmentRun& run, const LabelResult& result, const ChosenScan& 
   }
   std::optional<MeshOutput> mesh;
   if (!run.meshes.empty()) mesh = mesh_output(run, result, scan.object.volume);
+  OutputSet set;
   write_surfaces(run, result, wanted.size() > 1);
   for (const fs::path& path : run.meshes) write_mesh(path, *mesh, run.scan.frame);
   for (const fs::path& path : run.band_meshes) write_band_mesh(path, *result.mesh, run.scan.frame);
   if (!run.labelmap.empty()) {
     write_label_map(run.labelmap, label_map_of(scan.grid, found_objects(result)));
   }
-  if (!run.report.empty()) write_report(run, result, checks, scan, mesh);
+  if (!run.report.empty()) {
+    auto found = label_run_json(result, checks);
+    if (mesh) found["mesh"]["region"] = region_json(*mesh);
+    write_report(run, found, scan, set);
+  }
+  commit(set);
   const Verdict verdict = judge(result, checks);
   if (verdict.outcome != Outcome::kKept) log_error(verdict.message);
   return exit_status(verdict.outcome);
@@ -196,6 +208,22 @@ void require_scan_for_mesh(const SegmentRun& run) {
   }
 }
 
+/// The files of objects, whose names are known with the labels, can be written.
+void require_object_files(const SegmentRun& run, const std::vector<Segment>& wanted) {
+  const std::vector<NamedSurface> objects = named_segments(wanted);
+  Paths all;
+  for (const fs::path& path : run.surfaces) {
+    const bool together = holds_objects(path) && !names_each(path);
+    const Paths files = together ? Paths{path} : paths_of(path, objects, wanted.size() > 1);
+    all.insert(all.end(), files.begin(), files.end());
+    if (together && lower_extension(path) == ".obj") {
+      all.push_back(fs::path(path).replace_extension(".mtl"));
+    }
+  }
+  for (const fs::path& path : all) require_writable(path);
+  require_distinct_files(all, {});
+}
+
 /// A NIfTI file has one layer.
 void require_layers(const SegmentRun& run, const std::vector<Segment>& wanted) {
   if (run.labelmap.empty() || lower_extension(run.labelmap) == ".nrrd") return;
@@ -218,6 +246,7 @@ int run_labels(const SegmentRun& run, const Settings& settings, const CommonOpti
   const std::vector<Segment>& wanted =
       request.chosen.empty() ? labels.map.segments : request.chosen;
   require_layers(run, wanted);
+  require_object_files(run, wanted);
   const bool alone = run.scan.input.empty();
   ChosenScan scan;
   if (alone) {
@@ -236,6 +265,7 @@ int run_labels(const SegmentRun& run, const Settings& settings, const CommonOpti
 int run_parts(const SegmentRun& run, const Settings& settings, const ChosenScan& scan,
               const CommonOptions& common) {
   require_error_place(run);
+  require_object_files(run, scan.object.parts->segments);
   ProgressDisplay display(common.quiet);
   const LabelRequest parts{.map = *scan.object.parts, .mesh = run.wants_mesh()};
   const LabelResult result = run_on_labels(scan.object, parts, settings, display.callback());

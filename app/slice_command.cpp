@@ -139,6 +139,7 @@ void print_result(const SliceCommand& command, const SliceResult& result) {
 void require_all(const SliceCommand& command) {
   if (!command.output.empty()) require_output(command.output, {".gcode"}, "--output");
   if (!command.report.empty()) require_output(command.report, {".json"}, "--report");
+  require_distinct_files({command.output, command.report}, {command.surface});
   require_slicer(command.program());
 }
 

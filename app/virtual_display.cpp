@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <vector>
 
 #ifdef __linux__
@@ -17,12 +18,14 @@
 #endif
 
 #include "mesamis/base/error.h"
+#include "mesamis/files/atomic_file.h"
 #include "mesamis/printing/child_process.h"
 
 namespace mesamis {
 namespace {
 
 constexpr int kStartMilliseconds = 30'000;
+constexpr const char* kAuthority = "XAUTHORITY";  // where Xlib finds the cookie
 constexpr const char* kHint = " (install the package xvfb, or set DISPLAY)";
 
 /// The command line, made before fork(): after it nothing may be allocated.
@@ -31,14 +34,26 @@ struct Command {
   std::vector<char*> pointers;
 };
 
-/// @param ready  the descriptor that the server writes its display number to.
-Command server_command(int ready) {
+/// One entry of the file format of libXau: any display, the cookie that opens it.
+std::string authority_bytes() {
+  const std::string method = "MIT-MAGIC-COOKIE-1";
+  std::string cookie(16, '\0');
+  if (getentropy(cookie.data(), cookie.size()) != 0) throw InputError("Xvfb: no random numbers");
+  const auto counted = [](const std::string& text) {
+    return std::string{'\0', static_cast<char>(text.size())} + text;
+  };
+  return "\xff\xff" + counted("") + counted("") + counted(method) + counted(cookie);
+}
+
+/// @param ready      the descriptor that the server writes its display number to.
+/// @param authority  file of the cookie that the server asks for.
+Command server_command(int ready, const std::string& authority) {
   const std::string program = find_program("Xvfb");
   if (program.empty()) {
     throw InputError(std::string("no X display to draw on, and Xvfb is not installed") + kHint);
   }
   Command command{{program, "-displayfd", std::to_string(ready), "-screen", "0", "640x480x24",
-                   "-nolisten", "tcp", "+extension", "GLX", "-noreset"},
+                   "-nolisten", "tcp", "+extension", "GLX", "-noreset", "-auth", authority},
                   {}};
   for (std::string& word : command.words) command.pointers.push_back(word.data());
   command.pointers.push_back(nullptr);
@@ -78,12 +93,14 @@ void end_server(pid_t server) {
 
 }  // namespace
 
-VirtualDisplay::VirtualDisplay() {
+VirtualDisplay::VirtualDisplay() : folder_("display") {
+  const std::string authority = folder_.path() / "authority";
+  write_file(authority, authority_bytes());
   std::array<int, 2> pipe_ends{};
   if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) throw InputError("Xvfb: no pipe can be made");
   const auto [reading, writing] = pipe_ends;
   try {
-    const Command command = server_command(writing);
+    const Command command = server_command(writing, authority);
     const pid_t parent = getpid();
     server_ = fork();
     if (server_ == 0) become_server(command, writing, parent);
@@ -99,9 +116,18 @@ VirtualDisplay::VirtualDisplay() {
     throw InputError(std::string("no X display to draw on, and Xvfb did not start") + kHint);
   }
   name_ = ":" + number;
+  if (const char* before = getenv(kAuthority)) authority_before_ = before;
+  setenv(kAuthority, authority.c_str(), 1);
 }
 
-VirtualDisplay::~VirtualDisplay() { end_server(server_); }
+VirtualDisplay::~VirtualDisplay() {
+  end_server(server_);
+  if (authority_before_) {
+    setenv(kAuthority, authority_before_->c_str(), 1);
+  } else {
+    unsetenv(kAuthority);
+  }
+}
 
 SilentStderr::SilentStderr() {
   std::fflush(stderr);

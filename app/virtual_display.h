@@ -3,17 +3,21 @@
 
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
+
+#include "mesamis/printing/temporary_folder.h"
 
 namespace mesamis {
 
 /// An X display without a screen: the server Xvfb, found by PATH and started as a child process. It
-/// listens to no TCP port, picks a free display number, and ends with this object or with the
-/// thread that made it, also if that is killed.
+/// listens to no TCP port, picks a free display number, lets in only who has its cookie, and ends
+/// with this object or with the thread that made it, also if that is killed. While it lives, the
+/// environment variable XAUTHORITY of the program names the file of the cookie.
 class VirtualDisplay {
  public:
   /// Waits until the server is ready, 30 seconds at most.
-  /// @throws InputError  if Xvfb is not installed or does not start.
+  /// @throws InputError  if Xvfb is not installed or does not start, or as TemporaryFolder.
   VirtualDisplay();
   ~VirtualDisplay();
   VirtualDisplay(const VirtualDisplay&) = delete;
@@ -24,6 +28,8 @@ class VirtualDisplay {
   pid_t server() const { return server_; }
 
  private:
+  TemporaryFolder folder_;  ///< of the cookie
+  std::optional<std::string> authority_before_;
   pid_t server_ = -1;
   std::string name_;
 };

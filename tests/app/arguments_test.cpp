@@ -59,5 +59,36 @@ TEST(Arguments, FailuresStayOnOneLineWhateverTheNames) {
   EXPECT_FAILS(run_program(folder, {"--quiet", "info", "missing.nii"}), 3, "missing.nii");
 }
 
+TEST(Arguments, ALineOfErrorHasAtMost500Characters) {
+  const TempFolder folder;
+  const std::string name(100'000, 'x');
+  write_bytes(folder / "settings.json", "{\"" + name + "\": 1}");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"info", name},
+        {"segment", "scan.nii", "-o", "a." + name},
+        {"segment", "scan.nii", "--report", folder / "r.json", "--settings",
+         folder / "settings.json"},
+        {"segment", "scan.nii", "--preset", name}}) {
+    const ProgramRun run = run_program(folder, arguments);
+    EXPECT_TRUE(run.status == 2 || run.status == 3) << run.status;
+    EXPECT_EQ(run.error_lines(), 1u);
+    EXPECT_LE(run.err.size(), 501u);
+  }
+}
+
+TEST(Arguments, LinksInACircleAndClosedFoldersAreNoBugsOfOurs) {
+  const TempFolder folder;
+  std::filesystem::create_symlink("circle", folder / "circle");
+  const std::string circle = folder / "circle";
+  EXPECT_EQ(run_program(folder, {"info", circle}).status, 3);
+  EXPECT_EQ(run_program(folder, {"info", circle + "/a.nrrd"}).status, 3);
+  EXPECT_EQ(run_program(folder, {"segment", "none.nrrd", "-o", circle + "/a.stl"}).status, 3);
+  EXPECT_EQ(run_program(folder, {"picture", circle, "-o", folder / "a.png"}).status, 3);
+  EXPECT_EQ(run_program(folder, {"study", "none.nrrd", "--reference", "none.stl", "-o", circle,
+                                 "--subsample", "1"})
+                .status,
+            3);
+}
+
 }  // namespace
 }  // namespace mesamis

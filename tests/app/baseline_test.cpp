@@ -35,6 +35,18 @@ ProgramRun baseline(const TempFolder& folder, std::vector<std::string> options) 
 
 json report_in(const TempFolder& folder) { return json::parse(read_bytes(folder / "r.json")); }
 
+TEST(BaselineCommand, SmoothingBeyondAllVoxelsIsRefusedAtOnce) {
+  const TempFolder folder;
+  for (const char* sigma : {"inf", "7e8", "-1", "nan", "100.5"}) {
+    for (const char* method : {"isosurface", "geodesic"}) {
+      if (method[0] == 'g' && !has_geodesic_contour()) continue;
+      EXPECT_FAILS(run_program(folder, {"baseline", "none.nrrd", "-o", folder / "a.stl", "--method",
+                                        method, "--smooth", sigma}),
+                   2, "smooth");
+    }
+  }
+}
+
 TEST(BaselineCommand, MakesAnIsosurface) {
   const TempFolder folder;
   const ProgramRun run = baseline(folder, {"-o", folder / "a.ply", "--smooth", "1", "--triangles",

@@ -347,5 +347,32 @@ TEST(SegmentCommand, LeavesNothingBehindWhenInterrupted) {
   EXPECT_EQ(folder.file_count(), 3) << "the scan, stdout and stderr";
 }
 
+TEST(SegmentCommand, ATimeLimitLeavesTheBestResultSoFar) {
+  const TempFolder folder;
+  const std::string scan = folder / "scan.nrrd";
+  ASSERT_EQ(run_program(folder, {"phantom", "sphere", "--size", "16,16,16", "-o", scan}).status, 0);
+  const auto run = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> words{
+        "segment",    scan,   "-o",       folder / (name + ".stl"), "--quiet",
+        "--max-tets", "2000", "--report", folder / (name + ".json")};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(folder, words);
+  };
+  const ProgramRun stopped = run("a", {"--time-limit", "1e-6", "--mesh", folder / "a.vtu"});
+  EXPECT_EQ(stopped.status, 4) << stopped.err;
+  EXPECT_THAT(stopped.err, testing::HasSubstr("stopped by the time limit before the first mesh"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.vtu"));
+  const auto report = nlohmann::json::parse(read_bytes(folder / "a.json"));
+  EXPECT_EQ(report["stopped"], true);
+  EXPECT_EQ(report["converged"], false);
+  EXPECT_EQ(report["files"].size(), 1u);
+  ASSERT_EQ(run("b", {"--preview"}).status, 0);
+  EXPECT_EQ(read_bytes(folder / "a.stl"), read_bytes(folder / "b.stl"));
+  ASSERT_EQ(run("c", {"--time-limit", "600"}).status, 0);
+  EXPECT_EQ(nlohmann::json::parse(read_bytes(folder / "c.json"))["stopped"], false);
+  EXPECT_FAILS(run("d", {"--time-limit", "0"}), 2, "--time-limit");
+  EXPECT_FAILS(run("d", {"--time-limit", "9", "--labels", scan}), 2, "--time-limit");
+}
+
 }  // namespace
 }  // namespace mesamis

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -72,6 +74,36 @@ TEST_F(VirtualDisplayTest, RunsAsLongAsTheObject) {
   }
   EXPECT_FALSE(is_running(server));
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a child process is left";
+}
+
+/// The first byte of the server's answer to who has no cookie: 0 no, 1 yes, 2 it asks.
+int answer_without_cookie(const std::string& display) {
+  const int connection = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string path = "/tmp/.X11-unix/X" + display.substr(1);
+  path.copy(address.sun_path, sizeof address.sun_path - 1);
+  const char hello[12] = {'l', 0, 11};  // X11, little endian, no name and no data of a cookie
+  char answer = -1;
+  const bool told =
+      connect(connection, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
+      write(connection, hello, sizeof hello) == sizeof hello && read(connection, &answer, 1) == 1;
+  close(connection);
+  return told ? answer : -1;
+}
+
+TEST_F(VirtualDisplayTest, LetsInOnlyWhoHasItsCookie) {
+  const TempFolder place;
+  const Variable temporary("TMPDIR", place.path());
+  const Variable before("XAUTHORITY", "before");
+  {
+    const VirtualDisplay display;
+    EXPECT_EQ(answer_without_cookie(display.name()), 0);
+    EXPECT_STRNE(getenv("XAUTHORITY"), "before");
+    EXPECT_EQ(place.file_count(), 1);
+  }
+  EXPECT_STREQ(getenv("XAUTHORITY"), "before");
+  EXPECT_EQ(place.file_count(), 0);
 }
 
 #ifdef __linux__
