@@ -176,14 +176,14 @@ void write_labelmap(const fs::path& path, const TriMesh& surface, const VoxelGri
   write_label_map(path, label_map_of(grid, {&object, 1}));
 }
 
-void write_report(const SegmentOptions& options, const ChosenScan& scan, nlohmann::ordered_json run,
-                  const OutputSet& set) {
+void write_report(const SegmentOptions& options, const ChosenScan& scan,
+                  const nlohmann::ordered_json& run, const OutputSet& set) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   report["input"] = input_json(*scan.facts);
   report["output"] = output_json(options.scan.frame);
   report["object"] = scan.report;
-  report.update(std::move(run));
+  report.update(run);
   report["files"] = files_json(set);
   add_costs(report);
   write_json(options.report, report);
@@ -237,7 +237,7 @@ int run_on_scan(const SegmentOptions& options, const Settings& settings,
   if (!options.report.empty()) {
     auto run = run_json(settings, result, check);
     if (mesh) run["mesh"]["region"] = region_json(*mesh);
-    write_report(options, scan, std::move(run), set);
+    write_report(options, scan, run, set);
   }
   commit(set);
   const Verdict verdict = judge(result, check);

@@ -12,6 +12,7 @@
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/comparison/surface_pair.h"
+#include "mesamis/files/output_set.h"
 #include "mesamis/method/memory.h"
 #include "mesamis/record/json_file.h"
 #include "mesamis/shape_files/surface_files.h"
@@ -29,6 +30,8 @@ namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kReport = "study.json";
 
 struct StudyCommand {
   fs::path input, reference, folder;
@@ -59,6 +62,7 @@ void require_folder(const fs::path& folder) {
   if (fs::exists(folder) ? !fs::is_directory(folder) : !fs::is_directory(above)) {
     throw InputError(folder.string() + ": expected a folder, or a name in one that exists");
   }
+  require_writable(fs::exists(folder) ? folder / kReport : above / folder.filename());
 }
 
 void make_folder(const fs::path& folder) {
@@ -234,7 +238,7 @@ int run_experiments(Study& study, const std::vector<Experiment>& experiments) {
   for (const Experiment& experiment : experiments) run_experiment(study, experiment);
   nlohmann::ordered_json report = study_json(study.record);
   add_costs(report);
-  write_json(study.command.folder / "study.json", report);
+  write_json(study.command.folder / kReport, report);
   if (!study.remarks.empty()) log_error(study.remarks);
   return exit_status(study.record.outcome());
 }

@@ -84,6 +84,13 @@ TEST_F(Outputs, EveryCommandKnowsItsOwn) {
   EXPECT_FAILS(run({"picture", a, "-o", folder_ / "x/a.png"}), 3, "x/a.png: cannot be written");
 }
 
+TEST_F(Outputs, AStudyKnowsThatItsReportCannotBeWritten) {
+  fs::create_directories(folder_ / "study/study.json");
+  EXPECT_FAILS(run({"study", scan(), "--reference", "none.stl", "-o", folder_ / "study",
+                    "--subsample", "1"}),
+               3, "study.json: cannot be written");
+}
+
 TEST_F(Outputs, TheReportNamesTheSetThatItBelongsTo) {
   const std::string report = folder_ / "a.json";
   ASSERT_EQ(segment({"-o", folder_ / "a.stl", folder_ / "a.ply", "--labelmap", folder_ / "a.nii.gz",

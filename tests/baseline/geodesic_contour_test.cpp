@@ -218,7 +218,8 @@ TEST_F(GeodesicContourTest, RefusesWhatHasNoContour) {
 TEST(GeodesicOptionsTest, AreCheckedOneByOne) {
   const double nan = std::nan("");
   require_valid(GeodesicOptions{});
-  EXPECT_REFUSED(require_valid({.smooth_voxels = -1}), HasSubstr("smooth: expected 0 to 100"));
+  EXPECT_REFUSED(require_valid(GeodesicOptions{.smooth_voxels = -1}),
+                 HasSubstr("smooth: expected 0 to 100"));
   EXPECT_REFUSED(require_valid({.diffusions = -1}), HasSubstr("diffusions"));
   EXPECT_REFUSED(require_valid({.conductance = 0}), HasSubstr("conductance"));
   EXPECT_REFUSED(require_valid({.sigma = 0}), HasSubstr("sigma"));
