@@ -31,6 +31,7 @@ bool holds_objects(const fs::path& path) {
 std::vector<NamedSurface> named_segments(const std::vector<Segment>& segments) {
   std::vector<NamedSurface> named;
   std::vector<Index> labels;
+  labels.reserve(segments.size());
   for (const Segment& s : segments) labels.push_back(s.label);
   std::sort(labels.begin(), labels.end());
   const bool unique = std::adjacent_find(labels.begin(), labels.end()) == labels.end();
@@ -43,6 +44,7 @@ std::vector<NamedSurface> named_segments(const std::vector<Segment>& segments) {
 
 std::vector<NamedSurface> named_surfaces(const LabelResult& result) {
   std::vector<Segment> segments;
+  segments.reserve(result.objects.size());
   for (const LabelledObject& object : result.objects) segments.push_back(object.segment);
   std::vector<NamedSurface> named = named_segments(segments);
   for (std::size_t n = 0; n < named.size(); ++n) named[n].surface = result.objects[n].surface;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  available_memory.h
   error.h
   frame.h
   grid_place.h
@@ -11,5 +12,6 @@ set(ROOM_HEADERS
   types.h
   version.h)
 set(ROOM_SOURCES
+  available_memory.cpp
   parallel.cpp
   sym3.cpp)

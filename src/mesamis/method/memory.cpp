@@ -5,8 +5,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "mesamis/base/available_memory.h"
 #include "mesamis/base/error.h"
-#include "mesamis/method/available_memory.h"
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/prepare.h"
 #include "mesamis/segment/grid_amis.h"

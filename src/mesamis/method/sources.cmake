@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
-  available_memory.h
   chosen_run.h
   expected_error.h
   iteration.h
@@ -15,7 +14,6 @@ set(ROOM_HEADERS
   setting_table.h
   settings.h)
 set(ROOM_SOURCES
-  available_memory.cpp
   chosen_run.cpp
   expected_error.cpp
   follow_image.cpp

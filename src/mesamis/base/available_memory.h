@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace mesamis {
+
+/// What the machine can still give to this process: what the system counts as available, within
+/// the limits of the process's control group and of those above it (versions 1 and 2). Files kept
+/// in memory count as available.
+/// @param root  the folder that holds the system's own files proc and sys; another one for tests.
+/// @return bytes, 0 at least; nothing where the system does not tell. Never throws.
+std::optional<double> available_memory(const std::filesystem::path& root = "/");
+
+}  // namespace mesamis
