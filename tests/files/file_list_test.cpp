@@ -2,6 +2,10 @@
 #include "mesamis/files/file_list.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
 
 #include "support/temp_folder.h"
 #include "support/throws.h"
@@ -34,8 +38,38 @@ TEST(FileList, SizeIsThatOfAFile) {
   const TempFolder folder;
   write_bytes(folder / "a", "12345");
   EXPECT_EQ(size_of(folder / "a"), 5u);
-  EXPECT_REFUSED(size_of(folder / "none"), HasSubstr("none: cannot be read"));
+  EXPECT_REFUSED(size_of(folder / "none"),
+                 HasSubstr("none: cannot be read: no such file or directory"));
   EXPECT_REFUSED(size_of(folder.path()), HasSubstr("cannot be read"));
+}
+
+/// Each reason in the system's words: what is forbidden is there.
+TEST(FileList, WhatCannotBeReachedIsRefusedWithItsReason) {
+  const TempFolder folder;
+  std::filesystem::create_symlink("loop", folder / "loop");
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const std::string long_name(300, 'a');
+  for (const auto& require : {require_there, require_file}) {
+    EXPECT_NO_THROW(require("/proc/self/status"));
+    EXPECT_REFUSED(require(folder / "none"),
+                   HasSubstr("none: cannot be read: no such file or directory"));
+    EXPECT_REFUSED(require(folder / "loop"), HasSubstr("levels of symbolic links"));
+    EXPECT_REFUSED(require(folder / long_name), HasSubstr("cannot be read: file name too long"));
+    EXPECT_REFUSED(require(folder / "pipe"), HasSubstr("found neither"));
+    EXPECT_REFUSED(require("/dev/null"), HasSubstr("found neither"));
+  }
+  EXPECT_NO_THROW(require_there(folder.path()));
+  EXPECT_REFUSED(require_file(folder.path()), HasSubstr("expected a file, found a directory"));
+  EXPECT_EQ(reason_of(EACCES), "permission denied");
+}
+
+TEST(FileList, AFileInAForbiddenFolderIsNotCalledMissing) {
+  if (geteuid() == 0) GTEST_SKIP() << "nothing is forbidden to this user";
+  const TempFolder folder;
+  write_bytes(folder / "closed/a", "1");
+  std::filesystem::permissions(folder / "closed", std::filesystem::perms::none);
+  EXPECT_REFUSED(size_of(folder / "closed/a"), HasSubstr("cannot be read: permission denied"));
+  std::filesystem::permissions(folder / "closed", std::filesystem::perms::owner_all);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include "mesamis/files/file_list.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <fstream>
 #include <system_error>
 
 #include "mesamis/files/refuse.h"
@@ -25,17 +27,51 @@ std::vector<fs::path> collect(const fs::path& directory) {
       refuse(directory, say("expected at most ", kMostFiles, " files, found more"));
     }
   }
-  if (error) refuse(directory, "cannot be read: " + error.message());
+  if (error) refuse(directory, "cannot be read: " + reason_of(error));
   std::sort(files.begin(), files.end());
   return files;
 }
 
 }  // namespace
 
+std::string reason_of(const std::error_code& error) { return lower(error.message()); }
+
+std::string reason_of(int error_number) {
+  return reason_of(std::error_code(error_number, std::generic_category()));
+}
+
+void require_there(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found)
+    refuse(path, "cannot be read: no such file or directory");
+  if (error) refuse(path, "cannot be read: " + reason_of(error));
+  if (!fs::is_directory(status) && !fs::is_regular_file(status)) {
+    refuse(path, "expected a file or a directory, found neither");
+  }
+  const std::string why = fs::is_directory(status) ? "" : why_unreadable(path);
+  if (!why.empty()) refuse(path, "cannot be read: " + why);
+}
+
+void require_file(const fs::path& path) {
+  require_there(path);
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    refuse(path, "cannot be read: expected a file, found a directory");
+  }
+}
+
+std::string why_unreadable(const fs::path& file) {
+  errno = 0;
+  const std::ifstream in(file, std::ios::binary);
+  return in ? "" : reason_of(errno);
+}
+
 std::uint64_t size_of(const fs::path& file) {
+  require_file(file);
   std::error_code error;
   const auto size = fs::file_size(file, error);
-  if (error) refuse(file, "cannot be read: " + error.message());
+  if (error) refuse(file, "cannot be read: " + reason_of(error));
   return size;
 }
 

@@ -3,12 +3,30 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <system_error>
 #include <vector>
 
 namespace mesamis::detail {
 
+/// @return  what the system says of an error, in lower case: "permission denied".
+std::string reason_of(const std::error_code& error);
+std::string reason_of(int error_number);
+
+/// @throws InputError  if there is neither a file that can be read nor a directory of this path,
+/// with
+///                     the reason: nothing is there, no permission, a loop of links, a name too
+///                     long, or something whose reading could wait for ever, a pipe or a device.
+void require_there(const std::filesystem::path& path);
+
+/// @throws InputError  as require_there(), and for a directory.
+void require_file(const std::filesystem::path& path);
+
+/// @return  why a file cannot be opened for reading; empty if it can.
+std::string why_unreadable(const std::filesystem::path& file);
+
 /// @return  the size of a file in bytes.
-/// @throws InputError  if it is not a file or cannot be read.
+/// @throws InputError  as require_file().
 std::uint64_t size_of(const std::filesystem::path& file);
 
 /// @return  the regular files of a directory and of those below it, in the order of their paths.

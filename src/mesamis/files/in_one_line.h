@@ -6,22 +6,12 @@
 #include <new>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "mesamis/base/error.h"
+#include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 
 namespace mesamis::detail {
-
-/// @throws InputError  if there is neither a file nor a directory of this path.
-inline void require_there(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) refuse(path, "no such file or directory");
-  if (!std::filesystem::is_directory(status) && !std::filesystem::is_regular_file(status)) {
-    refuse(path, "expected a file or a directory, found neither");
-  }
-}
 
 /// Runs the work of a reader on a path that is there. Every failure becomes an InputError of one
 /// line that begins with the path and names the broken file, where that is another one.

@@ -2,6 +2,7 @@
 set(ROOM_HEADERS
   atomic_file.h
   output_set.h
+  read_limits.h
   sha256.h)
 # For the rooms above alone: not installed.
 set(ROOM_INNER_HEADERS
@@ -10,12 +11,14 @@ set(ROOM_INNER_HEADERS
   deflate.h
   file_list.h
   in_one_line.h
+  memory_budget.h
   number_type.h
   owned_file.h
   refuse.h
   text_scan.h
   text_writer.h
-  xml.h)
+  xml.h
+  zip_archive.h)
 set(ROOM_SOURCES
   atomic_file.cpp
   byte_source.cpp
@@ -24,6 +27,8 @@ set(ROOM_SOURCES
   output_set.cpp
   owned_file.cpp
   pending_file.cpp
+  memory_budget.cpp
   refuse.cpp
   sha256.cpp
-  xml.cpp)
+  xml.cpp
+  zip_archive.cpp)
