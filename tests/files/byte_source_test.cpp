@@ -2,6 +2,7 @@
 #include "mesamis/files/byte_source.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "support/scan_bytes.h"
 #include "support/temp_folder.h"
@@ -24,6 +25,12 @@ std::string read(ByteSource& source, std::size_t n) {
   std::string bytes(n, '\0');
   bytes.resize(source.read(bytes.data(), n));
   return bytes;
+}
+
+std::string read_whole(const std::filesystem::path& file, double memory_gb = 1,
+                       MostBytes most = nullptr) {
+  MemoryBudget budget(file, {memory_gb});
+  return read_all(file, budget, most);
 }
 
 TEST(ByteSource, GivesTheSameBytesPlainAndPacked) {
@@ -50,7 +57,7 @@ TEST(ByteSource, GivesTheSameBytesPlainAndPacked) {
 TEST(ByteSource, JoinedGzipFilesAreOneAndPaddingIsPassedOver) {
   const TempFolder folder;
   write_bytes(folder / "two", packed("first ") + packed("second") + std::string(100, '\0'));
-  EXPECT_EQ(read_all(folder / "two"), "first second");
+  EXPECT_EQ(read_whole(folder / "two"), "first second");
 }
 
 TEST(ByteSource, ReadAllGivesTheWholeFile) {
@@ -58,26 +65,60 @@ TEST(ByteSource, ReadAllGivesTheWholeFile) {
   for (const std::size_t size : {0u, 1u, 1u << 22, (1u << 22) + 1}) {
     const std::string bytes = sample(size);
     write_bytes(folder / "a", bytes);
-    EXPECT_TRUE(read_all(folder / "a") == bytes) << size;
+    EXPECT_TRUE(read_whole(folder / "a") == bytes) << size;
   }
+}
+
+/// 40 MB in 40 kB: refused before they are unpacked.
+TEST(ByteSource, ReadAllClaimsTheBytesBeforeItTakesThem) {
+  const TempFolder folder;
+  write_bytes(folder / "bomb.gz", packed(std::string(40'000'000, '\0')));
+  write_bytes(folder / "plain", std::string(2'000'000, 'x'));
+  EXPECT_REFUSED(read_whole(folder / "bomb.gz", 0.02), HasSubstr("bomb.gz: memory: expected a"));
+  EXPECT_REFUSED(read_whole(folder / "plain", 0.001), HasSubstr("claims 2 MB"));
+  MemoryBudget budget(folder / "plain", {0.0021});
+  EXPECT_EQ(read_all(folder / "plain", budget).size(), 2'000'000u);
+  EXPECT_NEAR(static_cast<double>(budget.held()), 2e6, 100);
+  EXPECT_EQ(read_whole(folder / "bomb.gz", 0.2).size(), 40'000'000u);
+}
+
+TEST(ByteSource, ReadAllStopsWhereTheFirstBytesJustifyNoMore) {
+  const TempFolder folder;
+  const std::string bytes = "7" + std::string(40'000'000, 'x');
+  write_bytes(folder / "a.gz", packed(bytes));
+  write_bytes(folder / "b.gz", packed("0" + bytes));
+  const auto most = [](std::string_view first) {
+    return std::uint64_t{1000} * static_cast<unsigned char>(first[0] - '0');
+  };
+  EXPECT_EQ(read_whole(folder / "a.gz", 0.001, most), bytes.substr(0, 7000));
+  EXPECT_REFUSED(read_whole(folder / "b.gz", 0.001, most), HasSubstr("memory"));
+}
+
+/// A pipe that nobody writes would be waited for for ever.
+TEST(ByteSource, APipeIsRefusedWithoutWaiting) {
+  const TempFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_REFUSED(ByteSource(folder / "pipe", Packing::kPlain),
+                 HasSubstr("expected a file or a directory, found neither"));
 }
 
 TEST(ByteSource, CutOffOrBrokenDataAreRefused) {
   const TempFolder folder;
   const std::string whole = packed(sample(100'000));
   write_bytes(folder / "cut", whole.substr(0, whole.size() / 2));
-  EXPECT_REFUSED(read_all(folder / "cut"), HasSubstr("cut: the compressed data are cut off"));
+  EXPECT_REFUSED(read_whole(folder / "cut"), HasSubstr("cut: the compressed data are cut off"));
   std::string damaged = whole;
   damaged[damaged.size() - 8] ^= 1;  // the check sum
   write_bytes(folder / "damaged", damaged);
-  EXPECT_REFUSED(read_all(folder / "damaged"),
+  EXPECT_REFUSED(read_whole(folder / "damaged"),
                  HasSubstr("damaged: the compressed data are broken"));
 }
 
 TEST(ByteSource, AFileThatIsMissingOrTooShortIsRefused) {
   const TempFolder folder;
   write_bytes(folder / "a", "12345");
-  EXPECT_REFUSED(ByteSource(folder / "none", Packing::kPlain), HasSubstr("none: cannot be read"));
+  EXPECT_REFUSED(ByteSource(folder / "none", Packing::kPlain),
+                 HasSubstr("none: cannot be read: no such file or directory"));
   EXPECT_REFUSED(ByteSource(folder.path(), Packing::kPlain), HasSubstr("cannot be read"));
   EXPECT_REFUSED(ByteSource(folder / "a", Packing::kPlain, 6),
                  HasSubstr("should begin at byte 6, but the file has 5"));

@@ -13,7 +13,14 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-XmlElement parse(const std::string& text) { return parse_xml("a.xml", text).root; }
+/// Where nothing else is said, a GB is more than enough.
+XmlDocument parse_within(const std::string& text, const XmlOptions& options = {},
+                         double memory_gb = 1) {
+  MemoryBudget budget("a.xml", {memory_gb});
+  return parse_xml("a.xml", text, budget, options);
+}
+
+XmlElement parse(const std::string& text) { return parse_within(text).root; }
 
 std::string repeated(const std::string& text, std::size_t times) {
   std::string out;
@@ -99,6 +106,20 @@ TEST(Xml, NumbersOfElementsAttributesAndNamesAreBounded) {
   EXPECT_REFUSED(parse("<a>" + names + "</a>"), HasSubstr("at most 10000 different names"));
 }
 
+/// Elements cost some fifty times their bytes: they are claimed before they are made.
+TEST(Xml, TheTreeIsClaimedAsItGrowsAndHeldAsFarAsItIsKept) {
+  const std::string tree = "<a>" + repeated("<b c='1'/>", 100'000) + "</a>";
+  MemoryBudget budget("a.xml", {0.1});
+  EXPECT_NO_THROW(parse_xml("a.xml", tree, budget));
+  EXPECT_GT(budget.held(), 100'000 * sizeof(XmlElement));
+  EXPECT_REFUSED(parse_within(tree, {}, 0.01), AllOf(HasSubstr("memory"), HasSubstr("of XML")));
+  EXPECT_REFUSED(parse_within("<a>" + std::string(6'000'000, ' ') + "</a>", {}, 0.01),
+                 HasSubstr("memory"));
+  MemoryBudget small("a.xml", {0.01});
+  parse_xml("a.xml", tree, small, {.consume = [](const auto&, auto) { return true; }});
+  EXPECT_LT(small.held(), 1000u);
+}
+
 TEST(Xml, TagsAndCommentsAreBoundedAndTextIsNot) {
   const std::string long_text(3 << 20, ' ');
   EXPECT_EQ(parse("<a>" + long_text + "</a>").text.size(), long_text.size());
@@ -116,7 +137,7 @@ TEST(Xml, ConsumedElementsAreNotKept) {
     return false;
   };
   const std::string text = "<a><b>" + repeated("<c>7</c>", 600'000) + "<d/></b></a>";
-  const XmlElement root = parse_xml("a.xml", text, {.consume = consume}).root;
+  const XmlElement root = parse_within(text, {.consume = consume}).root;
   EXPECT_EQ(count, 600'000u);
   EXPECT_EQ(paths, "a/b/d a/b ");
   EXPECT_EQ(root.child("b")->children.size(), 1u);
@@ -126,19 +147,19 @@ TEST(Xml, AnErrorOfTheConsumerReachesTheCaller) {
   const auto consume = [](const XmlElement&, std::string_view) -> bool {
     throw InputError("a.xml: no");
   };
-  EXPECT_REFUSED(parse_xml("a.xml", "<a><b/></a>", {.consume = consume}), HasSubstr("a.xml: no"));
+  EXPECT_REFUSED(parse_within("<a><b/></a>", {.consume = consume}), HasSubstr("a.xml: no"));
 }
 
 TEST(Xml, RawDataEndTheDocument) {
   const std::string raw("\0<&]]>\xff_", 8);
   const std::string text =
       "<V><P>1</P><AppendedData encoding=\"raw\">\n _" + raw + "</AppendedData>";
-  const XmlDocument document = parse_xml("a.xml", text, {.ends_at_appended_data = true});
+  const XmlDocument document = parse_within(text, {.ends_at_appended_data = true});
   EXPECT_EQ(document.appended, raw + "</AppendedData>");
   EXPECT_EQ(document.root.child("AppendedData")->attribute("encoding"), "raw");
   EXPECT_EQ(document.root.child("P")->text, "1");
   EXPECT_REFUSED(parse(text), HasSubstr("broken XML"));
-  EXPECT_REFUSED(parse_xml("a.xml", "<V><AppendedData>", {.ends_at_appended_data = true}),
+  EXPECT_REFUSED(parse_within("<V><AppendedData>", {.ends_at_appended_data = true}),
                  HasSubstr("expected the mark _"));
 }
 
@@ -146,7 +167,7 @@ TEST(Xml, RawDataEndTheDocument) {
 TEST(Xml, RawDataAreFoundAcrossPieces) {
   for (std::size_t size = 65'500; size < 65'560; ++size) {
     const std::string text = "<V>" + std::string(size, ' ') + "<AppendedData> _raw";
-    ASSERT_EQ(parse_xml("a.xml", text, {.ends_at_appended_data = true}).appended, "raw") << size;
+    ASSERT_EQ(parse_within(text, {.ends_at_appended_data = true}).appended, "raw") << size;
   }
 }
 

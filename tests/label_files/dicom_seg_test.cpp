@@ -7,6 +7,7 @@
 #include "support/seg_bytes.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
+#include "support/wide_budget.h"
 
 namespace mesamis::detail {
 namespace {
@@ -18,13 +19,15 @@ using testing::HasSubstr;
 LabelFile read(const SegBytes& seg) {
   const TempFolder folder;
   write_bytes(folder / "a.dcm", seg.bytes());
-  return read_dicom_labels(folder / "a.dcm");
+  WideBudget budget;
+  return read_dicom_labels(folder / "a.dcm", budget);
 }
 
 ProbabilityFile read_shares(const SegBytes& seg) {
   const TempFolder folder;
   write_bytes(folder / "a.dcm", seg.bytes());
-  return read_dicom_probabilities(folder / "a.dcm");
+  WideBudget budget;
+  return read_dicom_probabilities(folder / "a.dcm", budget);
 }
 
 /// The frame's pixels times a label, as the file holds them.
@@ -166,7 +169,8 @@ TEST(DicomSeg, RleFramesOfALabelMap) {
   bytes += std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
   const TempFolder folder;
   write_bytes(folder / "a.dcm", bytes);
-  const LabelMap map = read_dicom_labels(folder / "a.dcm").map;
+  WideBudget budget;
+  const LabelMap map = read_dicom_labels(folder / "a.dcm", budget).map;
   EXPECT_EQ(map.layers[0][2], 255);
   EXPECT_EQ(map.layers[0][14], 0);
   EXPECT_THAT(std::vector<int>(map.layers[0].begin() + 15, map.layers[0].end()), Each(1));
@@ -183,6 +187,19 @@ TEST(DicomSeg, OverlapsAreBoundedByTheBytesOfTheFile) {
   EXPECT_EQ(read(seg).map.layers.size(), 40u);
   seg.frames.push_back({1, {0, 0, 3e5}, {1}});
   EXPECT_REFUSED(read(seg), HasSubstr("8192 voxels per byte"));
+}
+
+/// Two frames far from one another: most voxels are in no frame.
+TEST(DicomSeg, LayersAreClaimedBeforeTheyAreMade) {
+  SegBytes seg = small_seg();
+  seg.slice_spacing = 1;
+  for (SegFrame& frame : seg.frames) frame.position[2] *= 50'000;
+  const TempFolder folder;
+  write_bytes(folder / "a.dcm", seg.bytes());
+  MemoryBudget small("a.dcm", {0.001}), enough("a.dcm", {0.1});
+  EXPECT_REFUSED(read_dicom_labels(folder / "a.dcm", small), HasSubstr("for labels"));
+  EXPECT_REFUSED(read_dicom_probabilities(folder / "a.dcm", small), HasSubstr("memory"));
+  EXPECT_NO_THROW(read_dicom_labels(folder / "a.dcm", enough));
 }
 
 }  // namespace

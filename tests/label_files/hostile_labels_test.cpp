@@ -153,5 +153,43 @@ TEST(HostileLabels, SmallFilesDoNotAskForMemory) {
   EXPECT_LT(peak_mb() - before, 100);
 }
 
+/// Samples and labels of a file that holds what it claims, and extensions of the header that
+/// repeat.
+TEST(HostileLabels, WhatIsReadIsClaimedBeforeItIsTaken) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.dim = {3, 200, 200, 100, 1, 1, 1, 1};
+  nifti.datatype = 2, nifti.bitpix = 8;
+  const std::string labels(4'000'000, '\1');
+  write_bytes(folder / "a.nii.gz", packed(nifti.header() + labels));
+  EXPECT_REFUSED(read_label_map(folder / "a.nii.gz", {0.023}), HasSubstr("memory: expected"));
+  EXPECT_NO_THROW(read_label_map(folder / "a.nii.gz", {0.025}));
+  EXPECT_REFUSED(read_probabilities({folder / "a.nii.gz"}, {0.03}), HasSubstr("memory"));
+  EXPECT_NO_THROW(read_probabilities({folder / "a.nii.gz"}, {0.033}));
+  const std::vector<std::filesystem::path> twice{folder / "a.nii.gz", folder / "a.nii.gz"};
+  EXPECT_REFUSED(read_probabilities(twice, {0.033}), HasSubstr("memory"));
+  EXPECT_NO_THROW(read_probabilities(twice, {0.05}));
+  nifti = {};
+  nifti.vox_offset = 352 + 40 * 1'000'008;
+  std::string header = nifti.header();
+  header[348] = 1;
+  for (int n = 0; n < 40; ++n) {
+    header += bytes_of(1'000'008) + bytes_of(0) + std::string(1'000'000, ' ');
+  }
+  write_bytes(folder / "b.nii.gz", packed(header + bytes_of_all(std::vector<std::int16_t>(60, 1))));
+  const LabelFile file = read_label_map(folder / "b.nii.gz", {0.02});  // its labels are well
+  EXPECT_THAT(file.warnings, testing::Contains(HasSubstr("for header extensions")));
+}
+
+TEST(HostileLabels, DataOutsideOfTheHeadersFolderAreNotRead) {
+  const TempFolder folder;
+  write_bytes(folder / "data", std::string(8, '\1'));
+  write_bytes(folder / "in/a.nhdr",
+              "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"
+              "data file: ../data\n");
+  EXPECT_REFUSED(read_label_map(folder / "in/a.nhdr"), HasSubstr("the header's folder"));
+  EXPECT_EQ(read_label_map(folder / "in/a.nhdr", {0, true}).map.layers[0][7], 1);
+}
+
 }  // namespace
 }  // namespace mesamis

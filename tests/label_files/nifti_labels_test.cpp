@@ -10,6 +10,7 @@
 #include "support/expect_near.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
+#include "support/wide_budget.h"
 
 namespace mesamis::detail {
 namespace {
@@ -17,6 +18,12 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+
+std::vector<Segment> segments_of(const std::filesystem::path& file,
+                                 const std::vector<std::string>& extensions) {
+  WideBudget budget;
+  return segments_in_extensions(file, extensions, budget);
+}
 
 // As TotalSegmentator writes it, with NUL characters behind.
 const std::string kCaret =
@@ -32,23 +39,23 @@ const std::string kCaret =
 TEST(NiftiLabels, AreThoseOfTheCaretExtension) {
   const std::vector<Segment> expected{{"spleen", 1, 0, {0, 255, 128}},
                                       {"rib & co", 92, 0, default_colour(92)}};
-  EXPECT_EQ(segments_in_extensions("f", {"AFNI or other", kCaret}), expected);
-  EXPECT_THAT(segments_in_extensions("f", {"AFNI or other"}), IsEmpty());
-  EXPECT_THAT(segments_in_extensions("f", {}), IsEmpty());
+  EXPECT_EQ(segments_of("f", {"AFNI or other", kCaret}), expected);
+  EXPECT_THAT(segments_of("f", {"AFNI or other"}), IsEmpty());
+  EXPECT_THAT(segments_of("f", {}), IsEmpty());
 }
 
 TEST(NiftiLabels, BrokenOnesAreRefused) {
-  EXPECT_REFUSED(segments_in_extensions("f", {kCaret.substr(0, 300)}), HasSubstr("f: "));
-  EXPECT_REFUSED(segments_in_extensions(
-                     "f", {"<CaretExtension><Label Key=\"70000\">a</Label></CaretExtension>"}),
-                 HasSubstr("Key of 0 to 65535 in the header extension, found \"70000\""));
+  EXPECT_REFUSED(segments_of("f", {kCaret.substr(0, 300)}), HasSubstr("f: "));
+  EXPECT_REFUSED(
+      segments_of("f", {"<CaretExtension><Label Key=\"70000\">a</Label></CaretExtension>"}),
+      HasSubstr("Key of 0 to 65535 in the header extension, found \"70000\""));
 }
 
 TEST(NiftiLabels, ExtensionReadsBack) {
   const std::vector<Segment> segments{{"a < b & \"c\"", 1, 0, {1, 2, 3}},
                                       {"Hüfte", 65535, 0, {255, 254, 0}}};
-  EXPECT_EQ(segments_in_extensions("f", {caret_extension(segments)}), segments);
-  EXPECT_THAT(segments_in_extensions("f", {caret_extension({})}), IsEmpty());
+  EXPECT_EQ(segments_of("f", {caret_extension(segments)}), segments);
+  EXPECT_THAT(segments_of("f", {caret_extension({})}), IsEmpty());
 }
 
 VoxelGrid turned_grid(double angle, bool left_handed) {
@@ -65,6 +72,7 @@ VoxelGrid turned_grid(double angle, bool left_handed) {
 /// With the code of the sform set to 0 the qform must place the voxels at the same points.
 TEST(NiftiLabels, BothFormsPlaceTheGrid) {
   const TempFolder folder;
+  WideBudget budget;
   for (const double angle : {0.0, 0.3, 1.6, 3.1415926535897931, -2.5}) {
     for (const bool left_handed : {false, true}) {
       const VoxelGrid grid = turned_grid(angle, left_handed);
@@ -72,7 +80,7 @@ TEST(NiftiLabels, BothFormsPlaceTheGrid) {
         std::string header = nifti_header(grid, 1, "<CaretExtension/>");
         header.replace(254, 1, 1, with_sform ? '\1' : '\0');
         write_bytes(folder / "a.nii", header + std::string(24, '\0'));
-        const ScanFile scan = open_nifti(folder / "a.nii");
+        const ScanFile scan = open_nifti(folder / "a.nii", {budget});
         EXPECT_THAT(scan.warnings, IsEmpty());
         EXPECT_THAT(scan.grid.size, ElementsAre(2, 3, 4));
         for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
@@ -81,7 +89,8 @@ TEST(NiftiLabels, BothFormsPlaceTheGrid) {
       }
     }
   }
-  EXPECT_THAT(nifti_extensions(folder / "a.nii"), ElementsAre(HasSubstr("<CaretExtension/>")));
+  EXPECT_THAT(nifti_extensions(folder / "a.nii", budget),
+              ElementsAre(HasSubstr("<CaretExtension/>")));
 }
 
 }  // namespace

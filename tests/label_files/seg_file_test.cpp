@@ -7,6 +7,7 @@
 #include "support/seg_bytes.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
+#include "support/wide_budget.h"
 
 namespace mesamis::detail {
 namespace {
@@ -18,7 +19,8 @@ using testing::HasSubstr;
 SegFile open(const SegBytes& seg) {
   const TempFolder folder;
   write_bytes(folder / "a.dcm", seg.bytes());
-  return open_seg(folder / "a.dcm");
+  WideBudget budget;
+  return open_seg(folder / "a.dcm", budget);
 }
 
 TEST(SegFile, ReadsFramesOfBitsThatCrossBytes) {
@@ -30,10 +32,11 @@ TEST(SegFile, ReadsFramesOfBitsThatCrossBytes) {
       coded.coding = coding;
       coded.in_open_sequences = in_open_sequences;
       const SegFile seg = open(coded);
+      WideBudget budget;
       ASSERT_EQ(seg.number.size(), 3u);
       std::vector<float> pixels;
       for (std::size_t frame = 0; frame < 3; ++frame) {
-        read_frame(seg, frame, pixels);
+        read_frame(seg, frame, pixels, budget);
         EXPECT_THAT(pixels, ElementsAreArray(bytes.frames[frame].pixels));
       }
     }

@@ -10,6 +10,7 @@
 #include "support/seg_bytes.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
+#include "support/wide_budget.h"
 
 namespace mesamis::detail {
 namespace {
@@ -23,7 +24,8 @@ SegGrid grid_of(SegBytes seg, const std::vector<double>& heights) {
   seg.frames.clear();
   for (const double height : heights) seg.frames.push_back({1, {10, 20, height}, {}});
   write_bytes(folder / "a.dcm", seg.bytes());
-  const DicomFile file = read_dicom_file(folder / "a.dcm");
+  WideBudget budget;
+  const DicomFile file = read_dicom_file(folder / "a.dcm", budget);
   return grid_of_frames(file, pixels_of(file, PixelUse::kLabels));
 }
 
@@ -77,7 +79,8 @@ TEST(SegGrid, LiesObliquely) {
   seg.orientation = {c, s, 0, 0, 0, -1};  // the normal is row x column: (-s, c, 0)
   for (int k = 0; k < 3; ++k) seg.frames.push_back({1, {1 - s * k * 3, 2 + c * k * 3, 5}, {}});
   write_bytes(folder / "a.dcm", seg.bytes());
-  const DicomFile file = read_dicom_file(folder / "a.dcm");
+  WideBudget budget;
+  const DicomFile file = read_dicom_file(folder / "a.dcm", budget);
   const VoxelGrid grid = grid_of_frames(file, pixels_of(file, PixelUse::kLabels)).grid;
   EXPECT_NEAR(grid.spacing.z, 3, 1e-9);
   expect_near(grid.to_world({0, 0, 6}), {1 - 6 * s, 2 + 6 * c, 5}, 1e-9);
@@ -97,7 +100,8 @@ TEST(SegGrid, RefusesFramesThatDifferInTheirPlane) {
   const TempFolder folder;
   const auto refused = [&folder](const SegBytes& seg, const char* why) {
     write_bytes(folder / "a.dcm", seg.bytes());
-    const DicomFile file = read_dicom_file(folder / "a.dcm");
+    WideBudget budget;
+    const DicomFile file = read_dicom_file(folder / "a.dcm", budget);
     EXPECT_REFUSED(grid_of_frames(file, pixels_of(file, PixelUse::kLabels)), HasSubstr(why));
   };
   SegBytes seg = small_seg();

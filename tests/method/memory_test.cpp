@@ -6,6 +6,7 @@
 #include <array>
 
 #include "mesamis/method/parameters.h"
+#include "support/throws.h"
 
 namespace mesamis {
 namespace {
@@ -71,6 +72,19 @@ TEST(MemoryNeeded, KnowsTheStrideThatIsChosen) {
   EXPECT_EQ(memory_needed(volume, chosen), memory_needed(volume, asked));
   asked.stride = kEveryVoxel;
   EXPECT_LT(memory_needed(volume, chosen), memory_needed(volume, asked));
+}
+
+/// Samples that are still to be read need memory too.
+TEST(RequireMemory, CountsWhatIsStillTaken) {
+  const Volume volume = empty_volume(100, 100, 100);
+  Settings settings;
+  settings.max_tets = 20'000;
+  const double needed = memory_needed(volume, settings);
+  const double limit_gb = 1.1 * needed / 1e9;
+  EXPECT_NO_THROW(require_memory(volume, settings, limit_gb));
+  EXPECT_NO_THROW(require_memory(volume, settings, limit_gb, 0.09 * needed));
+  EXPECT_REFUSED(require_memory(volume, settings, limit_gb, 0.2 * needed),
+                 testing::HasSubstr("memory: expected about"));
 }
 
 TEST(StrideThatFits, ThinsTheAxisThatIsFinest) {

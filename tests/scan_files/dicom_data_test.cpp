@@ -7,6 +7,7 @@
 #include "support/dicom_bytes.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
+#include "support/wide_budget.h"
 
 namespace mesamis::detail {
 namespace {
@@ -18,7 +19,8 @@ using testing::Optional;
 DicomFile parsed(const std::string& bytes) {
   const TempFolder folder;
   write_bytes(folder / "a.dcm", bytes);
-  return read_dicom_file(folder / "a.dcm");
+  WideBudget budget;
+  return read_dicom_file(folder / "a.dcm", budget);
 }
 
 std::string small_set(DicomCoding coding) {
@@ -94,7 +96,8 @@ TEST(DicomData, ThePreambleOrAnEarlyGroupShowsDicom) {
 }
 
 TEST(DicomData, AFileThatIsNotThereIsRefused) {
-  EXPECT_REFUSED(read_dicom_file("/nowhere/a.dcm"), HasSubstr("/nowhere/a.dcm"));
+  WideBudget budget;
+  EXPECT_REFUSED(read_dicom_file("/nowhere/a.dcm", budget), HasSubstr("/nowhere/a.dcm"));
 }
 
 TEST(DicomData, ReadsSeveralNumbersInBothByteOrders) {
@@ -109,6 +112,48 @@ TEST(DicomData, ReadsSeveralNumbersInBothByteOrders) {
     EXPECT_EQ(number_of(file, file.elements, dicom::kCieLab), 1);
     EXPECT_EQ(numbers_of(file, file.elements, dicom::kRows, 1), std::nullopt);
   }
+}
+
+/// Lengths of 4 GiB, undefined lengths where there may be none, and VRs that the standard does not
+/// know, in the meta group and behind it: none is believed.
+TEST(DicomData, ClaimsOfLengthTakeNoMemory) {
+  const TempFolder folder;
+  const std::string start = std::string(128, '\0') + "DICM";
+  for (const std::string vr : {"OB", "UN", "UT", "ZZ", "??", "SQ", "QQ"}) {
+    for (const std::uint32_t length : {0xffffffffu, 0xfffffffeu, 0x7fffffffu, 0x10000u}) {
+      for (const std::string& tag : {std::string("\2\0\2\1", 4), std::string("\x10\0\x10\0", 4)}) {
+        const std::string element = tag + vr + std::string(2, '\0') + bytes_of(length);
+        write_bytes(folder / "a.dcm", start + element + std::string(100, '\1'));
+        MemoryBudget budget("a.dcm", {1e-5});
+        EXPECT_NE(read_dicom_file(folder / "a.dcm", budget).problem, "") << vr << length;
+      }
+    }
+  }
+}
+
+/// 40 MB of zeros in 40 kB, and items of eight bytes that each become a map.
+TEST(DicomData, DeflatedDataAndItemsAreClaimedBeforeTheyAreMade) {
+  const TempFolder folder;
+  const auto file = [&folder](const std::string& set) {
+    write_bytes(folder / "a.dcm", SliceBytes::file(set, DicomCoding::kDeflated));
+    return folder / "a.dcm";
+  };
+  const auto refused = [](const std::filesystem::path& path, double memory_gb) {
+    MemoryBudget budget(path, {memory_gb});
+    EXPECT_REFUSED(read_dicom_file(path, budget), HasSubstr("a.dcm: memory: expected"));
+  };
+  refused(file(std::string(40'000'000, '\0')), 0.03);
+  DicomWriter set;
+  set.sequence(0x00081140, std::vector<std::string>(200'000), true);
+  refused(file(set.bytes()), 0.015);
+  std::string elements;
+  for (int n = 0; n < 60'000; ++n) {
+    elements += bytes_of(std::uint16_t{9}) + bytes_of(static_cast<std::uint16_t>(n)) + "LO" +
+                std::string(2, '\0');
+  }
+  refused(file(elements), 0.005);
+  MemoryBudget enough("a.dcm", {0.1});
+  EXPECT_EQ(read_dicom_file(file(elements), enough).elements.size(), 60'000u);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "support/bytes_span.h"
 #include "support/jpeg_bytes.h"
 
@@ -96,6 +98,44 @@ TEST(DicomJpeg, ReadsTheHeaderOfAJpeg2000Codestream) {
   EXPECT_EQ(header->components, 1);
   EXPECT_EQ(header->bits, 12);
   EXPECT_FALSE(jpeg2000_header(bytes_in(siz).first(42)));
+}
+
+/// SIZ and COD of a picture of 256 x 256.
+struct CodestreamBytes {
+  int tile = 256, layers = 1, levels = 5, block = 4, precinct = -1;  // exponents; -1: the largest
+
+  std::string bytes() const {
+    std::string out = std::string("\xff\x4f\xff\x51\0\x29\0\0", 8);
+    for (const int value : {256, 256, 0, 0, tile, tile, 0, 0})
+      out += big16_bytes(0) + big16_bytes(value);
+    out += big16_bytes(1) + std::string("\x0b\1\1", 3);
+    const std::size_t sizes = precinct < 0 ? 0 : static_cast<std::size_t>(levels) + 1;
+    out += "\xff\x52" + big16_bytes(12 + static_cast<int>(sizes));
+    out += std::string(1, precinct < 0 ? '\0' : '\1') + std::string(1, '\0') + big16_bytes(layers) +
+           '\0';
+    out +=
+        {static_cast<char>(levels), static_cast<char>(block), static_cast<char>(block), '\0', '\1'};
+    out += std::string(sizes, static_cast<char>(precinct * 17));
+    return out + "\xff\xd9";
+  }
+  std::uint64_t cost() const { return jpeg2000_structure_bytes(bytes_in(bytes()), 256 * 256); }
+};
+
+/// Headers of a hundred bytes of which OpenJPEG makes hundreds of megabytes.
+TEST(DicomJpeg, WhatAJpeg2000HeaderClaimsOfStructureIsCounted) {
+  EXPECT_LT(CodestreamBytes{}.cost(), 1'000'000u);
+  EXPECT_LT((CodestreamBytes{.layers = 12, .precinct = 7}.cost()), 1'000'000u);
+  EXPECT_GT((CodestreamBytes{.tile = 1}.cost()), 500'000'000u);
+  EXPECT_GT((CodestreamBytes{.block = 0, .precinct = 0}.cost()), 60'000'000u);
+  EXPECT_GT((CodestreamBytes{.layers = 65535, .precinct = 0}.cost()), 50'000'000'000u);
+  constexpr auto kMost = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_EQ((CodestreamBytes{.tile = 0}.cost()), kMost);
+  EXPECT_EQ((CodestreamBytes{.levels = 33}.cost()), kMost);
+  EXPECT_EQ(jpeg2000_structure_bytes({}, 1), kMost);
+  const std::string bytes = CodestreamBytes{.precinct = 0}.bytes();
+  for (std::size_t size = 44; size + 4 < bytes.size(); ++size) {
+    EXPECT_EQ(jpeg2000_structure_bytes(bytes_in(bytes).first(size), 1), kMost) << size;
+  }
 }
 
 TEST(DicomJpeg, TheEndMarkerMayBeFollowedByPadding) {

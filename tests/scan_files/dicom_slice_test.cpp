@@ -6,6 +6,7 @@
 #include "support/dicom_bytes.h"
 #include "support/expect_near.h"
 #include "support/temp_folder.h"
+#include "support/wide_budget.h"
 
 namespace mesamis::detail {
 namespace {
@@ -16,7 +17,8 @@ using testing::IsEmpty;
 DicomImage described(const std::string& bytes) {
   const TempFolder folder;
   write_bytes(folder / "a.dcm", bytes);
-  return describe_image(read_dicom_file(folder / "a.dcm"));
+  WideBudget budget;
+  return describe_image(read_dicom_file(folder / "a.dcm", budget), budget);
 }
 
 TEST(DicomSlice, HasPlaceSpacingAndRescaleOfItsFile) {
@@ -99,7 +101,8 @@ TEST(DicomSlice, FramesAreFoundInTheirOwnGroupsThenInSharedOnes) {
                                          group(dicom::kPixelMeasures, dicom::kSlope, {7})});
   const TempFolder folder;
   write_bytes(folder / "a.dcm", SliceBytes::file(set.bytes(), DicomCoding::kExplicit));
-  const DicomFile file = read_dicom_file(folder / "a.dcm");
+  WideBudget budget;
+  const DicomFile file = read_dicom_file(folder / "a.dcm", budget);
   const DicomSlice slice = place_frame(file, DicomPixels{6, 5, 2}, 1);
   expect_near(slice.position, {4, 5, 6});
   EXPECT_EQ(slice.column_step, 3);

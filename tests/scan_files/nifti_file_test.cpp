@@ -12,6 +12,7 @@
 #include "support/scan_bytes.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
+#include "support/wide_budget.h"
 
 namespace mesamis {
 namespace {
@@ -159,15 +160,18 @@ TEST(Nifti, HasManyVolumesForThoseWhoAsk) {
     nifti.dim[axis] = 5;
     write_bytes(folder / "a.nii", nifti.header() + bytes_of_all(kRamp));
     EXPECT_THAT(complaint(folder / "a.nii"), HasSubstr("expected a 3-D image"));
-    const detail::ScanFile scan = detail::open_nifti(folder / "a.nii", detail::Values::kMany);
+    WideBudget budget;
+    const detail::ScanFile scan =
+        detail::open_nifti(folder / "a.nii", {budget, false, detail::Values::kMany});
     EXPECT_EQ(scan.outer, 5);
     EXPECT_EQ(scan.inner, 1);
-    const auto samples = detail::read_samples(scan);
+    const auto samples = detail::read_samples(scan, budget);
     EXPECT_THAT(samples, testing::ElementsAreArray(kRamp));
   }
   nifti.dim = {5, 2, 3, 1, 2, 5, 1, 1};
   write_bytes(folder / "a.nii", nifti.header() + bytes_of_all(kRamp));
-  EXPECT_REFUSED(detail::open_nifti(folder / "a.nii", detail::Values::kMany),
+  WideBudget budget;
+  EXPECT_REFUSED(detail::open_nifti(folder / "a.nii", {budget, false, detail::Values::kMany}),
                  HasSubstr("5 values along dimension 5"));
 }
 
@@ -179,7 +183,8 @@ TEST(Nifti, ExtensionsAreRead) {
     std::string bytes = nifti.header();
     bytes[348] = flag;
     write_bytes(folder / "a.nii", packed(bytes + extensions + bytes_of_all(kRamp)));
-    return detail::nifti_extensions(folder / "a.nii");
+    WideBudget budget;
+    return detail::nifti_extensions(folder / "a.nii", budget);
   };
   const auto extension = [](int size, const std::string& content) {
     return bytes_of(size) + bytes_of(6) + content;

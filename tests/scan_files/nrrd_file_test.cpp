@@ -11,6 +11,7 @@
 #include "support/scan_bytes.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
+#include "support/wide_budget.h"
 
 namespace mesamis {
 namespace {
@@ -97,12 +98,13 @@ TEST(Nrrd, RefusesWhatItCannotMean) {
 
 TEST(Nrrd, HasManyValuesPerVoxelForThoseWhoAsk) {
   const TempFolder folder;
-  const auto open = [&folder](const std::string& fields) {
+  WideBudget budget;
+  const auto open = [&](const std::string& fields) {
     write_bytes(folder / "a.nrrd",
                 "NRRD0004\ntype: short\nencoding: raw\nendian: little\n"
                 "dimension: 4\nkey:=value\n" +
                     fields + "\n" + bytes_of_all(kRamp));
-    return detail::open_nrrd(folder / "a.nrrd", detail::Values::kMany);
+    return detail::open_nrrd(folder / "a.nrrd", {budget, false, detail::Values::kMany});
   };
   const std::string directions = " (0.5,0,0) (0,1,0) (0,0,2)";
   for (const std::string& first :
@@ -115,7 +117,7 @@ TEST(Nrrd, HasManyValuesPerVoxelForThoseWhoAsk) {
     EXPECT_THAT(scan.grid.size, testing::ElementsAre(3, 5, 1));
     expect_near(scan.grid.spacing, {0.5, 1, 2});
     EXPECT_EQ(scan.keys.at("key"), "value");
-    EXPECT_THAT(detail::read_samples(scan), testing::ElementsAreArray(kRamp));
+    EXPECT_THAT(detail::read_samples(scan, budget), testing::ElementsAreArray(kRamp));
   }
   const detail::ScanFile last = open(
       "sizes: 4 3 1 5\nkinds: domain domain domain list\n"

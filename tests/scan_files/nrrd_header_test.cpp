@@ -7,6 +7,7 @@
 #include "mesamis/scan_files/formats.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
+#include "support/wide_budget.h"
 
 namespace mesamis::detail {
 namespace {
@@ -31,7 +32,8 @@ TEST(NrrdHeader, ReadsBackToTheSameBits) {
   content.values = 4;
   content.keys = {{"a\\b", "two\nlines"}, {"Name", " x: y := z"}};
   write_bytes(folder / "a.nrrd", nrrd_header(grid, content) + std::string(24, '\3'));
-  const ScanFile scan = open_nrrd(folder / "a.nrrd", Values::kMany);
+  WideBudget budget;
+  const ScanFile scan = open_nrrd(folder / "a.nrrd", {budget, false, Values::kMany});
   EXPECT_EQ(scan.grid.size, grid.size);
   EXPECT_EQ(scan.grid.spacing, grid.spacing);
   EXPECT_EQ(scan.grid.origin, grid.origin);
@@ -39,8 +41,8 @@ TEST(NrrdHeader, ReadsBackToTheSameBits) {
   EXPECT_EQ(scan.inner, 4);
   EXPECT_EQ(scan.outer, 1);
   EXPECT_THAT(scan.keys, ElementsAre(Pair("Name", " x: y := z"), Pair("a\\b", "two\nlines")));
-  EXPECT_EQ(read_samples(scan), std::vector<float>(24, 3));
-  EXPECT_REFUSED(open_nrrd(folder / "a.nrrd"), HasSubstr("4 dimensions"));
+  EXPECT_EQ(read_samples(scan, budget), std::vector<float>(24, 3));
+  EXPECT_REFUSED(open_nrrd(folder / "a.nrrd", {budget}), HasSubstr("4 dimensions"));
 }
 
 }  // namespace

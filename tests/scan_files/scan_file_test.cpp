@@ -11,6 +11,7 @@
 #include "support/scan_bytes.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
+#include "support/wide_budget.h"
 
 namespace mesamis::detail {
 namespace {
@@ -32,6 +33,11 @@ ScanFile two_samples(const TempFolder& folder, const std::string& bytes, NumberT
   set_size(scan, {2, 1, 1});
   scan.source.type = type;
   return scan;
+}
+
+std::vector<float> samples_of(const ScanFile& scan) {
+  WideBudget budget;
+  return read_samples(scan, budget);
 }
 
 TEST(ScanFile, SizesAreCheckedBeforeAnythingIsAllocated) {
@@ -87,10 +93,10 @@ TEST(ScanFile, SamplesAreReadInEitherByteOrderAndRescaled) {
     ScanFile scan = two_samples(
         folder, bytes_of_all(std::vector<std::int16_t>{-300, 1}, big_endian), NumberType::kInt16);
     scan.source.big_endian = big_endian;
-    EXPECT_THAT(read_samples(scan), ElementsAre(-300, 1));
+    EXPECT_THAT(samples_of(scan), ElementsAre(-300, 1));
     scan.source.slope = 0.5;
     scan.source.intercept = 10;
-    EXPECT_THAT(read_samples(scan), ElementsAre(-140, 10.5F));
+    EXPECT_THAT(samples_of(scan), ElementsAre(-140, 10.5F));
   }
 }
 
@@ -98,24 +104,36 @@ TEST(ScanFile, TextAndPackedSamplesAndThoseAtTheEnd) {
   const TempFolder folder;
   ScanFile text = two_samples(folder, " 1.5e1\n-2", NumberType::kInt16);
   text.source.text = true;
-  EXPECT_THAT(read_samples(text), ElementsAre(15, -2));
+  EXPECT_THAT(samples_of(text), ElementsAre(15, -2));
   ScanFile zipped = two_samples(folder, packed("skip" + std::string("\1\2", 2)), NumberType::kInt8);
   zipped.source.packing = Packing::kDeflated;
   zipped.source.skip = 4;
-  EXPECT_THAT(read_samples(zipped), ElementsAre(1, 2));
+  EXPECT_THAT(samples_of(zipped), ElementsAre(1, 2));
   ScanFile end = two_samples(folder, "any header\x07\x08", NumberType::kInt8);
   end.source.at_end = true;
-  EXPECT_THAT(read_samples(end), ElementsAre(7, 8));
+  EXPECT_THAT(samples_of(end), ElementsAre(7, 8));
 }
 
 TEST(ScanFile, TooFewAndWhereItMattersTooManyBytesAreRefused) {
   const TempFolder folder;
-  EXPECT_REFUSED(read_samples(two_samples(folder, "abc", NumberType::kInt16)),
+  EXPECT_REFUSED(samples_of(two_samples(folder, "abc", NumberType::kInt16)),
                  HasSubstr("expected 4 bytes for 2 x 1 x 1 samples, found 3"));
   ScanFile longer = two_samples(folder, "abcde", NumberType::kInt16);
-  EXPECT_NO_THROW(read_samples(longer));
+  EXPECT_NO_THROW(samples_of(longer));
   longer.source.exact = true;
-  EXPECT_REFUSED(read_samples(longer), HasSubstr("go on"));
+  EXPECT_REFUSED(samples_of(longer), HasSubstr("go on"));
+}
+
+/// A file that can hold what its header claims, but not within the limit.
+TEST(ScanFile, SamplesAreClaimedBeforeTheyAreRead) {
+  const TempFolder folder;
+  ScanFile scan = two_samples(folder, packed(std::string(4'000'000, '\1')), NumberType::kUint8);
+  scan.source.packing = Packing::kDeflated;
+  set_size(scan, {200, 200, 100});
+  MemoryBudget small("a", {0.015}), enough("a", {0.0161});
+  EXPECT_REFUSED(read_samples(scan, small), HasSubstr("claims 16 MB for samples"));
+  EXPECT_EQ(read_samples(scan, enough).size(), 4'000'000u);
+  EXPECT_EQ(enough.held(), 16'000'000u);
 }
 
 TEST(ScanFile, SamplesAreAppended) {
@@ -130,9 +148,9 @@ TEST(ScanFile, ManyValuesPerVoxelAreReadInTheOrderOfTheFile) {
   const TempFolder folder;
   ScanFile scan = two_samples(folder, "abcdef", NumberType::kUint8);
   set_values(scan, 3, 1);
-  EXPECT_THAT(read_samples(scan), ElementsAre('a', 'b', 'c', 'd', 'e', 'f'));
+  EXPECT_THAT(samples_of(scan), ElementsAre('a', 'b', 'c', 'd', 'e', 'f'));
   set_values(scan, 1, 4);
-  EXPECT_REFUSED(read_samples(scan), HasSubstr("expected 8 bytes for 2 x 1 x 1 x 4 samples"));
+  EXPECT_REFUSED(samples_of(scan), HasSubstr("expected 8 bytes for 2 x 1 x 1 x 4 samples"));
   EXPECT_REFUSED(set_values(scan, 0, 1), HasSubstr("values per voxel, found 0"));
   EXPECT_REFUSED(set_values(scan, 1, 65536), HasSubstr("expected 1 to 65535"));
   set_size(scan, {1 << 20, 1 << 19, 1});

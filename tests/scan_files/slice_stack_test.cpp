@@ -10,6 +10,7 @@
 #include "support/expect_near.h"
 #include "support/picture_bytes.h"
 #include "support/read_scan.h"
+#include "support/wide_budget.h"
 
 namespace mesamis::detail {
 namespace {
@@ -132,7 +133,8 @@ TEST(SliceStack, VolumesAndSeriesAreNoSlices) {
   page.pixels = bytes_of_all(ramp<std::int16_t>(12));
   write_bytes(folder / "1.tif", tiff_bytes({page, page}));
   write_bytes(folder / "2.tif", tiff_bytes({page, page}));
-  EXPECT_THAT(slices_in(folder / ""), IsEmpty()) << "volumes of two slices each";
+  WideBudget budget;
+  EXPECT_THAT(slices_in(folder / "", budget), IsEmpty()) << "volumes of two slices each";
   EXPECT_EQ(list_volumes(folder / "").size(), 2U);
   fs::create_directory(folder / "series");
   for (int k = 0; k < 3; ++k) {

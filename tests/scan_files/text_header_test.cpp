@@ -42,6 +42,28 @@ TEST(TextHeader, ABinaryFileIsNoEndlessLine) {
   EXPECT_REFUSED(HeaderLines(folder / "none"), HasSubstr("cannot be read"));
 }
 
+/// A header from elsewhere must not choose which files of the machine are read.
+TEST(TextHeader, DataLieInTheHeadersFolder) {
+  const std::filesystem::path header = "/scans/here/a.mhd";
+  EXPECT_EQ(data_path(header, "a.raw", false), "/scans/here/a.raw");
+  EXPECT_EQ(data_path(header, "below/..a.raw", false), "/scans/here/below/..a.raw");
+  EXPECT_EQ(data_path("a.mhd", "a.raw", false), "a.raw");
+  for (const char* name : {"../b.raw", "/etc/shadow", "x/../../b.raw", "..", "x/.."}) {
+    EXPECT_REFUSED(
+        data_path(header, name, false),
+        AllOf(HasSubstr("/scans/here/a.mhd: expected a data file in the header's folder"),
+              HasSubstr(name), HasSubstr("--allow-outside")));
+  }
+  EXPECT_EQ(data_path(header, "/etc/shadow", true), "/etc/shadow");
+  EXPECT_EQ(data_path(header, "../b.raw", true), "/scans/here/../b.raw");
+}
+
+TEST(TextHeader, APipeIsRefusedWithoutWaiting) {
+  const TempFolder folder;
+  ASSERT_EQ(mkfifo((folder / "a.nhdr").c_str(), 0600), 0);
+  EXPECT_REFUSED(HeaderLines(folder / "a.nhdr"), HasSubstr("found neither"));
+}
+
 TEST(TextHeader, WordsAndNumbersStandBetweenWhiteSpace) {
   EXPECT_THAT(words_of(" a\tb  c\n"), ElementsAre("a", "b", "c"));
   EXPECT_THAT(words_of(" "), IsEmpty());

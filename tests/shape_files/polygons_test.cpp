@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "support/throws.h"
+#include "support/wide_budget.h"
 
 namespace mesamis::detail {
 namespace {
@@ -16,7 +17,8 @@ const std::filesystem::path kFile = "a.vtp";  // a sink keeps a reference
 
 std::vector<Triangle> triangles_of(const Corners& corners, bool strip) {
   TriMesh surface;
-  PolygonSink(kFile, surface).add(corners, strip);
+  WideBudget budget;
+  PolygonSink(kFile, surface, budget).add(corners, strip);
   return surface.triangles;
 }
 
@@ -36,7 +38,8 @@ TEST(Polygons, StripsKeepOneOrientation) {
 TEST(Polygons, AreNumberedFromTheSurfacesPointsAtTheStart) {
   TriMesh surface;
   surface.points.resize(10);
-  PolygonSink sink(kFile, surface);
+  WideBudget budget;
+  PolygonSink sink(kFile, surface, budget);
   surface.points.resize(13);
   sink.add(Corners{0, 1, 2}, false);
   EXPECT_EQ(surface.triangles, (std::vector<Triangle>{{10, 11, 12}}));
@@ -44,13 +47,23 @@ TEST(Polygons, AreNumberedFromTheSurfacesPointsAtTheStart) {
 
 TEST(Polygons, ListsAreCutAtTheirOffsets) {
   TriMesh surface;
-  PolygonSink sink(kFile, surface);
+  WideBudget budget;
+  PolygonSink sink(kFile, surface, budget);
   sink.add_all(Corners{0, 1, 2, 3, 4, 5, 6}, Corners{0, 3, 3, 7}, false);
   EXPECT_EQ(surface.triangles, (std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}, {3, 5, 6}}));
   for (const Corners& offsets : {Corners{0, 8}, Corners{3, 2}, Corners{-1, 2}, Corners{0, NAN}}) {
     EXPECT_REFUSED(sink.add_all(Corners(7), offsets, false),
                    testing::HasSubstr("a.vtp: expected the corners of polygon 0 within"));
   }
+}
+
+/// A list of bytes makes twelve times as many bytes of triangles.
+TEST(Polygons, TrianglesAreClaimedBeforeTheyAreMade) {
+  TriMesh surface;
+  MemoryBudget budget(kFile, {1e-5});
+  EXPECT_REFUSED(PolygonSink(kFile, surface, budget).add(Corners(2000, 0.0), false),
+                 testing::HasSubstr("for triangles"));
+  EXPECT_LE(surface.triangles.capacity() * sizeof(Triangle), 10'000u);
 }
 
 TEST(Polygons, WhatIsNoNumberOfAPointIsRefused) {

@@ -8,6 +8,7 @@
 
 #include "mesamis/files/bytes.h"
 #include "support/throws.h"
+#include "support/wide_budget.h"
 
 namespace mesamis::detail {
 namespace {
@@ -52,7 +53,8 @@ std::string packed_zeros(std::uint32_t block_size, std::uint32_t blocks, std::ui
 }
 
 Numbers values(const std::string& file, std::size_t count) {
-  VtkXml xml("a.vt", file, "T");
+  WideBudget budget;
+  VtkXml xml("a.vt", file, "T", budget);
   return xml.values(xml.data_set().children.at(0), count);
 }
 
@@ -111,10 +113,40 @@ TEST(VtkXml, ArraysThatShareABlockAreRefused) {
   for (int n = 0; n < 1000; ++n) arrays += array_at(0);
   const std::uint32_t size = 1 << 20;
   const std::string file = file_of(arrays, packed_zeros(size, 1, 0), "raw", kPacked);
-  VtkXml xml("a.vt", file, "T");
+  WideBudget budget;
+  VtkXml xml("a.vt", file, "T", budget);
   const auto& all = xml.data_set().children;
   EXPECT_EQ(xml.values(all[0], size).size(), size);
   EXPECT_REFUSED(xml.values(all[1], size), HasSubstr("overlap"));
+}
+
+/// 8 MB of zeros in 8 kB, as 64 MB of doubles.
+TEST(VtkXml, ValuesAreClaimedBeforeTheyAreUnpacked) {
+  constexpr std::uint32_t kCount = 8'000'000;
+  const std::string file = file_of(array_at(0), packed_zeros(kCount, 1, 0), "raw", kPacked);
+  for (const auto& [memory_gb, fits] : {std::pair{0.0079, false}, {0.04, false}, {0.08, true}}) {
+    MemoryBudget budget("a.vt", {memory_gb});
+    VtkXml xml("a.vt", file, "T", budget);
+    const XmlElement& array = xml.data_set().children.at(0);
+    if (!fits) {
+      EXPECT_REFUSED(xml.values(array, kCount), HasSubstr("a.vt: memory: expected"));
+      continue;
+    }
+    Numbers numbers = xml.values(array, kCount);
+    EXPECT_GE(budget.held(), kCount * sizeof(double));
+    EXPECT_LT(budget.held(), kCount * sizeof(double) + 10'000);  // the packed ones are given back
+    free_within(budget, numbers);
+    EXPECT_LT(budget.held(), 10'000u);
+  }
+}
+
+TEST(VtkXml, NumbersOfTextAreClaimed) {
+  std::string text;
+  for (int n = 0; n < 100'000; ++n) text += "0 ";
+  const std::string file = ascii(text);
+  MemoryBudget budget("a.vt", {0.0008});
+  VtkXml xml("a.vt", file, "T", budget);
+  EXPECT_REFUSED(xml.values(xml.data_set().children.at(0), 100'000), HasSubstr("memory"));
 }
 
 TEST(VtkXml, NumbersOfComponentsAreBounded) {
@@ -130,7 +162,8 @@ TEST(VtkXml, NumbersOfComponentsAreBounded) {
 
 TEST(VtkXml, TextsAreReadUpToTheirEndAndBounded) {
   const auto text_of = [](const std::string& file) {
-    VtkXml xml("a.vt", file, "T");
+    WideBudget budget;
+    VtkXml xml("a.vt", file, "T", budget);
     return xml.text(xml.data_set().children.at(0));
   };
   EXPECT_EQ(text_of(file_of("<Array format=\"ascii\">82 65 83 0</Array>")), "RAS");
@@ -142,13 +175,16 @@ TEST(VtkXml, TextsAreReadUpToTheirEndAndBounded) {
 }
 
 TEST(VtkXml, OtherFilesAreRefused) {
-  EXPECT_REFUSED(VtkXml("a.vt", "<a/>", "T"), HasSubstr("is not a VTK XML file"));
-  EXPECT_REFUSED(VtkXml("a.vt", "<VTKFile type=\"U\"><U/></VTKFile>", "T"),
+  WideBudget budget;
+  EXPECT_REFUSED(VtkXml("a.vt", "<a/>", "T", budget), HasSubstr("is not a VTK XML file"));
+  EXPECT_REFUSED(VtkXml("a.vt", "<VTKFile type=\"U\"><U/></VTKFile>", "T", budget),
                  HasSubstr("found \"U\""));
-  EXPECT_REFUSED(VtkXml("a.vt", file_of("", "", "raw", "compressor=\"vtkLZ4DataCompressor\""), "T"),
-                 HasSubstr("vtkLZ4DataCompressor"));
-  EXPECT_REFUSED(VtkXml("a.vt", "<!DOCTYPE VTKFile [<!ENTITY a \"b\">]>" + file_of(""), "T"),
-                 HasSubstr("declarations of entities"));
+  EXPECT_REFUSED(
+      VtkXml("a.vt", file_of("", "", "raw", "compressor=\"vtkLZ4DataCompressor\""), "T", budget),
+      HasSubstr("vtkLZ4DataCompressor"));
+  EXPECT_REFUSED(
+      VtkXml("a.vt", "<!DOCTYPE VTKFile [<!ENTITY a \"b\">]>" + file_of(""), "T", budget),
+      HasSubstr("declarations of entities"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <regex>
 #include <string>
 
 #include "style/rooms.h"
@@ -56,6 +57,33 @@ TEST(Sources, OfTheTableExistAndHaveNoTestOfTheirName) {
     EXPECT_TRUE(fs::exists(root / "tests" / test)) << test;
     EXPECT_FALSE(fs::exists(root / "tests" / (std::string(source) + "_test.cpp"))) << source;
   }
+}
+
+/// Which headers of GDCM a file includes.
+std::string gdcm_headers(const fs::path& file) {
+  static const std::regex include("#include <(gdcm\\w+\\.h)>");
+  const std::string text = file_text(file);
+  std::string found;
+  for (std::sregex_iterator m(text.begin(), text.end(), include), end; m != end; ++m) {
+    found += (found.empty() ? "" : " ") + (*m)[1].str();
+  }
+  return found;
+}
+
+/// GDCM's readers of files believe lengths that a file states. It is given single compressed
+/// pictures, whose headers were checked, and never a file or a data set.
+TEST(Sources, GdcmIsGivenSinglePicturesAlone) {
+  std::size_t seen = 0;
+  for (const char* folder : {"src", "app"}) {
+    for (const fs::path& file : project_files(folder, {".h", ".cpp"})) {
+      const std::string headers = gdcm_headers(file);
+      if (headers.empty()) continue;
+      ++seen;
+      EXPECT_EQ(file.filename(), "gdcm_picture.cpp") << file;
+      EXPECT_EQ(headers, "gdcmImage.h gdcmSequenceOfFragments.h gdcmTrace.h gdcmTransferSyntax.h");
+    }
+  }
+  EXPECT_EQ(seen, 1u);
 }
 
 }  // namespace

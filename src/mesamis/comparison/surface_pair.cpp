@@ -83,8 +83,10 @@ SurfacePair pair_up(const SurfaceFile& reference, const SurfaceFile& surface, Fr
   return pair;
 }
 
-SurfacePair read_pair(const fs::path& reference, const fs::path& surface, FrameRule rule) {
-  return pair_up(read_surface_file(reference), read_surface_file(surface), rule, surface.string());
+SurfacePair read_pair(const fs::path& reference, const fs::path& surface, FrameRule rule,
+                      const ReadLimits& limits) {
+  return pair_up(read_surface_file(reference, limits), read_surface_file(surface, limits), rule,
+                 surface.string());
 }
 
 }  // namespace mesamis

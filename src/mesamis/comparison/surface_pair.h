@@ -43,8 +43,9 @@ SurfacePair pair_up(const SurfaceFile& reference, const SurfaceFile& surface, Fr
                     const std::string& name);
 
 /// Reads both and pairs them up.
+/// @param limits  as read_surface(), for each of both.
 /// @throws InputError  if a file cannot be read, and as pair_up().
 SurfacePair read_pair(const std::filesystem::path& reference, const std::filesystem::path& surface,
-                      FrameRule rule);
+                      FrameRule rule, const ReadLimits& limits = {});
 
 }  // namespace mesamis

@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <vector>
 
@@ -92,7 +93,9 @@ ByteSource::ByteSource(const std::filesystem::path& file, Packing packing, std::
     refuse(file, say("the samples should begin at byte ", offset, ", but the file has ", size));
   }
   state_->stored = size - offset;
+  errno = 0;
   state_->in.open(file, std::ios::binary);
+  if (!state_->in) refuse(file, "cannot be read: " + reason_of(errno));
   state_->in.seekg(static_cast<std::streamoff>(offset));
   if (!state_->in) refuse(file, "cannot be read");
   state_->deflated =
@@ -133,16 +136,27 @@ std::uint64_t ByteSource::most_bytes() const {
   return state_->deflated ? state_->stored * kMostDeflateRatio : state_->stored;
 }
 
-std::string read_all(const std::filesystem::path& file) {
+std::string read_all(const std::filesystem::path& file, MemoryBudget& budget, MostBytes most) {
   constexpr std::size_t kStep = std::size_t{1} << 22;
   ByteSource source(file, Packing::kSniffed);
+  std::uint64_t left = source.most_bytes();
   std::string bytes;
-  for (std::size_t got = kStep; got == kStep;) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + kStep);
-    got = source.read(bytes.data() + before, kStep);
-    bytes.resize(before + got);
-  }
+  const auto read_part = [&](std::uint64_t wanted) {
+    const auto size = static_cast<std::size_t>(std::min(wanted, left));
+    const std::size_t before = bytes.size(), end = before + size;
+    if (end > bytes.capacity()) {
+      const std::uint64_t room = std::max<std::uint64_t>(end, 2 * before);
+      reserve_within(budget, bytes, std::min(room, before + left), "bytes of the file");
+    }
+    bytes.resize(end);
+    bytes.resize(before + source.read(bytes.data() + before, size));
+    left -= size;
+    return bytes.size() == end && left > 0;
+  };
+  bool more = read_part(kFirstBytes);
+  const std::uint64_t justified = most == nullptr ? 0 : most(bytes);
+  if (justified > 0) left = std::min(left, justified - std::min(justified, bytes.size()));
+  while (more && left > 0) more = read_part(kStep);
   return bytes;
 }
 

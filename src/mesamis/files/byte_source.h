@@ -6,6 +6,9 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
+
+#include "mesamis/files/memory_budget.h"
 
 namespace mesamis::detail {
 
@@ -34,7 +37,8 @@ class ByteSource {
   /// @return  the number of bytes skipped; less than n only at the end.
   /// @throws InputError  as read().
   std::uint64_t skip(std::uint64_t n);
-  /// @return  an upper bound of the bytes to read: kMostDeflateRatio times the compressed size.
+  /// @return  an upper bound of the bytes to read: kMostDeflateRatio times the compressed size, or
+  ///          the very number of plain ones.
   std::uint64_t most_bytes() const;
 
  private:
@@ -42,10 +46,19 @@ class ByteSource {
   std::unique_ptr<State> state_;
 };
 
+/// How many bytes a file can have by what its first bytes say; 0: they do not tell.
+using MostBytes = std::uint64_t (*)(std::string_view first_bytes);
+
+/// How many bytes a MostBytes gets, fewer where the file ends before.
+inline constexpr std::size_t kFirstBytes = 512;
+
 /// Reads a whole file, decompressed if it is a gzip file.
-/// @throws InputError  as ByteSource.
+/// @param budget  of the reader: the bytes are claimed as they come, and held afterwards.
+/// @param most    bytes beyond those that it justifies are not read; null: all are.
+/// @throws InputError  as ByteSource and MemoryBudget::claim().
 ///
-/// Linear in the bytes; memory: the bytes.
-std::string read_all(const std::filesystem::path& file);
+/// Linear in the bytes; memory: the bytes, twice while they grow.
+std::string read_all(const std::filesystem::path& file, MemoryBudget& budget,
+                     MostBytes most = nullptr);
 
 }  // namespace mesamis::detail

@@ -4,6 +4,7 @@
 #include <expat.h>
 
 #include <algorithm>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <new>
@@ -23,6 +24,8 @@ constexpr std::size_t kMostNames = 10'000;    // expat keeps each name until the
 constexpr std::size_t kLongestTag = 1 << 20;  // expat holds an unfinished tag in memory
 constexpr std::size_t kChunk = 1 << 16;
 
+using Attribute = std::pair<std::string, std::string>;
+
 std::size_t items_in(const XmlElement& element) {
   std::size_t items = 1 + element.attributes.size();
   for (const XmlElement& child : element.children) items += items_in(child);
@@ -33,8 +36,13 @@ std::size_t items_in(const XmlElement& element) {
 /// keeps it and stops the parser.
 class XmlBuilder {
  public:
-  XmlBuilder(const fs::path& file, std::string_view text, const XmlOptions& options)
-      : file_(file), text_(text), options_(options), parser_(XML_ParserCreate(nullptr)) {
+  XmlBuilder(const fs::path& file, std::string_view text, MemoryBudget& budget,
+             const XmlOptions& options)
+      : file_(file),
+        text_(text),
+        budget_(budget),
+        options_(options),
+        parser_(XML_ParserCreate(nullptr)) {
     if (!parser_) throw std::bad_alloc();
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(
@@ -44,9 +52,7 @@ class XmlBuilder {
         },
         [](void* self, const XML_Char*) { guarded(self, [](XmlBuilder& b) { b.end_element(); }); });
     XML_SetCharacterDataHandler(parser_.get(), [](void* self, const XML_Char* part, int size) {
-      guarded(self, [&](XmlBuilder& b) {
-        b.open_.back().text.append(part, static_cast<std::size_t>(size));
-      });
+      guarded(self, [&](XmlBuilder& b) { b.add_text(part, static_cast<std::size_t>(size)); });
     });
     XML_SetStartDoctypeDeclHandler(parser_.get(), [](void* self, const XML_Char*, const XML_Char*,
                                                      const XML_Char*, int has_subset) {
@@ -114,10 +120,13 @@ class XmlBuilder {
     if (open_.size() == kDeepest) {
       refuse_xml(say("expected at most ", kDeepest, " elements within one another, found more"));
     }
+    costs_.push_back(0);
+    claim(3 * sizeof(XmlElement) + std::strlen(name));  // lists double their room
     XmlElement element;
     element.name = name;
     require_known(element.name);
     for (; *attributes != nullptr; attributes += 2) {
+      claim(3 * sizeof(Attribute) + std::strlen(attributes[0]) + std::strlen(attributes[1]));
       element.attributes.emplace_back(attributes[0], attributes[1]);
       require_known(element.attributes.back().first);
     }
@@ -130,6 +139,17 @@ class XmlBuilder {
     const bool is_end = options_.ends_at_appended_data && element.name == "AppendedData";
     open_.push_back(std::move(element));
     if (is_end) begin_appended_data();
+  }
+
+  /// On account of the innermost open element.
+  void claim(std::size_t bytes) {
+    budget_.claim(1, bytes, "elements of XML");
+    costs_.back() += bytes;
+  }
+
+  void add_text(const XML_Char* part, std::size_t size) {
+    claim(2 * size);  // a string doubles its room
+    open_.back().text.append(part, size);
   }
 
   /// Where a DTD is named but not read, expat drops an unknown entity in an attribute silently.
@@ -173,9 +193,13 @@ class XmlBuilder {
     parent.text += ' ';
     const bool consumed = options_.consume && options_.consume(element, path_);
     path_.resize(path_.size() - element.name.size() - 1);
+    const std::size_t cost = costs_.back();
+    costs_.pop_back();
     if (consumed) {
       items_ -= items_in(element);
+      budget_.give_back(cost);
     } else {
+      costs_.back() += cost;
       parent.children.push_back(std::move(element));
     }
   }
@@ -192,10 +216,12 @@ class XmlBuilder {
 
   const fs::path& file_;
   std::string_view text_, appended_;
+  MemoryBudget& budget_;
   const XmlOptions& options_;
   std::unique_ptr<XML_ParserStruct, FreeParser> parser_;
-  std::vector<XmlElement> open_;  // the root and the open elements within one another
-  std::string path_;              // of the innermost open element
+  std::vector<XmlElement> open_;    // the root and the open elements within one another
+  std::vector<std::size_t> costs_;  // of each of these, with what it keeps, bytes
+  std::string path_;                // of the innermost open element
   std::unordered_set<std::string> names_;
   std::size_t items_ = 0;
   std::exception_ptr error_;
@@ -255,8 +281,9 @@ const XmlElement* XmlElement::child(std::string_view child_name) const {
   return nullptr;
 }
 
-XmlDocument parse_xml(const fs::path& file, std::string_view text, const XmlOptions& options) {
-  return XmlBuilder(file, text, options).parse();
+XmlDocument parse_xml(const fs::path& file, std::string_view text, MemoryBudget& budget,
+                      const XmlOptions& options) {
+  return XmlBuilder(file, text, budget, options).parse();
 }
 
 std::string xml_escaped(std::string_view text) {
@@ -276,8 +303,10 @@ std::string xml_escaped(std::string_view text) {
 
 std::string xml_unescaped(const std::string& text) {
   if (text.find('&') == text.npos) return text;
+  constexpr double kMostGigabytes = 1;  // of one text, which is in memory
+  MemoryBudget budget({}, {kMostGigabytes});
   try {
-    return parse_xml({}, "<x>" + text + "</x>").root.text;
+    return parse_xml({}, "<x>" + text + "</x>", budget).root.text;
   } catch (const InputError&) {
     return text;
   }

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "mesamis/files/memory_budget.h"
+
 /// The one reader of XML: expat, with bounds that keep a hostile file harmless.
 namespace mesamis::detail {
 
@@ -41,16 +43,17 @@ struct XmlDocument {
 
 /// Parses a document. An external DTD may be named; it is never read.
 /// @param file  for messages.
+/// @param budget  of the reader. The tree is claimed as it grows, and held as far as it is kept.
 /// @param text  the document, in an encoding that expat knows (UTF-8, UTF-16, Latin-1, ASCII).
 /// @throws InputError  naming file and line: if the document is not well-formed, declares or uses
 ///                     entities other than XML's own, or exceeds a bound: 32 elements within one
 ///                     another, 1 MiB per tag or comment, 500 000 elements and attributes in the
-///                     tree, 10 000 different names.
+///                     tree, 10 000 different names; and as MemoryBudget::claim().
 ///
-/// Linear in the text. Memory: the texts and attributes of the tree and about 150 bytes per
-/// element.
+/// Linear in the text. Memory: the texts and attributes of the tree, and about 340 bytes per
+/// element and 200 per attribute.
 XmlDocument parse_xml(const std::filesystem::path& file, std::string_view text,
-                      const XmlOptions& options = {});
+                      MemoryBudget& budget, const XmlOptions& options = {});
 
 /// Escapes a text for an XML element or attribute, in UTF-8. '?' replaces each byte that XML does
 /// not allow: control characters other than tab and line ends, and bytes that are not UTF-8.

@@ -24,10 +24,16 @@ std::map<Index, std::vector<std::size_t>> frames_by_segment(const SegFile& seg) 
   return frames;
 }
 
+void add_layer(LabelMap& map, MemoryBudget& budget) {
+  budget.claim(map.voxel_count(), sizeof(std::uint16_t), "labels");
+  map.layers.emplace_back(map.voxel_count());
+}
+
 /// Puts one segment after another into layers.
 class LayerBuilder {
  public:
-  LayerBuilder(const SegFile& seg, LabelMap& map) : seg_(seg), map_(map) {}
+  LayerBuilder(const SegFile& seg, LabelMap& map, MemoryBudget& budget)
+      : seg_(seg), map_(map), budget_(budget) {}
 
   /// @return the segment's layer.
   Index add(Index label, const std::vector<std::size_t>& frames) {
@@ -35,7 +41,7 @@ class LayerBuilder {
     const std::size_t layer = free_layer(frames);
     if (layer == map_.layers.size()) {
       require_voxels(seg_.file, map_, layer + 1);
-      map_.layers.emplace_back(map_.voxel_count());
+      add_layer(map_, budget_);
     }
     for_each_marked(frames, [&](std::size_t voxel) {
       map_.layers[layer][voxel] = static_cast<std::uint16_t>(label);
@@ -47,9 +53,13 @@ class LayerBuilder {
   /// Marks which pixels of the frames belong to their segment.
   void decode(const std::vector<std::size_t>& frames) {
     const double least = seg_.type == SegType::kFractional ? seg_.most / 2 : 1;
-    marks_.clear();
+    const std::uint64_t marked = std::uint64_t{frames.size()} *
+                                 static_cast<std::uint64_t>(seg_.pixels.rows) *
+                                 static_cast<std::uint64_t>(seg_.pixels.columns);
+    const ScopedClaim claim(budget_, marked / 4 + 1, 1, "marks");  // bits that double their room
+    marks_ = {};
     for (const std::size_t frame : frames) {
-      read_frame(seg_, frame, pixels_);
+      read_frame(seg_, frame, pixels_, budget_);
       for (const float pixel : pixels_) marks_.push_back(pixel >= least);
     }
   }
@@ -80,27 +90,28 @@ class LayerBuilder {
 
   const SegFile& seg_;
   LabelMap& map_;
+  MemoryBudget& budget_;
   std::vector<float> pixels_;  // of one frame
   std::vector<bool> marks_;    // frame by frame
 };
 
-void fill_layers(const SegFile& seg, LabelMap& map) {
-  LayerBuilder builder(seg, map);
+void fill_layers(const SegFile& seg, LabelMap& map, MemoryBudget& budget) {
+  LayerBuilder builder(seg, map, budget);
   const auto frames = frames_by_segment(seg);
   for (Segment& segment : map.segments) {
     const auto found = frames.find(segment.label);
     if (found != frames.end()) segment.layer = builder.add(segment.label, found->second);
   }
-  if (map.layers.empty()) map.layers.emplace_back(map.voxel_count());
+  if (map.layers.empty()) add_layer(map, budget);
 }
 
-void fill_labels(const SegFile& seg, LabelMap& map) {
+void fill_labels(const SegFile& seg, LabelMap& map, MemoryBudget& budget) {
   std::set<Index> known{0};
   for (const Segment& segment : map.segments) known.insert(segment.label);
-  map.layers.emplace_back(map.voxel_count());
+  add_layer(map, budget);
   std::vector<float> pixels;
   for (std::size_t frame = 0; frame < seg.grid.slice.size(); ++frame) {
-    read_frame(seg, frame, pixels);
+    read_frame(seg, frame, pixels, budget);
     const std::size_t begin = frame_begin(seg, frame);
     Index last = 0;  // neighbours mostly have one label
     for (std::size_t n = 0; n < pixels.size(); ++n) {
@@ -117,15 +128,16 @@ void fill_labels(const SegFile& seg, LabelMap& map) {
 
 }  // namespace
 
-LabelFile read_dicom_labels(const std::filesystem::path& path) {
-  const SegFile seg = open_seg(path);
+LabelFile read_dicom_labels(const std::filesystem::path& path, MemoryBudget& budget) {
+  const SegFile seg = open_seg(path, budget);
   LabelFile out{{seg.grid.grid, {}, seg.segments}, "DICOM", {}};
-  seg.type == SegType::kLabels ? fill_labels(seg, out.map) : fill_layers(seg, out.map);
+  seg.type == SegType::kLabels ? fill_labels(seg, out.map, budget)
+                               : fill_layers(seg, out.map, budget);
   return out;
 }
 
-ProbabilityFile read_dicom_probabilities(const std::filesystem::path& path) {
-  const SegFile seg = open_seg(path);
+ProbabilityFile read_dicom_probabilities(const std::filesystem::path& path, MemoryBudget& budget) {
+  const SegFile seg = open_seg(path, budget);
   if (seg.type == SegType::kLabels) {
     refuse(path, "expected a fractional or binary segmentation, found one of segment numbers");
   }
@@ -138,11 +150,13 @@ ProbabilityFile read_dicom_probabilities(const std::filesystem::path& path) {
     all.segments[n].label = static_cast<Index>(n + 1);
     all.segments[n].layer = static_cast<Index>(n);
   }
+  budget.claim(std::uint64_t{all.segments.size()} * all.voxel_count(), sizeof(float),
+               "probabilities");
   all.layers.assign(all.segments.size(), std::vector<float>(all.voxel_count()));
   const double most = seg.type == SegType::kFractional ? seg.most : 1;
   std::vector<float> pixels;
   for (std::size_t frame = 0; frame < seg.number.size(); ++frame) {
-    read_frame(seg, frame, pixels);
+    read_frame(seg, frame, pixels, budget);
     float* to = all.layers[layer_of.at(seg.number[frame])].data() + frame_begin(seg, frame);
     for (const float pixel : pixels) *to++ = static_cast<float>(std::min(pixel / most, 1.0));
   }

@@ -102,12 +102,13 @@ void put_forms(HeaderBytes& h, const VoxelGrid& grid) {
 }  // namespace
 
 std::vector<Segment> segments_in_extensions(const std::filesystem::path& file,
-                                            const std::vector<std::string>& extensions) {
+                                            const std::vector<std::string>& extensions,
+                                            MemoryBudget& budget) {
   const auto caret = std::find_if(extensions.begin(), extensions.end(), [](const std::string& e) {
     return e.find(say("<", kRoot)) != std::string::npos;
   });
   if (caret == extensions.end()) return {};
-  const XmlDocument document = parse_xml(file, trimmed(*caret));
+  const XmlDocument document = parse_xml(file, trimmed(*caret), budget);
   if (document.root.name != kRoot) return {};
   std::vector<const XmlElement*> elements;
   collect_labels(document.root, elements);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mesamis/files/memory_budget.h"
 #include "mesamis/image/label_map.h"
 
 /// Names and colours of labels in the header extensions of NIfTI files, and such files written.
@@ -19,7 +20,8 @@ namespace mesamis::detail {
 ///
 /// O(bytes), up to a logarithm.
 std::vector<Segment> segments_in_extensions(const std::filesystem::path& file,
-                                            const std::vector<std::string>& extensions);
+                                            const std::vector<std::string>& extensions,
+                                            MemoryBudget& budget);
 
 /// The XML of such an extension.
 ///

@@ -20,9 +20,30 @@ namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
+using detail::MemoryBudget;
 using detail::refuse;
 using detail::say;
 using detail::ScanFile;
+
+/// A file, and what it is read with.
+struct Request {
+  fs::path path;
+  const ReadLimits& limits;
+  MemoryBudget& budget;
+
+  detail::Opening opening() const { return {budget, limits.allow_outside, detail::Values::kMany}; }
+  ReadOptions options() const {
+    ReadOptions all;
+    all.limits = limits;
+    return all;
+  }
+  /// Makes room for what samples become, of so many bytes each.
+  void claim(const ScanFile& scan, std::uint64_t bytes, const char* what) const {
+    const std::uint64_t values =
+        static_cast<std::uint64_t>(scan.inner) * static_cast<std::uint64_t>(scan.outer);
+    budget.claim(values * scan.grid.voxel_count(), bytes, what);
+  }
+};
 
 detail::LayerOrder order_of(const ScanFile& scan) {
   return {static_cast<std::size_t>(scan.inner), static_cast<std::size_t>(scan.outer)};
@@ -30,32 +51,37 @@ detail::LayerOrder order_of(const ScanFile& scan) {
 
 /// The segments that an array file names. Broken names of a NIfTI file are a warning: its labels
 /// are well.
-std::vector<Segment> named_segments(const fs::path& path, const ScanFile& scan,
+std::vector<Segment> named_segments(const Request& request, const ScanFile& scan,
                                     std::vector<std::string>& warnings) {
+  const auto& [path, limits, budget] = request;
   const auto layers = static_cast<std::size_t>(scan.inner) * static_cast<std::size_t>(scan.outer);
   if (scan.format == "NRRD") return detail::segments_in_keys(path, scan.keys, layers);
   if (scan.format != "NIfTI") return {};
   try {
-    return detail::segments_in_extensions(path, detail::nifti_extensions(path));
+    return detail::segments_in_extensions(path, detail::nifti_extensions(path, budget), budget);
   } catch (const InputError& error) {
     warnings.push_back(say("the names of the labels are not read: ", error.what()));
     return {};
   }
 }
 
-LabelFile labels_of_array(const fs::path& path, const ScanFile& scan) {
+LabelFile labels_of_array(const Request& request, const ScanFile& scan) {
+  const fs::path& path = request.path;
   if (scan.format != "NRRD" && scan.outer > 1) {
     refuse(path, say("expected one label per voxel, found ", scan.outer, " volumes"));
   }
   LabelFile out{{scan.grid, {}, {}}, scan.format, scan.warnings};
-  out.map.segments = named_segments(path, scan, out.warnings);
-  out.map.layers =
-      detail::label_layers(path, scan.grid, order_of(scan), detail::read_samples(scan));
+  out.map.segments = named_segments(request, scan, out.warnings);
+  const std::vector<float> samples = detail::read_samples(scan, request.budget);
+  request.claim(scan, sizeof(std::uint16_t), "labels");
+  out.map.layers = detail::label_layers(path, scan.grid, order_of(scan), samples);
   out.map = with_all_segments(std::move(out.map));
   return out;
 }
 
-LabelFile labels_of_volume(const fs::path& path, const VolumeFile& file) {
+LabelFile labels_of_volume(const Request& request) {
+  const fs::path& path = request.path;
+  const VolumeFile file = read_volume(path, request.options());
   LabelFile out{{file.volume, {}, {}}, file.format, file.warnings};
   out.map.layers = detail::label_layers(path, file.volume, {}, file.volume.samples);
   out.map = with_all_segments(std::move(out.map));
@@ -74,13 +100,13 @@ fs::path file_of(const fs::path& path) {
   return files[0];
 }
 
-LabelFile read_map(const fs::path& path) {
-  const fs::path file = file_of(path);
-  if (const auto scan = detail::open_array(file, detail::Values::kMany)) {
-    return labels_of_array(file, *scan);
+LabelFile read_map(const Request& request) {
+  const fs::path& file = request.path;
+  if (const auto scan = detail::open_array(file, request.opening())) {
+    return labels_of_array(request, *scan);
   }
-  if (detail::looks_like_dicom(file)) return detail::read_dicom_labels(file);
-  return labels_of_volume(file, read_volume(file));
+  if (detail::looks_like_dicom(file)) return detail::read_dicom_labels(file, request.budget);
+  return labels_of_volume(request);
 }
 
 // --- Probabilities -----------------------------------------------------------------------------
@@ -105,21 +131,24 @@ void take_names(std::vector<Segment>& segments, const std::vector<Segment>& name
   }
 }
 
-ProbabilityFile probabilities_of_file(const fs::path& path) {
-  const fs::path file = file_of(path);
-  const auto scan = detail::open_array(file, detail::Values::kMany);
+ProbabilityFile probabilities_of_file(const Request& request) {
+  const fs::path& file = request.path;
+  const auto scan = detail::open_array(file, request.opening());
   if (!scan) {
-    if (detail::looks_like_dicom(file)) return detail::read_dicom_probabilities(file);
-    const VolumeFile volume = read_volume(file);
+    if (detail::looks_like_dicom(file)) {
+      return detail::read_dicom_probabilities(file, request.budget);
+    }
+    const VolumeFile volume = read_volume(file, request.options());
     return {
         {volume.volume, detail::probability_layers(file, volume.volume, {}, volume.volume.samples),
          numbered_segments(1)},
         volume.warnings};
   }
   ProbabilityFile out{{scan->grid, {}, {}}, scan->warnings};
-  const auto names = named_segments(file, *scan, out.warnings);
-  out.probabilities.layers =
-      detail::probability_layers(file, scan->grid, order_of(*scan), detail::read_samples(*scan));
+  const auto names = named_segments(request, *scan, out.warnings);
+  const std::vector<float> samples = detail::read_samples(*scan, request.budget);
+  request.claim(*scan, sizeof(float), "probabilities");
+  out.probabilities.layers = detail::probability_layers(file, scan->grid, order_of(*scan), samples);
   out.probabilities.segments = numbered_segments(out.probabilities.layers.size());
   take_names(out.probabilities.segments, names, scan->format == "NRRD");
   return out;
@@ -161,8 +190,19 @@ std::string name_of(const fs::path& path) {
   return (stem.extension() == ".nii" ? stem.stem() : stem).string();
 }
 
-void append_volume(ProbabilityFile& all, const fs::path& path) {
-  ProbabilityFile one = detail::in_one_line(path, [&] { return probabilities_of_file(path); });
+/// The claims for one file are given back when it is read; what stays of it is claimed again.
+ProbabilityFile read_one(const fs::path& path, const ReadLimits& limits, MemoryBudget& budget) {
+  return detail::in_one_line(path, [&] {
+    const detail::ScopedFile scope(budget, path);
+    return probabilities_of_file({file_of(path), limits, budget});
+  });
+}
+
+void append_volume(ProbabilityFile& all, const fs::path& path, const ReadLimits& limits,
+                   MemoryBudget& budget) {
+  ProbabilityFile one = read_one(path, limits, budget);
+  budget.claim(one.probabilities.layers.size() * one.probabilities.voxel_count(), sizeof(float),
+               "probabilities");
   Probabilities& to = all.probabilities;
   if (one.probabilities.layers.size() != 1) {
     refuse(path, say("expected one volume in each of several files, found ",
@@ -176,17 +216,17 @@ void append_volume(ProbabilityFile& all, const fs::path& path) {
 
 }  // namespace
 
-LabelFile read_label_map(const fs::path& path) {
-  return detail::in_one_line(path, [&] { return read_map(path); });
+LabelFile read_label_map(const fs::path& path, const ReadLimits& limits) {
+  MemoryBudget budget(path, limits);
+  return detail::in_one_line(path, [&] { return read_map({file_of(path), limits, budget}); });
 }
 
-ProbabilityFile read_probabilities(const std::vector<fs::path>& paths) {
+ProbabilityFile read_probabilities(const std::vector<fs::path>& paths, const ReadLimits& limits) {
   if (paths.empty()) throw InputError("probabilities: expected at least one file, found none");
-  if (paths.size() == 1) {
-    return detail::in_one_line(paths[0], [&] { return probabilities_of_file(paths[0]); });
-  }
+  MemoryBudget budget(paths[0], limits);
+  if (paths.size() == 1) return read_one(paths[0], limits, budget);
   ProbabilityFile all;
-  for (const fs::path& path : paths) append_volume(all, path);
+  for (const fs::path& path : paths) append_volume(all, path, limits, budget);
   all.probabilities.segments = numbered_segments(paths.size());
   for (std::size_t n = 0; n < paths.size(); ++n) {
     all.probabilities.segments[n].name = name_of(paths[n]);

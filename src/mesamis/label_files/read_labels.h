@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mesamis/files/read_limits.h"
 #include "mesamis/image/label_map.h"
 
 namespace mesamis {
@@ -36,12 +37,13 @@ struct LabelFile {
 /// where there is none, the least distance of two frames. Single bits must be coded natively or
 /// deflated; other pixels also as the scans are.
 ///
-/// @param path  file or directory; the extension decides, DICOM is known by its content.
+/// @param path    file or directory; the extension decides, DICOM is known by its content.
+/// @param limits  memory, and other folders, as for read_volume().
 /// @throws InputError  one line that begins with the path: what, where, expected, found.
 ///
-/// O(voxels * layers). Memory grows with the data that are there: 6 bytes per voxel and layer, for
-/// DICOM at most 8192 voxels per byte of the file.
-LabelFile read_label_map(const std::filesystem::path& path);
+/// O(voxels * layers). Memory: 6 bytes per voxel and layer, for DICOM at most 8192 voxels per byte
+/// of the file; within the limits.
+LabelFile read_label_map(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 /// Probabilities and what their files say beside them.
 struct ProbabilityFile {
@@ -56,7 +58,8 @@ struct ProbabilityFile {
 /// as read_label_map() says. Of one volume each, the names of the files without their extensions
 /// are the names. A fractional or binary DICOM segmentation gives its values divided by their
 /// maximum.
-/// @param paths  one file, or several volumes on one grid (to 1e-3 of a voxel).
+/// @param paths   one file, or several volumes on one grid (to 1e-3 of a voxel).
+/// @param limits  as read_label_map(), for all files together.
 /// @return values of 0 to 1 (no unit); those beyond by at most 1e-3, which smoothing leaves, are
 /// set to
 ///         the bound.
@@ -65,6 +68,7 @@ struct ProbabilityFile {
 ///                     read_label_map().
 ///
 /// O(voxels * objects). Memory: 4 bytes per voxel and object, twice for one file.
-ProbabilityFile read_probabilities(const std::vector<std::filesystem::path>& paths);
+ProbabilityFile read_probabilities(const std::vector<std::filesystem::path>& paths,
+                                   const ReadLimits& limits = {});
 
 }  // namespace mesamis

@@ -147,13 +147,19 @@ void require_one_frame_each(const SegFile& seg) {
 
 }  // namespace
 
-SegFile open_seg(const std::filesystem::path& path) {
+SegFile open_seg(const std::filesystem::path& path, MemoryBudget& budget) {
   SegFile seg;
-  seg.file = read_dicom_file(path);
+  seg.file = read_dicom_file(path, budget);
   require_seg(seg.file);
   seg.type = type_of(seg.file);
   seg.pixels = pixels_of(seg.file, PixelUse::kLabels);
   require_pixels(seg);
+  // Places, numbers, and one frame of pixels.
+  constexpr std::uint64_t kBytesPerFrame = 256;
+  budget.claim(static_cast<std::uint64_t>(seg.pixels.frames), kBytesPerFrame, "frames");
+  budget.claim(
+      static_cast<std::uint64_t>(seg.pixels.rows) * static_cast<std::uint64_t>(seg.pixels.columns),
+      sizeof(float), "pixels");
   seg.segments = segments_of(seg.file, seg.type);
   if (seg.type == SegType::kFractional) {
     seg.most = number_of(seg.file, seg.file.elements, dicom::kMostFraction).value_or(255);
@@ -167,7 +173,10 @@ SegFile open_seg(const std::filesystem::path& path) {
   return seg;
 }
 
-void read_frame(const SegFile& seg, std::size_t frame, std::vector<float>& out) {
+void read_frame(const SegFile& seg, std::size_t frame, std::vector<float>& out,
+                MemoryBudget& budget) {
+  const ScopedClaim claim(budget, 1, decoding_bytes(seg.file, seg.pixels, static_cast<int>(frame)),
+                          "a frame");
   out.clear();
   const FrameRescale as_stored{static_cast<int>(frame), 1, 0};
   if (!append_frame(seg.file, seg.pixels, as_stored, out)) {

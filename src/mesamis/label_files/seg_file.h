@@ -35,11 +35,12 @@ struct SegFile {
 ///                     out of range or twice, and as grid_of_frames().
 ///
 /// O(bytes + frames), up to a logarithm.
-SegFile open_seg(const std::filesystem::path& path);
+SegFile open_seg(const std::filesystem::path& path, MemoryBudget& budget);
 
 /// Reads one frame, from 0: the pixels row by row.
 /// @param out  what it held is replaced.
 /// @throws InputError  if the frame cannot be decoded.
-void read_frame(const SegFile& seg, std::size_t frame, std::vector<float>& out);
+void read_frame(const SegFile& seg, std::size_t frame, std::vector<float>& out,
+                MemoryBudget& budget);
 
 }  // namespace mesamis::detail

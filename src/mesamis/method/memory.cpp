@@ -66,15 +66,16 @@ std::optional<std::array<Index, 3>> stride_that_fits(const VoxelGrid& volume, Se
   return stride;
 }
 
-void require_memory(const VoxelGrid& volume, const Settings& settings, double limit_gb) {
+void require_memory(const VoxelGrid& volume, const Settings& settings, double limit_gb,
+                    double still_taken) {
   constexpr double kGigabyte = 1e9;
   const auto limit = limit_gb > 0 ? std::optional(limit_gb * kGigabyte) : available_memory();
-  const double needed = memory_needed(volume, settings);
+  const double needed = memory_needed(volume, settings) + still_taken;
   if (!limit || needed <= *limit) return;
   std::ostringstream message;
   message << std::fixed << std::setprecision(1) << "memory: expected about " << needed / kGigabyte
           << " GB for this run, found " << *limit / kGigabyte << " GB; ";
-  if (const auto stride = stride_that_fits(volume, settings, *limit)) {
+  if (const auto stride = stride_that_fits(volume, settings, *limit - still_taken)) {
     const auto& [x, y, z] = *stride;
     message << "--stride " << x << "," << y << "," << z << " fits";
   } else {

@@ -25,9 +25,12 @@ std::optional<std::array<Index, 3>> stride_that_fits(const VoxelGrid& volume, Se
                                                      double bytes);
 
 /// Refuses a run that would not fit, before it starts. O(1).
-/// @param limit_gb  that it may take, 10^9 bytes; 0: available_memory().
+/// @param limit_gb     that it may take, 10^9 bytes; 0: available_memory().
+/// @param still_taken  bytes that will be taken before it starts, such as for samples that are
+///                     still to be read.
 /// @throws InputError  if it does not fit: what the run needs, what there is, and the stride that
 ///                     fits; and as cropped_size().
-void require_memory(const VoxelGrid& volume, const Settings& settings, double limit_gb);
+void require_memory(const VoxelGrid& volume, const Settings& settings, double limit_gb,
+                    double still_taken = 0);
 
 }  // namespace mesamis

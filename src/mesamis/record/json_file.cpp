@@ -9,6 +9,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/files/atomic_file.h"
+#include "mesamis/files/file_list.h"
 
 namespace mesamis {
 namespace {
@@ -50,6 +51,7 @@ void write_json(const std::filesystem::path& path, const nlohmann::ordered_json&
 }
 
 nlohmann::json read_json(const std::filesystem::path& path) {
+  detail::require_file(path);
   std::ifstream in(path, std::ios::binary);
   if (!in || std::filesystem::is_directory(path)) {
     throw InputError(path.string() + ": cannot be opened");

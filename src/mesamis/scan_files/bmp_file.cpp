@@ -52,9 +52,9 @@ void require_complete(const std::filesystem::path& file, const Bmp& bmp) {
   }
 }
 
-Bmp parse(const std::filesystem::path& file) {
+Bmp parse(const std::filesystem::path& file, MemoryBudget& budget) {
   Bmp bmp;
-  bmp.bytes = read_all(file);
+  bmp.bytes = read_all(file, budget);
   if (!bmp.bytes.starts_with("BM") || bmp.bytes.size() < kFileHeader + kSmallestInfo ||
       number<std::uint32_t>(bmp, 14) < kSmallestInfo) {
     refuse(file, "expected a BMP file, found something else or a cut off one");
@@ -105,11 +105,15 @@ std::array<unsigned, 3> pixel_color(const std::filesystem::path& file, const Bmp
 
 }  // namespace
 
-ScanFile open_bmp(const std::filesystem::path& file) { return scan_of(file, parse(file)); }
+ScanFile open_bmp(const std::filesystem::path& file, MemoryBudget& budget) {
+  return scan_of(file, parse(file, budget));
+}
 
-VolumeFile read_bmp(const std::filesystem::path& file) {
-  const Bmp bmp = parse(file);
-  return grey_picture(scan_of(file, bmp), [&](std::int64_t x, std::int64_t y) {
+VolumeFile read_bmp(const std::filesystem::path& file, MemoryBudget& budget) {
+  const Bmp bmp = parse(file, budget);
+  ScanFile scan = scan_of(file, bmp);
+  budget.claim(scan.grid.voxel_count(), sizeof(float), "samples");
+  return grey_picture(std::move(scan), [&](std::int64_t x, std::int64_t y) {
     const auto stored = static_cast<std::uint64_t>(bmp.bottom_up ? bmp.height - 1 - y : y);
     const std::uint64_t line = bmp.pixels + stored * bmp.line_bytes();
     return pixel_color(file, bmp, line, static_cast<std::uint64_t>(x));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <memory>
 #include <string_view>
 
 #include "mesamis/files/byte_source.h"
@@ -18,7 +19,8 @@ namespace {
 constexpr std::size_t kPreamble = 128;
 constexpr std::uint32_t kUndefined = 0xffffffff;
 constexpr DicomTag kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd = 0xfffee0dd;
-constexpr int kDeepest = 16;  // sequences in sequences
+constexpr int kDeepest = 16;            // sequences in sequences
+constexpr std::size_t kNodeBytes = 64;  // of a map, beside its value
 constexpr const char* kImplicit = "1.2.840.10008.1.2";
 constexpr const char* kDeflated = "1.2.840.10008.1.2.1.99";
 constexpr const char* kBigEndian = "1.2.840.10008.1.2.2";
@@ -55,8 +57,12 @@ struct ElementHeader {
 
 class Parser {
  public:
-  Parser(Bytes bytes, std::size_t begin, bool explicit_vr, bool big_endian)
-      : bytes_(bytes), at_(begin), explicit_(explicit_vr), big_endian_(big_endian) {}
+  Parser(const DicomFile& file, std::size_t begin, bool explicit_vr, MemoryBudget& budget)
+      : bytes_(file.bytes),
+        at_(begin),
+        explicit_(explicit_vr),
+        big_endian_(file.big_endian),
+        budget_(budget) {}
 
   std::size_t position() const { return at_; }
 
@@ -130,6 +136,7 @@ class Parser {
 
   DicomTag parse_element(DicomSet& set) {
     const ElementHeader header = take_header();
+    budget_.claim(1, sizeof(DicomSet::value_type) + kNodeBytes, "DICOM elements");
     DicomElement element;
     const bool undefined = header.length == kUndefined;
     if (undefined && header.tag == dicom::kPixelData) {
@@ -157,7 +164,7 @@ class Parser {
         throw Broken{"sequence " + tag_text(header.tag) + " holds " + tag_text(item.tag) +
                      " where an item should begin"};
       }
-      items.push_back(take_item(item));
+      append_within(budget_, items, take_item(item), "DICOM items");
     }
     explicit_ = was_explicit;
     --depth_;
@@ -202,13 +209,14 @@ class Parser {
         throw Broken{"pixel data hold " + tag_text(item.tag) + " where a fragment should begin"};
       }
       const Bytes fragment = take_value(item);
-      if (!first) fragments.push_back(fragment);
+      if (!first) append_within(budget_, fragments, fragment, "fragments of pixels");
     }
   }
 
   Bytes bytes_;
   std::size_t at_;
   bool explicit_, big_endian_;
+  MemoryBudget& budget_;
   int depth_ = 0;
 };
 
@@ -217,34 +225,38 @@ bool has_magic(Bytes bytes) {
 }
 
 /// The rest of the file behind `begin`, inflated (raw deflate, PS3.5 A.5).
-std::vector<unsigned char> inflate_rest(Bytes packed) {
+std::vector<unsigned char> inflate_rest(Bytes packed, MemoryBudget& budget) {
   std::vector<unsigned char> out;
   z_stream stream{};
   if (inflateInit2(&stream, -15) != Z_OK) throw Broken{"zlib could not be started"};
   stream.next_in = const_cast<unsigned char*>(packed.data());
   stream.avail_in = static_cast<uInt>(packed.size());
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
   std::array<unsigned char, 1 << 16> block;
   int status = Z_OK;
   while (status == Z_OK) {
     stream.next_out = block.data();
     stream.avail_out = static_cast<uInt>(block.size());
     status = inflate(&stream, Z_NO_FLUSH);
+    const std::size_t size = out.size() + block.size() - stream.avail_out;
+    if (size > out.capacity()) {
+      reserve_within(budget, out, std::max(size, 2 * out.size()), "deflated data");
+    }
     out.insert(out.end(), block.data(), block.data() + (block.size() - stream.avail_out));
   }
-  inflateEnd(&stream);
   if (status != Z_STREAM_END) throw Broken{"the deflated data are broken or cut off"};
   return out;
 }
 
-void parse(DicomFile& file) {
+void parse(DicomFile& file, MemoryBudget& budget) {
   std::size_t begin = has_magic(file.bytes) ? kPreamble + 4 : 0;
-  Parser meta(file.bytes, begin, true, false);
+  Parser meta(file, begin, true, budget);
   DicomSet meta_set;
   meta.parse_meta(meta_set);
   begin = meta.position();
   file.transfer_syntax = text_of(meta_set, dicom::kTransferSyntax);
   if (file.transfer_syntax == kDeflated) {
-    file.bytes = inflate_rest(Bytes(file.bytes).subspan(begin));
+    file.bytes = inflate_rest(Bytes(file.bytes).subspan(begin), budget);
     begin = 0;
   }
   const Bytes bytes(file.bytes);
@@ -254,7 +266,7 @@ void parse(DicomFile& file) {
       bytes.size() >= begin + 6 && is_upper(bytes[begin + 4]) && is_upper(bytes[begin + 5]);
   const bool explicit_vr =
       file.transfer_syntax.empty() ? vr_there : file.transfer_syntax != kImplicit;
-  Parser(bytes, begin, explicit_vr, file.big_endian).parse_all(file.elements);
+  Parser(file, begin, explicit_vr, budget).parse_all(file.elements);
 }
 
 }  // namespace
@@ -265,13 +277,15 @@ bool begins_like_dicom(Bytes bytes) {
   return bytes[0] == 2 || bytes[0] == 8;
 }
 
-DicomFile read_dicom_file(const std::filesystem::path& path) {
+DicomFile read_dicom_file(const std::filesystem::path& path, MemoryBudget& budget) {
   DicomFile file;
   file.path = path;
-  file.bytes.resize(size_of(path));
-  ByteSource(path, Packing::kPlain).read(file.bytes.data(), file.bytes.size());
+  ByteSource source(path, Packing::kPlain);
+  reserve_within(budget, file.bytes, source.most_bytes(), "bytes of the file");
+  file.bytes.resize(source.most_bytes());
+  file.bytes.resize(source.read(file.bytes.data(), file.bytes.size()));
   try {
-    parse(file);
+    parse(file, budget);
   } catch (const Broken& broken) {
     file.problem = broken.why;
   }
@@ -281,7 +295,8 @@ DicomFile read_dicom_file(const std::filesystem::path& path) {
 std::string text_of(const DicomSet& set, DicomTag tag) {
   const auto element = set.find(tag);
   if (element == set.end()) return "";
-  const Bytes value = element->second.value;
+  constexpr std::size_t kLongest = 1 << 16;
+  const Bytes all = element->second.value, value = all.first(std::min(all.size(), kLongest));
   return std::string(
       trimmed(std::string_view(reinterpret_cast<const char*>(value.data()), value.size())));
 }
@@ -308,7 +323,7 @@ std::optional<std::vector<double>> decimals_of(const DicomSet& set, DicomTag tag
                                                std::size_t count) {
   const std::string text = text_of(set, tag);
   std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
+  for (std::size_t begin = 0; begin <= text.size() && numbers.size() <= count;) {
     const std::size_t end = std::min(text.find('\\', begin), text.size());
     double value = 0;
     if (!parse_number(trimmed(std::string_view(text).substr(begin, end - begin)), value)) return {};

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "mesamis/files/memory_budget.h"
+
 /// The data elements of one DICOM file. The parser is our own, so that every length a file claims
 /// is checked against the bytes that are there before it is used.
 namespace mesamis::detail {
@@ -70,11 +72,12 @@ bool begins_like_dicom(Bytes bytes);
 
 /// Reads and parses a file. `problem` describes broken content; elements before it are kept.
 ///
-/// O(bytes). Memory: the file once, deflated files unpacked.
-/// @throws InputError  if the file cannot be read.
-DicomFile read_dicom_file(const std::filesystem::path& path);
+/// O(bytes). Memory: the file once, deflated files unpacked, and what its elements take: claimed
+/// before it is taken, and held.
+/// @throws InputError  if the file cannot be read, and as MemoryBudget::claim().
+DicomFile read_dicom_file(const std::filesystem::path& path, MemoryBudget& budget);
 
-/// Text without padding; empty if the element is not there.
+/// Text without padding, 64 KiB at most; empty if the element is not there.
 std::string text_of(const DicomSet& set, DicomTag tag);
 /// An unsigned 16-bit number.
 std::optional<int> number_of(const DicomFile& file, const DicomSet& set, DicomTag tag);

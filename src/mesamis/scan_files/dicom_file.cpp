@@ -2,6 +2,7 @@
 // A DICOM series as a volume: which series (dicom_series), where its slices lie (dicom_spacing),
 // and their samples (dicom_pixels).
 #include <array>
+#include <memory>
 #include <system_error>
 
 #include "mesamis/base/error.h"
@@ -18,14 +19,40 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<DicomImage> read_images(const fs::path& path) {
+DicomImage image_in(const fs::path& file, MemoryBudget& budget) {
+  const ScopedFile scope(budget, file);
+  return describe_image(read_dicom_file(file, budget), budget);
+}
+
+/// The images of a folder, or of that of a file, and the files that cannot be opened.
+struct FolderImages {
+  std::vector<DicomImage> images;
+  std::vector<std::string> unreadable;  ///< each with its reason
+
+  /// A line about what is left out, if anything is.
+  void warn(std::vector<std::string>& warnings) const {
+    if (unreadable.empty()) return;
+    warnings.push_back(say(unreadable.size(), unreadable.size() == 1 ? " file" : " files",
+                           " left out that cannot be read, the first ", unreadable[0]));
+  }
+};
+
+FolderImages read_images(const fs::path& path, MemoryBudget& budget) {
+  constexpr std::size_t kCopies = 4;  // as images, as series, sorted, and while these grow
   const bool directory = fs::is_directory(path);
   const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  std::vector<DicomImage> images;
+  FolderImages found;
   for (const fs::path& file : directory ? files_below(path) : files_in(parent)) {
-    if (looks_like_dicom(file)) images.push_back(describe_image(read_dicom_file(file)));
+    if (const std::string why = why_unreadable(file); !why.empty()) {
+      found.unreadable.push_back(say(shown(file.filename().string()), ": ", why));
+    } else if (looks_like_dicom(file)) {
+      DicomImage image = image_in(file, budget);
+      budget.claim(kCopies * image.slices.size(), sizeof(DicomSlice) + file.native().size(),
+                   "DICOM slices");
+      append_within(budget, found.images, std::move(image), "DICOM images");
+    }
   }
-  return images;
+  return found;
 }
 
 ScanFile grid_of(const fs::path& path, const DicomSeries& series, const SortedSlices& stack) {
@@ -70,22 +97,32 @@ Stack plan(const fs::path& path, const DicomSeries& series, bool resample) {
   return stack;
 }
 
-/// Decodes file by file, in the order of the slices. A file of many frames is read once as long as
-/// its frames follow one another.
-std::vector<float> decode(const SortedSlices& stack, std::size_t voxels,
-                          std::vector<std::string>& warnings) {
-  std::vector<float> samples;
-  samples.reserve(voxels);
+/// A file that is decoded, as long as it is.
+struct OpenFile {
+  OpenFile(const fs::path& path, MemoryBudget& budget)
+      : scope(budget, path), file(read_dicom_file(path, budget)), pixels(pixels_of(file)) {}
+
+  ScopedFile scope;
   DicomFile file;
   DicomPixels pixels;
+};
+
+/// Decodes file by file, in the order of the slices. A file of many frames is read once as long as
+/// its frames follow one another.
+std::vector<float> decode(const SortedSlices& stack, std::size_t voxels, MemoryBudget& budget,
+                          std::vector<std::string>& warnings) {
+  std::vector<float> samples;
+  reserve_within(budget, samples, voxels, "samples");
+  std::unique_ptr<OpenFile> open;
   std::vector<const DicomSlice*> damaged;
   for (const DicomSlice& slice : stack.slices) {
-    if (file.path != slice.file) {
-      file = {};
-      file = read_dicom_file(slice.file);
-      pixels = pixels_of(file);
+    if (open == nullptr || open->file.path != slice.file) {
+      open.reset();
+      open = std::make_unique<OpenFile>(slice.file, budget);
     }
+    const auto& [scope, file, pixels] = *open;
     const FrameRescale rescale{slice.frame, slice.slope, slice.intercept};
+    const ScopedClaim claim(budget, 1, decoding_bytes(file, pixels, slice.frame), "a frame");
     if (!append_frame(file, pixels, rescale, samples)) damaged.push_back(&slice);
   }
   if (!damaged.empty()) {
@@ -110,26 +147,29 @@ VolumeInfo info_of(const fs::path& path, const DicomSeries& series, bool resampl
 bool looks_like_dicom(const fs::path& file) {
   std::array<unsigned char, 132> begin{};
   std::error_code error;
-  if (fs::file_size(file, error) < 8 || error) return false;
+  if (fs::file_size(file, error) < 8 || error || !why_unreadable(file).empty()) return false;
   const std::size_t got = ByteSource(file, Packing::kPlain).read(begin.data(), begin.size());
   return begins_like_dicom(Bytes(begin).first(got));
 }
 
-VolumeFile read_dicom(const fs::path& path, const ReadOptions& options) {
+VolumeFile read_dicom(const fs::path& path, const ReadOptions& options, MemoryBudget& budget) {
   std::string wanted = options.series;
   const bool directory = fs::is_directory(path);
   if (!directory) {
-    const DicomImage named = describe_image(read_dicom_file(path));
+    const DicomImage named = image_in(path, budget);
     if (!named.has_pixels) {
       refuse(path, "expected a DICOM image, found " + in_quotes(named.modality));
     }
     if (!named.problem.empty()) throw InputError(named.problem);
     if (wanted.empty()) wanted = named.series;
   }
-  const std::vector<DicomSeries> all = group_by_series(read_images(path));
+  const FolderImages found = read_images(path, budget);
+  const std::vector<DicomSeries> all = group_by_series(found.images);
   const DicomSeries& series = choose_series(path, all, wanted);
   Stack stack = plan(path, series, options.resample);
   ScanFile& scan = stack.scan;
+  found.warn(scan.warnings);
+  announce(scan.grid, options);
   if (wanted.empty() && all.size() > 1) {
     scan.warnings.push_back("taken as the only volume among the series " + titles_of(all));
   }
@@ -137,17 +177,19 @@ VolumeFile read_dicom(const fs::path& path, const ReadOptions& options) {
   const DicomSlice& first = stack.sorted.slices.front();
   const std::size_t stored = static_cast<std::size_t>(first.columns) *
                              static_cast<std::size_t>(first.rows) * stack.sorted.slices.size();
-  out.volume.samples = decode(stack.sorted, stored, out.warnings);
+  out.volume.samples = decode(stack.sorted, stored, budget, out.warnings);
   if (stack.resampling.needed()) {
+    budget.claim(out.volume.voxel_count(), sizeof(float), "samples between slices");
     out.volume.samples =
         resampled(stack.resampling, {first.columns, first.rows}, out.volume.samples);
   }
   return out;
 }
 
-std::vector<VolumeInfo> list_dicom(const fs::path& path, const ReadOptions& options) {
+std::vector<VolumeInfo> list_dicom(const fs::path& path, const ReadOptions& options,
+                                   MemoryBudget& budget) {
   std::vector<VolumeInfo> infos;
-  for (const DicomSeries& series : group_by_series(read_images(path)))
+  for (const DicomSeries& series : group_by_series(read_images(path, budget).images))
     infos.push_back(info_of(path, series, options.resample));
   return infos;
 }

@@ -22,6 +22,14 @@ std::optional<PictureHeader> jpeg_header(Bytes picture);
 /// The SIZ segment of a JPEG 2000 codestream; none if it does not come first.
 std::optional<PictureHeader> jpeg2000_header(Bytes picture);
 
+/// An upper bound of what a decoder of JPEG 2000 takes for the structure that a codestream states:
+/// tiles, resolutions, layers, precincts and code blocks, of which a header of some bytes can claim
+/// millions. Read from all COD and COC segments (ISO/IEC 15444-1, A.6.1 and A.6.2).
+/// @param picture  begins with a SIZ segment, see jpeg2000_header().
+/// @param pixels   of the picture.
+/// @return bytes; the largest number of 64 bits where the segments cannot be followed. O(bytes).
+std::uint64_t jpeg2000_structure_bytes(Bytes picture, std::uint64_t pixels);
+
 /// Whether JPEG's EOI or JPEG 2000's EOC marker ends the data; up to 16 bytes of padding may
 /// follow. Decoders fill up what is cut off and report success.
 bool has_end_marker(Bytes picture);

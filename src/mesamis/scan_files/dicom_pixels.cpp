@@ -241,6 +241,25 @@ DicomPixels pixels_of(const DicomFile& file, PixelUse use) {
   return p;
 }
 
+std::uint64_t decoding_bytes(const DicomFile& file, const DicomPixels& p, int frame) {
+  // Words, samples of 16 or 32 bits, and as much again within a decoder (the coefficients of a
+  // progressive JPEG, the lines and the picture of JPEG 2000).
+  constexpr std::uint64_t kPerPixel = 24, kMostStructure = std::uint64_t{1} << 40;
+  const Coding coding = coding_of(file);
+  if (coding == Coding::kNative) return 0;
+  const auto capsule = frame_capsule(file, p, frame, coding);
+  const std::uint64_t bytes = 2 * capsule.size() + kPerPixel * frame_pixels(p);
+  if (coding != Coding::kRle) require_same_picture(file, p, capsule, coding);
+  if (coding != Coding::kJpeg2000) return bytes;
+  const std::uint64_t structure = jpeg2000_structure_bytes(capsule, frame_pixels(p));
+  if (structure > kMostStructure) {
+    refuse(file.path,
+           "the compressed pixels state more tiles, layers, precincts or blocks than a "
+           "picture needs, or none that can be followed");
+  }
+  return bytes + structure;
+}
+
 bool append_frame(const DicomFile& file, const DicomPixels& p, const FrameRescale& rescale,
                   std::vector<float>& out) {
   const Coding coding = coding_of(file);

@@ -27,6 +27,13 @@ enum class PixelUse {
 ///                     header claims.
 DicomPixels pixels_of(const DicomFile& file, PixelUse use = PixelUse::kGrey);
 
+/// What the decoding of a frame takes beside its samples: compressed and decoded words, and the
+/// decoder's own memory as far as the picture's header decides it.
+/// @param frame  from 0.
+/// @return bytes; 0 for native pixels. O(compressed bytes of the frame).
+/// @throws InputError  if the frame has no data, or its picture is not the file's or cut off.
+std::uint64_t decoding_bytes(const DicomFile& file, const DicomPixels& pixels, int frame);
+
 /// One frame of a file, from 0, and its rescale: native value = slope * stored + intercept.
 struct FrameRescale {
   int frame = 0;

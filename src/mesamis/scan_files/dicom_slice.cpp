@@ -79,7 +79,7 @@ void scale(DicomSlice& slice, const FrameTags& tags) {
   }
 }
 
-std::vector<DicomSlice> slices_of(const DicomFile& file) {
+std::vector<DicomSlice> slices_of(const DicomFile& file, MemoryBudget& budget) {
   const DicomPixels pixels = pixels_of(file);
   const std::string type = text_of(file.elements, dicom::kImageType);
   if (type.find("MOSAIC") != std::string::npos) {
@@ -89,6 +89,8 @@ std::vector<DicomSlice> slices_of(const DicomFile& file) {
     refuse(file.path, say("expected a position for each of the ", pixels.frames,
                           " frames, found none (no Per-frame Functional Groups)"));
   }
+  budget.claim(static_cast<std::uint64_t>(pixels.frames),
+               sizeof(DicomSlice) + file.path.native().size(), "DICOM slices");
   std::vector<DicomSlice> slices(static_cast<std::size_t>(pixels.frames));
   for (std::size_t frame = 0; frame < slices.size(); ++frame) {
     slices[frame] = place_frame(file, pixels, frame);
@@ -125,7 +127,7 @@ std::string name_of(const DicomSlice& slice) {
   return slice.frame > 0 ? say(name, " frame ", slice.frame) : name;
 }
 
-DicomImage describe_image(const DicomFile& file) {
+DicomImage describe_image(const DicomFile& file, MemoryBudget& budget) {
   DicomImage image;
   const DicomSet& set = file.elements;
   image.file = file.path;
@@ -138,7 +140,7 @@ DicomImage describe_image(const DicomFile& file) {
   if (!image.has_pixels) return image;
   try {
     if (!file.problem.empty()) refuse(file.path, "broken DICOM file: " + file.problem);
-    image.slices = slices_of(file);
+    image.slices = slices_of(file, budget);
   } catch (const InputError& error) {
     image.problem = error.what();
   }

@@ -52,7 +52,8 @@ std::optional<std::vector<double>> frame_decimals(const DicomFile& file, std::si
 
 /// Reads everything but the samples. `problem` describes content that cannot be used; nothing is
 /// thrown for it.
-DicomImage describe_image(const DicomFile& file);
+/// @param budget  the slices are claimed, and held.
+DicomImage describe_image(const DicomFile& file, MemoryBudget& budget);
 
 /// The steps from column to column, from row to row and from slice to slice, LPS, mm: what
 /// set_axes() takes.

@@ -9,34 +9,35 @@
 #include "mesamis/scan_files/read_volume.h"
 #include "mesamis/scan_files/scan_file.h"
 
-/// The formats of this room, one .cpp each. Every function throws InputError, one line.
+/// The formats of this room, one .cpp each. Every function throws InputError, one line, and asks
+/// the budget before it takes memory whose amount a file decides.
 namespace mesamis::detail {
 
 /// NIfTI-1 and -2, one file, plain or gzip'd, either byte order. World frame: the sform if its
 /// code is above 0, else the qform, else (with a warning) method 1 of the standard: axes along
 /// RAS, origin 0. RAS is turned into LPS; lengths in m or um into mm.
-/// @param values  kMany: the fourth or the fifth axis may hold more than one volume.
-ScanFile open_nifti(const std::filesystem::path& file, Values values = Values::kOne);
+/// Of many values the fourth or the fifth axis may hold more than one volume.
+ScanFile open_nifti(const std::filesystem::path& file, const Opening& opening);
 
 /// The header extensions of a NIfTI file, without size and code: none if there are none.
 /// @throws InputError  also for an extension of more than 16 MiB, or that ends behind the header.
-std::vector<std::string> nifti_extensions(const std::filesystem::path& file);
+std::vector<std::string> nifti_extensions(const std::filesystem::path& file, MemoryBudget& budget);
 
 /// NRRD 1 to 5 with 3 domain axes; raw, gzip or ascii; attached or one detached data file.
 /// World frame: spaces in LPS, RAS or LAS order; without a space the axes are taken as LPS.
-/// @param values  kMany: beside these axes the first or the last of four may be a list.
-ScanFile open_nrrd(const std::filesystem::path& file, Values values = Values::kOne);
+/// Of many values the first or the last of four axes may be a list.
+ScanFile open_nrrd(const std::filesystem::path& file, const Opening& opening);
 
 /// MetaImage with 3 axes and one channel; raw, zlib or ascii; LOCAL or one data file. LPS.
-ScanFile open_meta(const std::filesystem::path& file);
+ScanFile open_meta(const std::filesystem::path& file, const Opening& opening);
 
 /// InVesalius project: a tar (gzip'd or not) with main.plist and the matrix it names. The project
 /// stores x to the left, y to the front and z to the head (checked on the distribution's
 /// Cranium.inv3; the file itself does not say), and no origin: the first voxel is put at 0.
-ScanFile open_inv3(const std::filesystem::path& file);
+ScanFile open_inv3(const std::filesystem::path& file, const Opening& opening);
 
 /// Opens one of the formats above, as the file's name says; none for any other name.
-std::optional<ScanFile> open_array(const std::filesystem::path& file, Values values = Values::kOne);
+std::optional<ScanFile> open_array(const std::filesystem::path& file, const Opening& opening);
 
 /// A file of bare samples, i fastest, then j, k; 1 mm with a warning, axes LPS, origin 0. The size
 /// of the file must be the layout's to the byte.
@@ -44,33 +45,41 @@ ScanFile open_raw(const std::filesystem::path& file, const RawLayout& layout);
 
 /// A TIFF whose pages are the slices; x to the left, y to the back, z to the head. Spacing from
 /// the resolution tags and from ImageJ's description (unit, spacing), 1 mm with a warning else.
-VolumeFile read_tiff(const std::filesystem::path& file);
-ScanFile open_tiff_header(const std::filesystem::path& file);
+VolumeFile read_tiff(const std::filesystem::path& file, MemoryBudget& budget);
+ScanFile open_tiff_header(const std::filesystem::path& file, MemoryBudget& budget);
 
 /// A PNG, one slice as above; 1 to 16 bits, grey, or colours that are. Spacing along x and y from
 /// its resolution (pHYs). Not interlaced. What it claims is compared with its bytes before memory
 /// is taken for it.
-VolumeFile read_png(const std::filesystem::path& file);
-ScanFile open_png(const std::filesystem::path& file);
+VolumeFile read_png(const std::filesystem::path& file, MemoryBudget& budget);
+ScanFile open_png(const std::filesystem::path& file, MemoryBudget& budget);
 
 /// An uncompressed BMP of 8, 24 or 32 bits, as a PNG.
-VolumeFile read_bmp(const std::filesystem::path& file);
-ScanFile open_bmp(const std::filesystem::path& file);
+VolumeFile read_bmp(const std::filesystem::path& file, MemoryBudget& budget);
+ScanFile open_bmp(const std::filesystem::path& file, MemoryBudget& budget);
 
 /// Whether the file's name is that of a picture: .tif .tiff .png .bmp.
 bool is_picture(const std::filesystem::path& file);
 /// One of them, as the name says.
-VolumeFile read_picture(const std::filesystem::path& file);
+VolumeFile read_picture(const std::filesystem::path& file, MemoryBudget& budget);
 /// Its grid and the type of its samples; they are not read.
-ScanFile open_picture(const std::filesystem::path& file);
+ScanFile open_picture(const std::filesystem::path& file, MemoryBudget& budget);
+
+/// Tells the caller of the grid whose samples are about to be read, with the spacing that was asked
+/// for.
+/// @throws InputError  as options.on_grid.
+void announce(VoxelGrid grid, const ReadOptions& options);
 
 /// Takes over size, spacing, origin and direction of a grid.
 void set_grid(VolumeInfo& info, const VoxelGrid& grid);
 
 /// One DICOM series: of a directory and those below it, or the one a file belongs to.
-VolumeFile read_dicom(const std::filesystem::path& path, const ReadOptions& options);
-std::vector<VolumeInfo> list_dicom(const std::filesystem::path& path, const ReadOptions& options);
-/// Whether the file begins like DICOM, with or without the preamble.
+/// Files that cannot be opened are left out with a warning.
+VolumeFile read_dicom(const std::filesystem::path& path, const ReadOptions& options,
+                      MemoryBudget& budget);
+std::vector<VolumeInfo> list_dicom(const std::filesystem::path& path, const ReadOptions& options,
+                                   MemoryBudget& budget);
+/// Whether the file begins like DICOM, with or without the preamble; not if it cannot be opened.
 bool looks_like_dicom(const std::filesystem::path& file);
 
 }  // namespace mesamis::detail

@@ -97,8 +97,8 @@ const XmlElement* value_of(const XmlElement& dict, std::string_view key) {
 /// A property list: <plist> with a <dict>.
 class Plist {
  public:
-  Plist(const std::filesystem::path& file, std::string_view xml)
-      : root_(parse_xml(file / kMainPlist, xml).root) {}
+  Plist(const std::filesystem::path& file, std::string_view xml, MemoryBudget& budget)
+      : root_(parse_xml(file / kMainPlist, xml, budget).root) {}
 
   /// The texts at a path of keys, e.g. "matrix/shape": of one value or of an array's; empty if
   /// there is no such value.
@@ -157,10 +157,10 @@ NumberType sample_type(const std::filesystem::path& file, const std::string& dty
   return type->second;
 }
 
-std::optional<Plist> find_main_plist(const std::filesystem::path& file) {
+std::optional<Plist> find_main_plist(const std::filesystem::path& file, MemoryBudget& budget) {
   Tar tar(file);
   while (const auto entry = tar.next()) {
-    if (entry->name == kMainPlist) return Plist(file, tar.text(*entry));
+    if (entry->name == kMainPlist) return Plist(file, tar.text(*entry), budget);
   }
   return std::nullopt;
 }
@@ -184,9 +184,9 @@ void place(ScanFile& scan, const Plist& plist) {
 
 }  // namespace
 
-ScanFile open_inv3(const std::filesystem::path& file) {
+ScanFile open_inv3(const std::filesystem::path& file, const Opening& opening) {
   ScanFile scan{file, "InVesalius", {}, {}, {}};
-  const auto plist = find_main_plist(file);
+  const auto plist = find_main_plist(file, opening.budget);
   if (!plist) refuse(file, "expected an InVesalius project, found no main.plist in it");
   const auto shape = three<std::int64_t>(file, *plist, "matrix/shape");
   set_size(scan, {shape[2], shape[1], shape[0]});

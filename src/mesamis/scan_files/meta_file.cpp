@@ -119,13 +119,13 @@ void place(ScanFile& scan, const MetaHeader& header) {
   set_origin(scan, {origin[0], origin[1], origin[2]});
 }
 
-void find_data(SampleSource& source, const MetaHeader& header) {
+void find_data(SampleSource& source, const MetaHeader& header, bool allow_outside) {
   const std::string name = header.need("elementdatafile");
   if (name == "LIST" || name.starts_with("LIST ") || name.find('%') != std::string::npos) {
     refuse(header.file, say("expected one ElementDataFile, found ", in_quotes(name)));
   }
   const bool local = lower(name) == "local";
-  source.file = local ? header.file : header.file.parent_path() / name;
+  source.file = local ? header.file : data_path(header.file, name, allow_outside);
   source.offset = local ? header.size : 0;
   source.text = header.fields.count("binarydata") && !header.is_true({"binarydata"});
   source.big_endian = header.is_true({"binarydatabyteordermsb", "elementbyteordermsb"});
@@ -149,7 +149,7 @@ std::string modality(const MetaHeader& header) {
 
 }  // namespace
 
-ScanFile open_meta(const std::filesystem::path& file) {
+ScanFile open_meta(const std::filesystem::path& file, const Opening& opening) {
   const MetaHeader header = read_header(file);
   ScanFile scan{file, "MetaImage", {}, {}, {}};
   require_three_axes(header);
@@ -157,7 +157,7 @@ ScanFile open_meta(const std::filesystem::path& file) {
   set_size(scan, {size[0], size[1], size[2]});
   place(scan, header);
   scan.source.type = sample_type(header);
-  find_data(scan.source, header);
+  find_data(scan.source, header, opening.allow_outside);
   scan.grid.modality = modality(header);
   return scan;
 }

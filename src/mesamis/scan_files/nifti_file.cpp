@@ -212,10 +212,10 @@ void place(ScanFile& scan, const NiftiHeader& h) {
 
 }  // namespace
 
-ScanFile open_nifti(const std::filesystem::path& file, Values values) {
+ScanFile open_nifti(const std::filesystem::path& file, const Opening& opening) {
   const NiftiHeader h = read_header(file);
   ScanFile scan{file, "NIfTI", {}, {}, {}};
-  set_dimensions(scan, h, values);
+  set_dimensions(scan, h, opening.values);
   if (!(h.vox_offset >= static_cast<double>(kSize1)) || h.vox_offset > 1e15) {
     refuse(file, say("expected the samples behind the header, found vox_offset ", h.vox_offset));
   }
@@ -232,7 +232,7 @@ ScanFile open_nifti(const std::filesystem::path& file, Values values) {
   return scan;
 }
 
-std::vector<std::string> nifti_extensions(const std::filesystem::path& file) {
+std::vector<std::string> nifti_extensions(const std::filesystem::path& file, MemoryBudget& budget) {
   constexpr std::uint64_t kMostBytes = 1 << 24;
   const NiftiHeader h = read_header(file);
   ByteSource bytes(file, Packing::kSniffed);
@@ -248,9 +248,10 @@ std::vector<std::string> nifti_extensions(const std::filesystem::path& file) {
       refuse(file, say("expected a header extension of 8 to ", kMostBytes,
                        " bytes before the samples, found ", size));
     }
+    budget.claim(1, static_cast<std::uint64_t>(size), "header extensions");
     std::string content(static_cast<std::size_t>(size) - 8, '\0');
     content.resize(bytes.read(content.data(), content.size()));
-    extensions.push_back(std::move(content));
+    append_within(budget, extensions, std::move(content), "header extensions");
     at += size;
   }
   return extensions;

@@ -275,12 +275,12 @@ std::uint64_t offset_behind_lines(const std::filesystem::path& file, std::uint64
   return offset;
 }
 
-void find_data(SampleSource& source, const NrrdHeader& header) {
+void find_data(SampleSource& source, const NrrdHeader& header, bool allow_outside) {
   const std::string name = header.or_else("data file", "");
   if (name == "LIST" || name.starts_with("LIST ") || name.find('%') != std::string::npos) {
     refuse(header.file, "expected one data file, found a list of them");
   }
-  source.file = name.empty() ? header.file : header.file.parent_path() / name;
+  source.file = name.empty() ? header.file : data_path(header.file, name, allow_outside);
   source.offset = name.empty() ? header.size : 0;
   source.exact = !name.empty();
   const auto skip = [&header](const std::string& field) {
@@ -298,15 +298,15 @@ void find_data(SampleSource& source, const NrrdHeader& header) {
 
 }  // namespace
 
-ScanFile open_nrrd(const std::filesystem::path& file, Values values) {
+ScanFile open_nrrd(const std::filesystem::path& file, const Opening& opening) {
   NrrdHeader header = read_header(file);
   ScanFile scan{file, "NRRD", {}, {}, {}};
-  const ValueAxis axis = require_axes(header, values);
+  const ValueAxis axis = require_axes(header, opening.values);
   set_sizes(scan, header, axis);
   place(scan, header, axis);
   scan.source.type = sample_type(header);
   set_encoding(scan.source, header);
-  find_data(scan.source, header);
+  find_data(scan.source, header, opening.allow_outside);
   scan.keys = std::move(header.keys);
   return scan;
 }

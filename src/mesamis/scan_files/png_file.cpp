@@ -77,10 +77,11 @@ void take_chunk(const std::filesystem::path& file, std::string_view type, std::s
 }
 
 /// Parses everything but the pixels.
-Png parse(const std::filesystem::path& file) {
-  const std::string bytes = read_all(file);
+Png parse(const std::filesystem::path& file, MemoryBudget& budget) {
+  const std::string bytes = read_all(file, budget);
   if (!bytes.starts_with(kSignature)) refuse(file, "expected a PNG file, found something else");
   Png png;
+  reserve_within(budget, png.packed, bytes.size(), "packed pixels");
   std::size_t at = kSignature.size();
   std::string_view type;
   while (type != "IEND") {
@@ -99,13 +100,14 @@ Png parse(const std::filesystem::path& file) {
 
 /// Lines with their filter bytes. What the header claims is compared with what the data can hold
 /// before it is allocated.
-std::string unpack(const std::filesystem::path& file, const Png& png) {
+std::string unpack(const std::filesystem::path& file, const Png& png, MemoryBudget& budget) {
   const std::uint64_t needed =
       static_cast<std::uint64_t>(png.height) * (std::uint64_t{png.line_bytes()} + 1);
   if (needed > kMostDeflateRatio * png.packed.size()) {
     refuse(file, say("expected ", needed, " bytes of pixels for ", png.width, " x ", png.height,
                      ", found ", png.packed.size(), " packed"));
   }
+  budget.claim(needed, 1, "pixels");
   std::string lines(needed, '\0');
   uLongf size = needed;
   const int status =
@@ -194,12 +196,15 @@ ScanFile scan_of(const std::filesystem::path& file, const Png& png) {
 
 }  // namespace
 
-ScanFile open_png(const std::filesystem::path& file) { return scan_of(file, parse(file)); }
+ScanFile open_png(const std::filesystem::path& file, MemoryBudget& budget) {
+  return scan_of(file, parse(file, budget));
+}
 
-VolumeFile read_png(const std::filesystem::path& file) {
-  const Png png = parse(file);
+VolumeFile read_png(const std::filesystem::path& file, MemoryBudget& budget) {
+  const Png png = parse(file, budget);
   ScanFile scan = scan_of(file, png);
-  std::string lines = unpack(file, png);
+  std::string lines = unpack(file, png, budget);
+  budget.claim(scan.grid.voxel_count(), sizeof(float), "samples");
   unfilter(file, png, lines);
   return grey_picture(std::move(scan), [&](std::int64_t x, std::int64_t y) {
     const char* line = lines.data() + static_cast<std::size_t>(y) * (png.line_bytes() + 1) + 1;

@@ -19,26 +19,24 @@ namespace {
 
 namespace fs = std::filesystem;
 using detail::in_one_line;
+using detail::MemoryBudget;
+using detail::Opening;
 using detail::refuse;
 using detail::ScanFile;
-using detail::Values;
 
 /// A format of plain arrays and the ends of its files' names.
 struct ArrayFormat {
   std::string_view extension;
-  ScanFile (*open)(const fs::path&, Values);
+  ScanFile (*open)(const fs::path&, const Opening&);
 };
-
-ScanFile open_one_meta(const fs::path& file, Values) { return detail::open_meta(file); }
-ScanFile open_one_inv3(const fs::path& file, Values) { return detail::open_inv3(file); }
 
 constexpr std::array<ArrayFormat, 7> kArrayFormats{{{".nii", detail::open_nifti},
                                                     {".nii.gz", detail::open_nifti},
                                                     {".nrrd", detail::open_nrrd},
                                                     {".nhdr", detail::open_nrrd},
-                                                    {".mha", open_one_meta},
-                                                    {".mhd", open_one_meta},
-                                                    {".inv3", open_one_inv3}}};
+                                                    {".mha", detail::open_meta},
+                                                    {".mhd", detail::open_meta},
+                                                    {".inv3", detail::open_inv3}}};
 
 const ArrayFormat* array_format_of(const fs::path& file) {
   const std::string name = detail::lower(file.filename().string());
@@ -51,8 +49,8 @@ const ArrayFormat* array_format_of(const fs::path& file) {
 /// A format of pictures.
 struct PictureFormat {
   std::string_view extension;
-  ScanFile (*open)(const fs::path&);
-  VolumeFile (*read)(const fs::path&);
+  ScanFile (*open)(const fs::path&, MemoryBudget&);
+  VolumeFile (*read)(const fs::path&, MemoryBudget&);
 };
 
 constexpr std::array<PictureFormat, 4> kPictureFormats{
@@ -80,10 +78,25 @@ bool has_known_extension(const fs::path& file) {
       "layout of a raw file, found none of them");
 }
 
-VolumeFile read_array(const ScanFile& scan) {
+/// A path, and what it is read with.
+struct Request {
+  const fs::path& path;
+  const ReadOptions& options;
+  MemoryBudget& budget;
+
+  Opening opening() const { return {budget, options.limits.allow_outside}; }
+};
+
+VolumeFile read_array(const Request& request, const ScanFile& scan) {
+  detail::announce(scan.grid, request.options);
   VolumeFile out{scan.grid, scan.format, scan.warnings};
-  out.volume.samples = detail::read_samples(scan);
+  out.volume.samples = detail::read_samples(scan, request.budget);
   return out;
+}
+
+VolumeFile read_one_picture(const Request& request) {
+  detail::announce(detail::open_picture(request.path, request.budget).grid, request.options);
+  return detail::read_picture(request.path, request.budget);
 }
 
 bool holds_dicom(const fs::path& directory) {
@@ -92,36 +105,44 @@ bool holds_dicom(const fs::path& directory) {
 }
 
 /// The pictures of a directory that are its slices: none where there is DICOM.
-std::vector<fs::path> slices_of(const fs::path& directory) {
-  std::vector<fs::path> slices = detail::slices_in(directory);
-  return slices.empty() || holds_dicom(directory) ? std::vector<fs::path>{} : slices;
+std::vector<fs::path> slices_of(const Request& request) {
+  std::vector<fs::path> slices = detail::slices_in(request.path, request.budget);
+  return slices.empty() || holds_dicom(request.path) ? std::vector<fs::path>{} : slices;
 }
 
-VolumeFile read_directory(const fs::path& path, const ReadOptions& options) {
-  const std::vector<fs::path> slices = slices_of(path);
-  return slices.empty() ? detail::read_dicom(path, options) : detail::read_slices(path, slices);
+VolumeFile read_directory(const Request& request) {
+  const auto& [path, options, budget] = request;
+  const std::vector<fs::path> slices = slices_of(request);
+  return slices.empty() ? detail::read_dicom(path, options, budget)
+                        : detail::read_slices(path, slices, options, budget);
 }
 
-VolumeFile read_file(const fs::path& path, const ReadOptions& options) {
-  if (options.raw) return read_array(detail::open_raw(path, *options.raw));
-  if (fs::is_directory(path)) return read_directory(path, options);
-  if (const auto scan = detail::open_array(path)) return read_array(*scan);
-  if (detail::is_picture(path)) return detail::read_picture(path);
-  if (detail::looks_like_dicom(path)) return detail::read_dicom(path, options);
+VolumeFile read_file(const Request& request) {
+  const auto& [path, options, budget] = request;
+  if (options.raw) return read_array(request, detail::open_raw(path, *options.raw));
+  if (fs::is_directory(path)) return read_directory(request);
+  if (const auto scan = detail::open_array(path, request.opening())) {
+    return read_array(request, *scan);
+  }
+  if (detail::is_picture(path)) return read_one_picture(request);
+  if (detail::looks_like_dicom(path)) return detail::read_dicom(path, options, budget);
   refuse_unknown(path);
 }
 
 /// The header of a file with a known name, or of a raw one.
-ScanFile open_header(const fs::path& file, const ReadOptions& options) {
-  if (options.raw) return detail::open_raw(file, *options.raw);
-  return detail::is_picture(file) ? detail::open_picture(file) : *detail::open_array(file);
+ScanFile open_header(const Request& request) {
+  const fs::path& file = request.path;
+  if (request.options.raw) return detail::open_raw(file, *request.options.raw);
+  return detail::is_picture(file) ? detail::open_picture(file, request.budget)
+                                  : *detail::open_array(file, request.opening());
 }
 
-VolumeInfo describe(const fs::path& file, const ReadOptions& options) {
+VolumeInfo describe(const Request& request) {
+  const detail::ScopedFile scope(request.budget, request.path);
   VolumeInfo info;
-  info.description = file.filename().string();
+  info.description = request.path.filename().string();
   try {
-    const ScanFile scan = open_header(file, options);
+    const ScanFile scan = open_header(request);
     info.format = scan.format;
     info.modality = scan.grid.modality;
     detail::set_grid(info, scan.grid);
@@ -132,31 +153,37 @@ VolumeInfo describe(const fs::path& file, const ReadOptions& options) {
 }
 
 /// DICOM series, or slices, then the other volumes.
-std::vector<VolumeInfo> list_directory(const fs::path& path, const ReadOptions& options) {
-  const std::vector<fs::path> slices = slices_of(path);
-  std::vector<VolumeInfo> all = slices.empty() ? detail::list_dicom(path, options)
-                                               : std::vector{detail::describe_slices(path, slices)};
+std::vector<VolumeInfo> list_directory(const Request& request) {
+  const auto& [path, options, budget] = request;
+  const std::vector<fs::path> slices = slices_of(request);
+  std::vector<VolumeInfo> all = slices.empty()
+                                    ? detail::list_dicom(path, options, budget)
+                                    : std::vector{detail::describe_slices(path, slices, budget)};
   for (const fs::path& file : detail::files_in(path)) {
     const bool slice = std::find(slices.begin(), slices.end(), file) != slices.end();
-    if (has_known_extension(file) && !slice) all.push_back(describe(file, options));
+    if (has_known_extension(file) && !slice) all.push_back(describe({file, options, budget}));
   }
   if (all.empty()) refuse(path, "expected DICOM series, slices or volume files, found none");
   return all;
 }
 
-std::vector<VolumeInfo> list(const fs::path& path, const ReadOptions& options) {
-  if (fs::is_directory(path) && !options.raw) return list_directory(path, options);
-  if (options.raw || has_known_extension(path)) return {describe(path, options)};
-  if (detail::looks_like_dicom(path)) return detail::list_dicom(path, options);
+std::vector<VolumeInfo> list(const Request& request) {
+  const auto& [path, options, budget] = request;
+  if (fs::is_directory(path) && !options.raw) return list_directory(request);
+  if (options.raw || has_known_extension(path)) return {describe(request)};
+  if (detail::looks_like_dicom(path)) return detail::list_dicom(path, options, budget);
   refuse_unknown(path);
 }
 
-/// The spacing that was asked for takes the place of the file's, and of what was assumed.
-void apply_spacing(const fs::path& path, const Vec3& spacing, VolumeFile& file) {
+void require_positive(const fs::path& path, const Vec3& spacing) {
   for (int a = 0; a < 3; ++a) {
     if (spacing[a] > 0 && std::isfinite(spacing[a])) continue;
     refuse(path, detail::say("expected a positive spacing, found ", spacing[a], " mm"));
   }
+}
+
+/// The spacing that was asked for takes the place of the file's, and of what was assumed.
+void apply_spacing(const Vec3& spacing, VolumeFile& file) {
   const auto assumed = std::erase_if(file.warnings, [](const std::string& warning) {
     return warning.find(": 1 mm taken") != std::string::npos;
   });
@@ -169,18 +196,26 @@ void apply_spacing(const fs::path& path, const Vec3& spacing, VolumeFile& file) 
 
 }  // namespace
 
-std::optional<ScanFile> detail::open_array(const fs::path& file, Values values) {
+std::optional<ScanFile> detail::open_array(const fs::path& file, const Opening& opening) {
   const ArrayFormat* format = array_format_of(file);
-  return format ? std::optional(format->open(file, values)) : std::nullopt;
+  return format ? std::optional(format->open(file, opening)) : std::nullopt;
+}
+
+void detail::announce(VoxelGrid grid, const ReadOptions& options) {
+  grid.spacing = options.spacing.value_or(grid.spacing);
+  if (options.on_grid) options.on_grid(grid);
 }
 
 bool detail::is_picture(const fs::path& file) { return picture_format_of(file) != nullptr; }
 
-VolumeFile detail::read_picture(const fs::path& file) {
-  return picture_format_of(file)->read(file);
+VolumeFile detail::read_picture(const fs::path& file, MemoryBudget& budget) {
+  return picture_format_of(file)->read(file, budget);
 }
 
-ScanFile detail::open_picture(const fs::path& file) { return picture_format_of(file)->open(file); }
+ScanFile detail::open_picture(const fs::path& file, MemoryBudget& budget) {
+  const ScopedFile scope(budget, file);
+  return picture_format_of(file)->open(file, budget);
+}
 
 void detail::set_grid(VolumeInfo& info, const VoxelGrid& grid) {
   info.size = grid.size;
@@ -190,15 +225,18 @@ void detail::set_grid(VolumeInfo& info, const VoxelGrid& grid) {
 }
 
 VolumeFile read_volume(const fs::path& path, const ReadOptions& options) {
+  MemoryBudget budget(path, options.limits);
   return in_one_line(path, [&] {
-    VolumeFile file = read_file(path, options);
-    if (options.spacing) apply_spacing(path, *options.spacing, file);
+    if (options.spacing) require_positive(path, *options.spacing);
+    VolumeFile file = read_file({path, options, budget});
+    if (options.spacing) apply_spacing(*options.spacing, file);
     return file;
   });
 }
 
 std::vector<VolumeInfo> list_volumes(const fs::path& path, const ReadOptions& options) {
-  std::vector<VolumeInfo> all = in_one_line(path, [&] { return list(path, options); });
+  MemoryBudget budget(path, options.limits);
+  std::vector<VolumeInfo> all = in_one_line(path, [&] { return list({path, options, budget}); });
   for (VolumeInfo& info : all) info.spacing = options.spacing.value_or(info.spacing);
   return all;
 }

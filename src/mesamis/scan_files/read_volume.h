@@ -4,11 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "mesamis/files/read_limits.h"
 #include "mesamis/image/volume.h"
 
 namespace mesamis {
@@ -36,6 +38,10 @@ struct ReadOptions {
   std::optional<RawLayout> raw{};  ///< the path is a raw file of this layout, whatever its name
   std::optional<Vec3> spacing{};   ///< mm, positive: taken instead of the file's
   bool resample = false;           ///< DICOM: stacks that are no regular grid are interpolated
+  ReadLimits limits{};             ///< memory, and other folders
+  /// Called with the volume's grid when the headers are read and no sample is: it may throw, as
+  /// where there is no memory for what comes afterwards. list_volumes() does not call it.
+  std::function<void(const VoxelGrid&)> on_grid{};
 };
 
 /// A volume and what its file says beside the samples.
@@ -69,8 +75,9 @@ struct VolumeFile {
 /// call themselves so, and a stack across the main one that is single or at most a quarter of it.
 /// Refused are several series (unless one is named or only one is a stack), slice distances that
 /// differ by more than 2 %, missing slices, two slices at one place, tilted stacks, broken files of
-/// the series. One slice is no volume: the file cannot say how thick it is. JPEG data that are
-/// corrupt but can be decoded are read with a warning.
+/// the series. A file that cannot be opened is left out with a warning. One slice is no volume: the
+/// file cannot say how thick it is. JPEG data that are corrupt but can be decoded are read with a
+/// warning.
 ///
 /// What a format with a third axis does hold (one slice, unknown samples, a constant) is read;
 /// require_usable() refuses it before any method runs.
@@ -91,9 +98,9 @@ struct VolumeFile {
 ///         applied), in single precision: integers of more than 24 bits are rounded.
 /// @throws InputError  one line that begins with the path: what, where, expected, found.
 ///
-/// O(voxels) and, for DICOM, the bytes of all files below the directory. Memory grows with the
-/// data that are there, never with what a header claims: 4 bytes per voxel, and one file of the
-/// series or one page at a time.
+/// O(voxels) and, for DICOM, the bytes of all files below the directory. Memory: 4 bytes per voxel,
+/// and one file of the series or one page at a time. What a header claims beyond what its file can
+/// hold, or beyond options.limits, is refused before it is taken.
 VolumeFile read_volume(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// One 3D image a path offers: what `mesamis info` lists.

@@ -197,7 +197,7 @@ void append_samples(std::span<const unsigned char> bytes, const SampleSource& so
   convert_any(bytes, source, out.data() + begin);
 }
 
-std::vector<float> read_samples(const ScanFile& scan) {
+std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget) {
   const SampleSource& source = scan.source;
   const std::uint64_t skip = source.at_end ? bytes_before_last_samples(scan) : source.skip;
   ByteSource bytes(source.file, source.packing, source.offset);
@@ -208,9 +208,8 @@ std::vector<float> read_samples(const ScanFile& scan) {
                  "bytes");
   }
   bytes.skip(skip);
-  // This reserves addresses only; the system provides memory as samples are appended.
   std::vector<float> samples;
-  samples.reserve(sample_count(scan));
+  reserve_within(budget, samples, sample_count(scan), "samples");
   source.text ? read_text(scan, bytes, samples) : read_binary(scan, bytes, samples);
   char beyond = 0;
   if (source.exact && !source.text && bytes.read(&beyond, 1) > 0) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesamis/files/byte_source.h"
+#include "mesamis/files/memory_budget.h"
 #include "mesamis/files/number_type.h"
 #include "mesamis/image/volume.h"
 
@@ -46,6 +47,13 @@ struct ScanFile {
 /// How many values per voxel a reader accepts.
 enum class Values { kOne, kMany };
 
+/// What the reader of a header is given beside the path.
+struct Opening {
+  MemoryBudget& budget;
+  bool allow_outside = false;  ///< see ReadLimits
+  Values values = Values::kOne;
+};
+
 /// Sets the grid's size. @throws InputError  if a count is below 1 or the product out of bounds.
 void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts);
 
@@ -63,11 +71,11 @@ void set_axes(ScanFile& scan, const std::array<Vec3, 3>& steps);
 /// Sets the origin. @throws InputError  if it is not finite.
 void set_origin(ScanFile& scan, const Vec3& origin);
 
-/// Reads the samples of all values, in the order of the file. Memory grows with the data that are
-/// really there: a header that promises more than the file can hold is refused before anything is
-/// allocated.
-/// @throws InputError  if the data are too short, broken or (source.exact) too long.
-std::vector<float> read_samples(const ScanFile& scan);
+/// Reads the samples of all values, in the order of the file. A header that promises more than the
+/// file can hold is refused before anything is claimed; then the samples are, and stay so.
+/// @throws InputError  if the data are too short, broken or (source.exact) too long; as
+///                     MemoryBudget::claim().
+std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget);
 
 /// Appends stored samples to `out` as native values.
 /// @param bytes  a whole number of samples.

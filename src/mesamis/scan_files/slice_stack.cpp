@@ -87,12 +87,14 @@ void require_like(const ScanFile& first, const ScanFile& slice) {
 }
 
 /// The headers of all files, checked, as one volume without samples.
-ScanFile open_slices(const fs::path& directory, const std::vector<fs::path>& files) {
-  ScanFile first = open_picture(files[0]);
+ScanFile open_slices(const fs::path& directory, const std::vector<fs::path>& files,
+                     MemoryBudget& budget) {
+  ScanFile first = open_picture(files[0], budget);
   if (first.grid.size[2] != 1) {
     refuse(files[0], say("expected one slice per file, found ", first.grid.size[2]));
   }
-  for (std::size_t n = 1; n < files.size(); ++n) require_like(first, open_picture(files[n]));
+  for (std::size_t n = 1; n < files.size(); ++n)
+    require_like(first, open_picture(files[n], budget));
   ScanFile scan = first;
   scan.file = directory;
   scan.format += " slices";
@@ -108,7 +110,7 @@ bool natural_less(const std::string& a, const std::string& b) {
   return order != 0 ? order < 0 : a < b;
 }
 
-std::vector<fs::path> slices_in(const fs::path& directory) {
+std::vector<fs::path> slices_in(const fs::path& directory, MemoryBudget& budget) {
   std::vector<fs::path> files = files_in(directory);
   std::erase_if(files, [](const fs::path& file) { return !is_picture(file); });
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
@@ -116,30 +118,34 @@ std::vector<fs::path> slices_in(const fs::path& directory) {
   });
   if (files.size() < 2) return {};
   try {
-    if (open_picture(files[0]).grid.size[2] != 1) return {};
+    if (open_picture(files[0], budget).grid.size[2] != 1) return {};
   } catch (const InputError&) {
     return files;  // the reader says what is wrong with it
   }
   return files;
 }
 
-VolumeFile read_slices(const fs::path& directory, const std::vector<fs::path>& files) {
-  ScanFile scan = open_slices(directory, files);
+VolumeFile read_slices(const fs::path& directory, const std::vector<fs::path>& files,
+                       const ReadOptions& options, MemoryBudget& budget) {
+  ScanFile scan = open_slices(directory, files, budget);
+  announce(scan.grid, options);
   VolumeFile out{std::move(scan.grid), scan.format, std::move(scan.warnings)};
-  out.volume.samples.reserve(out.volume.voxel_count());
+  reserve_within(budget, out.volume.samples, out.volume.voxel_count(), "samples");
   for (const fs::path& file : files) {
-    const std::vector<float> slice = read_picture(file).volume.samples;
+    const ScopedFile scope(budget, file);
+    const std::vector<float> slice = read_picture(file, budget).volume.samples;
     out.volume.samples.insert(out.volume.samples.end(), slice.begin(), slice.end());
   }
   return out;
 }
 
-VolumeInfo describe_slices(const fs::path& directory, const std::vector<fs::path>& files) {
+VolumeInfo describe_slices(const fs::path& directory, const std::vector<fs::path>& files,
+                           MemoryBudget& budget) {
   VolumeInfo info;
   info.description = (directory / "").parent_path().filename().string();
   info.format = "slices";
   try {
-    const ScanFile scan = open_slices(directory, files);
+    const ScanFile scan = open_slices(directory, files, budget);
     info.format = scan.format;
     set_grid(info, scan.grid);
   } catch (const InputError& error) {

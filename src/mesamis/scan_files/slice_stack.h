@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mesamis/files/memory_budget.h"
 #include "mesamis/scan_files/read_volume.h"
 
 /// Pictures of a directory as the slices of one volume.
@@ -17,21 +18,24 @@ bool natural_less(const std::string& a, const std::string& b);
 /// The pictures that are the slices of a directory, in natural order of their names: its .tif,
 /// .tiff, .png and .bmp files, if there are two at least and the first holds one slice. Else none.
 /// @throws InputError  as files_in().
-std::vector<std::filesystem::path> slices_in(const std::filesystem::path& directory);
+std::vector<std::filesystem::path> slices_in(const std::filesystem::path& directory,
+                                             MemoryBudget& budget);
 
 /// Reads the pictures as slices, the first at z = 0. Spacing along x and y as the first file has
 /// it, 1 mm between slices with a warning. Numbers in the names that do not go up in equal steps
 /// are a warning: a slice may be missing.
-/// @param files  at least one.
+/// @param files    at least one.
+/// @param options  to announce() the grid to.
 /// @throws InputError  naming the file, if a picture is of another format, size, type or spacing
 ///                     than the first, or holds more than one slice.
 ///
 /// O(pixels). Memory: 4 bytes per pixel, and one file at a time.
 VolumeFile read_slices(const std::filesystem::path& directory,
-                       const std::vector<std::filesystem::path>& files);
+                       const std::vector<std::filesystem::path>& files, const ReadOptions& options,
+                       MemoryBudget& budget);
 
 /// The same without the samples; what read_slices() would refuse for is the problem.
 VolumeInfo describe_slices(const std::filesystem::path& directory,
-                           const std::vector<std::filesystem::path>& files);
+                           const std::vector<std::filesystem::path>& files, MemoryBudget& budget);
 
 }  // namespace mesamis::detail

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/scan_files/text_header.h"
 
+#include <algorithm>
 #include <sstream>
 
+#include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 
 namespace mesamis::detail {
@@ -31,8 +33,9 @@ std::vector<Number> parse_all(const std::filesystem::path& file, const std::stri
 
 }  // namespace
 
-HeaderLines::HeaderLines(const std::filesystem::path& file)
-    : file_(file), in_(file, std::ios::binary) {
+HeaderLines::HeaderLines(const std::filesystem::path& file) : file_(file) {
+  require_file(file);
+  in_.open(file, std::ios::binary);
   if (!in_) refuse(file, "cannot be read");
 }
 
@@ -50,6 +53,17 @@ bool HeaderLines::next(std::string& line) {
   }
   if (line.ends_with('\r')) line.pop_back();
   return any;
+}
+
+std::filesystem::path data_path(const std::filesystem::path& header, const std::string& name,
+                                bool allow_outside) {
+  const std::filesystem::path path(name);
+  const bool leaves = path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end();
+  if (leaves && !allow_outside) {
+    refuse(header, say("expected a data file in the header's folder, found ", in_quotes(name),
+                       " (--allow-outside allows it)"));
+  }
+  return header.parent_path() / path;
 }
 
 std::vector<std::string> words_of(std::string_view text) {

@@ -32,6 +32,14 @@ class HeaderLines {
 /// Fields by lower-case name.
 using HeaderFields = std::map<std::string, std::string>;
 
+/// Where a header's data file is.
+/// @param name           as the header has it: of a file in its folder or below.
+/// @param allow_outside  the name may lead out of that folder, by ".." or as an absolute path.
+/// @throws InputError    if it does where it may not: a header from elsewhere must not choose which
+///                       files of the machine are read.
+std::filesystem::path data_path(const std::filesystem::path& header, const std::string& name,
+                                bool allow_outside);
+
 /// Words between white space.
 std::vector<std::string> words_of(std::string_view text);
 

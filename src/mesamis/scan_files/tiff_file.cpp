@@ -29,11 +29,12 @@ double allocation_bound(const std::filesystem::path& file) {
 
 /// Opens with message handlers and a memory bound of this handle alone; libtiff's global handlers
 /// are not touched.
-TiffHandle open(const std::filesystem::path& file) {
+TiffHandle open(const std::filesystem::path& file, const MemoryBudget& budget) {
   TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
   TIFFOpenOptionsSetErrorHandlerExtR(options, stay_silent, nullptr);
   TIFFOpenOptionsSetWarningHandlerExtR(options, stay_silent, nullptr);
-  TIFFOpenOptionsSetMaxSingleMemAlloc(options, static_cast<tmsize_t>(allocation_bound(file)));
+  const double most = std::min(allocation_bound(file), static_cast<double>(budget.left()));
+  TIFFOpenOptionsSetMaxSingleMemAlloc(options, static_cast<tmsize_t>(most) + 1);  // 0: no limit
   TiffHandle tiff(TIFFOpenExt(file.c_str(), "rm", options));
   TIFFOpenOptionsFree(options);
   if (!tiff) refuse(file, "expected a TIFF file, found none that can be read");
@@ -190,10 +191,19 @@ std::array<std::size_t, 2> tile_size(const std::filesystem::path& file, TIFF* ti
   return {width, height};
 }
 
-void read_tiles(const std::filesystem::path& file, TIFF* tiff, const Page& page,
-                std::vector<unsigned char>& out) {
+struct OpenTiff {
+  ScanFile scan;
+  TiffHandle tiff;
+  Page page;
+};
+
+void read_tiles(const OpenTiff& in, std::vector<unsigned char>& out, MemoryBudget& budget) {
+  const std::filesystem::path& file = in.scan.file;
+  const Page& page = in.page;
+  TIFF* tiff = in.tiff.get();
   const std::size_t pixel = page.bits / 8u, line = page.width * pixel;
   const auto [tile_width, tile_height] = tile_size(file, tiff, pixel);
+  const ScopedClaim claim(budget, 2 * tile_width * tile_height, pixel, "a tile");  // and libtiff's
   std::vector<unsigned char> tile(tile_width * tile_height * pixel);
   for (std::size_t y = 0; y < page.height; y += tile_height) {
     for (std::size_t x = 0; x < page.width; x += tile_width) {
@@ -210,8 +220,10 @@ void read_tiles(const std::filesystem::path& file, TIFF* tiff, const Page& page,
   }
 }
 
-void read_strips(const std::filesystem::path& file, TIFF* tiff, const Page& page,
-                 std::vector<unsigned char>& out) {
+void read_strips(const OpenTiff& in, std::vector<unsigned char>& out, MemoryBudget&) {
+  const std::filesystem::path& file = in.scan.file;
+  const Page& page = in.page;
+  TIFF* tiff = in.tiff.get();
   const std::size_t line = std::size_t{page.width} * (page.bits / 8u);
   if (static_cast<std::size_t>(TIFFScanlineSize64(tiff)) != line) {
     refuse(file, say("page ", TIFFCurrentDirectory(tiff), ": expected lines of ", line, " bytes"));
@@ -221,15 +233,9 @@ void read_strips(const std::filesystem::path& file, TIFF* tiff, const Page& page
   }
 }
 
-struct OpenTiff {
-  ScanFile scan;
-  TiffHandle tiff;
-  Page page;
-};
-
-OpenTiff open_tiff(const std::filesystem::path& file) {
+OpenTiff open_tiff(const std::filesystem::path& file, const MemoryBudget& budget) {
   OpenTiff open_file;
-  open_file.tiff = open(file);
+  open_file.tiff = open(file, budget);
   ScanFile& scan = open_file.scan;
   scan.file = file;
   scan.format = "TIFF";
@@ -252,20 +258,23 @@ OpenTiff open_tiff(const std::filesystem::path& file) {
 
 }  // namespace
 
-VolumeFile read_tiff(const std::filesystem::path& file) {
-  OpenTiff in = open_tiff(file);
+VolumeFile read_tiff(const std::filesystem::path& file, MemoryBudget& budget) {
+  OpenTiff in = open_tiff(file, budget);
   VolumeFile out{std::move(in.scan.grid), in.scan.format, in.scan.warnings};
   const std::size_t pixels = std::size_t{in.page.width} * in.page.height;
+  const ScopedClaim claim(budget, pixels, in.page.bits / 8u, "a page");
   std::vector<unsigned char> page(pixels * (in.page.bits / 8u));
-  out.volume.samples.reserve(out.volume.voxel_count());
+  reserve_within(budget, out.volume.samples, out.volume.voxel_count(), "samples");
   for_each_slice(file, in.tiff.get(), [&] {
     const auto read = TIFFIsTiled(in.tiff.get()) ? read_tiles : read_strips;
-    read(file, in.tiff.get(), in.page, page);
+    read(in, page, budget);
     append_samples(page, in.scan.source, out.volume.samples);
   });
   return out;
 }
 
-ScanFile open_tiff_header(const std::filesystem::path& file) { return open_tiff(file).scan; }
+ScanFile open_tiff_header(const std::filesystem::path& file, MemoryBudget& budget) {
+  return open_tiff(file, budget).scan;
+}
 
 }  // namespace mesamis::detail

@@ -64,7 +64,9 @@ double number_in(const fs::path& file, const XmlElement& parent, const char* nam
 /// Gathers points and triangles as their elements end; the tree keeps neither.
 class AmfReader {
  public:
-  explicit AmfReader(const fs::path& file) : file_(file) { sink_.emplace(file_, surface()); }
+  AmfReader(const fs::path& file, MemoryBudget& budget) : file_(file), budget_(budget) {
+    sink_.emplace(file_, surface(), budget_);
+  }
 
   /// @return  whether the tree can do without the element.
   bool consume(const XmlElement& element, std::string_view path) {
@@ -102,8 +104,9 @@ class AmfReader {
 
   void add_vertex(const XmlElement& vertex) {
     const XmlElement& at = child_of(file_, vertex, "coordinates");
-    surface().points.push_back(
-        {number_in(file_, at, "x"), number_in(file_, at, "y"), number_in(file_, at, "z")});
+    const Vec3 point{number_in(file_, at, "x"), number_in(file_, at, "y"),
+                     number_in(file_, at, "z")};
+    append_within(budget_, surface().points, point, "points");
   }
 
   void add_triangle(const XmlElement& triangle) {
@@ -115,7 +118,7 @@ class AmfReader {
   void end_mesh() {
     if (!has_vertices_) refuse(file_, "expected <vertices> in <mesh>, found none");
     has_vertices_ = false;
-    sink_.emplace(file_, surface());
+    sink_.emplace(file_, surface(), budget_);
   }
 
   /// None where a channel is no number: AMF allows formulas.
@@ -133,11 +136,14 @@ class AmfReader {
   void end_object(const XmlElement& object) {
     facts_.label = object_label_in(object.attribute("id"));
     const auto number = static_cast<Index>(result_.objects.size());
-    result_.objects.push_back(std::exchange(facts_, {}));
+    budget_.claim(1, facts_.name.size(), "names of objects");
+    append_within(budget_, result_.objects, std::exchange(facts_, {}), "objects");
+    reserve_within(budget_, result_.object_of, surface().triangles.capacity(), "triangles");
     result_.object_of.resize(surface().triangles.size(), number);
   }
 
   const fs::path& file_;
+  MemoryBudget& budget_;
   ParsedObjects result_;
   ObjectFacts facts_;                // of the object that is read
   std::optional<PolygonSink> sink_;  // of the mesh that is read
@@ -202,12 +208,13 @@ std::string amf_object_bytes(std::span<const NamedSurface> objects,
   return out += "</amf>\n";
 }
 
-ParsedObjects parse_amf_objects(const fs::path& file, std::string_view bytes) {
-  AmfReader reader(file);
+ParsedObjects parse_amf_objects(const fs::path& file, std::string_view bytes,
+                                MemoryBudget& budget) {
+  AmfReader reader(file, budget);
   const auto consume = [&](const XmlElement& e, std::string_view path) {
     return reader.consume(e, path);
   };
-  const XmlElement root = parse_xml(file, bytes, {.consume = consume}).root;
+  const XmlElement root = parse_xml(file, bytes, budget, {.consume = consume}).root;
   if (root.name != "amf") refuse(file, "expected <amf>, found " + in_quotes(root.name));
   const double unit = unit_in_mm(file, root.attribute("unit"));
   ParsedObjects result = reader.result();
@@ -218,8 +225,8 @@ ParsedObjects parse_amf_objects(const fs::path& file, std::string_view bytes) {
   return result;
 }
 
-SurfaceFile parse_amf(const fs::path& file, std::string_view bytes) {
-  return parse_amf_objects(file, bytes).file;
+SurfaceFile parse_amf(const fs::path& file, std::string_view bytes, MemoryBudget& budget) {
+  return parse_amf_objects(file, bytes, budget).file;
 }
 
 }  // namespace mesamis::detail

@@ -27,9 +27,9 @@ FileKind kind_of(const std::filesystem::path& path) {
   return extension == ".vtu" || extension == ".mesh" ? FileKind::kMesh : FileKind::kVolume;
 }
 
-MeshWithArrays read_mesh(const std::filesystem::path& path) {
-  if (lower_extension(path) == ".mesh") return {read_medit_mesh(path), {}, {}};
-  return read_vtu(path);
+MeshWithArrays read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {
+  if (lower_extension(path) == ".mesh") return {read_medit_mesh(path, limits), {}, {}};
+  return read_vtu(path, limits);
 }
 
 }  // namespace mesamis

@@ -25,6 +25,6 @@ FileKind kind_of(const std::filesystem::path& path);
 /// @throws InputError  as read_medit_mesh() and read_vtu(), which refuses any other extension.
 ///
 /// O(bytes of the file) time and memory.
-MeshWithArrays read_mesh(const std::filesystem::path& path);
+MeshWithArrays read_mesh(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 }  // namespace mesamis

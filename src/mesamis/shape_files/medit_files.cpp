@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <string_view>
 
 #include "mesamis/base/error.h"
+#include "mesamis/files/byte_source.h"
+#include "mesamis/files/memory_budget.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/text_writer.h"
 #include "mesamis/shape_files/mesh_checks.h"
@@ -15,6 +16,7 @@
 
 namespace mesamis {
 
+using detail::MemoryBudget;
 using detail::TextWriter;
 
 namespace {
@@ -54,23 +56,23 @@ void write_scalars(TextWriter& out, const char* section,
 
 // ---------------------------------------------------------------- reading
 
-std::string read_text(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (!in || error) detail::refuse(path.string(), "cannot be opened");
-  std::string text(size, '\0');
-  if (!in.read(text.data(), static_cast<std::streamsize>(size))) {
-    detail::refuse(path.string(), "cannot be read");
-  }
+std::string read_text(const std::filesystem::path& path, MemoryBudget& budget) {
+  detail::ByteSource source(path, detail::Packing::kPlain);
+  std::string text;
+  detail::reserve_within(budget, text, source.most_bytes(), "bytes of the file");
+  text.resize(source.most_bytes());
+  text.resize(source.read(text.data(), text.size()));
   return text;
 }
 
 /// The words of a Medit file, one after the other, comments left out.
 class Words {
  public:
-  explicit Words(const std::filesystem::path& path)
-      : name_(path.string()), text_(read_text(path)), at_(text_.data()) {}
+  Words(const std::filesystem::path& path, const ReadLimits& limits)
+      : budget_(path, limits),
+        name_(path.string()),
+        text_(read_text(path, budget_)),
+        at_(text_.data()) {}
 
   /// The next word, empty at the end of the file.
   std::string_view next() {
@@ -112,6 +114,12 @@ class Words {
            std::to_string(most) + " at most");
   }
 
+  /// Room for as many elements, claimed.
+  template <class Element>
+  void reserve(std::vector<Element>& array, std::size_t count) {
+    detail::reserve_within(budget_, array, count, "entries");
+  }
+
   void enter(std::string_view section) { section_ = section; }
 
   [[noreturn]] void refuse(const std::string& what) const {
@@ -129,6 +137,7 @@ class Words {
   static bool is_space(char c) {
     return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
   }
+  MemoryBudget budget_;
   std::string name_, text_, section_;
   const char* at_;
   const char* word_ = at_;
@@ -153,6 +162,7 @@ void read_vertices(Words& words, std::vector<Vec3>& points) {
   if (!points.empty()) words.refuse("a second list of vertices");
   const std::size_t count = words.count();
   words.require_room(count, 4);
+  words.reserve(points, count);
   points.resize(count);
   for (Vec3& p : points) {
     for (int axis = 0; axis < 3; ++axis) p[axis] = words.number<double>("a coordinate");
@@ -165,6 +175,7 @@ void read_cells(Words& words, std::vector<Cell>& cells) {
   if (!cells.empty()) words.refuse("a second list of tetrahedra");
   const std::size_t count = words.count();
   words.require_room(count, 5);
+  words.reserve(cells, count);
   cells.resize(count);
   for (Cell& cell : cells) {
     for (Index& corner : cell) {
@@ -223,7 +234,7 @@ std::vector<Sym3> read_solution(Words& words) {
   const SolutionType type = read_metric_type(words);
   words.require_room(count, type == SolutionType::kTensor ? 6 : 1);
   std::vector<Sym3> metrics;
-  metrics.reserve(count);
+  words.reserve(metrics, count);
   for (std::size_t i = 0; i < count; ++i) {
     metrics.push_back(type == SolutionType::kTensor ? read_tensor(words) : read_size(words));
   }
@@ -257,8 +268,8 @@ void write_medit_mesh(const std::filesystem::path& path, const TetMesh& mesh, Fr
   out.commit();
 }
 
-TetMesh read_medit_mesh(const std::filesystem::path& path) {
-  Words words(path);
+TetMesh read_medit_mesh(const std::filesystem::path& path, const ReadLimits& limits) {
+  Words words(path, limits);
   read_header(words);
   TetMesh mesh;
   bool dimension = false;
@@ -308,8 +319,8 @@ void write_medit_metric(const std::filesystem::path& path, std::span<const Sym3>
   out.commit();
 }
 
-std::vector<Sym3> read_medit_metric(const std::filesystem::path& path) {
-  Words words(path);
+std::vector<Sym3> read_medit_metric(const std::filesystem::path& path, const ReadLimits& limits) {
+  Words words(path, limits);
   read_header(words);
   for (auto word = words.next(); !word.empty() && word != "End"; word = words.next()) {
     if (!is_keyword(word)) continue;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesamis/base/frame.h"
+#include "mesamis/files/read_limits.h"
 #include "mesamis/mesh/tet_mesh.h"
 
 namespace mesamis {
@@ -50,10 +51,11 @@ struct MeshWithArrays {
 ///
 /// @return n >= 1 points, m cells with indices in [0, n). Cells may have any volume. Arrays of type
 ///         String are left out.
+/// @param limits  as read_surface().
 /// @throws InputError  if the file is not such a .vtu, has cells of another type, or is damaged.
 ///
-/// O(size of the file). Memory: nothing is allocated beyond what a file of that size can hold.
-MeshWithArrays read_vtu(const std::filesystem::path& path);
+/// O(size of the file). Memory: the file's bytes and the mesh, within the limits.
+MeshWithArrays read_vtu(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 /// A partition of the cells of a mesh into named sets, one per material of a finite element model.
 struct CellSets {
@@ -109,10 +111,11 @@ void write_medit_mesh(const std::filesystem::path& path, const TetMesh& mesh,
 /// out.
 ///
 /// @return points as the file has them: the format states neither frame nor unit.
+/// @param limits  as read_surface().
 /// @throws InputError  naming file, line and section.
 ///
-/// O(size of the file). Memory: nothing is allocated beyond what a file of that size can hold.
-TetMesh read_medit_mesh(const std::filesystem::path& path);
+/// O(size of the file). Memory: the file's bytes and the mesh, within the limits.
+TetMesh read_medit_mesh(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 /// Writes scalar fields as Medit ASCII .sol: SolAtVertices, and SolAtTetrahedra if there are fields
 /// on cells. The file appears whole or not at all.
@@ -139,9 +142,11 @@ void write_medit_metric(const std::filesystem::path& path, std::span<const Sym3>
 /// the identity.
 ///
 /// @return one matrix per vertex, in 1/mm^2; whether it is positive definite is not checked.
+/// @param limits  as read_surface().
 /// @throws InputError  naming file, line and section.
 ///
 /// O(size of the file).
-std::vector<Sym3> read_medit_metric(const std::filesystem::path& path);
+std::vector<Sym3> read_medit_metric(const std::filesystem::path& path,
+                                    const ReadLimits& limits = {});
 
 }  // namespace mesamis

@@ -38,7 +38,9 @@ std::string mtl_bytes(std::span<const NamedSurface> objects) {
   return out;
 }
 
-std::map<std::string, Colour> parse_mtl(const fs::path& file, std::string_view bytes) {
+std::map<std::string, Colour> parse_mtl(const fs::path& file, std::string_view bytes,
+                                        MemoryBudget& budget) {
+  constexpr std::size_t kNodeBytes = 128;  // of the map, beside the name
   std::map<std::string, Colour> colours;
   std::string name;
   std::size_t number = 1;
@@ -46,7 +48,10 @@ std::map<std::string, Colour> parse_mtl(const fs::path& file, std::string_view b
     const std::string_view keyword = take_word(line);
     if (keyword == "newmtl") name = trimmed(line);
     if (keyword != "Kd") continue;
-    if (const auto colour = colour_in(file, line, number)) colours[name] = *colour;
+    if (const auto colour = colour_in(file, line, number)) {
+      budget.claim(1, kNodeBytes + name.size(), "materials");
+      colours[name] = *colour;
+    }
   }
   return colours;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -17,7 +18,8 @@ constexpr const char* kLabelComment = "label";
 
 class ObjParser {
  public:
-  ObjParser(const fs::path& file, std::string_view text) : file_(file), text_(text) {}
+  ObjParser(const fs::path& file, std::string_view text, MemoryBudget& budget)
+      : file_(file), text_(text), budget_(budget) {}
 
   ParsedObjects parse() {
     for (std::string_view line; take_line(text_, line); ++line_number_) {
@@ -63,9 +65,12 @@ class ObjParser {
   Index current_object() {
     if (object_ >= 0) return object_;
     object_ = static_cast<Index>(result_.objects.size());
+    // Names are copied for each object, however long they are.
+    budget_.claim(3, next_.name.size() + material_.size(), "names of objects");
+    budget_.claim(1, sizeof(*groups_.begin()) + kNodeBytes, "groups");
     if (!has_objects_) groups_.emplace(next_.name, object_);
-    result_.objects.push_back(next_);
-    materials_.push_back(material_);
+    append_within(budget_, result_.objects, next_, "objects");
+    append_within(budget_, materials_, material_, "names of materials");
     return object_;
   }
 
@@ -79,7 +84,7 @@ class ObjParser {
       const std::string_view word = take_word(line);
       if (!parse_number(word, p[axis])) refuse_line("expected three numbers after v");
     }
-    surface_.points.push_back(p);
+    append_within(budget_, surface_.points, p, "points");
     if (surface_.points.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
       refuse_line("the points exceed 32-bit indices");
     }
@@ -91,11 +96,14 @@ class ObjParser {
     for (auto word = take_word(line); !word.empty(); word = take_word(line), ++corners) {
       fan[std::min<std::size_t>(corners, 2)] = point_named(word);
       if (corners < 2) continue;
-      surface_.triangles.push_back(fan);
+      append_within(budget_, surface_.triangles, fan, "triangles");
+      append_within(budget_, result_.object_of, Index{0}, "triangles");
       fan[1] = fan[2];
     }
     if (corners < 3) refuse_line(say("expected a face of at least 3 points, found ", corners));
-    result_.object_of.resize(surface_.triangles.size(), current_object());
+    const Index object = current_object();
+    std::fill(result_.object_of.end() - static_cast<std::ptrdiff_t>(corners - 2),
+              result_.object_of.end(), object);
   }
 
   /// "7", "7/1", "7//3", "7/1/3": counted from 1, or from the last point backwards if negative.
@@ -109,8 +117,11 @@ class ObjParser {
     return static_cast<Index>(number > 0 ? number - 1 : count + number);
   }
 
+  static constexpr std::size_t kNodeBytes = 64;  // of a map, beside its value
+
   const fs::path& file_;
   std::string_view text_;
+  MemoryBudget& budget_;
   std::size_t line_number_ = 1;
   TriMesh surface_;
   std::optional<Frame> frame_;
@@ -124,14 +135,15 @@ class ObjParser {
 };
 
 /// Only a file in the same folder is read.
-std::map<std::string, Colour> colours_beside(const fs::path& file, const std::string& materials) {
+std::map<std::string, Colour> colours_beside(const fs::path& file, const std::string& materials,
+                                             MemoryBudget& budget) {
   const fs::path path = file.parent_path() / materials;
   std::error_code error;
   if (materials.empty() || fs::path(materials).filename() != materials ||
       !fs::is_regular_file(path, error)) {
     return {};
   }
-  return parse_mtl(path, read_all(path));
+  return parse_mtl(path, read_all(path, budget), budget);
 }
 
 /// @param first  how many points of the file come before those of the surface.
@@ -177,14 +189,16 @@ std::string obj_object_bytes(std::span<const NamedSurface> objects,
   return out;
 }
 
-SurfaceFile parse_obj(const fs::path& file, std::string_view bytes) {
-  return ObjParser(file, bytes).parse().file;
+SurfaceFile parse_obj(const fs::path& file, std::string_view bytes, MemoryBudget& budget) {
+  return ObjParser(file, bytes, budget).parse().file;
 }
 
-ParsedObjects parse_obj_objects(const fs::path& file, std::string_view bytes) {
-  ObjParser parser(file, bytes);
+ParsedObjects parse_obj_objects(const fs::path& file, std::string_view bytes,
+                                MemoryBudget& budget) {
+  ObjParser parser(file, bytes, budget);
   ParsedObjects result = parser.parse();
-  const std::map<std::string, Colour> colours = colours_beside(file, parser.materials_file());
+  const std::map<std::string, Colour> colours =
+      colours_beside(file, parser.materials_file(), budget);
   for (std::size_t i = 0; i < result.objects.size(); ++i) {
     const auto found = colours.find(parser.materials()[i]);
     if (found != colours.end()) result.objects[i].colour = found->second;

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 using Objects = std::span<const NamedSurface>;
-using Parser = ParsedObjects (*)(const fs::path&, std::string_view);
+using Parser = ParsedObjects (*)(const fs::path&, std::string_view, MemoryBudget&);
 using Formatter = std::string (*)(Objects, const SurfaceWriteOptions&);
 
 struct Format {
@@ -124,14 +124,28 @@ std::string safe_name(const std::string& name) {
 
 // ---------------------------------------------------------------- reading
 
-ParsedObjects parse(const fs::path& path) {
+/// What read_object_file() makes of them: of each object its triangles, and its points, of which a
+/// triangle has three at most.
+void claim_parts(MemoryBudget& budget, const ParsedObjects& parsed) {
+  const auto& [points, triangles] = parsed.file.surface;
+  if (parsed.objects.size() < 2) return;
+  budget.claim(parsed.objects.size(), sizeof(NamedSurface) + sizeof(std::vector<Triangle>),
+               "objects");
+  budget.claim(triangles.size(), 2 * sizeof(Triangle) + 3 * sizeof(Index), "triangles");
+  budget.claim(points.size(), sizeof(Index), "points");
+  budget.claim(std::min(3 * triangles.size(), points.size()), 2 * sizeof(Vec3), "points");
+}
+
+ParsedObjects parse(const fs::path& path, const ReadLimits& limits) {
   const Format* format = format_named(extension_of(path));
   if (format != nullptr) {
-    ParsedObjects parsed = format->parse(path, read_all(path));
+    MemoryBudget budget(path, limits);
+    ParsedObjects parsed = format->parse(path, read_all(path, budget), budget);
     require_surface(path, parsed.file.surface);
+    claim_parts(budget, parsed);
     return parsed;
   }
-  SurfaceFile file = read_surface_file(path);
+  SurfaceFile file = read_surface_file(path, limits);
   const std::size_t triangles = file.surface.triangles.size();
   return {std::move(file), {{}}, std::vector<Index>(triangles, 0)};
 }
@@ -282,8 +296,8 @@ JoinedObjects joined(std::span<const NamedSurface> objects) {
   return all;
 }
 
-ObjectFile read_object_file(const fs::path& path) {
-  ParsedObjects parsed = parse(path);
+ObjectFile read_object_file(const fs::path& path, const ReadLimits& limits) {
+  ParsedObjects parsed = parse(path, limits);
   drop_empty(parsed);
   const std::vector<ObjectFacts>& facts = parsed.objects;
   ObjectFile file{{}, parsed.file.frame, true};
@@ -301,8 +315,8 @@ ObjectFile read_object_file(const fs::path& path) {
   return file;
 }
 
-std::vector<NamedSurface> read_objects(const fs::path& path) {
-  return read_object_file(path).objects;
+std::vector<NamedSurface> read_objects(const fs::path& path, const ReadLimits& limits) {
+  return read_object_file(path, limits).objects;
 }
 
 std::vector<NamedSurface> in_lps(ObjectFile file) {

@@ -109,11 +109,12 @@ struct ObjectFile {
 ///         object uses are left out.
 /// @throws InputError  as read_surface(), also for damaged labels, names and colours. Cost as
 ///                     read_surface().
-ObjectFile read_object_file(const std::filesystem::path& path);
+ObjectFile read_object_file(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 /// The objects of read_object_file() alone.
 /// @throws InputError  as read_object_file(). Cost as read_object_file().
-std::vector<NamedSurface> read_objects(const std::filesystem::path& path);
+std::vector<NamedSurface> read_objects(const std::filesystem::path& path,
+                                       const ReadLimits& limits = {});
 
 /// Converts the objects to LPS where their file states a frame.
 ///

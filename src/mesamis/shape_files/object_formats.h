@@ -49,17 +49,22 @@ std::string amf_object_bytes(std::span<const NamedSurface> objects,
 std::string obj_object_bytes(std::span<const NamedSurface> objects,
                              const SurfaceWriteOptions& options, const std::string& materials);
 
-ParsedObjects parse_threemf_objects(const std::filesystem::path& file, std::string_view bytes);
-ParsedObjects parse_vtp_objects(const std::filesystem::path& file, std::string_view bytes);
-ParsedObjects parse_amf_objects(const std::filesystem::path& file, std::string_view bytes);
+ParsedObjects parse_threemf_objects(const std::filesystem::path& file, std::string_view bytes,
+                                    MemoryBudget& budget);
+ParsedObjects parse_vtp_objects(const std::filesystem::path& file, std::string_view bytes,
+                                MemoryBudget& budget);
+ParsedObjects parse_amf_objects(const std::filesystem::path& file, std::string_view bytes,
+                                MemoryBudget& budget);
 /// Colours are read from the file of materials beside it.
-ParsedObjects parse_obj_objects(const std::filesystem::path& file, std::string_view bytes);
+ParsedObjects parse_obj_objects(const std::filesystem::path& file, std::string_view bytes,
+                                MemoryBudget& budget);
 
 /// The materials of an .obj: their diffuse colours.
 std::string mtl_bytes(std::span<const NamedSurface> objects);
 /// The colours by the names of the materials; those without one, or with a spectrum instead, are
 /// left out.
 /// @throws InputError  naming the line, if a colour is not three numbers.
-std::map<std::string, Colour> parse_mtl(const std::filesystem::path& file, std::string_view bytes);
+std::map<std::string, Colour> parse_mtl(const std::filesystem::path& file, std::string_view bytes,
+                                        MemoryBudget& budget);
 
 }  // namespace mesamis::detail

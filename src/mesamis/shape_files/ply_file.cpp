@@ -167,14 +167,24 @@ bool names_corners(const Property& p) {
   return p.is_list && (p.name == "vertex_indices" || p.name == "vertex_index");
 }
 
-void read_face(Values& values, const Element& element, PolygonSink& sink) {
-  std::vector<double> corners;
+/// What the reading of faces needs beside the values.
+struct FaceReader {
+  PolygonSink& sink;
+  MemoryBudget& budget;
+  std::vector<double> corners{};  ///< of the last face, kept for its room
+
+  void read(Values& values, const Element& element);
+};
+
+void FaceReader::read(Values& values, const Element& element) {
   for (const Property& property : element.properties) {
     if (!names_corners(property)) {
       skip(values, property);
       continue;
     }
-    corners.resize(values.next_count(property.count_type));
+    const std::size_t count = values.next_count(property.count_type);
+    reserve_within(budget, corners, count, "corners of a face");
+    corners.resize(count);
     for (double& corner : corners) corner = values.next(property.type);
     sink.add(corners, false);
   }
@@ -182,7 +192,7 @@ void read_face(Values& values, const Element& element, PolygonSink& sink) {
 
 /// One property of every vertex.
 std::vector<double> read_array(const fs::path& file, Values& values, const Element& element,
-                               const std::string& name) {
+                               const std::string& name, MemoryBudget& budget) {
   const auto is_wanted = [&name](const Property& p) { return !p.is_list && p.name == name; };
   if (std::none_of(element.properties.begin(), element.properties.end(), is_wanted)) {
     std::string known;
@@ -196,7 +206,7 @@ std::vector<double> read_array(const fs::path& file, Values& values, const Eleme
       if (!is_wanted(property)) {
         skip(values, property);
       } else {
-        array.push_back(values.next(property.type));
+        append_within(budget, array, values.next(property.type), "values");
       }
     }
   }
@@ -234,11 +244,12 @@ std::string ply_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
   return out;
 }
 
-SurfaceFile parse_ply(const fs::path& file, std::string_view bytes) {
+SurfaceFile parse_ply(const fs::path& file, std::string_view bytes, MemoryBudget& budget) {
   const Header header = take_header(file, bytes);
   Values values(file, bytes, header.format);
   TriMesh surface;
-  PolygonSink sink(file, surface);
+  PolygonSink sink(file, surface, budget);
+  FaceReader faces{sink, budget};
   for (const Element& element : header.elements) {
     if (element.properties.empty()) continue;  // nothing to read, however many
     if (element.name == "vertex" && !has_coordinates(element)) {
@@ -246,9 +257,9 @@ SurfaceFile parse_ply(const fs::path& file, std::string_view bytes) {
     }
     for (std::int64_t i = 0; i < element.count; ++i) {
       if (element.name == "vertex") {
-        surface.points.push_back(read_point(values, element));
+        append_within(budget, surface.points, read_point(values, element), "points");
       } else if (element.name == "face") {
-        read_face(values, element, sink);
+        faces.read(values, element);
       } else {
         for (const Property& property : element.properties) skip(values, property);
       }
@@ -258,11 +269,11 @@ SurfaceFile parse_ply(const fs::path& file, std::string_view bytes) {
 }
 
 std::vector<double> parse_ply_array(const fs::path& file, std::string_view bytes,
-                                    const std::string& name) {
+                                    const std::string& name, MemoryBudget& budget) {
   const Header header = take_header(file, bytes);
   Values values(file, bytes, header.format);
   for (const Element& element : header.elements) {
-    if (element.name == "vertex") return read_array(file, values, element, name);
+    if (element.name == "vertex") return read_array(file, values, element, name, budget);
     for (std::int64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
       for (const Property& property : element.properties) skip(values, property);
     }

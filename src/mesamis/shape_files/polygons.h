@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "mesamis/files/memory_budget.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/surface/tri_mesh.h"
 
@@ -15,17 +16,22 @@ namespace mesamis::detail {
 /// numbered from the surface's number of points at the start.
 class PolygonSink {
  public:
-  PolygonSink(const std::filesystem::path& file, TriMesh& surface)
-      : file_(file), surface_(surface), base_(static_cast<double>(surface.points.size())) {}
+  /// @param budget  asked before triangles are made; must live on, as file and surface.
+  PolygonSink(const std::filesystem::path& file, TriMesh& surface, MemoryBudget& budget)
+      : file_(file),
+        surface_(surface),
+        budget_(budget),
+        base_(static_cast<double>(surface.points.size())) {}
 
   /// A polygon becomes a fan; in a strip every other triangle turns the other way.
-  /// @throws InputError  if a number cannot be that of a point.
+  /// @throws InputError  if a number cannot be that of a point, and as MemoryBudget::claim().
   void add(std::span<const double> corners, bool strip) {
     for (std::size_t i = 2; i < corners.size(); ++i) {
       const bool odd = strip && i % 2 == 1;
       const double first = strip ? corners[i - 2] : corners[0];
-      surface_.triangles.push_back(
-          {index(first), index(corners[odd ? i : i - 1]), index(corners[odd ? i - 1 : i])});
+      const Triangle triangle{index(first), index(corners[odd ? i : i - 1]),
+                              index(corners[odd ? i - 1 : i])};
+      append_within(budget_, surface_.triangles, triangle, "triangles");
     }
   }
 
@@ -54,6 +60,7 @@ class PolygonSink {
 
   const std::filesystem::path& file_;
   TriMesh& surface_;
+  MemoryBudget& budget_;
   double base_;
 };
 

@@ -33,7 +33,8 @@ Corner normal_of(const std::array<Corner, 3>& t) {
 }
 
 /// Equal corners become one point, numbered in the order of their first use.
-TriMesh weld(const fs::path& file, const std::vector<Corner>& corners) {
+TriMesh weld(const fs::path& file, const std::vector<Corner>& corners, MemoryBudget& budget) {
+  const ScopedClaim claim(budget, corners.size(), 2 * sizeof(Index), "corners");
   if (corners.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
     refuse(file, say(corners.size() / 3, " triangles exceed 32-bit indices"));
   }
@@ -48,13 +49,15 @@ TriMesh weld(const fs::path& file, const std::vector<Corner>& corners) {
     first[order[i]] = again ? first[order[i - 1]] : order[i];
   }
   TriMesh surface;
+  reserve_within(budget, surface.triangles, corners.size() / 3, "triangles");
   surface.triangles.resize(corners.size() / 3);
   std::vector<Index>& point = order;  // no longer needed
   for (std::size_t c = 0; c < corners.size(); ++c) {
     const auto own = static_cast<Index>(c);
     point[c] = first[c] == own ? static_cast<Index>(surface.points.size()) : point[first[c]];
     if (first[c] == own) {
-      surface.points.push_back({corners[c][0], corners[c][1], corners[c][2]});
+      append_within(budget, surface.points, {corners[c][0], corners[c][1], corners[c][2]},
+                    "points");
     }
     surface.triangles[c / 3][c % 3] = point[c];
   }
@@ -70,13 +73,16 @@ void require_finite(const fs::path& file, const std::vector<Corner>& corners) {
   }
 }
 
-std::vector<Corner> binary_corners(const fs::path& file, std::string_view bytes) {
+std::vector<Corner> binary_corners(const fs::path& file, std::string_view bytes,
+                                   MemoryBudget& budget) {
   const std::uint64_t count = load<std::uint32_t>(bytes.data() + kHeader);
   const std::uint64_t room = (bytes.size() - kBegin) / kRecord;
   if (count > room) {
     refuse(file, say("the header promises ", count, " triangles, the file ends after ", room));
   }
-  std::vector<Corner> corners(3 * count);
+  std::vector<Corner> corners;
+  reserve_within(budget, corners, 3 * count, "corners");
+  corners.resize(3 * count);
   for (std::size_t c = 0; c < corners.size(); ++c) {
     // A record: normal, three corners, two bytes.
     const char* from = bytes.data() + kBegin + c / 3 * kRecord + 12 + c % 3 * 12;
@@ -85,7 +91,8 @@ std::vector<Corner> binary_corners(const fs::path& file, std::string_view bytes)
   return corners;
 }
 
-std::vector<Corner> text_corners(const fs::path& file, std::string_view bytes) {
+std::vector<Corner> text_corners(const fs::path& file, std::string_view bytes,
+                                 MemoryBudget& budget) {
   std::vector<Corner> corners;
   std::string_view line;
   bool ended = false;
@@ -101,11 +108,15 @@ std::vector<Corner> text_corners(const fs::path& file, std::string_view bytes) {
         !parse_number(take_word(line), z)) {
       refuse(file, say("line ", number, ": expected three numbers after vertex"));
     }
-    corners.push_back(corner(x, y, z));
+    append_within(budget, corners, corner(x, y, z), "corners");
   }
   if (!ended) refuse(file, "the file does not end with endsolid");
   if (corners.size() % 3 != 0) refuse(file, "the last triangle has not three corners");
   return corners;
+}
+
+bool begins_like_text(std::string_view bytes) {
+  return trimmed(bytes.substr(0, kHeader)).starts_with("solid");
 }
 
 /// Some binary files, too, begin with "solid": the size decides.
@@ -113,7 +124,7 @@ bool is_binary(std::string_view bytes) {
   if (bytes.size() < kBegin) return false;
   const std::uint64_t count = load<std::uint32_t>(bytes.data() + kHeader);
   if (bytes.size() == kBegin + count * kRecord) return true;
-  return !trimmed(bytes.substr(0, kHeader)).starts_with("solid");
+  return !begins_like_text(bytes);
 }
 
 }  // namespace
@@ -140,15 +151,22 @@ std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
   return out;
 }
 
-SurfaceFile parse_stl(const fs::path& file, std::string_view bytes) {
+std::uint64_t most_stl_bytes(std::string_view first_bytes) {
+  if (first_bytes.size() < kBegin || begins_like_text(first_bytes)) return 0;
+  return kBegin + std::uint64_t{load<std::uint32_t>(first_bytes.data() + kHeader)} * kRecord;
+}
+
+SurfaceFile parse_stl(const fs::path& file, std::string_view bytes, MemoryBudget& budget) {
   const bool binary = is_binary(bytes);
   if (!binary && !lower(trimmed(bytes.substr(0, kHeader))).starts_with("solid")) {
     refuse(file, "is not an STL file: neither begins with solid nor holds a binary header");
   }
-  const auto corners = binary ? binary_corners(file, bytes) : text_corners(file, bytes);
+  const auto corners =
+      binary ? binary_corners(file, bytes, budget) : text_corners(file, bytes, budget);
   require_finite(file, corners);
   const std::string_view head = bytes.substr(0, kHeader);
-  return {weld(file, corners), frame_named_in(binary ? head : head.substr(0, head.find('\n')))};
+  return {weld(file, corners, budget),
+          frame_named_in(binary ? head : head.substr(0, head.find('\n')))};
 }
 
 }  // namespace mesamis::detail

@@ -68,8 +68,9 @@ using namespace detail;
 
 namespace {
 
-using Parser = SurfaceFile (*)(const fs::path&, std::string_view);
-using ArrayParser = std::vector<double> (*)(const fs::path&, std::string_view, const std::string&);
+using Parser = SurfaceFile (*)(const fs::path&, std::string_view, MemoryBudget&);
+using ArrayParser = std::vector<double> (*)(const fs::path&, std::string_view, const std::string&,
+                                            MemoryBudget&);
 using Formatter = std::string (*)(const TriMesh&, const SurfaceWriteOptions&);
 
 struct Format {
@@ -78,9 +79,10 @@ struct Format {
   Formatter bytes;  // null: not written
   bool grey = false;
   ArrayParser parse_array = nullptr;  // null: no arrays
+  MostBytes most_bytes = nullptr;     // null: the first bytes do not tell
 };
 
-constexpr Format kFormats[] = {{".stl", parse_stl, stl_bytes},
+constexpr Format kFormats[] = {{".stl", parse_stl, stl_bytes, false, nullptr, most_stl_bytes},
                                {".ply", parse_ply, ply_bytes, false, parse_ply_array},
                                {".obj", parse_obj, obj_bytes},
                                {".vtp", parse_vtp, vtp_bytes, true, parse_vtp_array},
@@ -101,9 +103,9 @@ const Format* written_format(const fs::path& path) {
   return format != nullptr && format->bytes != nullptr ? format : nullptr;
 }
 
-Parser parser_for(const fs::path& path) {
+const Format& format_of(const fs::path& path) {
   const Format* format = format_named(extension_of(path));
-  if (format != nullptr) return format->parse;
+  if (format != nullptr) return *format;
   refuse_extension(path, ".stl .ply .obj .vtp .3mf .amf .vtk, each also with .gz");
 }
 
@@ -168,14 +170,17 @@ void write_surface(const fs::path& path, const TriMesh& surface,
   write_file(path, format->bytes(as_given ? surface : turned(surface), as_written(options)));
 }
 
-SurfaceFile read_surface_file(const fs::path& path) {
-  const Parser parse = parser_for(path);
-  SurfaceFile file = parse(path, read_all(path));
+SurfaceFile read_surface_file(const fs::path& path, const ReadLimits& limits) {
+  const Format& format = format_of(path);
+  MemoryBudget budget(path, limits);
+  SurfaceFile file = format.parse(path, read_all(path, budget, format.most_bytes), budget);
   require_surface(path, file.surface);
   return file;
 }
 
-TriMesh read_surface(const fs::path& path) { return read_surface_file(path).surface; }
+TriMesh read_surface(const fs::path& path, const ReadLimits& limits) {
+  return read_surface_file(path, limits).surface;
+}
 
 TriMesh turned(TriMesh surface) {
   for (Vec3& p : surface.points) p = in_frame(p, Frame::kRas);
@@ -186,10 +191,12 @@ TriMesh in_lps(const SurfaceFile& file) {
   return file.frame == Frame::kRas ? turned(file.surface) : file.surface;
 }
 
-std::vector<double> read_point_array(const fs::path& path, const std::string& name) {
+std::vector<double> read_point_array(const fs::path& path, const std::string& name,
+                                     const ReadLimits& limits) {
   const Format* format = format_named(extension_of(path));
   if (format != nullptr && format->parse_array != nullptr) {
-    return format->parse_array(path, read_all(path), name);
+    MemoryBudget budget(path, limits);
+    return format->parse_array(path, read_all(path, budget), name, budget);
   }
   refuse(path,
          "has no array " + in_quotes(name) + " to colour by, only .vtp and .ply files have arrays");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesamis/base/frame.h"
+#include "mesamis/files/read_limits.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {
@@ -75,12 +76,12 @@ bool carries_arrays(const std::filesystem::path& path);
 /// @return n points and m >= 1 triangles; indices in [0, n), coordinates finite. Coordinates are as
 ///         in the file, in mm where the format states a unit; the frame is neither assumed nor
 ///         changed.
+/// @param limits  a file that claims more memory is refused before the memory is taken.
 /// @throws InputError  in one line: the file, what was expected and what was found.
 ///
-/// O(size of the file), with a logarithm for STL. Memory: the file's bytes and the surface; what a
-/// hostile file can make of it is bounded by about 1000 times its size, the most that deflate
-/// packs.
-TriMesh read_surface(const std::filesystem::path& path);
+/// O(size of the file), with a logarithm for STL. Memory: the file's bytes and the surface, within
+/// the limits.
+TriMesh read_surface(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 /// A surface with the frame that its file states in one of the places of write_surface(), or in the
 /// title or a field of a legacy .vtk; none if the file states none, or another than LPS and RAS.
@@ -92,7 +93,7 @@ struct SurfaceFile {
 /// Reads a surface and the frame that its file states.
 ///
 /// @throws InputError  as read_surface(). Cost as read_surface().
-SurfaceFile read_surface_file(const std::filesystem::path& path);
+SurfaceFile read_surface_file(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 /// Converts a surface from LPS to RAS or back: x and y are negated. This is a rotation, so that
 /// triangles face as before.
@@ -114,12 +115,14 @@ TriMesh in_lps(const SurfaceFile& file);
 
 /// Reads one array on the points of a .vtp of one piece, or one property of the vertices of a .ply.
 ///
-/// @param name  of an array of one component.
+/// @param name    of an array of one component.
+/// @param limits  as read_surface().
 /// @return one value per point, in the order of read_surface(); any unit, as the file has them.
 /// @throws InputError  if the file is neither .vtp nor .ply, has several pieces, or has no such
 ///                     array of one component; the message names those it has.
 ///
 /// O(size of the file).
-std::vector<double> read_point_array(const std::filesystem::path& path, const std::string& name);
+std::vector<double> read_point_array(const std::filesystem::path& path, const std::string& name,
+                                     const ReadLimits& limits = {});
 
 }  // namespace mesamis

@@ -5,11 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "mesamis/files/memory_budget.h"
 #include "mesamis/shape_files/surface_files.h"
 
 /// The formats behind surface_files.h. Writers take points as they go to the file; readers take a
-/// file's bytes, unpacked, and its path for messages, and throw InputError. What they return is not
-/// checked further: indices may be out of range.
+/// file's bytes, unpacked, its path for messages, and the budget that they ask before they take
+/// memory, and throw InputError. What they return is not checked further: indices may be out of
+/// range.
 namespace mesamis::detail {
 
 /// The extension in lower case, without a final .gz.
@@ -38,38 +40,47 @@ inline constexpr const char* kProducer = "producer";
 
 /// Single precision, as the format has it, see round_to_single().
 std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// How many bytes a binary file has by its count of triangles; 0 for text.
+std::uint64_t most_stl_bytes(std::string_view first_bytes);
 /// Binary or text; equal corners become one point, in the order of their first use.
-SurfaceFile parse_stl(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_stl(const std::filesystem::path& file, std::string_view bytes,
+                      MemoryBudget& budget);
 
 /// Double precision: VTK, MeshLab, CloudCompare, Blender, Open3D and Assimp read it.
 std::string ply_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
 /// Text or binary of either order. Polygons are cut into fans.
-SurfaceFile parse_ply(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_ply(const std::filesystem::path& file, std::string_view bytes,
+                      MemoryBudget& budget);
 std::vector<double> parse_ply_array(const std::filesystem::path& file, std::string_view bytes,
-                                    const std::string& name);
+                                    const std::string& name, MemoryBudget& budget);
 
 /// Shortest decimals that give the same doubles back.
 std::string obj_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
 /// Polygons are cut into fans; everything but positions and faces is left out.
-SurfaceFile parse_obj(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_obj(const std::filesystem::path& file, std::string_view bytes,
+                      MemoryBudget& budget);
 
 /// Double precision, appended binary.
 std::string vtp_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
 /// Polygons are cut into fans, strips into triangles; points and lines are left out.
-SurfaceFile parse_vtp(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_vtp(const std::filesystem::path& file, std::string_view bytes,
+                      MemoryBudget& budget);
 std::vector<double> parse_vtp_array(const std::filesystem::path& file, std::string_view bytes,
-                                    const std::string& name);
+                                    const std::string& name, MemoryBudget& budget);
 /// Legacy VTK, DATASET POLYDATA.
-SurfaceFile parse_vtk(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_vtk(const std::filesystem::path& file, std::string_view bytes,
+                      MemoryBudget& budget);
 
 /// AMF 1.1, text; shortest decimals that give the same doubles back.
 std::string amf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
 /// The meshes of all objects, in mm; not compressed as ZIP; constellations are left out.
-SurfaceFile parse_amf(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_amf(const std::filesystem::path& file, std::string_view bytes,
+                      MemoryBudget& budget);
 
 /// 3MF through lib3mf: single precision, six decimals; the same bytes every time.
 std::string threemf_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
 /// The meshes of the build items, each at its place, in mm.
-SurfaceFile parse_threemf(const std::filesystem::path& file, std::string_view bytes);
+SurfaceFile parse_threemf(const std::filesystem::path& file, std::string_view bytes,
+                          MemoryBudget& budget);
 
 }  // namespace mesamis::detail

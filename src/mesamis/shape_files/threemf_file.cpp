@@ -1,239 +1,355 @@
 // SPDX-License-Identifier: Apache-2.0
+// 3MF (core specification 1.3, materials extension) read by our own parser: what a file of a few
+// kilobytes makes of memory is counted before it is made.
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <map>
 
 #include "mesamis/files/refuse.h"
+#include "mesamis/files/text_scan.h"
 #include "mesamis/files/xml.h"
+#include "mesamis/files/zip_archive.h"
 #include "mesamis/shape_files/object_formats.h"
 #include "mesamis/shape_files/polygons.h"
-#include "mesamis/shape_files/threemf_handle.h"
 
 namespace mesamis::detail {
 namespace {
 
 namespace fs = std::filesystem;
 
-using Transform = NMR::MODELTRANSFORM;
+/// A row vector (x, y, z, 1) times these four rows, as the format writes them.
+using Transform = std::array<Vec3, 4>;
 
-/// lib3mf gives the format's matrix turned: the last column moves.
-Vec3 moved(const Transform& t, const Vec3& p) {
-  Vec3 q;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto& row = t.m_fFields[axis];
-    q[axis] = double{row[0]} * p.x + double{row[1]} * p.y + double{row[2]} * p.z + double{row[3]};
+constexpr Transform kStays{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, 0}};
+
+Vec3 turned_by(const Transform& t, const Vec3& p) { return p.x * t[0] + p.y * t[1] + p.z * t[2]; }
+
+Vec3 moved(const Transform& t, const Vec3& p) { return turned_by(t, p) + t[3]; }
+
+/// First the inner transform, then the outer one.
+Transform joined(const Transform& inner, const Transform& outer) {
+  return {turned_by(outer, inner[0]), turned_by(outer, inner[1]), turned_by(outer, inner[2]),
+          moved(outer, inner[3])};
+}
+
+bool mirrors(const Transform& t) { return dot(t[0], cross(t[1], t[2])) < 0; }
+
+/// A few objects that hold each other twice are billions.
+constexpr std::uint64_t kMostVisits = 100'000;
+
+/// An object at its place.
+struct Component {
+  std::size_t object = 0;  ///< that is placed
+  Transform transform = kStays;
+};
+
+struct Resource {
+  ObjectFacts facts;
+  TriMesh mesh;
+  std::vector<Component> components;
+  // What the object makes once it is built, with all that it holds.
+  std::uint64_t visits = 1, objects = 0, points = 0, triangles = 0, name_bytes = 0;
+  int depth = 1;
+};
+
+std::string_view local_name(std::string_view name) {
+  const std::size_t colon = name.find(':');
+  return colon == name.npos ? name : name.substr(colon + 1);
+}
+
+/// The path without the prefixes of name spaces.
+std::string local_path(std::string_view path) {
+  std::string local;
+  while (!path.empty()) {
+    const std::size_t end = std::min(path.find('/'), path.size());
+    ((local += local.empty() ? "" : "/") += local_name(path.substr(0, end)));
+    path.remove_prefix(std::min(end + 1, path.size()));
   }
-  return q;
+  return local;
 }
 
-bool mirrors(const Transform& t) {
-  const auto row = [&t](int axis) {
-    const auto& r = t.m_fFields[axis];
-    return Vec3{r[0], r[1], r[2]};
-  };
-  return dot(row(0), cross(row(1), row(2))) < 0;
-}
-
-double unit_in_mm(const Handle& model) {
-  constexpr double kMillimetres[] = {1e-3, 1, 10, 25.4, 304.8, 1000};  // in the order of MODELUNIT
-  DWORD unit = NMR::MODELUNIT_MILLIMETER;
-  NMR::lib3mf_model_getunit(model.get(), &unit);
-  return kMillimetres[std::min<std::size_t>(unit, std::size(kMillimetres) - 1)];
-}
-
-/// A text of lib3mf's, empty if it does not tell.
-/// @param get  called with a buffer, its size and where the number of characters goes.
-template <class Get>
-std::string text_of(const Get& get) {
-  ULONG size = 0;
-  if (get(nullptr, 0, &size) != LIB3MF_OK) return {};
-  std::string text(std::size_t{size} + 1, '\0');  // whether or not it counts the final zero
-  if (get(text.data(), static_cast<ULONG>(text.size()), &size) != LIB3MF_OK) return {};
-  return text.substr(0, text.find('\0'));
-}
-
-std::string metadata_text(const Handle& model, DWORD index) {
-  return text_of([&](char* text, ULONG size, ULONG* needed) {
-    return NMR::lib3mf_model_getmetadatavalueutf8(model.get(), index, text, size, needed);
-  });
-}
-
-/// lib3mf leaves entities as they are.
-std::string name_of(const Handle& object) {
-  return xml_unescaped(text_of([&](char* text, ULONG size, ULONG* needed) {
-    return NMR::lib3mf_object_getnameutf8(object.get(), text, size, needed);
-  }));
-}
-
-std::string part_number_of(const Handle& object) {
-  return text_of([&](char* text, ULONG size, ULONG* needed) {
-    return NMR::lib3mf_object_getpartnumberutf8(object.get(), text, size, needed);
-  });
-}
-
-/// The colour of an object as a whole.
-std::optional<Colour> colour_of(const Handle& model, const Handle& object) {
-  Handle whole, group;
-  NMR::eModelPropertyType type = NMR::MODELPROPERTYTYPE_NONE;
-  if (NMR::lib3mf_object_createdefaultpropertyhandler(object.get(), whole.put()) != LIB3MF_OK ||
-      NMR::lib3mf_defaultpropertyhandler_getpropertytype(whole.get(), &type) != LIB3MF_OK) {
-    return std::nullopt;
-  }
-  NMR::MODELMESHCOLOR_SRGB c{};
-  if (type == NMR::MODELPROPERTYTYPE_COLOR &&
-      NMR::lib3mf_defaultpropertyhandler_getcolor(whole.get(), 0, &c) == LIB3MF_OK) {
-    return Colour{c.m_Red, c.m_Green, c.m_Blue};
-  }
-  DWORD id = 0, index = 0;
-  if (type == NMR::MODELPROPERTYTYPE_BASEMATERIALS &&
-      NMR::lib3mf_defaultpropertyhandler_getbasematerial(whole.get(), &id, &index) == LIB3MF_OK &&
-      NMR::lib3mf_model_getbasematerialbyid(model.get(), id, group.put()) == LIB3MF_OK &&
-      NMR::lib3mf_basematerial_getdisplaycolor(group.get(), index, &c.m_Red, &c.m_Green, &c.m_Blue,
-                                               &c.m_Alpha) == LIB3MF_OK) {
-    return Colour{c.m_Red, c.m_Green, c.m_Blue};
-  }
-  return std::nullopt;
-}
-
-std::optional<Frame> stated_frame(const Handle& model) {
-  DWORD count = 0;
-  std::optional<Frame> frame;
-  if (NMR::lib3mf_model_getmetadatacount(model.get(), &count) != LIB3MF_OK) return frame;
-  for (DWORD i = 0; i < count && !frame; ++i) frame = frame_named_in(metadata_text(model, i));
-  return frame;
-}
-
-/// Collects the meshes of the build items.
-class Gatherer {
+/// Gathers the resources and the build as their elements end; the tree keeps neither.
+class ModelReader {
  public:
-  /// @param file_size  bytes; copies of components may not multiply the file without limit.
-  Gatherer(const fs::path& file, const Handle& model, std::size_t file_size)
-      : file_(file),
-        model_(model),
-        unit_(unit_in_mm(model)),
-        most_items_(1'000'000 + 50 * file_size) {}
+  ModelReader(const fs::path& file, MemoryBudget& budget) : file_(file), budget_(budget) {
+    begin_object();
+  }
 
-  void add_build() {
-    Handle items;
-    require(NMR::lib3mf_model_getbuilditems(model_.get(), items.put()), model_);
-    auto another = [&] {
-      BOOL more = 0;
-      require(NMR::lib3mf_builditemiterator_movenext(items.get(), &more), items);
-      return more != 0;
-    };
-    while (another()) {
-      Handle item, object;
-      require(NMR::lib3mf_builditemiterator_getcurrent(items.get(), item.put()), items);
-      require(NMR::lib3mf_builditem_getobjectresource(item.get(), object.put()), item);
-      BOOL moved = 0;
-      std::vector<Transform> path(1);
-      require(NMR::lib3mf_builditem_hasobjecttransform(item.get(), &moved), item);
-      if (moved == 0) {
-        path.clear();
-      } else {
-        require(NMR::lib3mf_builditem_getobjecttransform(item.get(), path.data()), item);
-      }
-      add_object(object, path);
+  bool consume(const XmlElement& element, std::string_view path) {
+    const std::string local = path.find(':') == path.npos ? "" : local_path(path);
+    take(element, local.empty() ? path : local);
+    return true;
+  }
+
+  std::vector<Resource> resources{};
+  std::vector<Component> items{};  ///< of the build
+  std::optional<Frame> frame{};
+
+ private:
+  void take(const XmlElement& element, std::string_view path) {
+    if (path == "model/resources/object/mesh/vertices/vertex") {
+      const Vec3 p{number(element, "x"), number(element, "y"), number(element, "z")};
+      append_within(budget_, object_.mesh.points, p, "points");
+    } else if (path == "model/resources/object/mesh/triangles/triangle") {
+      const double corners[] = {number(element, "v1"), number(element, "v2"),
+                                number(element, "v3")};
+      sink_->add(corners, false);
+    } else if (path == "model/resources/object/components/component") {
+      append_within(budget_, object_.components, component_in(element), "components");
+    } else if (path == "model/resources/object") {
+      end_object(element);
+    } else if (path == "model/build/item") {
+      append_within(budget_, items, component_in(element), "items of the build");
+    } else if (path == "model/resources/basematerials/base") {
+      add_colour(element.attribute("displaycolor"));
+    } else if (path == "model/resources/colorgroup/color") {
+      add_colour(element.attribute("color"));
+    } else if (path == "model/resources/basematerials" || path == "model/resources/colorgroup") {
+      groups_[element.attribute("id")] = std::exchange(colours_, {});
+    } else if (path == "model/metadata") {
+      if (!frame) frame = frame_named_in(element.text);
     }
+  }
+
+  [[noreturn]] void refuse_value(const XmlElement& element, const char* name,
+                                 const char* expected) const {
+    refuse(file_, say("expected ", expected, " as ", name, " of <", shown(element.name),
+                      ">, found ", in_quotes(element.attribute(name))));
+  }
+
+  double number(const XmlElement& element, const char* name) const {
+    const std::string text = element.attribute(name);
+    double value = 0;
+    if (!parse_number(trimmed(text), value)) refuse_value(element, name, "a number");
+    return value;
+  }
+
+  void add_colour(const std::string& text) {
+    append_within(budget_, colours_, colour_in(text), "colours");
+  }
+
+  /// "#RRGGBB" or "#RRGGBBAA"; none for anything else.
+  static std::optional<Colour> colour_in(const std::string& text) {
+    if ((text.size() != 7 && text.size() != 9) || text[0] != '#') return std::nullopt;
+    Colour colour{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const char* from = text.data() + 1 + 2 * c;
+      const auto [stop, error] = std::from_chars(from, from + 2, colour[c], 16);
+      if (error != std::errc{} || stop != from + 2) return std::nullopt;
+    }
+    return colour;
+  }
+
+  Transform transform_in(const XmlElement& element) const {
+    const std::string whole = element.attribute("transform");
+    if (whole.empty()) return kStays;
+    std::string_view text = whole;
+    Transform t;
+    for (Vec3& row : t) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!parse_number(take_word(text), row[axis])) {
+          refuse_value(element, "transform", "12 numbers");
+        }
+      }
+    }
+    if (!trimmed(text).empty()) refuse_value(element, "transform", "12 numbers");
+    return t;
+  }
+
+  /// Objects stand before those that hold them: none can hold itself.
+  Component component_in(const XmlElement& element) const {
+    for (const auto& [name, value] : element.attributes) {
+      if (local_name(name) == "path") {
+        refuse(file_, "expected all objects in one model, found one in " + in_quotes(value));
+      }
+    }
+    const auto found = numbers_.find(element.attribute("objectid"));
+    if (found == numbers_.end()) refuse_value(element, "objectid", "an object that stands before");
+    return {found->second, transform_in(element)};
+  }
+
+  void begin_object() {
+    object_ = {};
+    sink_.emplace(file_, object_.mesh, budget_);
+  }
+
+  void end_object(const XmlElement& element) {
+    const std::string id = element.attribute("id");
+    if (!numbers_.emplace(id, resources.size()).second) {
+      refuse_value(element, "id", "a number of its own");
+    }
+    object_.facts.name = xml_unescaped(element.attribute("name"));  // lib3mf escapes names twice
+    object_.facts.label = object_label_in(element.attribute("partnumber"));
+    object_.facts.colour = colour_named(element.attribute("pid"), element.attribute("pindex"));
+    count();
+    budget_.claim(3, object_.facts.name.size() + id.size() + sizeof(std::string), "names");
+    append_within(budget_, resources, std::move(object_), "objects");
+    begin_object();
+  }
+
+  /// Sums stay below 2^63: an object beyond the bound of all visits is refused at once.
+  void count() {
+    const auto points = std::ssize(object_.mesh.points);
+    for (const Triangle& t : object_.mesh.triangles) {
+      if (*std::max_element(t.begin(), t.end()) < points) continue;
+      refuse(file_, say("expected triangles of ", points, " points, found one of a missing point"));
+    }
+    object_.points = object_.mesh.points.size();
+    object_.triangles = object_.mesh.triangles.size();
+    object_.objects = object_.triangles > 0 ? 1 : 0;
+    object_.name_bytes = object_.facts.name.size();
+    for (const Component& component : object_.components) add_counts(resources[component.object]);
+  }
+
+  void add_counts(const Resource& part) {
+    constexpr int kDeepest = 32;
+    object_.visits += part.visits;
+    object_.objects += part.objects;
+    object_.points += part.points;
+    object_.triangles += part.triangles;
+    object_.name_bytes += part.name_bytes;
+    object_.depth = std::max(object_.depth, part.depth + 1);
+    if (object_.depth > kDeepest) refuse(file_, "too many components within one another");
+    if (object_.visits > kMostVisits) {
+      refuse(file_, say("too many components: expected at most ", kMostVisits, ", found more"));
+    }
+  }
+
+  std::optional<Colour> colour_named(const std::string& group, const std::string& index) const {
+    const auto found = groups_.find(group);
+    std::int64_t n = 0;
+    if (found == groups_.end() || !parse_number(std::string_view(index), n) || n < 0 ||
+        n >= std::ssize(found->second)) {
+      return std::nullopt;
+    }
+    return found->second[static_cast<std::size_t>(n)];
+  }
+
+  const fs::path& file_;
+  MemoryBudget& budget_;
+  Resource object_;                             // that is read
+  std::optional<PolygonSink> sink_;             // of its triangles
+  std::vector<std::optional<Colour>> colours_;  // of the group that is read
+  std::map<std::string, std::vector<std::optional<Colour>>> groups_;
+  std::map<std::string, std::size_t> numbers_;  // of the objects
+};
+
+/// The build: every mesh at each of its places.
+class Builder {
+ public:
+  Builder(const fs::path& file, const std::vector<Resource>& resources, double unit)
+      : file_(file), resources_(resources), unit_(unit) {}
+
+  /// Counts what the items make, and claims it.
+  /// @param most_items  copies of components may not multiply the file without limit.
+  void claim(const std::vector<Component>& items, std::uint64_t most_items, MemoryBudget& budget) {
+    Resource all;
+    for (const Component& item : items) {
+      const Resource& part = resources_[item.object];
+      all.visits += part.visits;
+      all.objects += part.objects;
+      all.points += part.points;
+      all.triangles += part.triangles;
+      all.name_bytes += part.name_bytes;
+      if (all.visits > kMostVisits) {
+        refuse(file_, say("too many components: expected at most ", kMostVisits, ", found more"));
+      }
+    }
+    if (all.points > most_items || all.triangles > most_items) {
+      refuse(file_,
+             say("expected at most ", most_items, " points and triangles in all components, ",
+                 "found ", all.points, " and ", all.triangles));
+    }
+    reserve_within(budget, result_.file.surface.points, all.points, "points");
+    reserve_within(budget, result_.file.surface.triangles, all.triangles, "triangles");
+    reserve_within(budget, result_.object_of, all.triangles, "triangles");
+    reserve_within(budget, result_.objects, all.objects, "objects");
+    budget.claim(1, all.name_bytes, "names of objects");
+  }
+
+  void add(const Component& placed, const Transform& outer) {
+    const Resource& object = resources_[placed.object];
+    const Transform transform = joined(placed.transform, outer);
+    if (!object.mesh.triangles.empty()) add_mesh(object, transform);
+    for (const Component& component : object.components) add(component, transform);
   }
 
   ParsedObjects result() { return std::move(result_); }
 
  private:
-  void require(LIB3MFRESULT result, const Handle& source) const {
-    if (result != LIB3MF_OK) refuse(file_, "lib3mf: " + source.last_error());
-  }
-
-  /// @param path  transforms, the object's own last.
-  void add_object(const Handle& object, std::vector<Transform>& path) {
-    constexpr std::size_t kDeepest = 32;
-    constexpr int kMostVisits = 100'000;  // a few objects that name each other twice are billions
-    if (path.size() > kDeepest) refuse(file_, "too many components within one another");
-    if (++visits_ > kMostVisits) refuse(file_, "too many components");
-    BOOL is_mesh = 0, is_list = 0;
-    require(NMR::lib3mf_object_ismeshobject(object.get(), &is_mesh), object);
-    require(NMR::lib3mf_object_iscomponentsobject(object.get(), &is_list), object);
-    if (is_mesh != 0 && add_mesh(object, path)) add_facts(object);
-    DWORD count = 0;
-    if (is_list != 0) {
-      require(NMR::lib3mf_componentsobject_getcomponentcount(object.get(), &count), object);
-    }
-    for (DWORD i = 0; i < count; ++i) {
-      Handle component, part;
-      require(NMR::lib3mf_componentsobject_getcomponent(object.get(), i, component.put()), object);
-      require(NMR::lib3mf_component_getobjectresource(component.get(), part.put()), component);
-      path.emplace_back();
-      require(NMR::lib3mf_component_gettransform(component.get(), &path.back()), component);
-      add_object(part, path);
-      path.pop_back();
-    }
-  }
-
-  /// The triangles added last are an object.
-  void add_facts(const Handle& mesh) {
-    const auto number = static_cast<Index>(result_.objects.size());
-    result_.objects.push_back(
-        {name_of(mesh), object_label_in(part_number_of(mesh)), colour_of(model_, mesh)});
-    result_.object_of.resize(result_.file.surface.triangles.size(), number);
-  }
-
-  /// @return  whether the mesh has triangles.
-  bool add_mesh(const Handle& mesh, const std::vector<Transform>& path) {
+  void add_mesh(const Resource& object, const Transform& transform) {
     TriMesh& surface = result_.file.surface;
-    DWORD points = 0, triangles = 0, got = 0;
-    require(NMR::lib3mf_meshobject_getvertexcount(mesh.get(), &points), mesh);
-    require(NMR::lib3mf_meshobject_gettrianglecount(mesh.get(), &triangles), mesh);
-    if (points == 0 || triangles == 0) return false;
-    if (points > most_items_ - surface.points.size() ||
-        triangles > most_items_ - surface.triangles.size()) {
-      refuse(file_, say("expected at most ", most_items_,
-                        " points and triangles in all components, found more"));
+    const auto base = static_cast<Index>(surface.points.size());
+    for (const Vec3& p : object.mesh.points) {
+      surface.points.push_back(unit_ * moved(transform, p));
     }
-    std::vector<NMR::MODELMESHVERTEX> at(points);
-    std::vector<NMR::MODELMESHTRIANGLE> corners(triangles);
-    require(NMR::lib3mf_meshobject_getvertices(mesh.get(), at.data(), points, &got), mesh);
-    require(NMR::lib3mf_meshobject_gettriangleindices(mesh.get(), corners.data(), triangles, &got),
-            mesh);
-    PolygonSink sink(file_, surface);
-    for (const auto& [p] : at) {
-      Vec3 q{p[0], p[1], p[2]};
-      for (auto t = path.rbegin(); t != path.rend(); ++t) q = moved(*t, q);
-      surface.points.push_back(unit_ * q);
+    const bool mirrored = mirrors(transform);
+    for (const auto& [a, b, c] : object.mesh.triangles) {
+      surface.triangles.push_back({base + a, base + (mirrored ? c : b), base + (mirrored ? b : c)});
     }
-    const bool mirrored = std::count_if(path.begin(), path.end(), mirrors) % 2 != 0;
-    for (auto& [c] : corners) {
-      if (mirrored) std::swap(c[1], c[2]);
-      const double polygon[] = {double(c[0]), double(c[1]), double(c[2])};
-      sink.add(polygon, false);
-    }
-    return true;
+    result_.object_of.resize(surface.triangles.size(), static_cast<Index>(result_.objects.size()));
+    result_.objects.push_back(object.facts);
   }
 
   const fs::path& file_;
-  const Handle& model_;
+  const std::vector<Resource>& resources_;
   double unit_;
-  std::size_t most_items_;
-  int visits_ = 0;
   ParsedObjects result_;
 };
 
+double unit_in_mm(const fs::path& file, const std::string& name) {
+  constexpr std::pair<const char*, double> kUnits[] = {
+      {"", 1},        {"millimeter", 1}, {"micron", 1e-3}, {"centimeter", 10},
+      {"inch", 25.4}, {"foot", 304.8},   {"meter", 1000}};
+  for (const auto& [unit, mm] : kUnits) {
+    if (name == unit) return mm;
+  }
+  refuse(file, "expected a unit of 3MF, found " + in_quotes(name));
+}
+
+/// The model that the package names as its first.
+std::string model_in(const fs::path& file, ZipArchive& archive, MemoryBudget& budget) {
+  const auto relations = archive.part("_rels/.rels");
+  if (!relations) refuse(file, "is not a 3MF file: expected the part \"_rels/.rels\", found none");
+  const XmlElement root = parse_xml(file, *relations, budget).root;
+  for (const XmlElement& relation : root.children) {
+    if (!relation.attribute("Type").ends_with("/3dmanufacturing/2013/01/3dmodel")) continue;
+    std::string target = relation.attribute("Target");
+    if (target.starts_with('/')) target.erase(0, 1);
+    if (auto model = archive.part(target)) return std::move(*model);
+    refuse(file, say("expected the model ", in_quotes(target), " in the archive, found none"));
+  }
+  refuse(file, "is not a 3MF file: its package names no model");
+}
+
 }  // namespace
 
-ParsedObjects parse_threemf_objects(const fs::path& file, std::string_view bytes) {
-  Handle model, reader;
-  require_done(NMR::lib3mf_createmodel(model.put()));
-  require_done(NMR::lib3mf_model_queryreader(model.get(), "3mf", reader.put()));
-  std::vector<BYTE> copy(bytes.begin(), bytes.end());  // lib3mf asks for bytes it may change
-  if (NMR::lib3mf_reader_readfrombuffer(reader.get(), copy.data(), copy.size()) != LIB3MF_OK) {
-    refuse(file, "is not a 3MF file that lib3mf reads: " + reader.last_error());
+ParsedObjects parse_threemf_objects(const fs::path& file, std::string_view bytes,
+                                    MemoryBudget& budget) {
+  ZipArchive archive(file, bytes, budget);
+  const std::string model = model_in(file, archive, budget);
+  ModelReader reader(file, budget);
+  const auto consume = [&](const XmlElement& e, std::string_view path) {
+    return reader.consume(e, path);
+  };
+  const XmlElement root = parse_xml(file, model, budget, {.consume = consume}).root;
+  if (local_name(root.name) != "model") {
+    refuse(file, "expected <model>, found " + in_quotes(root.name));
   }
-  Gatherer gatherer(file, model, bytes.size());
-  gatherer.add_build();
-  ParsedObjects result = gatherer.result();
-  result.file.frame = stated_frame(model);
+  Builder builder(file, reader.resources, unit_in_mm(file, root.attribute("unit")));
+  constexpr std::uint64_t kMost = std::numeric_limits<Index>::max();
+  const std::uint64_t most_items = std::min(kMost, 1'000'000 + 50 * std::uint64_t{bytes.size()});
+  builder.claim(reader.items, most_items, budget);
+  for (const Component& item : reader.items) builder.add(item, kStays);
+  ParsedObjects result = builder.result();
+  result.file.frame = reader.frame;
   return result;
 }
 
-SurfaceFile parse_threemf(const fs::path& file, std::string_view bytes) {
-  return parse_threemf_objects(file, bytes).file;
+SurfaceFile parse_threemf(const fs::path& file, std::string_view bytes, MemoryBudget& budget) {
+  return parse_threemf_objects(file, bytes, budget).file;
 }
 
 }  // namespace mesamis::detail

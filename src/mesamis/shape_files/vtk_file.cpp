@@ -29,8 +29,8 @@ constexpr NamedType kTypes[] = {
 
 class LegacyParser {
  public:
-  LegacyParser(const fs::path& file, std::string_view bytes)
-      : file_(file), rest_(bytes), sink_(file, surface_) {}
+  LegacyParser(const fs::path& file, std::string_view bytes, MemoryBudget& budget)
+      : file_(file), rest_(bytes), budget_(budget), sink_(file, surface_, budget) {}
 
   SurfaceFile parse() {
     read_head();
@@ -41,7 +41,8 @@ class LegacyParser {
       } else if (keyword == "polygons" || keyword == "triangle_strips") {
         read_cells(keyword == "triangle_strips");
       } else if (keyword == "vertices" || keyword == "lines") {
-        read_lists();
+        Lists unused = read_lists();
+        free(unused);
       } else if (keyword == "field") {
         read_field();
       } else if (keyword == "metadata") {
@@ -104,7 +105,7 @@ class LegacyParser {
   /// Text between white space, or big endian from the next line on.
   std::vector<double> next_values(std::size_t count, NumberType type) {
     if (binary_) return next_binary_values(count, type);
-    std::vector<double> values(count);
+    std::vector<double> values = claimed_values(count);
     for (double& value : values) {
       const std::string_view word = take_word(rest_);
       if (!parse_number(word, value)) {
@@ -115,12 +116,17 @@ class LegacyParser {
     return values;
   }
 
+  std::vector<double> claimed_values(std::size_t count) {
+    budget_.claim(count, sizeof(double), "values");
+    return std::vector<double>(count);
+  }
+
   std::vector<double> next_binary_values(std::size_t count, NumberType type) {
     std::string_view line;
     take_line(rest_, line);
     const std::size_t size = byte_size(type);
     if (rest_.size() / size < count) refuse(file_, "the file ends before its last value");
-    std::vector<double> values(count);
+    std::vector<double> values = claimed_values(count);
     for (std::size_t i = 0; i < count; ++i) {
       values[i] = load_number(rest_.data() + i * size, type, ByteOrder::kBig);
     }
@@ -130,11 +136,13 @@ class LegacyParser {
 
   void read_points() {
     const std::size_t count = next_count();
-    const std::vector<double> values = next_values(3 * count, next_type());
-    surface_.points.clear();
+    std::vector<double> values = next_values(3 * count, next_type());
+    free_within(budget_, surface_.points);
+    reserve_within(budget_, surface_.points, count, "points");
     for (std::size_t i = 0; i < count; ++i) {
       surface_.points.push_back({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
     }
+    free_within(budget_, values);
   }
 
   Lists read_lists() {
@@ -151,10 +159,10 @@ class LegacyParser {
   }
 
   void read_cells(bool strips) {
-    const Lists lists = read_lists();
+    Lists lists = read_lists();
     if (version_ >= 5.1) {
       sink_.add_all(lists.corners, lists.offsets, strips);
-      return;
+      return free(lists);
     }
     const std::span<const double> list(lists.corners);
     for (std::size_t at = 0; at < list.size();) {
@@ -166,6 +174,12 @@ class LegacyParser {
       sink_.add(list.subspan(at + 1, static_cast<std::size_t>(count)), strips);
       at += 1 + static_cast<std::size_t>(count);
     }
+    free(lists);
+  }
+
+  void free(Lists& lists) {
+    free_within(budget_, lists.offsets);
+    free_within(budget_, lists.corners);
   }
 
   /// FIELD name count, then for each array: name components tuples type, values. All that counts is
@@ -186,7 +200,8 @@ class LegacyParser {
           if (names_frame && !frame_) frame_ = frame_named(word);
         }
       } else {
-        next_values(components * tuples, next_type());
+        std::vector<double> unused = next_values(components * tuples, next_type());
+        free_within(budget_, unused);
       }
     }
   }
@@ -201,6 +216,7 @@ class LegacyParser {
 
   const fs::path& file_;
   std::string_view rest_;
+  MemoryBudget& budget_;
   TriMesh surface_;
   std::optional<Frame> frame_;
   PolygonSink sink_;
@@ -210,8 +226,8 @@ class LegacyParser {
 
 }  // namespace
 
-SurfaceFile parse_vtk(const fs::path& file, std::string_view bytes) {
-  return LegacyParser(file, bytes).parse();
+SurfaceFile parse_vtk(const fs::path& file, std::string_view bytes, MemoryBudget& budget) {
+  return LegacyParser(file, bytes, budget).parse();
 }
 
 }  // namespace mesamis::detail

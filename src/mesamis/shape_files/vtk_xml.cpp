@@ -15,29 +15,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Stops after `most` bytes, give or take two, and at the first character that is not base64.
-/// Padding may stand amid the text: VTK encodes an array's header and its data one after the other.
-std::string base64_bytes(std::string_view text, std::size_t most) {
+/// Appends to `bytes`. Stops at `most` bytes, give or take two, and at the first character that is
+/// not base64. Padding may stand amid the text: VTK encodes an array's header and its data one
+/// after the other.
+void decode_base64(std::string_view text, std::size_t most, std::string& bytes) {
   auto digit = [](char c) {
     constexpr std::string_view kDigits =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     const auto at = kDigits.find(c);
     return at == kDigits.npos ? -1 : static_cast<int>(at);
   };
-  std::string bytes;
   for (; text.size() >= 4 && bytes.size() < most; text.remove_prefix(4)) {
     const std::size_t padding = text[3] != '=' ? 0 : text[2] != '=' ? 1 : 2;
     unsigned group = 0;
     for (std::size_t i = 0; i < 4; ++i) {
       const int value = i < 4 - padding ? digit(text[i]) : 0;
-      if (value < 0) return bytes;
+      if (value < 0) return;
       group = group << 6 | static_cast<unsigned>(value);
     }
     for (std::size_t i = 0; i < 3 - padding; ++i) {
       bytes += static_cast<char>(group >> (16 - 8 * i) & 0xff);
     }
   }
-  return bytes;
 }
 
 NumberType type_named(const fs::path& file, const std::string& name) {
@@ -49,12 +48,12 @@ NumberType type_named(const fs::path& file, const std::string& name) {
   return static_cast<NumberType>(found - std::begin(kNames));
 }
 
-std::vector<double> numbers_in(const fs::path& file, std::string_view text) {
+std::vector<double> numbers_in(const fs::path& file, std::string_view text, MemoryBudget& budget) {
   std::vector<double> numbers;
   for (auto word = take_word(text); !word.empty(); word = take_word(text)) {
     double value = 0;
     if (!parse_number(word, value)) refuse(file, "expected a number, found " + in_quotes(word));
-    numbers.push_back(value);
+    append_within(budget, numbers, value, "values of arrays");
   }
   return numbers;
 }
@@ -65,13 +64,21 @@ std::vector<double> numbers_in(const fs::path& file, std::string_view text) {
 /// needed: what follows belongs to other arrays.
 class VtkXml::StoredArray {
  public:
-  StoredArray(std::string_view stored, bool is_base64, bool is_appended)
-      : stored_(stored), is_base64_(is_base64), is_appended_(is_appended) {}
+  StoredArray(std::string_view stored, bool is_base64, bool is_appended, MemoryBudget& budget)
+      : stored_(stored), is_base64_(is_base64), is_appended_(is_appended), budget_(budget) {}
+  ~StoredArray() { budget_.give_back(decoded_.capacity()); }
+  StoredArray(const StoredArray&) = delete;
+  StoredArray& operator=(const StoredArray&) = delete;
 
   /// The first n bytes, or fewer where the file ends before.
   std::string_view first(std::size_t n) {
     if (!is_base64_) return stored_.substr(0, n);
-    if (decoded_.size() < n) decoded_ = base64_bytes(stored_, n);
+    if (decoded_.size() < n) {
+      decoded_.clear();
+      constexpr std::size_t kGroup = 3;  // bytes of the last four digits
+      reserve_within(budget_, decoded_, std::min(n, stored_.size()) + kGroup, "stored values");
+      decode_base64(stored_, n, decoded_);
+    }
     return std::string_view(decoded_).substr(0, n);
   }
   /// No array of this file has more.
@@ -81,6 +88,7 @@ class VtkXml::StoredArray {
  private:
   std::string_view stored_;
   bool is_base64_, is_appended_;
+  MemoryBudget& budget_;
   std::string decoded_;
 };
 
@@ -116,10 +124,10 @@ std::size_t components_in(const fs::path& file, const XmlElement& data_array) {
                    in_quotes(data_array.attribute("Name")), ", found ", count));
 }
 
-VtkXml::VtkXml(fs::path file, std::string_view bytes, const std::string& type)
-    : file_(std::move(file)), type_(type) {
+VtkXml::VtkXml(fs::path file, std::string_view bytes, const std::string& type, MemoryBudget& budget)
+    : file_(std::move(file)), budget_(budget), type_(type) {
   if (bytes.substr(0, 1000).find("<VTKFile") == bytes.npos) refuse(file_, "is not a VTK XML file");
-  XmlDocument document = parse_xml(file_, bytes, {.ends_at_appended_data = true});
+  XmlDocument document = parse_xml(file_, bytes, budget_, {.ends_at_appended_data = true});
   root_ = std::move(document.root);
   appended_ = document.appended;
   if (root_.attribute("type") != type || root_.child(type) == nullptr) {
@@ -147,7 +155,7 @@ std::vector<double> VtkXml::values(const XmlElement& data_array, std::size_t cou
                       in_quotes(data_array.attribute("Name")), ", found ", found));
   };
   if (data_array.attribute("format") == "ascii") {
-    std::vector<double> numbers = numbers_in(file_, data_array.text);
+    std::vector<double> numbers = numbers_in(file_, data_array.text, budget_);
     require_count(numbers.size());
     return numbers;
   }
@@ -156,8 +164,12 @@ std::vector<double> VtkXml::values(const XmlElement& data_array, std::size_t cou
   StoredArray stored = stored_array(data_array);
   const Layout layout = layout_of(stored);
   require_count(layout.plain_size / size);
+  const ScopedClaim blocks(budget_, layout.blocks.capacity(), sizeof(Layout::Block), "blocks");
+  const ScopedClaim unpacked(budget_, layout.plain_size, 1, "unpacked values");
   const std::string bytes = unpack(stored, layout);
-  std::vector<double> numbers(count);
+  std::vector<double> numbers;
+  reserve_within(budget_, numbers, count, "values of arrays");
+  numbers.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     numbers[i] = load_number(bytes.data() + i * size, type, order_);
   }
@@ -173,9 +185,11 @@ std::string VtkXml::text_bytes(const XmlElement& array, std::uint64_t most_bytes
            say("expected texts of at most ", most_bytes, " bytes, found ", layout.plain_size));
   }
   std::string bytes;
-  for (const double code : numbers_in(file_, array.text)) {
+  std::vector<double> codes = numbers_in(file_, array.text, budget_);
+  for (const double code : codes) {
     bytes += code > 0 && code < 256 ? static_cast<char>(static_cast<unsigned char>(code)) : '\0';
   }
+  free_within(budget_, codes);
   return bytes;
 }
 
@@ -189,7 +203,8 @@ std::vector<std::string> VtkXml::texts(const XmlElement& array) {
   std::vector<std::string> texts;
   for (std::size_t at = 0; at < bytes.size();) {
     const std::size_t end = std::min(bytes.find('\0', at), bytes.size());
-    texts.push_back(bytes.substr(at, end - at));
+    budget_.claim(1, end - at, "texts");
+    append_within(budget_, texts, bytes.substr(at, end - at), "texts");
     at = end + 1;
   }
   return texts;
@@ -197,7 +212,7 @@ std::vector<std::string> VtkXml::texts(const XmlElement& array) {
 
 VtkXml::StoredArray VtkXml::stored_array(const XmlElement& data_array) const {
   const std::string format = data_array.attribute("format");
-  if (format == "binary") return {trimmed(data_array.text), true, false};
+  if (format == "binary") return {trimmed(data_array.text), true, false, budget_};
   if (format != "appended") {
     refuse(file_, "expected an array in ascii, binary or appended, found " + in_quotes(format));
   }
@@ -206,7 +221,7 @@ VtkXml::StoredArray VtkXml::stored_array(const XmlElement& data_array) const {
       static_cast<std::uint64_t>(offset) >= appended_.size()) {
     refuse(file_, "an array begins beyond the end of the file");
   }
-  return {appended_.substr(static_cast<std::size_t>(offset)), !appended_is_raw_, true};
+  return {appended_.substr(static_cast<std::size_t>(offset)), !appended_is_raw_, true, budget_};
 }
 
 std::uint64_t VtkXml::header_number(StoredArray& stored, std::size_t index) const {
@@ -241,6 +256,10 @@ std::vector<std::size_t> VtkXml::packed_sizes(StoredArray& stored, std::uint64_t
   header_number(stored, static_cast<std::size_t>(2 + blocks));  // decodes the header at once
   std::vector<std::size_t> sizes;
   std::uint64_t sum = 0;
+  // The sizes, and the layout that is made of them.
+  const ScopedClaim claim(budget_, blocks, sizeof(std::size_t) + 2 * sizeof(Layout::Block),
+                          "blocks");
+  sizes.reserve(static_cast<std::size_t>(blocks));
   for (std::uint64_t b = 0; b < blocks; ++b) {
     const std::uint64_t size = header_number(stored, static_cast<std::size_t>(3 + b));
     if (size > stored.most_bytes() - sum) refuse(file_, "an array is cut off");

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mesamis/files/memory_budget.h"
 #include "mesamis/files/number_type.h"
 #include "mesamis/files/xml.h"
 
@@ -27,11 +28,13 @@ std::size_t components_in(const std::filesystem::path& file, const XmlElement& d
 
 class VtkXml {
  public:
-  /// @param file   for messages
-  /// @param bytes  the whole file, unpacked; must live on.
-  /// @param type   e.g. "PolyData".
-  /// @throws InputError  if it is no such file.
-  VtkXml(std::filesystem::path file, std::string_view bytes, const std::string& type);
+  /// @param file    for messages
+  /// @param bytes   the whole file, unpacked; must live on.
+  /// @param type    e.g. "PolyData".
+  /// @param budget  of the reader; must live on.
+  /// @throws InputError  if it is no such file, and as MemoryBudget::claim().
+  VtkXml(std::filesystem::path file, std::string_view bytes, const std::string& type,
+         MemoryBudget& budget);
 
   /// The element <PolyData>, or what the type is.
   const XmlElement& data_set() const;
@@ -39,9 +42,10 @@ class VtkXml {
   /// The values of a DataArray: text, base64 or raw, plain or packed by zlib. Nothing is unpacked
   /// before the array's own header names the expected size.
   /// @param count        how many values the rest of the file leads to expect.
+  /// @return             values that are claimed: free_within() gives them back.
   /// @throws InputError  if there are more or fewer, they are cut off, broken or packed in another
   ///                     way, or the arrays read so far have more bytes than the file: they
-  ///                     overlap.
+  ///                     overlap; and as MemoryBudget::claim().
   std::vector<double> values(const XmlElement& data_array, std::size_t count);
 
   /// The first text of an Array of type String; empty if it is none.
@@ -63,6 +67,7 @@ class VtkXml {
   std::string text_bytes(const XmlElement& array, std::uint64_t most_bytes);
 
   std::filesystem::path file_;
+  MemoryBudget& budget_;
   std::string type_;
   XmlElement root_;
   std::string_view appended_;

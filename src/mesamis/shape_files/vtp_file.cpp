@@ -69,8 +69,8 @@ class Fields {
 
 class VtpParser {
  public:
-  VtpParser(const fs::path& file, std::string_view bytes)
-      : file_(file), xml_(file, bytes, "PolyData"), fields_(file_, xml_) {}
+  VtpParser(const fs::path& file, std::string_view bytes, MemoryBudget& budget)
+      : file_(file), budget_(budget), xml_(file, bytes, "PolyData", budget), fields_(file_, xml_) {}
 
   SurfaceFile parse_surface() {
     for (const XmlElement& piece : xml_.data_set().children) {
@@ -101,7 +101,7 @@ class VtpParser {
   std::optional<Frame> stated_frame() { return frame_named(fields_.text(kFrameField)); }
 
   void add_piece(const XmlElement& piece) {
-    PolygonSink sink(file_, surface_);
+    PolygonSink sink(file_, surface_, budget_);
     add_points(piece);
     cell_of_.clear();
     first_cell_ = bounded_count(file_, piece, "Verts") + bounded_count(file_, piece, "Lines");
@@ -114,10 +114,12 @@ class VtpParser {
     const XmlElement* points = piece.child("Points");
     const XmlElement* array = points == nullptr ? nullptr : points->child("DataArray");
     if (array == nullptr) refuse(file_, "expected an array of points, found none");
-    const std::vector<double> values = xml_.values(*array, 3 * count);
+    std::vector<double> values = xml_.values(*array, 3 * count);
+    reserve_within(budget_, surface_.points, surface_.points.size() + count, "points");
     for (std::size_t i = 0; i < count; ++i) {
       surface_.points.push_back({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
     }
+    free_within(budget_, values);
   }
 
   const XmlElement& cell_array(const XmlElement& cells, const char* name) const {
@@ -131,19 +133,29 @@ class VtpParser {
     if (count == 0) return;
     const XmlElement* cells = piece.child(kind);
     if (cells == nullptr) refuse(file_, say("expected ", count, " cells, found no list of them"));
-    std::vector<double> offsets = xml_.values(cell_array(*cells, "offsets"), count);
-    const double corners = offsets.back();
+    const std::vector<double> ends = xml_.values(cell_array(*cells, "offsets"), count);
+    const double corners = ends.back();
     if (!(corners >= 0 && corners <= kMost)) {
       refuse(file_, say("expected at most ", kMost, " corners in ", kind, ", found ", corners));
     }
-    const std::vector<double> connectivity =
+    std::vector<double> connectivity =
         xml_.values(cell_array(*cells, "connectivity"), static_cast<std::size_t>(corners));
-    offsets.insert(offsets.begin(), 0);
+    std::vector<double> offsets;
+    reserve_within(budget_, offsets, count + 1, "offsets");
+    offsets.push_back(0);
+    offsets.insert(offsets.end(), ends.begin(), ends.end());
     sink.add_all(connectivity, offsets, kind == "Strips");
+    budget_.give_back(ends.size() * sizeof(double));
+    free_within(budget_, connectivity);
     for (std::size_t i = 0; i < count; ++i) {  // as many triangles as the sink makes
       const double triangles = std::max(0.0, offsets[i + 1] - offsets[i] - 2);
-      cell_of_.insert(cell_of_.end(), static_cast<std::size_t>(triangles), first_cell_ + i);
+      const std::size_t size = cell_of_.size() + static_cast<std::size_t>(triangles);
+      if (size > cell_of_.capacity()) {
+        reserve_within(budget_, cell_of_, std::max(size, 2 * cell_of_.size()), "cells");
+      }
+      cell_of_.resize(size, first_cell_ + i);
     }
+    free_within(budget_, offsets);
     first_cell_ += count;
   }
 
@@ -170,14 +182,18 @@ class VtpParser {
   /// To which object each triangle of a piece that has been added belongs.
   void add_objects(const XmlElement& piece) {
     if (cell_of_.empty()) return;
-    const std::vector<double> labels = labels_of_cells(piece), colours = colours_of_cells(piece);
+    std::vector<double> labels = labels_of_cells(piece), colours = colours_of_cells(piece);
     for (const std::size_t cell : cell_of_) {
       const Index label = labels.empty() ? -1 : static_cast<Index>(labels[cell]);
       const auto next = static_cast<Index>(result_.objects.size());
       const auto [found, is_new] = object_of_label_.try_emplace(label, next);
-      if (is_new) result_.objects.push_back(facts_of(label, cell, colours));
-      result_.object_of.push_back(found->second);
+      if (is_new) {
+        append_within(budget_, result_.objects, facts_of(label, cell, colours), "objects");
+      }
+      append_within(budget_, result_.object_of, found->second, "triangles");
     }
+    free_within(budget_, labels);
+    free_within(budget_, colours);
   }
 
   static ObjectFacts facts_of(Index label, std::size_t cell, const std::vector<double>& colours) {
@@ -193,6 +209,7 @@ class VtpParser {
   }
 
   const fs::path& file_;
+  MemoryBudget& budget_;
   VtkXml xml_;
   Fields fields_;
   TriMesh surface_;
@@ -220,21 +237,23 @@ bool has_one_component(const fs::path& file, const XmlElement& array) {
 
 }  // namespace
 
-SurfaceFile parse_vtp(const fs::path& file, std::string_view bytes) {
-  return VtpParser(file, bytes).parse_surface();
+SurfaceFile parse_vtp(const fs::path& file, std::string_view bytes, MemoryBudget& budget) {
+  return VtpParser(file, bytes, budget).parse_surface();
 }
 
-ParsedObjects parse_vtp_objects(const fs::path& file, std::string_view bytes) {
-  return VtpParser(file, bytes).parse_objects();
+ParsedObjects parse_vtp_objects(const fs::path& file, std::string_view bytes,
+                                MemoryBudget& budget) {
+  return VtpParser(file, bytes, budget).parse_objects();
 }
 
 std::vector<double> parse_vtp_array(const fs::path& file, std::string_view bytes,
-                                    const std::string& name) {
-  VtkXml xml(file, bytes, "PolyData");
+                                    const std::string& name, MemoryBudget& budget) {
+  VtkXml xml(file, bytes, "PolyData", budget);
   const XmlElement& piece = only_piece(file, xml);
   const XmlElement* data = piece.child("PointData");
+  const std::vector<XmlElement> none;
   std::string known;
-  for (const XmlElement& array : data == nullptr ? std::vector<XmlElement>{} : data->children) {
+  for (const XmlElement& array : data == nullptr ? none : data->children) {
     if (!has_one_component(file, array)) continue;
     const std::string found = array.attribute("Name");
     if (found != name) {

@@ -28,8 +28,8 @@ struct VtuContents {
 
 class VtuParser {
  public:
-  VtuParser(const fs::path& file, std::string_view bytes)
-      : file_(file), xml_(file, bytes, "UnstructuredGrid") {}
+  VtuParser(const fs::path& file, std::string_view bytes, MemoryBudget& budget)
+      : file_(file), budget_(budget), xml_(file, bytes, "UnstructuredGrid", budget) {}
 
   VtuContents parse() {
     const XmlElement* piece = nullptr;
@@ -82,12 +82,14 @@ class VtuParser {
   void read_points(const XmlElement& piece) {
     const std::size_t count = index_count(piece, "NumberOfPoints");
     if (count == 0) refuse(file_, "holds no points");
-    const std::vector<double> values = values_of(piece, "Points", nullptr, 3 * count);
+    std::vector<double> values = values_of(piece, "Points", nullptr, 3 * count);
     std::vector<Vec3>& points = contents_.grid.mesh.points;
+    reserve_within(budget_, points, count, "points");
     points.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
       points[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
     }
+    free_within(budget_, values);
   }
 
   [[noreturn]] void refuse_cell(std::size_t cell, const std::string& what) const {
@@ -97,25 +99,29 @@ class VtuParser {
   void read_cells(const XmlElement& piece) {
     const std::size_t count = index_count(piece, "NumberOfCells");
     if (count == 0) return;
-    const std::vector<double> types = values_of(piece, "Cells", "types", count);
+    std::vector<double> types = values_of(piece, "Cells", "types", count);
     for (std::size_t c = 0; c < count; ++c) {
       if (types[c] != kTetrahedronType) {
         refuse_cell(c, say("is of VTK type ", types[c], ", expected tetrahedra (type ",
                            kTetrahedronType, ")"));
       }
     }
-    const std::vector<double> offsets = values_of(piece, "Cells", "offsets", count);
+    free_within(budget_, types);
+    std::vector<double> offsets = values_of(piece, "Cells", "offsets", count);
     for (std::size_t c = 0; c < count; ++c) {
       if (offsets[c] != 4.0 * static_cast<double>(c + 1)) refuse_cell(c, "has not four points");
     }
-    const std::vector<double> corners = values_of(piece, "Cells", "connectivity", 4 * count);
+    free_within(budget_, offsets);
+    std::vector<double> corners = values_of(piece, "Cells", "connectivity", 4 * count);
     TetMesh& mesh = contents_.grid.mesh;
     const auto points = static_cast<double>(mesh.points.size());
+    reserve_within(budget_, mesh.cells, count, "cells");
     mesh.cells.resize(count);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (!(corners[i] >= 0 && corners[i] < points)) refuse_cell(i / 4, "names a missing point");
       mesh.cells[i / 4][i % 4] = static_cast<Index>(corners[i]);
     }
+    free_within(budget_, corners);
   }
 
   std::vector<MeshArray> arrays(const XmlElement* data, std::size_t count) {
@@ -128,12 +134,13 @@ class VtuParser {
       const std::size_t components = components_in(file_, element);
       array.values = xml_.values(element, count * components);
       array.components = static_cast<int>(components);
-      result.push_back(std::move(array));
+      append_within(budget_, result, std::move(array), "arrays");
     }
     return result;
   }
 
   const fs::path& file_;
+  MemoryBudget& budget_;
   VtkXml xml_;
   VtuContents contents_;
 };
@@ -213,9 +220,10 @@ void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const Vtu
                         group_of_points(mesh.points, frame), group_of_cells(mesh.cells)}});
 }
 
-MeshWithArrays read_vtu(const std::filesystem::path& path) {
-  const std::string bytes = read_all(path);
-  VtuContents contents = VtuParser(path, bytes).parse();
+MeshWithArrays read_vtu(const std::filesystem::path& path, const ReadLimits& limits) {
+  MemoryBudget budget(path, limits);
+  const std::string bytes = read_all(path, budget);
+  VtuContents contents = VtuParser(path, bytes, budget).parse();
   MeshWithArrays& result = contents.grid;
   if (contents.frame == Frame::kRas) {
     turn(result.mesh.points);
