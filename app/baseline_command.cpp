@@ -216,7 +216,10 @@ void add_baseline_command(CLI::App& app, CommonOptions& common, Action& action) 
   add_read_options(*sub, command->read);
   sub->add_option("--report", command->report, "Report: .json");
   sub->callback([command, &common, &action] {
-    action = [command, &common] { return run_baseline(*command, common); };
+    action = [command, &common] {
+      command->read.limits = common.limits;
+      return run_baseline(*command, common);
+    };
   });
 }
 

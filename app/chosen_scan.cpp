@@ -19,25 +19,32 @@ nlohmann::ordered_json report_of(const ScanArguments& arguments, const ObjectReq
   return report;
 }
 
+/// Before the samples are read: they are held too.
+void require_memory_for(const VoxelGrid& grid, const CropRange& crop, Settings settings,
+                        double memory_gb) {
+  settings.crop = crop;
+  require_memory(grid, settings, memory_gb,
+                 sizeof(float) * static_cast<double>(grid.voxel_count()));
+}
+
 }  // namespace
 
 ChosenScan read_chosen_scan(const ScanArguments& arguments, const Settings& settings,
                             const std::optional<double>& memory_gb) {
   ObjectRequest request =
       object_request(arguments.places, arguments.labels, settings, arguments.frame);
-  VolumeFile file = read_scan(arguments.input, arguments.read);
-  if (!arguments.places.box.empty()) {
-    request.crop = box_to_range(file.volume, arguments.places.box, arguments.frame);
-  }
+  ReadOptions read = arguments.read;
+  read.on_grid = [&](const VoxelGrid& grid) {
+    if (!arguments.places.box.empty()) {
+      request.crop = box_to_range(grid, arguments.places.box, arguments.frame);
+    }
+    if (memory_gb) require_memory_for(grid, request.crop, settings, *memory_gb);
+  };
+  VolumeFile file = read_scan(arguments.input, read);
   ChosenScan scan;
   scan.grid = file.volume;
   if (arguments.report) {
     scan.facts = facts_of(arguments.input, file.volume, file.format, file.warnings);
-  }
-  if (memory_gb) {
-    Settings part = settings;
-    part.crop = request.crop;
-    require_memory(file.volume, part, *memory_gb);
   }
   scan.object = choose_object(std::move(file.volume), request);
   for (const std::string& note : scan.object.notes) log_info(note);

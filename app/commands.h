@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "mesamis/files/read_limits.h"
 #include "mesamis/record/verdict.h"
 
 namespace mesamis {
@@ -28,7 +29,7 @@ struct CommonOptions {
   bool quiet = false;     ///< nothing on stderr but errors
   bool log_json = false;  ///< stderr as JSON lines
   int threads = 0;        ///< 0: as many as the machine has
-  double memory_gb = 0;   ///< a run may take, 10^9 bytes; 0: what is free
+  ReadLimits limits{};    ///< memory that a run may take too
 };
 
 /// A command with its options, ready to run; returns an exit status. It may throw InputError and

@@ -87,9 +87,9 @@ void require_all(const CompareCommand& command) {
   require_distinct_files({report, histogram, colored}, {reference, surface});
 }
 
-int run_compare(const CompareCommand& command) {
+int run_compare(const CompareCommand& command, const ReadLimits& limits) {
   require_all(command);
-  const SurfacePair pair = read_pair(command.reference, command.surface, command.frames);
+  const SurfacePair pair = read_pair(command.reference, command.surface, command.frames, limits);
   for (const std::string& warning : pair.warnings) log_warning(warning);
   const std::vector<DirectedDistances> directions{
       measure_distances("surface_to_reference", pair.surface, pair.reference, command.part),
@@ -116,7 +116,7 @@ int run_compare(const CompareCommand& command) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, CommonOptions&, Action& action) {
+void add_compare_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<CompareCommand>();
   CLI::App* command = app.add_subcommand("compare", "Measure the distances between two surfaces");
   command->add_option("reference", options->reference, "Reference surface")->required();
@@ -129,7 +129,9 @@ void add_compare_command(CLI::App& app, CommonOptions&, Action& action) {
   command->add_option_function<std::string>(
       "--box", [options](const std::string& text) { options->part = box_of(text); },
       "Measure from points inside this box alone: X0,Y0,Z0,X1,Y1,Z1, mm in the reference's frame");
-  command->callback([options, &action] { action = [options] { return run_compare(*options); }; });
+  command->callback([options, &common, &action] {
+    action = [options, &common] { return run_compare(*options, common.limits); };
+  });
 }
 
 }  // namespace mesamis

@@ -34,8 +34,8 @@ struct DecimateCommand {
   bool fill_cavities = false;
 };
 
-SurfaceFile read_closed(const fs::path& path) {
-  SurfaceFile file = read_surface_file(path);
+SurfaceFile read_closed(const fs::path& path, const ReadLimits& limits) {
+  SurfaceFile file = read_surface_file(path, limits);
   const std::string flaws = flaws_of(check_surface(file.surface));
   if (flaws.empty()) return file;
   throw InputError(path.string() + ": expected a closed 2-manifold surface, found " + flaws);
@@ -68,7 +68,7 @@ void require_all(const DecimateCommand& command) {
 int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
   require_all(command);
   const double tolerance = command.tolerance.value_or(std::numeric_limits<double>::infinity());
-  const SurfaceFile file = read_closed(command.input);
+  const SurfaceFile file = read_closed(command.input, common.limits);
   const TriMesh surface = in_lps(file);
   ProgressDisplay display(common.quiet);
   PrintableReport printable;

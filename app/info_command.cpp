@@ -77,8 +77,8 @@ std::string volume_line(const VolumeInfo& info) {
   return line.str();
 }
 
-std::string surface_line(const fs::path& path) {
-  const TriMesh surface = read_surface(path);
+std::string surface_line(const fs::path& path, const ReadLimits& limits) {
+  const TriMesh surface = read_surface(path, limits);
   const SurfaceCheck check = check_surface(surface);
   std::ostringstream line;
   line << one_line(path.filename().string()) << "  surface  " << surface.triangles.size()
@@ -89,8 +89,8 @@ std::string surface_line(const fs::path& path) {
   return line.str();
 }
 
-std::string mesh_line(const fs::path& path) {
-  const MeshWithArrays mesh = read_mesh(path);
+std::string mesh_line(const fs::path& path, const ReadLimits& limits) {
+  const MeshWithArrays mesh = read_mesh(path, limits);
   std::ostringstream line;
   line << one_line(path.filename().string()) << "  mesh  " << mesh.mesh.cells.size()
        << " tetrahedra, " << mesh.mesh.points.size() << " vertices, " << box_text(mesh.mesh.points);
@@ -124,10 +124,10 @@ int run_info(const InfoCommand& command) {
   const fs::path& input = command.input;
   switch (command.read.raw ? FileKind::kVolume : kind_of(input)) {
     case FileKind::kSurface:
-      std::cout << surface_line(input) << "\n";
+      std::cout << surface_line(input, command.read.limits) << "\n";
       break;
     case FileKind::kMesh:
-      std::cout << mesh_line(input) << "\n";
+      std::cout << mesh_line(input, command.read.limits) << "\n";
       break;
     case FileKind::kVolume:
       print_volumes(command);
@@ -138,13 +138,18 @@ int run_info(const InfoCommand& command) {
 
 }  // namespace
 
-void add_info_command(CLI::App& app, CommonOptions&, Action& action) {
+void add_info_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<InfoCommand>();
   CLI::App* command = app.add_subcommand("info", "List what is in a file or a directory");
   command->add_option("input", options->input, "Volume, DICOM directory, surface or mesh")
       ->required();
   add_read_options(*command, options->read);
-  command->callback([options, &action] { action = [options] { return run_info(*options); }; });
+  command->callback([options, &common, &action] {
+    action = [options, &common] {
+      options->read.limits = common.limits;
+      return run_info(*options);
+    };
+  });
 }
 
 }  // namespace mesamis

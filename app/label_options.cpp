@@ -36,8 +36,8 @@ void add_label_options(CLI::App& command, LabelArguments& a) {
       ->check(CLI::PositiveNumber);
 }
 
-LabelMap read_marks(const std::filesystem::path& path) {
-  LabelFile file = read_label_map(path);
+LabelMap read_marks(const std::filesystem::path& path, const ReadLimits& limits) {
+  LabelFile file = read_label_map(path, limits);
   log_all(file.warnings);
   return std::move(file.map);
 }
@@ -45,9 +45,9 @@ LabelMap read_marks(const std::filesystem::path& path) {
 NamedLabels read_labels(const LabelArguments& a) {
   NamedLabels labels;
   if (!a.file.empty()) {
-    labels.map = read_marks(a.file);
+    labels.map = read_marks(a.file, a.limits);
   } else {
-    ProbabilityFile file = read_probabilities(a.probabilities);
+    ProbabilityFile file = read_probabilities(a.probabilities, a.limits);
     log_all(file.warnings);
     labels.map = most_probable(file.probabilities);
     labels.probabilities = std::move(file.probabilities);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mesamis/files/read_limits.h"
 #include "mesamis/method/label_surfaces.h"
 
 /// The options that say by labels which object is meant.
@@ -18,6 +19,7 @@ struct LabelArguments {
   std::vector<std::string> chosen;                   ///< --label, names or numbers; empty: all
   std::filesystem::path names;                       ///< --label-names, may be empty
   std::optional<double> margin;                      ///< --margin, mm
+  ReadLimits limits{};                               ///< of the label map and the probabilities
 
   /// Whether the user names a label map.
   bool given() const { return !file.empty() || !probabilities.empty(); }
@@ -28,7 +30,7 @@ void add_label_options(CLI::App& command, LabelArguments& arguments);
 
 /// Reads a label map and logs the reader's warnings.
 /// @throws InputError  as read_label_map().
-LabelMap read_marks(const std::filesystem::path& path);
+LabelMap read_marks(const std::filesystem::path& path, const ReadLimits& limits);
 
 /// Labels, and where they come of probabilities those too.
 struct NamedLabels {

@@ -51,9 +51,11 @@ void add_common_options(CLI::App& app, CommonOptions& common) {
   app.add_flag("--log-json", common.log_json, "Log and progress on stderr as JSON, a line each");
   app.add_option("--threads", common.threads, "Threads at most (default: all)")
       ->check(CLI::Range(1, 1024));
-  app.add_option("--memory", common.memory_gb,
-                 "Memory that a run may take, GB (default: what is free)")
+  app.add_option("--memory", common.limits.memory_gb,
+                 "Memory that a run or a file that is read may take, GB (default: what is free)")
       ->check(CLI::PositiveNumber);
+  app.add_flag("--allow-outside", common.limits.allow_outside,
+               "Let .nhdr and .mhd name data files outside of their folder");
 }
 
 std::string version_text() {

@@ -72,7 +72,8 @@ void draw_volume(const PictureCommand& command) {
   const VolumeFile file = read_volume(command.input, command.read);
   for (const std::string& warning : file.warnings) log_warning(warning);
   std::optional<TriMesh> outline;
-  if (!command.outline.empty()) outline = in_lps(read_surface_file(command.outline));
+  if (!command.outline.empty())
+    outline = in_lps(read_surface_file(command.outline, command.read.limits));
   draw_on_display(command.picture, [&](const PictureOptions& options) {
     draw_slice(command.output, file.volume, outline ? &*outline : nullptr, options);
   });
@@ -82,7 +83,7 @@ void draw_volume(const PictureCommand& command) {
 void draw_in_one_piece(const PictureCommand& command, const TriMesh& surface) {
   std::vector<double> values;
   if (!command.picture.color.empty()) {
-    values = read_point_array(command.input, command.picture.color);
+    values = read_point_array(command.input, command.picture.color, command.read.limits);
   }
   draw_on_display(command.picture, [&](const PictureOptions& options) {
     draw_surface(command.output, surface, options, values);
@@ -91,21 +92,24 @@ void draw_in_one_piece(const PictureCommand& command, const TriMesh& surface) {
 
 void draw_surface_file(const PictureCommand& command) {
   if (!command.picture.color.empty()) {
-    return draw_in_one_piece(command, in_lps(read_surface_file(command.input)));
+    return draw_in_one_piece(command,
+                             in_lps(read_surface_file(command.input, command.read.limits)));
   }
-  ObjectFile file = read_object_file(command.input);
+  ObjectFile file = read_object_file(command.input, command.read.limits);
   const bool coloured = file.coloured;
   const std::vector<NamedSurface> objects = in_lps(std::move(file));
   if (objects.size() == 1) return draw_in_one_piece(command, objects[0].surface);
   // Parts without colours are drawn as one: shared points have one normal.
-  if (!coloured) return draw_in_one_piece(command, in_lps(read_surface_file(command.input)));
+  if (!coloured)
+    return draw_in_one_piece(command,
+                             in_lps(read_surface_file(command.input, command.read.limits)));
   draw_on_display(command.picture, [&](const PictureOptions& options) {
     draw_objects(command.output, objects, options);
   });
 }
 
 void draw_mesh_file(const PictureCommand& command) {
-  const MeshWithArrays mesh = read_mesh(command.input);
+  const MeshWithArrays mesh = read_mesh(command.input, command.read.limits);
   draw_on_display(command.picture,
                   [&](const PictureOptions& options) { draw_mesh(command.output, mesh, options); });
 }
@@ -140,7 +144,7 @@ std::string check_png(const std::string& path) {
 
 }  // namespace
 
-void add_picture_command(CLI::App& app, CommonOptions&, Action& action) {
+void add_picture_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<PictureCommand>();
   CLI::App* command = app.add_subcommand("picture", "Draw a surface, a mesh or a slice as PNG");
   command->add_option("input", options->input, "Surface, mesh or volume")->required();
@@ -178,7 +182,12 @@ void add_picture_command(CLI::App& app, CommonOptions&, Action& action) {
       "samples, without padding)");
   command->add_option("--outline", options->outline, "Surface to draw over a volume's slice");
   add_read_options(*command, options->read);
-  command->callback([options, &action] { action = [options] { return run_picture(*options); }; });
+  command->callback([options, &common, &action] {
+    action = [options, &common] {
+      options->read.limits = common.limits;
+      return run_picture(*options);
+    };
+  });
 }
 
 }  // namespace mesamis

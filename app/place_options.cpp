@@ -81,10 +81,10 @@ ObjectRequest object_request(const PlaceArguments& places, const LabelArguments&
   ObjectRequest request = object_request(settings);
   if (!places.tissue.empty()) request.tissue = parse_tissue(places.tissue);
   for (const std::string& seed : places.seeds) request.seeds.push_back(parse_point(seed, frame));
-  if (!places.mask.empty()) request.mask = read_marks(places.mask);
+  if (!places.mask.empty()) request.mask = read_marks(places.mask, places.limits);
   request.margin = labels.margin.value_or(request.margin);
   const bool body = places.remove == kBody;
-  if (!places.remove.empty() && !body) request.remove = read_marks(places.remove);
+  if (!places.remove.empty() && !body) request.remove = read_marks(places.remove, places.limits);
   if (body) {
     request.surroundings = SurroundingsRule::kRemove;
   } else if (places.keep_surroundings || labels.given()) {

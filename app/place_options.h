@@ -21,6 +21,7 @@ struct PlaceArguments {
   std::string remove;              ///< --remove, a file or "body"; may be empty
   std::string tissue;              ///< --tissue, may be empty
   bool keep_surroundings = false;  ///< --keep-surroundings
+  ReadLimits limits{};             ///< of the label maps
 
   /// Whether they say which object is meant, as labels do.
   bool choose() const { return !mask.empty() || !seeds.empty() || !tissue.empty(); }

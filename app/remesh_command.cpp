@@ -33,8 +33,9 @@ struct Background {
   std::vector<Sym3> metrics;
 };
 
-Background read_background(const RemeshCommand& command) {
-  Background background{read_medit_mesh(command.mesh), read_medit_metric(command.metric)};
+Background read_background(const RemeshCommand& command, const ReadLimits& limits) {
+  Background background{read_medit_mesh(command.mesh, limits),
+                        read_medit_metric(command.metric, limits)};
   const std::string flaw = find_flaw(background.mesh, bounding_box(background.mesh.points));
   if (!flaw.empty()) {
     throw InputError(command.mesh.string() + ": not a mesh of its bounding box: " + flaw);
@@ -83,7 +84,7 @@ int run_remesh(const RemeshCommand& command, const CommonOptions& common) {
   require_output(command.output, {".mesh"}, "--output");
   if (!command.report.empty()) require_output(command.report, {".json"}, "--report");
   require_distinct_files({command.output, command.report}, {command.mesh, command.metric});
-  const Background background = read_background(command);
+  const Background background = read_background(command, common.limits);
   const AdaptedMesh adapted = build(background, command, common.quiet);
   OutputSet set;
   write_medit_mesh(command.output, adapted.mesh);

@@ -260,7 +260,7 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   if (options.scan.input.empty()) {
     throw CLI::ValidationError("input", "expected a scan, found none");
   }
-  const ChosenScan scan = read_chosen_scan(options.scan, settings, common.memory_gb);
+  const ChosenScan scan = read_chosen_scan(options.scan, settings, common.limits.memory_gb);
   require_one_object(options, scan.object.parts.has_value());
   if (scan.object.parts) return run_parts(options, settings, scan, common);
   return run_on_scan(options, settings, common, scan);
@@ -296,7 +296,11 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   add_settings_options(*command, options->settings);
   command->callback([options, &common, &action] {
     options->scan.report = !options->report.empty();
-    action = [options, &common] { return run_segment(*options, common); };
+    action = [options, &common] {
+      ScanArguments& scan = options->scan;
+      scan.read.limits = scan.places.limits = scan.labels.limits = common.limits;
+      return run_segment(*options, common);
+    };
   });
 }
 

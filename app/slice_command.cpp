@@ -144,7 +144,7 @@ void require_all(const SliceCommand& command) {
 }
 
 /// Slices; an interrupt ends the slicer and removes its files.
-SliceResult slice(const SliceCommand& command) {
+SliceResult slice(const SliceCommand& command, const ReadLimits& limits) {
   std::optional<HeldInterrupts> held;  // from the first temporary file on
   SliceOptions options{command.program(), command.settings, command.output};
   options.progress = [&held, &command](std::string_view stage, double) {
@@ -155,7 +155,7 @@ SliceResult slice(const SliceCommand& command) {
     return noted_interrupt() == 0;
   };
   try {
-    return slice_surface(read_surface(command.surface), options);
+    return slice_surface(read_surface(command.surface, limits), options);
   } catch (const Cancelled&) {
     throw Interrupted();
   }
@@ -177,9 +177,9 @@ int refuse_unprintable(const SliceCommand& command, const SliceResult& result) {
                    "; --bed X,Y,Z gives another bed");
 }
 
-int run_slice(const SliceCommand& command) {
+int run_slice(const SliceCommand& command, const ReadLimits& limits) {
   require_all(command);
-  const SliceResult result = slice(command);
+  const SliceResult result = slice(command, limits);
   if (result.outcome == SliceOutcome::kNotPrintable) return refuse_unprintable(command, result);
   if (result.outcome == SliceOutcome::kDoesNotFit) refuse_too_large(command, result);
   for (const std::string& warning : result.warnings) log_warning(warning);
@@ -246,7 +246,7 @@ void add_print_options(CLI::App& sub, const std::shared_ptr<SliceCommand>& comma
 
 }  // namespace
 
-void add_slice_command(CLI::App& app, CommonOptions&, Action& action) {
+void add_slice_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto command = std::make_shared<SliceCommand>();
   CLI::App* sub = app.add_subcommand("slice", "Turn a closed surface into G-code by a slicer");
   sub->add_option("surface", command->surface,
@@ -258,7 +258,9 @@ void add_slice_command(CLI::App& app, CommonOptions&, Action& action) {
   sub->add_option("-o,--output", command->output, "G-code: .gcode");
   sub->add_option("--report", command->report, "Report: .json");
   add_print_options(*sub, command);
-  sub->callback([command, &action] { action = [command] { return run_slice(*command); }; });
+  sub->callback([command, &common, &action] {
+    action = [command, &common] { return run_slice(*command, common.limits); };
+  });
 }
 
 }  // namespace mesamis

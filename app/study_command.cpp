@@ -91,7 +91,7 @@ struct Reference {
 };
 
 Reference read_reference(const StudyCommand& command) {
-  Reference reference{read_surface_file(command.reference), {}};
+  Reference reference{read_surface_file(command.reference, command.read.limits), {}};
   reference.surface = without_unused_points(reference.file.surface);
   if (must_turn(reference.file.frame, Frame::kLps, command.frames)) {
     reference.surface = turned(std::move(reference.surface));
@@ -230,7 +230,7 @@ void require_all(const Study& study, const std::vector<Experiment>& experiments)
     }
   }
   for (const Experiment& experiment : experiments) {
-    require_memory(experiment.volume, experiment.settings, study.common.memory_gb);
+    require_memory(experiment.volume, experiment.settings, study.common.limits.memory_gb);
   }
 }
 
@@ -288,7 +288,10 @@ void add_study_command(CLI::App& app, CommonOptions& common, Action& action) {
   add_study_options(*command, options);
   add_settings_options(*command, options->settings);
   command->callback([options, &common, &action] {
-    action = [options, &common] { return run_study(*options, common); };
+    action = [options, &common] {
+      options->read.limits = common.limits;
+      return run_study(*options, common);
+    };
   });
 }
 
