@@ -69,6 +69,9 @@ TEST(FileList, AFileInAForbiddenFolderIsNotCalledMissing) {
   write_bytes(folder / "closed/a", "1");
   std::filesystem::permissions(folder / "closed", std::filesystem::perms::none);
   EXPECT_REFUSED(size_of(folder / "closed/a"), HasSubstr("cannot be read: permission denied"));
+  EXPECT_REFUSED(files_in(folder / "closed"), HasSubstr("closed: cannot be read: permission"));
+  EXPECT_REFUSED(files_below(folder / "closed"), HasSubstr("closed: cannot be read: permission"));
+  EXPECT_TRUE(files_below(folder.path()).empty());  // a closed one further down is skipped
   std::filesystem::permissions(folder / "closed", std::filesystem::perms::owner_all);
 }
 

@@ -18,6 +18,8 @@ std::vector<fs::path> collect(const fs::path& directory) {
   constexpr std::size_t kMostFiles = 100'000;
   std::vector<fs::path> files;
   std::error_code error;
+  fs::directory_iterator(directory, error);  // this one itself is not skipped
+  if (error) refuse(directory, "cannot be read: " + reason_of(error));
   Iterator entry(directory, fs::directory_options::skip_permission_denied, error);
   for (; !error && entry != Iterator(); entry.increment(error)) {
     std::error_code ignored;
