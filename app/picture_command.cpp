@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis picture: a PNG of a surface, a mesh or a slice of a volume.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -7,6 +9,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "log.h"
+#include "mesamis/base/available_memory.h"
 #include "mesamis/base/error.h"
 #include "mesamis/picture/picture.h"
 #include "mesamis/scan_files/read_volume.h"
@@ -62,6 +65,19 @@ void draw_on_display(PictureOptions options, const Draw& draw) {
   }
 }
 
+/// VTK does not survive the end of memory: what does not fit is refused before.
+void require_memory_to_draw(const PictureCommand& command, std::size_t cells) {
+  constexpr double kGigabyte = 1e9;
+  const double asked = kGigabyte * command.read.limits.memory_gb;
+  const auto limit = asked > 0 ? std::optional(asked) : available_memory();
+  const double needed = drawing_memory(cells, command.picture);
+  if (!limit || needed <= *limit) return;
+  throw InputError(
+      fmt::format("{}: memory: expected about {:.1f} GB to draw it, found {:.1f} GB; a smaller "
+                  "--size needs less",
+                  command.input.string(), needed / kGigabyte, *limit / kGigabyte));
+}
+
 void draw_volume(const PictureCommand& command) {
   if (!command.picture.color.empty() || command.picture.edges) {
     throw InputError(command.input.string() + ": a volume has no array to colour by and no edges");
@@ -74,6 +90,7 @@ void draw_volume(const PictureCommand& command) {
   std::optional<TriMesh> outline;
   if (!command.outline.empty())
     outline = in_lps(read_surface_file(command.outline, command.read.limits));
+  require_memory_to_draw(command, outline ? outline->triangles.size() : 0);
   draw_on_display(command.picture, [&](const PictureOptions& options) {
     draw_slice(command.output, file.volume, outline ? &*outline : nullptr, options);
   });
@@ -85,6 +102,7 @@ void draw_in_one_piece(const PictureCommand& command, const TriMesh& surface) {
   if (!command.picture.color.empty()) {
     values = read_point_array(command.input, command.picture.color, command.read.limits);
   }
+  require_memory_to_draw(command, surface.triangles.size());
   draw_on_display(command.picture, [&](const PictureOptions& options) {
     draw_surface(command.output, surface, options, values);
   });
@@ -103,6 +121,9 @@ void draw_surface_file(const PictureCommand& command) {
   if (!coloured)
     return draw_in_one_piece(command,
                              in_lps(read_surface_file(command.input, command.read.limits)));
+  std::size_t triangles = 0;
+  for (const NamedSurface& object : objects) triangles += object.surface.triangles.size();
+  require_memory_to_draw(command, triangles);
   draw_on_display(command.picture, [&](const PictureOptions& options) {
     draw_objects(command.output, objects, options);
   });
@@ -110,6 +131,7 @@ void draw_surface_file(const PictureCommand& command) {
 
 void draw_mesh_file(const PictureCommand& command) {
   const MeshWithArrays mesh = read_mesh(command.input, command.read.limits);
+  require_memory_to_draw(command, mesh.mesh.cells.size());
   draw_on_display(command.picture,
                   [&](const PictureOptions& options) { draw_mesh(command.output, mesh, options); });
 }

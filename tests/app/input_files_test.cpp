@@ -50,6 +50,17 @@ TEST(InputFiles, ASurfaceThatClaimsMoreThanIsAllowedIsRefused) {
   }
 }
 
+/// VTK ends the program where memory ends.
+TEST(InputFiles, APictureThatDoesNotFitIsRefusedBeforeItIsDrawn) {
+  const TempFolder folder;
+  const std::string surface = folder / "a.stl", picture = folder / "a.png";
+  write_surface(surface, cube());
+  EXPECT_FAILS(run_program(folder, {"picture", surface, "-o", picture, "--size", "8000,8000",
+                                    "--memory", "1"}),
+               3, "a.stl: memory: expected about 11.8 GB to draw it, found 1.0 GB");
+  EXPECT_FALSE(std::filesystem::exists(picture));
+}
+
 TEST(InputFiles, DataOutsideOfTheHeadersFolderNeedLeave) {
   const TempFolder folder;
   write_bytes(folder / "data", std::string(64, '\1'));

@@ -325,6 +325,16 @@ TEST_F(PictureTest, OutlineLiesWhereTheSurfaceIs) {
   EXPECT_NEAR((line.middle()[0] - frame.middle()[0]) * mm, 0, 0.3);
 }
 
+/// 16 million pixels took 2.5 GB, a surface of a million triangles 0.64.
+TEST(Picture, TheMemoryOfADrawingIsAboveWhatWasMeasured) {
+  PictureOptions options;
+  EXPECT_GT(drawing_memory(977'000, options), 0.64e9);
+  EXPECT_LT(drawing_memory(977'000, options), 1.7 * 0.64e9);
+  options.pixels = {4000, 4000};
+  EXPECT_GT(drawing_memory(4, options), 2.58e9);
+  EXPECT_LT(drawing_memory(4, options), 1.4 * 2.58e9);
+}
+
 TEST(Picture, RefusesPlainlyAndLeavesNothingBehind) {
   const TempFolder folder;
   const MeshWithArrays mesh = box_with_heights();

@@ -403,6 +403,12 @@ std::string slice_label(const Volume& volume, const SlicePlane& plane, int axis)
 
 }  // namespace
 
+double drawing_memory(std::size_t cells, const PictureOptions& options) noexcept {
+  constexpr double kOfVtk = 3e8, kPerCell = 600, kPerPixel = 180;
+  const double pixels = double{1} * options.pixels[0] * options.pixels[1];
+  return kOfVtk + kPerCell * static_cast<double>(cells) + kPerPixel * pixels;
+}
+
 void draw_surface(const std::filesystem::path& png, const TriMesh& surface,
                   const PictureOptions& options, std::span<const double> values) {
   require_drawable(surface.points, surface.triangles.size());
