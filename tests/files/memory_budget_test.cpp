@@ -67,9 +67,9 @@ TEST(MemoryBudget, AScopedClaimIsGivenBack) {
 TEST(MemoryBudget, AVectorGrowsAsFarAsItIsAllowed) {
   MemoryBudget budget("a", {kKilobyte});
   std::vector<std::uint64_t> numbers;
-  EXPECT_REFUSED(
-      for (std::uint64_t n = 0; n < 1000; ++n) append_within(budget, numbers, n, "numbers"),
-      HasSubstr("for numbers"));
+  EXPECT_REFUSED(for (std::uint64_t n = 0; n < 1000; ++n)
+                     append_within(budget, numbers, n, "numbers"),
+                 HasSubstr("for numbers"));
   EXPECT_EQ(numbers.size(), 64u);  // 128 of them beside 64 would be 1536 bytes
   EXPECT_EQ(numbers.back(), 63u);
   EXPECT_EQ(budget.held(), 8 * numbers.capacity());

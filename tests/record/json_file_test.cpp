@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <limits>
 
@@ -39,8 +40,10 @@ TEST(JsonFile, SaysWhereItIsNotJson) {
   EXPECT_REFUSED(read_json(folder / "a.json"), HasSubstr("found something else at byte 7"));
   write_bytes(folder / "huge.json", "{\"a\": 1e999}");
   EXPECT_REFUSED(read_json(folder / "huge.json"), HasSubstr("expected JSON with numbers in range"));
-  EXPECT_REFUSED(read_json(folder / "b.json"), HasSubstr("cannot be opened"));
-  EXPECT_REFUSED(read_json(folder / "."), HasSubstr("cannot be opened"));
+  EXPECT_REFUSED(read_json(folder / "b.json"), HasSubstr("cannot be read: no such file"));
+  EXPECT_REFUSED(read_json(folder / "."), HasSubstr("cannot be read: expected a file"));
+  ASSERT_EQ(mkfifo((folder / "pipe.json").c_str(), 0600), 0);
+  EXPECT_REFUSED(read_json(folder / "pipe.json"), HasSubstr("found neither"));
 }
 
 TEST(JsonFile, RefusesWhatIsNestedDeeply) {

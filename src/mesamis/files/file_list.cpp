@@ -18,7 +18,7 @@ std::vector<fs::path> collect(const fs::path& directory) {
   constexpr std::size_t kMostFiles = 100'000;
   std::vector<fs::path> files;
   std::error_code error;
-  fs::directory_iterator(directory, error);  // this one itself is not skipped
+  const fs::directory_iterator itself(directory, error);  // this one is not skipped
   if (error) refuse(directory, "cannot be read: " + reason_of(error));
   Iterator entry(directory, fs::directory_options::skip_permission_denied, error);
   for (; !error && entry != Iterator(); entry.increment(error)) {

@@ -53,9 +53,6 @@ void write_json(const std::filesystem::path& path, const nlohmann::ordered_json&
 nlohmann::json read_json(const std::filesystem::path& path) {
   detail::require_file(path);
   std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path)) {
-    throw InputError(path.string() + ": cannot be opened");
-  }
   try {
     Strictness strictness(path);
     return nlohmann::json::parse(in, std::ref(strictness));
