@@ -124,8 +124,8 @@ MeshOutput mesh_output(const SegmentRun& run, const LabelResult& result, const V
   return make_mesh_output(*result.mesh, scan, run.mesh, objects);
 }
 
-void write_report(const SegmentRun& run, const nlohmann::ordered_json& found, const ChosenScan& scan,
-                  const OutputSet& set) {
+void write_report(const SegmentRun& run, const nlohmann::ordered_json& found,
+                  const ChosenScan& scan, const OutputSet& set) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   if (scan.facts) report["input"] = input_json(*scan.facts);
