@@ -10,6 +10,7 @@
 #include "mesamis/files/xml.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
+#include "support/wide_budget.h"
 
 namespace mesamis {
 namespace {
@@ -28,7 +29,8 @@ void collect(const XmlElement& from, const std::string& name, std::vector<XmlEle
 
 std::vector<XmlElement> with_class(const std::string& svg, const std::string& name) {
   std::vector<XmlElement> found;
-  collect(detail::parse_xml("svg", svg).root, name, found);
+  WideBudget budget;
+  collect(detail::parse_xml("svg", svg, budget).root, name, found);
   return found;
 }
 
@@ -122,7 +124,8 @@ TEST(Plot, EscapesTexts) {
   const std::vector<PlotSeries> series{{"a<b", {1, 2}, {3, 4}}, {"\"c\" & d", {1, 2}, {4, 3}}};
   const std::string svg =
       plot_svg(series, {.title = "<script>", .x_label = "x > 0", .y_label = "grey value² µ"});
-  const XmlElement page = detail::parse_xml("svg", svg).root;
+  WideBudget budget;
+  const XmlElement page = detail::parse_xml("svg", svg, budget).root;
   EXPECT_EQ(page.child("title")->text, "<script>");
   EXPECT_THAT(svg, HasSubstr(">a&lt;b<"));
   EXPECT_THAT(svg, HasSubstr(">&quot;c&quot; &amp; d<"));
@@ -134,7 +137,8 @@ TEST(Plot, EscapesTexts) {
 TEST(Plot, ScalesAndHasATitle) {
   const PlotSeries series{"a", {1, 2}, {3, 4}};
   const std::string svg = plot_svg(std::vector{series}, {.size = {640, 400}, .title = "Distances"});
-  const XmlElement page = detail::parse_xml("svg", svg).root;
+  WideBudget budget;
+  const XmlElement page = detail::parse_xml("svg", svg, budget).root;
   EXPECT_EQ(page.name, "svg");
   EXPECT_EQ(page.attribute("viewBox"), "0 0 640 400");
   EXPECT_EQ(page.attribute("role"), "img");

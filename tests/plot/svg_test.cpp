@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "mesamis/files/xml.h"
+#include "support/wide_budget.h"
 
 namespace mesamis::detail {
 namespace {
@@ -22,7 +23,8 @@ TEST(SvgElement, ReadsBackAsItWasMade) {
   SvgElement parent("g");
   parent.set("class", "a\"b<c").add(child).add(SvgElement("line"));
   const std::string text = parent.to_string();
-  const XmlElement read = parse_xml("svg", text).root;
+  WideBudget budget;
+  const XmlElement read = parse_xml("svg", text, budget).root;
   EXPECT_EQ(read.name, "g");
   EXPECT_EQ(read.attribute("class"), "a\"b<c");
   ASSERT_EQ(read.children.size(), 2u);
