@@ -44,7 +44,7 @@ ChosenScan read_chosen_scan(const ScanArguments& arguments, const Settings& sett
   ChosenScan scan;
   scan.grid = file.volume;
   if (arguments.report) {
-    scan.facts = facts_of(arguments.input, file.volume, file.format, file.warnings);
+    scan.facts = facts_of({arguments.input, file.format, file.warnings, file.files}, file.volume);
   }
   scan.object = choose_object(std::move(file.volume), request);
   for (const std::string& note : scan.object.notes) log_info(note);

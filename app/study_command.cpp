@@ -211,7 +211,7 @@ void run_experiment(Study& study, const Experiment& experiment) {
 StudyRecord begin_record(const StudyCommand& command, const VolumeFile& scan,
                          const Reference& reference) {
   StudyRecord record;
-  record.input = facts_of(command.input, scan.volume, scan.format, scan.warnings);
+  record.input = facts_of({command.input, scan.format, scan.warnings, scan.files}, scan.volume);
   record.frame = command.frame;
   record.reference = command.reference;
   record.reference_triangles = static_cast<std::int64_t>(reference.surface.triangles.size());

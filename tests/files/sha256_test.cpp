@@ -50,6 +50,24 @@ TEST(Sha256, AFileOfOneBufferIsReadToItsEnd) {
   EXPECT_EQ(whole, sha256_of(folder, buffer + "y"));
 }
 
+TEST(Sha256, OfFilesThatWereReadIsThatOfThemOneAfterAnother) {
+  const TempFolder folder;
+  write_bytes(folder / "a", "ab");
+  write_bytes(folder / "b", "c");
+  const std::vector<ReadFile> files{{folder / "a", state_of(folder / "a")},
+                                    {folder / "b", state_of(folder / "b")}};
+  EXPECT_EQ(sha256(files), sha256_of(folder, "abc"));
+}
+
+TEST(Sha256, AFileThatHasChangedSinceItWasReadIsRefused) {
+  const TempFolder folder;
+  write_bytes(folder / "a", "ab");
+  const std::vector<ReadFile> files{{folder / "a", state_of(folder / "a")}};
+  write_bytes(folder / "new", "xy");  // as long, and perhaps in the same moment
+  std::filesystem::rename(folder / "new", folder / "a");
+  EXPECT_REFUSED(sha256(files), testing::HasSubstr("found it changed"));
+}
+
 TEST(Sha256, AMissingFileIsRefused) {
   const TempFolder folder;
   EXPECT_REFUSED(sha256(folder / "none"), testing::HasSubstr("none: cannot be read"));

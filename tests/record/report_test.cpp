@@ -51,7 +51,8 @@ TEST(FactsOf, AreThoseOfTheScan) {
   volume.modality = "CT";
   volume.origin = {1, -2, 3.5};
   volume.direction = {{Vec3{0, -1, 0}, Vec3{1, 0, 0}, Vec3{0, 0, 1}}};
-  const auto json = input_json(facts_of(folder / "a", volume, "NRRD", {"odd"}));
+  const std::vector<ReadFile> files{{folder / "a", state_of(folder / "a")}};
+  const auto json = input_json(facts_of({folder / "a", "NRRD", {"odd"}, files}, volume));
   EXPECT_EQ(json["sha256"], "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(json["size"], (nlohmann::json{8, 8, 8}));
   EXPECT_EQ(json["modality"], "CT");

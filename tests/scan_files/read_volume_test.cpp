@@ -13,6 +13,7 @@
 #include "support/read_scan.h"
 #include "support/scan_bytes.h"
 #include "support/temp_folder.h"
+#include "support/throws.h"
 
 namespace mesamis {
 namespace {
@@ -157,27 +158,23 @@ TEST(ListVolumes, NamesEveryVolumeAndWhatIsWrongWithIt) {
   EXPECT_THROW(list_volumes(folder / "nowhere"), InputError);
 }
 
-TEST(Sha256, EqualsTheStandardsExamples) {
-  const TempFolder folder;
-  const auto of = [&](const std::string& bytes) {
-    write_bytes(folder / "a", bytes);
-    return sha256(folder / "a");
-  };
-  EXPECT_EQ(of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-  EXPECT_EQ(of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_EQ(of("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
-            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
-  EXPECT_EQ(of(std::string(1'000'000, 'a')),
-            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+std::vector<std::string> names_of(const VolumeFile& volume) {
+  std::vector<std::string> names;
+  for (const ReadFile& file : volume.files) names.push_back(file.path.filename());
+  return names;
 }
 
-TEST(Sha256, OfADirectoryIsThatOfItsFilesInNameOrder) {
+/// The header alone would not tell which voxels a report is about.
+TEST(ReadVolume, ListsTheFilesThatItRead) {
   const TempFolder folder;
-  write_bytes(folder / "d/2", "c");
-  write_bytes(folder / "d/1", "ab");
-  write_bytes(folder / "whole", "abc");
-  EXPECT_EQ(sha256(folder / "d"), sha256(folder / "whole"));
-  EXPECT_THROW(sha256(folder / "nowhere"), InputError);
+  write_bytes(folder / "a.raw", std::string(2 * 2 * 2, 'x'));
+  write_bytes(folder / "a.nhdr",
+              "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"
+              "spacings: 1 1 1\ndata file: a.raw\n\n");
+  const VolumeFile detached = read_volume(folder / "a.nhdr");
+  EXPECT_EQ(names_of(detached), (std::vector<std::string>{"a.nhdr", "a.raw"}));
+  write_bytes(folder / "a.raw", std::string(2 * 2 * 2, 'y') + "z");
+  EXPECT_REFUSED(sha256(detached.files), HasSubstr("a.raw: expected a file that stays"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "mesamis/files/deflate.h"
 #include "mesamis/files/file_list.h"
+#include "mesamis/files/read_record.h"
 #include "mesamis/files/refuse.h"
 
 namespace mesamis::detail {
@@ -88,6 +89,7 @@ std::size_t ByteSource::State::inflate_into(unsigned char* out, std::size_t n) {
 ByteSource::ByteSource(const std::filesystem::path& file, Packing packing, std::uint64_t offset)
     : state_(std::make_unique<State>()) {
   const std::uint64_t size = size_of(file);
+  const FileState before = state_of(file);
   state_->file = file;
   if (offset > size) {
     refuse(file, say("the samples should begin at byte ", offset, ", but the file has ", size));
@@ -96,6 +98,7 @@ ByteSource::ByteSource(const std::filesystem::path& file, Packing packing, std::
   errno = 0;
   state_->in.open(file, std::ios::binary);
   if (!state_->in) refuse(file, "cannot be read: " + reason_of(errno));
+  note_read(file, before);
   state_->in.seekg(static_cast<std::streamoff>(offset));
   if (!state_->in) refuse(file, "cannot be read");
   state_->deflated =

@@ -69,4 +69,13 @@ std::string sha256(const std::filesystem::path& path) {
   return hash.hex();
 }
 
+std::string sha256(const std::vector<ReadFile>& files) {
+  Sha256 hash;
+  for (const ReadFile& file : files) {
+    hash.add_file(file.path);
+    require_unchanged(file);  // afterwards: what was added is what was read
+  }
+  return hash.hex();
+}
+
 }  // namespace mesamis

@@ -3,6 +3,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "mesamis/files/read_record.h"
 
 namespace mesamis {
 
@@ -17,5 +20,13 @@ namespace mesamis {
 ///
 /// Linear in the bytes; memory: one buffer of 64 KiB.
 std::string sha256(const std::filesystem::path& path);
+
+/// The same of files that were read, one after another: the sum of the very bytes that the reader
+/// saw. Whole files count, also where a part was read.
+/// @throws InputError      if a file cannot be read, or has changed since it was opened.
+/// @throws NumericalError  as sha256() of a path.
+///
+/// Linear in the bytes; memory: one buffer of 64 KiB.
+std::string sha256(const std::vector<ReadFile>& files);
 
 }  // namespace mesamis

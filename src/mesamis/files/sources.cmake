@@ -3,6 +3,7 @@ set(ROOM_HEADERS
   atomic_file.h
   output_set.h
   read_limits.h
+  read_record.h
   sha256.h)
 # For the rooms above alone: not installed.
 set(ROOM_INNER_HEADERS
@@ -28,6 +29,7 @@ set(ROOM_SOURCES
   owned_file.cpp
   pending_file.cpp
   memory_budget.cpp
+  read_record.cpp
   refuse.cpp
   sha256.cpp
   xml.cpp

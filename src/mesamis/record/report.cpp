@@ -150,10 +150,18 @@ ordered_json direction_json(const Mat3& direction) {
 
 }  // namespace
 
-InputFacts facts_of(const std::filesystem::path& path, const Volume& volume,
-                    const std::string& format, const std::vector<std::string>& warnings) {
-  InputFacts facts{path, format, sha256(path), volume.modality, volume.size,     volume.spacing,
-                   0,    0,      warnings,     volume.origin,   volume.direction};
+InputFacts facts_of(const ScanSource& source, const Volume& volume) {
+  InputFacts facts{source.path,
+                   source.format,
+                   sha256(source.files),
+                   volume.modality,
+                   volume.size,
+                   volume.spacing,
+                   0,
+                   0,
+                   source.warnings,
+                   volume.origin,
+                   volume.direction};
   if (!volume.samples.empty()) {
     const auto [low, high] = sample_range(volume.samples);
     facts.lowest = low;

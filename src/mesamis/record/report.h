@@ -9,6 +9,7 @@
 #include "mesamis/base/types.h"
 #include "mesamis/delivery/mesh_output.h"
 #include "mesamis/files/output_set.h"
+#include "mesamis/files/read_record.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/method/expected_error.h"
 #include "mesamis/method/mes_amis.h"
@@ -30,11 +31,19 @@ struct InputFacts {
   Mat3 direction{};                    ///< LPS; see VoxelGrid::direction
 };
 
+/// Where a scan comes from, as its reader tells.
+struct ScanSource {
+  std::filesystem::path path;         ///< that the user named
+  std::string format;                 ///< "DICOM"
+  std::vector<std::string> warnings;  ///< of the reader
+  std::vector<ReadFile> files;        ///< that were read; their bytes make the sha256
+};
+
 /// Collects the facts of a scan that a report gives.
-/// @param volume  as it was read from the path; native units.
-/// @throws InputError  if the file cannot be read again for its sha256. O(bytes of the file).
-InputFacts facts_of(const std::filesystem::path& path, const Volume& volume,
-                    const std::string& format, const std::vector<std::string>& warnings);
+/// @param volume  as it was read; native units.
+/// @throws InputError  if a file cannot be read again for its sha256, or has changed meanwhile.
+///                     O(bytes of the files).
+InputFacts facts_of(const ScanSource& source, const Volume& volume);
 
 /// The entry "input" of a report: "path", "format", "sha256", ... of its scan. Throws nothing.
 nlohmann::ordered_json input_json(const InputFacts& input);

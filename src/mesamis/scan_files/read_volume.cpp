@@ -226,10 +226,12 @@ void detail::set_grid(VolumeInfo& info, const VoxelGrid& grid) {
 
 VolumeFile read_volume(const fs::path& path, const ReadOptions& options) {
   MemoryBudget budget(path, options.limits);
+  const ReadRecord record;
   return in_one_line(path, [&] {
     if (options.spacing) require_positive(path, *options.spacing);
     VolumeFile file = read_file({path, options, budget});
     if (options.spacing) apply_spacing(*options.spacing, file);
+    file.files = record.files();
     return file;
   });
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mesamis/files/read_limits.h"
+#include "mesamis/files/read_record.h"
 #include "mesamis/image/volume.h"
 
 namespace mesamis {
@@ -51,6 +52,7 @@ struct VolumeFile {
   /// of pictures "TIFF slices", "PNG slices", "BMP slices"
   std::string format;
   std::vector<std::string> warnings;  ///< one line each: what was assumed, left out or damaged
+  std::vector<ReadFile> files{};      ///< all that were opened, in the order of their paths
 };
 
 /// Reads a 3D scan: .nii .nii.gz .nrrd .nhdr .mha .mhd .tif .tiff .inv3, a DICOM directory (and

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "mesamis/files/file_list.h"
+#include "mesamis/files/read_record.h"
 #include "mesamis/files/refuse.h"
 
 namespace mesamis::detail {
@@ -35,8 +36,10 @@ std::vector<Number> parse_all(const std::filesystem::path& file, const std::stri
 
 HeaderLines::HeaderLines(const std::filesystem::path& file) : file_(file) {
   require_file(file);
+  const FileState before = state_of(file);
   in_.open(file, std::ios::binary);
   if (!in_) refuse(file, "cannot be read");
+  note_read(file, before);
 }
 
 bool HeaderLines::next(std::string& line) {

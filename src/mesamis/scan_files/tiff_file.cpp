@@ -9,6 +9,7 @@
 
 #include "mesamis/files/deflate.h"
 #include "mesamis/files/file_list.h"
+#include "mesamis/files/read_record.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
 
@@ -35,9 +36,11 @@ TiffHandle open(const std::filesystem::path& file, const MemoryBudget& budget) {
   TIFFOpenOptionsSetWarningHandlerExtR(options, stay_silent, nullptr);
   const double most = std::min(allocation_bound(file), static_cast<double>(budget.left()));
   TIFFOpenOptionsSetMaxSingleMemAlloc(options, static_cast<tmsize_t>(most) + 1);  // 0: no limit
+  const FileState before = state_of(file);
   TiffHandle tiff(TIFFOpenExt(file.c_str(), "rm", options));
   TIFFOpenOptionsFree(options);
   if (!tiff) refuse(file, "expected a TIFF file, found none that can be read");
+  note_read(file, before);
   return tiff;
 }
 

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+/// Which files a reader has opened, and in which state, so that a sum over them can be known to be
+/// that of the bytes that were read.
+namespace mesamis {
+
+/// What the system changes with every change of a file.
+struct FileState {
+  std::uint64_t device = 0, inode = 0, bytes = 0;
+  std::int64_t modified_ns = 0, changed_ns = 0;  ///< of the content; of the content or the entry
+  bool operator==(const FileState&) const = default;
+};
+
+/// @throws InputError  if there is no such file, or none that may be asked. O(1).
+FileState state_of(const std::filesystem::path& file);
+
+struct ReadFile {
+  std::filesystem::path path;
+  FileState state;  ///< when it was opened
+};
+
+/// Notes each file that is opened for reading on this thread while this lives. Of records within
+/// one another the innermost counts.
+class ReadRecord {
+ public:
+  /// Begins an empty record.
+  /// @throws nothing
+  ReadRecord();
+  ~ReadRecord();
+  ReadRecord(const ReadRecord&) = delete;
+  ReadRecord& operator=(const ReadRecord&) = delete;
+
+  /// Every file once, in the order of their paths. O(n log n).
+  /// @throws InputError  naming a file that was opened more than once in different states.
+  std::vector<ReadFile> files() const;
+
+ private:
+  friend void note_read(const std::filesystem::path&, const FileState&);
+
+  ReadRecord* outer_;
+  std::vector<ReadFile> files_;
+};
+
+/// For readers: notes a file that was opened, where somebody asks. O(1).
+/// @param before  its state before it was opened.
+/// @throws InputError  if it has changed since.
+void note_read(const std::filesystem::path& file, const FileState& before);
+
+/// @throws InputError  if the file is not in the state any more in which it was opened. O(1).
+void require_unchanged(const ReadFile& file);
+
+}  // namespace mesamis
