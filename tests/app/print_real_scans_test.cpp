@@ -14,6 +14,7 @@ namespace {
 struct Scan {
   const char* name;
   const char* path;
+  const char* stride = "2,2,2";
 };
 
 class EachScan : public testing::TestWithParam<Scan> {
@@ -22,7 +23,7 @@ class EachScan : public testing::TestWithParam<Scan> {
   ProgramRun segment(const std::filesystem::path& scan) const {
     return run_program(folder_,
                        {"segment", scan, "-o", folder_ / "a.stl", "-o", folder_ / "a.3mf", "-o",
-                        folder_ / "a.amf", "--report", folder_ / "r.json", "--stride", "2,2,2",
+                        folder_ / "a.amf", "--report", folder_ / "r.json", "--stride", GetParam().stride,
                         "--max-tets", "60000", "--adaptations", "2", "--quiet"});
   }
 
@@ -30,13 +31,13 @@ class EachScan : public testing::TestWithParam<Scan> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Real, EachScan,
-                         testing::Values(Scan{"cranium", "cranium_inv/ct.nrrd"},
+                         testing::Values(Scan{"cranium", "cranium_inv/ct.nrrd", "3,3,3"},
                                          Scan{"pelvis", "pelvis_ts/ct.nii.gz"},
-                                         Scan{"skull", "skull_phantom/ct_soft_1mm.nrrd"},
+                                         Scan{"skull", "skull_phantom/ct_soft_1mm.nrrd", "4,4,2"},
                                          Scan{"mouse", "mouse_skull/ct_A_J.nii.gz"},
                                          Scan{"mouse_template", "mouse_skull/ct_template.nii.gz"},
                                          Scan{"spine", "thoracic_spine_ts/ct.nii.gz"},
-                                         Scan{"trabecular", "trabecular_microct/ct.nrrd"},
+                                         Scan{"trabecular", "trabecular_microct/ct.nrrd", "3,3,3"},
                                          Scan{"head_aniso", "head_aniso/ct.nii.gz"},
                                          Scan{"mr", "head_aniso/mr_t1.nii.gz"},
                                          Scan{"j2k", "dicom_ct_j2k"},

@@ -90,12 +90,17 @@ struct SliceBytes {
   std::vector<double> position{0, 0, 0}, orientation{1, 0, 0, 0, 1, 0}, spacing{1.25, 0.5};
   double slope = 1, intercept = 0;
   std::vector<std::int16_t> pixels = ramp<std::int16_t>(12);
+  std::string patient{};  ///< name and number, where there is one
 
   std::string bytes() const {
     DicomWriter set(coding);
     set.text(0x00080008, "CS", image_type);
     set.text(0x00080060, "CS", modality);
     set.text(0x0008103e, "LO", description);
+    if (!patient.empty()) {
+      set.text(0x00100010, "PN", patient);
+      set.text(0x00100020, "LO", patient);
+    }
     set.text(0x0020000e, "UI", series);
     if (!position.empty()) set.decimals(0x00200032, position);
     set.decimals(0x00200037, orientation);
@@ -115,8 +120,9 @@ struct SliceBytes {
     if (coding == DicomCoding::kWithoutMeta) return set;
     DicomWriter meta;
     meta.text(0x00020010, "UI", transfer_syntax_of(coding));
-    return std::string(128, '\0') + "DICM" + meta.bytes() +
-           (coding == DicomCoding::kDeflated ? packed(set, -15) : set);
+    std::string bytes(128, '\0');
+    bytes += "DICM" + meta.bytes();
+    return bytes + (coding == DicomCoding::kDeflated ? packed(set, -15) : set);
   }
 };
 
