@@ -19,14 +19,14 @@ std::string lower(std::string_view text) {
 }
 
 /// The text in quotes as a line of a message may show it.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (const char c : text.substr(0, kLongestName)) out += c >= ' ' && c <= '~' ? c : '?';
   return out + (text.size() > kLongestName ? "...\"" : "\"");
 }
 
 std::string title(const Segment& segment) {
-  return quoted(segment.name) + " (" + std::to_string(segment.label) + ")";
+  return in_quotes(segment.name) + " (" + std::to_string(segment.label) + ")";
 }
 
 std::string list(const std::vector<Segment>& segments) {
@@ -60,7 +60,8 @@ std::size_t strangeness(std::string_view name, std::string_view wanted) {
 }
 
 [[noreturn]] void refuse_unknown(std::span<const Segment> segments, std::string_view wanted) {
-  std::string message = "label: expected the name or number of a segment, found " + quoted(wanted);
+  std::string message =
+      "label: expected the name or number of a segment, found " + in_quotes(wanted);
   std::vector<Segment> all(segments.begin(), segments.end());
   if (all.empty()) throw InputError(message + "; there are none");
   if (all.size() <= kMostListed) throw InputError(message + "; there are " + list(all));
@@ -103,7 +104,7 @@ Segment find_segment(std::span<const Segment> segments, std::string_view name_or
   }
   if (found.empty()) refuse_unknown(segments, name_or_label);
   if (found.size() > 1) {
-    throw InputError("label: expected one segment called " + quoted(name_or_label) + ", found " +
+    throw InputError("label: expected one segment called " + in_quotes(name_or_label) + ", found " +
                      std::to_string(found.size()) + ": " + list(found));
   }
   return found[0];
