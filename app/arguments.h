@@ -50,15 +50,12 @@ auto parsed(const std::string& option, const Parse& parse) {
     throw CLI::ValidationError(option, error.what());
   }
 }
-/// The text, or its beginning and its end where it is longer than so many bytes. A character of
-/// several bytes stays whole.
-std::string shortened(const std::string& text, std::size_t longest);
 
 /// Checks a text that goes into files.
 /// @throws CLI::ValidationError  naming the option, if it is not UTF-8.
 void require_utf8(const std::string& text, const std::string& option);
 
-/// Replaces control characters, so that the text is one line of a message.
+/// The text without blanks at its end as one line of a message, see as_one_line().
 std::string one_line(const std::string& text);
 
 }  // namespace mesamis

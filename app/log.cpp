@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "arguments.h"
+#include "mesamis/files/utf8.h"
 
 namespace mesamis {
 namespace {
@@ -49,13 +50,12 @@ class LevelPrefix : public spdlog::custom_flag_formatter {
   }
 };
 
-/// With what stands before it, a line has 500 characters at most.
+}  // namespace
+
 std::string line_of(const std::string& message) {
   constexpr std::size_t kLongest = 470;
   return shortened(one_line(message), kLongest);
 }
-
-}  // namespace
 
 void set_up_log(const CommonOptions& options) {
   const bool terminal = isatty(STDERR_FILENO) != 0;

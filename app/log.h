@@ -16,6 +16,9 @@ void log_info(const std::string& message);
 void log_warning(const std::string& message);
 void log_error(const std::string& message);
 
+/// What is written of a message: one line, within that bound with what stands before it.
+std::string line_of(const std::string& message);
+
 /// Whether the lines are for programs (--log-json).
 bool log_is_json();
 

@@ -57,6 +57,8 @@ TEST(Arguments, FailuresStayOnOneLineWhateverTheNames) {
   const TempFolder folder;
   EXPECT_FAILS(run_program(folder, {"info", "two\nlines\x1b[31m.nii"}), 3, "lines");
   EXPECT_FAILS(run_program(folder, {"--quiet", "info", "missing.nii"}), 3, "missing.nii");
+  EXPECT_FAILS(run_program(folder, {"info", "no\xff\xc2\x9b.nii"}), 3, "no??.nii");
+  EXPECT_FAILS(run_program(folder, {"info", "a.nii", "--\xe2\x82"}), 2, "--??");
 }
 
 TEST(Arguments, ALineOfErrorHasAtMost500Characters) {

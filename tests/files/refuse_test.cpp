@@ -15,6 +15,15 @@ namespace {
 TEST(Refuse, GivesOneLineWhateverTheTextHolds) {
   EXPECT_REFUSED(refuse("a\nb.stl", "found \x1b[31m\r\nred"),
                  testing::StrEq("a?b.stl: found ?[31m??red"));
+  EXPECT_REFUSED(refuse("\xff.stl", "found \xc3\xa9 \xc3"),
+                 testing::StrEq("?.stl: found \xc3\xa9 ?"));
+}
+
+TEST(Refuse, KeepsBeginningAndEndOfWhatAFileBringsAtLength) {
+  EXPECT_REFUSED(
+      refuse("a.stl", "found " + std::string(10'000, 'x') + " here"),
+      testing::AllOf(testing::StartsWith("a.stl: found x"), testing::HasSubstr("x ... x"),
+                     testing::EndsWith("x here"), testing::SizeIs(407)));
 }
 
 TEST(Refuse, QuotesAreShortAndPlain) {

@@ -13,6 +13,8 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Le;
+using testing::SizeIs;
 
 TEST(SettingsJson, EveryPresetReadsBack) {
   for (const std::string& name : preset_names()) {
@@ -114,6 +116,19 @@ TEST(ReadSettings, ErrorsNameTheFile) {
   write_bytes(folder / "s.json", R"({"h_min": 2, "h_max": 1})");
   EXPECT_REFUSED(read_settings(folder / "s.json", {}), HasSubstr("s.json: h"));
   EXPECT_REFUSED(read_settings(folder / "none.json", {}), HasSubstr("none.json"));
+}
+
+TEST(ReadSettings, ErrorsAreShortLinesWhateverTheFileHolds) {
+  const TempFolder folder;
+  const std::string path = folder / "s.json";
+  write_bytes(path, R"({"band_th\u001b\nreshold": 1})");
+  EXPECT_REFUSED(read_settings(path, {}), HasSubstr("'band_th??reshold'"));
+  const std::string text(100'000, 'x');
+  for (const std::string& bytes : {"{\"" + text + "\": 1}", "{\"beta\": \"" + text + "\"}",
+                                   "{\"" + text + "\": 1, \"" + text + "\": 1}"}) {
+    write_bytes(path, bytes);
+    EXPECT_REFUSED(read_settings(path, {}), SizeIs(Le(path.size() + 402)));
+  }
 }
 
 }  // namespace

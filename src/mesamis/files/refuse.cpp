@@ -6,11 +6,10 @@
 #include <system_error>
 
 #include "mesamis/base/error.h"
+#include "mesamis/files/utf8.h"
 
 namespace mesamis::detail {
 namespace {
-
-bool is_control(char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }
 
 template <class Number>
 bool parse_whole(std::string_view text, Number& value) {
@@ -34,9 +33,8 @@ std::string in_quotes(std::string_view text, std::size_t longest) {
 }
 
 void refuse(const std::filesystem::path& file, const std::string& what) {
-  std::string line = file.string() + ": " + what;
-  std::replace_if(line.begin(), line.end(), is_control, '?');
-  throw InputError(line);
+  constexpr std::size_t kLongest = 400;  // bytes; files may bring texts of any length
+  throw InputError(as_one_line(file.string() + ": " + shortened(what, kLongest)));
 }
 
 std::string lower(std::string_view text) {

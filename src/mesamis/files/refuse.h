@@ -28,7 +28,8 @@ std::string shown(std::string_view text);
 /// @return  the same in quotes, cut after `longest` characters.
 std::string in_quotes(std::string_view text, std::size_t longest = 60);
 
-/// Throws an InputError "file: what", control characters replaced by '?'.
+/// Throws an InputError "file: what", one line of UTF-8, see as_one_line(),
+/// whose second part has at most 400 bytes.
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what);
 
 /// @return  the text with ASCII letters in lower case.

@@ -4,7 +4,8 @@ set(ROOM_HEADERS
   output_set.h
   read_limits.h
   read_record.h
-  sha256.h)
+  sha256.h
+  utf8.h)
 # For the rooms above alone: not installed.
 set(ROOM_INNER_HEADERS
   byte_source.h
@@ -32,5 +33,6 @@ set(ROOM_SOURCES
   read_record.cpp
   refuse.cpp
   sha256.cpp
+  utf8.cpp
   xml.cpp
   zip_archive.cpp)

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/base/error.h"
 #include "mesamis/files/atomic_file.h"
 #include "mesamis/files/file_list.h"
+#include "mesamis/files/refuse.h"
 
 namespace mesamis {
 namespace {
@@ -36,7 +36,7 @@ class Strictness {
 
  private:
   [[noreturn]] void refuse(const std::string& expected, const std::string& found = "more") const {
-    throw InputError(path_.string() + ": expected JSON with " + expected + ", found " + found);
+    detail::refuse(path_, "expected JSON with " + expected + ", found " + found);
   }
 
   std::filesystem::path path_;
@@ -57,11 +57,10 @@ nlohmann::json read_json(const std::filesystem::path& path) {
     Strictness strictness(path);
     return nlohmann::json::parse(in, std::ref(strictness));
   } catch (const nlohmann::json::parse_error& error) {
-    throw InputError(path.string() + ": expected JSON, found something else at byte " +
-                     std::to_string(error.byte));
+    detail::refuse(path,
+                   "expected JSON, found something else at byte " + std::to_string(error.byte));
   } catch (const nlohmann::json::exception&) {
-    throw InputError(path.string() +
-                     ": expected JSON with numbers in range, found one that is not");
+    detail::refuse(path, "expected JSON with numbers in range, found one that is not");
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesamis/base/error.h"
+#include "mesamis/files/refuse.h"
 #include "mesamis/method/setting_table.h"
 #include "mesamis/record/json_file.h"
 
@@ -123,7 +124,7 @@ Settings read_settings(const std::filesystem::path& path, Settings settings) {
     from_json(file, settings);
     require_valid(settings);
   } catch (const InputError& error) {
-    throw InputError(path.string() + ": " + error.what());
+    detail::refuse(path, error.what());
   }
   return settings;
 }
