@@ -126,4 +126,42 @@ struct SliceBytes {
   }
 };
 
+/// An enhanced file: frame geometry in functional groups, the frames in the order given.
+inline std::string enhanced_bytes(const std::vector<int>& order, bool open, DicomCoding coding) {
+  const auto set = [&] { return DicomWriter(coding); };
+  const auto group = [&](std::uint32_t tag, const std::string& content) {
+    DicomWriter writer = set();
+    writer.sequence(tag, {content}, open);
+    return writer.bytes();
+  };
+  DicomWriter orientation = set(), measures = set(), file = set();
+  orientation.decimals(0x00200037, {1, 0, 0, 0, 1, 0});
+  measures.decimals(0x00280030, {1.25, 0.5});
+  std::vector<std::string> frames;
+  std::string pixels;
+  for (const int k : order) {
+    DicomWriter position = set(), transform = set();
+    position.decimals(0x00200032, {10, 20, 30 + 2.0 * k});
+    transform.decimals(0x00281052, {-100.0 * k});
+    transform.decimals(0x00281053, {1});
+    frames.push_back(group(0x00209113, position.bytes()) + group(0x00289145, transform.bytes()));
+    pixels +=
+        bytes_of_all(ramp<std::int16_t>(12, -40 + 112 * k), coding == DicomCoding::kBigEndian);
+  }
+  file.text(0x00080060, "CS", "MR");
+  file.text(0x0020000e, "UI", "1.2.3");
+  file.number(0x00280002, 1);
+  file.text(0x00280004, "CS", "MONOCHROME2");
+  file.text(0x00280008, "IS", std::to_string(order.size()));
+  file.number(0x00280010, 3), file.number(0x00280011, 4);
+  file.number(0x00280100, 16), file.number(0x00280101, 16), file.number(0x00280102, 15);
+  file.number(0x00280103, 1);
+  file.sequence(0x52009229,
+                {group(0x00209116, orientation.bytes()) + group(0x00289110, measures.bytes())},
+                open);
+  file.sequence(0x52009230, frames, open);
+  file.raw(0x7fe00010, "OW", pixels);
+  return SliceBytes::file(file.bytes(), coding);
+}
+
 }  // namespace mesamis
