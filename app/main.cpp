@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program mesamis: reads the command line, runs one command, turns every failure into one
+// The program mesamis: runs the command that the command line names, turns every failure into one
 // line on stderr and an exit status.
 #include <signal.h>
 #include <unistd.h>
@@ -14,13 +14,12 @@
 #include <string_view>
 #include <system_error>
 
-#include "arguments.h"
+#include "command_line.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
-#include "mesamis/base/version.h"
 #include "mesamis/files/atomic_file.h"
 #include "streams.h"
 
@@ -44,40 +43,6 @@ void handle_signals() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     if (signal(number, on_signal) == SIG_IGN) signal(number, SIG_IGN);  // nohup
   }
-}
-
-void add_common_options(CLI::App& app, CommonOptions& common) {
-  app.add_flag("--quiet", common.quiet, "Nothing on stderr but errors");
-  app.add_flag("--log-json", common.log_json, "Log and progress on stderr as JSON, a line each");
-  app.add_option("--threads", common.threads, "Threads at most (default: all)")
-      ->check(CLI::Range(1, 1024));
-  app.add_option("--memory", common.limits.memory_gb,
-                 "Memory that a run or a file that is read may take, GB (default: what is free)")
-      ->check(CLI::PositiveNumber);
-  app.add_flag("--allow-outside", common.limits.allow_outside,
-               "Let .nhdr and .mhd name data files outside of their folder");
-}
-
-std::string version_text() {
-  return std::string("mesamis ") + version() + " (commit " + commit() + ")";
-}
-
-void add_commands(CLI::App& app, CommonOptions& common, Action& action) {
-  app.set_version_flag("--version", version_text());
-  app.require_subcommand(1);
-  app.fallthrough();  // the common options may stand after the command
-  add_common_options(app, common);
-  add_segment_command(app, common, action);
-  add_decimate_command(app, common, action);
-  add_remesh_command(app, common, action);
-  add_baseline_command(app, common, action);
-  add_compare_command(app, common, action);
-  add_study_command(app, common, action);
-  add_phantom_command(app, common, action);
-  add_picture_command(app, common, action);
-  add_info_command(app, common, action);
-  add_settings_command(app, common, action);
-  add_slice_command(app, common, action);
 }
 
 /// Writes one line without taking memory.
@@ -139,20 +104,6 @@ int run(const Action& action) {
     log_error(std::string("internal error: ") + error.what());
     return kExitInternal;
   }
-}
-
-/// One line for what the parser found wrong, and where to read more.
-std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int count,
-                          char** arguments) {
-  const auto chosen = app.get_subcommands();
-  if (chosen.empty() && count > 1 && arguments[1][0] != '-') {
-    return "no command '" + std::string(arguments[1]) + "' (mesamis --help lists them)";
-  }
-  if (chosen.empty() && error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {
-    return one_line(error.what()) + " (mesamis --help lists what there is)";
-  }
-  if (chosen.empty()) return "a command is required (mesamis --help lists them)";
-  return one_line(error.what()) + " (mesamis " + chosen[0]->get_name() + " --help tells more)";
 }
 
 int run_program(int count, char** arguments) {
