@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz_seeds.h"
+#include "mesamis/label_files/label_table.h"
+#include "mesamis/label_files/write_labels.h"
+#include "mesamis/method/setting_table.h"
+#include "mesamis/record/json_file.h"
+#include "mesamis/record/settings_json.h"
+#include "support/scan_bytes.h"
+
+namespace mesamis {
+namespace {
+
+LabelMap small_map(std::size_t layers) {
+  LabelMap map;
+  map.size = {4, 3, 2};
+  for (std::size_t layer = 0; layer < layers; ++layer) {
+    std::vector<std::uint16_t> labels(24, 0);
+    labels[5 + layer] = 1;
+    labels[7] = 300;
+    map.layers.push_back(std::move(labels));
+    map.segments.push_back({"pelvis", 1, static_cast<Index>(layer), {255, 128, 0}});
+    map.segments.push_back({"left femur", 300, static_cast<Index>(layer), {0, 128, 255}});
+  }
+  return map;
+}
+
+std::string probabilities() {
+  const std::vector<float> values{0, 1, 0.5f, 0.25f, 1, 0, 0, 1, 0.5f, 0.75f, 0, 1, 1, 1, 0, 0};
+  return "NRRD0004\ntype: float\ndimension: 4\nsizes: 2 2 2 2\n"
+         "space: left-posterior-superior\nkinds: list domain domain domain\n"
+         "space directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n"
+         "endian: little\nencoding: raw\n\n" +
+         bytes_of_all(values);
+}
+
+}  // namespace
+
+void write_label_seeds(const SeedFolder& seeds) {
+  // The writers decide by the name, the targets have one of their own.
+  write_label_map(seeds.file("label_nifti", "map.nii"), small_map(1));
+  write_label_map(seeds.file("label_nifti", "map.nii.gz"), small_map(1));
+  write_label_map(seeds.file("label_nrrd", "map.seg.nrrd"), small_map(1));
+  write_label_map(seeds.file("label_nrrd", "layers.seg.nrrd"), small_map(2));
+  seeds.add("label_nrrd", "probabilities", probabilities());
+  seeds.add("label_nrrd", "plain",
+            "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 2 2 2\n"
+            "space: left-posterior-superior\nkinds: list domain domain domain\n"
+            "space directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n"
+            "encoding: ascii\nSegment0_ID:=a\nSegment0_Name:=bone\nSegment0_Color:=1 0.5 0\n"
+            "Segment0_LabelValue:=1\nSegment0_Layer:=0\nSegment1_LabelValue:=2\n"
+            "Segment1_Layer:=1\n\n1 0 0 2 0 0 1 2 0 0 0 0 1 2 1 2\n");
+  const LabelMap map = small_map(1);
+  write_label_table(seeds.file("label_table", "itksnap"), map.segments);
+  seeds.add("label_table", "slicer", "# Color table\n0 Background 0 0 0 0\n1 bone 255 128 0 255\n");
+  seeds.add("label_table", "names", "1 pelvis\n2 \"left femur\" 1 2 3\n");
+  for (const std::string& preset : preset_names()) {
+    write_json(seeds.file("settings_json", preset), to_json(preset_settings(preset)));
+  }
+  seeds.add("settings_json", "report", R"({"settings": {"crop": [[0, 10], [0, 10], [0, 10]],
+    "stride": [1, 1, 2], "preview": true, "level": 0.5}})");
+}
+
+}  // namespace mesamis

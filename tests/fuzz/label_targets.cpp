@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// The readers of label maps, probabilities and label tables, and of settings.
+#include <algorithm>
+
+#include "mesamis/label_files/label_table.h"
+#include "mesamis/label_files/read_labels.h"
+#include "mesamis/method/setting_table.h"
+#include "mesamis/record/json_file.h"
+#include "mesamis/record/settings_json.h"
+#include "reader_targets.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+
+void require_labels(const LabelFile& file) {
+  require_law(!file.format.empty(), "no format");
+  for (const std::string& warning : file.warnings) require_one_line(warning);
+  try {
+    require_valid(file.map);
+  } catch (const InputError& error) {
+    require_law(false, std::string("a label map that is not valid: ") + error.what());
+  }
+}
+
+void require_probabilities(const ProbabilityFile& file) {
+  const Probabilities& p = file.probabilities;
+  require_law(!p.layers.empty() && p.segments.size() == p.layers.size(), "objects are missing");
+  for (const std::vector<float>& layer : p.layers) {
+    require_law(layer.size() == p.voxel_count(), "values are missing");
+    const bool valid =
+        std::all_of(layer.begin(), layer.end(), [](float v) { return v >= 0 && v <= 1; });
+    require_law(valid, "a value that is no probability");
+  }
+}
+
+template <const char* kName>
+void run_labels(std::string_view bytes) {
+  const fs::path file = input_folder().write(kName, bytes);
+  read_or_refuse(file,
+                 [](const fs::path& path) { require_labels(read_label_map(path, fuzz_limits())); });
+  read_or_refuse(file, [](const fs::path& path) {
+    require_probabilities(read_probabilities({path}, fuzz_limits()));
+  });
+}
+
+void run_label_table(std::string_view bytes) {
+  read_or_refuse(input_folder().write("names.txt", bytes), [](const fs::path& path) {
+    for (const Segment& segment : read_label_table(path)) {
+      require_law(segment.label > 0, "the label of the background");
+    }
+  });
+}
+
+/// Settings that are read are written and read again as they are.
+void run_settings_json(std::string_view bytes) {
+  read_or_refuse(input_folder().write("settings.json", bytes), [](const fs::path& path) {
+    const Settings settings = read_settings(path, {});
+    require_valid(settings);
+    write_json(path, to_json(settings));
+    const Settings again = read_settings(path, {});
+    for (const Setting& setting : setting_table()) {
+      require_law(setting.get(again) == setting.get(settings),
+                  "a setting that changes when it is written: " + setting.name);
+    }
+  });
+}
+
+constexpr char kNifti[] = "labels.nii", kNrrd[] = "labels.seg.nrrd", kDicom[] = "labels.dcm";
+
+constexpr FuzzTarget kTargets[] = {
+    {"label_nifti", run_labels<kNifti>},  {"label_nrrd", run_labels<kNrrd>},
+    {"label_dicom", run_labels<kDicom>},  {"label_table", run_label_table},
+    {"settings_json", run_settings_json},
+};
+
+}  // namespace
+
+std::span<const FuzzTarget> label_targets() { return kTargets; }
+
+}  // namespace mesamis

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// The readers of scans. A volume that is read has a finite grid and a sample for each voxel.
+#include <cmath>
+
+#include "mesamis/scan_files/read_volume.h"
+#include "reader_targets.h"
+#include "support/dicom_bytes.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void require_grid(const VoxelGrid& grid) {
+  for (const Index n : grid.size) require_law(n >= 1, "an empty axis");
+  const Vec3& s = grid.spacing;
+  require_law(is_finite(s) && s.x > 0 && s.y > 0 && s.z > 0, "a spacing that is no length");
+  require_law(is_finite(grid.origin), "an origin that is nowhere");
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = 0; b < 3; ++b) {
+      const double product = dot(grid.direction.rows[a], grid.direction.rows[b]);
+      require_law(std::abs(product - (a == b)) < 1e-6, "axes that are not orthonormal");
+    }
+  }
+}
+
+void require_scan(const VolumeFile& scan) {
+  require_grid(scan.volume);
+  require_law(scan.volume.samples.size() == scan.volume.voxel_count(), "samples are missing");
+  require_law(!scan.format.empty(), "no format");
+  for (const std::string& warning : scan.warnings) require_one_line(warning);
+}
+
+void list(const fs::path& file, const ReadOptions& options) {
+  read_or_refuse(file, [&](const fs::path& path) {
+    const auto all = list_volumes(path, options);
+    require_law(!all.empty(), "an empty list");
+    for (const VolumeInfo& info : all) require_one_line(info.problem);
+  });
+}
+
+void read_scan(const fs::path& file, ReadOptions options = {}) {
+  options.limits = fuzz_limits();
+  list(file, options);
+  read_or_refuse(file, [&](const fs::path& path) { require_scan(read_volume(path, options)); });
+}
+
+/// Beside the case lie files that it may name as its data.
+void with_data_files() {
+  static const bool written = [] {
+    const std::string data = bytes_of_all(ramp<std::int16_t>(60));
+    input_folder().write("data.raw", data);
+    input_folder().write("data.raw.gz", packed(data));
+    return true;
+  }();
+  static_cast<void>(written);
+}
+
+template <const char* kName>
+void run_scan(std::string_view bytes) {
+  with_data_files();
+  read_scan(input_folder().write(kName, bytes));
+}
+
+/// A slice alone is no volume: another one of the same series lies beside it.
+void run_dicom(std::string_view bytes) {
+  static const fs::path second = [] {
+    SliceBytes slice;
+    slice.position = {0, 0, 2};
+    return input_folder().write("second.dcm", slice.bytes());
+  }();
+  const fs::path file = input_folder().write("first.dcm", bytes);
+  read_scan(file);
+  read_or_refuse(file, [](const fs::path& path) {
+    require_scan(read_volume(path, {.resample = true, .limits = fuzz_limits()}));
+  });
+}
+
+/// The layout as text, a line break, the file.
+void run_raw(std::string_view bytes) {
+  const std::size_t end = bytes.find('\n');
+  if (end == std::string_view::npos) return;
+  ReadOptions options;
+  try {
+    options.raw = parse_raw_layout(bytes.substr(0, end));
+  } catch (const InputError& refusal) {
+    return require_one_line(refusal.what());
+  }
+  read_scan(input_folder().write("scan.raw", bytes.substr(end + 1)), options);
+}
+
+/// Checksums that fit: those that do not end the reading before anything else is tried.
+std::string with_png_sums(std::string bytes) {
+  const auto number = [&bytes](std::size_t at) {
+    std::size_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) {
+      value = value << 8 | static_cast<unsigned char>(bytes[i]);
+    }
+    return value;
+  };
+  for (std::size_t at = 8; at + 12 <= bytes.size();) {
+    const std::size_t size = number(at);
+    if (size > bytes.size() - at - 12) break;
+    const auto* checked = reinterpret_cast<const Bytef*>(bytes.data() + at + 4);
+    bytes.replace(at + 8 + size, 4,
+                  bytes_of(static_cast<std::uint32_t>(crc32_z(0, checked, size + 4)), true));
+    at += size + 12;
+  }
+  return bytes;
+}
+
+void run_png(std::string_view bytes) {
+  read_scan(input_folder().write("scan.png", with_png_sums(std::string(bytes))));
+}
+
+constexpr char kNifti[] = "scan.nii", kNrrd[] = "scan.nrrd", kMeta[] = "scan.mha",
+               kTiff[] = "scan.tif", kInv3[] = "scan.inv3", kBmp[] = "scan.bmp";
+
+constexpr FuzzTarget kTargets[] = {
+    {"dicom", run_dicom},      {"nifti", run_scan<kNifti>}, {"nrrd", run_scan<kNrrd>},
+    {"meta", run_scan<kMeta>}, {"tiff", run_scan<kTiff>},   {"inv3", run_scan<kInv3>},
+    {"png", run_png},          {"bmp", run_scan<kBmp>},     {"raw", run_raw},
+};
+
+}  // namespace
+
+std::span<const FuzzTarget> scan_targets() { return kTargets; }
+
+}  // namespace mesamis
