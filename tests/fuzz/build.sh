@@ -8,7 +8,6 @@
 #   none of them                                the preset "fuzz": clang and libFuzzer of the system
 #   OUT    where the targets go                 (default: build/fuzz/out)
 #   WORK   where they are built, for OSS-Fuzz   (default: build/oss-fuzz)
-#   SRC    where other sources lie: $SRC/libtiff is built with the same flags and linked
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../.."
 
@@ -16,28 +15,12 @@ jobs=${MESAMIS_JOBS:-$(nproc)}
 OUT=${OUT:-$PWD/build/fuzz/out}
 read -ra cmake_args <<<"${MESAMIS_CMAKE_ARGS:-}"
 
-# The reader of TIFF then sees what goes on in the library that it calls.
-build_libtiff() {
-  local prefix=$1/libtiff
-  cmake -S "$SRC/libtiff" -B "$1/libtiff-build" -G Ninja -DCMAKE_INSTALL_PREFIX="$prefix" \
-    -DBUILD_SHARED_LIBS=OFF -Dtiff-tools=OFF -Dtiff-tests=OFF -Dtiff-docs=OFF -Dtiff-contrib=OFF \
-    -Djpeg=OFF -Djbig=OFF -Dlerc=OFF -Dlzma=OFF -Dwebp=OFF -Dzstd=OFF -Dlibdeflate=OFF \
-    -DCMAKE_POSITION_INDEPENDENT_CODE=ON "${@:2}"
-  cmake --build "$1/libtiff-build" -j "$jobs" --target install
-  cmake_args+=("-DTIFF_INCLUDE_DIR=$prefix/include" "-DTIFF_LIBRARY=$prefix/lib/libtiff.a")
-}
-
 if [ -n "${LIB_FUZZING_ENGINE:-}" ]; then
   build=${WORK:-$PWD/build/oss-fuzz}
-  [ ! -d "${SRC:-}/libtiff" ] || build_libtiff "$build"
   cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=None -DMESAMIS_FUZZ=ON -DMESAMIS_BUILD_TESTS=OFF \
     -DMESAMIS_BUILD_EXAMPLES=OFF -DMESAMIS_FUZZ_ENGINE="$LIB_FUZZING_ENGINE" "${cmake_args[@]}"
 else
   build=build/fuzz
-  flags="-O1 -gline-tables-only -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all"
-  [ ! -d "${SRC:-}/libtiff" ] ||
-    build_libtiff "$build" -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
-      -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags"
   cmake --preset fuzz "${cmake_args[@]}"
 fi
 cmake --build "$build" -j "$jobs"
