@@ -21,10 +21,10 @@ class EachScan : public testing::TestWithParam<Scan> {
  protected:
   /// Fewer cells and passes than by default: what is promised does not depend on them.
   ProgramRun segment(const std::filesystem::path& scan) const {
-    return run_program(folder_,
-                       {"segment", scan, "-o", folder_ / "a.stl", "-o", folder_ / "a.3mf", "-o",
-                        folder_ / "a.amf", "--report", folder_ / "r.json", "--stride", GetParam().stride,
-                        "--max-tets", "60000", "--adaptations", "2", "--quiet"});
+    return run_program(
+        folder_, {"segment", scan, "-o", folder_ / "a.stl", "-o", folder_ / "a.3mf", "-o",
+                  folder_ / "a.amf", "--report", folder_ / "r.json", "--stride", GetParam().stride,
+                  "--max-tets", "60000", "--adaptations", "2", "--quiet"});
   }
 
   TempFolder folder_;
