@@ -63,7 +63,7 @@ TEST(Cavity, ReplacingCellsByThemselvesKeepsTheMesh) {
     // Another order of the cells and an even permutation of their points change nothing.
     for (auto c = ball.rbegin(); c != ball.rend(); ++c) {
       const Cell& k = small.mesh.cells[*c].points;
-      cavity.propose({k[1], k[2], k[0], k[3]}, small.mesh.cells[*c].quality3);
+      cavity.propose({k[1], k[2], k[0], k[3]}, small.mesh.cells[*c].quality3, 1);
     }
     cavity.replace(ball);
     expect_sound(small.mesh);

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   edges.h
+  element_quality.h
   gradation.h
   kuhn.h
   locate.h
@@ -12,6 +13,7 @@ set(ROOM_HEADERS
   value_bins.h)
 set(ROOM_SOURCES
   edges.cpp
+  element_quality.cpp
   gradation.cpp
   locate.cpp
   metric.cpp

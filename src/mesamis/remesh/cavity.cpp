@@ -36,22 +36,29 @@ Cavity::Cavity(WorkingMesh& mesh) : mesh_(mesh), faces_(4096) {
 }
 
 std::span<const Index> Cavity::ball(Index vertex) {
+  collect_ball(vertex, ball_);
+  return ball_;
+}
+
+void Cavity::collect_ball(Index vertex, std::vector<Index>& cells) {
   const std::uint32_t mark = next_mark();
-  ball_.assign(1, mesh_.vertices[vertex].cell);
-  mesh_.cells[ball_[0]].mark = mark;
-  for (std::size_t i = 0; i < ball_.size(); ++i) {
-    const WorkCell& cell = mesh_.cells[ball_[i]];
+  cells.assign(1, mesh_.vertices[vertex].cell);
+  mesh_.cells[cells[0]].mark = mark;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const WorkCell& cell = mesh_.cells[cells[i]];
     for (int f = 0; f < 4; ++f) {
       const FaceRef n = cell.neighbors[f];
       if (n == kNoIndex || cell.points[f] == vertex) continue;
       WorkCell& other = mesh_.cells[cell_of(n)];
       if (other.mark == mark) continue;
       other.mark = mark;
-      ball_.push_back(cell_of(n));
+      cells.push_back(cell_of(n));
     }
-    if (ball_.size() > kMostBall) return {};
+    if (cells.size() > kMostBall) {
+      cells.clear();
+      return;
+    }
   }
-  return ball_;
 }
 
 bool Cavity::find_shell(Index cell, Index a, Index b) {
@@ -98,6 +105,21 @@ void Cavity::replace(std::span<const Index> old_cells) {
     write_cell(i < old_cells.size() ? old_cells[i] : mesh_.new_cell(), proposed_[i]);
   }
   for (std::size_t i = proposed_.size(); i < old_cells.size(); ++i) mesh_.free_cell(old_cells[i]);
+  if (mesh_.shape != nullptr) leave_skin_behind();
+}
+
+/// Faces towards cells that went without another in their place are skin from now on.
+void Cavity::leave_skin_behind() {
+  for (const FaceRef face : outer_faces_) {
+    WorkCell& cell = mesh_.cells[cell_of(face)];
+    if (face_slot(cell.points, face_of(face)).matched) continue;
+    cell.neighbors[face_of(face)] = kNoIndex;
+    cell.pending = kToAll;
+    cell.tried = 0;
+    for (const Index p : cell.points) {
+      if (p != cell.points[face_of(face)]) mesh_.vertices[p].cell = cell_of(face);
+    }
+  }
 }
 
 std::uint32_t Cavity::next_mark() {
@@ -130,19 +152,21 @@ Cavity::FaceSlot& Cavity::face_slot(const Cell& cell, int face) {
   const std::size_t last = faces_.size() - 1;
   std::size_t i = hash(key) & last;
   while (faces_[i].epoch == faces_epoch_ && !is_same(faces_[i].key, key)) i = (i + 1) & last;
-  if (faces_[i].epoch != faces_epoch_) faces_[i] = {key, kNoIndex, faces_epoch_};
+  if (faces_[i].epoch != faces_epoch_) faces_[i] = {key, kNoIndex, faces_epoch_, false};
   return faces_[i];
 }
 
 void Cavity::collect_outer_faces(std::span<const Index> old_cells) {
   const std::uint32_t mark = next_mark();
   for (const Index c : old_cells) mesh_.cells[c].mark = mark;
+  outer_faces_.clear();
   for (const Index c : old_cells) {
     const WorkCell& cell = mesh_.cells[c];
     for (int f = 0; f < 4; ++f) {
       const FaceRef n = cell.neighbors[f];
       if (n == kNoIndex || mesh_.cells[cell_of(n)].mark == mark) continue;
       face_slot(cell.points, f).face = n;
+      if (mesh_.shape != nullptr) outer_faces_.push_back(n);
     }
   }
 }
@@ -151,6 +175,7 @@ void Cavity::write_cell(Index id, const Proposal& proposal) {
   WorkCell& cell = mesh_.cells[id];
   cell.points = proposal.points;
   cell.quality3 = static_cast<float>(proposal.quality3);
+  cell.material = proposal.material;
   cell.pending = kToAll;
   cell.tried = 0;
   for (int f = 0; f < 4; ++f) {
@@ -160,6 +185,7 @@ void Cavity::write_cell(Index id, const Proposal& proposal) {
       slot.face = face_ref(id, f);
     } else {
       mesh_.cells[cell_of(slot.face)].neighbors[face_of(slot.face)] = face_ref(id, f);
+      slot.matched = true;
     }
     Vertex& vertex = mesh_.vertices[proposal.points[f]];
     vertex.cell = id;

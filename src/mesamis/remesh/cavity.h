@@ -22,6 +22,9 @@ class Cavity {
   /// The cells around a vertex; empty if there are more than kMostBall. Valid until the next call.
   std::span<const Index> ball(Index vertex);
 
+  /// The same into a list of the caller's.
+  void collect_ball(Index vertex, std::vector<Index>& cells);
+
   /// Finds the cells around edge (a, b), one of which is `cell`: shell()[i] holds a, b, ring()[i]
   /// and ring()[i + 1] and is positive in this order. On a closed shell the ring goes round.
   /// @return false if there are more than kMostShell.
@@ -33,13 +36,18 @@ class Cavity {
   struct Proposal {
     Cell points;
     double quality3;
+    std::uint8_t material;
   };
   /// Starts a new list of proposed cells.
   void clear() { proposed_.clear(); }
-  void propose(const Cell& points, double quality3) { proposed_.push_back({points, quality3}); }
+  /// @param material  see WorkCell.
+  void propose(const Cell& points, double quality3, std::uint8_t material) {
+    proposed_.push_back({points, quality3, material});
+  }
   std::span<const Proposal> proposed() const { return proposed_; }
 
-  /// Puts the proposed cells in the place of the old ones, which fill the same space.
+  /// Puts the proposed cells in the place of the old ones, which fill the same space; of a body
+  /// also less or more, where the old ones had faces on its skin.
   void replace(std::span<const Index> old_cells);
 
  private:
@@ -47,6 +55,7 @@ class Cavity {
     std::array<Index, 3> key{};
     FaceRef face = kNoIndex;
     std::uint32_t epoch = 0;
+    bool matched = false;  ///< a proposed cell has the face of a cell outside
   };
 
   /// The shell from `first` to the box or round to it again.
@@ -56,6 +65,7 @@ class Cavity {
   FaceSlot& face_slot(const Cell& cell, int face);
   void collect_outer_faces(std::span<const Index> old_cells);
   void write_cell(Index cell, const Proposal& proposal);
+  void leave_skin_behind();
 
   WorkingMesh& mesh_;
   std::uint32_t mark_ = 0;
@@ -65,6 +75,7 @@ class Cavity {
   std::size_t shell_size_ = 0, ring_size_ = 0;
   std::vector<Proposal> proposed_;
   std::vector<FaceSlot> faces_;
+  std::vector<FaceRef> outer_faces_;  ///< of a body: of the cells outside the cavity
   std::uint32_t faces_epoch_ = 0;
 };
 

@@ -6,14 +6,15 @@
 
 #include "mesamis/remesh/edge_candidates.h"
 #include "mesamis/remesh/geometry.h"
+#include "mesamis/remesh/skin.h"
 #include "mesamis/remesh/smooth.h"
 
 namespace mesamis::remeshing {
 namespace {
 
-/// A vertex may leave for another only if that lies on all of its box planes.
+/// A vertex may leave for another only if that lies on all of its box planes, and on the skin.
 bool may_move(const Vertex& vertex, const Vertex& onto) {
-  return !(vertex.mask & kFrozen) && (vertex.mask & ~onto.mask & kPlanes) == 0;
+  return !(vertex.mask & kFrozen) && (vertex.mask & ~onto.mask & (kPlanes | kOnSkin)) == 0;
 }
 
 double worst_quality3(const WorkingMesh& mesh, std::span<const Index> cells) {
@@ -32,9 +33,10 @@ bool propose_moved(Workbench& bench, std::span<const Index> ball, std::array<Ind
     moved[local_index(moved, move[0])] = move[1];
     const double q = quality3(bench.mesh, moved);
     if (q < quality3_min) return false;
-    bench.cavity.propose(moved, q);
+    bench.cavity.propose(moved, q, bench.mesh.cells[c].material);
   }
-  return !bench.cavity.proposed().empty();
+  // A corner of a body may vanish with its cells: the skin then passes over it.
+  return !bench.cavity.proposed().empty() || (bench.mesh.vertices[move[0]].mask & kOnSkin);
 }
 
 CollapseRule balanced(CollapseRule rule, double length) {
@@ -46,8 +48,8 @@ bool keeps_edges_short(Workbench& bench, Index onto, double length_max) {
   const auto& vertices = bench.mesh.vertices;
   bench.seen.clear();
   bench.seen.insert(onto);
-  for (const auto& [points, q] : bench.cavity.proposed()) {
-    for (const Index p : points) {
+  for (const auto& proposal : bench.cavity.proposed()) {
+    for (const Index p : proposal.points) {
       if (bench.seen.insert(p) && length(vertices[onto], vertices[p]) > length_max) return false;
     }
   }
@@ -62,6 +64,13 @@ Index collapse_edge(Workbench& bench, const EdgeCandidate& edge, const CollapseR
 
 }  // namespace
 
+bool propose_collapse(Workbench& bench, std::span<const Index> ball, std::array<Index, 2> move,
+                      double quality3_min) {
+  const Vertex &vertex = bench.mesh.vertices[move[0]], &onto = bench.mesh.vertices[move[1]];
+  if (!may_move(vertex, onto) || !propose_moved(bench, ball, move, quality3_min)) return false;
+  return !(vertex.mask & kOnSkin) || may_collapse_on_skin(bench, ball, move[0], move[1]);
+}
+
 bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseRule& rule) {
   WorkingMesh& mesh = bench.mesh;
   if (!may_move(mesh.vertices[vertex], mesh.vertices[onto])) return false;
@@ -71,6 +80,9 @@ bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseR
   const double limit = std::min(rule.quality3_min, std::max(loss_limit, kTinyQuality3));
   if (!propose_moved(bench, ball, {vertex, onto}, limit)) return false;
   if (!keeps_edges_short(bench, onto, rule.new_length_max)) return false;
+  if ((mesh.vertices[vertex].mask & kOnSkin) && !may_collapse_on_skin(bench, ball, vertex, onto)) {
+    return false;
+  }
   bench.cavity.replace(ball);
   mesh.free_vertex(vertex);
   return true;

@@ -22,6 +22,12 @@ struct CollapseRule {
 /// @return the number of collapses.
 std::int64_t collapse_short_edges(Workbench& bench, const CollapseRule& rule);
 
+/// Proposes the cells around a vertex with `onto` in its place, if they are valid, fit the body's
+/// skin, and are no worse than a bound.
+/// @param ball  the cells around the vertex.
+bool propose_collapse(Workbench& bench, std::span<const Index> ball, std::array<Index, 2> move,
+                      double quality3_min);
+
 /// Moves a vertex onto a neighbour, which takes its place, if the rule allows.
 bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseRule& rule);
 

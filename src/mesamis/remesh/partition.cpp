@@ -176,6 +176,7 @@ Part extract(const WorkingMesh& mesh, const Cut& cut, Index p) {
   const auto shared_count = static_cast<Index>(part.shared.size());
   part.mesh.box = mesh.box;
   part.mesh.is_part = true;
+  part.mesh.shape = mesh.shape;
   part.mesh.vertices.reserve(part.shared.size() + cut.vertices.of(p).size());
   for (const Index s : part.shared) {
     part.mesh.vertices.push_back(mesh.vertices[cut.shared[s]]);
@@ -259,7 +260,11 @@ void match_border(WorkingMesh& mesh, const std::vector<Part>& parts) {
   });
   for (std::size_t i = 0; i < faces.size(); i += 2) {
     if (i + 1 == faces.size() || faces[i].points != faces[i + 1].points) {
-      throw NumericalError("remesh: the parts of the mesh do not fit together");
+      if (mesh.shape == nullptr) {
+        throw NumericalError("remesh: the parts of the mesh do not fit together");
+      }
+      --i;  // the skin of a body has one side only
+      continue;
     }
     const FaceRef a = faces[i].face, b = faces[i + 1].face;
     mesh.cells[cell_of(a)].neighbors[face_of(a)] = b;

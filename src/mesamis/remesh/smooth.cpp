@@ -8,6 +8,7 @@
 #include <span>
 
 #include "mesamis/remesh/geometry.h"
+#include "mesamis/remesh/skin.h"
 
 namespace mesamis::remeshing {
 namespace {
@@ -28,7 +29,15 @@ class Mover {
       energy_ += energy(q);
     }
     shape_.gather(mesh_, ball_, v);
+    if (!(vertex_.mask & kOnSkin)) return;
+    features_ = vertex_features(mesh_, ball_, v);
+    normal_ = skin_normal(mesh_, ball_, v);
+    skin_ = skin_triangles(mesh_, ball_, v, vertex_.position);
+    index_ = v;
   }
+
+  /// Whether the vertex may move at all.
+  bool is_free() const { return !features_.on_skin() || features_.freedom() > 0; }
 
   bool run() {
     const BallShape::Directions directions = shape_.directions(vertex_);
@@ -49,11 +58,24 @@ class Mover {
     return length > 0 ? kFirstStep / length * direction : Vec3{};
   }
 
+  /// The part of a move that keeps the vertex on its planes and, to first order, on the skin.
   Vec3 on_planes(Vec3 move) const {
+    if (features_.on_skin()) {
+      move = move - dot(move, normal_) * normal_;
+      if (features_.planes != 0) return along_rim(move);
+    }
     for (int axis = 0; axis < 3; ++axis) {
       if (vertex_.mask >> (2 * axis) & 3) move[axis] = 0;
     }
     return move;
+  }
+
+  /// Where the skin meets a plane of the box.
+  Vec3 along_rim(const Vec3& move) const {
+    Vec3 axis;
+    for (int i = 0; i < 3; ++i) axis[i] = features_.planes >> (2 * i) & 3 ? 1 : 0;
+    const Vec3 tangent = unit_or_zero(cross(normal_, axis));
+    return dot(move, tangent) * tangent;
   }
 
   /// Line search. The energy is convex, near enough: where it falls too slowly at first it
@@ -68,6 +90,7 @@ class Mover {
     for (int trial = 0; trial < kMostTrials && -slope * step > least_gain(); ++trial) {
       const double change = try_position(old, step * move) - energy_;
       if (change <= -least_gain()) {
+        if (!keeps_skin()) break;
         accept(change > -rule_.small_gain * energy_);
         return true;
       }
@@ -81,9 +104,9 @@ class Mover {
 
   /// The energy with the vertex there, where it stays; infinite if a cell is too bad.
   double try_position(const Vertex& old, const Vec3& move) {
-    vertex_.position = old.position + move;
+    vertex_.position = onto_features(mesh_, old.position + move, features_);
     if (!mesh_.box.contains(vertex_.position) ||
-        planes_of(mesh_.box, vertex_.position) != old.mask) {
+        planes_of(mesh_.box, vertex_.position) != (old.mask & kPlanes)) {
       return kTooBad;
     }
     measure(vertex_, sampler_, old.hint);
@@ -92,6 +115,11 @@ class Mover {
     double sum = 0;
     for (const double q : qualities_) sum += energy(q);
     return sum;
+  }
+
+  bool keeps_skin() const {
+    return !features_.on_skin() ||
+           may_replace_skin(mesh_, skin_, skin_triangles(mesh_, ball_, index_, vertex_.position));
   }
 
   void accept(bool is_small) {
@@ -115,20 +143,26 @@ class Mover {
   double worst_ = 1, energy_ = 0;
   Vec3 gradient_;
   std::span<const double> qualities_;
+  // Of a vertex on the skin:
+  Features features_;
+  Vec3 normal_;
+  std::vector<Corners3> skin_;  ///< around the vertex where it was
+  Index index_ = kNoIndex;
 };
 
 }  // namespace
 
 bool smooth_vertex(Workbench& bench, Index v, const SmoothRule& rule) {
   Vertex& vertex = bench.mesh.vertices[v];
-  if ((vertex.mask & kFrozen) || std::popcount(unsigned{vertex.mask}) == 3) return false;
+  if ((vertex.mask & kFrozen) || std::popcount(unsigned{vertex.mask} & kPlanes) == 3) return false;
   if (vertex.rest > 0) {
     --vertex.rest;
     return false;
   }
   const auto ball = bench.cavity.ball(v);
   if (ball.empty()) return false;
-  const bool moved = Mover(bench, v, ball, rule).run();
+  Mover mover(bench, v, ball, rule);
+  const bool moved = mover.is_free() && mover.run();
   const int failures = moved ? 0 : std::min(rule.most_rest, vertex.failures + 1);
   vertex.failures = vertex.rest = static_cast<std::uint8_t>(failures);
   return moved;

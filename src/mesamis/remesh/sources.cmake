@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   adapt_mesh.h
+  body.h
+  body_shape.h
   remesh.h)
 set(ROOM_SOURCES
   adapt_mesh.cpp
   ball_shape.cpp
+  body.cpp
   cavity.cpp
   collapse.cpp
   edge_candidates.cpp
@@ -12,7 +15,10 @@ set(ROOM_SOURCES
   metric_sampler.cpp
   partition.cpp
   remesh.cpp
+  remesher.cpp
   repair.cpp
+  shape_repair.cpp
+  skin.cpp
   smooth.cpp
   split.cpp
   swap.cpp

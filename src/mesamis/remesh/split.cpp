@@ -6,6 +6,7 @@
 
 #include "mesamis/remesh/edge_candidates.h"
 #include "mesamis/remesh/geometry.h"
+#include "mesamis/remesh/skin.h"
 
 namespace mesamis::remeshing {
 namespace {
@@ -21,8 +22,9 @@ double metric_middle(const Vertex& a, const Vertex& b) {
   return std::clamp(std::log((1 + ratio) / 2) / std::log(ratio), 0.25, 0.75);
 }
 
-Vec3 middle_point(const WorkingMesh& mesh, const Vertex& a, const Vertex& b) {
-  Vec3 p = a.position + metric_middle(a, b) * (b.position - a.position);
+/// The point at a share of the way from a to b, exactly on the planes of both.
+Vec3 point_between(const WorkingMesh& mesh, const Vertex& a, const Vertex& b, double share) {
+  Vec3 p = a.position + share * (b.position - a.position);
   const unsigned planes = a.mask & b.mask;
   for (int axis = 0; axis < 3; ++axis) {
     if (planes >> (2 * axis) & 1) p[axis] = mesh.box.lo[axis];
@@ -31,13 +33,16 @@ Vec3 middle_point(const WorkingMesh& mesh, const Vertex& a, const Vertex& b) {
   return p;
 }
 
-Index make_middle(Workbench& bench, Index a, Index b) {
+/// @param features  of the edge.
+Index make_middle(Workbench& bench, Index a, Index b, const Features& features) {
   WorkingMesh& mesh = bench.mesh;
   const Index v = mesh.new_vertex();
   const Vertex &va = mesh.vertices[a], &vb = mesh.vertices[b];
   Vertex& middle = mesh.vertices[v];
-  middle.position = middle_point(mesh, va, vb);
+  middle.position =
+      onto_features(mesh, point_between(mesh, va, vb, metric_middle(va, vb)), features);
   middle.mask = va.mask & vb.mask & kPlanes;
+  if (features.on_skin()) middle.mask |= kOnSkin;
   measure(middle, bench.sampler, va.hint);
   return v;
 }
@@ -66,7 +71,7 @@ bool propose_halves(Workbench& bench, const SplitEdge& edge, Index v, const Spli
       const double q = quality3(bench.mesh, half);
       if (q <= 0) return false;
       after = std::min(after, q);
-      bench.cavity.propose(half, q);
+      bench.cavity.propose(half, q, bench.mesh.cells[c].material);
     }
   }
   return edge.urgent || after >= rule.quality3_min || after >= rule.quality3_loss * before;
@@ -78,10 +83,32 @@ bool split_edge(Workbench& bench, const SplitEdge& edge, const SplitRule& rule) 
   WorkingMesh& mesh = bench.mesh;
   if (mesh.vertices[edge.a].mask & mesh.vertices[edge.b].mask & kFrozen) return false;
   if (!bench.cavity.find_shell(edge.cell, edge.a, edge.b)) return false;
-  const Index v = make_middle(bench, edge.a, edge.b);
-  const bool placed = planes_of(mesh.box, mesh.vertices[v].position) == mesh.vertices[v].mask;
+  Features features;
+  if (mesh.shape != nullptr) features = edge_features(mesh, bench.cavity, {edge.a, edge.b});
+  const Index v = make_middle(bench, edge.a, edge.b, features);
+  const Vertex& middle = mesh.vertices[v];
+  const bool placed = planes_of(mesh.box, middle.position) == (middle.mask & kPlanes);
   if (!placed || (!edge.urgent && !keeps_distance(bench, edge, v, rule.new_length_min)) ||
       !propose_halves(bench, edge, v, rule)) {
+    mesh.free_vertex(v);
+    return false;
+  }
+  bench.cavity.replace(bench.cavity.shell());
+  return true;
+}
+
+bool split_edge_at(Workbench& bench, const SplitEdge& edge, double share) {
+  constexpr double kLeastShare = 0.03;
+  WorkingMesh& mesh = bench.mesh;
+  if (!bench.cavity.find_shell(edge.cell, edge.a, edge.b)) return false;
+  const Index v = mesh.new_vertex();
+  const Vertex &va = mesh.vertices[edge.a], &vb = mesh.vertices[edge.b];
+  Vertex& middle = mesh.vertices[v];
+  middle.mask = va.mask & vb.mask & kPlanes;
+  middle.position = point_between(mesh, va, vb, std::clamp(share, kLeastShare, 1 - kLeastShare));
+  middle.mask |= kOnSkin;
+  measure(middle, bench.sampler, va.hint);
+  if (!propose_halves(bench, {edge.cell, edge.a, edge.b, true}, v, {})) {
     mesh.free_vertex(v);
     return false;
   }

@@ -33,4 +33,8 @@ struct SplitEdge {
 /// @return whether it was split.
 bool split_edge(Workbench& bench, const SplitEdge& edge, const SplitRule& rule);
 
+/// Splits an edge where it crosses the border of a body: at a share of the way, kept off the ends.
+/// @return false if a new cell would not be positive.
+bool split_edge_at(Workbench& bench, const SplitEdge& edge, double share);
+
 }  // namespace mesamis::remeshing

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mesamis/remesh/geometry.h"
+#include "mesamis/remesh/skin.h"
 
 namespace mesamis::remeshing {
 namespace {
@@ -18,15 +19,27 @@ double energy_of(const WorkingMesh& mesh, std::span<const Index> cells) {
   return sum;
 }
 
+/// Rings of more points are left alone.
+constexpr std::size_t kMostRing = 12;
+
+/// A piece of the ring around an edge, whose cells are of one material.
+struct Arc {
+  std::array<Index, kMostRing> points;
+  std::size_t size = 0;
+  std::uint8_t material = 1;
+
+  void add(Index p) { points[size++] = p; }
+  /// A single cell between two points of the ring: it vanishes with the edge.
+  bool is_one_cell() const { return size == 2; }
+};
+
 /// Removal of an edge: its ring is triangulated, and each triangle joined to both ends of the
 /// edge. The best triangulation is found by dynamic programming over the ring's arcs.
 /// Source: Klincsek, Minimal triangulations of polygonal domains, 1980.
 class EdgeRemoval {
  public:
-  EdgeRemoval(const WorkingMesh& mesh, std::span<const Index> ring, std::array<Index, 2> edge)
-      : mesh_(mesh), ring_(ring), edge_(edge) {}
-
-  static constexpr std::size_t kMostRing = 12;
+  EdgeRemoval(const WorkingMesh& mesh, const Arc& arc, std::array<Index, 2> edge)
+      : mesh_(mesh), ring_(arc.points.data(), arc.size), material_(arc.material), edge_(edge) {}
 
   /// The least energy of the new cells, or kImpossible if none is below `limit`.
   double solve(double limit) {
@@ -80,23 +93,115 @@ class EdgeRemoval {
     propose_arc(cavity, i, k);
     propose_arc(cavity, k, j);
     for (const Cell& cell : {upper(i, k, j), lower(i, k, j)}) {
-      cavity.propose(cell, quality3(mesh_, cell));
+      cavity.propose(cell, quality3(mesh_, cell), material_);
     }
   }
 
   const WorkingMesh& mesh_;
   std::span<const Index> ring_;
+  std::uint8_t material_;
   std::array<Index, 2> edge_;
   std::array<std::array<double, kMostRing>, kMostRing> best_;
   std::array<std::array<std::uint8_t, kMostRing>, kMostRing> apex_;
 };
 
-/// An edge on one box plane can go, the face edges of its ring's ends meet in that plane; an
-/// edge of the box cannot.
-bool may_remove(const Cavity& cavity, unsigned shared_planes) {
-  const std::size_t ring = cavity.ring().size();
-  if (ring < 3 || ring > EdgeRemoval::kMostRing) return false;
-  return cavity.shell_is_closed() || shared_planes != 0;
+/// How an edge can be removed: the ring in one piece; of an edge on the skin between two materials,
+/// in two. None: it cannot.
+struct Removal {
+  std::array<Arc, 2> both{};
+  std::size_t count = 0;
+  std::span<const Arc> arcs() const { return {both.data(), count}; }
+  std::array<Index, 2> skin_edge{kNoIndex, kNoIndex};  ///< that takes the edge's place on the skin
+};
+
+using Edge = std::array<Index, 2>;
+
+/// Positions i of the ring where the cell before and the cell after differ in material.
+std::vector<std::size_t> material_changes(const WorkingMesh& mesh, const Cavity& cavity) {
+  const auto shell = cavity.shell();
+  std::vector<std::size_t> changes;  // takes no memory where there is none
+  for (std::size_t i = cavity.shell_is_closed() ? 0 : 1; i < shell.size(); ++i) {
+    const Index before = shell[i == 0 ? shell.size() - 1 : i - 1];
+    if (mesh.cells[before].material != mesh.cells[shell[i]].material) changes.push_back(i);
+  }
+  return changes;
+}
+
+/// The points of a closed ring from one position round to another.
+Arc arc_between(const WorkingMesh& mesh, const Cavity& cavity, std::size_t from, std::size_t to) {
+  const auto ring = cavity.ring();
+  Arc arc;
+  arc.material = mesh.cells[cavity.shell()[from]].material;
+  arc.add(ring[from]);
+  for (std::size_t i = from; i != to;) {
+    i = (i + 1) % ring.size();
+    arc.add(ring[i]);
+  }
+  return arc;
+}
+
+bool is_in_plane(const WorkingMesh& mesh, const Edge& edge, Index p) {
+  return mesh.vertices[edge[0]].mask & mesh.vertices[edge[1]].mask & mesh.vertices[p].mask &
+         kPlanes;
+}
+
+Removal whole_ring(const WorkingMesh& mesh, const Cavity& cavity) {
+  Removal removal{.count = 1};
+  removal.both[0].material = mesh.cells[cavity.shell()[0]].material;
+  for (const Index p : cavity.ring()) removal.both[0].add(p);
+  return removal;
+}
+
+/// An edge on one box plane can go, the face edges of its ring's ends meet in that plane; an edge
+/// of the box cannot, nor one where the skin meets a plane or a third material.
+Removal find_removal(const WorkingMesh& mesh, const Cavity& cavity, const Edge& edge) {
+  const auto ring = cavity.ring();
+  if (ring.size() > kMostRing) return {};
+  const auto changes = material_changes(mesh, cavity);
+  if (cavity.shell_is_closed()) {
+    if (ring.size() < 3) return {};
+    if (changes.empty()) return whole_ring(mesh, cavity);
+    if (changes.size() != 2) return {};
+    return {{arc_between(mesh, cavity, changes[0], changes[1]),
+             arc_between(mesh, cavity, changes[1], changes[0])},
+            2,
+            {ring[changes[0]], ring[changes[1]]}};
+  }
+  const bool first_in_plane = is_in_plane(mesh, edge, ring.front());
+  if (!changes.empty() || first_in_plane != is_in_plane(mesh, edge, ring.back())) return {};
+  if (first_in_plane && ring.size() < 3) return {};
+  Removal removal = whole_ring(mesh, cavity);
+  if (!first_in_plane) removal.skin_edge = {ring.front(), ring.back()};
+  return removal;
+}
+
+/// Whether one of the arcs is a single cell, which vanishes: the skin then passes over it.
+bool peels_a_cell(const Removal& removal) {
+  return std::ranges::any_of(removal.arcs(), &Arc::is_one_cell);
+}
+
+/// Whether the skin may turn its edge (a, b) into the removal's: the new one is not there yet, or
+/// not on the skin yet, and the new triangles are as near to the border as they must be.
+bool may_turn_skin(Workbench& bench, const Edge& edge, const Removal& removal) {
+  const WorkingMesh& mesh = bench.mesh;
+  const auto [p, q] = removal.skin_edge;
+  const unsigned frozen = mesh.vertices[p].mask & mesh.vertices[q].mask & kFrozen;
+  if (mesh.shape == nullptr || frozen) return false;
+  auto at = [&mesh](Index v) { return mesh.vertices[v].position; };
+  const std::array<Corners3, 2> before{Corners3{at(edge[0]), at(edge[1]), at(p)},
+                                       Corners3{at(edge[1]), at(edge[0]), at(q)}};
+  const std::array<Corners3, 2> after{Corners3{at(edge[1]), at(p), at(q)},
+                                      Corners3{at(edge[0]), at(q), at(p)}};
+  if (!may_replace_skin(mesh, before, after)) return false;
+  if (!peels_a_cell(removal)) return !has_edge(bench, p, q);
+  const auto shell = bench.cavity.shell();
+  const Index cell = *std::ranges::find_if(shell, [&](Index c) {
+    return local_index(mesh.cells[c].points, p) >= 0 && local_index(mesh.cells[c].points, q) >= 0;
+  });
+  const bool is_inside =
+      bench.cavity.find_shell(cell, p, q) && !edge_features(mesh, bench.cavity, {p, q}).on_skin();
+  bench.cavity.find_shell(cell, edge[0], edge[1]);
+  return is_inside;
 }
 
 struct BestSwap {
@@ -123,12 +228,31 @@ double hopeless_energy(std::size_t cells) {
   return kPerCell[std::clamp<std::size_t>(cells, 4, 7) - 4] * static_cast<double>(cells);
 }
 
+/// A cell of no more energy is not peeled off the skin.
+constexpr double kPeelEnergy = 20;
+
+/// The energy after an edge was removed, or kImpossible if it is not below `limit`.
+double energy_without(const WorkingMesh& mesh, const Edge& edge, const Removal& removal,
+                      double limit) {
+  double sum = 0;
+  for (const Arc& arc : removal.arcs()) {
+    if (arc.is_one_cell()) continue;
+    sum += EdgeRemoval(mesh, arc, edge).solve(limit - sum);
+    if (!(sum < limit)) return kImpossible;
+  }
+  return sum;
+}
+
 /// The energy that removing the edge of the present shell saves, or 0 if no more than `gain`.
-double edge_removal_gain(const Workbench& bench, const std::array<Index, 2>& edge, double gain) {
+double edge_removal_gain(Workbench& bench, const Edge& edge, double gain) {
   const double before = energy_of(bench.mesh, bench.cavity.shell());
   if (before <= std::max(gain, hopeless_energy(bench.cavity.shell().size()))) return 0;
-  const double after = EdgeRemoval(bench.mesh, bench.cavity.ring(), edge).solve(before - gain);
-  return after == kImpossible ? 0 : before - after;
+  const Removal removal = find_removal(bench.mesh, bench.cavity, edge);
+  if (removal.count == 0 || (peels_a_cell(removal) && before < kPeelEnergy)) return 0;
+  const double after = energy_without(bench.mesh, edge, removal, before - gain);
+  if (after == kImpossible) return 0;
+  const bool turns_skin = removal.skin_edge[0] != kNoIndex;
+  return turns_skin && !may_turn_skin(bench, edge, removal) ? 0 : before - after;
 }
 
 void try_edge_removals(Workbench& bench, Index cell, BestSwap& best) {
@@ -140,8 +264,7 @@ void try_edge_removals(Workbench& bench, Index cell, BestSwap& best) {
     const unsigned shared = mesh.vertices[edge[0]].mask & mesh.vertices[edge[1]].mask;
     if ((shared & kFrozen) || std::popcount(shared & kPlanes) > 1) continue;
     if (!bench.cavity.find_shell(cell, edge[0], edge[1])) continue;
-    double gain = 0;
-    if (may_remove(bench.cavity, shared)) gain = edge_removal_gain(bench, edge, best.gain);
+    const double gain = edge_removal_gain(bench, edge, best.gain);
     if (gain > best.gain) {
       best = {gain, e, -1};
     } else if (best.edge < 0) {
@@ -178,6 +301,7 @@ void try_face_removals(WorkingMesh& mesh, Index cell, BestSwap& best) {
   for (int f = 0; f < 4; ++f) {
     const FaceRef across = mesh.cells[cell].neighbors[f];
     if (across == kNoIndex || is_tried(mesh.cells[cell], 6 + f)) continue;
+    if (mesh.cells[cell_of(across)].material != mesh.cells[cell].material) continue;
     const double gain = face_removal_gain(mesh, cell, f, best.gain);
     if (gain > best.gain) {
       best = {gain, -1, f};
@@ -188,25 +312,34 @@ void try_face_removals(WorkingMesh& mesh, Index cell, BestSwap& best) {
   }
 }
 
+/// Proposes the best triangulation of the arcs; what it may cost at most must be known.
+bool propose_removal(Workbench& bench, const Edge& edge, const Removal& removal, double limit) {
+  bench.cavity.clear();
+  for (const Arc& arc : removal.arcs()) {
+    if (arc.is_one_cell()) continue;
+    EdgeRemoval triangulation(bench.mesh, arc, edge);
+    const double energy = triangulation.solve(limit);
+    if (energy == kImpossible) return false;
+    limit -= energy;
+    triangulation.propose(bench.cavity);
+  }
+  return true;
+}
+
 bool remove_edge(Workbench& bench, Index cell, int local_edge) {
   const Cell points = bench.mesh.cells[cell].points;
-  const std::array<Index, 2> edge{points[kCellEdges[local_edge][0]],
-                                  points[kCellEdges[local_edge][1]]};
+  const Edge edge{points[kCellEdges[local_edge][0]], points[kCellEdges[local_edge][1]]};
   bench.cavity.find_shell(cell, edge[0], edge[1]);
-  EdgeRemoval removal(bench.mesh, bench.cavity.ring(), edge);
-  if (removal.solve(energy_of(bench.mesh, bench.cavity.shell())) == kImpossible) return false;
-  bench.cavity.clear();
-  removal.propose(bench.cavity);
+  const Removal removal = find_removal(bench.mesh, bench.cavity, edge);
+  const double before = energy_of(bench.mesh, bench.cavity.shell());
+  if (!propose_removal(bench, edge, removal, before)) return false;
   bench.cavity.replace(bench.cavity.shell());
   return true;
 }
 
 void remove_face(Workbench& bench, Index cell, int face) {
   const std::array<Index, 2> old_cells{cell, cell_of(bench.mesh.cells[cell].neighbors[face])};
-  bench.cavity.clear();
-  for (const Cell& c : cells_through_face(bench.mesh, cell, face)) {
-    bench.cavity.propose(c, quality3(bench.mesh, c));
-  }
+  propose_without_face(bench, cell, face);
   bench.cavity.replace(old_cells);
 }
 
@@ -229,6 +362,27 @@ std::int64_t swap_bad_cells(Workbench& bench, const SwapRule& rule) {
     if (take_pending(bench.mesh, c, kToSwap)) swaps += swap_around_cell(bench, c, rule.gain);
   }
   return swaps;
+}
+
+bool propose_without_edge(Workbench& bench, Index cell, std::array<Index, 2> edge) {
+  const auto& vertices = bench.mesh.vertices;
+  const unsigned shared = vertices[edge[0]].mask & vertices[edge[1]].mask;
+  if ((shared & kFrozen) || std::popcount(shared & kPlanes) > 1) return false;
+  if (!bench.cavity.find_shell(cell, edge[0], edge[1])) return false;
+  const Removal removal = find_removal(bench.mesh, bench.cavity, edge);
+  if (removal.count == 0 || !propose_removal(bench, edge, removal, 1 / kTinyQuality3)) return false;
+  return removal.skin_edge[0] == kNoIndex || may_turn_skin(bench, edge, removal);
+}
+
+bool propose_without_face(Workbench& bench, Index cell, int face) {
+  const WorkCell& k = bench.mesh.cells[cell];
+  const FaceRef across = k.neighbors[face];
+  if (across == kNoIndex || bench.mesh.cells[cell_of(across)].material != k.material) return false;
+  bench.cavity.clear();
+  for (const Cell& c : cells_through_face(bench.mesh, cell, face)) {
+    bench.cavity.propose(c, quality3(bench.mesh, c), k.material);
+  }
+  return true;
 }
 
 }  // namespace mesamis::remeshing

@@ -35,7 +35,8 @@ struct Workbench {
   WorkingMesh& mesh;
   const MetricSampler& sampler;
   Cavity cavity;
-  VertexSet seen;
+  VertexSet seen, met;
+  std::vector<Index> other_ball;
   BallShape shape;
 };
 

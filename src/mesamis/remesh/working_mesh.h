@@ -11,10 +11,16 @@
 #include "mesamis/remesh/metric_sampler.h"
 
 /// The remesher's own mesh: data that changes often lies close together in memory.
+namespace mesamis {
+class BodyShape;
+}
+
 namespace mesamis::remeshing {
 
 /// Bits of Vertex::mask: the planes of the box that hold the vertex, see planes_of().
 inline constexpr std::uint8_t kPlanes = 0x3f;
+/// The vertex is on the skin of a body, see skin.h; never again off it once it is there.
+inline constexpr std::uint8_t kOnSkin = 0x40;
 /// The vertex is shared with another part and must not change now.
 inline constexpr std::uint8_t kFrozen = 0x80;
 
@@ -48,6 +54,7 @@ struct WorkCell {
   float quality3 = 0;      ///< cube of the mean ratio in the metric
   std::uint32_t mark = 0;  ///< Cavity's
   std::uint8_t pending = kToAll;
+  std::uint8_t material = 1;  ///< of a body: which of its objects; 1 where there is no body
   /// Swap's: bit e, the removal of edge e was found useless; bit 6 + f, that of face f. Holds
   /// until a cell around the edge or face changes, which then is new and tries again itself.
   std::uint16_t tried = 0;
@@ -69,6 +76,9 @@ struct WorkingMesh {
   std::vector<WorkCell> cells;
   std::vector<Index> free_vertices, free_cells;
   bool is_part = false;  ///< some vertices may be frozen
+  /// Of a body, whose cells outside are left out: where its skin is kept. Null: the cells fill the
+  /// box.
+  const BodyShape* shape = nullptr;
 
   std::int64_t vertex_count() const { return std::ssize(vertices) - std::ssize(free_vertices); }
   std::int64_t cell_count() const { return std::ssize(cells) - std::ssize(free_cells); }

@@ -13,6 +13,7 @@ set(ROOM_HEADERS
   sampling.h
   select_parts.h
   self_intersections.h
+  signed_distance.h
   smooth_memberships.h
   split_edges.h
   tri_mesh.h
@@ -50,6 +51,7 @@ set(ROOM_SOURCES
   sampling.cpp
   select_parts.cpp
   self_intersections.cpp
+  signed_distance.cpp
   smooth_memberships.cpp
   split_edges.cpp
   tri_mesh.cpp

@@ -100,7 +100,11 @@ TriangleTree::TriangleTree(const TriMesh& surface) {
   triangles_ = std::move(corners);
   build(items, 0, items.size());
   std::vector<Corners> sorted(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) sorted[i] = triangles_[items[i].triangle];
+  order_.resize(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    order_[i] = items[i].triangle;
+    sorted[i] = triangles_[items[i].triangle];
+  }
   triangles_ = std::move(sorted);
 }
 

@@ -26,6 +26,8 @@ class TriangleTree {
 
   /// The triangle a search ended at.
   const Corners& triangle(std::size_t hint) const { return triangles_[hint]; }
+  /// Its index in the surface.
+  Index index_of(std::size_t hint) const { return order_[hint]; }
 
  private:
   struct Node {
@@ -40,6 +42,7 @@ class TriangleTree {
 
   std::vector<Node> nodes_;
   std::vector<Corners> triangles_;  // in the order of the leaves
+  std::vector<Index> order_;        // of the triangles there
 };
 
 }  // namespace mesamis

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/body/body_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "mesamis/base/error.h"
+#include "mesamis/body/wall_width.h"
+#include "mesamis/mesh/tet_mesh.h"
+
+namespace mesamis {
+namespace {
+
+constexpr std::size_t kMostObjects = 255;
+
+/// The triangles that do not lie in a plane of the box.
+TriMesh without_caps(const TriMesh& surface, const Box& box) {
+  TriMesh rest{surface.points, {}};
+  for (const Triangle& t : surface.triangles) {
+    const auto& p = surface.points;
+    if (planes_of(box, p[t[0]]) & planes_of(box, p[t[1]]) & planes_of(box, p[t[2]])) continue;
+    rest.triangles.push_back(t);
+  }
+  return rest;
+}
+
+Vec3 clamped(const Vec3& p, const Box& box) {
+  return {std::clamp(p.x, box.lo.x, box.hi.x), std::clamp(p.y, box.lo.y, box.hi.y),
+          std::clamp(p.z, box.lo.z, box.hi.z)};
+}
+
+double squared_distance_to(const Box& box, const Vec3& p) {
+  const Vec3 way = p - clamped(p, box);
+  return dot(way, way);
+}
+
+}  // namespace
+
+BodySurface::BodySurface(std::span<const TriMesh> surfaces, const Box& box, double tolerance)
+    : box_(box), inner_box_(box), tolerance_(tolerance) {
+  if (surfaces.empty() || surfaces.size() > kMostObjects) {
+    throw InputError("body: expected 1 to 255 objects, found " + std::to_string(surfaces.size()));
+  }
+  // A point in a plane of the box is asked for a little inside: there its sign is certain.
+  constexpr double kInward = 1e-6;
+  const Vec3 inward = kInward * norm(box.extent()) * Vec3{1, 1, 1};
+  inner_box_ = {box.lo + inward, box.hi - inward};
+  for (const TriMesh& surface : surfaces) {
+    const TriMesh rest = without_caps(surface, box);
+    auto part = std::make_unique<Part>(
+        Part{bounding_box(surface.points), SignedDistance(surface), std::nullopt});
+    if (rest.triangles.size() < surface.triangles.size()) part->off_box.emplace(rest);
+    measure_walls(*part, surface, rest);
+    parts_.push_back(std::move(part));
+  }
+}
+
+// Less than a quarter of a wall or a gap, so that its two sides never meet.
+void BodySurface::measure_walls(Part& part, const TriMesh& surface, const TriMesh& skin) const {
+  constexpr double kShare = 0.2, kLeastShare = 0.05;
+  const double widest = norm(part.box.extent());
+  part.thickness = wall_widths(surface, part.whole, Side::kWall, widest);
+  const auto gaps = wall_widths(surface, part.whole, Side::kGap, widest);
+  part.tolerance.reserve(skin.triangles.size());
+  for (const Triangle& t : skin.triangles) {
+    double room = std::numeric_limits<double>::infinity();
+    for (const Index p : t) room = std::min({room, part.thickness[p], gaps[p]});
+    part.tolerance.push_back(std::clamp(kShare * room, kLeastShare * tolerance_, tolerance_));
+  }
+}
+
+Vec3 BodySurface::off_planes(const Vec3& p) const { return clamped(p, inner_box_); }
+
+double BodySurface::signed_distance(Material object, const Vec3& p) const {
+  const Part& part = *parts_[object - 1U];
+  const double d = part.whole.at(off_planes(p)).signed_to;
+  if (!part.off_box) return d;
+  return std::copysign(part.off_box->at(p).distance, d);
+}
+
+Material BodySurface::material_at(const Vec3& p) const {
+  const Vec3 inside = off_planes(p);
+  Material deepest = kOutside;
+  double least = 0;
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    if (!parts_[k]->box.contains(inside)) continue;
+    const double d = signed_distance(static_cast<Material>(k + 1), p);
+    if (!(d < least)) continue;
+    least = d;
+    deepest = static_cast<Material>(k + 1);
+  }
+  return deepest;
+}
+
+// Regula falsi with halved ends (Illinois): a bracket that always holds, and few look-ups where the
+// distance is nearly linear.
+double BodySurface::crossing(const Vec3& a, const Vec3& b) const {
+  constexpr int kSteps = 12;
+  constexpr double kFine = 1e-4;
+  const Material of_a = material_at(a);
+  const Material object = of_a != kOutside ? of_a : material_at(b);
+  auto value = [&](double t) { return signed_distance(object, a + t * (b - a)); };
+  double low = 0, high = 1, at_low = value(0), at_high = value(1);
+  if ((at_low < 0) == (at_high < 0)) return 0.5;
+  int last = 0;
+  double t = 0.5;
+  for (int step = 0; step < kSteps && high - low > kFine; ++step) {
+    t = low + (high - low) * std::clamp(at_low / (at_low - at_high), 0.01, 0.99);
+    const double here = value(t);
+    if (std::abs(here) < kFine * norm(b - a)) return t;
+    const bool moves_low = (here < 0) == (at_low < 0);
+    (moves_low ? low : high) = t;
+    (moves_low ? at_low : at_high) = here;
+    const int side = moves_low ? -1 : 1;
+    if (side == last) (moves_low ? at_high : at_low) *= 0.5;
+    last = side;
+  }
+  return t;
+}
+
+BorderPoint BodySurface::nearest_border(const Vec3& p) const {
+  BorderPoint nearest{p, tolerance_};
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& part : parts_) {
+    if (least < std::numeric_limits<double>::infinity() &&
+        squared_distance_to(part->box, p) >= least * least) {
+      continue;
+    }
+    const NearestPoint found = part->skin().at(p);
+    if (found.distance >= least) continue;
+    least = found.distance;
+    nearest = {found.point, part->tolerance[found.triangle]};
+  }
+  return nearest;
+}
+
+}  // namespace mesamis

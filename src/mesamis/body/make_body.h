@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "mesamis/base/progress.h"
+#include "mesamis/mesh/element_quality.h"
+#include "mesamis/remesh/body.h"
+#include "mesamis/surface/tri_mesh.h"
+
+namespace mesamis {
+
+/// What elements a body shall have.
+struct BodyOptions {
+  double element_size = 0;   ///< wanted edge length, mm; 0: a thirtieth of the body's longest side
+  double least_size = 0;     ///< edges are not wanted shorter, mm; 0: a quarter of the element size
+  double tolerance = 0.1;    ///< how far the skin may lie from the surfaces, mm, > 0
+  double gradation = 0.5;    ///< by how much sizes may grow over a length, no unit, > 0
+  int through_wall = 1;      ///< elements wanted between two sides of a wall; 0: any
+  double part_share = 1e-3;  ///< smaller parts, as a share of the whole volume, are left out: a
+                             ///< solver cannot hold what hangs on nothing; 0: none
+  Progress progress;         ///< optional
+};
+
+/// A body for finite elements.
+struct Body {
+  BodyMesh elements;        ///< object k of the surfaces has the material k, from 1 on
+  ElementQuality quality;   ///< of all elements
+  double element_size = 0;  ///< that was aimed at, mm
+  std::int64_t parts = 0, parts_dropped = 0;  ///< connected by faces
+  RemeshReport remeshing;
+  struct Seconds {
+    double sizes = 0, start = 0, body = 0, total = 0;
+  } seconds;
+};
+
+/// Fills surfaces with well shaped tetrahedra, whose boundary lies within the tolerance of them.
+///
+/// Sizes follow the element size, curvature and thickness (size_field()); a mesh of the box is made
+/// for them (remesh()), cut at the surfaces and improved with its skin kept (remesh_body()).
+/// @param surfaces  1 to 255 objects, closed, 2-manifold, oriented outward, mm; what two share is
+///                  the same in both.
+/// @param box       mm, around all of them: where a surface lies on one of its planes, so will the
+///                  body.
+/// @throws InputError  as BodySurface and remesh_body(), or where the element size is larger than
+///                     the body.
+/// @throws Cancelled   if progress says stop.
+///
+/// Time and memory as remesh() for about twice the elements. The same bits for any number of
+/// threads.
+Body make_body(std::span<const TriMesh> surfaces, const Box& box, const BodyOptions& options);
+
+/// The boundary of one object of a body: closed, its triangles turned outward.
+/// @param object  from 1 on; 0: of all objects together, without what two of them share.
+/// @return the points that the boundary uses, in the order of the body's.
+/// @throws InputError  as cell_neighbors().
+///
+/// O(m log d) for m elements, see cell_neighbors().
+TriMesh body_skin(const BodyMesh& body, Material object = kOutside);
+
+}  // namespace mesamis

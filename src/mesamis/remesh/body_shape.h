@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "mesamis/base/types.h"
+
+namespace mesamis {
+
+/// What fills a cell of a body: 0 outside, else one of its objects.
+using Material = std::uint8_t;
+inline constexpr Material kOutside = 0;
+
+/// A point of the border between materials.
+struct BorderPoint {
+  Vec3 point;            ///< mm
+  double tolerance = 0;  ///< how far the middle of a triangle of the skin may lie from there, mm
+};
+
+/// Where the materials of a body lie, as remesh_body() asks for it. Implementations are immutable:
+/// any number of threads may call them at once.
+class BodyShape {
+ public:
+  virtual ~BodyShape() = default;
+
+  /// The material at a point. @param p  mm, in the box of the mesh.
+  virtual Material material_at(const Vec3& p) const = 0;
+
+  /// Where the way from a to b, whose materials differ, leaves that of a.
+  /// @param a, b  mm.
+  /// @return the share of the way, 0 to 1.
+  virtual double crossing(const Vec3& a, const Vec3& b) const = 0;
+
+  /// The nearest point of the border between materials; faces of the mesh's box do not count.
+  /// @param p  mm.
+  virtual BorderPoint nearest_border(const Vec3& p) const = 0;
+};
+
+}  // namespace mesamis

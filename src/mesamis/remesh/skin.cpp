@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/remesh/skin.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "mesamis/remesh/body_shape.h"
+
+namespace mesamis::remeshing {
+namespace {
+
+/// The points of a face, turned out of its cell.
+std::array<Index, 3> face_points(const Cell& cell, int face) {
+  const auto& f = kCellFaces[static_cast<std::size_t>(face)];
+  return {cell[f[0]], cell[f[1]], cell[f[2]]};
+}
+
+unsigned shared_planes(const WorkingMesh& mesh, std::span<const Index> points) {
+  unsigned planes = kPlanes;
+  for (const Index p : points) planes &= mesh.vertices[p].mask;
+  return planes;
+}
+
+/// Calls visit(cell, face) for the faces of the skin at a vertex. A face between two materials is
+/// visited once, from the one with the lower number.
+template <class Visit>
+void for_each_skin_face(const WorkingMesh& mesh, std::span<const Index> ball, Index vertex,
+                        Visit&& visit) {
+  for (const Index c : ball) {
+    const WorkCell& cell = mesh.cells[c];
+    for (int f = 0; f < 4; ++f) {
+      if (cell.points[f] == vertex || !is_skin(mesh, c, f)) continue;
+      const FaceRef n = cell.neighbors[f];
+      if (n != kNoIndex && mesh.cells[cell_of(n)].material < cell.material) continue;
+      visit(c, f);
+    }
+  }
+}
+
+Vec3 area_normal(const Corners3& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+
+/// How far a triangle's middle and the middles of its sides lie from the border, in tolerances.
+double deviation(const WorkingMesh& mesh, const Corners3& t) {
+  double farthest = deviation(mesh, (1.0 / 3) * (t[0] + t[1] + t[2]));
+  for (std::size_t i = 0; i < 3; ++i) {
+    farthest = std::max(farthest, deviation(mesh, 0.5 * (t[i] + t[(i + 1) % 3])));
+  }
+  return farthest;
+}
+
+double deviation(const WorkingMesh& mesh, std::span<const Corners3> triangles) {
+  double farthest = 0;
+  for (const Corners3& t : triangles) farthest = std::max(farthest, deviation(mesh, t));
+  return farthest;
+}
+
+/// The vertices that faces of the skin at a vertex join to it.
+void insert_skin_neighbors(const WorkingMesh& mesh, std::span<const Index> ball, Index vertex,
+                           VertexSet& into) {
+  for_each_skin_face(mesh, ball, vertex, [&](Index c, int f) {
+    for (const Index p : face_points(mesh.cells[c].points, f)) into.insert(p);
+  });
+}
+
+void insert_points(const WorkingMesh& mesh, std::span<const Index> cells, VertexSet& into) {
+  for (const Index c : cells) {
+    for (const Index p : mesh.cells[c].points) into.insert(p);
+  }
+}
+
+/// The link condition for an edge of the skin: whatever both ends meet, the edge meets too. Else
+/// the collapse would glue two parts of the body, or of its skin, together.
+/// Source: Dey, Edelsbrunner, Guha and Nekhayev, Topology preserving edge contraction, 1999.
+class LinkCondition {
+ public:
+  LinkCondition(Workbench& bench, std::span<const Index> ball, std::array<Index, 2> edge)
+      : mesh_(bench.mesh),
+        cavity_(bench.cavity),
+        first_(bench.seen),
+        second_(bench.met),
+        ball_(ball),
+        edge_(edge),
+        other_ball_(bench.other_ball) {
+    bench.cavity.collect_ball(edge[1], other_ball_);
+  }
+
+  bool holds() {
+    return !other_ball_.empty() && no_cell_has_both_skins() && common_points_are_in_ring() &&
+           common_skin_is_at_edge() && common_edges_are_in_ring();
+  }
+
+ private:
+  /// A cell with a face of the skin opposite either end would leave two sheets behind.
+  bool no_cell_has_both_skins() const {
+    return std::ranges::none_of(cavity_.shell(), [this](Index c) {
+      const Cell& points = mesh_.cells[c].points;
+      return is_skin(mesh_, c, local_index(points, edge_[0])) &&
+             is_skin(mesh_, c, local_index(points, edge_[1]));
+    });
+  }
+
+  bool is_in_ring(Index p) const {
+    const auto ring = cavity_.ring();
+    return std::find(ring.begin(), ring.end(), p) != ring.end();
+  }
+
+  bool common_points_are_in_ring() {
+    first_.clear();
+    insert_points(mesh_, other_ball_, first_);
+    for (const Index c : ball_) {
+      for (const Index p : mesh_.cells[c].points) {
+        if (p == edge_[0] || p == edge_[1] || is_in_ring(p)) continue;
+        if (!first_.insert(p)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Points that the skin joins to both ends belong to faces of the skin at the edge.
+  bool common_skin_is_at_edge() {
+    first_.clear();
+    second_.clear();
+    insert_skin_neighbors(mesh_, ball_, edge_[0], first_);
+    insert_skin_neighbors(mesh_, other_ball_, edge_[1], second_);
+    for (const Index p : cavity_.ring()) {
+      if (first_.insert(p) || second_.insert(p)) continue;
+      if (!is_skin_at_edge(p)) return false;
+    }
+    return true;
+  }
+
+  bool is_skin_at_edge(Index p) const {
+    for (const Index c : cavity_.shell()) {
+      const Cell& points = mesh_.cells[c].points;
+      if (local_index(points, p) < 0) continue;
+      for (int f = 0; f < 4; ++f) {
+        const Index other = points[f];
+        if (other == p || other == edge_[0] || other == edge_[1]) continue;
+        if (is_skin(mesh_, c, f)) return true;
+      }
+    }
+    return false;
+  }
+
+  using Pair = std::array<Index, 2>;
+
+  /// Edges between two points of the ring, of cells around one end and not around the other.
+  std::vector<Pair> ring_edges(std::span<const Index> cells, Index without) const {
+    std::vector<Pair> edges;
+    for (const Index c : cells) {
+      const Cell& points = mesh_.cells[c].points;
+      if (local_index(points, without) >= 0) continue;
+      for (const auto& [i, j] : kCellEdges) {
+        if (!is_in_ring(points[i]) || !is_in_ring(points[j])) continue;
+        edges.push_back({std::min(points[i], points[j]), std::max(points[i], points[j])});
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    return edges;
+  }
+
+  bool is_ring_edge(const Pair& edge) const {
+    return std::ranges::any_of(cavity_.shell(), [&](Index c) {
+      const Cell& points = mesh_.cells[c].points;
+      return local_index(points, edge[0]) >= 0 && local_index(points, edge[1]) >= 0;
+    });
+  }
+
+  bool common_edges_are_in_ring() const {
+    const auto first = ring_edges(ball_, edge_[1]), second = ring_edges(other_ball_, edge_[0]);
+    return std::ranges::none_of(first, [&](const Pair& edge) {
+      return std::binary_search(second.begin(), second.end(), edge) && !is_ring_edge(edge);
+    });
+  }
+
+  const WorkingMesh& mesh_;
+  const Cavity& cavity_;
+  VertexSet &first_, &second_;
+  std::span<const Index> ball_;
+  std::array<Index, 2> edge_;
+  std::vector<Index>& other_ball_;
+};
+
+}  // namespace
+
+double deviation(const WorkingMesh& mesh, const Vec3& p) {
+  const BorderPoint border = mesh.shape->nearest_border(p);
+  return norm(border.point - p) / border.tolerance;
+}
+
+int Features::freedom() const {
+  if (materials.count() > 2) return 0;
+  return std::max(0, 3 - std::popcount(planes) - (on_skin() ? 1 : 0));
+}
+
+bool is_skin(const WorkingMesh& mesh, Index cell, int face) {
+  if (mesh.shape == nullptr) return false;
+  const WorkCell& k = mesh.cells[cell];
+  const FaceRef n = k.neighbors[face];
+  if (n != kNoIndex) return mesh.cells[cell_of(n)].material != k.material;
+  return shared_planes(mesh, face_points(k.points, face)) == 0;
+}
+
+Features vertex_features(const WorkingMesh& mesh, std::span<const Index> ball, Index vertex) {
+  Features features;
+  features.planes = mesh.vertices[vertex].mask & kPlanes;
+  for (const Index c : ball) features.materials.set(mesh.cells[c].material);
+  for_each_skin_face(mesh, ball, vertex, [&](Index c, int f) {
+    if (mesh.cells[c].neighbors[f] == kNoIndex) features.materials.set(kOutside);
+  });
+  return features;
+}
+
+Features edge_features(const WorkingMesh& mesh, const Cavity& cavity, std::array<Index, 2> edge) {
+  Features features;
+  features.planes = shared_planes(mesh, edge);
+  for (const Index c : cavity.shell()) features.materials.set(mesh.cells[c].material);
+  if (cavity.shell_is_closed()) return features;
+  for (const Index end : {cavity.ring().front(), cavity.ring().back()}) {
+    if (shared_planes(mesh, std::array{edge[0], edge[1], end}) == 0) {
+      features.materials.set(kOutside);
+    }
+  }
+  return features;
+}
+
+Vec3 onto_features(const WorkingMesh& mesh, Vec3 position, const Features& features) {
+  if (!features.on_skin()) return position;
+  const int steps = features.planes == 0 ? 1 : 4;
+  for (int step = 0; step < steps; ++step) {
+    position = mesh.shape->nearest_border(position).point;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (features.planes >> (2 * axis) & 1) position[axis] = mesh.box.lo[axis];
+      if (features.planes >> (2 * axis) & 2) position[axis] = mesh.box.hi[axis];
+    }
+  }
+  return position;
+}
+
+Vec3 skin_normal(const WorkingMesh& mesh, std::span<const Index> ball, Index vertex) {
+  Vec3 sum;
+  for (const Corners3& t : skin_triangles(mesh, ball, vertex, mesh.vertices[vertex].position)) {
+    sum += area_normal(t);
+  }
+  return unit_or_zero(sum);
+}
+
+bool may_replace_skin(const WorkingMesh& mesh, std::span<const Corners3> old_triangles,
+                      std::span<const Corners3> new_triangles) {
+  constexpr double kMostTurn = 0.5;  // cosine
+  Vec3 sum;
+  for (const Corners3& t : old_triangles) sum += area_normal(t);
+  const Vec3 before = unit_or_zero(sum);
+  for (const Corners3& t : new_triangles) {
+    const Vec3 normal = area_normal(t);
+    if (!(dot(normal, before) > kMostTurn * norm(normal))) return false;
+  }
+  const double after = deviation(mesh, new_triangles);
+  return after <= 1 || after <= deviation(mesh, old_triangles);
+}
+
+std::vector<Corners3> skin_triangles(const WorkingMesh& mesh, std::span<const Index> ball,
+                                     Index vertex, const Vec3& at) {
+  std::vector<Corners3> triangles;
+  for_each_skin_face(mesh, ball, vertex, [&](Index c, int f) {
+    Corners3 corners;
+    const auto points = face_points(mesh.cells[c].points, f);
+    for (std::size_t i = 0; i < 3; ++i) {
+      corners[i] = points[i] == vertex ? at : mesh.vertices[points[i]].position;
+    }
+    triangles.push_back(corners);
+  });
+  return triangles;
+}
+
+bool may_collapse_on_skin(Workbench& bench, std::span<const Index> ball, Index vertex, Index onto) {
+  const WorkingMesh& mesh = bench.mesh;
+  const Vertex& target = mesh.vertices[onto];
+  if (!(target.mask & kOnSkin) || (target.mask & kFrozen)) return false;
+  const auto cell = std::ranges::find_if(
+      ball, [&](Index c) { return local_index(mesh.cells[c].points, onto) >= 0; });
+  if (cell == ball.end() || !bench.cavity.find_shell(*cell, vertex, onto)) return false;
+  if (edge_features(mesh, bench.cavity, {vertex, onto}) != vertex_features(mesh, ball, vertex)) {
+    return false;
+  }
+  if (!LinkCondition(bench, ball, {vertex, onto}).holds()) return false;
+  const auto before = skin_triangles(mesh, ball, vertex, mesh.vertices[vertex].position);
+  auto after = skin_triangles(mesh, ball, vertex, target.position);
+  std::erase_if(after, [&](const Corners3& t) {  // those that had both ends
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  });
+  return may_replace_skin(mesh, before, after);
+}
+
+bool has_edge(Workbench& bench, Index a, Index b) {
+  if (bench.mesh.vertices[a].mask & kFrozen) std::swap(a, b);
+  std::vector<Index>& ball = bench.other_ball;
+  bench.cavity.collect_ball(a, ball);
+  return ball.empty() || std::ranges::any_of(ball, [&](Index c) {
+           return local_index(bench.mesh.cells[c].points, b) >= 0;
+         });
+}
+
+}  // namespace mesamis::remeshing
