@@ -27,6 +27,7 @@ const std::map<std::string, std::set<std::string>> kSees{
     {"decimate", {"base", "mesh", "surface"}},
     {"phantom", {"base", "image", "mesh", "surface"}},
     {"labels", {"base", "image", "mesh", "fem", "surface"}},
+    {"material", {"base", "image", "mesh"}},
     {"method",
      {"base", "image", "restore", "object", "mesh", "fem", "segment", "adapt", "remesh", "surface",
       "decimate", "labels"}},

@@ -50,7 +50,8 @@ bool names_unit(const DoorFunction& f) {
   return has(f.doc,
              "\\bmm\\b|\\bvoxels?\\b|\\bnative\\b|\\bgr[ea]y\\b|\\bHU\\b|%|\\bpercent\\b|"
              "\\bdegrees?\\b|\\bradians?\\b|\\bbytes?\\b|\\bseconds?\\b|\\bms\\b|\\bpixels?\\b|"
-             "\\bdpi\\b|\\bdimensionless\\b|\\bno unit\\b|\\bany unit\\b|\\bunits? of\\b") ||
+             "\\bMPa\\b|\\bg/cm|\\bdpi\\b|\\bdimensionless\\b|\\bno unit\\b|\\bany "
+             "unit\\b|\\bunits? of\\b") ||
          has(signature(f), "_(mm|mm2|mm3|deg|voxel|native|bytes|seconds)\\b");
 }
 

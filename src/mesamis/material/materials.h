@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesamis/image/volume.h"
+#include "mesamis/material/density.h"
+#include "mesamis/material/material_bins.h"
+#include "mesamis/material/material_law.h"
+#include "mesamis/mesh/tet_mesh.h"
+
+/// Materials for a finite element model from a calibrated scan, in one call.
+namespace mesamis {
+
+/// From grey values to materials. The law and the calibration have no default: both depend on the
+/// bone, the scanner and its phantom.
+struct MaterialOptions {
+  std::optional<MaterialLaw> law{};          ///< see parse_material_law(); needed
+  std::optional<Calibration> calibration{};  ///< native to QCT, see parse_calibration(); needed
+  AshRule ash = kSchileoAsh2008;             ///< QCT to ash density
+  double ash_over_apparent = 0.6;            ///< no unit, > 0
+  double density_min = 0;                    ///< g/cm^3, of the kind the law takes
+  double density_max = std::numeric_limits<double>::infinity();  ///< g/cm^3, of that kind
+  double modulus_min = 0.01;                                     ///< MPa, > 0
+  double gap = 50;  ///< MPa between the ends of a bin, >= 0
+  BinModulus bin_modulus = BinModulus::kHighest;
+  std::optional<double> poisson{};  ///< no unit; none: the law's
+};
+
+/// What was used, and how much rests on bounds. Shares are of the mesh's volume, 0 to 1.
+struct MaterialReport {
+  std::string law, citation, doi;  ///< doi is empty where it is not known
+  DensityKind density = DensityKind::kApparent;
+  Calibration calibration{};   ///< native values to that density
+  double share_below_min = 0;  ///< see ElementModuli
+  double share_above_max = 0;
+  std::optional<double> share_outside_law{};  ///< none where the law states no range
+  double share_of_modulus_min = 0;
+};
+
+/// The materials of a mesh.
+struct Materials {
+  std::vector<double> modulus;  ///< MPa, one per cell, before the bins
+  std::vector<double> density;  ///< g/cm^3, one per cell, of the kind that the report names
+  MaterialBins bins;
+  MaterialReport report;
+};
+
+/// Gives each cell of a mesh a modulus, see element_moduli(), and a bin, see bin_materials().
+///
+/// @param mesh    m >= 1 cells of positive volume, coordinates in LPS mm, within the volume.
+/// @param volume  at least 2 voxels along each axis; native units.
+/// @throws InputError  if the law or the calibration is missing, and as element_moduli() and
+///                     bin_materials().
+///
+/// O(samples), see element_moduli(). The same bits for any number of threads.
+Materials assign_materials(const TetMesh& mesh, const VolumeView& volume,
+                           const MaterialOptions& options);
+
+}  // namespace mesamis
