@@ -144,6 +144,27 @@ TEST(Materials, OfAUniformScanAreOne) {
   EXPECT_EQ(found.bins.bins[0].cells, 48);
 }
 
+/// Whatever density a law takes, the mass of a solver is the apparent density.
+TEST(Materials, OfASolverHaveTheApparentDensity) {
+  const Volume volume = sampled_volume({5, 5, 5}, {1, 1, 1}, [](const Vec3&) { return 400; });
+  const TetMesh mesh = box_mesh({{0, 0, 0}, {4, 4, 4}}, {2, 2, 2});
+  MaterialOptions options = morgan();
+  for (const char* law : {"E=100*rho_app^2", "E=100*rho_ash^2", "E=100*rho_qct^2"}) {
+    options.law = parse_material_law(law);
+    const Materials found = assign_materials(mesh, volume, options);
+    const auto materials = elastic_materials(found, options);
+    ASSERT_EQ(materials.size(), 1u);
+    EXPECT_EQ(materials[0].name, "MAT_001");
+    EXPECT_EQ(materials[0].modulus, found.bins.bins[0].modulus);
+    EXPECT_EQ(materials[0].poisson, 0.3);
+    EXPECT_NEAR(materials[0].density, (0.877 * 0.32 + 0.079) / 0.6, 1e-9) << law;
+  }
+  Materials many;
+  many.bins.bins.resize(1234);
+  EXPECT_EQ(elastic_materials(many, options)[0].name, "MAT_0001");
+  EXPECT_EQ(elastic_materials(many, options)[1233].name, "MAT_1234");
+}
+
 TEST(Materials, HaveTheSameBitsForAnyNumberOfThreads) {
   const Volume volume = shaft();
   const TetMesh mesh = shaft_mesh();

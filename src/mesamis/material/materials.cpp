@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/material/materials.h"
 
+#include <algorithm>
+
 #include "mesamis/base/error.h"
 #include "mesamis/image/grey_values.h"
 #include "mesamis/material/element_moduli.h"
@@ -39,6 +41,18 @@ MaterialReport report_of(const ElementModuliOptions& options, const ElementModul
   return report;
 }
 
+double apparent_density(double density, DensityKind kind, const MaterialOptions& options) {
+  if (kind == DensityKind::kApparent) return density;
+  const double ash = kind == DensityKind::kQct ? options.ash.at(density) : density;
+  return ash / options.ash_over_apparent;
+}
+
+/// A number from 1 with leading zeros.
+std::string numbered(std::size_t number, std::size_t digits) {
+  const std::string text = std::to_string(number);
+  return "MAT_" + std::string(digits - std::min(digits, text.size()), '0') + text;
+}
+
 }  // namespace
 
 Materials assign_materials(const TetMesh& mesh, const VolumeView& volume,
@@ -53,6 +67,18 @@ Materials assign_materials(const TetMesh& mesh, const VolumeView& volume,
   result.bins = bin_materials(moduli.modulus, moduli.density, bins);
   result.modulus = std::move(moduli.modulus);
   result.density = std::move(moduli.density);
+  return result;
+}
+
+std::vector<FiniteElements::Elastic> elastic_materials(const Materials& materials,
+                                                       const MaterialOptions& options) {
+  const auto& bins = materials.bins.bins;
+  const std::size_t digits = std::max<std::size_t>(3, std::to_string(bins.size()).size());
+  std::vector<FiniteElements::Elastic> result;
+  for (const MaterialBin& bin : bins) {
+    const double density = apparent_density(bin.density, materials.report.density, options);
+    result.push_back({numbered(result.size() + 1, digits), bin.modulus, bin.poisson, density});
+  }
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include "mesamis/material/density.h"
 #include "mesamis/material/material_bins.h"
 #include "mesamis/material/material_law.h"
+#include "mesamis/mesh/finite_elements.h"
 #include "mesamis/mesh/tet_mesh.h"
 
 /// Materials for a finite element model from a calibrated scan, in one call.
@@ -59,5 +60,16 @@ struct Materials {
 /// O(samples), see element_moduli(). The same bits for any number of threads.
 Materials assign_materials(const TetMesh& mesh, const VolumeView& volume,
                            const MaterialOptions& options);
+
+/// The bins as materials of a finite element model, named MAT_001, MAT_002, ... from the stiffest
+/// on; more digits from 1000 bins on. What a solver takes as mass is the apparent density.
+/// @param options  by which the materials were assigned: how the apparent density, in g/cm^3,
+///                 follows from that of the law.
+/// @return one per bin; material_of_cell of FiniteElements is bins.of_cell.
+/// @throws nothing
+///
+/// O(bins).
+std::vector<FiniteElements::Elastic> elastic_materials(const Materials& materials,
+                                                       const MaterialOptions& options);
 
 }  // namespace mesamis

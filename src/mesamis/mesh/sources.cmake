@@ -2,6 +2,7 @@
 set(ROOM_HEADERS
   edges.h
   element_quality.h
+  finite_elements.h
   gradation.h
   kuhn.h
   locate.h

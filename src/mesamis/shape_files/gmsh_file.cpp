@@ -2,8 +2,7 @@
 // Writing a Gmsh .msh in the format's version 2.2, ASCII.
 #include <algorithm>
 
-#include "mesamis/files/refuse.h"
-#include "mesamis/files/text_writer.h"
+#include "mesamis/shape_files/gmsh_sections.h"
 #include "mesamis/shape_files/mesh_checks.h"
 #include "mesamis/shape_files/mesh_files.h"
 
@@ -26,20 +25,6 @@ void write_names(TextWriter& out, const CellSets& sets) {
   out << "$EndPhysicalNames\n";
 }
 
-void write_nodes(TextWriter& out, const TetMesh& mesh, Frame frame) {
-  out << "$Nodes\n" << mesh.points.size() << "\n";
-  for (std::size_t n = 0; n < mesh.points.size(); ++n) {
-    const Vec3 p = in_frame(mesh.points[n], frame);
-    out << n + 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      out << " ";
-      out.number(p[axis]);
-    }
-    out << "\n";
-  }
-  out << "$EndNodes\n";
-}
-
 /// The geometric entity, the second tag, is the set as well: no entity lies in two groups.
 void write_elements(TextWriter& out, const TetMesh& mesh, const CellSets& sets) {
   out << "$Elements\n" << mesh.cells.size() << "\n";
@@ -52,18 +37,6 @@ void write_elements(TextWriter& out, const TetMesh& mesh, const CellSets& sets) 
   out << "$EndElements\n";
 }
 
-void write_data(TextWriter& out, const char* section, const MeshArray& array) {
-  // One string (the name), one real (the time), three integers (step, components, entries).
-  out << "$" << section << "\n1\n\"" << array.name << "\"\n1\n0\n3\n0\n1\n"
-      << array.values.size() << "\n";
-  for (std::size_t i = 0; i < array.values.size(); ++i) {
-    out << i + 1 << " ";
-    out.number(array.values[i]);
-    out << "\n";
-  }
-  out << "$End" << section << "\n";
-}
-
 /// Last, where readers that know few sections have stopped reading.
 void write_comments(TextWriter& out, const CellSets& sets, Frame frame) {
   out << "$Comments\nSPACE=" << frame_name(frame) << " LengthUnit=mm\n";
@@ -71,29 +44,20 @@ void write_comments(TextWriter& out, const CellSets& sets, Frame frame) {
   out << "$EndComments\n";
 }
 
-void require_scalars(const std::filesystem::path& path, std::span<const MeshArray> arrays,
-                     std::size_t count) {
-  for (const MeshArray& array : arrays) {
-    if (array.components == 1 && array.values.size() == count) continue;
-    refuse(path, say("array '", array.name, "': expected ", count, " scalars, found ",
-                     array.values.size(), " values, ", array.components, " components"));
-  }
-}
-
 }  // namespace
 
 void write_gmsh(const std::filesystem::path& path, const MeshWithArrays& grid, const CellSets& sets,
                 Frame frame) {
   require_sets(path, grid.mesh, sets);
-  require_scalars(path, grid.point_arrays, grid.mesh.points.size());
-  require_scalars(path, grid.cell_arrays, grid.mesh.cells.size());
+  require_gmsh_scalars(path, grid.point_arrays, grid.mesh.points.size());
+  require_gmsh_scalars(path, grid.cell_arrays, grid.mesh.cells.size());
   TextWriter out(path);
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   write_names(out, sets);
-  write_nodes(out, grid.mesh, frame);
+  write_gmsh_nodes(out, grid.mesh.points, frame);
   write_elements(out, grid.mesh, sets);
-  for (const MeshArray& array : grid.point_arrays) write_data(out, "NodeData", array);
-  for (const MeshArray& array : grid.cell_arrays) write_data(out, "ElementData", array);
+  for (const MeshArray& array : grid.point_arrays) write_gmsh_data(out, "NodeData", array);
+  for (const MeshArray& array : grid.cell_arrays) write_gmsh_data(out, "ElementData", array);
   write_comments(out, sets, frame);
   out.commit();
 }

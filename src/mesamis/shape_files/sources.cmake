@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  element_files.h
   file_kind.h
   mesh_files.h
   object_files.h
   surface_files.h)
 set(ROOM_SOURCES
+  abaqus_elements.cpp
   abaqus_file.cpp
   amf_file.cpp
+  element_files.cpp
+  febio_file.cpp
   file_kind.cpp
   frame_note.cpp
+  gmsh_elements.cpp
   gmsh_file.cpp
   medit_files.cpp
   mesh_checks.cpp

@@ -7,7 +7,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/shape_files/mesh_files.h"
 #include "mesamis/shape_files/vtk_xml.h"
-#include "mesamis/shape_files/vtk_xml_writer.h"
+#include "mesamis/shape_files/vtu_writer.h"
 
 namespace mesamis {
 
@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFrameName = "SPACE";  // the field data that state the frame
 constexpr int kTetrahedronType = 10;         // VTK's number for this type of cell
+constexpr int kQuadraticTetrahedronType = 24;
 
 /// A .vtu as it lies in the file.
 struct VtuContents {
@@ -188,36 +189,47 @@ VtkArrayGroup group_of(const char* element, std::span<const MeshArray> arrays, s
   return group;
 }
 
-VtkArrayGroup group_of_points(const std::vector<Vec3>& points, Frame frame) {
-  return {"Points", {vtk_array<double>("Points", 3, 3 * points.size(), [&, frame](std::size_t i) {
+VtkArrayGroup group_of_points(std::span<const Vec3> points, Frame frame) {
+  return {"Points", {vtk_array<double>("Points", 3, 3 * points.size(), [=](std::size_t i) {
             return in_frame(points[i / 3], frame)[static_cast<int>(i % 3)];
           })}};
 }
 
-VtkArrayGroup group_of_cells(const std::vector<Cell>& cells) {
-  if (cells.size() > std::numeric_limits<std::int32_t>::max() / 4) {
-    throw InputError(say("mesh: ", cells.size(), " cells are too many for a VTK file"));
+VtkArrayGroup group_of_cells(const VtuGrid& grid) {
+  const std::size_t nodes = grid.mid_nodes.empty() ? 4 : 10, cells = grid.cells.size();
+  if (cells > std::numeric_limits<std::int32_t>::max() / nodes) {
+    throw InputError(say("mesh: ", cells, " cells are too many for a VTK file"));
   }
-  auto corner = [&cells](std::size_t i) { return cells[i / 4][i % 4]; };
-  auto end_of_cell = [](std::size_t c) { return 4 * (c + 1); };
+  auto node = [&grid, nodes](std::size_t i) {
+    const std::size_t cell = i / nodes, place = i % nodes;
+    return place < 4 ? grid.cells[cell][place] : grid.mid_nodes[cell][place - 4];
+  };
+  const int type = nodes == 4 ? kTetrahedronType : kQuadraticTetrahedronType;
   return {"Cells",
-          {vtk_array<std::int32_t>("connectivity", 1, 4 * cells.size(), corner),
-           vtk_array<std::int32_t>("offsets", 1, cells.size(), end_of_cell),
-           vtk_array<std::uint8_t>("types", 1, cells.size(),
-                                   [](std::size_t) { return kTetrahedronType; })}};
+          {vtk_array<std::int32_t>("connectivity", 1, nodes * cells, node),
+           vtk_array<std::int32_t>("offsets", 1, cells,
+                                   [nodes](std::size_t c) { return nodes * (c + 1); }),
+           vtk_array<std::uint8_t>("types", 1, cells, [type](std::size_t) { return type; })}};
 }
 
 }  // namespace
 
-void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const VtuOptions& options) {
+void detail::write_vtu_grid(const std::filesystem::path& path, const VtuGrid& grid,
+                            const VtuOptions& options) {
   const Frame frame = options.frame;
-  const std::size_t points = mesh.points.size(), cells = mesh.cells.size();
-  write_vtk_xml(path, {"UnstructuredGrid",
-                       {vtk_text(kFrameName, frame_name(frame)), vtk_text("LengthUnit", "mm")},
-                       {{"NumberOfPoints", points}, {"NumberOfCells", cells}},
-                       {group_of("PointData", options.point_arrays, points, "point", frame),
-                        group_of("CellData", options.cell_arrays, cells, "cell", frame),
-                        group_of_points(mesh.points, frame), group_of_cells(mesh.cells)}});
+  const std::size_t points = grid.points.size(), cells = grid.cells.size();
+  VtkFile file{"UnstructuredGrid",
+               {vtk_text(kFrameName, frame_name(frame)), vtk_text("LengthUnit", "mm")},
+               {{"NumberOfPoints", points}, {"NumberOfCells", cells}},
+               {group_of("PointData", options.point_arrays, points, "point", frame),
+                group_of("CellData", options.cell_arrays, cells, "cell", frame),
+                group_of_points(grid.points, frame), group_of_cells(grid)}};
+  file.field_data.insert(file.field_data.end(), grid.field_data.begin(), grid.field_data.end());
+  write_vtk_xml(path, file);
+}
+
+void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const VtuOptions& options) {
+  write_vtu_grid(path, {mesh.points, mesh.cells}, options);
 }
 
 MeshWithArrays read_vtu(const std::filesystem::path& path, const ReadLimits& limits) {
