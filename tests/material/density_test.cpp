@@ -32,7 +32,7 @@ TEST(Density, CalibrationsAreReadInBothForms) {
 
 TEST(Density, CalibrationsOfAnotherFormAreRefused) {
   for (const char* text : {"", "1", "1,", "a,b", "1;2", "1,2,3", "1:2", "1:2,3", "1:2,3:4,5",
-                           "1, 2", "inf,1", "nan,1", "1,2 ", "1:2,3:"}) {
+                           "1, 2", "inf,1", "+-1,2", "1e999,2", "nan,1", "1,2 ", "1:2,3:"}) {
     EXPECT_REFUSED(parse_calibration(text), AllOf(HasSubstr("expected a,b or HU1:rho1,HU2:rho2"),
                                                   HasSubstr("'" + std::string(text) + "'")));
   }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <random>
 
 #include "support/throws.h"
 
@@ -82,11 +83,32 @@ TEST(MaterialLaw, PowerLawsOfTheUsersOwnAreRead) {
 }
 
 TEST(MaterialLaw, OtherTextsAreRefused) {
-  for (const char* text :
-       {"", "E=", "E=5", "E=5*rho", "E=5*rho^", "E=5*tau^2", "E=-5*rho^2", "E=5*rho^0",
-        "E=5*rho^2-3", "E=5*rho^2x", "E = 5*rho^2", "E=inf*rho^2"}) {
+  for (const char* text : {"", "E=", "E=5", "E=5*rho", "E=5*rho^", "E=5*tau^2", "E=-5*rho^2",
+                           "E=5*rho^0", "E=5*rho^2-3", "E=5*rho^2x", "E = 5*rho^2", "E=5*rho^2.5.5",
+                           "E=5*rho^2+-3", "E=+-5*rho^2", "E=1e999*rho^2", "E=inf*rho^2"}) {
     EXPECT_REFUSED(parse_material_law(text), HasSubstr("'" + std::string(text) + "'"));
   }
+}
+
+/// Whatever the text, a law rises with density or is refused in one line.
+TEST(MaterialLaw, TextsAtRandomAreReadOrRefused) {
+  const std::vector<std::string> words{"E=", "*", "rho", "_ash", "^", "+",
+                                       "-",  "1", ".5",  "e9",   "x"};
+  std::mt19937 random(2);
+  int laws = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::string text = i % 2 ? "E=2*rho^" : "";
+    for (auto n = random() % 6; n > 0; --n) text += words[random() % words.size()];
+    try {
+      const MaterialLaw law = parse_material_law(text);
+      EXPECT_GT(modulus_at(law, 1), modulus_at(law, 0.5)) << text;
+      ++laws;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::Not(HasSubstr("\n")));
+      EXPECT_LT(std::string(error.what()).size(), 470u);
+    }
+  }
+  EXPECT_GT(laws, 100);
 }
 
 }  // namespace

@@ -3,6 +3,10 @@
 #include "mesamis/shape_files/element_files.h"
 
 #include <gmock/gmock.h>
+#include <vtkCell.h>
+#include <vtkNew.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
 
 #include <limits>
 
@@ -70,6 +74,35 @@ TEST(ElementFiles, VtuOfQuadraticElementsHasVtksOrder) {
         std::array<std::array<int, 2>, 6>{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}});
   }
   EXPECT_THAT(bytes, AllOf(HasSubstr("PartNames"), HasSubstr("MaterialNames")));
+}
+
+/// VTK's own shape functions find each mid-side node in the middle of its edge.
+TEST(ElementFiles, VtkReadsQuadraticElements) {
+  const TempFolder folder;
+  const FiniteElements e = two_elements(true);
+  write_elements(folder / "m.vtu", e);
+  const vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName((folder / "m.vtu").c_str());
+  reader->Update();
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  ASSERT_EQ(grid->GetNumberOfCells(), 2);
+  const double corners[4][3]{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (vtkIdType c = 0; c < 2; ++c) {
+    vtkCell* cell = grid->GetCell(c);
+    EXPECT_EQ(cell->GetCellType(), VTK_QUADRATIC_TETRA);
+    for (std::size_t m = 0; m < 6; ++m) {
+      double at[3], found[3], weights[10];
+      for (int axis = 0; axis < 3; ++axis) {
+        at[axis] = (corners[kMidNodeEdges[m][0]][axis] + corners[kMidNodeEdges[m][1]][axis]) / 2;
+      }
+      int part = 0;
+      cell->EvaluateLocation(part, at, found, weights);
+      EXPECT_NEAR(weights[4 + m], 1, 1e-12);
+      const Vec3 expected =
+          e.points[static_cast<std::size_t>(e.mid_nodes[static_cast<std::size_t>(c)][m])];
+      EXPECT_LT(norm(Vec3{found[0], found[1], found[2]} - expected), 1e-12);
+    }
+  }
 }
 
 TEST(ElementFiles, MeditHoldsPartsAsReferencesAndNoMidSideNodes) {

@@ -8,6 +8,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/material/number_text.h"
+#include "mesamis/mesh/kuhn.h"
 
 namespace mesamis {
 
@@ -15,7 +16,7 @@ using namespace detail;
 
 namespace {
 
-constexpr int kLeastParts = 4;  // a cell within a voxel still sees the image bend
+constexpr int kLeastParts = 2;  // 32 samples: a cell within a voxel still sees the image bend
 constexpr int kMostParts = 64;
 constexpr std::size_t kCellBlock = 64;
 constexpr double kVoxelsOutside = 1;
@@ -39,8 +40,7 @@ void require_options(const ElementModuliOptions& o) {
   require_range(o.density_max > o.density_min, "a greatest density above the least", o.density_max);
   require_range(o.modulus_min > 0 && std::isfinite(o.modulus_min), "a least modulus above 0 MPa",
                 o.modulus_min);
-  require_range(o.samples_per_voxel > 0, "a positive number of samples per voxel",
-                o.samples_per_voxel);
+  require_range(o.parts_per_voxel > 0, "a positive number of parts per voxel", o.parts_per_voxel);
 }
 
 void require_volume(const VolumeView& volume) {
@@ -128,44 +128,66 @@ double edge_length_max(const std::array<Vec3, 4>& p) {
   return longest;
 }
 
-/// Visits the centroids of the n^3 equal parts of a cell.
+/// Whether the Kuhn simplex of this path in the cube at this place, x >= y >= z, lies in the large
+/// simplex: where two coordinates are equal, the path walks along the earlier axis first.
+bool is_in_simplex(const std::array<int, 3>& place, const std::array<int, 3>& path) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = a + 1; b < 3; ++b) {
+      const auto first = static_cast<std::size_t>(path[a]),
+                 second = static_cast<std::size_t>(path[b]);
+      if (first > second && place[first] == place[second]) return false;
+    }
+  }
+  return true;
+}
+
+// The four points of the rule that is exact for polynomials of degree two, each of a quarter of the
+// volume: three barycentric coordinates are kNear. Here in the simplex 1 >= x >= y >= z >= 0.
+constexpr double kNear = 0.1381966011250105;  // (5 - sqrt(5)) / 20
+constexpr std::array<std::array<double, 3>, 4> kRule{{{3 * kNear, 2 * kNear, kNear},
+                                                      {1 - kNear, 2 * kNear, kNear},
+                                                      {1 - kNear, 1 - 2 * kNear, kNear},
+                                                      {1 - kNear, 1 - 2 * kNear, 1 - 3 * kNear}}};
+
+/// Visits four points in each of the n^3 equal parts of a cell.
 ///
 /// The cell is the image of the simplex 1 >= x >= y >= z >= 0 of the unit cube. A cube of side 1/n
 /// is six such simplices (Kuhn), one for each order of the axes, and those of the n^3 cubes that
 /// lie in the large one fill it.
 template <class Visit>
-void visit_parts(const std::array<Vec3, 4>& p, int n, Visit visit) {
-  static constexpr std::array<std::array<double, 3>, 6> kCentroids{{{.75, .5, .25},
-                                                                    {.75, .25, .5},
-                                                                    {.5, .75, .25},
-                                                                    {.25, .75, .5},
-                                                                    {.5, .25, .75},
-                                                                    {.25, .5, .75}}};
+void visit_samples(const std::array<Vec3, 4>& p, int n, Visit visit) {
   const double h = 1.0 / n;
-  const Vec3 a = h * (p[1] - p[0]), b = h * (p[2] - p[1]), c = h * (p[3] - p[2]);
+  const std::array<Vec3, 3> step{h * (p[1] - p[0]), h * (p[2] - p[1]), h * (p[3] - p[2])};
+  const auto visit_part = [&](const Vec3& corner, const std::array<int, 3>& path) {
+    for (const auto& f : kRule) {
+      Vec3 at = corner;
+      for (std::size_t i = 0; i < 3; ++i) at += f[i] * step[static_cast<std::size_t>(path[i])];
+      visit(at);
+    }
+  };
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j <= i; ++j) {
       for (int k = 0; k <= j; ++k) {
-        for (const auto& f : kCentroids) {
-          const double x = i + f[0], y = j + f[1], z = k + f[2];
-          if (x >= y && y >= z) visit(p[0] + x * a + y * b + z * c);
+        const Vec3 corner = p[0] + i * step[0] + j * step[1] + k * step[2];
+        for (const auto& path : kKuhnPaths) {
+          if (is_in_simplex({i, j, k}, path)) visit_part(corner, path);
         }
       }
     }
   }
 }
 
-int parts_along_edge(const std::array<Vec3, 4>& p, double samples_per_voxel) {
-  const double wanted = std::ceil(edge_length_max(p) * samples_per_voxel);
+int parts_along_edge(const std::array<Vec3, 4>& p, double parts_per_voxel) {
+  const double wanted = std::ceil(edge_length_max(p) * parts_per_voxel);
   return static_cast<int>(std::clamp<double>(wanted, kLeastParts, kMostParts));
 }
 
 CellMeans cell_means(const std::array<Vec3, 4>& p, const Trilinear& image,
                      const ElementModuliOptions& options) {
-  const int n = parts_along_edge(p, options.samples_per_voxel);
+  const int n = parts_along_edge(p, options.parts_per_voxel);
   const auto& valid = options.law.valid;
   CellMeans sum;
-  visit_parts(p, n, [&](const Vec3& at) {
+  visit_samples(p, n, [&](const Vec3& at) {
     const double found = options.calibration.at(image.at(at));
     const double rho = std::clamp(found, options.density_min, options.density_max);
     sum.density += rho;
@@ -174,7 +196,7 @@ CellMeans cell_means(const std::array<Vec3, 4>& p, const Trilinear& image,
     sum.above += found > options.density_max;
     sum.outside += valid && (rho < (*valid)[0] || rho > (*valid)[1]);
   });
-  const double share = 1.0 / (static_cast<double>(n) * n * n);
+  const double share = 1.0 / (4.0 * n * n * n);
   return {share * sum.modulus, share * sum.density, share * sum.below, share * sum.above,
           share * sum.outside};
 }

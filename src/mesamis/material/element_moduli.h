@@ -18,8 +18,8 @@ struct ElementModuliOptions {
   Calibration calibration{};  ///< to the kind of density that the law takes, see calibration_to()
   double density_min = 0;     ///< g/cm^3; densities below count as this
   double density_max = std::numeric_limits<double>::infinity();  ///< g/cm^3; those above as this
-  double modulus_min = 0.01;     ///< MPa, > 0; elements below get this: a solver needs stiffness
-  double samples_per_voxel = 2;  ///< along an edge of an element, > 0
+  double modulus_min = 0.01;      ///< MPa, > 0; elements below get this: a solver needs stiffness
+  double parts_per_voxel = 0.75;  ///< along the longest edge of an element, > 0
 };
 
 /// The stiffness of each element, and how much of it rests on bounds. Shares are of the volume of
@@ -37,9 +37,10 @@ struct ElementModuli {
 /// Source: Taddei et al., The material mapping strategy influences the accuracy of CT-based finite
 /// element models of bones, Med Eng Phys 29, 2007; there the rule has the name Bonemat V3.
 ///
-/// Each cell is cut into n^3 cells of equal volume, whose centroids are the samples; n is the
-/// length of the longest edge in voxels times samples_per_voxel, 4 to 64. The image is interpolated
-/// linearly along each axis (trilinear), and is constant beyond the outermost voxel centres.
+/// Each cell is cut into n^3 parts of equal volume with four samples each, by which polynomials of
+/// degree two are integrated exactly; n is the length of the longest edge in voxels times
+/// parts_per_voxel, 2 to 64. The image is interpolated linearly along each axis (trilinear), and is
+/// constant beyond the outermost voxel centres.
 ///
 /// @param mesh    m cells of positive volume, coordinates in LPS mm, at most a voxel outside the
 ///                volume.
@@ -48,8 +49,8 @@ struct ElementModuli {
 ///                     point lies outside the volume, a modulus is not finite, or an option is out
 ///                     of its range.
 ///
-/// O(samples): at least 64 per cell, 8 per voxel for larger ones. In threads; the same bits for any
-/// number of them. 40 bytes per cell beside the result.
+/// O(samples): at least 32 per cell, 10 per voxel or more in larger ones. In threads; the same bits
+/// for any number of them. 40 bytes per cell beside the result.
 ElementModuli element_moduli(const TetMesh& mesh, const VolumeView& volume,
                              const ElementModuliOptions& options);
 

@@ -103,6 +103,7 @@ std::optional<MaterialLaw> power_law(std::string_view text) {
   if (!density || !take(rest, "^")) return std::nullopt;
   const auto exponent = take_number(rest);
   if (!exponent) return std::nullopt;
+  if (!rest.empty() && !rest.starts_with('+')) return std::nullopt;
   const auto offset = rest.empty() ? 0 : take_number(rest);
   if (!offset || !rest.empty()) return std::nullopt;
   if (!(*coefficient > 0 && *exponent > 0 && *offset >= 0)) return std::nullopt;

@@ -29,7 +29,7 @@ inline std::string quoted_text(std::string_view text) {
 inline std::optional<double> take_number(std::string_view& text) {
   const char* first = text.data();
   const char* last = first + text.size();
-  if (first != last && *first == '+') ++first;
+  if (text.starts_with('+') && !text.starts_with("+-")) ++first;
   double value = 0;
   const auto [stop, error] = std::from_chars(first, last, value);
   if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
