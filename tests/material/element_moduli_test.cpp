@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "mesamis/base/parallel.h"
@@ -162,6 +163,8 @@ TEST(ElementModuli, WhatCannotBeUsedIsRefused) {
   refused([](auto& o) { o.density_max = 0; }, HasSubstr("above the least, found 0"));
   refused([](auto& o) { o.modulus_min = 0; }, HasSubstr("above 0 MPa, found 0"));
   refused([](auto& o) { o.parts_per_voxel = 0; }, HasSubstr("parts per voxel, found 0"));
+  refused([](auto& o) { o.parts_per_voxel = std::numeric_limits<double>::infinity(); },
+          HasSubstr("found inf"));
   TetMesh far = mesh;
   far.points[3].z = 5.5;
   EXPECT_REFUSED(element_moduli(far, volume, good),

@@ -40,7 +40,8 @@ void require_options(const ElementModuliOptions& o) {
   require_range(o.density_max > o.density_min, "a greatest density above the least", o.density_max);
   require_range(o.modulus_min > 0 && std::isfinite(o.modulus_min), "a least modulus above 0 MPa",
                 o.modulus_min);
-  require_range(o.parts_per_voxel > 0, "a positive number of parts per voxel", o.parts_per_voxel);
+  require_range(o.parts_per_voxel > 0 && std::isfinite(o.parts_per_voxel),
+                "a positive number of parts per voxel", o.parts_per_voxel);
 }
 
 void require_volume(const VolumeView& volume) {

@@ -50,7 +50,7 @@ struct ElementModuli {
 ///                     of its range.
 ///
 /// O(samples): at least 32 per cell, 10 per voxel or more in larger ones. In threads; the same bits
-/// for any number of them. 40 bytes per cell beside the result.
+/// for any number of them. 40 bytes per cell and 24 per point beside the result.
 ElementModuli element_moduli(const TetMesh& mesh, const VolumeView& volume,
                              const ElementModuliOptions& options);
 
