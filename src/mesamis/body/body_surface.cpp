@@ -26,6 +26,18 @@ TriMesh without_caps(const TriMesh& surface, const Box& box) {
   return rest;
 }
 
+/// How far a triangle may be left towards a side whose width is known at the points.
+std::vector<double> tolerances(const TriMesh& skin, std::span<const double> width, double most) {
+  constexpr double kShare = 0.2, kLeastShare = 0.05;
+  std::vector<double> result;
+  result.reserve(skin.triangles.size());
+  for (const Triangle& t : skin.triangles) {
+    const double room = std::min({width[t[0]], width[t[1]], width[t[2]]});
+    result.push_back(std::clamp(kShare * room, kLeastShare * most, most));
+  }
+  return result;
+}
+
 Vec3 clamped(const Vec3& p, const Box& box) {
   return {std::clamp(p.x, box.lo.x, box.hi.x), std::clamp(p.y, box.lo.y, box.hi.y),
           std::clamp(p.z, box.lo.z, box.hi.z)};
@@ -50,25 +62,20 @@ BodySurface::BodySurface(std::span<const TriMesh> surfaces, const Box& box, doub
   for (const TriMesh& surface : surfaces) {
     const TriMesh rest = without_caps(surface, box);
     auto part = std::make_unique<Part>(
-        Part{bounding_box(surface.points), SignedDistance(surface), std::nullopt});
+        Part{bounding_box(surface.points), SignedDistance(surface), std::nullopt, {}, {}, {}});
     if (rest.triangles.size() < surface.triangles.size()) part->off_box.emplace(rest);
     measure_walls(*part, surface, rest);
     parts_.push_back(std::move(part));
   }
 }
 
-// Less than a quarter of a wall or a gap, so that its two sides never meet.
+// A small share of the wall inward and of the gap outward: their two sides never meet.
 void BodySurface::measure_walls(Part& part, const TriMesh& surface, const TriMesh& skin) const {
-  constexpr double kShare = 0.2, kLeastShare = 0.05;
   const double widest = norm(part.box.extent());
   part.thickness = wall_widths(surface, part.whole, Side::kWall, widest);
   const auto gaps = wall_widths(surface, part.whole, Side::kGap, widest);
-  part.tolerance.reserve(skin.triangles.size());
-  for (const Triangle& t : skin.triangles) {
-    double room = std::numeric_limits<double>::infinity();
-    for (const Index p : t) room = std::min({room, part.thickness[p], gaps[p]});
-    part.tolerance.push_back(std::clamp(kShare * room, kLeastShare * tolerance_, tolerance_));
-  }
+  part.inner = tolerances(skin, part.thickness, tolerance_);
+  part.outer = tolerances(skin, gaps, tolerance_);
 }
 
 Vec3 BodySurface::off_planes(const Vec3& p) const { return clamped(p, inner_box_); }
@@ -131,7 +138,8 @@ BorderPoint BodySurface::nearest_border(const Vec3& p) const {
     const NearestPoint found = part->skin().at(p);
     if (found.distance >= least) continue;
     least = found.distance;
-    nearest = {found.point, part->tolerance[found.triangle]};
+    const auto& tolerance = found.signed_to < 0 ? part->inner : part->outer;
+    nearest = {found.point, tolerance[found.triangle]};
   }
   return nearest;
 }

@@ -19,7 +19,8 @@ class BodySurface : public BodyShape {
   /// @param surfaces   closed, 2-manifold, oriented outward, mm; 1 to 255 of them. Where a surface
   ///                   lies on a plane of the box it counts as cut off there.
   /// @param box        around all of them, mm.
-  /// @param tolerance  mm, > 0, see BorderPoint; less where a wall or a gap is thin.
+  /// @param tolerance  mm, > 0, see BorderPoint; less towards a thin wall or
+  ///                   a narrow gap.
   /// @throws InputError  if there is no surface or more than 255, or one that is not sound or has
   ///                     no triangle off the box.
   BodySurface(std::span<const TriMesh> surfaces, const Box& box, double tolerance);
@@ -42,8 +43,8 @@ class BodySurface : public BodyShape {
     Box box;
     SignedDistance whole;
     std::optional<SignedDistance> off_box;  ///< none: all of it
-    std::vector<double> thickness{};        ///< at the points, mm
-    std::vector<double> tolerance{};        ///< of the triangles of skin(), mm
+    std::vector<double> thickness;          ///< at the points, mm
+    std::vector<double> inner, outer;       ///< tolerances of the triangles of skin(), mm
     const SignedDistance& skin() const { return off_box ? *off_box : whole; }
   };
   void measure_walls(Part& part, const TriMesh& surface, const TriMesh& skin) const;

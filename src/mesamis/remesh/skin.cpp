@@ -55,6 +55,16 @@ double deviation(const WorkingMesh& mesh, std::span<const Corners3> triangles) {
   return farthest;
 }
 
+/// Whether a triangle is turned by at most 60 degrees from one of others.
+bool is_turned_little(std::span<const Corners3> others, const Corners3& triangle) {
+  constexpr double kMostTurn = 0.5;  // cosine
+  const Vec3 normal = area_normal(triangle);
+  return std::ranges::any_of(others, [&](const Corners3& other) {
+    const Vec3 before = area_normal(other);
+    return dot(normal, before) > kMostTurn * norm(normal) * norm(before);
+  });
+}
+
 /// The vertices that faces of the skin at a vertex join to it.
 void insert_skin_neighbors(const WorkingMesh& mesh, std::span<const Index> ball, Index vertex,
                            VertexSet& into) {
@@ -248,13 +258,10 @@ Vec3 skin_normal(const WorkingMesh& mesh, std::span<const Index> ball, Index ver
 
 bool may_replace_skin(const WorkingMesh& mesh, std::span<const Corners3> old_triangles,
                       std::span<const Corners3> new_triangles) {
-  constexpr double kMostTurn = 0.5;  // cosine
-  Vec3 sum;
-  for (const Corners3& t : old_triangles) sum += area_normal(t);
-  const Vec3 before = unit_or_zero(sum);
-  for (const Corners3& t : new_triangles) {
-    const Vec3 normal = area_normal(t);
-    if (!(dot(normal, before) > kMostTurn * norm(normal))) return false;
+  for (std::size_t i = 0; i < new_triangles.size(); ++i) {
+    const bool in_pairs = old_triangles.size() == new_triangles.size();
+    const auto before = in_pairs ? old_triangles.subspan(i, 1) : old_triangles;
+    if (!is_turned_little(before, new_triangles[i])) return false;
   }
   const double after = deviation(mesh, new_triangles);
   return after <= 1 || after <= deviation(mesh, old_triangles);

@@ -44,9 +44,9 @@ double deviation(const WorkingMesh& mesh, const Vec3& p);
 
 using Corners3 = std::array<Vec3, 3>;
 
-/// Whether new triangles may take the place of old ones of the skin: they are turned by at most 60
-/// degrees from the old ones together, and lie within the tolerance of the border, or no farther
-/// than the old ones.
+/// Whether new triangles may take the place of old ones of the skin: each is turned by at most 60
+/// degrees from the one in its place, or from any where their numbers differ, and they lie within
+/// the tolerance of the border, or no farther than the old ones.
 bool may_replace_skin(const WorkingMesh& mesh, std::span<const Corners3> old_triangles,
                       std::span<const Corners3> new_triangles);
 
