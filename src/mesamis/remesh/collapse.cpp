@@ -68,7 +68,7 @@ bool propose_collapse(Workbench& bench, std::span<const Index> ball, std::array<
                       double quality3_min) {
   const Vertex &vertex = bench.mesh.vertices[move[0]], &onto = bench.mesh.vertices[move[1]];
   if (!may_move(vertex, onto) || !propose_moved(bench, ball, move, quality3_min)) return false;
-  return !(vertex.mask & kOnSkin) || may_collapse_on_skin(bench, ball, move[0], move[1]);
+  return bench.mesh.shape == nullptr || may_collapse_in_body(bench, ball, move[0], move[1]);
 }
 
 bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseRule& rule) {
@@ -80,9 +80,7 @@ bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseR
   const double limit = std::min(rule.quality3_min, std::max(loss_limit, kTinyQuality3));
   if (!propose_moved(bench, ball, {vertex, onto}, limit)) return false;
   if (!keeps_edges_short(bench, onto, rule.new_length_max)) return false;
-  if ((mesh.vertices[vertex].mask & kOnSkin) && !may_collapse_on_skin(bench, ball, vertex, onto)) {
-    return false;
-  }
+  if (mesh.shape != nullptr && !may_collapse_in_body(bench, ball, vertex, onto)) return false;
   bench.cavity.replace(ball);
   mesh.free_vertex(vertex);
   return true;

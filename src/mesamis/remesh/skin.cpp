@@ -192,6 +192,25 @@ class LinkCondition {
   std::vector<Index>& other_ball_;
 };
 
+/// Whether the edge of the present shell has all features of its first end, and may change.
+bool is_along_features(const Workbench& bench, std::span<const Index> ball,
+                       std::array<Index, 2> edge) {
+  const Vertex& target = bench.mesh.vertices[edge[1]];
+  if (!(target.mask & kOnSkin) || (target.mask & kFrozen)) return false;
+  return edge_features(bench.mesh, bench.cavity, edge) ==
+         vertex_features(bench.mesh, ball, edge[0]);
+}
+
+/// Whether the skin may follow when its first point moves onto the second.
+bool keeps_skin(const WorkingMesh& mesh, std::span<const Index> ball, std::array<Index, 2> move) {
+  const auto before = skin_triangles(mesh, ball, move[0], mesh.vertices[move[0]].position);
+  auto after = skin_triangles(mesh, ball, move[0], mesh.vertices[move[1]].position);
+  std::erase_if(after, [&](const Corners3& t) {  // those that had both ends
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  });
+  return may_replace_skin(mesh, before, after);
+}
+
 }  // namespace
 
 double deviation(const WorkingMesh& mesh, const Vec3& p) {
@@ -281,27 +300,37 @@ std::vector<Corners3> skin_triangles(const WorkingMesh& mesh, std::span<const In
   return triangles;
 }
 
-bool may_collapse_on_skin(Workbench& bench, std::span<const Index> ball, Index vertex, Index onto) {
+bool may_collapse_in_body(Workbench& bench, std::span<const Index> ball, Index vertex, Index onto) {
   const WorkingMesh& mesh = bench.mesh;
-  const Vertex& target = mesh.vertices[onto];
-  if (!(target.mask & kOnSkin) || (target.mask & kFrozen)) return false;
   const auto cell = std::ranges::find_if(
       ball, [&](Index c) { return local_index(mesh.cells[c].points, onto) >= 0; });
   if (cell == ball.end() || !bench.cavity.find_shell(*cell, vertex, onto)) return false;
-  if (edge_features(mesh, bench.cavity, {vertex, onto}) != vertex_features(mesh, ball, vertex)) {
-    return false;
-  }
-  if (!LinkCondition(bench, ball, {vertex, onto}).holds()) return false;
-  const auto before = skin_triangles(mesh, ball, vertex, mesh.vertices[vertex].position);
-  auto after = skin_triangles(mesh, ball, vertex, target.position);
-  std::erase_if(after, [&](const Corners3& t) {  // those that had both ends
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  const bool on_skin = mesh.vertices[vertex].mask & kOnSkin;
+  if (on_skin && !is_along_features(bench, ball, {vertex, onto})) return false;
+  return LinkCondition(bench, ball, {vertex, onto}).holds() &&
+         (!on_skin || keeps_skin(mesh, ball, {vertex, onto}));
+}
+
+bool makes_edge_twice(Workbench& bench, std::span<const Index> old_cells) {
+  using Edge = std::array<Index, 2>;
+  std::vector<Edge> known, made;
+  auto add_edges = [](const Cell& points, std::vector<Edge>& edges) {
+    for (const auto& [i, j] : kCellEdges) {
+      edges.push_back({std::min(points[i], points[j]), std::max(points[i], points[j])});
+    }
+  };
+  for (const Index c : old_cells) add_edges(bench.mesh.cells[c].points, known);
+  for (const auto& proposal : bench.cavity.proposed()) add_edges(proposal.points, made);
+  std::sort(known.begin(), known.end());
+  return std::ranges::any_of(made, [&](const Edge& edge) {
+    return !std::binary_search(known.begin(), known.end(), edge) &&
+           has_edge(bench, edge[0], edge[1]);
   });
-  return may_replace_skin(mesh, before, after);
 }
 
 bool has_edge(Workbench& bench, Index a, Index b) {
   if (bench.mesh.vertices[a].mask & kFrozen) std::swap(a, b);
+  if (bench.mesh.vertices[a].mask & kFrozen) return true;
   std::vector<Index>& ball = bench.other_ball;
   bench.cavity.collect_ball(a, ball);
   return ball.empty() || std::ranges::any_of(ball, [&](Index c) {

@@ -55,13 +55,17 @@ bool may_replace_skin(const WorkingMesh& mesh, std::span<const Corners3> old_tri
 std::vector<Corners3> skin_triangles(const WorkingMesh& mesh, std::span<const Index> ball,
                                      Index vertex, const Vec3& at);
 
-/// Whether a vertex of the skin may be moved onto its neighbour: along all its features, with the
-/// same connectivity of skin and body afterwards (the link condition), and a skin that
-/// may_replace_skin().
-/// @param ball  the cells around the vertex; Cavity::ball() may be asked for again.
-bool may_collapse_on_skin(Workbench& bench, std::span<const Index> ball, Index vertex, Index onto);
+/// Whether a vertex of a body may be moved onto its neighbour: with the same connectivity of skin
+/// and body afterwards (the link condition); one of the skin only along all its features, and if
+/// the skin is one that may_replace_skin().
+/// @param ball  the cells around the vertex.
+bool may_collapse_in_body(Workbench& bench, std::span<const Index> ball, Index vertex, Index onto);
 
-/// Whether two vertices, not both frozen, have an edge between them.
+/// Whether the cells proposed have an edge that the old ones have not, but that is there elsewhere.
+/// In a mesh of a box that cannot be; a body may touch itself.
+bool makes_edge_twice(Workbench& bench, std::span<const Index> old_cells);
+
+/// Whether two vertices have an edge between them; taken for granted where both are frozen.
 bool has_edge(Workbench& bench, Index a, Index b);
 
 }  // namespace mesamis::remeshing

@@ -323,7 +323,7 @@ bool propose_removal(Workbench& bench, const Edge& edge, const Removal& removal,
     limit -= energy;
     triangulation.propose(bench.cavity);
   }
-  return true;
+  return bench.mesh.shape == nullptr || !makes_edge_twice(bench, bench.cavity.shell());
 }
 
 bool remove_edge(Workbench& bench, Index cell, int local_edge) {
@@ -337,10 +337,11 @@ bool remove_edge(Workbench& bench, Index cell, int local_edge) {
   return true;
 }
 
-void remove_face(Workbench& bench, Index cell, int face) {
+bool remove_face(Workbench& bench, Index cell, int face) {
   const std::array<Index, 2> old_cells{cell, cell_of(bench.mesh.cells[cell].neighbors[face])};
-  propose_without_face(bench, cell, face);
+  if (!propose_without_face(bench, cell, face)) return false;
   bench.cavity.replace(old_cells);
+  return true;
 }
 
 }  // namespace
@@ -350,8 +351,7 @@ bool swap_around_cell(Workbench& bench, Index cell, double gain) {
   try_edge_removals(bench, cell, best);
   try_face_removals(bench.mesh, cell, best);
   if (best.edge >= 0) return remove_edge(bench, cell, best.edge);
-  if (best.face >= 0) remove_face(bench, cell, best.face);
-  return best.face >= 0;
+  return best.face >= 0 && remove_face(bench, cell, best.face);
 }
 
 std::int64_t swap_bad_cells(Workbench& bench, const SwapRule& rule) {
@@ -382,7 +382,8 @@ bool propose_without_face(Workbench& bench, Index cell, int face) {
   for (const Cell& c : cells_through_face(bench.mesh, cell, face)) {
     bench.cavity.propose(c, quality3(bench.mesh, c), k.material);
   }
-  return true;
+  const std::array<Index, 2> old_cells{cell, cell_of(across)};
+  return bench.mesh.shape == nullptr || !makes_edge_twice(bench, old_cells);
 }
 
 }  // namespace mesamis::remeshing
