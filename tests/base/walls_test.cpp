@@ -24,6 +24,7 @@ const std::map<std::string, std::set<std::string>> kSees{
     {"adapt", {"base", "mesh", "image", "fem", "segment"}},
     {"remesh", {"base", "mesh"}},
     {"surface", {"base", "mesh"}},
+    {"body", {"base", "mesh", "surface", "remesh"}},
     {"decimate", {"base", "mesh", "surface"}},
     {"phantom", {"base", "image", "mesh", "surface"}},
     {"labels", {"base", "image", "mesh", "fem", "surface"}},
