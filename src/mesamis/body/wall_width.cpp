@@ -19,11 +19,15 @@ double width_at(const SignedDistance& distance, const Place& place, double most)
   constexpr int kSteps = 12;
   constexpr double kOpposite = -0.5;  // cosine between the normals of both sides
   constexpr double kRounding = 1e-3;
+  // A ball that fits the wall is cut by the facets around the point, where these bend away from it:
+  // by this share of its radius at 14 degrees.
+  constexpr double kAlong = 0.9, kFacets = 0.03;
   double radius = 0.5 * most;
   bool is_wall = false;
   for (int step = 0; step < kSteps; ++step) {
     const NearestPoint touched = distance.at(p + radius * toward);
-    if (touched.distance >= radius * (1 - kRounding)) break;
+    const bool is_own_side = is_wall && dot(touched.normal, normal) > kAlong;
+    if (touched.distance >= radius * (1 - (is_own_side ? kFacets : kRounding))) break;
     const Vec3 way = touched.point - p;
     const double along = dot(way, toward);
     if (!(along > 0)) break;
