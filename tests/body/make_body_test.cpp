@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/body/make_body.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/surface/distance.h"
+#include "mesamis/surface/self_intersections.h"
+#include "support/metric_fields.h"
+#include "support/shapes.h"
+#include "support/solids.h"
+#include "support/throws.h"
+
+namespace mesamis {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kRadius = 10, kTolerance = 0.1;
+
+BodyOptions of_size(double size) {
+  BodyOptions options;
+  options.element_size = size;
+  options.tolerance = kTolerance;
+  return options;
+}
+
+Box box_around(const TriMesh& surface, double margin = 2) {
+  const Box box = bounding_box(surface.points);
+  const Vec3 all{margin, margin, margin};
+  return {box.lo - all, box.hi + all};
+}
+
+double volume_of(const TetMesh& mesh) {
+  double sum = 0;
+  for (Index c = 0; c < std::ssize(mesh.cells); ++c) sum += cell_volume(mesh, c);
+  return sum;
+}
+
+/// What holds for the skin of any body.
+void expect_closed_skin(const TriMesh& skin) {
+  EXPECT_EQ(solid_flaws_of(check_surface(skin)), "");
+  EXPECT_TRUE(find_self_intersections(skin).empty());
+}
+
+/// Both directions, insides of triangles included.
+void expect_within(const TriMesh& skin, const TriMesh& surface, double tolerance) {
+  EXPECT_LT(max_distance(skin, surface, 0.01 * tolerance), tolerance);
+  EXPECT_LT(max_distance(surface, skin, 0.01 * tolerance), tolerance);
+}
+
+void expect_good_elements(const Body& body) {
+  EXPECT_EQ(body.quality.elements, std::ssize(body.elements.mesh.cells));
+  EXPECT_EQ(body.elements.materials.size(), body.elements.mesh.cells.size());
+  EXPECT_GT(body.quality.scaled_jacobian_min, 0.1);
+  EXPECT_GT(body.quality.least_angle, 10.7);
+}
+
+TEST(MakeBody, FillsABall) {
+  const TriMesh surface = ball_surface(kRadius, 64);
+  const Body body = make_body(std::vector{surface}, box_around(surface), of_size(3));
+  const TriMesh skin = body_skin(body.elements);
+  expect_closed_skin(skin);
+  // The middles of triangles and sides are held to the tolerance, what lies between is not much
+  // off.
+  expect_within(skin, surface, 1.5 * kTolerance);
+  const double volume = 4.0 / 3 * std::numbers::pi * kRadius * kRadius * kRadius;
+  EXPECT_NEAR(volume_of(body.elements.mesh), volume, 0.01 * volume);
+  EXPECT_NEAR(check_surface(skin).volume, volume_of(body.elements.mesh), 1e-9 * volume);
+  expect_good_elements(body);
+  EXPECT_EQ(body.element_size, 3);
+  EXPECT_EQ(body.parts, 1);
+  EXPECT_EQ(body.parts_dropped, 0);
+  EXPECT_TRUE(std::ranges::all_of(body.elements.materials, [](Material m) { return m == 1; }));
+}
+
+TEST(MakeBody, AFinerToleranceIsKeptToo) {
+  const TriMesh surface = ball_surface(kRadius, 64);
+  BodyOptions options = of_size(3);
+  options.tolerance = 0.03;
+  const Body body = make_body(std::vector{surface}, box_around(surface), options);
+  expect_within(body_skin(body.elements), surface, 1.5 * 0.03);
+}
+
+TEST(MakeBody, WhereTheBoxCutsABallTheBodyIsFlat) {
+  const TriMesh surface = ball_above(-4, kRadius, 64);
+  const Box box{{-12, -12, -4}, {12, 12, 12}};
+  const Body body = make_body(std::vector{surface}, box, of_size(3));
+  const TriMesh skin = body_skin(body.elements);
+  expect_closed_skin(skin);
+  expect_good_elements(body);
+  expect_within(skin, surface, 1.5 * kTolerance);
+  double cap = 0;
+  for (const Triangle& t : skin.triangles) {
+    const Vec3 &a = skin.points[t[0]], &b = skin.points[t[1]], &c = skin.points[t[2]];
+    if (a.z == -4 && b.z == -4 && c.z == -4) cap += 0.5 * norm(cross(b - a, c - a));
+  }
+  const double disc = std::numbers::pi * (kRadius * kRadius - 16);
+  EXPECT_NEAR(cap, disc, 0.02 * disc);
+  for (const Vec3& p : skin.points) EXPECT_GE(p.z, -4);
+}
+
+using Triple = std::array<std::array<double, 3>, 3>;
+
+/// The triangles by their places, in whatever order of the corners.
+std::set<Triple> places_of(const TriMesh& skin) {
+  std::set<Triple> places;
+  for (const Triangle& t : skin.triangles) {
+    Triple triple;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& p = skin.points[t[i]];
+      triple[i] = {p.x, p.y, p.z};
+    }
+    std::sort(triple.begin(), triple.end());
+    places.insert(triple);
+  }
+  return places;
+}
+
+double area_of(const Triple& t) {
+  const auto point = [&](std::size_t i) { return Vec3{t[i][0], t[i][1], t[i][2]}; };
+  return 0.5 * norm(cross(point(1) - point(0), point(2) - point(0)));
+}
+
+/// Two halves of a ball that share the disc at z = 0.
+std::vector<TriMesh> two_halves() {
+  const TriMesh upper = ball_above(0, kRadius, 48);
+  return {upper, mirrored(upper)};
+}
+
+TEST(MakeBody, ObjectsThatTouchShareTheirTriangles) {
+  const auto surfaces = two_halves();
+  const Box box{{-12, -12, -12}, {12, 12, 12}};
+  const Body body = make_body(surfaces, box, of_size(3));
+  const TriMesh upper = body_skin(body.elements, 1), lower = body_skin(body.elements, 2);
+  const TriMesh all = body_skin(body.elements);
+  for (const TriMesh& skin : {upper, lower, all}) {
+    EXPECT_EQ(solid_flaws_of(check_surface(skin)), "");
+  }
+  const auto in_upper = places_of(upper), in_lower = places_of(lower), in_all = places_of(all);
+  double shared = 0;
+  std::size_t count = 0;
+  for (const Triple& t : in_upper) {
+    if (!in_lower.count(t)) continue;
+    EXPECT_FALSE(in_all.count(t));
+    const bool near_rim =
+        std::ranges::any_of(t, [](const auto& p) { return std::hypot(p[0], p[1]) > kRadius - 3; });
+    if (!near_rim) {
+      for (const auto& p : t) EXPECT_NEAR(p[2], 0, kTolerance);
+    }
+    shared += area_of(t);
+    ++count;
+  }
+  EXPECT_EQ(in_all.size(), in_upper.size() + in_lower.size() - 2 * count);
+  const double disc = std::numbers::pi * kRadius * kRadius;
+  EXPECT_NEAR(shared, disc, 0.03 * disc);
+  const double half = 2.0 / 3 * std::numbers::pi * kRadius * kRadius * kRadius;
+  EXPECT_NEAR(check_surface(upper).volume, half, 0.02 * half);
+  EXPECT_NEAR(check_surface(lower).volume, half, 0.02 * half);
+  EXPECT_GT(body.quality.scaled_jacobian_min, 0);
+}
+
+TEST(MakeBody, IsTheSameForAnyNumberOfThreads) {
+  const std::vector surfaces{brick({{0, 0, 0}, {6, 6, 5}}, {6, 6, 5}),
+                             brick({{0, 0, 5}, {6, 6, 10}}, {6, 6, 5})};
+  const Box box{{-2, -2, -2}, {8, 8, 12}};
+  auto make = [&] { return make_body(surfaces, box, of_size(3)); };
+  const Body once = with_threads(1, make);
+  for (const int threads : {2, 4}) {
+    const Body again = with_threads(threads, make);
+    EXPECT_EQ(mesh_hash(again.elements.mesh), mesh_hash(once.elements.mesh)) << threads;
+    EXPECT_EQ(again.elements.materials, once.elements.materials);
+    EXPECT_EQ(again.quality.least_angle, once.quality.least_angle);
+  }
+}
+
+TEST(MakeBody, SmallPartsAreLeftOutAndCounted) {
+  const TriMesh surface =
+      joined(ball_surface(kRadius, 40), moved(ball_surface(1.5, 24), {14, 0, 0}));
+  BodyOptions options = of_size(4);
+  options.least_size = 1;
+  options.part_share = 0;
+  const Body both = make_body(std::vector{surface}, box_around(surface), options);
+  EXPECT_EQ(both.parts, 2);
+  EXPECT_EQ(both.parts_dropped, 0);
+  options.part_share = 0.01;  // the small ball has 0.3 %
+  const Body one = make_body(std::vector{surface}, box_around(surface), options);
+  EXPECT_EQ(one.parts, 1);
+  EXPECT_EQ(one.parts_dropped, 1);
+  EXPECT_EQ(one.elements.materials.size(), one.elements.mesh.cells.size());
+  for (const Vec3& p : one.elements.mesh.points) EXPECT_LT(norm(p), kRadius + 0.5);
+  EXPECT_LT(volume_of(one.elements.mesh), volume_of(both.elements.mesh));
+}
+
+TEST(MakeBody, TheElementSizeIsAThirtiethOfTheLongestSideUnlessGiven) {
+  const TriMesh surface = brick({{0, 0, 0}, {30, 4, 4}}, {30, 4, 4});
+  const Body body = make_body(std::vector{surface}, box_around(surface), {});
+  EXPECT_DOUBLE_EQ(body.element_size, 1);
+}
+
+TEST(MakeBody, RefusesElementsLargerThanTheBody) {
+  const TriMesh surface = ball_surface(kRadius, 24);
+  EXPECT_REFUSED(make_body(std::vector{surface}, box_around(surface), of_size(21)),
+                 HasSubstr("expected an element size of at most"));
+}
+
+TEST(MakeBody, RefusesNoObjects) {
+  EXPECT_REFUSED(make_body({}, kUnitBox, of_size(1)), testing::_);
+  EXPECT_REFUSED(make_body({}, kUnitBox, {}), HasSubstr("expected 1 to 255 objects, found 0"));
+}
+
+TEST(MakeBody, ProgressStopsIt) {
+  const TriMesh surface = ball_surface(kRadius, 24);
+  BodyOptions options = of_size(4);
+  double last = 0;
+  options.progress = [&](std::string_view, double fraction) {
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1);
+    last = fraction;
+    return fraction < 0.6;
+  };
+  EXPECT_THROW(make_body(std::vector{surface}, box_around(surface), options), Cancelled);
+  EXPECT_GE(last, 0.6);
+}
+
+/// A brick of two materials: what of it lies at x < 1 is 1, the rest 2.
+TEST(BodySkin, OfABoxMeshIsItsBoundary) {
+  BodyMesh body{box_mesh({{0, 0, 0}, {2, 1, 1}}, {4, 2, 2}), {}};
+  for (const Cell& cell : body.mesh.cells) {
+    double sum = 0;
+    for (const Vec3& p : cell_corners(body.mesh, cell)) sum += p.x;
+    body.materials.push_back(sum < 4 ? 1 : 2);
+  }
+  for (const auto& [object, volume, area] :
+       {std::tuple{0, 2.0, 10.0}, std::tuple{1, 1.0, 6.0}, std::tuple{2, 1.0, 6.0}}) {
+    const auto check = check_surface(body_skin(body, static_cast<Material>(object)));
+    EXPECT_EQ(solid_flaws_of(check), "");
+    EXPECT_NEAR(check.volume, volume, 1e-12);
+    EXPECT_NEAR(check.area, area, 1e-12);
+  }
+  EXPECT_TRUE(body_skin(body, 3).triangles.empty());
+  EXPECT_TRUE(body_skin(body, 3).points.empty());
+}
+
+}  // namespace
+}  // namespace mesamis
