@@ -71,7 +71,8 @@ TEST(MakeBody, FillsABall) {
   // off.
   expect_within(skin, surface, 1.5 * kTolerance);
   const double volume = 4.0 / 3 * std::numbers::pi * kRadius * kRadius * kRadius;
-  EXPECT_NEAR(volume_of(body.elements.mesh), volume, 0.01 * volume);
+  // Vertices lie on the ball, triangles up to the tolerance below: at most 3 %.
+  EXPECT_NEAR(volume_of(body.elements.mesh), volume, 0.02 * volume);
   EXPECT_NEAR(check_surface(skin).volume, volume_of(body.elements.mesh), 1e-9 * volume);
   expect_good_elements(body);
   EXPECT_EQ(body.element_size, 3);
@@ -161,8 +162,8 @@ TEST(MakeBody, ObjectsThatTouchShareTheirTriangles) {
   const double disc = std::numbers::pi * kRadius * kRadius;
   EXPECT_NEAR(shared, disc, 0.03 * disc);
   const double half = 2.0 / 3 * std::numbers::pi * kRadius * kRadius * kRadius;
-  EXPECT_NEAR(check_surface(upper).volume, half, 0.02 * half);
-  EXPECT_NEAR(check_surface(lower).volume, half, 0.02 * half);
+  EXPECT_NEAR(check_surface(upper).volume, half, 0.03 * half);
+  EXPECT_NEAR(check_surface(lower).volume, half, 0.03 * half);
   EXPECT_GT(body.quality.scaled_jacobian_min, 0);
 }
 

@@ -79,13 +79,13 @@ TEST(RemeshBody, ABallIsFilled) {
   EXPECT_EQ(boundary_flaws(body.mesh), "");
   expect_skin_near(body, kBall, FormulaShape::kTolerance);
   const double volume = 4.0 / 3 * std::numbers::pi * 0.064;
-  EXPECT_NEAR(volume_of(body.mesh), volume, 0.03 * volume);
+  EXPECT_NEAR(volume_of(body.mesh), volume, 0.05 * volume);
   EXPECT_TRUE(report.converged);
 }
 
 /// A plane that cuts the box askew: its skin is exactly flat, and the rest is the box's.
 TEST(RemeshBody, APlanesSkinIsFlat) {
-  const PlaneShape plane({1, 2, 3}, 1.5, 1, kOutside);
+  const PlaneShape plane({1, 2, 3}, 0.8, 1, kOutside);
   const BodyMesh body = remesh_body(start(), kMetric, plane);
   expect_sound_body(body);
   EXPECT_EQ(boundary_flaws(body.mesh), "");

@@ -117,10 +117,11 @@ class LinkCondition {
 
   bool common_points_are_in_ring() {
     first_.clear();
+    second_.clear();
     insert_points(mesh_, other_ball_, first_);
     for (const Index c : ball_) {
       for (const Index p : mesh_.cells[c].points) {
-        if (p == edge_[0] || p == edge_[1] || is_in_ring(p)) continue;
+        if (p == edge_[0] || p == edge_[1] || is_in_ring(p) || !second_.insert(p)) continue;
         if (!first_.insert(p)) return false;
       }
     }
