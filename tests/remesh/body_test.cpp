@@ -73,14 +73,13 @@ void expect_skin_near(const BodyMesh& body, const FormulaShape& shape, double to
 }
 
 TEST(RemeshBody, ABallIsFilled) {
-  RemeshReport report;
-  const BodyMesh body = remesh_body(start(), kMetric, kBall, {}, &report);
+  const BodyMesh body = remesh_body(start(), kMetric, kBall);
   expect_sound_body(body);
   EXPECT_EQ(boundary_flaws(body.mesh), "");
   expect_skin_near(body, kBall, FormulaShape::kTolerance);
   const double volume = 4.0 / 3 * std::numbers::pi * 0.064;
   EXPECT_NEAR(volume_of(body.mesh), volume, 0.05 * volume);
-  EXPECT_TRUE(report.converged);
+  EXPECT_TRUE(body.report.converged);
 }
 
 /// A plane that cuts the box askew: its skin is exactly flat, and the rest is the box's.
@@ -107,11 +106,10 @@ TEST(RemeshBody, IsTheSameForAnyNumberOfThreads) {
   RemeshOptions options;
   options.part_cells = 1000;
   const FormulaMetric fine = uniform_metric(0.07);
-  RemeshReport report;
   const TetMesh begin = box_mesh(kUnitBox, {12, 12, 12});
-  auto make = [&] { return remesh_body(begin, fine, kBall, options, &report); };
+  auto make = [&] { return remesh_body(begin, fine, kBall, options); };
   const BodyMesh once = with_threads(1, make);
-  EXPECT_FALSE(report.part_seconds.empty()) << "there was only one part";
+  EXPECT_FALSE(once.report.part_seconds.empty()) << "there was only one part";
   expect_sound_body(once);
   EXPECT_EQ(boundary_flaws(once.mesh), "");
   expect_skin_near(once, kBall, FormulaShape::kTolerance);

@@ -90,7 +90,8 @@ Body make_body(std::span<const TriMesh> surfaces, const Box& box, const BodyOpti
   body.seconds.start = watch.lap();
   remeshing.draft = false;
   remeshing.progress = half_of(options.progress, 0.5);
-  body.elements = remesh_body(start, sizes, shape, remeshing, &body.remeshing);
+  body.elements = remesh_body(start, sizes, shape, remeshing);
+  body.remeshing = body.elements.report;
   drop_small_parts(body, options.part_share);
   body.quality = element_quality(body.elements.mesh);
   body.seconds.body = watch.lap();

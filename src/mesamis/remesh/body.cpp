@@ -129,7 +129,7 @@ BodyMesh unload_body(const WorkingMesh& mesh) {
 }  // namespace
 
 BodyMesh remesh_body(const TetMesh& start, const MetricField& metric, const BodyShape& shape,
-                     const RemeshOptions& options, RemeshReport* report) {
+                     const RemeshOptions& options) {
   Stopwatch watch;
   const Box box = bounding_box(start.points);
   const std::string flaw = find_flaw(start, box);
@@ -140,10 +140,8 @@ BodyMesh remesh_body(const TetMesh& start, const MetricField& metric, const Body
   remesher.polish();
   remesher.repair();
   BodyMesh body = unload_body(remesher.result());
-  if (report != nullptr) {
-    *report = remesher.report();
-    report->seconds = watch.lap();
-  }
+  body.report = remesher.report();
+  body.report.seconds = watch.lap();
   return body;
 }
 

@@ -15,6 +15,7 @@ namespace mesamis {
 struct BodyMesh {
   TetMesh mesh;                     ///< of the objects alone, mm
   std::vector<Material> materials;  ///< per cell, above 0
+  RemeshReport report{};            ///< what remesh_body() did
 };
 
 /// Builds a mesh of the objects of a shape, whose edges have length one in the metric.
@@ -30,13 +31,12 @@ struct BodyMesh {
 ///                that is wanted: of remesh() with the same metric.
 /// @param metric  in 1/mm^2, defined on the whole box; isotropic where a solver gets the mesh.
 /// @param shape   called in threads.
-/// @param report  optional.
 /// @return the same bits for any number of threads.
 /// @throws InputError  if start is not a valid mesh of its bounding box, or no cell lies inside.
 /// @throws Cancelled   if progress returns false.
 ///
 /// Time and memory as remesh(), and a few look-ups of the border per operation on the skin.
 BodyMesh remesh_body(const TetMesh& start, const MetricField& metric, const BodyShape& shape,
-                     const RemeshOptions& options = {}, RemeshReport* report = nullptr);
+                     const RemeshOptions& options = {});
 
 }  // namespace mesamis

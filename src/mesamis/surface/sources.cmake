@@ -13,7 +13,6 @@ set(ROOM_HEADERS
   sampling.h
   select_parts.h
   self_intersections.h
-  signed_distance.h
   smooth_memberships.h
   split_edges.h
   tri_mesh.h
@@ -24,6 +23,7 @@ set(ROOM_INNER_HEADERS
   farthest.h
   half_edges.h
   list_materials.h
+  signed_distance.h
   triangle_intersection.h
   triangle_tree.h)
 set(ROOM_SOURCES
