@@ -113,9 +113,11 @@ TEST(BodySurface, ToleranceIsLessWhereAWallOrAGapIsThin) {
   const Box box{{-1, -1, -1}, {21, 21, 19}};
   const Vec3 middle{10.3, 10.2, 9};
   EXPECT_EQ(BodySurface(wide, box, kTolerance).nearest_border(middle).tolerance, kTolerance);
-  EXPECT_LT(BodySurface(thin, box, kTolerance).nearest_border(middle).tolerance, 0.2 / 4);
+  const Vec3 within{10.3, 10.2, 0.15};  // of the thin wall; outward it has room
+  EXPECT_LT(BodySurface(thin, box, kTolerance).nearest_border(within).tolerance, 0.2 / 4);
+  EXPECT_EQ(BodySurface(thin, box, kTolerance).nearest_border(middle).tolerance, kTolerance);
   EXPECT_LT(BodySurface(gap, box, kTolerance).nearest_border(middle).tolerance, 0.2 / 4);
-  EXPECT_GT(BodySurface(thin, box, kTolerance).nearest_border(middle).tolerance, 0);
+  EXPECT_GT(BodySurface(thin, box, kTolerance).nearest_border(within).tolerance, 0);
 }
 
 TEST(BodySurface, ThicknessIsThatOfTheWall) {

@@ -156,7 +156,7 @@ TEST(Skin, VerticesCollapseAlongIt) {
   SmallBody body(box_mesh(kUnitBox, {4, 4, 4}), kMetric, kTwoHalves);
   auto may = [&](const Vec3& from, const Vec3& onto) {
     const Index vertex = body.vertex_at(from);
-    return may_collapse_on_skin(body.bench, body.ball(vertex), vertex, body.vertex_at(onto));
+    return may_collapse_in_body(body.bench, body.ball(vertex), vertex, body.vertex_at(onto));
   };
   EXPECT_TRUE(may({0.5, 0.5, 0.5}, {0.75, 0.5, 0.5}));
   EXPECT_FALSE(may({0.5, 0.5, 0.5}, {0.5, 0.5, 0.75})) << "off the skin";
@@ -173,13 +173,13 @@ TEST(Skin, ACollapseThatWouldPinchTheBodyIsRefused) {
   ASSERT_NE(cell_with(body.mesh, lower, upper), kNoIndex);
   ASSERT_TRUE(body.mesh.vertices[lower].mask & kOnSkin);
   ASSERT_TRUE(body.mesh.vertices[upper].mask & kOnSkin);
-  EXPECT_FALSE(may_collapse_on_skin(body.bench, body.ball(lower), lower, upper));
-  EXPECT_FALSE(may_collapse_on_skin(body.bench, body.ball(upper), upper, lower));
+  EXPECT_FALSE(may_collapse_in_body(body.bench, body.ball(lower), lower, upper));
+  EXPECT_FALSE(may_collapse_in_body(body.bench, body.ball(upper), upper, lower));
   const auto cells = body.mesh.cell_count();
   EXPECT_FALSE(collapse_vertex(body.bench, lower, upper, {.new_length_max = 100}));
   EXPECT_EQ(body.mesh.cell_count(), cells);
   EXPECT_TRUE(
-      may_collapse_on_skin(body.bench, body.ball(lower), lower, body.vertex_at({0.75, 0.5, 0.25})));
+      may_collapse_in_body(body.bench, body.ball(lower), lower, body.vertex_at({0.75, 0.5, 0.25})));
 }
 
 /// Whatever collapses are tried on a wall of one layer, it stays a wall.

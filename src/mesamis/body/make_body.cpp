@@ -16,6 +16,10 @@
 namespace mesamis {
 namespace {
 
+/// What the operations are held to, as a share of the tolerance: they look at four points of a
+/// triangle, and others lie further away. The volume, too, errs by half as much.
+constexpr double kAimed = 0.5;
+
 Box box_of(std::span<const TriMesh> surfaces) {
   std::vector<Vec3> corners;
   for (const TriMesh& surface : surfaces) {
@@ -35,7 +39,7 @@ SizeRules size_rules(const BodyOptions& options, double longest) {
   }
   rules.least =
       options.least_size > 0 ? std::min(options.least_size, rules.target) : rules.target / kSmaller;
-  rules.tolerance = options.tolerance;
+  rules.tolerance = kAimed * options.tolerance;
   rules.gradation = options.gradation;
   rules.through_wall = options.through_wall;
   return rules;
@@ -80,7 +84,7 @@ Body make_body(std::span<const TriMesh> surfaces, const Box& box, const BodyOpti
   const SizeRules rules = size_rules(options, std::max({extent.x, extent.y, extent.z}));
   Body body;
   body.element_size = rules.target;
-  const BodySurface shape(surfaces, box, options.tolerance);
+  const BodySurface shape(surfaces, box, rules.tolerance);
   const GridMetricField sizes = size_field(surfaces, shape, box, rules);
   body.seconds.sizes = watch.lap();
   RemeshOptions remeshing;

@@ -38,6 +38,8 @@ struct Body {
 ///
 /// Sizes follow the element size, curvature and thickness (size_field()); a mesh of the box is made
 /// for them (remesh()), cut at the surfaces and improved with its skin kept (remesh_body()).
+/// The boundary of one object alone is a 2-manifold. Of several objects each has a closed boundary,
+/// which may touch itself where three of them, or two and the outside, meet.
 /// @param surfaces  1 to 255 objects, closed, 2-manifold, oriented outward, mm; what two share is
 ///                  the same in both.
 /// @param box       mm, around all of them: where a surface lies on one of its planes, so will the

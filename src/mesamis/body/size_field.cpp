@@ -26,6 +26,18 @@ Vec3 normal_of(const TriMesh& surface, Index triangle) {
   return cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
 }
 
+/// Calls visit(edge, angle) for the edges between two triangles, with the angle by which these
+/// turn.
+template <class Visit>
+void for_each_bend(const TriMesh& surface, Visit&& visit) {
+  const auto half_edges = sorted_half_edges(surface.triangles, surface.points.size());
+  for_each_edge(half_edges, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 2) return;
+    const Vec3 m = normal_of(surface, edge[0].triangle), n = normal_of(surface, edge[1].triangle);
+    visit(edge[0], std::atan2(norm(cross(m, n)), dot(m, n)));
+  });
+}
+
 /// The mean of the absolute curvature over the triangles around each point, 1/mm: the angles at
 /// their edges times the edges' lengths, over the area.
 std::vector<double> curvatures(const TriMesh& surface) {
@@ -33,14 +45,10 @@ std::vector<double> curvatures(const TriMesh& surface) {
   for (const Triangle& t : surface.triangles) {
     for (const Index p : t) area[p] += area_of(surface, t);
   }
-  const auto half_edges = sorted_half_edges(surface.triangles, surface.points.size());
-  for_each_edge(half_edges, [&](std::span<const HalfEdge> edge) {
-    if (edge.size() != 2) return;
-    const Vec3 m = normal_of(surface, edge[0].triangle), n = normal_of(surface, edge[1].triangle);
-    const double angle = std::atan2(norm(cross(m, n)), dot(m, n));
-    const double length = norm(surface.points[edge[0].hi] - surface.points[edge[0].lo]);
-    bend[edge[0].lo] += angle * length;
-    bend[edge[0].hi] += angle * length;
+  for_each_bend(surface, [&](const HalfEdge& edge, double angle) {
+    const double length = norm(surface.points[edge.hi] - surface.points[edge.lo]);
+    bend[edge.lo] += angle * length;
+    bend[edge.hi] += angle * length;
   });
   // Each edge is shared by two points and each triangle by three: an edge's bend counts 1/2, an
   // area 1/3, and a cylinder of curvature k has a mean of k / 2 on either side of its edges.
@@ -48,6 +56,17 @@ std::vector<double> curvatures(const TriMesh& surface) {
     bend[i] = area[i] > 0 ? 1.5 * bend[i] / area[i] : 0;
   }
   return bend;
+}
+
+/// The sizes that edges ask for at their ends. Triangles of size h cut an edge off that turns by an
+/// angle a by about h / 2 tan(a / 4).
+std::vector<double> crease_sizes(const TriMesh& surface, double tolerance) {
+  std::vector<double> sizes(surface.points.size(), std::numeric_limits<double>::infinity());
+  for_each_bend(surface, [&](const HalfEdge& edge, double angle) {
+    const double size = 2 * tolerance / std::tan(angle / 4);
+    for (const Index p : {edge.lo, edge.hi}) sizes[p] = std::min(sizes[p], size);
+  });
+  return sizes;
 }
 
 /// Averages over neighbours: facets of a decimated surface bend at few edges only.
@@ -186,9 +205,9 @@ std::vector<double> surface_sizes(const TriMesh& surface, std::span<const double
                                   const SizeRules& rules) {
   std::vector<double> bend = curvatures(surface);
   for (int pass = 0; pass < 2; ++pass) smooth(surface, bend);
-  std::vector<double> sizes(surface.points.size());
+  std::vector<double> sizes = crease_sizes(surface, rules.tolerance);
   parallel_for(sizes.size(), [&](std::size_t i) {
-    double size = rules.target;
+    double size = std::min(sizes[i], rules.target);
     if (bend[i] > 0) size = std::min(size, std::sqrt(6 * rules.tolerance / bend[i]));
     if (rules.through_wall > 0) size = std::min(size, thickness[i] / rules.through_wall);
     sizes[i] = std::max(size, rules.least);

@@ -26,7 +26,8 @@ struct SizeRules {
 /// @return n sizes, mm.
 /// @throws nothing
 ///
-/// A triangle of size h on a ball of radius r has its middle h^2 / (6 r) below. The radius is that
+/// Triangles of size h cut off an edge, which turns by an angle a, by about h / 2 tan(a / 4). A
+/// triangle of size h on a ball of radius r has its middle h^2 / (6 r) below. The radius is that
 /// of the mean curvature, from the angles between neighbouring triangles (Meyer et al., Discrete
 /// differential-geometry operators, 2003). O(n log n).
 std::vector<double> surface_sizes(const TriMesh& surface, std::span<const double> thickness,

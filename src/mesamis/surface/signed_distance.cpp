@@ -101,13 +101,13 @@ void SignedDistance::compute_normals() {
 }
 
 void SignedDistance::fill_hints() {
-  constexpr double kTrianglesPerBrick = 2;
+  constexpr double kTrianglesPerBrick = 2;  // far from the surface a brick costs more
   constexpr Index kMostBricks = 128;
   box_ = bounding_box(surface_.points);
   const Vec3 extent = box_.extent();
   const double longest = std::max({extent.x, extent.y, extent.z});
   const double side =
-      longest / std::sqrt(static_cast<double>(surface_.triangles.size()) / kTrianglesPerBrick);
+      longest / std::cbrt(static_cast<double>(surface_.triangles.size()) / kTrianglesPerBrick);
   for (int axis = 0; axis < 3; ++axis) {
     const double wanted = std::ceil(extent[axis] / side);
     bricks_[axis] = static_cast<Index>(std::clamp(wanted, 1.0, double{kMostBricks}));
