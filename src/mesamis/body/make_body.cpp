@@ -69,6 +69,7 @@ void drop_small_parts(Body& body, double share) {
   const CellSelection large{.volume_min = share * volume_of(elements.mesh)};
   const auto kept = select_cells(elements.mesh, all, large);
   std::vector<Material> materials;
+  materials.reserve(kept.size());
   for (const Index c : kept) materials.push_back(elements.materials[c]);
   elements = {restrict_mesh(elements.mesh, kept).mesh, std::move(materials)};
   const std::int64_t before = body.parts;

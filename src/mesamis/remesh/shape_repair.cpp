@@ -23,7 +23,8 @@ constexpr double kGain = 1.005;
 std::vector<Vec3> directions() {
   std::vector<Vec3> all;
   for (int i = 0; i < 27; ++i) {
-    const Vec3 d{i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0};
+    const int x = i % 3, y = i / 3 % 3, z = i / 9;
+    const Vec3 d{x - 1.0, y - 1.0, z - 1.0};
     if (i != 13) all.push_back(unit_or_zero(d));
   }
   return all;

@@ -184,7 +184,7 @@ bool peels_a_cell(const Removal& removal) {
 /// not on the skin yet, and the new triangles are as near to the border as they must be.
 bool may_turn_skin(Workbench& bench, const Edge& edge, const Removal& removal) {
   const WorkingMesh& mesh = bench.mesh;
-  const auto [p, q] = removal.skin_edge;
+  const Index p = removal.skin_edge[0], q = removal.skin_edge[1];
   const unsigned frozen = mesh.vertices[p].mask & mesh.vertices[q].mask & kFrozen;
   if (mesh.shape == nullptr || frozen) return false;
   auto at = [&mesh](Index v) { return mesh.vertices[v].position; };

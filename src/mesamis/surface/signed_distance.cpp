@@ -115,8 +115,8 @@ void SignedDistance::fill_hints() {
   hints_.resize(static_cast<std::size_t>(bricks_[0]) * bricks_[1] * bricks_[2]);
   const auto columns = static_cast<std::size_t>(bricks_[1]) * bricks_[2];
   parallel_for(columns, [&](std::size_t column) {
-    const auto j = static_cast<double>(column % bricks_[1]);
-    const auto k = static_cast<double>(column / bricks_[1]);
+    const std::size_t row = column % bricks_[1], layer = column / bricks_[1];
+    const auto j = static_cast<double>(row), k = static_cast<double>(layer);
     std::size_t hint = 0;
     for (Index i = 0; i < bricks_[0]; ++i) {
       const Vec3 middle{box_.lo.x + (i + 0.5) * extent.x / bricks_[0],
