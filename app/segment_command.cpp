@@ -19,6 +19,7 @@
 #include "mesamis/delivery/mesh_output.h"
 #include "mesamis/label_files/write_labels.h"
 #include "mesamis/method/mes_amis.h"
+#include "mesamis/record/body_json.h"
 #include "mesamis/record/json_file.h"
 #include "mesamis/record/report.h"
 #include "mesamis/record/settings_json.h"
@@ -78,12 +79,13 @@ SurfaceWriteOptions surface_options(const SegmentOptions& options, const Result&
 /// A run whose result nobody would see is not started.
 void require_some_output(const SegmentOptions& options) {
   if (!options.surfaces.empty() || !options.meshes.empty() || !options.band_meshes.empty() ||
-      !options.labelmap.empty() || !options.report.empty()) {
+      !options.labelmap.empty() || !options.report.empty() || options.body.given()) {
     return;
   }
   throw CLI::ValidationError(
       "segment",
-      "expected --output, --mesh, --band-mesh, --labelmap or --report, found nothing to write");
+      "expected --output, --mesh, --body, --band-mesh, --labelmap or --report, found nothing to "
+      "write");
 }
 
 /// A Medit mesh has its fields in a file of their own.
@@ -91,7 +93,8 @@ fs::path fields_beside(const fs::path& mesh) { return fs::path(mesh).replace_ext
 
 Paths outputs_of(const SegmentOptions& options) {
   Paths outputs{options.labelmap, options.report};
-  for (const auto* paths : {&options.surfaces, &options.meshes, &options.band_meshes}) {
+  for (const auto* paths :
+       {&options.surfaces, &options.meshes, &options.band_meshes, &options.body.files}) {
     outputs.insert(outputs.end(), paths->begin(), paths->end());
   }
   for (const fs::path& mesh : options.meshes) {
@@ -126,6 +129,7 @@ void require_outputs(const SegmentOptions& options) {
     if (lower_extension(path) == ".mesh") require_writable(fields_beside(path));
   }
   for (const fs::path& path : options.band_meshes) require_output(path, {".vtu"}, "--band-mesh");
+  require_body(options.body);
   if (!options.labelmap.empty()) require_labelmap(options.labelmap);
   if (!options.report.empty()) require_output(options.report, {".json"}, "--report");
   require_distinct_files(outputs_of(options), inputs_of(options));
@@ -206,6 +210,17 @@ void warn_of_missing_meshes(const SegmentOptions& options, const Result& result)
   log_warning("--time-limit: no mesh was made in this time, none is written");
 }
 
+/// A body of the surface of a run, if one was asked for.
+std::optional<BodyOutput> make_body(const SegmentOptions& options, const Result& result,
+                                    const Volume& volume, ProgressDisplay& display) {
+  if (!options.body.given()) return {};
+  require_surface(result);
+  BodyRequest request = body_request(options.body, result.parameters.tolerance);
+  request.elements.progress = display.callback();
+  const FoundObject object{result.surface, {"object", 1, 0, default_colour(1)}};
+  return make_body_output({&object, 1}, volume, request);
+}
+
 /// @param mesh  none for a run that was stopped before its first mesh.
 void write_meshes(const SegmentOptions& options, const Result& result,
                   const std::optional<MeshOutput>& mesh) {
@@ -220,11 +235,12 @@ int run_on_scan(const SegmentOptions& options, const Settings& settings,
   ProgressDisplay display(common.quiet);
   const Result result =
       run_on_object(scan.object, settings, display.callback(), time_limit(options));
+  const Volume& volume = scan.object.volume;
+  const std::optional<BodyOutput> body = make_body(options, result, volume, display);
   display.finish();
   if (result.stopped) warn_of_missing_meshes(options, result);
   log_surface(scan.object, result.parameters);
   const SurfaceCheck check = check_surface(result.surface);
-  const Volume& volume = scan.object.volume;
   std::optional<MeshOutput> mesh;  // before any file is written: it may be refused
   const bool has_mesh = !result.mesh.cells.empty();
   if (has_mesh && !options.meshes.empty()) mesh = make_mesh_output(result, volume, options.mesh);
@@ -233,10 +249,12 @@ int run_on_scan(const SegmentOptions& options, const Settings& settings,
   OutputSet set;
   for (const fs::path& path : options.surfaces) write_surface(path, result.surface, surface_as);
   write_meshes(options, result, mesh);
+  if (body) write_bodies(options.body, *body, options.scan.frame);
   if (!options.labelmap.empty()) write_labelmap(options.labelmap, result.surface, scan.grid);
   if (!options.report.empty()) {
     auto run = run_json(settings, result, check);
     if (mesh) run["mesh"]["region"] = region_json(*mesh);
+    if (body) run["body"] = body_json(*body);
     write_report(options, scan, run, set);
   }
   commit(set);
@@ -279,6 +297,7 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
                     "Write the error expected at each point, mm, into --output .vtp and .ply, as "
                     "expected_error");
   add_mesh_options(*command, options);
+  add_body_options(*command, options->body);
   add_place_options(*command, options->scan.places);
   add_label_options(*command, options->scan.labels);
   command->add_option("--labelmap", options->labelmap,

@@ -8,6 +8,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/delivery/label_output.h"
 #include "mesamis/label_files/write_labels.h"
+#include "mesamis/record/body_json.h"
 #include "mesamis/record/json_file.h"
 #include "mesamis/record/label_report.h"
 #include "mesamis/record/report.h"
@@ -150,6 +151,15 @@ void require_found(const LabelResult& result, const std::vector<Segment>& wanted
   }
 }
 
+/// One body of all objects, if it was asked for.
+std::optional<BodyOutput> make_body(const SegmentRun& run, const LabelResult& result,
+                                    const ChosenScan& scan) {
+  if (!run.body.given()) return {};
+  const double tolerance = result.parameters.tolerance;
+  return make_body_output(found_objects(result), scan.object.volume,
+                          body_request(run.body, tolerance));
+}
+
 /// Writes what was found.
 /// @param wanted  the objects that were asked for.
 /// @return the exit status.
@@ -162,8 +172,10 @@ int deliver(const SegmentRun& run, const LabelResult& result, const ChosenScan& 
   }
   std::optional<MeshOutput> mesh;
   if (!run.meshes.empty()) mesh = mesh_output(run, result, scan.object.volume);
+  const std::optional<BodyOutput> body = make_body(run, result, scan);
   OutputSet set;
   write_surfaces(run, result, wanted.size() > 1);
+  if (body) write_bodies(run.body, *body, run.scan.frame);
   for (const fs::path& path : run.meshes) write_mesh(path, *mesh, run.scan.frame);
   for (const fs::path& path : run.band_meshes) write_band_mesh(path, *result.mesh, run.scan.frame);
   if (!run.labelmap.empty()) {
@@ -172,6 +184,7 @@ int deliver(const SegmentRun& run, const LabelResult& result, const ChosenScan& 
   if (!run.report.empty()) {
     auto found = label_run_json(result, checks);
     if (mesh) found["mesh"]["region"] = region_json(*mesh);
+    if (body) found["body"] = body_json(*body);
     write_report(run, found, scan, set);
   }
   commit(set);
@@ -207,6 +220,9 @@ void require_error_place(const SegmentRun& run) {
 void require_scan_for_mesh(const SegmentRun& run) {
   if (run.wants_mesh() && run.scan.input.empty()) {
     throw CLI::ValidationError("--mesh", "expected a scan beside the labels, found none");
+  }
+  if (run.body.given() && run.scan.input.empty()) {
+    throw CLI::ValidationError("--body", "expected a scan beside the labels, found none");
   }
 }
 

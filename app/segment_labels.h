@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "body_options.h"
 #include "chosen_scan.h"
 #include "commands.h"
 #include "mesamis/delivery/mesh_output.h"
@@ -17,7 +18,8 @@ struct SegmentRun {
   ScanArguments scan;  ///< its input may be empty: the labels alone
   std::vector<std::filesystem::path> surfaces;
   std::vector<std::filesystem::path> meshes, band_meshes;
-  MeshOptions mesh;                        ///< of the meshes
+  MeshOptions mesh;  ///< of the meshes
+  BodyArguments body;
   std::filesystem::path labelmap, report;  ///< may be empty
   /// Of the whole in the files; never the scan's, which may be the patient's.
   std::string name = "mesamis surface";

@@ -18,7 +18,7 @@ Box with_margin(const Box& box, double margin) {
   return {box.lo - m, box.hi + m};
 }
 
-void print_skin(const Body& body, const TriMesh& surface, double tolerance) {
+void print_skin(const MeshedBody& body, const TriMesh& surface, double tolerance) {
   const TriMesh skin = body_skin(body.elements);
   const SurfaceCheck check = check_surface(skin), of_surface = check_surface(surface);
   const double there = max_distance(skin, surface, fine_enough(surface, tolerance));
@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
   options.element_size = std::atof(argv[2]);
   options.tolerance = std::atof(argv[3]);
   const Box box = with_margin(bounding_box(surface.points), options.element_size);
-  const Body body = make_body({&surface, 1}, box, options);
+  const MeshedBody body = make_body({&surface, 1}, box, options);
   const ElementQuality& q = body.quality;
   std::printf(
       "%lld elements, angles %.2f to %.2f degrees, %.4f %% above 15, scaled Jacobian from "

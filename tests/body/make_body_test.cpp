@@ -55,7 +55,7 @@ void expect_within(const TriMesh& skin, const TriMesh& surface, double tolerance
   EXPECT_LT(max_distance(surface, skin, 0.01 * tolerance), tolerance);
 }
 
-void expect_good_elements(const Body& body) {
+void expect_good_elements(const MeshedBody& body) {
   EXPECT_EQ(body.quality.elements, std::ssize(body.elements.mesh.cells));
   EXPECT_EQ(body.elements.materials.size(), body.elements.mesh.cells.size());
   EXPECT_GT(body.quality.scaled_jacobian_min, 0.1);
@@ -64,7 +64,7 @@ void expect_good_elements(const Body& body) {
 
 TEST(MakeBody, FillsABall) {
   const TriMesh surface = ball_surface(kRadius, 64);
-  const Body body = make_body(std::vector{surface}, box_around(surface), of_size(3));
+  const MeshedBody body = make_body(std::vector{surface}, box_around(surface), of_size(3));
   const TriMesh skin = body_skin(body.elements);
   expect_closed_skin(skin);
   // The middles of triangles and sides are held to the tolerance, what lies between is not much
@@ -85,14 +85,14 @@ TEST(MakeBody, AFinerToleranceIsKeptToo) {
   const TriMesh surface = ball_surface(kRadius, 64);
   BodyOptions options = of_size(3);
   options.tolerance = 0.03;
-  const Body body = make_body(std::vector{surface}, box_around(surface), options);
+  const MeshedBody body = make_body(std::vector{surface}, box_around(surface), options);
   expect_within(body_skin(body.elements), surface, 1.5 * 0.03);
 }
 
 TEST(MakeBody, WhereTheBoxCutsABallTheBodyIsFlat) {
   const TriMesh surface = ball_above(-4, kRadius, 64);
   const Box box{{-12, -12, -4}, {12, 12, 12}};
-  const Body body = make_body(std::vector{surface}, box, of_size(3));
+  const MeshedBody body = make_body(std::vector{surface}, box, of_size(3));
   const TriMesh skin = body_skin(body.elements);
   expect_closed_skin(skin);
   expect_good_elements(body);
@@ -138,7 +138,7 @@ std::vector<TriMesh> two_halves() {
 TEST(MakeBody, ObjectsThatTouchShareTheirTriangles) {
   const auto surfaces = two_halves();
   const Box box{{-12, -12, -12}, {12, 12, 12}};
-  const Body body = make_body(surfaces, box, of_size(3));
+  const MeshedBody body = make_body(surfaces, box, of_size(3));
   const TriMesh upper = body_skin(body.elements, 1), lower = body_skin(body.elements, 2);
   const TriMesh all = body_skin(body.elements);
   for (const TriMesh& skin : {upper, lower, all}) {
@@ -173,9 +173,9 @@ TEST(MakeBody, IsTheSameForAnyNumberOfThreads) {
                              brick({{0, 0, 5}, {6, 6, 10}}, {6, 6, 5})};
   const Box box{{-2, -2, -2}, {8, 8, 12}};
   auto make = [&] { return make_body(surfaces, box, of_size(3)); };
-  const Body once = with_threads(1, make);
+  const MeshedBody once = with_threads(1, make);
   for (const int threads : {2, 4}) {
-    const Body again = with_threads(threads, make);
+    const MeshedBody again = with_threads(threads, make);
     EXPECT_EQ(mesh_hash(again.elements.mesh), mesh_hash(once.elements.mesh)) << threads;
     EXPECT_EQ(again.elements.materials, once.elements.materials);
     EXPECT_EQ(again.quality.least_angle, once.quality.least_angle);
@@ -188,11 +188,11 @@ TEST(MakeBody, SmallPartsAreLeftOutAndCounted) {
   BodyOptions options = of_size(4);
   options.least_size = 1;
   options.part_share = 0;
-  const Body both = make_body(std::vector{surface}, box_around(surface), options);
+  const MeshedBody both = make_body(std::vector{surface}, box_around(surface), options);
   EXPECT_EQ(both.parts, 2);
   EXPECT_EQ(both.parts_dropped, 0);
   options.part_share = 0.01;  // the small ball has 0.3 %
-  const Body one = make_body(std::vector{surface}, box_around(surface), options);
+  const MeshedBody one = make_body(std::vector{surface}, box_around(surface), options);
   EXPECT_EQ(one.parts, 1);
   EXPECT_EQ(one.parts_dropped, 1);
   EXPECT_EQ(one.elements.materials.size(), one.elements.mesh.cells.size());
@@ -202,7 +202,7 @@ TEST(MakeBody, SmallPartsAreLeftOutAndCounted) {
 
 TEST(MakeBody, TheElementSizeIsAThirtiethOfTheLongestSideUnlessGiven) {
   const TriMesh surface = brick({{0, 0, 0}, {30, 4, 4}}, {30, 4, 4});
-  const Body body = make_body(std::vector{surface}, box_around(surface), {});
+  const MeshedBody body = make_body(std::vector{surface}, box_around(surface), {});
   EXPECT_DOUBLE_EQ(body.element_size, 1);
 }
 

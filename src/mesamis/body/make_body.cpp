@@ -60,7 +60,7 @@ double volume_of(const TetMesh& mesh) {
 }
 
 /// Leaves out the parts that hang on nothing.
-void drop_small_parts(Body& body, double share) {
+void drop_small_parts(MeshedBody& body, double share) {
   BodyMesh& elements = body.elements;
   body.parts = count_face_parts(elements.mesh);
   if (body.parts == 1 || share <= 0) return;
@@ -79,11 +79,12 @@ void drop_small_parts(Body& body, double share) {
 
 }  // namespace
 
-Body make_body(std::span<const TriMesh> surfaces, const Box& box, const BodyOptions& options) {
+MeshedBody make_body(std::span<const TriMesh> surfaces, const Box& box,
+                     const BodyOptions& options) {
   Stopwatch watch;
   const Vec3 extent = box_of(surfaces).extent();
   const SizeRules rules = size_rules(options, std::max({extent.x, extent.y, extent.z}));
-  Body body;
+  MeshedBody body;
   body.element_size = rules.target;
   const BodySurface shape(surfaces, box, rules.tolerance);
   const GridMetricField sizes = size_field(surfaces, shape, box, rules);
@@ -98,6 +99,7 @@ Body make_body(std::span<const TriMesh> surfaces, const Box& box, const BodyOpti
   body.elements = remesh_body(start, sizes, shape, remeshing);
   body.remeshing = body.elements.report;
   drop_small_parts(body, options.part_share);
+  if (options.quadratic) body.middles = mid_nodes(body.elements, shape, box);
   body.quality = element_quality(body.elements.mesh);
   body.seconds.body = watch.lap();
   body.seconds.total = body.seconds.sizes + body.seconds.start + body.seconds.body;

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "mesamis/base/progress.h"
+#include "mesamis/body/mid_nodes.h"
 #include "mesamis/mesh/element_quality.h"
 #include "mesamis/remesh/body.h"
 #include "mesamis/surface/tri_mesh.h"
@@ -19,12 +20,14 @@ struct BodyOptions {
   int through_wall = 1;      ///< elements wanted between two sides of a wall; 0: any
   double part_share = 1e-3;  ///< smaller parts, as a share of the whole volume, are left out: a
                              ///< solver cannot hold what hangs on nothing; 0: none
+  bool quadratic = false;    ///< add mid-side nodes, on the skin where it is curved
   Progress progress;         ///< optional
 };
 
 /// A body for finite elements.
-struct Body {
+struct MeshedBody {
   BodyMesh elements;        ///< object k of the surfaces has the material k, from 1 on
+  MidNodes middles;         ///< empty unless quadratic
   ElementQuality quality;   ///< of all elements
   double element_size = 0;  ///< that was aimed at, mm
   std::int64_t parts = 0, parts_dropped = 0;  ///< connected by faces
@@ -50,7 +53,7 @@ struct Body {
 ///
 /// Time and memory as remesh() for about twice the elements. The same bits for any number of
 /// threads.
-Body make_body(std::span<const TriMesh> surfaces, const Box& box, const BodyOptions& options);
+MeshedBody make_body(std::span<const TriMesh> surfaces, const Box& box, const BodyOptions& options);
 
 /// The boundary of one object of a body: closed, its triangles turned outward.
 /// @param object  from 1 on; 0: of all objects together, without what two of them share.

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  body_json.h
   comparison_json.h
   json_file.h
   label_report.h
@@ -10,6 +11,7 @@ set(ROOM_HEADERS
   settings_json.h
   verdict.h)
 set(ROOM_SOURCES
+  body_json.cpp
   comparison_json.cpp
   json_file.cpp
   label_report.cpp
