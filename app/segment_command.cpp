@@ -160,6 +160,20 @@ void require_mesh_for(const SegmentOptions& options, const Settings& settings) {
   }
 }
 
+/// Elements fill a solid, and a material needs the grey values of the scan.
+void require_body_for(const SegmentOptions& options, const Settings& settings) {
+  if (!options.body.given()) return;
+  if (settings.surface == SurfaceKind::kBand) {
+    throw CLI::ValidationError("--body", "expected --surface solid, found band");
+  }
+  if (!options.body.material.empty() && tissue_kind(options.scan.places) != TissueKind::kBright) {
+    throw CLI::ValidationError("--material",
+                               "expected a bright --tissue, whose grey values are those of the "
+                               "scan, found " +
+                                   options.scan.places.tissue);
+  }
+}
+
 /// What needs no scan to be refused.
 void require_places(const SegmentOptions& options, const Settings& settings) {
   const PlaceArguments& places = options.scan.places;
@@ -273,6 +287,7 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
   require_outputs(options);
   require_places(options, settings);
   require_mesh_for(options, settings);
+  require_body_for(options, settings);
   require_one_object(options, options.scan.labels.given());
   if (options.scan.labels.given()) return run_labels(options, settings, common);
   if (options.scan.input.empty()) {

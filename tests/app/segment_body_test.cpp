@@ -107,6 +107,10 @@ TEST_F(SegmentBody, RefusesInOneLineBeforeItReads) {
   EXPECT_FAILS(segment("a.inp", {"--calibration", "0,1"}), 2, "--calibration: expected --material");
   EXPECT_FAILS(segment("a.inp", {"--material", "wood", "--calibration", "0,1"}), 2,
                "--material: material law: expected one of");
+  EXPECT_FAILS(segment("a.inp", {"--surface", "band"}), 2, "--body: expected --surface solid");
+  EXPECT_FAILS(
+      segment("a.inp", {"--tissue", "airway", "--material", "E=1*rho^1", "--calibration", "0,1"}),
+      2, "--material: expected a bright --tissue");
   EXPECT_FAILS(segment("a.inp", {"--set", "a=left:z,1"}), 2, "--set: set: expected NAME=");
 }
 
