@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "mesamis/base/written_number.h"
 #include "mesamis/files/utf8.h"
 
 namespace mesamis {
@@ -37,10 +38,9 @@ std::vector<Number> parse_list(const std::string& text, std::size_t count,
 }  // namespace
 
 bool parse_number(const std::string& text, double& value) {
-  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  return error == std::errc() && stop == end && std::isfinite(value);
+  const auto number = written_number(text);
+  value = number.value_or(value);
+  return number.has_value();
 }
 
 std::vector<double> parse_numbers(const std::string& text, std::size_t count,

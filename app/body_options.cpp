@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "body_options.h"
 
+#include <algorithm>
+#include <functional>
+#include <utility>
+
 #include "arguments.h"
+#include "commands.h"
+#include "log.h"
+#include "mesamis/base/error.h"
+#include "mesamis/base/written_number.h"
+#include "mesamis/delivery/body_request.h"
+#include "mesamis/delivery/filled_objects.h"
 #include "mesamis/material/density.h"
 #include "mesamis/material/material_law.h"
 #include "mesamis/shape_files/element_files.h"
@@ -22,59 +32,132 @@ MaterialOptions material_options(const BodyArguments& a) {
   return options;
 }
 
+/// Notes that an option was given.
+std::function<void(const std::string&)> noted(std::vector<std::string>& names,
+                                              const std::string& name) {
+  return [&names, name](const std::string&) { names.push_back(name); };
+}
+
+void add_element_options(CLI::App& c, BodyArguments& a) {
+  const auto note = [&a](const char* name) { return noted(a.of_elements, name); };
+  c.add_option("--surface-quality", a.surface_quality,
+               "Triangles of --output: printing or decimated, as few as --tolerance allows "
+               "(default); meshing, "
+               "well shaped ones for other meshers, within --skin-tolerance of those")
+      ->check(CLI::IsMember({"printing", "decimated", "meshing"}));
+  c.add_option(
+       "--element-size", a.options.element_size,
+       "Edge length of --body and of --surface-quality meshing, mm (default: three voxels); "
+       "less where it is curved or thin")
+      ->check(CLI::PositiveNumber)
+      ->each(note("--element-size"));
+  c.add_option("--least-size", a.options.least_size,
+               "Their edges are not wanted shorter, mm (default: a quarter of --element-size)")
+      ->check(CLI::PositiveNumber)
+      ->each(note("--least-size"));
+  c.add_option(
+       "--skin-tolerance", a.skin_tolerance,
+       "How far their skin may lie from the surface, mm (default: --tolerance if given, else a "
+       "tenth of --element-size); more allows larger elements where it is curved")
+      ->check(CLI::PositiveNumber)
+      ->each(note("--skin-tolerance"));
+  c.add_option("--element-gradation", a.options.gradation,
+               "By how much their sizes may grow over a length (default 0.5)")
+      ->check(CLI::Range(kGradations[0], kGradations[1]))
+      ->each(note("--element-gradation"));
+  c.add_option("--wall-elements", a.options.through_wall,
+               "Their elements between two sides of a wall (default 1; 0: any)")
+      ->check(CLI::Range(kWallElements[0], kWallElements[1]))
+      ->each(note("--wall-elements"));
+}
+
 void add_material_options(CLI::App& c, BodyArguments& a) {
+  const auto note = [&a](const char* name) { return noted(a.of_material, name); };
   c.add_option("--material", a.material,
                "Stiffness of --body from the grey values: a law of docs/materials.md, or "
-               "E=c*rho^p in MPa and g/cm^3; needs --calibration");
+               "E=c*rho^p in MPa and g/cm^3; needs --calibration")
+      ->each(noted(a.of_body, "--material"));
   c.add_option("--calibration", a.calibration,
-               "Density g/cm^3 of a native value: a,b for a + b * value, or HU1:rho1,HU2:rho2");
-  c.add_option("--ash", a.ash, "Ash density of the calibration's: schileo-2008 (default), equal");
+               "Density g/cm^3 of a native value: a,b for a + b * value, or HU1:rho1,HU2:rho2")
+      ->each(note("--calibration"));
+  c.add_option("--ash", a.ash, "Ash density of the calibration's: schileo-2008 (default), equal")
+      ->each(note("--ash"));
   c.add_option("--material-gap", a.gap, "MPa between the ends of a bin of materials (default 50)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::NonNegativeNumber)
+      ->each(note("--material-gap"));
+  c.add_option(
+       "--material-rim", a.rim,
+       "Depth below the surface, mm, down to which the surroundings dim the scan: there the "
+       "value below counts where it is greater (default: from the scan's blur; 0: none)")
+      ->check(CLI::NonNegativeNumber)
+      ->each(note("--material-rim"));
   c.add_option("--poisson", a.poisson, "Poisson ratio (default: the law's)")
-      ->check(CLI::Range(-0.99, 0.499));
+      ->check(CLI::Range(kPoissonRatios[0], kPoissonRatios[1]))
+      ->each(note("--poisson"));
+}
+
+/// Refuses an option whose master is not there.
+void require_beside(const std::vector<std::string>& given, bool has_master,
+                    const std::string& expected) {
+  if (given.empty() || has_master) return;
+  throw CLI::ValidationError(given.front(), "expected " + expected);
+}
+
+void require_masters(const BodyArguments& a) {
+  require_beside(a.of_elements, a.elements(),
+                 "--body or --surface-quality meshing beside it, found neither");
+  require_beside(a.of_material, !a.material.empty(), "--material beside it, found none");
+  require_beside(a.of_body, a.given(), "--body beside it, found none");
+  if (!a.material.empty() && a.calibration.empty()) {
+    throw CLI::ValidationError("--material",
+                               "expected --calibration beside it: grey values alone are no "
+                               "density, found none");
+  }
+}
+
+/// One line per object whose surface is not all that meshers were promised.
+void warn_of_unmet(const ElementResults& results, const std::vector<FoundObject>& objects) {
+  for (std::size_t n = 0; n < results.quality.size(); ++n) {
+    const std::string missed = unmet(results.quality[n]);
+    if (missed.empty()) continue;
+    const std::string of = objects.size() > 1 ? "'" + objects[n].segment.name + "': " : "";
+    log_warning(std::string("--surface-quality: ").append(of).append(missed));
+  }
 }
 
 }  // namespace
 
 void add_body_options(CLI::App& c, BodyArguments& a) {
+  const auto note = [&a](const char* name) { return noted(a.of_body, name); };
   c.add_option("--body", a.files,
                "Body for finite elements: .inp .feb .msh .vtu .mesh; its skin lies within "
-               "--tolerance of the surface");
+               "--skin-tolerance of the surface");
   c.add_option("--element", a.element, "Of --body: tet4 (default), tet10 with mid-side nodes")
-      ->check(CLI::IsMember({"tet4", "tet10"}));
-  c.add_option("--element-size", a.options.element_size,
-               "Edge length of --body, mm (default: three voxels); less where it is curved or thin")
-      ->check(CLI::PositiveNumber);
-  c.add_option("--least-size", a.options.least_size,
-               "Edges of --body are not wanted shorter, mm (default: a quarter of --element-size)")
-      ->check(CLI::PositiveNumber);
-  c.add_option("--element-gradation", a.options.gradation,
-               "By how much sizes of --body may grow over a length (default 0.5)")
-      ->check(CLI::Range(0.05, 5.0));
-  c.add_option("--wall-elements", a.options.through_wall,
-               "Elements of --body between two sides of a wall (default 1; 0: any)")
-      ->check(CLI::Range(0, 10));
+      ->check(CLI::IsMember({"tet4", "tet10"}))
+      ->each(note("--element"));
+  add_element_options(c, a);
   c.add_option("--gmsh-version", a.gmsh, "Of a .msh of --body: 2.2 (default), 4.1")
-      ->check(CLI::IsMember({"2.2", "4.1"}));
+      ->check(CLI::IsMember({"2.2", "4.1"}))
+      ->each(note("--gmsh-version"));
   add_material_options(c, a);
   c.add_option("--set", a.sets,
                "Faces and nodes of --body for loads: NAME=top:z,2mm, bottom:AXIS,MM, "
-               "box:X0,Y0,Z0,X1,Y1,Z1, normal:X,Y,Z,DEGREES, between:1,2");
+               "box:X0,Y0,Z0,X1,Y1,Z1, normal:X,Y,Z,DEGREES, between:1,2 (the first and the second "
+               "object), outer, inner; in the frame of --frame")
+      ->each(note("--set"));
 }
 
 void require_body(const BodyArguments& a) {
-  const bool asks = !a.material.empty() || !a.calibration.empty() || !a.sets.empty();
-  if (asks && !a.given()) {
-    throw CLI::ValidationError(
-        "--body", "expected a file for --material, --calibration or --set, found none");
+  require_masters(a);
+  if (const std::string wrong = wrong_least_size(a.options); !wrong.empty()) {
+    throw CLI::ValidationError("--least-size", wrong);
   }
-  if (a.material.empty() != a.calibration.empty()) {
-    throw CLI::ValidationError(a.material.empty() ? "--calibration" : "--material",
-                               a.material.empty()
-                                   ? "expected --material beside it, found none"
-                                   : "expected --calibration beside it: grey values alone are no "
-                                     "density, found none");
+  const bool holds_sets = std::ranges::any_of(
+      a.files, [](const fs::path& path) { return lower_extension(path) != ".mesh"; });
+  if (!a.sets.empty() && !holds_sets) {
+    throw CLI::ValidationError("--set",
+                               "expected --body .inp, .feb, .msh or .vtu, which hold sets, "
+                               "found .mesh alone");
   }
   for (const fs::path& path : a.files) {
     require_output(path, {".inp", ".feb", ".msh", ".vtu", ".mesh"}, "--body");
@@ -83,19 +166,64 @@ void require_body(const BodyArguments& a) {
           "--body", "expected .inp, .feb, .msh or .vtu for tet10, found " + path.string());
     }
   }
-  body_request(a, 1);
+  const BodyWishes wishes = body_wishes(a, Frame::kLps);
+  parsed("--set", [&] { require_set_names(wishes.sets); });
 }
 
-BodyRequest body_request(const BodyArguments& a, double tolerance) {
-  BodyRequest request;
-  request.elements = a.options;
-  request.elements.tolerance = tolerance;
-  request.elements.quadratic = a.element == "tet10";
-  if (!a.material.empty()) request.material = material_options(a);
+void require_elements_for(const BodyArguments& a, const Settings& settings) {
+  if (!a.elements()) return;
+  const std::string option = a.given() ? "--body" : "--surface-quality";
+  parsed(option, [&] { require_fillable(settings, a.skin_tolerance); });
+}
+
+BodyWishes body_wishes(const BodyArguments& a, Frame frame) {
+  BodyWishes wishes;
+  wishes.elements = a.options;
+  wishes.elements.quadratic = a.element == "tet10";
+  wishes.tolerance = a.skin_tolerance;
+  wishes.rim = a.rim;
+  if (!a.material.empty()) wishes.material = material_options(a);
   for (const std::string& set : a.sets) {
-    request.sets.push_back(parsed("--set", [&] { return parse_face_query(set); }));
+    wishes.sets.push_back(parsed("--set", [&] { return in_lps(parse_face_query(set), frame); }));
   }
-  return request;
+  return wishes;
+}
+
+ElementResults make_elements(const BodyArguments& a, const ElementSource& source,
+                             const RunContext& run) {
+  ElementResults results;
+  if (!a.elements()) return results;
+  const BodyRequest request = complete_request(
+      body_wishes(a, source.frame), source.objects,
+      {source.grid, run.settings.tolerance, source.blur, run.common.limits.memory_gb});
+  BodyOptions options = request.elements;
+  options.progress = run.display.callback();
+  options.skins = a.meshing();
+  FilledObjects filled = fill_objects(source.objects, source.grid, options);
+  results.surfaces = std::move(filled.skins);
+  for (std::size_t n = 0; n < results.surfaces.size(); ++n) {
+    results.quality.push_back(meshing_quality(results.surfaces[n], source.objects[n].surface,
+                                              request.elements.tolerance));
+  }
+  warn_of_unmet(results, source.objects);
+  if (a.given()) {
+    results.body = make_body_output(std::move(filled.body), source.objects, source.scan, request);
+    results.unmet = unmet(*results.body);
+    const std::string loose = loose_parts(results.body->facts.parts, std::ssize(source.objects));
+    if (!loose.empty()) log_warning("--body: " + loose);
+  }
+  return results;
+}
+
+void take_surface(TriMesh&& of_elements, TriMesh& surface, std::vector<double>& errors) {
+  if (!errors.empty()) errors = carried_errors(surface, errors, of_elements.points);
+  surface = std::move(of_elements);
+}
+
+int status_with(const ElementResults& elements, int status) {
+  if (elements.unmet.empty()) return status;
+  log_error("--body: " + elements.unmet);
+  return status == kExitDone ? kExitNotConverged : status;
 }
 
 void write_bodies(const BodyArguments& a, const BodyOutput& body, Frame frame) {

@@ -31,8 +31,8 @@ void require_memory_for(const VoxelGrid& grid, const CropRange& crop, Settings s
 
 ChosenScan read_chosen_scan(const ScanArguments& arguments, const Settings& settings,
                             const std::optional<double>& memory_gb) {
-  ObjectRequest request =
-      object_request(arguments.places, arguments.labels, settings, arguments.frame);
+  ReadRequest asked = read_request(arguments.places, arguments.labels, settings, arguments.frame);
+  ObjectRequest& request = asked.object;
   ReadOptions read = arguments.read;
   read.on_grid = [&](const VoxelGrid& grid) {
     if (!arguments.places.box.empty()) {
@@ -43,6 +43,7 @@ ChosenScan read_chosen_scan(const ScanArguments& arguments, const Settings& sett
   VolumeFile file = read_scan(arguments.input, read);
   ChosenScan scan;
   scan.grid = file.volume;
+  scan.warnings = std::move(asked.warnings);
   if (arguments.report) {
     scan.facts = facts_of({arguments.input, file.format, file.warnings, file.files}, file.volume);
   }

@@ -24,10 +24,11 @@ struct ScanArguments {
 
 /// The image of the object that is meant, and what is known of the scan it came from.
 struct ChosenScan {
-  VoxelGrid grid;                   ///< of the whole scan
-  ChosenObject object;              ///< the scan's samples are not kept beside it
-  std::optional<InputFacts> facts;  ///< of the scan as it was read, if asked for
-  nlohmann::ordered_json report;    ///< the report's entry "object"
+  VoxelGrid grid;                       ///< of the whole scan
+  ChosenObject object;                  ///< the scan's samples are not kept beside it
+  std::optional<InputFacts> facts;      ///< of the scan as it was read, if asked for
+  nlohmann::ordered_json report;        ///< the report's entry "object"
+  std::vector<std::string> warnings{};  ///< of the readers of label files, one line each
 };
 
 /// Reads a scan and makes the image of the object that is meant; logs what was done unasked.

@@ -38,9 +38,13 @@ void add_commands(CLI::App& app, CommonOptions& common, Action& action) {
   add_study_command(app, common, action);
   add_phantom_command(app, common, action);
   add_picture_command(app, common, action);
+  add_report_command(app, common, action);
   add_info_command(app, common, action);
   add_settings_command(app, common, action);
   add_slice_command(app, common, action);
+  add_slicer_segment_command(app, common, action);
+  add_bids_command(app, common, action);
+  add_manual_command(app, common, action);
 }
 
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int count,

@@ -3,9 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "mesamis/files/read_limits.h"
 #include "mesamis/record/verdict.h"
+#include "mesamis/slabs/team.h"
 
 namespace mesamis {
 
@@ -26,10 +29,16 @@ constexpr int exit_status(Outcome outcome) {
 
 /// Options of every command.
 struct CommonOptions {
-  bool quiet = false;     ///< nothing on stderr but errors
-  bool log_json = false;  ///< stderr as JSON lines
-  int threads = 0;        ///< 0: as many as the machine has
-  ReadLimits limits{};    ///< memory that a run may take too
+  bool quiet = false;                    ///< nothing on stderr but errors
+  bool log_json = false;                 ///< stderr as JSON lines
+  bool for_slicer = false;               ///< notes and progress on stdout, as 3D Slicer reads them
+  int threads = 0;                       ///< 0: as many as the machine has
+  ReadLimits limits{};                   ///< memory that a run may take too
+  std::vector<std::string> arguments{};  ///< the command line, without the program
+  Team* team = &alone();                 ///< the processes that run the command together
+
+  /// Whether this process is not the one that speaks and writes.
+  bool is_helper() const { return team->rank() > 0; }
 };
 
 /// A command with its options, ready to run; returns an exit status. It may throw InputError and
@@ -39,15 +48,19 @@ using Action = std::function<int()>;
 /// Each function adds a subcommand, which sets the action when the command line names it. `common`
 /// and `action` must outlive the parsing.
 void add_baseline_command(CLI::App& app, CommonOptions& common, Action& action);
+void add_bids_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_compare_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_decimate_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_info_command(CLI::App& app, CommonOptions& common, Action& action);
+void add_manual_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_phantom_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_picture_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_remesh_command(CLI::App& app, CommonOptions& common, Action& action);
+void add_report_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_segment_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_settings_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_slice_command(CLI::App& app, CommonOptions& common, Action& action);
+void add_slicer_segment_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_study_command(CLI::App& app, CommonOptions& common, Action& action);
 
 }  // namespace mesamis

@@ -53,7 +53,7 @@ std::string place_text(const VolumeInfo& info) {
 
 /// What the values tell where the file does not. This is the only reason to read them.
 std::string values_text(const InfoCommand& command) {
-  const VolumeFile scan = read_volume(command.input, command.read);
+  const VolumeFile scan = read_any_volume(command.input, command.read);
   const auto [least, most] = sample_range(scan.volume.samples);
   std::ostringstream text;
   text << "  values " << least << " to " << most;
@@ -107,7 +107,7 @@ std::string mesh_line(const fs::path& path, const ReadLimits& limits) {
 /// One line per volume. A file on its own that does not state its modality is read for what its
 /// values tell; one that cannot be read is not usable.
 void print_volumes(const InfoCommand& command) {
-  std::vector<VolumeInfo> all = list_volumes(command.input, command.read);
+  std::vector<VolumeInfo> all = list_any_volumes(command.input, command.read);
   const bool unknown = all.size() == 1 && all[0].modality.empty() && all[0].problem.empty();
   std::string values;
   if (unknown && !fs::is_directory(command.input)) {

@@ -6,7 +6,7 @@
 namespace mesamis {
 namespace {
 
-std::atomic<int> holders{0}, noted{0};
+std::atomic<int> holders{0}, noted_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
 }  // namespace
@@ -15,14 +15,14 @@ HeldInterrupts::HeldInterrupts() noexcept { ++holders; }
 HeldInterrupts::~HeldInterrupts() { --holders; }
 
 void check_interrupted() {
-  if (noted != 0) throw Interrupted();
+  if (noted_signal != 0) throw Interrupted();
 }
 
-int noted_interrupt() noexcept { return noted; }
+int noted_interrupt() noexcept { return noted_signal; }
 
 bool note_interrupt(int signal) noexcept {
   if (holders == 0) return false;
-  noted = signal;
+  noted_signal = signal;
   return true;
 }
 

@@ -2,6 +2,7 @@
 #include "label_options.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "log.h"
 #include "mesamis/base/error.h"
@@ -36,19 +37,22 @@ void add_label_options(CLI::App& command, LabelArguments& a) {
       ->check(CLI::PositiveNumber);
 }
 
-LabelMap read_marks(const std::filesystem::path& path, const ReadLimits& limits) {
+LabelMap read_marks(const std::filesystem::path& path, const ReadLimits& limits,
+                    std::vector<std::string>& warnings) {
   LabelFile file = read_label_map(path, limits);
   log_all(file.warnings);
+  warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
   return std::move(file.map);
 }
 
 NamedLabels read_labels(const LabelArguments& a) {
   NamedLabels labels;
   if (!a.file.empty()) {
-    labels.map = read_marks(a.file, a.limits);
+    labels.map = read_marks(a.file, a.limits, labels.warnings);
   } else {
     ProbabilityFile file = read_probabilities(a.probabilities, a.limits);
     log_all(file.warnings);
+    labels.warnings = std::move(file.warnings);
     labels.map = most_probable(file.probabilities);
     labels.probabilities = std::move(file.probabilities);
   }

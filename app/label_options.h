@@ -29,13 +29,16 @@ struct LabelArguments {
 void add_label_options(CLI::App& command, LabelArguments& arguments);
 
 /// Reads a label map and logs the reader's warnings.
+/// @param warnings  the reader's are added.
 /// @throws InputError  as read_label_map().
-LabelMap read_marks(const std::filesystem::path& path, const ReadLimits& limits);
+LabelMap read_marks(const std::filesystem::path& path, const ReadLimits& limits,
+                    std::vector<std::string>& warnings);
 
 /// Labels, and where they come of probabilities those too.
 struct NamedLabels {
   LabelMap map;
   std::optional<Probabilities> probabilities;
+  std::vector<std::string> warnings{};  ///< of the reader, one line each
 };
 
 /// Reads the label map, logs the reader's warnings, and names its labels.

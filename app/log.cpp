@@ -6,15 +6,19 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "arguments.h"
 #include "mesamis/files/utf8.h"
+#include "slicer_progress.h"
 
 namespace mesamis {
 namespace {
 
-bool bar_allowed = false, is_json = false;
+bool bar_allowed = false, is_json = false, is_for_slicer = false, is_quiet = false,
+     is_helper = false;
 
 constexpr const char* kJsonTime = R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z",)";
 
@@ -59,8 +63,12 @@ std::string line_of(const std::string& message) {
 
 void set_up_log(const CommonOptions& options) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  bar_allowed = terminal && !options.log_json && !options.quiet;
+  bar_allowed = terminal && !options.log_json && !options.quiet && !options.is_helper() &&
+                !options.for_slicer;
   is_json = options.log_json;
+  is_for_slicer = options.for_slicer;
+  is_helper = options.is_helper();
+  is_quiet = options.quiet || is_helper;
   auto formatter = std::make_unique<spdlog::pattern_formatter>();
   formatter->add_flag<JsonMessage>('J').add_flag<LevelPrefix>('W');
   formatter->set_pattern(is_json ? std::string(kJsonTime) + R"("level":"%l","message":%J})"
@@ -68,22 +76,29 @@ void set_up_log(const CommonOptions& options) {
   auto logger = std::make_shared<spdlog::logger>("mesamis",
                                                  std::make_shared<spdlog::sinks::stderr_sink_mt>());
   logger->set_formatter(std::move(formatter));
-  logger->set_level(options.quiet ? spdlog::level::err : spdlog::level::info);
+  logger->set_level(is_quiet ? spdlog::level::err : spdlog::level::info);
   logger->flush_on(spdlog::level::info);
   spdlog::set_default_logger(std::move(logger));
 }
 
 void log_info(const std::string& message) {
+  if (is_for_slicer && !is_json) {
+    if (!is_quiet) tell_slicer("mesamis: " + line_of(message));
+    return;
+  }
   spdlog::default_logger_raw()->info(spdlog::string_view_t(line_of(message)));
 }
 void log_warning(const std::string& message) {
   spdlog::default_logger_raw()->warn(spdlog::string_view_t(line_of(message)));
 }
 void log_error(const std::string& message) {
+  // What all processes of a team meet is told by the first, which then ends the others.
+  if (is_helper) std::this_thread::sleep_for(std::chrono::seconds(2));
   spdlog::default_logger_raw()->error(spdlog::string_view_t(line_of(message)));
 }
 
 bool log_is_json() { return is_json; }
+bool log_is_for_slicer() { return is_for_slicer; }
 
 void log_progress(const std::string& stage, double fraction) {
   auto formatter = std::make_unique<spdlog::pattern_formatter>();

@@ -22,6 +22,10 @@ std::string line_of(const std::string& message);
 /// Whether the lines are for programs (--log-json).
 bool log_is_json();
 
+/// Whether notes and progress go to stdout, for 3D Slicer. Warnings and errors go to stderr, all of
+/// which Slicer shows as errors.
+bool log_is_for_slicer();
+
 /// For programs: how far a stage has come, in a line of its own, level "progress".
 /// @param fraction  0 to 1.
 void log_progress(const std::string& stage, double fraction);

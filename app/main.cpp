@@ -5,32 +5,38 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <new>
 #include <string>
-#include <string_view>
 #include <system_error>
 
 #include "command_line.h"
 #include "commands.h"
 #include "interrupt.h"
+#include "join_team.h"
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/files/atomic_file.h"
+#include "run_action.h"
 #include "streams.h"
 
 namespace mesamis {
 namespace {
 
+/// Of several processes one says why they end.
+bool is_alone = true;
+
 /// Leaves nothing half-written, then dies of the signal, as a shell expects.
 void end_by_signal(int number) {
   remove_unfinished_files();
   constexpr char kMessage[] = "\nmesamis: interrupted\n";
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+  if (is_alone) {
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+  }
   signal(number, SIG_DFL);
   raise(number);
 }
@@ -71,44 +77,12 @@ void tell(const char* line) {
   _exit(kExitInternal);
 }
 
-/// What TBB throws where the system has no thread left; it has no type of its own.
-bool is_lack_of_threads(const std::exception& error) {
-  return std::string_view(error.what()).starts_with("pthread_create");
-}
-
-int run(const Action& action) {
-  try {
-    return action();
-  } catch (const Interrupted&) {
-    return kExitDone;  // never seen: the program ends by the signal
-  } catch (const CLI::Error& error) {
-    log_error(error.what());
-    return kExitUsage;
-  } catch (const InputError& error) {
-    log_error(error.what());
-    return kExitInput;
-  } catch (const NumericalError& error) {
-    log_error(error.what());
-    return kExitNotConverged;
-  } catch (const std::filesystem::filesystem_error& error) {
-    log_error(error.path1().string() + ": " + error.code().message());
-    return kExitInput;
-  } catch (const std::bad_alloc&) {
-    log_error("not enough memory for this input");
-    return kExitInput;
-  } catch (const std::exception& error) {
-    if (is_lack_of_threads(error)) {
-      log_error("no thread can be started; --threads 1 needs none");
-      return kExitInput;
-    }
-    log_error(std::string("internal error: ") + error.what());
-    return kExitInternal;
-  }
-}
-
-int run_program(int count, char** arguments) {
+int run_program(int count, char** arguments, Team& team) {
   CLI::App app("Anisotropic segmentation of 3D scans: printable surfaces and adapted meshes");
   CommonOptions common;
+  common.team = &team;
+  is_alone = team.size() == 1;
+  common.arguments.assign(arguments + 1, arguments + std::max(count, 1));
   Action action;
   add_commands(app, common, action);
   try {
@@ -122,7 +96,7 @@ int run_program(int count, char** arguments) {
     return kExitUsage;
   }
   set_up_log(common);
-  const int status = with_threads(common.threads, [&] { return run(action); });
+  const int status = with_threads(common.threads, [&] { return run_action(action); });
   if (const int number = noted_interrupt()) end_by_signal(number);
   return status;
 }
@@ -143,5 +117,7 @@ int main(int count, char** arguments) {
   mesamis::open_closed_streams();
   mesamis::lift_limits();
   mesamis::handle_signals();
-  return mesamis::with_stdout_written(mesamis::run_program(count, arguments));
+  const auto team = mesamis::join_team(count, arguments);
+  const int status = mesamis::run_program(count, arguments, *team);
+  return mesamis::leave_team(*team, mesamis::with_stdout_written(status));
 }

@@ -31,6 +31,12 @@ void require_distinct_files(const Paths& outputs, const Paths& inputs) {
   as_usage([&] { require_distinct(outputs, inputs); });
 }
 
+Paths files_of(const OutputSet& set) {
+  Paths files;
+  for (const OutputSet::Member& file : set.members()) files.push_back(file.target);
+  return files;
+}
+
 void commit(OutputSet& set) {
   const HeldInterrupts held;
   set.commit();

@@ -22,6 +22,9 @@ using Paths = std::vector<std::filesystem::path>;
 /// @throws CLI::ValidationError  naming the file.
 void require_distinct_files(const Paths& outputs, const Paths& inputs);
 
+/// The files that wait in a set.
+Paths files_of(const OutputSet& set);
+
 /// Lets the files of a run appear. An interrupt waits until all are there.
 /// @throws InputError  as OutputSet::commit().
 void commit(OutputSet& set);

@@ -112,9 +112,12 @@ int run_phantom(const PhantomCommand& command) {
   if (command.list) return print_list();
   const Phantom phantom = require_all(command);
   OutputSet set;
-  write_nrrd(command.output, degrade(sample_phantom(phantom, command.samples), command.degrade),
+  const PhantomSlices sharp(phantom, command.samples);
+  const DegradedSlices scan(sharp, command.degrade);
+  write_nrrd(command.output, scan,
              {.type = command.type == "short" ? SampleType::kShort : SampleType::kFloat,
-              .gzip = command.gzip});
+              .gzip = command.gzip,
+              .slab = scan.slab()});
   PhantomTruth truth;
   if (!command.truth.empty()) {
     truth = make_truth(phantom);

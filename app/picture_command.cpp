@@ -68,8 +68,7 @@ void draw_on_display(PictureOptions options, const Draw& draw) {
 /// VTK does not survive the end of memory: what does not fit is refused before.
 void require_memory_to_draw(const PictureCommand& command, std::size_t cells) {
   constexpr double kGigabyte = 1e9;
-  const double asked = kGigabyte * command.read.limits.memory_gb;
-  const auto limit = asked > 0 ? std::optional(asked) : available_memory();
+  const auto limit = memory_limit(command.read.limits.memory_gb);
   const double needed = drawing_memory(cells, command.picture);
   if (!limit || needed <= *limit) return;
   throw InputError(
@@ -85,7 +84,7 @@ void draw_volume(const PictureCommand& command) {
   if (command.picture.zoom != 1 || command.picture.focus) {
     throw InputError(command.input.string() + ": a volume's slice is shown whole");
   }
-  const VolumeFile file = read_volume(command.input, command.read);
+  const VolumeFile file = read_any_volume(command.input, command.read);
   for (const std::string& warning : file.warnings) log_warning(warning);
   std::optional<TriMesh> outline;
   if (!command.outline.empty())

@@ -76,22 +76,25 @@ TissueKind tissue_kind(const PlaceArguments& places) {
   return places.tissue.empty() ? TissueKind::kBright : parse_tissue(places.tissue).kind;
 }
 
-ObjectRequest object_request(const PlaceArguments& places, const LabelArguments& labels,
-                             const Settings& settings, Frame frame) {
-  ObjectRequest request = object_request(settings);
+ReadRequest read_request(const PlaceArguments& places, const LabelArguments& labels,
+                         const Settings& settings, Frame frame) {
+  ReadRequest read{object_request(settings)};
+  ObjectRequest& request = read.object;
   if (!places.tissue.empty()) request.tissue = parse_tissue(places.tissue);
   for (const std::string& seed : places.seeds) request.seeds.push_back(parse_point(seed, frame));
-  if (!places.mask.empty()) request.mask = read_marks(places.mask, places.limits);
+  if (!places.mask.empty()) request.mask = read_marks(places.mask, places.limits, read.warnings);
   request.margin = labels.margin.value_or(request.margin);
   const bool body = places.remove == kBody;
-  if (!places.remove.empty() && !body) request.remove = read_marks(places.remove, places.limits);
+  if (!places.remove.empty() && !body) {
+    request.remove = read_marks(places.remove, places.limits, read.warnings);
+  }
   if (body) {
     request.surroundings = SurroundingsRule::kRemove;
   } else if (places.keep_surroundings || labels.given()) {
     request.surroundings = SurroundingsRule::kKeep;
   }
   if (labels.given()) request.measure_level = false;
-  return request;
+  return read;
 }
 
 }  // namespace mesamis

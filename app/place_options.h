@@ -41,11 +41,17 @@ void require_places(const PlaceArguments& places, const LabelArguments& labels,
 /// @throws InputError  as parse_tissue().
 TissueKind tissue_kind(const PlaceArguments& places);
 
+/// What is asked for, and what was to be said when its label maps were read.
+struct ReadRequest {
+  ObjectRequest object;
+  std::vector<std::string> warnings{};  ///< of the readers, one line each
+};
+
 /// What the arguments ask for; the box is open until the scan is read. Reads the label maps, and
 /// logs their readers' warnings.
 /// @param frame  of the seeds.
 /// @throws InputError  as read_label_map() and parse_point().
-ObjectRequest object_request(const PlaceArguments& places, const LabelArguments& labels,
-                             const Settings& settings, Frame frame);
+ReadRequest read_request(const PlaceArguments& places, const LabelArguments& labels,
+                         const Settings& settings, Frame frame);
 
 }  // namespace mesamis

@@ -8,7 +8,7 @@
 namespace mesamis {
 namespace {
 
-const auto kStart = std::chrono::steady_clock::now();
+auto start = std::chrono::steady_clock::now();
 
 }  // namespace
 
@@ -24,7 +24,9 @@ double peak_memory_mb() {
 }
 
 double wall_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - kStart).count();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
+
+void restart_clock() { start = std::chrono::steady_clock::now(); }
 
 }  // namespace mesamis

@@ -48,11 +48,16 @@ Progress ProgressDisplay::callback() {
 }
 
 void ProgressDisplay::finish() {
+  slicer_.finish();
   if (drawn_) std::fputs(kWipeLine, stderr);
   drawn_ = false;
 }
 
 void ProgressDisplay::show(std::string_view stage, double fraction) {
+  if (log_is_for_slicer()) {
+    slicer_.show(stage, fraction);
+    return;
+  }
   // A stage that starts over, for instance on the next mesh, is timed anew.
   if (stage != stage_ || fraction < fraction_at_start_) enter(stage, fraction);
   const auto now = Clock::now();
@@ -97,8 +102,11 @@ void ProgressDisplay::draw_bar(double fraction) {
   }
   char percent[16];
   std::snprintf(percent, sizeof percent, " %3.0f %%", 100 * fraction);
-  const std::string text = percent + left;
-  const int room = terminal_columns() - static_cast<int>(stage_.size() + text.size()) - 4;
+  const auto room_beside = [&](const std::string& text) {
+    return terminal_columns() - static_cast<int>(stage_.size() + text.size()) - 4;
+  };
+  const std::string text = room_beside(percent + left) < 0 ? percent : percent + left;
+  const int room = room_beside(text);
   const int width = std::clamp(room, 0, 40);
   const int full = static_cast<int>(std::lround(fraction * width));
   const std::string bar = std::string(static_cast<std::size_t>(full), '#') +

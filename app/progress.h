@@ -6,13 +6,14 @@
 #include <string_view>
 
 #include "mesamis/base/progress.h"
+#include "slicer_progress.h"
 
 namespace mesamis {
 
 /// Shows the progress of long work on stderr. On a terminal: one line with the stage, a bar, the
 /// percentage and the time left in this stage. With --log-json: a line of JSON at the beginning of
 /// each stage, then at most one in half a second. Otherwise: a log line for each stage, at most one
-/// in two seconds; a shorter stage may have none.
+/// in two seconds; a shorter stage may have none. For 3D Slicer: see SlicerProgress.
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(bool quiet) : quiet_(quiet) {}
@@ -34,6 +35,7 @@ class ProgressDisplay {
   void draw_bar(double fraction);
 
   bool quiet_;
+  SlicerProgress slicer_;
   bool drawn_ = false;
   bool logged_ = false;  // the stage has been logged
   std::string stage_;

@@ -7,8 +7,87 @@
 #include "arguments.h"
 #include "log.h"
 #include "mesamis/base/error.h"
+#include "mesamis/chunk_files/chunked_scan.h"
 
 namespace mesamis {
+namespace {
+
+/// A scan in chunks, as scans in other files are told of.
+class ChunkSlices : public FileSlices {
+ public:
+  ChunkSlices(std::unique_ptr<ChunkedScan> scan, std::vector<ReadFile> files)
+      : scan_(std::move(scan)) {
+    static_cast<VoxelGrid&>(head_.volume) = scan_->grid();
+    head_.format = scan_->format();
+    head_.warnings = scan_->warnings();
+    head_.files = std::move(files);
+  }
+  const VoxelGrid& grid() const override { return scan_->grid(); }
+  const VolumeFile& head() const override { return head_; }
+  std::vector<float> read(Index first, Index count) const override {
+    return scan_->read(first, count);
+  }
+
+ private:
+  std::unique_ptr<ChunkedScan> scan_;
+  VolumeFile head_;
+};
+
+/// A scan in chunks; none if it is another one.
+std::unique_ptr<FileSlices> open_chunks(const std::filesystem::path& path,
+                                        const ReadOptions& options) {
+  if (options.raw || !(is_zarr(path) || is_hdf5(path))) return nullptr;
+  const ReadRecord record;
+  const ChunkOptions chunks{.limits = options.limits, .spacing = options.spacing};
+  auto scan = is_zarr(path) ? open_zarr(path, chunks) : open_hdf5(path, chunks);
+  if (options.on_grid) options.on_grid(scan->grid());
+  return std::make_unique<ChunkSlices>(std::move(scan), record.files());
+}
+
+}  // namespace
+
+std::unique_ptr<FileSlices> open_any_slices(const std::filesystem::path& path,
+                                            const ReadOptions& options) {
+  auto scan = open_chunks(path, options);
+  return scan ? std::move(scan) : open_slices(path, options);
+}
+
+VolumeFile read_any_volume(const std::filesystem::path& path, const ReadOptions& options) {
+  const ReadRecord record;
+  const auto scan = open_chunks(path, options);
+  if (!scan) return read_volume(path, options);
+  VolumeFile file = scan->head();
+  file.volume.samples = scan->read(0, file.volume.size[2]);
+  const std::vector<ReadFile> chunks = record.files();
+  file.files.insert(file.files.end(), chunks.begin(), chunks.end());
+  std::sort(file.files.begin(), file.files.end(),
+            [](const ReadFile& a, const ReadFile& b) { return a.path < b.path; });
+  return file;
+}
+
+VoxelGrid read_any_grid(const std::filesystem::path& path, const ReadOptions& options) {
+  const auto scan = open_chunks(path, options);
+  return scan ? scan->grid() : read_grid(path, options);
+}
+
+std::vector<VolumeInfo> list_any_volumes(const std::filesystem::path& path,
+                                         const ReadOptions& options) {
+  if (options.raw || !(is_zarr(path) || is_hdf5(path))) return list_volumes(path, options);
+  VolumeInfo info;
+  info.description = path.filename().string();
+  info.format = is_zarr(path) ? "Zarr" : "HDF5";
+  try {
+    const auto scan = open_chunks(path, options);
+    const VoxelGrid& grid = scan->grid();
+    info.format = scan->head().format;
+    info.size = grid.size;
+    info.spacing = grid.spacing;
+    info.origin = grid.origin;
+  } catch (const InputError& error) {
+    info.problem = error.what();
+  }
+  return {info};
+}
 
 void add_read_options(CLI::App& command, ReadOptions& options) {
   command.add_option("--series", options.series, "DICOM series UID");
@@ -35,7 +114,7 @@ void add_read_options(CLI::App& command, ReadOptions& options) {
 }
 
 VolumeFile read_scan(const std::filesystem::path& path, const ReadOptions& options) {
-  VolumeFile file = read_volume(path, options);
+  VolumeFile file = read_any_volume(path, options);
   for (const std::string& warning : file.warnings) log_warning(warning);
   try {
     require_usable(file.volume);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "mesamis/scan_files/open_slices.h"
 #include "mesamis/scan_files/read_volume.h"
 
 namespace mesamis {
@@ -12,6 +13,21 @@ namespace mesamis {
 /// --resample. `options` must
 /// outlive the parsing.
 void add_read_options(CLI::App& command, ReadOptions& options);
+
+/// Reads a volume as read_volume() does, and scans in chunks too: Zarr and HDF5, whole.
+/// @throws InputError  one line that begins with the path.
+VolumeFile read_any_volume(const std::filesystem::path& path, const ReadOptions& options);
+
+/// As open_slices(), of any of these.
+std::unique_ptr<FileSlices> open_any_slices(const std::filesystem::path& path,
+                                            const ReadOptions& options);
+
+/// As read_grid(), of any of these.
+VoxelGrid read_any_grid(const std::filesystem::path& path, const ReadOptions& options);
+
+/// As list_volumes(), of any of these.
+std::vector<VolumeInfo> list_any_volumes(const std::filesystem::path& path,
+                                         const ReadOptions& options);
 
 /// Reads the scan of a command, logs the reader's warnings and checks that the scan can be used.
 /// @throws InputError  one line that begins with the path.

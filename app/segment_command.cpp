@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis segment: a scan in, a surface, an adapted mesh and a report out.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arguments.h"
 #include "chosen_scan.h"
 #include "commands.h"
-#include "costs.h"
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/delivery/label_output.h"
@@ -20,28 +19,27 @@
 #include "mesamis/label_files/write_labels.h"
 #include "mesamis/method/mes_amis.h"
 #include "mesamis/record/body_json.h"
-#include "mesamis/record/json_file.h"
+#include "mesamis/record/meshing_json.h"
 #include "mesamis/record/report.h"
-#include "mesamis/record/settings_json.h"
+#include "mesamis/record/run_surface.h"
 #include "mesamis/record/verdict.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "outputs.h"
 #include "place_options.h"
 #include "process.h"
 #include "progress.h"
+#include "run_plan.h"
+#include "run_record.h"
 #include "scan.h"
 #include "segment_labels.h"
+#include "segment_run.h"
 #include "settings_options.h"
+#include "summary.h"
 
 namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct SegmentOptions : SegmentRun {
-  SettingsArguments settings;
-  std::optional<double> time_limit;  // s, from the start of the program
-};
 
 /// Options of the files alone, as --frame: no setting of the run depends on them.
 void add_mesh_options(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
@@ -61,38 +59,30 @@ void add_mesh_options(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
   c.add_option("--band-mesh", o->band_meshes, "The band's cells with v: .vtu");
 }
 
-SurfaceWriteOptions surface_options(const SegmentOptions& options, const Result& result,
-                                    double voxel) {
-  const bool grey = !result.mesh.cells.empty() &&
-                    std::any_of(options.surfaces.begin(), options.surfaces.end(), carries_grey);
-  SurfaceWriteOptions as{
-      options.scan.frame,
-      options.name + (result.parameters.preview ? " (preview)" : ""),
-      grey ? surface_grey(result, voxel) : std::vector<double>{},
-      {{"producer", producer()}, {"settings", to_json(settings_of(result.parameters)).dump()}}};
-  if (options.error && !result.expected_error.empty()) {
-    as.point_arrays.push_back({"expected_error", result.expected_error});
-  }
-  return as;
+SurfaceWriteOptions surface_options_for(const SegmentOptions& options, const Result& result,
+                                        double voxel) {
+  const bool grey = std::any_of(options.surfaces.begin(), options.surfaces.end(), carries_grey);
+  return surface_options(result, voxel, {options.scan.frame, options.name, options.error, grey});
 }
 
 /// A run whose result nobody would see is not started.
 void require_some_output(const SegmentOptions& options) {
   if (!options.surfaces.empty() || !options.meshes.empty() || !options.band_meshes.empty() ||
-      !options.labelmap.empty() || !options.report.empty() || options.body.given()) {
+      !options.labelmap.empty() || options.wants_report() || options.body.given()) {
     return;
   }
   throw CLI::ValidationError(
       "segment",
-      "expected --output, --mesh, --body, --band-mesh, --labelmap or --report, found nothing to "
-      "write");
+      "expected --output, --mesh, --body, --band-mesh, --labelmap, --report, --html or --pictures, "
+      "found nothing to write");
 }
 
 /// A Medit mesh has its fields in a file of their own.
 fs::path fields_beside(const fs::path& mesh) { return fs::path(mesh).replace_extension(".sol"); }
 
 Paths outputs_of(const SegmentOptions& options) {
-  Paths outputs{options.labelmap, options.report};
+  Paths outputs = page_outputs(options.page);
+  outputs.insert(outputs.end(), {options.labelmap, options.report, options.on_report_file});
   for (const auto* paths :
        {&options.surfaces, &options.meshes, &options.band_meshes, &options.body.files}) {
     outputs.insert(outputs.end(), paths->begin(), paths->end());
@@ -130,27 +120,13 @@ void require_outputs(const SegmentOptions& options) {
   }
   for (const fs::path& path : options.band_meshes) require_output(path, {".vtu"}, "--band-mesh");
   require_body(options.body);
+  if (options.body.meshing() && options.surfaces.empty()) {
+    throw CLI::ValidationError("--surface-quality", "expected --output for meshing, found none");
+  }
   if (!options.labelmap.empty()) require_labelmap(options.labelmap);
   if (!options.report.empty()) require_output(options.report, {".json"}, "--report");
+  require_page(options.page);
   require_distinct_files(outputs_of(options), inputs_of(options));
-}
-
-/// There must be something to write; which bound left nothing is what the user can change.
-void require_surface(const Result& result) {
-  if (!result.surface.triangles.empty()) return;
-  if (result.parameters.surface == SurfaceKind::kBand) {
-    throw InputError(
-        fmt::format("surface: expected cells with v below --band-threshold {}, found none",
-                    result.parameters.band_threshold));
-  }
-  const auto& parts = result.printable.parts;
-  if (parts && parts->islands_dropped > 0) {
-    throw InputError(
-        fmt::format("surface: expected a part of at least --min-volume {} mm^3, found none",
-                    result.parameters.min_volume));
-  }
-  throw InputError(fmt::format("surface: expected values above --level {}, found none",
-                               result.parameters.level));
 }
 
 /// A preview makes no mesh.
@@ -162,10 +138,7 @@ void require_mesh_for(const SegmentOptions& options, const Settings& settings) {
 
 /// Elements fill a solid, and a material needs the grey values of the scan.
 void require_body_for(const SegmentOptions& options, const Settings& settings) {
-  if (!options.body.given()) return;
-  if (settings.surface == SurfaceKind::kBand) {
-    throw CLI::ValidationError("--body", "expected --surface solid, found band");
-  }
+  require_elements_for(options.body, settings);
   if (!options.body.material.empty() && tissue_kind(options.scan.places) != TissueKind::kBright) {
     throw CLI::ValidationError("--material",
                                "expected a bright --tissue, whose grey values are those of the "
@@ -194,23 +167,36 @@ void write_labelmap(const fs::path& path, const TriMesh& surface, const VoxelGri
   write_label_map(path, label_map_of(grid, {&object, 1}));
 }
 
-void write_report(const SegmentOptions& options, const ChosenScan& scan,
-                  const nlohmann::ordered_json& run, const OutputSet& set) {
-  nlohmann::ordered_json report;
-  report["program"] = program_json();
-  report["input"] = input_json(*scan.facts);
-  report["output"] = output_json(options.scan.frame);
-  report["object"] = scan.report;
-  report.update(run);
-  report["files"] = files_json(set);
-  add_costs(report);
-  write_json(options.report, report);
+/// Warns where the surface may show something else than what was meant.
+/// @return the warnings.
+std::vector<std::string> log_surface(const ChosenObject& object, const Parameters& p) {
+  if (p.surface != SurfaceKind::kSolid) return {};
+  std::vector<std::string> warnings = surface_warnings(object, p.level);
+  for (const std::string& warning : warnings) log_warning(warning);
+  return warnings;
 }
 
-/// Warns where the surface may show something else than what was meant.
-void log_surface(const ChosenObject& object, const Parameters& p) {
-  if (p.surface != SurfaceKind::kSolid) return;
-  for (const std::string& warning : surface_warnings(object, p.level)) log_warning(warning);
+/// Refers to the result.
+RunRecord record_of(const Result& result, nlohmann::ordered_json found, const Verdict& verdict,
+                    std::vector<std::string> warnings) {
+  RunRecord record{std::move(found), std::move(warnings), verdict, {}};
+  if (!result.surface.triangles.empty()) {
+    record.surfaces.push_back({&result.surface, {}, default_colour(1)});
+  }
+  if (!result.mesh.cells.empty()) {
+    record.mesh = &result.mesh;
+    record.grey = result.u;
+  }
+  return record;
+}
+
+void show_run(const ChosenScan& scan, const Result& result, const SurfaceCheck& check,
+              const Paths& files) {
+  const std::string& tissue = scan.object.tissue;
+  RunFigures figures = figures_of(result, check, scan.grid.modality);
+  if (!tissue.empty()) figures.object = tissue;
+  figures.files = files;
+  show_summary(figures);
 }
 
 /// Enough once the limit has passed.
@@ -224,15 +210,19 @@ void warn_of_missing_meshes(const SegmentOptions& options, const Result& result)
   log_warning("--time-limit: no mesh was made in this time, none is written");
 }
 
-/// A body of the surface of a run, if one was asked for.
-std::optional<BodyOutput> make_body(const SegmentOptions& options, const Result& result,
-                                    const Volume& volume, ProgressDisplay& display) {
-  if (!options.body.given()) return {};
+/// Makes the elements that are asked for. The surface of the result becomes theirs where it is to
+/// suit other meshers.
+ElementResults fill_surface(const SegmentOptions& options, Result& result, const Volume& volume,
+                            const RunContext& run) {
+  if (!options.body.elements()) return {};
   require_surface(result);
-  BodyRequest request = body_request(options.body, result.parameters.tolerance);
-  request.elements.progress = display.callback();
-  const FoundObject object{result.surface, {"object", 1, 0, default_colour(1)}};
-  return make_body_output({&object, 1}, volume, request);
+  const std::vector<FoundObject> objects{{result.surface, {"object", 1, 0, default_colour(1)}}};
+  ElementResults elements = make_elements(
+      options.body, {objects, volume, volume, options.scan.frame, result.parameters.blur}, run);
+  if (!elements.surfaces.empty()) {
+    take_surface(std::move(elements.surfaces.front()), result.surface, result.expected_error);
+  }
+  return elements;
 }
 
 /// @param mesh  none for a run that was stopped before its first mesh.
@@ -247,34 +237,40 @@ void write_meshes(const SegmentOptions& options, const Result& result,
 int run_on_scan(const SegmentOptions& options, const Settings& settings,
                 const CommonOptions& common, const ChosenScan& scan) {
   ProgressDisplay display(common.quiet);
-  const Result result =
-      run_on_object(scan.object, settings, display.callback(), time_limit(options));
+  Result result = run_on_object(scan.object, settings, display.callback(), time_limit(options));
   const Volume& volume = scan.object.volume;
-  const std::optional<BodyOutput> body = make_body(options, result, volume, display);
+  const ElementResults elements =
+      fill_surface(options, result, volume, {settings, common, display});
   display.finish();
   if (result.stopped) warn_of_missing_meshes(options, result);
-  log_surface(scan.object, result.parameters);
+  auto warnings = log_surface(scan.object, result.parameters);
   const SurfaceCheck check = check_surface(result.surface);
+  const Verdict verdict = judge(result, check);
   std::optional<MeshOutput> mesh;  // before any file is written: it may be refused
   const bool has_mesh = !result.mesh.cells.empty();
   if (has_mesh && !options.meshes.empty()) mesh = make_mesh_output(result, volume, options.mesh);
   if (!options.surfaces.empty()) require_surface(result);
-  const auto surface_as = surface_options(options, result, volume.voxel_size());
+  const auto surface_as = surface_options_for(options, result, volume.voxel_size());
   OutputSet set;
   for (const fs::path& path : options.surfaces) write_surface(path, result.surface, surface_as);
   write_meshes(options, result, mesh);
-  if (body) write_bodies(options.body, *body, options.scan.frame);
+  if (elements.body) write_bodies(options.body, *elements.body, options.scan.frame);
   if (!options.labelmap.empty()) write_labelmap(options.labelmap, result.surface, scan.grid);
-  if (!options.report.empty()) {
+  if (options.wants_report()) {
     auto run = run_json(settings, result, check);
     if (mesh) run["mesh"]["region"] = region_json(*mesh);
-    if (body) run["body"] = body_json(*body);
-    write_report(options, scan, run, set);
+    if (elements.body) run["body"] = body_json(*elements.body);
+    if (!elements.quality.empty()) {
+      run["surface"]["meshing"] = meshing_json(elements.quality.front());
+    }
+    write_record(options, scan, record_of(result, std::move(run), verdict, std::move(warnings)),
+                 set);
   }
+  const Paths files = files_of(set);
   commit(set);
-  const Verdict verdict = judge(result, check);
+  show_run(scan, result, check, files);
   if (verdict.outcome != Outcome::kKept) log_error(verdict.message);
-  return exit_status(verdict.outcome);
+  return status_with(elements, exit_status(verdict.outcome));
 }
 
 void require_one_object(const SegmentOptions& options, bool several) {
@@ -282,13 +278,33 @@ void require_one_object(const SegmentOptions& options, bool several) {
   throw CLI::ValidationError("--time-limit", "expected a run for one object, found several");
 }
 
-int run_segment(const SegmentOptions& options, const CommonOptions& common) {
+int print_plan(const SegmentOptions& options, const Settings& settings) {
+  const ScanArguments& scan = options.scan;
+  if (scan.input.empty() && !scan.labels.given()) {
+    throw CLI::ValidationError("input", "expected a scan, found none");
+  }
+  std::cout << run_plan(scan, settings, options.wants_mesh()).dump(2) << "\n";
+  return kExitDone;
+}
+
+int run_checked(const SegmentOptions& options, const CommonOptions& common) {
   const Settings settings = settings_of(options.settings);
-  require_outputs(options);
+  if (!options.plan) require_outputs(options);
   require_places(options, settings);
   require_mesh_for(options, settings);
   require_body_for(options, settings);
   require_one_object(options, options.scan.labels.given());
+  if (options.plan) return print_plan(options, settings);
+  if (options.slabs.given()) {
+    require_slabs(options, settings);
+    if (options.time_limit) {
+      throw CLI::ValidationError("--time-limit", "expected a run without --slabs, found one");
+    }
+    return run_slabs(options, options.slabs, settings, common);
+  }
+  if (common.team->size() > 1) {
+    throw CLI::ValidationError("--slabs", "expected it for a run of several processes, found none");
+  }
   if (options.scan.labels.given()) return run_labels(options, settings, common);
   if (options.scan.input.empty()) {
     throw CLI::ValidationError("input", "expected a scan, found none");
@@ -300,6 +316,14 @@ int run_segment(const SegmentOptions& options, const CommonOptions& common) {
 }
 
 }  // namespace
+
+int run_segment(SegmentOptions options, const CommonOptions& common) {
+  ScanArguments& scan = options.scan;
+  scan.report = options.wants_report();
+  options.command = common.arguments;
+  scan.read.limits = scan.places.limits = scan.labels.limits = common.limits;
+  return run_checked(options, common);
+}
 
 void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<SegmentOptions>();
@@ -319,6 +343,7 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
                       "What was found, voxel by voxel on the scan's grid: .nii .nii.gz .nrrd "
                       ".seg.nrrd");
   command->add_option("--report", options->report, "Report: .json");
+  add_page_options(*command, options->page);
   add_read_options(*command, options->scan.read);
   add_frame_option(*command, options->scan.frame);
   command
@@ -326,15 +351,14 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
                    "Seconds after which no further mesh is begun; the surface of the last one is "
                    "written (exit status 4)")
       ->check(CLI::PositiveNumber);
+  command->add_flag("--plan", options->plan,
+                    "Read headers alone and print what the run needs of memory, as JSON; outputs "
+                    "are neither needed nor written");
   command->add_option("--name", options->name, "The object's name in the surfaces written");
+  add_slab_options(*command, options->slabs);
   add_settings_options(*command, options->settings);
   command->callback([options, &common, &action] {
-    options->scan.report = !options->report.empty();
-    action = [options, &common] {
-      ScanArguments& scan = options->scan;
-      scan.read.limits = scan.places.limits = scan.labels.limits = common.limits;
-      return run_segment(*options, common);
-    };
+    action = [options, &common] { return run_segment(*options, common); };
   });
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "commands.h"
 #include "mesamis/delivery/mesh_output.h"
 #include "mesamis/method/settings.h"
+#include "page_options.h"
 
 namespace mesamis {
 
@@ -24,9 +27,20 @@ struct SegmentRun {
   /// Of the whole in the files; never the scan's, which may be the patient's.
   std::string name = "mesamis surface";
   bool error = false;  ///< write the error expected at each point
+  nlohmann::ordered_json report_also = nlohmann::ordered_json::object();  ///< entries of the report
+  /// Sees the report before the files appear; what it writes appears with them. May be empty.
+  std::function<void(const nlohmann::ordered_json& report)> on_report;
+  std::filesystem::path on_report_file;  ///< that it writes; may be empty
+  PageArguments page;
+  std::vector<std::string> command;  ///< the command line, for the report
 
+  bool wants_report() const { return !report.empty() || on_report || page.given(); }
   bool wants_mesh() const { return !meshes.empty() || !band_meshes.empty(); }
 };
+
+/// Adds what a run says of its own to a report, writes it and shows it to on_report.
+/// @throws InputError  as write_json().
+void deliver_report(const SegmentRun& run, nlohmann::ordered_json& report);
 
 /// Checks the name of a label map before any work.
 /// @throws CLI::ValidationError, InputError  as require_output().

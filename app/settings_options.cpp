@@ -11,46 +11,39 @@
 namespace mesamis {
 namespace {
 
-std::string option_of(const Setting& setting) {
+std::string option_of(const Setting& setting, char mark) {
   std::string name = setting.name;
-  std::replace(name.begin(), name.end(), '_', '-');
+  std::replace(name.begin(), name.end(), '_', mark);
   return "--" + name;
 }
 
-/// "Standard deviation of the noise (native; default auto)"
-std::string help_of(const Setting& setting) {
-  std::string facts = setting.unit.empty() ? "" : setting.unit + "; ";
-  facts += "default " + text_of(setting, setting.get({}));
-  return setting.help + " (" + facts + ")";
+/// Notes a value that was given.
+void note(SettingsArguments& arguments, const Setting& setting, const std::string& text,
+          const std::string& option) {
+  arguments.overrides.push_back({setting.name, text, option});
 }
 
-bool is_switch(const Setting& setting) {
-  return std::holds_alternative<bool>(setting.get(Settings{}));
-}
-
-void add_switch(CLI::App& command, const Setting& setting, SettingsArguments& arguments) {
-  const std::string yes = option_of(setting), no = "--no-" + yes.substr(2);
+void add_switch(CLI::App& command, const Setting& setting, SettingsArguments& arguments,
+                char mark) {
+  const std::string yes = option_of(setting, mark), no = option_against(setting, mark);
   const auto add = [&](const std::string& option, const std::string& text,
                        const std::string& help) {
     return command
         .add_flag_callback(
             option,
-            [name = setting.name, text, &arguments] {
-              arguments.overrides.push_back({name, text});
-            },
-            help)
+            [&setting, option, text, &arguments] { note(arguments, setting, text, option); }, help)
         ->group(setting.group);
   };
   add(yes, "yes", help_of(setting))->excludes(add(no, "no", "Not " + yes));
 }
 
-void add_value(CLI::App& command, const Setting& setting, SettingsArguments& arguments) {
-  const std::string name = setting.name;
+void add_value(CLI::App& command, const Setting& setting, SettingsArguments& arguments, char mark) {
+  const std::string option = option_of(setting, mark);
   command
       .add_option_function<std::string>(
-          option_of(setting),
-          [name, &arguments](const std::string& text) {
-            arguments.overrides.push_back({name, text});
+          option,
+          [&setting, option, &arguments](const std::string& text) {
+            note(arguments, setting, text, option);
           },
           help_of(setting))
       ->type_name(forms_of(setting))
@@ -60,7 +53,7 @@ void add_value(CLI::App& command, const Setting& setting, SettingsArguments& arg
 /// Errors name the option as it was written.
 void apply_override(Settings& settings, const SettingsArguments::Override& override) {
   const Setting& setting = find_setting(override.name);
-  parsed(option_of(setting), [&] {
+  parsed(override.option, [&] {
     const SettingValue value = parse_value(setting, override.text);
     check_value(setting, value);
     setting.set(settings, value);
@@ -69,15 +62,29 @@ void apply_override(Settings& settings, const SettingsArguments::Override& overr
 
 }  // namespace
 
-void add_settings_options(CLI::App& command, SettingsArguments& arguments) {
+std::string option_against(const Setting& setting, char mark) {
+  return "--no" + std::string(1, mark) + option_of(setting, mark).substr(2);
+}
+
+bool is_switch(const Setting& setting) {
+  return std::holds_alternative<bool>(setting.get(Settings{}));
+}
+
+std::string help_of(const Setting& setting) {
+  std::string facts = setting.unit.empty() ? "" : setting.unit + "; ";
+  facts += "default " + text_of(setting, setting.get({}));
+  return setting.help + " (" + facts + ")";
+}
+
+void add_settings_options(CLI::App& command, SettingsArguments& arguments, char mark) {
   command.add_option("--preset", arguments.preset, "Settings to start from (default: default)")
       ->check(CLI::IsMember(preset_names()));
   command.add_option("--settings", arguments.file, "Settings or a report: .json");
   for (const Setting& setting : setting_table()) {
     if (is_switch(setting)) {
-      add_switch(command, setting, arguments);
+      add_switch(command, setting, arguments, mark);
     } else {
-      add_value(command, setting, arguments);
+      add_value(command, setting, arguments, mark);
     }
   }
 }

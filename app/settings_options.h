@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mesamis/method/setting_table.h"
 #include "mesamis/method/settings.h"
 #include "mesamis/shape_files/surface_files.h"
 
@@ -16,6 +17,7 @@ namespace mesamis {
 struct SettingsArguments {
   struct Override {
     std::string name, text;  ///< of a setting, and its value
+    std::string option;      ///< as it is written
   };
   std::string preset = "default";
   std::filesystem::path file;       ///< of settings, or a report; may be empty
@@ -24,7 +26,17 @@ struct SettingsArguments {
 
 /// Adds --preset, --settings and one option for each of the settings. `arguments` must outlive the
 /// parsing.
-void add_settings_options(CLI::App& command, SettingsArguments& arguments);
+/// @param mark  between the words of an option: --max-tets, or '_' as in setting_table().
+void add_settings_options(CLI::App& command, SettingsArguments& arguments, char mark = '-');
+
+/// The option of a switch that turns its setting off: "--no-restore".
+std::string option_against(const Setting& setting, char mark);
+
+/// Whether the setting is on or off.
+bool is_switch(const Setting& setting);
+
+/// What an option of a setting says of it: "Smallest edge (length units; default 0.25)".
+std::string help_of(const Setting& setting);
 
 /// The settings of the preset, overridden by those of the file, then by those of the options.
 /// @throws InputError            if the file cannot be read or has a setting that is refused.

@@ -62,8 +62,8 @@ def read_nifti(path):
 
 
 def write_nrrd(path, volume):
-    """Labels, which are bytes, stay bytes; any other values are written in single precision."""
-    kind = "uchar" if volume.values.dtype == np.uint8 else "float"
+    """Bytes and short integers stay what they are; other values are written in single precision."""
+    kind = {"uint8": "uchar", "int16": "short"}.get(volume.values.dtype.name, "float")
     directions = " ".join("(" + ",".join(f"{s:.9g}" if a == b else "0" for b in range(3)) + ")"
                           for a, s in enumerate(volume.spacing))
     head = ["NRRD0004", f"type: {kind}", "dimension: 3", "space: left-posterior-superior",

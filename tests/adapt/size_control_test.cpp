@@ -106,5 +106,45 @@ TEST(SizeControl, RefusesWeightsOfAnotherSize) {
   EXPECT_THROW(control_sizes(metrics, std::vector<double>(2, 1), {}), InputError);
 }
 
+TEST(ClampedComplexities, AreWhatControlSizesReaches) {
+  const auto before = random_metrics(500);
+  const std::vector<double> weights(500, 0.1);
+  const double bound = complexity_of(before, weights) / 10;
+  auto metrics = before;
+  const double factor = control_sizes(metrics, weights, {0.05, 3, bound});
+  const std::vector<double> factors{1, factor, 4 * factor};
+  const std::vector<double> found =
+      clamped_complexities(before, weights, {0.05, 3, 12345}, factors);
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_NEAR(found[1] / bound, 1, 1e-5);
+  EXPECT_NEAR(found[1] / complexity_of(metrics, weights), 1, 1e-6);
+  EXPECT_GT(found[0], found[1]);
+  EXPECT_GT(found[1], found[2]);
+  // Scaled apart, clamped without a bound: the same.
+  auto scaled = before;
+  for (Sym3& m : scaled) m = 1 / 9.0 * m;
+  control_sizes(scaled, weights, {0.05, 3, 0});
+  EXPECT_NEAR(clamped_complexities(before, weights, {0.05, 3, 0}, std::vector<double>{3})[0] /
+                  complexity_of(scaled, weights),
+              1, 1e-6);
+}
+
+TEST(ClampedComplexities, OfPartsAddUp) {
+  const auto metrics = random_metrics(300);
+  const std::vector<double> weights(300, 0.2), factors{1, 2, 5, 30};
+  const SizeControl control{0.05, 3, 0};
+  const std::span<const Sym3> all(metrics);
+  const std::span<const double> shares(weights);
+  const auto whole = clamped_complexities(all, shares, control, factors);
+  const auto a = clamped_complexities(all.first(110), shares.first(110), control, factors);
+  const auto b = clamped_complexities(all.subspan(110), shares.subspan(110), control, factors);
+  for (std::size_t i = 0; i < factors.size(); ++i) EXPECT_NEAR((a[i] + b[i]) / whole[i], 1, 1e-12);
+}
+
+TEST(ClampedComplexities, RefusesUnequalNumbers) {
+  const std::vector<double> weights(4, 1);
+  EXPECT_THROW(clamped_complexities(random_metrics(5), weights, {0.05, 3, 0}, weights), InputError);
+}
+
 }  // namespace
 }  // namespace mesamis

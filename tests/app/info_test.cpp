@@ -63,6 +63,20 @@ TEST(Info, TellsWhatTheValuesAreLike) {
   EXPECT_THAT(cut.out, HasSubstr("not usable: "));
 }
 
+TEST(Info, DescribesAScanInChunks) {
+  const TempFolder folder;
+  write_bytes(folder / "a.zarr/.zarray",
+              R"({"zarr_format": 2, "shape": [4, 3, 2], "chunks": [4, 3, 2], "dtype": "|u1",
+              "compressor": null, "fill_value": 0, "order": "C"})");
+  write_bytes(folder / "a.zarr/0.0.0", "ABCDEFGHIJKLMNOPQRSTUVWX");
+  const ProgramRun run = run_program(folder, {"info", folder / "a.zarr", "--spacing", "0.5,1,2"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("a.zarr  Zarr  2 x 3 x 4 voxels of 0.5 x 1 x 2 mm"));
+  write_bytes(folder / "a.zarr/.zarray", "{");
+  EXPECT_THAT(run_program(folder, {"info", folder / "a.zarr"}).out,
+              HasSubstr("not usable: " + (folder / "a.zarr/.zarray").string() + ": expected JSON"));
+}
+
 TEST(Info, ReadsARawFileWhateverItsName) {
   const TempFolder folder;
   write_bytes(folder / "scan.stl", std::string(24, 'x'));

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "mesamis/phantom/phantom.h"
+
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 
+#include "mesamis/phantom/degrade.h"
 #include "mesamis/scan_files/read_volume.h"
+#include "mesamis/scan_files/write_volume.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "support/run_program.h"
 
@@ -52,6 +56,18 @@ TEST(PhantomCommand, SameSeedSameBytes) {
   EXPECT_EQ(bytes({"--seed", "5", "--threads", "1"}), first);
   EXPECT_NE(bytes({"--seed", "6"}), first);
   EXPECT_LT(bytes({"--type", "short", "--gzip"}).size(), first.size() / 2);
+}
+
+/// The program makes a volume slab by slab; the library makes the same one in memory.
+TEST(PhantomCommand, WritesTheVolumeOfTheLibrary) {
+  const TempFolder folder;
+  EXPECT_EQ(run_program(folder, {"phantom", "femur", "-o", folder / "a.nrrd", "--size", "30,30,45",
+                                 "--spacing", "2,2,2", "--noise", "7", "--seed", "3"})
+                .status,
+            0);
+  const Phantom femur = make_phantom("femur", {30, 30, 45}, {2, 2, 2});
+  write_nrrd(folder / "b.nrrd", degrade(sample_phantom(femur), {.blur = 1, .noise = 7, .seed = 3}));
+  EXPECT_TRUE(read_bytes(folder / "a.nrrd") == read_bytes(folder / "b.nrrd"));
 }
 
 TEST(PhantomCommand, ListsWhatThereIs) {

@@ -37,10 +37,14 @@ void write_scan(const fs::path& folder) {
 TEST(Privacy, NoOutputOfARunNamesThePatient) {
   const TempFolder folder;
   write_scan(folder / "in");
-  std::vector<std::string> arguments{
-      "segment",   folder / "in", "--adaptations",       "2",        "--max-tets",
-      "5000",      "--labelmap",  folder / "out/l.nrrd", "--report", folder / "out/r.json",
-      "--log-json"};
+  std::vector<std::string> arguments{"segment",       folder / "in",
+                                     "--adaptations", "2",
+                                     "--max-tets",    "5000",
+                                     "--labelmap",    folder / "out/l.nrrd",
+                                     "--report",      folder / "out/r.json",
+                                     "--html",        folder / "out/r.html",
+                                     "--pictures",    folder / "out/pictures",
+                                     "--log-json"};
   for (const char* name : {"a.stl", "a.ply", "a.obj", "a.vtp", "a.3mf", "a.amf"}) {
     arguments.insert(arguments.end(), {"-o", folder / "out" / name});
   }
@@ -52,12 +56,37 @@ TEST(Privacy, NoOutputOfARunNamesThePatient) {
   ASSERT_THAT(run.status, testing::AnyOf(0, 4)) << run.err;
   EXPECT_THAT(run.out + run.err, testing::Not(testing::HasSubstr("UNMISTAKABLE")));
   int files = 0;
-  for (const auto& file : fs::directory_iterator(folder / "out")) {
-    EXPECT_THAT(read_bytes(file.path()), testing::Not(testing::HasSubstr("UNMISTAKABLE")))
-        << file.path();
+  for (const auto& file : fs::recursive_directory_iterator(folder / "out")) {
+    if (file.is_directory()) continue;
+    EXPECT_EQ(read_bytes(file.path()).find("UNMISTAKABLE"), std::string::npos) << file.path();
     ++files;
   }
   EXPECT_GE(files, 12);
+}
+
+TEST(Privacy, APageHasNoWordsOfAScanFromWarnings) {
+  const TempFolder folder;
+  write_scan(folder / "in");
+  SliceBytes scout;  // one more series: a warning names both
+  scout.series = "1.2.4";
+  scout.columns = scout.rows = 24;
+  scout.pixels.resize(24 * 24);
+  scout.description = "knee of 3 May";
+  write_bytes(folder / "in/scout", scout.bytes());
+  const auto page_of = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"segment", folder / "in", "--max-tets", "4000", "--adaptations", "2",
+                               "--html", folder / "r.html"});
+    const ProgramRun run = run_program(folder, more);
+    EXPECT_THAT(run.status, testing::AnyOf(0, 4)) << run.err;
+    EXPECT_THAT(run.err, testing::HasSubstr("knee of 3 May"));
+    return read_bytes(folder / "r.html");
+  };
+  const std::string page = page_of({});
+  for (const char* word : {"UNMISTAKABLE", "knee of", "3 May"}) {
+    EXPECT_EQ(page.find(word), std::string::npos) << word;
+  }
+  EXPECT_NE(page.find("1 warning of the reader: see the report"), std::string::npos);
+  EXPECT_NE(page_of({"--html-names"}).find("knee of 3 May"), std::string::npos);
 }
 
 TEST(Privacy, InfoTellsTheSeriesButNotThePatient) {

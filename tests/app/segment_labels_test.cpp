@@ -160,6 +160,25 @@ TEST_F(SegmentLabels, TheReportRepeatsTheRun) {
   for (std::size_t n = 0; n < a.size(); ++n) EXPECT_EQ(a[n].surface.points, b[n].surface.points);
 }
 
+TEST_F(SegmentLabels, TheReportHasTheWarningsOfLabelFiles) {
+  std::string map =
+      "ObjectType = Image\nNDims = 3\nDimSize = 40 25 25\nElementType = MET_UCHAR\n"
+      "ElementDataFile = LOCAL\n";
+  for (int n = 0; n < 40 * 25 * 25; ++n) {
+    map += static_cast<char>(label_at({1.0 * (n % 40), 1.0 * (n / 40 % 25), 1.0 * (n / 1000)}));
+  }
+  write_bytes(folder / "map.mha", map);
+  for (const char* option : {"--labels", "--mask"}) {
+    const ProgramRun run = run_program(
+        folder, {"segment", folder / "balls.nrrd", option, folder / "map.mha", "-o",
+                 folder / "a.vtp", "--report", folder / "a.json", "--adaptations", "2"});
+    ASSERT_THAT(run.status, testing::AnyOf(0, 4)) << run.err;
+    const auto report = nlohmann::json::parse(read_bytes(folder / "a.json"));
+    EXPECT_THAT(report["warnings"].dump(), HasSubstr("no ElementSpacing")) << option;
+    EXPECT_THAT(report["input"]["warnings"].dump(), testing::Not(HasSubstr("ElementSpacing")));
+  }
+}
+
 TEST_F(SegmentLabels, TheMeshHasALabelPerCell) {
   const ProgramRun run =
       segment({folder / "balls.nrrd", "--mesh", folder / "a.vtu", "--mesh", folder / "a.msh",

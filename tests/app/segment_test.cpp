@@ -327,7 +327,7 @@ TEST(SegmentCommand, RefusesARunThatWouldWriteNothingBeforeItReads) {
   const TempFolder folder;
   const std::vector<std::string> nothing{"segment", folder / "no scan.nrrd"};
   EXPECT_FAILS(run_program(folder, nothing), 2,
-               "expected --output, --mesh, --body, --band-mesh, --labelmap or --report");
+               "expected --output, --mesh, --body, --band-mesh, --labelmap, --report, --html or");
   for (const auto* more : {"--preview", "--error", "--quiet"}) {
     auto arguments = nothing;
     arguments.emplace_back(more);

@@ -65,5 +65,10 @@ TEST(AvailableMemory, IsWithinTheLimitAtTheTopWhereThePathOfTheGroupIsNotThere) 
   EXPECT_EQ(available_memory(root.path()), 0.0);
 }
 
+TEST(MemoryLimit, IsTheCallersOrWhatIsFree) {
+  EXPECT_EQ(memory_limit(2.5), 2.5e9);
+  EXPECT_EQ(memory_limit(0).has_value(), available_memory().has_value());
+}
+
 }  // namespace
 }  // namespace mesamis

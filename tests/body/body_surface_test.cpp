@@ -47,6 +47,23 @@ TEST(BodySurface, EdgesCrossABallWhereTheyDo) {
   }
 }
 
+TEST(BodySurface, AnEdgeThroughABallPassesItsMiddle) {
+  const BodySurface body = one_ball();
+  const auto place = body.hidden_crossing({-kRadius - 1, 0.5, 0}, {kRadius + 1, 0.5, 0});
+  ASSERT_TRUE(place);
+  EXPECT_NEAR(*place, 0.5, 0.2);  // so deep that half of it is in any wall
+}
+
+TEST(BodySurface, AnEdgeThatHardlyEntersABallDoesNotCount) {
+  const BodySurface body = one_ball();
+  auto at_height = [&](double z) {
+    return body.hidden_crossing({-kRadius, 0, z}, {kRadius, 0, z});
+  };
+  EXPECT_FALSE(at_height(kRadius + 0.1));
+  EXPECT_FALSE(at_height(kRadius - 0.5 * kTolerance));
+  EXPECT_TRUE(at_height(kRadius - 3 * kTolerance));
+}
+
 TEST(BodySurface, NearestBorderOfABallIsOnTheRay) {
   const BodySurface ball = one_ball();
   for (const Vec3& p : random_points(300, kWide.lo, kWide.hi, 4)) {

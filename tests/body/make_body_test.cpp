@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/body/make_body.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/mesh/region.h"
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/self_intersections.h"
 #include "support/metric_fields.h"
@@ -20,6 +21,7 @@
 namespace mesamis {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr double kRadius = 10, kTolerance = 0.1;
@@ -35,12 +37,6 @@ Box box_around(const TriMesh& surface, double margin = 2) {
   const Box box = bounding_box(surface.points);
   const Vec3 all{margin, margin, margin};
   return {box.lo - all, box.hi + all};
-}
-
-double volume_of(const TetMesh& mesh) {
-  double sum = 0;
-  for (Index c = 0; c < std::ssize(mesh.cells); ++c) sum += cell_volume(mesh, c);
-  return sum;
 }
 
 /// What holds for the skin of any body.
@@ -70,12 +66,15 @@ TEST(MakeBody, FillsABall) {
   // The middles of triangles and sides are held to the tolerance, what lies between is not much
   // off.
   expect_within(skin, surface, 1.5 * kTolerance);
-  const double volume = 4.0 / 3 * std::numbers::pi * kRadius * kRadius * kRadius;
-  // Vertices lie on the ball, triangles up to the tolerance below: at most 3 %.
-  EXPECT_NEAR(volume_of(body.elements.mesh), volume, 0.02 * volume);
-  EXPECT_NEAR(check_surface(skin).volume, volume_of(body.elements.mesh), 1e-9 * volume);
+  const double volume = check_surface(surface).volume;
+  EXPECT_NEAR(mesh_volume(body.elements.mesh), volume, 0.002 * volume);
+  EXPECT_NEAR(check_surface(skin).volume, mesh_volume(body.elements.mesh), 1e-9 * volume);
   expect_good_elements(body);
   EXPECT_EQ(body.element_size, 3);
+  EXPECT_EQ(body.least_size, 0.75);
+  EXPECT_EQ(body.narrow_share, 0);
+  EXPECT_NEAR(body.fit.skin_to_surface, max_distance(skin, surface, 0.01 * kTolerance), 1e-9);
+  EXPECT_EQ(body.fit.elements_of_skin_only, 0);
   EXPECT_EQ(body.parts, 1);
   EXPECT_EQ(body.parts_dropped, 0);
   EXPECT_TRUE(std::ranges::all_of(body.elements.materials, [](Material m) { return m == 1; }));
@@ -105,6 +104,28 @@ TEST(MakeBody, WhereTheBoxCutsABallTheBodyIsFlat) {
   const double disc = std::numbers::pi * (kRadius * kRadius - 16);
   EXPECT_NEAR(cap, disc, 0.02 * disc);
   for (const Vec3& p : skin.points) EXPECT_GE(p.z, -4);
+}
+
+/// Two balls nearer to each other than the least size: they stay apart.
+TEST(MakeBody, ANarrowGapStaysOpen) {
+  constexpr double kGap = 0.4;
+  TriMesh pair = ball_surface(kRadius, 48);
+  const TriMesh other = pair;
+  const auto first = static_cast<Index>(pair.points.size());
+  for (const Vec3& p : other.points) pair.points.push_back(p + Vec3{2 * kRadius + kGap, 0, 0});
+  for (const Triangle& t : other.triangles) {
+    pair.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  BodyOptions options = of_size(4);
+  options.least_size = 2;
+  const MeshedBody body = make_body(std::vector{pair}, box_around(pair), options);
+  const TriMesh skin = body_skin(body.elements);
+  expect_closed_skin(skin);
+  expect_good_elements(body);
+  EXPECT_EQ(body.parts, 2);
+  EXPECT_GT(body.narrow_share, 0.01);
+  EXPECT_LT(body.narrow_share, 0.5);
+  EXPECT_EQ(check_surface(skin).components, 2);
 }
 
 using Triple = std::array<std::array<double, 3>, 3>;
@@ -151,21 +172,19 @@ TEST(MakeBody, ObjectsThatTouchShareTheirTriangles) {
   for (const Triple& t : in_upper) {
     if (!in_lower.count(t)) continue;
     EXPECT_FALSE(in_all.count(t));
-    const bool near_rim =
-        std::ranges::any_of(t, [](const auto& p) { return std::hypot(p[0], p[1]) > kRadius - 3; });
-    if (!near_rim) {
-      for (const auto& p : t) EXPECT_NEAR(p[2], 0, kTolerance);
-    }
+    for (const auto& p : t) EXPECT_NEAR(p[2], 0, kTolerance);
     shared += area_of(t);
     ++count;
   }
   EXPECT_EQ(in_all.size(), in_upper.size() + in_lower.size() - 2 * count);
   const double disc = std::numbers::pi * kRadius * kRadius;
-  EXPECT_NEAR(shared, disc, 0.03 * disc);
-  const double half = 2.0 / 3 * std::numbers::pi * kRadius * kRadius * kRadius;
-  EXPECT_NEAR(check_surface(upper).volume, half, 0.03 * half);
-  EXPECT_NEAR(check_surface(lower).volume, half, 0.03 * half);
-  EXPECT_GT(body.quality.scaled_jacobian_min, 0);
+  EXPECT_NEAR(shared, disc, 0.01 * disc);
+  const double half = check_surface(surfaces[0]).volume;
+  EXPECT_NEAR(check_surface(upper).volume, half, 0.005 * half);
+  EXPECT_NEAR(check_surface(lower).volume, half, 0.005 * half);
+  expect_within(upper, surfaces[0], 1.5 * kTolerance);
+  expect_within(lower, surfaces[1], 1.5 * kTolerance);
+  expect_good_elements(body);
 }
 
 TEST(MakeBody, IsTheSameForAnyNumberOfThreads) {
@@ -197,7 +216,31 @@ TEST(MakeBody, SmallPartsAreLeftOutAndCounted) {
   EXPECT_EQ(one.parts_dropped, 1);
   EXPECT_EQ(one.elements.materials.size(), one.elements.mesh.cells.size());
   for (const Vec3& p : one.elements.mesh.points) EXPECT_LT(norm(p), kRadius + 0.5);
-  EXPECT_LT(volume_of(one.elements.mesh), volume_of(both.elements.mesh));
+  EXPECT_LT(mesh_volume(one.elements.mesh), mesh_volume(both.elements.mesh));
+}
+
+/// A small object of its own stays, however large the others are.
+TEST(MakeBody, ASmallObjectIsNoSmallPart) {
+  const std::vector surfaces{ball_surface(kRadius, 40), moved(ball_surface(1.5, 24), {14, 0, 0})};
+  BodyOptions options = of_size(4);
+  options.least_size = 1;
+  options.part_share = 0.01;
+  const MeshedBody body = make_body(surfaces, {{-12, -12, -12}, {18, 12, 12}}, options);
+  EXPECT_EQ(body.parts, 2);
+  EXPECT_GT(std::ranges::count(body.elements.materials, Material{2}), 0);
+}
+
+TEST(MakeBody, RefusesMoreElementsThanMayBeMade) {
+  const TriMesh surface = ball_surface(kRadius, 40);
+  BodyOptions options = of_size(3);
+  options.most_elements = 1000;
+  EXPECT_REFUSED(make_body(std::vector{surface}, box_around(surface), options),
+                 AllOf(HasSubstr("of which 1000 may be made; expected an element size of at least"),
+                       HasSubstr(" mm")));
+  options.element_size = 1e-4;  // as fast
+  options.most_elements = 1'000'000;
+  EXPECT_REFUSED(make_body(std::vector{surface}, box_around(surface), options),
+                 HasSubstr("of which 1000000 may be made"));
 }
 
 TEST(MakeBody, TheElementSizeIsAThirtiethOfTheLongestSideUnlessGiven) {
@@ -229,25 +272,6 @@ TEST(MakeBody, ProgressStopsIt) {
   };
   EXPECT_THROW(make_body(std::vector{surface}, box_around(surface), options), Cancelled);
   EXPECT_GE(last, 0.6);
-}
-
-/// A brick of two materials: what of it lies at x < 1 is 1, the rest 2.
-TEST(BodySkin, OfABoxMeshIsItsBoundary) {
-  BodyMesh body{box_mesh({{0, 0, 0}, {2, 1, 1}}, {4, 2, 2}), {}};
-  for (const Cell& cell : body.mesh.cells) {
-    double sum = 0;
-    for (const Vec3& p : cell_corners(body.mesh, cell)) sum += p.x;
-    body.materials.push_back(sum < 4 ? 1 : 2);
-  }
-  for (const auto& [object, volume, area] :
-       {std::tuple{0, 2.0, 10.0}, std::tuple{1, 1.0, 6.0}, std::tuple{2, 1.0, 6.0}}) {
-    const auto check = check_surface(body_skin(body, static_cast<Material>(object)));
-    EXPECT_EQ(solid_flaws_of(check), "");
-    EXPECT_NEAR(check.volume, volume, 1e-12);
-    EXPECT_NEAR(check.area, area, 1e-12);
-  }
-  EXPECT_TRUE(body_skin(body, 3).triangles.empty());
-  EXPECT_TRUE(body_skin(body, 3).points.empty());
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "mesamis/base/error.h"
+#include "mesamis/material/rim.h"
 #include "support/solids.h"
 #include "support/throws.h"
 
@@ -98,6 +99,31 @@ TEST(BodyOutput, MidSideNodesBelongToTheirEdges) {
   }
 }
 
+/// The scan of a ball of 1 g/cm^3 that is blurred: its rim is dim, unless it is filled.
+TEST(BodyOutput, MaterialsAtTheRimAreThoseBelow) {
+  Volume volume = ramp();
+  for (std::size_t n = 0; n < volume.voxel_count(); ++n) {
+    const auto [i, j, k] = volume.voxel(n);
+    const double depth = kRadius - norm(Vec3(i, j, k) - Vec3{12, 12, 12});
+    volume.samples[n] = static_cast<float>(500 * std::erfc(-depth / (0.7 * std::numbers::sqrt2)));
+  }
+  BodyRequest request = of_size(3);
+  request.material.emplace();
+  request.material->law = parse_material_law("E=1000*rho_qct^1");
+  request.material->calibration = parse_calibration("0,0.001");
+  request.material->gap = 0;
+  const auto least = [&] {
+    double modulus = 1e9;
+    for (const auto& bin : body_of(volume, request).elements.materials) {
+      modulus = std::min(modulus, bin.modulus);
+    }
+    return modulus;
+  };
+  EXPECT_LT(least(), 900);
+  request.rim = rim_depth(volume, {0.7, 0.7, 0.7});
+  EXPECT_GT(least(), 975);  // at this depth 2.3 % are left of the surroundings
+}
+
 TEST(BodyOutput, PartsHaveNamesForSolvers) {
   const BodyOutput body = body_of(ramp(), of_size(4));
   ASSERT_EQ(body.elements.parts.size(), 1U);
@@ -164,10 +190,56 @@ TEST(BodyOutput, AnObjectThatTheScanCutsOffEndsInAFlatFace) {
   EXPECT_GT(in_plane, 20U);
 }
 
+/// Surfaces come in single precision, which the border of a scan need not be.
+TEST(BodyOutput, AFlatEndSurvivesSinglePrecision) {
+  Volume volume = ramp();
+  const double scale = 0.0195;
+  volume.spacing = {scale, scale, scale};
+  TriMesh surface = ball_above(-3, kRadius, 48);
+  double lowest = 0;
+  for (const Vec3& p : surface.points) lowest = std::min(lowest, p.z);
+  for (Vec3& p : surface.points) {  // hangs from the highest layer
+    p = volume.to_world(scale * Vec3{12 + p.x, 12 - p.y, 24 + lowest - p.z});
+    for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
+  }
+  const FoundObject object{surface, {"half", 1, 0, {}}};
+  BodyRequest request = of_size(3 * scale);
+  request.elements.tolerance *= scale;
+  const FiniteElements elements = make_body_output({&object, 1}, volume, request).elements;
+  std::size_t in_plane = 0;
+  for (const Vec3& p : elements.points) {
+    const double below = 24 * scale - volume.to_grid(p).z;
+    EXPECT_GT(below, -1e-12);
+    in_plane += std::abs(below) < 1e-12;
+  }
+  EXPECT_GT(in_plane, 20U);
+}
+
+TEST(BodyOutput, TellsWhatIsMissing) {
+  BodyRequest request = of_size(3);
+  request.sets = {parse_face_query("up=top:z,3"), parse_face_query("hole=inner")};
+  BodyOutput body = body_of(ramp(), request);
+  EXPECT_EQ(unmet(body), "set 'hole' has no face, it is left out");
+  EXPECT_EQ(body.elements.sets.size(), 1U);
+  body.facts.quality.least_angle = 5;
+  body.facts.fit.surface_to_skin = 0.5;
+  EXPECT_THAT(unmet(body),
+              testing::StartsWith("expected dihedral angles of at least 10.7, found 5; expected a "
+                                  "distance to the surface, mm, of at most 0.2, found 0.5; set"));
+  request.sets.clear();
+  EXPECT_EQ(unmet(body_of(ramp(), request)), "");
+}
+
 TEST(BodyOutput, NamesOfSetsDiffer) {
   BodyRequest request = of_size(3);
   request.sets = {parse_face_query("a=top:z,3"), parse_face_query("a=bottom:z,3")};
   EXPECT_REFUSED(body_of(ramp(), request), HasSubstr("'a' twice"));
+  request.sets[1].name = "A";
+  EXPECT_REFUSED(body_of(ramp(), request), HasSubstr("'A' beside 'a'"));
+  request.sets[1].name = "part_1_left_femur__2_";
+  EXPECT_REFUSED(body_of(ramp(), request), HasSubstr("parts and materials"));
+  request.sets[1].name = "PARTS";
+  EXPECT_NO_THROW(require_set_names(request.sets));
 }
 
 }  // namespace

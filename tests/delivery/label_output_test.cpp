@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/delivery/label_output.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "mesamis/base/parallel.h"
 #include "support/level_set.h"
+#include "support/throws.h"
 
 namespace mesamis {
 namespace {
@@ -100,6 +101,19 @@ TEST(LabelOutput, GivesObjectsTheirLabelsAndLayers) {
   EXPECT_NO_THROW(require_valid(map));
   EXPECT_GT(std::count(map.layers[0].begin(), map.layers[0].end(), 7),
             8 * std::count(map.layers[1].begin(), map.layers[1].end(), 7));
+}
+
+TEST(MissingObjects, AreNamedAndNoneAtAllIsRefused) {
+  LabelResult result;
+  const Segment hip{"hip", 2, 0, {}}, femur{"femur", 3, 0, {}};
+  EXPECT_REFUSED(missing_objects(result, std::vector{hip}), testing::HasSubstr("found none"));
+  result.objects.push_back({hip, ball(5), {}, 0});
+  EXPECT_THAT(missing_objects(result, std::vector{hip, femur}),
+              testing::ElementsAre("labels: nothing was found of 'femur'"));
+  const std::vector<FoundObject> found = found_objects(result);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(&found[0].surface, &result.objects[0].surface);
+  EXPECT_EQ(found[0].segment, hip);
 }
 
 }  // namespace

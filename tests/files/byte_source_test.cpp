@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+
 #include "support/scan_bytes.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
@@ -52,6 +56,21 @@ TEST(ByteSource, GivesTheSameBytesPlainAndPacked) {
     EXPECT_EQ(source.skip(1), 0u);
     EXPECT_GE(source.most_bytes(), bytes.size());
   }
+}
+
+TEST(ByteSource, SkipsPlainBytesWithoutReadingThem) {
+  const TempFolder folder;
+  write_bytes(folder / "a", "head");
+  std::filesystem::resize_file(folder / "a", std::uint64_t{1} << 40);
+  ByteSource source(folder / "a", Packing::kPlain, 2);
+  EXPECT_FALSE(source.is_packed());
+  EXPECT_EQ(read(source, 2), "ad");
+  EXPECT_EQ(source.skip((std::uint64_t{1} << 40) - 5), (std::uint64_t{1} << 40) - 5);
+  EXPECT_EQ(source.skip(std::numeric_limits<std::uint64_t>::max()), 1u);
+  EXPECT_EQ(read(source, 1), "");
+  EXPECT_EQ(source.skip(1), 0u);
+  write_bytes(folder / "b", packed("bytes"));
+  EXPECT_TRUE(ByteSource(folder / "b", Packing::kSniffed).is_packed());
 }
 
 TEST(ByteSource, JoinedGzipFilesAreOneAndPaddingIsPassedOver) {

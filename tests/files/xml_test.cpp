@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "mesamis/files/xml_text.h"
 #include "support/throws.h"
 
 namespace mesamis::detail {

@@ -2,11 +2,13 @@
 // The parsers of the command line, a target per command. Lines of the input are arguments. They are
 // parsed and never run: a line sets an action, or is refused in one line of at most 500 characters.
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "arguments.h"
+#include "body_options.h"
 #include "command_line.h"
 #include "fuzz_target.h"
 #include "label_options.h"
@@ -87,7 +89,7 @@ void run_command(std::string_view bytes) {
 
 /// The text of a value gives the value back.
 void require_texts(const SettingsArguments& arguments) {
-  for (const auto& [name, text] : arguments.overrides) {
+  for (const auto& [name, text, option] : arguments.overrides) {
     const Setting& setting = find_setting(name);
     const SettingValue value = parse_value(setting, text);
     require_law(parse_value(setting, text_of(setting, value)) == value,
@@ -110,7 +112,7 @@ void check_texts(Texts texts) {
   require_places(texts.places, texts.labels, settings);
   texts.places.mask.clear();
   if (texts.places.remove != "body") texts.places.remove.clear();
-  object_request(texts.places, texts.labels, settings, texts.frame);
+  read_request(texts.places, texts.labels, settings, texts.frame);
 }
 
 void run_texts(std::string_view bytes) {
@@ -130,9 +132,53 @@ void run_texts(std::string_view bytes) {
   }
 }
 
+/// What was read of sets of faces can be looked for.
+void require_query(const FaceQuery& query) {
+  using enum FaceQuery::Kind;
+  require_law(is_solver_name(query.name), "a set with a name that solvers refuse");
+  const bool at_end = query.kind == kTop || query.kind == kBottom;
+  require_law(!at_end || (query.depth > 0 && query.axis >= 0 && query.axis < 3),
+              "a depth or an axis out of range");
+  require_law(query.kind != kNormal || std::abs(norm(query.normal) - 1) < 1e-9,
+              "a direction that is not of length one");
+  require_law(query.kind != kBetween || (query.objects[0] > 0 && query.objects[1] > 0),
+              "an object that there cannot be");
+}
+
+/// A law and a calibration give stiffness that rises with the native value.
+void require_material(const MaterialOptions& options) {
+  require_law(options.law && options.calibration, "a material without law or calibration");
+  require_law(std::isfinite(options.calibration->offset) && options.calibration->slope > 0,
+              "a calibration that does not rise");
+  require_law(!options.law->pieces.empty(), "a law without a piece");
+  const double low = modulus_at(*options.law, 0.1), high = modulus_at(*options.law, 1);
+  require_law(low >= 0 && high >= low, "a law whose modulus falls");
+}
+
+/// What `segment` does with the texts of bodies before a file is read.
+void run_body(std::string_view bytes) {
+  const Arguments arguments = arguments_of({"mesamis"}, bytes);
+  const std::vector<const char*> pointers = pointers_to(arguments);
+  CLI::App app("fuzz");
+  BodyArguments body;
+  add_body_options(app, body);
+  try {
+    app.parse(static_cast<int>(pointers.size()), pointers.data());
+    body.files.clear();  // no file is asked for
+    const BodyWishes wishes = body_wishes(body, Frame::kLps);
+    for (const FaceQuery& query : wishes.sets) require_query(query);
+    if (wishes.material) require_material(*wishes.material);
+    require_body(body);
+  } catch (const CLI::ParseError& error) {
+    require_usage_line(error.what());
+  }
+}
+
 constexpr FuzzTarget kTargets[] = {
     {"options_program", run_program},
+    {"options_body", run_body},
     {"options_baseline", run_command<add_baseline_command>},
+    {"options_bids", run_command<add_bids_command>},
     {"options_compare", run_command<add_compare_command>},
     {"options_decimate", run_command<add_decimate_command>},
     {"options_info", run_command<add_info_command>},
@@ -142,6 +188,7 @@ constexpr FuzzTarget kTargets[] = {
     {"options_segment", run_command<add_segment_command>},
     {"options_settings", run_command<add_settings_command>},
     {"options_slice", run_command<add_slice_command>},
+    {"options_slicer_segment", run_command<add_slicer_segment_command>},
     {"options_study", run_command<add_study_command>},
     {"options_texts", run_texts},
 };

@@ -113,9 +113,31 @@ void write_pictures(const SeedFolder& seeds) {
   seeds.add("png", "palette", palette.bytes());
 }
 
+void write_zarr(const SeedFolder& seeds) {
+  const std::string end(1, '\0'), second = R"({"zarr_format": 2, "shape": [5, 3, 4],
+      "chunks": [5, 3, 4], "dtype": "<i2", "fill_value": 0, "order": "F", "filters": null,
+      "dimension_separator": ".", "compressor": )";
+  seeds.add("zarr", "plain", "2" + second + "null}" + end + kSamples);
+  seeds.add("zarr", "gzip", "2" + second + R"({"id": "gzip"}})" + end + packed(kSamples));
+  const std::string third = R"({"zarr_format": 3, "node_type": "array", "shape": [1, 5, 3, 4],
+      "data_type": "int16", "chunk_grid": {"name": "regular", "configuration":
+      {"chunk_shape": [1, 5, 3, 4]}}, "chunk_key_encoding": {"name": "v2"}, "fill_value": "NaN",
+      "codecs": [{"name": "transpose", "configuration": {"order": [0, 3, 2, 1]}},
+      {"name": "bytes", "configuration": {"endian": "big"}}]})";
+  seeds.add("zarr", "third", "3" + third + end + kSwapped);
+  const std::string image = R"("multiscales": [{"axes": [{"name": "z", "unit": "micrometer"},
+      {"name": "y"}, {"name": "x"}], "datasets": [{"path": "0", "coordinateTransformations":
+      [{"type": "scale", "scale": [4, 2, 1]}, {"type": "translation", "translation": [1, 2, 3]}
+      ]}]}])";
+  seeds.add("zarr", "image", "a{" + image + "}");
+  seeds.add("zarr", "group",
+            R"(3{"zarr_format": 3, "node_type": "group", "attributes": {"ome": {)" + image + "}}}");
+}
+
 }  // namespace
 
 void write_scan_seeds(const SeedFolder& seeds) {
+  write_zarr(seeds);
   write_nifti(seeds);
   write_nrrd_and_meta(seeds);
   write_pictures(seeds);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The readers of scans. A volume that is read has a finite grid and a sample for each voxel.
 #include <cmath>
+#include <cstring>
 
+#include "mesamis/chunk_files/chunked_scan.h"
+#include "mesamis/scan_files/open_slices.h"
 #include "mesamis/scan_files/read_volume.h"
 #include "reader_targets.h"
 #include "support/dicom_bytes.h"
@@ -43,10 +46,26 @@ void list(const fs::path& file, const ReadOptions& options) {
   });
 }
 
+/// The last slice, read alone, has the bits that it has in the whole volume.
+void require_slices(const fs::path& path, const ReadOptions& options) {
+  const auto slices = open_slices(path, options);
+  const VolumeFile whole = read_volume(path, options);
+  const VoxelGrid& grid = slices->grid();
+  require_law(grid.size == whole.volume.size && grid.spacing == whole.volume.spacing &&
+                  grid.origin == whole.volume.origin && slices->head().warnings == whole.warnings,
+              "slices of another grid");
+  const std::vector<float> last = slices->read(grid.size[2] - 1, 1);
+  require_law(last.size() == grid.offset(0, 0, 1), "samples of a slice are missing");
+  const float* expected = whole.volume.samples.data() + grid.offset(0, 0, grid.size[2] - 1);
+  require_law(std::memcmp(last.data(), expected, last.size() * sizeof(float)) == 0,
+              "a slice of other samples");
+}
+
 void read_scan(const fs::path& file, ReadOptions options = {}) {
   options.limits = fuzz_limits();
   list(file, options);
   read_or_refuse(file, [&](const fs::path& path) { require_scan(read_volume(path, options)); });
+  read_or_refuse(file, [&](const fs::path& path) { require_slices(path, options); });
 }
 
 /// Beside the case lie files that it may name as its data.
@@ -117,6 +136,46 @@ void run_png(std::string_view bytes) {
   read_scan(input_folder().write("scan.png", with_png_sums(std::string(bytes))));
 }
 
+void require_chunks(const ChunkedScan& scan) {
+  constexpr std::size_t kMostVoxels = 100'000;  // each may be a chunk, and a look at the disk
+  require_grid(scan.grid());
+  for (const std::string& warning : scan.warnings()) require_one_line(warning);
+  if (scan.grid().voxel_count() > kMostVoxels) return;
+  const std::size_t slice = scan.grid().offset(0, 0, 1);
+  const Index last = scan.grid().size[2] - 1;
+  require_law(scan.read(last, 1).size() == slice, "samples are missing");
+  require_law(scan.read(0, last + 1).size() == scan.grid().voxel_count(), "samples are missing");
+}
+
+/// Which metadata these are: 2 .zarray, 3 zarr.json, else .zattrs; behind a zero byte the first
+/// chunk. Below lies an array that a group may name.
+void run_zarr(std::string_view bytes) {
+  if (bytes.empty()) return;
+  const fs::path store = input_folder().path() / "store";
+  fs::remove_all(store);
+  fs::create_directories(store / "0");
+  input_folder().write("store/0/.zarray",
+                       R"({"zarr_format": 2, "shape": [3, 4, 5], "chunks": [3, 4, 5],
+                       "dtype": "|u1", "compressor": null, "fill_value": 1, "order": "C"})");
+  const std::size_t end = bytes.find('\0');
+  const std::string_view metadata = bytes.substr(1, end == bytes.npos ? end : end - 1);
+  const bool array = bytes[0] == '2', third = bytes[0] == '3';
+  input_folder().write(array   ? "store/.zarray"
+                       : third ? "store/zarr.json"
+                               : "store/.zattrs",
+                       metadata);
+  if (!array && !third) input_folder().write("store/.zgroup", R"({"zarr_format": 2})");
+  if (end != bytes.npos) {
+    const std::string_view chunk = bytes.substr(end + 1);
+    fs::create_directories(store / "c/0/0");
+    input_folder().write("store/0.0.0", chunk);
+    input_folder().write("store/c/0/0/0", chunk);
+  }
+  read_or_refuse(store, [](const fs::path& path) {
+    require_chunks(*open_zarr(path, {.limits = fuzz_limits()}));
+  });
+}
+
 constexpr char kNifti[] = "scan.nii", kNrrd[] = "scan.nrrd", kMeta[] = "scan.mha",
                kTiff[] = "scan.tif", kInv3[] = "scan.inv3", kBmp[] = "scan.bmp";
 
@@ -124,6 +183,7 @@ constexpr FuzzTarget kTargets[] = {
     {"dicom", run_dicom},      {"nifti", run_scan<kNifti>}, {"nrrd", run_scan<kNrrd>},
     {"meta", run_scan<kMeta>}, {"tiff", run_scan<kTiff>},   {"inv3", run_scan<kInv3>},
     {"png", run_png},          {"bmp", run_scan<kBmp>},     {"raw", run_raw},
+    {"zarr", run_zarr},
 };
 
 }  // namespace

@@ -41,6 +41,18 @@ TEST(Gaussian, OfAPointIsTheKernelOfEachAxisInVoxels) {
   EXPECT_NEAR(smooth.at(17, 15, 15) / smooth.at(15, 15, 15), std::exp(-2 / (sigma * sigma)), 1e-6);
 }
 
+TEST(Gaussian, ReachesAsFarAsItSays) {
+  for (const double sigma : {0.2, 0.5, 1.5, 2.3}) {
+    Volume volume = constant(0, {3, 3, 41});
+    volume.samples[volume.offset(1, 1, 20)] = 1e6F;
+    const Volume smooth = gaussian_smoothed(volume, sigma);
+    const Index reach = gaussian_reach(sigma);
+    EXPECT_GT(smooth.at(1, 1, 20 + reach), 0) << sigma;
+    EXPECT_EQ(smooth.at(1, 1, 20 + reach + 1), 0) << sigma;
+  }
+  EXPECT_EQ(gaussian_reach(0), 0);
+}
+
 TEST(Gaussian, KeepsConstants) {
   for (const float x : gaussian_smoothed(constant(123), 3).samples) EXPECT_NEAR(x, 123, 1e-4);
   const Volume thin = constant(5, {2, 2, 40});  // shorter than the Gaussian

@@ -124,7 +124,19 @@ TEST(SplineImage, SameBitsForAnyNumberOfThreads) {
   const Volume volume = random_volume({30, 20, 25});
   const SplineImage one = with_threads(1, [&] { return interpolating_spline(volume); });
   const SplineImage three = with_threads(3, [&] { return interpolating_spline(volume); });
-  EXPECT_EQ(one.coefficients, three.coefficients);
+  EXPECT_TRUE(std::ranges::equal(one.coefficients, three.coefficients));
+}
+
+TEST(SplineImage, CopiesShareTheirCoefficients) {
+  SplineImage copy;
+  std::vector<float> values;
+  {
+    const SplineImage image = interpolating_spline(random_volume({9, 8, 7}));
+    values.assign(image.coefficients.begin(), image.coefficients.end());
+    copy = image;
+    EXPECT_EQ(copy.coefficients.data(), image.coefficients.data());
+  }
+  EXPECT_TRUE(std::ranges::equal(copy.coefficients, values)) << "the owner is still there";
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 
+#include "mesamis/mesh/region.h"
 #include "support/perturbed_box.h"
 
 namespace mesamis {
@@ -85,6 +86,32 @@ TEST(Locate, GivesAPointOfTheMeshForOneOutside) {
   // Just outside a face the answer is the point below it, not somewhere else in the box.
   const Location close = locate(mesh, neighbors, {0.4, 0.6, 1 + 1e-6}, 0);
   EXPECT_NEAR(norm(place(mesh, close) - Vec3{0.4, 0.6, 1}), 0, 1e-5);
+}
+
+TEST(LocateInPiece, FindsPointsBehindANotch) {
+  const Box box{{0, 0, 0}, {1, 1, 1}};
+  const TetMesh whole = perturbed_box(box, {6, 6, 6}, 0.3);
+  std::vector<Index> kept;
+  for (Index c = 0; c < std::ssize(whole.cells); ++c) {
+    Vec3 middle;
+    for (const Index n : whole.cells[c]) middle += 0.25 * whole.points[n];
+    if (middle.x > 0.4 || middle.z < 0.4) kept.push_back(c);
+  }
+  const TetMesh piece = restrict_mesh(whole, kept).mesh;
+  const auto all = cell_neighbors(whole), some = cell_neighbors(piece);
+  Points points(box, 3);
+  int inside = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const Vec3 p = points.next();
+    const Location here = locate(whole, all, p, 0);
+    const Location found = locate_in_piece(piece, some, p, trial);
+    expect_convex(found);
+    if (!std::binary_search(kept.begin(), kept.end(), here.cell)) continue;
+    ++inside;
+    EXPECT_EQ(kept[found.cell], here.cell);
+    EXPECT_LT(norm(place(piece, found) - p), 1e-9);
+  }
+  EXPECT_GT(inside, 200);
 }
 
 }  // namespace

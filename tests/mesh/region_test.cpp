@@ -43,6 +43,11 @@ TetMesh bricks(const std::array<Index, 3>& n) {
   return box_mesh({{0, 0, 0}, {double(n[0]), double(n[1]), double(n[2])}}, n);
 }
 
+TEST(MeshVolume, OfAPerturbedBoxIsTheBoxes) {
+  EXPECT_NEAR(mesh_volume(perturbed_box({{1, 2, 3}, {3, 5, 7}}, {3, 4, 5}, 0.2)), 24, 1e-12);
+  EXPECT_EQ(mesh_volume({}), 0);
+}
+
 TEST(ShareAboveZero, KnowsCornersWedgesAndEnds) {
   EXPECT_EQ(share_above_zero({1, 2, 3, 4}), 1);
   EXPECT_EQ(share_above_zero({-1, -2, -3, -4}), 0);
@@ -152,6 +157,8 @@ TEST(FaceParts, AreNotHeldTogetherByEdgesAndPoints) {
   EXPECT_EQ(count_face_parts(restrict_mesh(mesh, edge).mesh), 2);
   EXPECT_EQ(count_face_parts(restrict_mesh(mesh, point).mesh), 2);
   EXPECT_EQ(count_face_parts(TetMesh{}), 0);
+  const std::vector<Index> parts = face_parts(restrict_mesh(mesh, edge).mesh);
+  EXPECT_THAT(parts, testing::ElementsAre(0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1));
 }
 
 TEST(SelectCells, DropsSmallPartsAndKeepsTheLargest) {

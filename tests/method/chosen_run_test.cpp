@@ -58,6 +58,16 @@ TEST(RunOnObject, WithNothingAskedIsTheMethodItself) {
   EXPECT_EQ(chosen.parameters.crop, plain.parameters.crop);
 }
 
+TEST(RunOnObject, InPlaceIsTheSame) {
+  const Volume scan = make_ball({.size = 24, .radius = 7});
+  const auto object = choose_in_place(scan, {});
+  ASSERT_TRUE(object);
+  const Result in_place = run_on_object(ObjectInPlace{*object, scan}, preview());
+  const Result copied = run_on_object(choose_object(scan, {}), preview());
+  EXPECT_EQ(in_place.surface.points, copied.surface.points);
+  EXPECT_EQ(in_place.parameters.level, copied.parameters.level);
+}
+
 TEST(RunOnObject, OfADarkObjectTellsNativeUnits) {
   const BallVolume bright{.size = 26, .radius = 7};
   const Volume scan = make_ball(bright);

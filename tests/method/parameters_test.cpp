@@ -91,5 +91,20 @@ TEST(StrideOf, IsTheGivenOneOrThatOfTheRun) {
   EXPECT_EQ(stride_of(settings, voxels, spacing), *settings.stride);
 }
 
+TEST(CellsForSurface, OfPartsAddUpAndAreTheDefaultBeforeItsBounds) {
+  const Vec3 spacing{0.5, 0.5, 2};
+  for (const double thin : {0.0, 0.3}) {
+    for (const double accuracy : {0.0, 0.05}) {
+      const auto cells = [&](double area) {
+        return cells_for_surface(area, thin, spacing, accuracy);
+      };
+      EXPECT_NEAR(cells(10'000) + cells(2'500), cells(12'500), 1e-6);
+      EXPECT_EQ(std::llround(cells(12'500)), default_max_tets(12'500, thin, spacing, accuracy));
+    }
+  }
+  EXPECT_EQ(cells_for_surface(0, 0, spacing), 0);
+  EXPECT_GT(cells_for_surface(1e9, 0, {1, 1, 1}), kMostTets);
+}
+
 }  // namespace
 }  // namespace mesamis

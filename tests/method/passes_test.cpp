@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "mesamis/fem/mesh_space.h"
+#include "mesamis/mesh/metric_field.h"
 #include "mesamis/method/prepare.h"
 #include "mesamis/method/setting_table.h"
+#include "mesamis/remesh/remesh.h"
 #include "support/ball_volume.h"
 #include "support/oracle.h"
 
@@ -162,6 +164,59 @@ TEST(Stage, StopsWhereProgressSaysSo) {
   stage.advance(0.25);
   EXPECT_THROW(stage.advance(0.75), Cancelled);
   EXPECT_EQ(shares, (std::vector<double>{0, 0.25, 0.75}));
+}
+
+TEST(AskedMetric, IsTheMetricBeforeItsSizesAreBounded) {
+  const Prepared prepared = prepared_by_the_paper();
+  const RunInput run(prepared);
+  const TetMesh mesh = box_mesh(run.box, {6, 6, 6});
+  const Progress silent;
+  const Stage stage(silent, "test");
+  Iteration record, other;
+  const Minimum minimum = minimise({run, 2, stage, record}, mesh, {}, run.draft_options());
+  const std::int64_t cells = std::ssize(mesh.cells);
+  const std::vector<Sym3> asked = asked_metric({run, 2, stage, record}, mesh, minimum, cells);
+  const std::vector<Sym3> metric =
+      mesh_metric({run, 2, stage, other}, mesh, minimum, {1e-9, 1e9, 0});
+  ASSERT_EQ(asked.size(), mesh.points.size());
+  for (std::size_t n = 0; n < asked.size(); ++n) {
+    EXPECT_NEAR(asked[n].xx / metric[n].xx, 1, 1e-6);
+    EXPECT_GT(determinant(asked[n]), 0);
+  }
+  EXPECT_EQ(record.estimator, other.estimator);
+  EXPECT_EQ(record.predicted_tets, other.predicted_tets);
+  EXPECT_GT(record.predicted_tets, 0);
+  // The error asked for is that of all cells: as one part of many, this one may have less of it.
+  const std::vector<Sym3> part = asked_metric({run, 2, stage, record}, mesh, minimum, 8 * cells);
+  for (std::size_t n = 0; n < asked.size(); ++n) {
+    EXPECT_GE(determinant(part[n]), 0.999 * determinant(asked[n]));
+  }
+}
+
+TEST(GridLogMetric, LeadsToTheFirstMesh) {
+  Settings settings;
+  settings.max_tets = 3000;
+  const Prepared prepared = prepare_image(make_ball({.size = 18, .radius = 5}), settings);
+  const RunInput run(prepared);
+  const Parameters& p = run.parameters;
+  const Progress silent;
+  const Stage stage(silent, "test");
+  Iteration record;
+  const GridPass found = minimise_on_grid({run, 1, stage, record});
+  const auto logs_for = [&](double complexity) {
+    return grid_log_metric({run, 1, stage, record}, found.grid,
+                           {found.minimum.u, found.minimum.v, found.image(run)},
+                           {p.h_min, p.h_max, complexity});
+  };
+  const double cells = 1000;
+  const auto logs = logs_for(cells / kCellsPerComplexity);
+  ASSERT_EQ(logs.size(), found.grid.node_count());
+  EXPECT_TRUE(record.bounded);
+  EXPECT_GT(record.estimator, 0);
+  const GridMetricField field(run.box, found.grid.size, logs);
+  EXPECT_NEAR(predicted_cells(field, run.box) / cells, 1, 0.1);
+  logs_for(1e12);
+  EXPECT_FALSE(record.bounded);
 }
 
 }  // namespace

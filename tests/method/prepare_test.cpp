@@ -150,5 +150,77 @@ TEST(PrepareImage, RefusesNoiseAloneUnlessALevelIsGiven) {
   EXPECT_NO_THROW(prepare_image(noise, settings)) << "a band has no level";
 }
 
+/// Slices [begin, end) of a volume.
+Volume slices_of(const Volume& volume, Index begin, Index end) {
+  CropRange range;
+  range.begin[2] = begin;
+  range.end[2] = end;
+  return crop(volume, range);
+}
+
+TEST(ChooseParameters, ChoosesAsPrepareImage) {
+  const Volume scan = make_ball({.size = 40, .noise = 8, .radius = 9});
+  const Parameters whole = prepare_image(scan, {}).parameters;
+  const Choice all = choose_parameters(scan, scan, {});
+  EXPECT_EQ(all.parameters.level, whole.level);
+  EXPECT_EQ(all.parameters.functional.gamma, whole.functional.gamma);
+  EXPECT_EQ(all.parameters.max_tets, whole.max_tets);
+  // From a part of it; but what follows from the grid is that of the whole.
+  const Choice part = choose_parameters(slices_of(scan, 8, 30), scan, {});
+  EXPECT_EQ(part.parameters.h_max, whole.h_max);
+  EXPECT_EQ(part.parameters.unit_mm, whole.unit_mm);
+  EXPECT_NEAR(part.parameters.level, whole.level, 3);
+  EXPECT_NEAR(part.parameters.noise, whole.noise, 1);
+}
+
+TEST(PrepareSlab, IsAPieceOfThePreparedWholeAwayFromItsEnds) {
+  for (const bool impulses : {false, true}) {
+    Volume scan = make_ball({.size = 56, .noise = 6, .radius = 16});
+    for (std::size_t n = 0; impulses && n < scan.samples.size(); n += 97) {
+      scan.samples[n] = n % 2 == 0 ? 0 : 255;
+    }
+    const Prepared whole = prepare_image(scan, {});
+    const Choice choice = choose_parameters(scan, scan, {});
+    EXPECT_EQ(choice.impulse_height > 0, impulses);
+    const Index begin = 10, end = 50, outer = 12;
+    const Prepared slab = prepare_slab(slices_of(scan, begin, end), choice);
+    EXPECT_EQ(slab.parameters.level, whole.parameters.level);
+    float grey = 0, spline = 0;
+    const std::size_t slice = scan.offset(0, 0, 1);
+    for (std::size_t n = outer * slice; n < (end - begin - outer) * slice; ++n) {
+      const std::size_t at = n + begin * slice;
+      grey = std::max(grey, std::abs(slab.grey.samples[n] - whole.grey.samples[at]));
+      spline =
+          std::max(spline, std::abs(slab.image.coefficients[n] - whole.image.coefficients[at]));
+    }
+    EXPECT_LT(grey, 0.05) << "grey values, of 255; impulses: " << impulses;
+    EXPECT_LT(spline, 0.05) << impulses;
+  }
+}
+
+TEST(PrepareSlab, WithoutRestoringItIsAPieceToTheBit) {
+  const Volume scan = make_ball({.size = 30, .noise = 6, .radius = 9});
+  Settings settings;
+  settings.restore = false;
+  const Prepared whole = prepare_image(scan, settings);
+  const Prepared slab =
+      prepare_slab(slices_of(scan, 5, 25), choose_parameters(scan, scan, settings));
+  EXPECT_EQ(slab.grey.samples, slices_of(whole.grey, 5, 25).samples);
+}
+
+TEST(ExtentOf, OfSlabsAddsUp) {
+  const Volume scan = make_ball({.size = 40, .noise = 4, .radius = 11});
+  const Prepared whole = prepare_image(scan, {});
+  const double area = extent_of(whole).area;
+  EXPECT_NEAR(area / (4 * 3.14159265 * 11 * 11), 1, 0.05);
+  double sum = 0;
+  for (const auto& [begin, end] : {std::pair{0, 19}, {18, 40}}) {  // they share a slice
+    const Prepared part{whole.parameters, whole.measured, slices_of(whole.grey, begin, end), {}};
+    sum += extent_of(part).area;
+  }
+  EXPECT_GE(sum, area);
+  EXPECT_LT(sum / area, 1.05) << "edges within the common slice count twice";
+}
+
 }  // namespace
 }  // namespace mesamis

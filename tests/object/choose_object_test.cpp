@@ -50,6 +50,40 @@ void expect_only(const ChosenObject& chosen, const VoxelMask& mask, double level
   EXPECT_EQ(mask_above(chosen.volume, level), mask);
 }
 
+/// What is chosen in place is what choose_object() makes, where that changes no sample.
+TEST(ChooseInPlace, IsChooseObjectWithoutTheSamples) {
+  const Volume scan = two_balls();
+  for (const std::optional<double> level : {std::optional<double>(), std::optional(50.0)}) {
+    const ObjectRequest request{.level = level};
+    const ChosenObject copied = choose_object(scan, request);
+    const auto found = choose_in_place(scan, request);
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->volume.samples.empty());
+    EXPECT_EQ(copied.volume.samples, scan.samples);
+    EXPECT_EQ(found->volume.size, copied.volume.size);
+    EXPECT_EQ(found->volume.modality, copied.volume.modality);
+    EXPECT_EQ(found->level, copied.level);
+    EXPECT_EQ(found->level_from, copied.level_from);
+    EXPECT_EQ(found->crop, copied.crop);
+    EXPECT_EQ(surface_warnings(*found, scan, 50), surface_warnings(copied, 50));
+  }
+}
+
+TEST(ChooseInPlace, IsNotPossibleWhereSamplesChange) {
+  const Volume scan = two_balls();
+  EXPECT_FALSE(choose_in_place(scan, {.crop = {{0, 0, 0}, {24, 24, 24}}}));
+  EXPECT_FALSE(choose_in_place(scan, {.tissue = parse_tissue("dark")}));
+  EXPECT_FALSE(choose_in_place(scan, {.mask = marks(kGrid, ball_mask(kLeft))}));
+  EXPECT_FALSE(choose_in_place(scan, {.remove = marks(kGrid, ball_mask(kLeft))}));
+  EXPECT_FALSE(choose_in_place(scan, {.seeds = {kLeft}}));
+  Volume padded = scan;  // a CT whose corners were not measured
+  padded.modality = "CT";
+  std::fill_n(padded.samples.begin(), 2000, -3024.0F);
+  EXPECT_FALSE(choose_in_place(padded, {}));
+  EXPECT_REFUSED(choose_in_place(scan, {.surroundings = SurroundingsRule::kRemove}),
+                 HasSubstr("expected a patient's body"));
+}
+
 TEST(ChooseObject, LeavesAScanAsItIsIfNothingIsAsked) {
   const Volume scan = two_balls();
   const ChosenObject chosen = choose_object(scan, {});

@@ -106,6 +106,47 @@ TEST(Degrade, OneKindOfNoiseDoesNotShiftAnother) {
   }
 }
 
+/// The blur reaches over the slab's ends, and the noise goes on where the slab before ended.
+TEST(DegradedSlices, AreThoseOfTheWholeForAnyHeight) {
+  const Volume sharp = sampled_volume({9, 7, 23}, {1, 1, 1}, [](const Vec3& p) {
+    return 100 + 30 * std::sin(p.x * p.y) + 50 * (std::fmod(p.z, 5) < 2);
+  });
+  const VolumeSlices source(sharp);
+  for (const double blur : {0.0, 0.3, 1.0, 2.6, 40.0}) {
+    const DegradeOptions options{
+        .blur = blur, .speckle = 0.1, .noise = 3, .salt_pepper = 0.05, .seed = 11};
+    const Volume whole = degrade(sharp, options);
+    const DegradedSlices slices(source, options);
+    for (const Index height : {1, 5, 23}) {
+      for (Index first = 0; first < 23; first += height) {
+        const Index count = std::min(height, 23 - first);
+        EXPECT_EQ(slices.read(first, count), VolumeSlices(whole).read(first, count))
+            << "blur " << blur << ", slices " << first << " to " << first + count;
+      }
+    }
+  }
+}
+
+TEST(DegradedSlices, NoiseOfAVoxelIsThatOfItsPlaceInTheWhole) {
+  const Volume flat = constant(0, {8, 8, 20});
+  const VolumeSlices source(flat);
+  const DegradedSlices noise(source, {.noise = 1});
+  const std::vector<float> early = noise.read(3, 2), late = noise.read(4, 1);
+  EXPECT_EQ(std::vector<float>(early.begin() + 64, early.end()), late);
+  EXPECT_NE(std::vector<float>(early.begin(), early.begin() + 64), late);
+}
+
+TEST(DegradedSlices, ReadAtLeastAsManySlicesAsTheBlurAdds) {
+  VolumeView grid;  // its samples are not asked for
+  grid.size = {4096, 4096, 4096};
+  const VolumeSlices large(grid);
+  EXPECT_EQ(DegradedSlices(large, {}).slab(), 4);
+  EXPECT_EQ(DegradedSlices(large, {.blur = 2}).slab(), 16);
+  grid.size = {64, 64, 20};
+  const VolumeSlices small(grid);
+  EXPECT_EQ(DegradedSlices(small, {.blur = 9}).slab(), 20);
+}
+
 TEST(Degrade, RefusesWhatIsOutOfRange) {
   const Volume volume = constant(1);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -115,6 +156,8 @@ TEST(Degrade, RefusesWhatIsOutOfRange) {
   EXPECT_REFUSED(degrade(volume, {.noise = nan}), HasSubstr("noise"));
   EXPECT_REFUSED(degrade(volume, {.speckle = -1}), HasSubstr("speckle"));
   EXPECT_REFUSED(degrade(volume, {.salt_pepper = 1.1}), HasSubstr("salt-pepper"));
+  const VolumeSlices source(volume);
+  EXPECT_REFUSED(DegradedSlices(source, {.blur = 101}), HasSubstr("blur"));
 }
 
 }  // namespace

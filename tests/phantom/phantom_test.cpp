@@ -149,14 +149,52 @@ TEST(Phantom, SameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(all.samples, one.samples);
 }
 
+/// The slices of a source, read so many at once, one after the other.
+std::vector<float> read_in_slabs(const SliceSource& source, Index height) {
+  std::vector<float> all;
+  for (Index first = 0; first < source.grid().size[2]; first += height) {
+    const auto part = source.read(first, std::min(height, source.grid().size[2] - first));
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+/// Bricks of voxels are decided as a whole; slabs cut through them.
+TEST(PhantomSlices, AreThoseOfTheWholeForAnyHeight) {
+  for (const PhantomInfo& info : phantom_list()) {
+    const Phantom phantom = make_phantom(info.name, {26, 30, 37}, {2, 1.5, 2.5});
+    const Volume whole = sample_phantom(phantom, 2);
+    const PhantomSlices slices(phantom, 2);
+    EXPECT_EQ(slices.grid().origin, whole.origin);
+    EXPECT_EQ(slices.grid().size, whole.size);
+    for (const Index height : {1, 5, 8, 37}) {
+      EXPECT_EQ(read_in_slabs(slices, height), whole.samples) << info.name << ' ' << height;
+    }
+  }
+}
+
+TEST(PhantomSlices, ComeFromAVolumeOfMoreThan32BitsOfVoxels) {
+  const Phantom phantom = make_phantom("sphere", {4096, 4096, 4096}, {1, 1, 1});
+  const PhantomSlices slices(phantom, 1);
+  EXPECT_EQ(slices.grid().voxel_count(), std::size_t{1} << 36);
+  const std::vector<float> middle = slices.read(2047, 1);
+  ASSERT_EQ(middle.size(), std::size_t{4096} * 4096);
+  const auto at = [&](std::size_t i, std::size_t j) { return middle[j * 4096 + i]; };
+  EXPECT_EQ(at(2047, 2047), 230);  // the radius is 20/64 of the box: 1280 voxels
+  EXPECT_EQ(at(2048 + 1275, 2047), 230);
+  EXPECT_EQ(at(2048 + 1285, 2047), 120);
+  EXPECT_EQ(at(2047, 2048 - 1285), 120);
+}
+
 TEST(Phantom, RefusesWhatItCannotMake) {
   EXPECT_REFUSED(make_phantom("ball"),
                  HasSubstr("sphere, plate, wall, femur, fracture, hemipelvis"));
   EXPECT_REFUSED(make_phantom("sphere", {64, 7, 64}), HasSubstr("size: expected 8 to 4096"));
   EXPECT_REFUSED(make_phantom("sphere", {64, 64, 5000}), HasSubstr("found 5000"));
-  EXPECT_REFUSED(make_phantom("sphere", {4096, 4096, 4096}), HasSubstr("2^31"));
+  EXPECT_REFUSED(sample_phantom(make_phantom("sphere", {4096, 4096, 4096})), HasSubstr("2^31"));
   EXPECT_REFUSED(make_phantom("sphere", {64, 64, 64}, {1, 0, 1}), HasSubstr("spacing"));
   EXPECT_REFUSED(sample_phantom(make_phantom("sphere"), 0), HasSubstr("samples"));
+  EXPECT_REFUSED(PhantomSlices(make_phantom("sphere"), 17), HasSubstr("samples"));
 }
 
 }  // namespace

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <bitset>
 #include <cmath>
 #include <numbers>
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/mesh/region.h"
 #include "support/body_shapes.h"
 #include "support/metric_fields.h"
 #include "support/perturbed_box.h"
@@ -30,12 +32,6 @@ TetMesh part_of(const BodyMesh& body, Material material) {
       part.cells.push_back(body.mesh.cells[c]);
   }
   return part;
-}
-
-double volume_of(const TetMesh& mesh) {
-  double sum = 0;
-  for (Index c = 0; c < std::ssize(mesh.cells); ++c) sum += cell_volume(mesh, c);
-  return sum;
 }
 
 void expect_sound_body(const BodyMesh& body) {
@@ -78,7 +74,7 @@ TEST(RemeshBody, ABallIsFilled) {
   EXPECT_EQ(boundary_flaws(body.mesh), "");
   expect_skin_near(body, kBall, FormulaShape::kTolerance);
   const double volume = 4.0 / 3 * std::numbers::pi * 0.064;
-  EXPECT_NEAR(volume_of(body.mesh), volume, 0.05 * volume);
+  EXPECT_NEAR(mesh_volume(body.mesh), volume, 0.05 * volume);
   EXPECT_TRUE(body.report.converged);
 }
 
@@ -100,6 +96,51 @@ TEST(RemeshBody, TwoMaterialsFillTheBoxAndShareTheirSkin) {
   EXPECT_EQ(boundary_flaws(part_of(body, 1)), "");
   EXPECT_EQ(boundary_flaws(part_of(body, 2)), "");
   expect_skin_near(body, ball, FormulaShape::kTolerance);
+}
+
+/// Below a height there is 1; above it 2 on the left of a plane, and 3 on its right.
+class ThreeRooms : public BodyShape {
+ public:
+  static constexpr double kHeight = 0.47, kWall = 0.53;
+  Material material_at(const Vec3& p) const override {
+    if (p.z < kHeight) return 1;
+    return p.x < kWall ? 2 : 3;
+  }
+  double crossing(const Vec3& a, const Vec3& b) const override {
+    const bool floor = material_at(a) == 1 || material_at(b) == 1;
+    return floor ? (kHeight - a.z) / (b.z - a.z) : (kWall - a.x) / (b.x - a.x);
+  }
+  std::optional<double> hidden_crossing(const Vec3&, const Vec3&) const override {
+    return std::nullopt;
+  }
+  BorderPoint nearest_border(const Vec3& p) const override {
+    const Vec3 wall{kWall, p.y, std::max(p.z, kHeight)}, floor{p.x, p.y, kHeight};
+    return {norm(wall - p) < norm(floor - p) ? wall : floor, FormulaShape::kTolerance};
+  }
+  std::optional<JunctionPoint> nearest_junction(const Vec3& p,
+                                                const MaterialTriple& materials) const override {
+    if (materials != MaterialTriple{1, 2, 3}) return std::nullopt;
+    return JunctionPoint{{kWall, p.y, kHeight}, {0, 1, 0}};
+  }
+};
+
+TEST(RemeshBody, ThreeMaterialsMeetInTheirLine) {
+  const BodyMesh body = remesh_body(start(), kMetric, ThreeRooms());
+  expect_sound_body(body);
+  std::vector<std::bitset<4>> met(body.mesh.points.size());
+  for (std::size_t c = 0; c < body.mesh.cells.size(); ++c) {
+    for (const Index p : body.mesh.cells[c]) met[p].set(body.materials[c]);
+  }
+  int on_line = 0;
+  for (std::size_t p = 0; p < met.size(); ++p) {
+    if (met[p].count() < 3) continue;
+    ++on_line;
+    EXPECT_NEAR(body.mesh.points[p].x, ThreeRooms::kWall, 0.1 * FormulaShape::kTolerance);
+    EXPECT_NEAR(body.mesh.points[p].z, ThreeRooms::kHeight, 0.1 * FormulaShape::kTolerance);
+  }
+  EXPECT_GE(on_line, 6);  // edges of 0.12
+  EXPECT_NEAR(mesh_volume(part_of(body, 2)), ThreeRooms::kWall * (1 - ThreeRooms::kHeight), 1e-3);
+  EXPECT_NEAR(mesh_volume(part_of(body, 1)), ThreeRooms::kHeight, 1e-3);
 }
 
 TEST(RemeshBody, IsTheSameForAnyNumberOfThreads) {

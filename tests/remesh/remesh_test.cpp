@@ -290,9 +290,15 @@ TEST(Remesh, RefusesAStartThatIsNotAMeshOfItsBox) {
   EXPECT_REFUSED(remesh(single, metric), HasSubstr("start mesh"));
 }
 
+/// A box of volume 8 in a metric of size 1/4: the complexity is 8 * 4^3.
+TEST(PredictedCells, AreTheComplexityTimesTheCellsOfOne) {
+  const FormulaMetric metric = uniform_metric(0.25);
+  EXPECT_NEAR(predicted_cells(metric, {{0, 0, 0}, {2, 2, 2}}), kCellsPerComplexity * 8 * 64, 1e-3);
+}
+
 TEST(Remesh, RefusesAMetricThatAsksForMoreCellsThanFit) {
   const FormulaMetric metric = uniform_metric(1e-6);
-  EXPECT_REFUSED(remesh(box_mesh(kUnitBox, {2, 2, 2}), metric), HasSubstr("max_cells"));
+  EXPECT_REFUSED(remesh(box_mesh(kUnitBox, {2, 2, 2}), metric), HasSubstr("or a limit of cells"));
 }
 
 }  // namespace

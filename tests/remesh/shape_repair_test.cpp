@@ -13,11 +13,11 @@ namespace {
 
 const FormulaMetric kMetric = uniform_metric(0.25);
 
-/// As the repair weighs shapes: 1 where the rule is just kept.
+/// As the repair weighs shapes inside: 1 where the rule is just kept.
 double worst_shape(const WorkingMesh& mesh, const ShapeRule& rule) {
   double worst = 1;
   for (const WorkCell& cell : mesh.cells) {
-    if (!cell.alive()) continue;
+    if (!cell.alive() || cell.material == kOutside) continue;
     std::array<Vec3, 4> corners;
     for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh.vertices[cell.points[i]].position;
     const ElementShape shape = element_shape(corners);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "mesamis/remesh/skin.h"
@@ -9,7 +10,7 @@
 
 namespace mesamis::remeshing {
 
-/// Bricks of the unit box, whose cells get the material of their middle; the outside goes.
+/// Bricks of the unit box, whose cells get the material of their middle.
 struct SmallBody : SmallMesh {
   SmallBody(const TetMesh& start, const MetricField& field, const BodyShape& shape)
       : SmallMesh(start, field) {
@@ -18,11 +19,6 @@ struct SmallBody : SmallMesh {
       Vec3 sum;
       for (const Index p : cell.points) sum += mesh.vertices[p].position;
       cell.material = shape.material_at(0.25 * sum);
-    }
-    for (Vertex& vertex : mesh.vertices) vertex.cell = kNoIndex;
-    for (Index c = 0; c < std::ssize(mesh.cells); ++c) drop_if_outside(c);
-    for (Index v = 0; v < std::ssize(mesh.vertices); ++v) {
-      if (mesh.vertices[v].cell == kNoIndex) mesh.free_vertices.push_back(v);
     }
     for (Index c = 0; c < std::ssize(mesh.cells); ++c) mark_skin(c);
   }
@@ -33,6 +29,14 @@ struct SmallBody : SmallMesh {
       if (vertex.cell != kNoIndex && norm(vertex.position - p) < 1e-9) return static_cast<Index>(v);
     }
     return kNoIndex;
+  }
+
+  Index vertex_near(const Vec3& p) const {
+    const auto far = [&](const Vertex& v) {
+      return v.cell == kNoIndex ? 1e9 : norm(v.position - p);
+    };
+    return static_cast<Index>(std::ranges::min_element(mesh.vertices, {}, far) -
+                              mesh.vertices.begin());
   }
 
   std::vector<Index> ball(Index v) {
@@ -48,16 +52,6 @@ struct SmallBody : SmallMesh {
   }
 
  private:
-  void drop_if_outside(Index c) {
-    if (mesh.cells[c].material != kOutside) {
-      for (const Index p : mesh.cells[c].points) mesh.vertices[p].cell = c;
-      return;
-    }
-    for (const FaceRef n : mesh.cells[c].neighbors) {
-      if (n != kNoIndex) mesh.cells[cell_of(n)].neighbors[face_of(n)] = kNoIndex;
-    }
-    mesh.free_cell(c);
-  }
   void mark_skin(Index c) {
     for (int f = 0; f < 4 && mesh.cells[c].alive(); ++f) {
       if (!is_skin(mesh, c, f)) continue;
@@ -66,8 +60,8 @@ struct SmallBody : SmallMesh {
   }
 };
 
-/// A body's working mesh: neighbours, positive cells with the qualities kept beside them, and a
-/// boundary that is a closed 2-manifold.
+/// A body's working mesh: neighbours, positive cells with the qualities kept beside them, and an
+/// inside whose boundary is a closed 2-manifold.
 inline void expect_sound_body(const WorkingMesh& mesh) {
   expect_neighbors_right(mesh);
   for (const WorkCell& cell : mesh.cells) {
@@ -75,15 +69,19 @@ inline void expect_sound_body(const WorkingMesh& mesh) {
     ASSERT_GT(cell.quality3, 0);
     ASSERT_FLOAT_EQ(cell.quality3, static_cast<float>(quality3(mesh, cell.points)));
   }
-  WorkingMesh copy = mesh;
-  compact(copy);
-  ASSERT_EQ(boundary_flaws(unload(copy)), "");
+  TetMesh inside;
+  for (const Vertex& vertex : mesh.vertices) inside.points.push_back(vertex.position);
+  for (const WorkCell& cell : mesh.cells) {
+    if (cell.alive() && cell.material != kOutside) inside.cells.push_back(cell.points);
+  }
+  ASSERT_EQ(boundary_flaws(inside), "");
 }
 
+/// Of the inside.
 inline double volume_of(const WorkingMesh& mesh) {
   double sum = 0;
   for (const WorkCell& cell : mesh.cells) {
-    if (!cell.alive()) continue;
+    if (!cell.alive() || cell.material == kOutside) continue;
     const auto at = [&](std::size_t i) { return mesh.vertices[cell.points[i]].position; };
     sum += six_volume(at(0), at(1), at(2), at(3)) / 6;
   }

@@ -96,5 +96,25 @@ TEST(Restore, RefusesABlurOutOfRange) {
                  testing::HasSubstr("found 3.5"));
 }
 
+TEST(Restore, RemovesImpulsesAsItIsTold) {
+  const Volume truth = sample_phantom(make_phantom("sphere"));
+  // So few that by itself it takes them for small structures; and many.
+  for (const double share : {2e-5, 0.02}) {
+    const Volume scan = degrade(truth, {.noise = 4, .salt_pepper = share});
+    const HalfMaximumLevel object = find_half_maximum_level(scan);
+    const auto restored = [&](std::optional<double> height) {
+      return restore(scan, object, {.noise = 4, .blur = {{0, 0, 0}}, .impulse_height = height});
+    };
+    EXPECT_GT(restored(40).impulses, 0) << share;
+    EXPECT_EQ(restored(40).impulse_height, 40);
+    EXPECT_EQ(restored(0).impulses, 0) << share;
+    EXPECT_TRUE(restored(0).volume.samples == scan.samples);
+    const Restored found = restored({});
+    EXPECT_EQ(found.impulses > 0, share > 0.01);
+    EXPECT_EQ(found.impulse_height > 0, share > 0.01);
+    EXPECT_TRUE(restored(found.impulse_height).volume.samples == found.volume.samples);
+  }
+}
+
 }  // namespace
 }  // namespace mesamis

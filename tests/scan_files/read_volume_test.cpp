@@ -140,6 +140,22 @@ TEST(ReadVolume, RefusesWhatIsNoScanAtAll) {
   EXPECT_NE(complaint("/dev/null"), "");
 }
 
+TEST(ReadGrid, IsThatOfTheVolumeWithoutItsSamples) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.dim = {3, 4, 5, 6, 1, 1, 1, 1};
+  write_bytes(folder / "a.nii", nifti.header() + std::string(4 * 5 * 6 * 8, 'x'));
+  const VoxelGrid grid = read_grid(folder / "a.nii");
+  const Volume volume = read_volume(folder / "a.nii").volume;
+  EXPECT_EQ(grid.size, volume.size);
+  EXPECT_EQ(grid.spacing, volume.spacing);
+  EXPECT_EQ(grid.origin, volume.origin);
+  ReadOptions options;
+  options.spacing = Vec3{1, 2, 3};
+  EXPECT_EQ(read_grid(folder / "a.nii", options).spacing, (Vec3{1, 2, 3}));
+  EXPECT_THROW(read_grid(folder / "none.nii"), InputError);
+}
+
 TEST(ListVolumes, NamesEveryVolumeAndWhatIsWrongWithIt) {
   const TempFolder folder;
   write_bytes(folder / "a.nii", NiftiBytes{}.header() + bytes_of_all(kRamp));

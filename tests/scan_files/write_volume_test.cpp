@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <locale>
@@ -59,6 +60,61 @@ TEST(WriteVolume, ShortsAreRounded) {
     volume.samples[5] = bad;
     EXPECT_REFUSED(write_nrrd(folder / "b.nrrd", volume, options), HasSubstr("16 bits"));
   }
+  EXPECT_EQ(folder.file_count(), 1);
+}
+
+/// Counts what is read at once; fails at a slice.
+class WatchedSlices : public SliceSource {
+ public:
+  explicit WatchedSlices(const Volume& volume, Index bad = -1) : slices_(volume), bad_(bad) {}
+  const VoxelGrid& grid() const override { return slices_.grid(); }
+  std::vector<float> read(Index first, Index count) const override {
+    most_ = std::max(most_, count);
+    if (first <= bad_ && bad_ < first + count) throw InputError("a slice that cannot be read");
+    return slices_.read(first, count);
+  }
+  Index most() const { return most_; }
+
+ private:
+  VolumeSlices slices_;
+  Index bad_;
+  mutable Index most_ = 0;
+};
+
+Volume many_slices() {
+  Volume volume = odd_volume();
+  volume.size = {90, 80, 17};
+  volume.samples.resize(volume.voxel_count());
+  for (std::size_t n = 0; n < volume.samples.size(); ++n) {
+    volume.samples[n] = static_cast<float>(n * n % 1009) - 300.25F;
+  }
+  return volume;
+}
+
+TEST(WriteVolume, BytesDoNotDependOnTheSlabs) {
+  const TempFolder folder;
+  const Volume volume = many_slices();
+  for (const SampleType type : {SampleType::kFloat, SampleType::kShort}) {
+    for (const bool gzip : {false, true}) {
+      write_nrrd(folder / "whole.nrrd", volume, {.type = type, .gzip = gzip});
+      const std::string whole = read_bytes(folder / "whole.nrrd");
+      for (const Index slab : {1, 5, 17, 1000}) {
+        const WatchedSlices source(volume);
+        write_nrrd(folder / "slabs.nrrd", source, {.type = type, .gzip = gzip, .slab = slab});
+        EXPECT_TRUE(read_bytes(folder / "slabs.nrrd") == whole) << slab;
+        EXPECT_EQ(source.most(), std::min(slab, 17));
+      }
+    }
+  }
+}
+
+TEST(WriteVolume, WhatFailsHalfwayLeavesTheFileThatWasThere) {
+  const TempFolder folder;
+  write_bytes(folder / "a.nrrd", "before");
+  const Volume volume = many_slices();
+  EXPECT_REFUSED(write_nrrd(folder / "a.nrrd", WatchedSlices(volume, 9), {.slab = 4}),
+                 HasSubstr("cannot be read"));
+  EXPECT_EQ(read_bytes(folder / "a.nrrd"), "before");
   EXPECT_EQ(folder.file_count(), 1);
 }
 

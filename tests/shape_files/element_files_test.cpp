@@ -48,6 +48,14 @@ TEST(ElementFiles, VtuOfLinearElementsReadsBack) {
   EXPECT_THAT(cell_array(found, "poisson"), ElementsAre(0.3, 0.25));
   EXPECT_THAT(cell_array(found, "density"), ElementsAre(1.9, 0));
   EXPECT_EQ(cell_array(found, "grey"), cells[0].values);
+  ASSERT_EQ(found.point_arrays.size(), e.sets.size() + points.size());
+  for (std::size_t s = 0; s < e.sets.size(); ++s) {
+    const MeshArray& array = found.point_arrays[points.size() + s];
+    EXPECT_EQ(array.name, "set_" + e.sets[s].name);
+    for (std::size_t n = 0; n < e.points.size(); ++n) {
+      EXPECT_EQ(array.values[n], std::ranges::count(e.sets[s].nodes, static_cast<Index>(n)));
+    }
+  }
 }
 
 TEST(ElementFiles, VtuOfQuadraticElementsHasVtksOrder) {

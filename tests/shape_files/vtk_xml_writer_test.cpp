@@ -15,6 +15,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkTypeInt32Array.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
@@ -27,6 +28,7 @@
 
 #include "mesamis/shape_files/mesh_files.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "mesamis/shape_files/vtk_xml.h"
 #include "support/shapes.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
@@ -72,6 +74,13 @@ void add_text(vtkFieldData& data, const char* name, const std::string& value) {
   text->SetName(name);
   text->InsertNextValue(value);
   data.AddArray(text);
+}
+
+void add_text_bytes(vtkFieldData& data, const char* name, const std::string& value) {
+  auto bytes = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  bytes->SetName(name);
+  for (const char c : value) bytes->InsertNextValue(static_cast<unsigned char>(c));
+  data.AddArray(bytes);
 }
 
 template <class Writer, class Data>
@@ -146,8 +155,8 @@ std::string grid_by_vtk(const Grid& grid, Frame frame) {
   for (const MeshArray& a : grid.cell_arrays) {
     add_array(*data->GetCellData(), turns ? in_ras(a) : a);
   }
-  add_text(*data->GetFieldData(), "SPACE", turns ? "RAS" : "LPS");
-  add_text(*data->GetFieldData(), "LengthUnit", "mm");
+  add_text_bytes(*data->GetFieldData(), "SPACE", turns ? "RAS" : "LPS");
+  add_text_bytes(*data->GetFieldData(), "LengthUnit", "mm");
   return bytes_by_vtk<vtkXMLUnstructuredGridWriter>(data.Get());
 }
 
@@ -243,6 +252,24 @@ TEST(VtkXmlWriter, SurfacesAreAsByVtk) {
   expect_surface_as_by_vtk({surface, {.name = "M\xc3\xbcller", .grey = grey}});
   expect_surface_as_by_vtk(
       {surface, {.grey = grey, .point_arrays = {{"distance", grey}, {"b", grey}}}});
+}
+
+TEST(VtkXmlWriter, TextsAsNumbersAreReadBackAsTexts) {
+  using namespace detail;
+  const std::vector<std::string> texts{"femur", "os coxae", "M\xc3\xbcller"};
+  const std::string file = vtk_xml_bytes(
+      {"UnstructuredGrid",
+       {vtk_text_bytes("Names", texts), vtk_text_bytes("One", {"LPS"}), vtk_text("Text", "RAS")},
+       {{"NumberOfPoints", 0}, {"NumberOfCells", 0}},
+       {}});
+  MemoryBudget budget("f.vtu", {});
+  VtkXml xml("f.vtu", file, "UnstructuredGrid", budget);
+  const auto& fields = xml.data_set().child("FieldData")->children;
+  ASSERT_EQ(fields.size(), 3u);
+  EXPECT_EQ(fields[0].name, "DataArray");
+  EXPECT_EQ(xml.texts(fields[0]), texts);
+  EXPECT_EQ(xml.text(fields[1]), "LPS");
+  EXPECT_EQ(xml.text(fields[2]), "RAS");  // as older files have it
 }
 
 TEST(VtkXmlWriter, NamesWithMarkupAreEscapedAndReadBack) {

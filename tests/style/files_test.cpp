@@ -12,14 +12,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kCodeFolders{"src", "app", "tests", "bench", "examples"};
+const std::vector<std::string> kCodeFolders{"src", "app", "tests", "bench", "examples", "python"};
 
 TEST(Files, SourcesNameTheirLicence) {
   auto folders = kCodeFolders;
   folders.insert(folders.end(), {"cmake", "scripts", ".ci"});
   std::size_t seen = 0;
   for (const auto& folder : folders) {
-    for (const auto& file : project_files(folder, {".h", ".cpp", ".txt", ".cmake", ".in", ""})) {
+    for (const auto& file :
+         project_files(folder, {".h", ".cpp", ".txt", ".cmake", ".in", ".py", ".pyi", ""})) {
       const std::string head = file_text(file).substr(0, 200);
       EXPECT_NE(head.find("SPDX-License-Identifier: Apache-2.0"), std::string::npos) << file;
       ++seen;

@@ -31,7 +31,23 @@ class FormulaShape : public BodyShape {
     }
     return 0.5 * (low + high);
   }
+  std::optional<double> hidden_crossing(const Vec3& a, const Vec3& b) const override {
+    constexpr int kSteps = 64;
+    const double sign = distance(a) < 0 ? 1 : -1;
+    double deepest = kTolerance;
+    std::optional<double> place;
+    for (int step = 1; step < kSteps; ++step) {
+      const double share = double(step) / kSteps, there = sign * distance(a + share * (b - a));
+      if (there <= deepest) continue;
+      deepest = there;
+      place = share;
+    }
+    return place;
+  }
   BorderPoint nearest_border(const Vec3& p) const override { return {nearest(p), kTolerance}; }
+  std::optional<JunctionPoint> nearest_junction(const Vec3&, const MaterialTriple&) const override {
+    return std::nullopt;  // of two materials
+  }
 
  protected:
   virtual Vec3 nearest(const Vec3& p) const = 0;
@@ -75,7 +91,8 @@ class RoundShape : public FormulaShape {
 /// What lies between two heights.
 class SlabShape : public FormulaShape {
  public:
-  SlabShape(double low, double high) : low_(low), high_(high) {}
+  SlabShape(double low, double high, Material inside = 1, Material outside = kOutside)
+      : FormulaShape(inside, outside), low_(low), high_(high) {}
   double distance(const Vec3& p) const override { return std::max(low_ - p.z, p.z - high_); }
 
  protected:

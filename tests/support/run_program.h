@@ -23,7 +23,8 @@ struct ProgramRun {
   }
 };
 
-/// Starts a program, found as a shell finds it, with its output going to files in the folder.
+/// Starts a program, found as a shell finds it, in the folder, with its output going to files
+/// there.
 inline pid_t start_command(const TempFolder& folder, std::vector<std::string> command) {
   std::vector<char*> pointers;
   for (std::string& word : command) pointers.push_back(word.data());
@@ -34,6 +35,7 @@ inline pid_t start_command(const TempFolder& folder, std::vector<std::string> co
     constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC;
     dup2(open(out.c_str(), kFlags, 0600), STDOUT_FILENO);
     dup2(open(err.c_str(), kFlags, 0600), STDERR_FILENO);
+    if (chdir(std::string(folder / "").c_str()) != 0) _exit(126);
     execvp(pointers[0], pointers.data());
     _exit(126);
   }

@@ -133,7 +133,9 @@ struct TiffPage {
   std::uint16_t bits = 16, channels = 1, format = 2, photometric = 1;
   float pixels_per_cm = 20;  // 0: no resolution given
   std::string description;
-  std::string pixels;
+  std::string pixels;  // as they are stored
+  std::uint16_t compression = 1;
+  bool thumbnail = false;
 };
 
 /// A little-endian TIFF with one strip per page.
@@ -155,8 +157,9 @@ inline std::string tiff_bytes(const std::vector<TiffPage>& pages) {
                      bytes_of(static_cast<std::uint16_t>(type)) + bytes_of(count) +
                      bytes_of(value));
     };
+    if (page.thumbnail) tag(254, 4, 1, 1);
     tag(256, 4, 1, page.width), tag(257, 4, 1, page.height), tag(258, 3, 1, page.bits);
-    tag(259, 3, 1, 1), tag(262, 3, 1, page.photometric);
+    tag(259, 3, 1, page.compression), tag(262, 3, 1, page.photometric);
     if (!page.description.empty()) {
       tag(270, 2, static_cast<std::uint32_t>(page.description.size() + 1), text);
     }

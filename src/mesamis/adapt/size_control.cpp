@@ -169,6 +169,18 @@ double control_sizes(std::span<Sym3> metrics, std::span<const double> weights,
       [&](std::size_t n, const SymEigen& e) { metrics[n] = compose(e.values, e.vectors); });
 }
 
+std::vector<double> clamped_complexities(std::span<const Sym3> metrics,
+                                         std::span<const double> weights,
+                                         const SizeControl& size_control,
+                                         std::span<const double> factors) {
+  require_as_many(weights.size(), metrics.size());
+  const auto weight = [&](std::size_t n) { return weights[n]; };
+  const ClampedComplexity<decltype(weight)> complexity(metrics, weight, size_control);
+  std::vector<double> found;
+  for (const double factor : factors) found.push_back(complexity.at(factor));
+  return found;
+}
+
 double control_sizes_to_log(const KuhnGrid& grid, std::span<PackedSym3> metrics,
                             const SizeControl& size_control) {
   require_as_many(grid.node_count(), metrics.size());

@@ -31,6 +31,22 @@ struct SizeControl {
 double control_sizes(std::span<Sym3> metrics, std::span<const double> weights,
                      const SizeControl& control);
 
+/// The complexity (see SizeControl) that metrics have after all sizes are multiplied by a factor
+/// and clamped: what control_sizes() searches in, for metrics of which no single memory holds all.
+/// The complexities of parts add up.
+/// @param metrics  n symmetric positive semidefinite matrices, in 1 / u^2.
+/// @param weights  n, each node's share of the volume, u^3.
+/// @param control  bounds of the sizes; its complexity does not count.
+/// @param factors  >= 1.
+/// @return one per factor, no unit.
+/// @throws InputError  if the numbers of metrics and weights differ.
+///
+/// O(n) per factor. The same bits for any number of threads.
+std::vector<double> clamped_complexities(std::span<const Sym3> metrics,
+                                         std::span<const double> weights,
+                                         const SizeControl& control,
+                                         std::span<const double> factors);
+
 /// Scales and clamps packed metrics of a grid's nodes as control_sizes() does, and replaces them by
 /// the logarithms of the result, as GridMetricField expects them.
 /// @param grid     n nodes, whose lumped masses are the weights.

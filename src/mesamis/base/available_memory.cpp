@@ -84,4 +84,9 @@ std::optional<double> available_memory(const fs::path& root) {
   return std::max(0.0, std::min(kUnit * *free, left_for_process(root)));
 }
 
+std::optional<double> memory_limit(double limit_gb) {
+  constexpr double kGigabyte = 1e9;
+  return limit_gb > 0 ? std::optional(kGigabyte * limit_gb) : available_memory();
+}
+
 }  // namespace mesamis

@@ -13,4 +13,9 @@ namespace mesamis {
 /// @return bytes, 0 at least; nothing where the system does not tell. Never throws.
 std::optional<double> available_memory(const std::filesystem::path& root = "/");
 
+/// What a caller may take: his limit if he has one, else available_memory().
+/// @param limit_gb  10^9 bytes; 0: none.
+/// @return bytes; nothing where there is no limit and the system does not tell. Never throws.
+std::optional<double> memory_limit(double limit_gb);
+
 }  // namespace mesamis

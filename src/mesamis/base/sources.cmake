@@ -10,8 +10,10 @@ set(ROOM_HEADERS
   stopwatch.h
   sym3.h
   types.h
-  version.h)
+  version.h
+  written_number.h)
 set(ROOM_SOURCES
   available_memory.cpp
   parallel.cpp
-  sym3.cpp)
+  sym3.cpp
+  written_number.cpp)

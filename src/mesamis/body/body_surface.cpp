@@ -51,7 +51,7 @@ double squared_distance_to(const Box& box, const Vec3& p) {
 }  // namespace
 
 BodySurface::BodySurface(std::span<const TriMesh> surfaces, const Box& box, double tolerance)
-    : box_(box), inner_box_(box), tolerance_(tolerance) {
+    : box_(box), inner_box_(box), tolerance_(tolerance), junctions_(surfaces) {
   if (surfaces.empty() || surfaces.size() > kMostObjects) {
     throw InputError("body: expected 1 to 255 objects, found " + std::to_string(surfaces.size()));
   }
@@ -62,7 +62,7 @@ BodySurface::BodySurface(std::span<const TriMesh> surfaces, const Box& box, doub
   for (const TriMesh& surface : surfaces) {
     const TriMesh rest = without_caps(surface, box);
     auto part = std::make_unique<Part>(
-        Part{bounding_box(surface.points), SignedDistance(surface), std::nullopt, {}, {}, {}});
+        Part{bounding_box(surface.points), SignedDistance(surface), std::nullopt, {}, {}, {}, {}});
     if (rest.triangles.size() < surface.triangles.size()) part->off_box.emplace(rest);
     measure_walls(*part, surface, rest);
     parts_.push_back(std::move(part));
@@ -73,9 +73,9 @@ BodySurface::BodySurface(std::span<const TriMesh> surfaces, const Box& box, doub
 void BodySurface::measure_walls(Part& part, const TriMesh& surface, const TriMesh& skin) const {
   const double widest = norm(part.box.extent());
   part.thickness = wall_widths(surface, part.whole, Side::kWall, widest);
-  const auto gaps = wall_widths(surface, part.whole, Side::kGap, widest);
+  part.gap = wall_widths(surface, part.whole, Side::kGap, widest);
   part.inner = tolerances(skin, part.thickness, tolerance_);
-  part.outer = tolerances(skin, gaps, tolerance_);
+  part.outer = tolerances(skin, part.gap, tolerance_);
 }
 
 Vec3 BodySurface::off_planes(const Vec3& p) const { return clamped(p, inner_box_); }
@@ -125,6 +125,38 @@ double BodySurface::crossing(const Vec3& a, const Vec3& b) const {
     last = side;
   }
   return t;
+}
+
+/// How deep a point lies in other materials; below 0 in that one. Nowhere does it change by more
+/// than the way.
+double BodySurface::distance_beyond(Material material, const Vec3& p) const {
+  if (material != kOutside) return signed_distance(material, p);
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const double to_box = std::sqrt(squared_distance_to(parts_[k]->box, p));
+    if (-to_box <= deepest) continue;
+    deepest =
+        std::max(deepest, to_box > 0 ? -to_box : -signed_distance(static_cast<Material>(k + 1), p));
+  }
+  return deepest;
+}
+
+// Steps as long as the distance to the border skip nothing; those along it have a least length.
+std::optional<double> BodySurface::hidden_crossing(const Vec3& a, const Vec3& b) const {
+  constexpr double kLeastStep = 0.5;
+  const Material material = material_at(a);
+  const double length = norm(b - a);
+  double deepest = tolerance_;
+  std::optional<double> place;
+  for (double t = 0; t < 1;) {
+    const double beyond = distance_beyond(material, a + t * (b - a));
+    if (beyond > deepest) {
+      deepest = beyond;
+      place = t;
+    }
+    t += std::max(std::abs(beyond), kLeastStep * tolerance_) / length;
+  }
+  return place;
 }
 
 BorderPoint BodySurface::nearest_border(const Vec3& p) const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "mesamis/body/junction_lines.h"
 #include "mesamis/remesh/body_shape.h"
 #include "mesamis/surface/signed_distance.h"
 #include "mesamis/surface/tri_mesh.h"
@@ -29,7 +30,12 @@ class BodySurface : public BodyShape {
 
   Material material_at(const Vec3& p) const override;
   double crossing(const Vec3& a, const Vec3& b) const override;
+  std::optional<double> hidden_crossing(const Vec3& a, const Vec3& b) const override;
   BorderPoint nearest_border(const Vec3& p) const override;
+  std::optional<JunctionPoint> nearest_junction(const Vec3& p,
+                                                const MaterialTriple& materials) const override {
+    return junctions_.nearest(p, materials);
+  }
 
   /// The distance to the surface of one object, negative inside, mm.
   /// @param object  from 1 on.
@@ -46,22 +52,29 @@ class BodySurface : public BodyShape {
     return parts_[object - 1U]->thickness;
   }
 
+  /// How wide the gap outside each point is, mm; infinite where there is none. O(1).
+  /// @param object  from 1 on.
+  /// @throws nothing
+  const std::vector<double>& gap(Material object) const { return parts_[object - 1U]->gap; }
+
  private:
   /// A surface, and what of it does not lie on the box.
   struct Part {
     Box box;
     SignedDistance whole;
     std::optional<SignedDistance> off_box;  ///< none: all of it
-    std::vector<double> thickness;          ///< at the points, mm
+    std::vector<double> thickness, gap;     ///< at the points, mm
     std::vector<double> inner, outer;       ///< tolerances of the triangles of skin(), mm
     const SignedDistance& skin() const { return off_box ? *off_box : whole; }
   };
   void measure_walls(Part& part, const TriMesh& surface, const TriMesh& skin) const;
+  double distance_beyond(Material material, const Vec3& p) const;
   Vec3 off_planes(const Vec3& p) const;
 
   Box box_, inner_box_;
   double tolerance_;
   std::vector<std::unique_ptr<Part>> parts_;
+  JunctionLines junctions_;
 };
 
 }  // namespace mesamis

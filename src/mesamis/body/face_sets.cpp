@@ -2,12 +2,15 @@
 #include "mesamis/body/face_sets.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/written_number.h"
+#include "mesamis/body/body_skin.h"
+#include "mesamis/mesh/finite_elements.h"
+#include "mesamis/surface/components.h"
 
 namespace mesamis {
 namespace {
@@ -15,29 +18,17 @@ namespace {
 using Kind = FaceQuery::Kind;
 
 [[noreturn]] void refuse(std::string_view text) {
-  constexpr std::size_t kMostShown = 100;
   throw InputError(
       "set: expected NAME=top:AXIS,MM, NAME=bottom:AXIS,MM, NAME=box:X0,Y0,Z0,X1,Y1,Z1, "
-      "NAME=normal:X,Y,Z,DEGREES or NAME=between:LABEL,LABEL, found '" +
-      std::string(text.substr(0, kMostShown)) + "'");
+      "NAME=normal:X,Y,Z,DEGREES, NAME=between:OBJECT,OBJECT (numbers in their order, from 1), "
+      "NAME=outer or NAME=inner, found " +
+      quoted_text(text));
 }
 
-bool is_name(std::string_view name) {
-  constexpr std::size_t kMost = 60;
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  const auto may_follow = [&](char c) {
-    return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
-  };
-  return !name.empty() && name.size() <= kMost && is_letter(name[0]) &&
-         std::all_of(name.begin(), name.end(), may_follow);
-}
-
+/// A length with or without its unit, mm; or another number.
 std::optional<double> number(std::string_view text) {
   if (text.ends_with("mm")) text.remove_suffix(2);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return {};
-  return value;
+  return written_number(text);
 }
 
 std::vector<std::string_view> words(std::string_view text) {
@@ -111,7 +102,13 @@ bool read_kind(std::string_view kind, const std::vector<std::string_view>& rest,
   return kind == "between" && read_between(rest, query);
 }
 
-/// Whether faces belong to a query.
+/// The kinds without a place.
+bool read_side(std::string_view kind, FaceQuery& query) {
+  query.kind = kind == "outer" ? Kind::kOuter : Kind::kInner;
+  return kind == "outer" || kind == "inner";
+}
+
+/// Whether faces belong to a query of a place.
 class Judge {
  public:
   Judge(const BodyMesh& body, const FaceQuery& query)
@@ -129,14 +126,18 @@ class Judge {
       case Kind::kNormal:
         return dot(normal, query_.normal) >= std::cos(query_.angle_deg / kDegrees);
       case Kind::kBetween:
-        return true;
+      case Kind::kOuter:
+      case Kind::kInner:
+        return true;  // chosen by their neighbours
     }
     return false;
   }
 
-  std::array<Vec3, 3> corners(std::size_t cell, std::size_t face) const {
-    const auto& k = kCellFaces[face];
-    auto at = [&](int i) { return mesh_.points[mesh_.cells[cell][static_cast<std::size_t>(i)]]; };
+  std::array<Vec3, 3> corners(const CellFace& face) const {
+    const auto& k = kCellFaces[static_cast<std::size_t>(face[1])];
+    auto at = [&](int i) {
+      return mesh_.points[mesh_.cells[face[0]][static_cast<std::size_t>(i)]];
+    };
     return {at(k[0]), at(k[1]), at(k[2])};
   }
 
@@ -157,40 +158,80 @@ class Judge {
   Box box_;
 };
 
+/// The faces of a body for which holds(cell, neighbour) is true, in the order of the cells.
+template <class Holds>
+std::vector<CellFace> faces_where(const BodyMesh& body, const Holds& holds) {
+  const auto neighbors = cell_neighbors(body.mesh);
+  std::vector<CellFace> faces;
+  for (Index c = 0; c < std::ssize(neighbors); ++c) {
+    for (Index f = 0; f < 4; ++f) {
+      if (holds(c, neighbors[c][static_cast<std::size_t>(f)])) faces.push_back({c, f});
+    }
+  }
+  return faces;
+}
+
+/// On the boundary, or between the objects of the query.
+std::vector<CellFace> candidates(const BodyMesh& body, const FaceQuery& query) {
+  if (query.kind != Kind::kBetween) {
+    return faces_where(body, [](Index, Index n) { return n == kNoIndex; });
+  }
+  return faces_where(body, [&](Index c, Index n) {
+    return n != kNoIndex && body.materials[c] == query.objects[0] &&
+           body.materials[n] == query.objects[1];
+  });
+}
+
+/// The faces of the boundary that are outer, or those that are not.
+std::vector<CellFace> faces_on_side(const BodyMesh& body, bool outer) {
+  const SurfaceComponents parts = find_components(body_skin(body));
+  const std::vector<CellFace> boundary = candidates(body, {});
+  std::vector<CellFace> faces;
+  for (std::size_t i = 0; i < boundary.size(); ++i) {  // triangle i of the skin is face i
+    if ((parts.sizes[parts.of_triangle[i]].volume > 0) == outer) faces.push_back(boundary[i]);
+  }
+  return faces;
+}
+
+std::vector<CellFace> faces_at_place(const BodyMesh& body, const FaceQuery& query) {
+  std::vector<CellFace> faces = candidates(body, query);
+  const Judge judge(body, query);
+  std::erase_if(faces, [&](const CellFace& f) { return !judge.holds(judge.corners(f)); });
+  return faces;
+}
+
 }  // namespace
 
 FaceQuery parse_face_query(std::string_view text) {
-  const std::size_t equals = text.find('='), colon = text.find(':');
-  if (equals == std::string_view::npos || colon == std::string_view::npos || colon < equals) {
-    refuse(text);
-  }
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) refuse(text);
   FaceQuery query;
   query.name = std::string(text.substr(0, equals));
-  const std::string_view kind = text.substr(equals + 1, colon - equals - 1);
-  if (!is_name(query.name) || !read_kind(kind, words(text.substr(colon + 1)), query)) refuse(text);
+  const std::string_view place = text.substr(equals + 1);
+  const std::size_t colon = place.find(':');
+  const bool is_read =
+      colon == std::string_view::npos
+          ? read_side(place, query)
+          : read_kind(place.substr(0, colon), words(place.substr(colon + 1)), query);
+  if (!is_solver_name(query.name) || !is_read) refuse(text);
+  return query;
+}
+
+FaceQuery in_lps(FaceQuery query, Frame frame) {
+  if (frame == Frame::kLps) return query;
+  const auto turned = [](const Vec3& p) { return Vec3{-p.x, -p.y, p.z}; };
+  const bool is_end = query.kind == Kind::kTop || query.kind == Kind::kBottom;
+  if (is_end && query.axis != 2) query.kind = query.kind == Kind::kTop ? Kind::kBottom : Kind::kTop;
+  const Box box = query.box;
+  query.box = {{-box.hi.x, -box.hi.y, box.lo.z}, {-box.lo.x, -box.lo.y, box.hi.z}};
+  query.normal = turned(query.normal);
   return query;
 }
 
 std::vector<CellFace> find_faces(const BodyMesh& body, const FaceQuery& query) {
-  const auto neighbors = cell_neighbors(body.mesh);
-  const Judge judge(body, query);
-  const bool between = query.kind == Kind::kBetween;
-  std::vector<CellFace> faces;
-  for (std::size_t c = 0; c < neighbors.size(); ++c) {
-    if (between && body.materials[c] != query.objects[0]) continue;
-    for (std::size_t f = 0; f < 4; ++f) {
-      const Index n = neighbors[c][f];
-      const bool candidate =
-          between ? n != kNoIndex && body.materials[n] == query.objects[1] : n == kNoIndex;
-      if (!candidate || !judge.holds(judge.corners(c, f))) continue;
-      faces.push_back({static_cast<Index>(c), static_cast<Index>(f)});
-    }
-  }
-  if (faces.empty()) {
-    throw InputError("set '" + query.name +
-                     "': expected at least one face of the body, found none");
-  }
-  return faces;
+  const bool outer = query.kind == Kind::kOuter;
+  const bool by_side = outer || query.kind == Kind::kInner;
+  return by_side ? faces_on_side(body, outer) : faces_at_place(body, query);
 }
 
 }  // namespace mesamis

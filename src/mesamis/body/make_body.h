@@ -4,6 +4,8 @@
 #include <span>
 
 #include "mesamis/base/progress.h"
+#include "mesamis/body/body_fit.h"
+#include "mesamis/body/body_skin.h"
 #include "mesamis/body/mid_nodes.h"
 #include "mesamis/mesh/element_quality.h"
 #include "mesamis/remesh/body.h"
@@ -18,24 +20,36 @@ struct BodyOptions {
   double tolerance = 0.1;    ///< how far the skin may lie from the surfaces, mm, > 0
   double gradation = 0.5;    ///< by how much sizes may grow over a length, no unit, > 0
   int through_wall = 1;      ///< elements wanted between two sides of a wall; 0: any
-  double part_share = 1e-3;  ///< smaller parts, as a share of the whole volume, are left out: a
-                             ///< solver cannot hold what hangs on nothing; 0: none
-  bool quadratic = false;    ///< add mid-side nodes, on the skin where it is curved
-  Progress progress;         ///< optional
+  double part_share = 1e-3;  ///< parts that hold less of each object, as a share of its volume,
+                             ///< are left out: a solver cannot hold what hangs on nothing; 0: none
+  std::int64_t most_elements = 100'000'000;  ///< that may be made, those outside included
+  bool quadratic = false;                    ///< add mid-side nodes, on the skin where it is curved
+  bool skins = false;  ///< also deliver the skins, those of small parts included
+  Progress progress;   ///< optional
 };
 
 /// A body for finite elements.
 struct MeshedBody {
-  BodyMesh elements;        ///< object k of the surfaces has the material k, from 1 on
-  MidNodes middles;         ///< empty unless quadratic
-  ElementQuality quality;   ///< of all elements
-  double element_size = 0;  ///< that was aimed at, mm
+  BodyMesh elements;           ///< object k of the surfaces has the material k, from 1 on
+  MidNodes middles;            ///< empty unless quadratic
+  std::vector<TriMesh> skins;  ///< of object k at k - 1, see body_skin(); before small parts were
+                               ///< left out; empty unless asked for
+  ElementQuality quality;      ///< of all elements
+  double element_size = 0;     ///< that was aimed at, mm
   std::int64_t parts = 0, parts_dropped = 0;  ///< connected by faces
-  RemeshReport remeshing;
+  BodyFit fit;                                ///< to the surfaces; parts that were dropped count
+  double least_size = 0;                      ///< that was aimed at, mm
+  double narrow_share = 0;  ///< of the surfaces' area: where a wall or a gap is narrower than that
   struct Seconds {
-    double sizes = 0, start = 0, body = 0, total = 0;
+    double sizes = 0, start = 0, body = 0, fit = 0, total = 0;
   } seconds;
 };
+
+/// The smallest box around all points of surfaces. O(points).
+/// @param surfaces  mm.
+/// @return mm; as bounding_box() where there are no points.
+/// @throws nothing
+Box bounding_box(std::span<const TriMesh> surfaces);
 
 /// Fills surfaces with well shaped tetrahedra, whose boundary lies within the tolerance of them.
 ///
@@ -47,20 +61,12 @@ struct MeshedBody {
 ///                  the same in both.
 /// @param box       mm, around all of them: where a surface lies on one of its planes, so will the
 ///                  body.
-/// @throws InputError  as BodySurface and remesh_body(), or where the element size is larger than
-///                     the body.
+/// @throws InputError  as BodySurface and remesh_body(), where the element size is larger than the
+///                     body, or where it asks for too many elements.
 /// @throws Cancelled   if progress says stop.
 ///
-/// Time and memory as remesh() for about twice the elements. The same bits for any number of
-/// threads.
+/// Time and memory (600 bytes per element were measured) as remesh() for about twice the elements.
+/// The same bits for any number of threads.
 MeshedBody make_body(std::span<const TriMesh> surfaces, const Box& box, const BodyOptions& options);
-
-/// The boundary of one object of a body: closed, its triangles turned outward.
-/// @param object  from 1 on; 0: of all objects together, without what two of them share.
-/// @return the points that the boundary uses, in the order of the body's.
-/// @throws InputError  as cell_neighbors().
-///
-/// O(m log d) for m elements, see cell_neighbors().
-TriMesh body_skin(const BodyMesh& body, Material object = kOutside);
 
 }  // namespace mesamis

@@ -101,6 +101,9 @@ class SizeGrid {
                   std::numeric_limits<float>::infinity());
   }
 
+  /// The shortest distance between nodes, mm; nothing smaller is told apart.
+  double spacing() const { return std::min({step_.x, step_.y, step_.z}); }
+
   /// A size wanted at a point, at the nodes of the brick that holds it.
   void want(const Vec3& p, double size) {
     std::array<Index, 3> low;
@@ -187,7 +190,8 @@ class SizeGrid {
 void want_on_triangles(const TriMesh& surface, const std::vector<double>& sizes, SizeGrid& grid) {
   for (const Triangle& t : surface.triangles) {
     const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
-    const double smallest = std::min({sizes[t[0]], sizes[t[1]], sizes[t[2]]});
+    const double smallest =
+        std::max(grid.spacing(), std::min({sizes[t[0]], sizes[t[1]], sizes[t[2]]}));
     const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
     const int n = static_cast<int>(std::ceil(std::min(longest / smallest, 1000.0)));
     for (int i = 0; i <= n; ++i) {

@@ -2,90 +2,43 @@
 #include "mesamis/delivery/body_output.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <set>
+#include <map>
 #include <string>
 #include <utility>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/written_number.h"
+#include "mesamis/delivery/filled_objects.h"
+#include "mesamis/delivery/solver_name.h"
+#include "mesamis/material/rim.h"
 #include "mesamis/mesh/tet_mesh.h"
 
 namespace mesamis {
 namespace {
 
-constexpr double kVoxelsPerElement = 3;
-
-void require_different_names(std::span<const FaceQuery> sets) {
-  std::set<std::string> names;
-  for (const FaceQuery& query : sets) {
-    if (names.insert(query.name).second) continue;
-    throw InputError("set: expected names that differ, found '" + query.name + "' twice");
-  }
+std::string upper_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
 }
 
-/// Between the world and the grid's own axes. A left-handed grid mirrors what goes through it.
-class Frames {
- public:
-  explicit Frames(const VoxelGrid& grid) : grid_(grid), box_(grid.box()) {}
-
-  TriMesh to_grid(const TriMesh& surface) const {
-    TriMesh turned = surface;
-    for (Vec3& p : turned.points) p = snapped(grid_.to_grid(p));
-    if (mirrors()) {
-      for (Triangle& t : turned.triangles) std::swap(t[1], t[2]);
-    }
-    return turned;
-  }
-
-  bool mirrors() const { return determinant(grid_.direction) < 0; }
-  Vec3 to_world(const Vec3& p) const { return grid_.to_world(p); }
-  const Box& box() const { return box_; }
-
- private:
-  /// A point that rounding has moved off the border of the scan is put back.
-  Vec3 snapped(Vec3 p) const {
-    constexpr double kRounding = 1e-9;
-    const double near = kRounding * norm(box_.extent());
-    for (int axis = 0; axis < 3; ++axis) {
-      if (std::abs(p[axis] - box_.lo[axis]) < near) p[axis] = box_.lo[axis];
-      if (std::abs(p[axis] - box_.hi[axis]) < near) p[axis] = box_.hi[axis];
-    }
-    return p;
-  }
-
-  const VoxelGrid& grid_;
-  Box box_;
-};
-
-/// Around all surfaces; where one ends at the border of the scan, that border.
-Box box_around(std::span<const TriMesh> surfaces, const Box& scan, double margin) {
-  std::vector<Vec3> corners;
-  for (const TriMesh& surface : surfaces) {
-    const Box box = bounding_box(surface.points);
-    corners.insert(corners.end(), {box.lo, box.hi});
-  }
-  Box around = bounding_box(corners);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (around.lo[axis] != scan.lo[axis]) around.lo[axis] -= margin;
-    if (around.hi[axis] != scan.hi[axis]) around.hi[axis] += margin;
-  }
-  return around;
+/// PART_1, MAT_001_..., as this program and its parts call them.
+bool is_numbered(const std::string& upper, const std::string& prefix) {
+  return upper.starts_with(prefix) && upper.size() > prefix.size() &&
+         std::isdigit(static_cast<unsigned char>(upper[prefix.size()])) != 0;
 }
 
-/// Letters, digits and underscores, as solvers take them.
 std::string part_name(const Segment& segment, std::size_t number) {
-  std::string name;
-  for (const char c : segment.name) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    name += plain ? c : '_';
-  }
-  return "PART_" + std::to_string(number) + (name.empty() ? "" : "_" + name.substr(0, 40));
+  constexpr std::size_t kMost = 40;
+  const std::string of_segment = segment.name.empty() ? "" : "_" + segment.name.substr(0, kMost);
+  return detail::solver_name("PART_" + std::to_string(number) + of_segment);
 }
 
-void set_cells(FiniteElements& elements, const MeshedBody& body, const Frames& frames) {
+void set_cells(FiniteElements& elements, const MeshedBody& body, const VoxelGrid& grid) {
   elements.points.reserve(body.elements.mesh.points.size() + body.middles.points.size());
   for (const auto* points : {&body.elements.mesh.points, &body.middles.points}) {
-    for (const Vec3& p : *points) elements.points.push_back(frames.to_world(p));
+    for (const Vec3& p : *points) elements.points.push_back(grid.to_world(p));
   }
   elements.cells = body.elements.mesh.cells;
   elements.mid_nodes = body.middles.of_cell;
@@ -138,37 +91,104 @@ std::vector<FiniteElements::Part> parts_of(std::span<const FoundObject> objects)
   return parts;
 }
 
-MeshedBody body_on_grid(std::span<const FoundObject> objects, const Frames& frames,
-                        const BodyOptions& options) {
+/// Objects without an element, sets without a face.
+std::string missing_in(const BodyOutput& body, bool first) {
+  std::string missing;
+  const auto add = [&](const std::string& text) {
+    missing += (first && missing.empty() ? "" : "; ") + text;
+  };
+  for (std::size_t part = 0; part < body.elements.parts.size(); ++part) {
+    if (std::ranges::count(body.elements.part_of_cell, static_cast<Index>(part)) == 0) {
+      add("'" + body.elements.parts[part].note + "' has no element");
+    }
+  }
+  for (const std::string& set : body.empty_sets)
+    add("set '" + set + "' has no face, it is left out");
+  return missing;
+}
+
+std::vector<TriMesh> surfaces_of(std::span<const FoundObject> objects) {
   std::vector<TriMesh> surfaces;
-  surfaces.reserve(objects.size());
-  for (const FoundObject& object : objects) surfaces.push_back(frames.to_grid(object.surface));
-  return make_body(surfaces, box_around(surfaces, frames.box(), options.element_size), options);
+  for (const FoundObject& object : objects) surfaces.push_back(object.surface);
+  return surfaces;
 }
 
 }  // namespace
 
-BodyOutput make_body_output(std::span<const FoundObject> objects, const Volume& volume,
+std::string unmet(const BodyOutput& body) {
+  const ElementQuality& q = body.facts.quality;
+  const BodyFit& fit = body.facts.fit;
+  std::string missed;
+  const auto expect = [&](bool kept, const std::string& what, double expected, double found) {
+    if (kept) return;
+    missed += (missed.empty() ? "" : "; ") + what + " " + number_text(expected) + ", found " +
+              number_text(found);
+  };
+  expect(q.least_angle >= 10.7, "expected dihedral angles of at least", 10.7, q.least_angle);
+  expect(q.greatest_angle <= 165, "expected dihedral angles of at most", 165, q.greatest_angle);
+  expect(q.share_above_15_deg >= 0.999, "expected a share of elements above 15 degrees of", 0.999,
+         q.share_above_15_deg);
+  expect(q.scaled_jacobian_min >= 0.1, "expected scaled Jacobians of at least", 0.1,
+         q.scaled_jacobian_min);
+  const double distance = std::max(fit.skin_to_surface, fit.surface_to_skin);
+  expect(distance <= body.tolerance, "expected a distance to the surface, mm, of at most",
+         body.tolerance, distance);
+  // The ratio is that of straight sides: what mid-side nodes add is not in it.
+  const bool straight = body.elements.mid_nodes.empty();
+  expect(!straight || std::abs(fit.volume_ratio - 1) <= 0.005,
+         "expected the volume within 0.005 of a share of", 1, fit.volume_ratio);
+  return missed + missing_in(body, missed.empty());
+}
+
+void require_set_names(std::span<const FaceQuery> sets) {
+  std::map<std::string, std::string> names;
+  for (const FaceQuery& query : sets) {
+    const std::string upper = upper_case(query.name);
+    if (upper == "ALL" || is_numbered(upper, "PART_") || is_numbered(upper, "MAT_")) {
+      throw InputError(
+          "set: expected a name other than ALL and those of parts and materials, found '" +
+          query.name + "'");
+    }
+    const auto [earlier, is_new] = names.emplace(upper, query.name);
+    if (is_new) continue;
+    throw InputError(
+        "set: expected names that differ in more than case, found '" + query.name +
+        (earlier->second == query.name ? "' twice" : "' beside '" + earlier->second + "'"));
+  }
+}
+
+BodyOutput make_body_output(std::span<const FoundObject> objects, const VolumeView& volume,
                             const BodyRequest& request) {
-  require_different_names(request.sets);
-  BodyOptions options = request.elements;
-  if (options.element_size <= 0) options.element_size = kVoxelsPerElement * volume.voxel_size();
-  const Frames frames(volume);
+  require_set_names(request.sets);
+  return make_body_output(fill_objects(objects, volume, request.elements).body, objects, volume,
+                          request);
+}
+
+BodyOutput make_body_output(MeshedBody&& filled, std::span<const FoundObject> objects,
+                            const VolumeView& volume, const BodyRequest& request) {
+  require_set_names(request.sets);
   BodyOutput output;
-  output.tolerance = options.tolerance;
-  output.facts = body_on_grid(objects, frames, options);
+  output.tolerance = request.elements.tolerance;
+  output.facts = std::move(filled);
   FiniteElements& elements = output.elements;
-  set_cells(elements, output.facts, frames);
-  if (frames.mirrors()) mirror_cells(elements);
+  set_cells(elements, output.facts, volume);
+  if (determinant(volume.direction) < 0) mirror_cells(elements);
   elements.parts = parts_of(objects);
   const BodyMesh body = in_world(elements, output.facts);
   output.facts.elements = {};
   output.facts.middles = {{}, {}, output.facts.middles.straight};
   for (const FaceQuery& query : request.sets) {
-    elements.sets.push_back(face_set(elements, body, query));
+    FiniteElements::FaceSet set = face_set(elements, body, query);
+    if (set.faces.empty()) {
+      output.empty_sets.push_back(query.name);
+    } else {
+      elements.sets.push_back(std::move(set));
+    }
   }
   if (!request.material) return output;
-  const Materials materials = assign_materials(body.mesh, volume, *request.material);
+  output.rim = request.rim;
+  const Materials materials = assign_materials(
+      body.mesh, with_full_rim(volume, surfaces_of(objects), request.rim), *request.material);
   elements.materials = elastic_materials(materials, *request.material);
   elements.material_of_cell = materials.bins.of_cell;
   output.material = materials.report;

@@ -2,12 +2,12 @@
 #include "mesamis/delivery/cell_labels.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/delivery/line_crossing.h"
+#include "mesamis/delivery/solver_name.h"
 
 namespace mesamis {
 namespace {
@@ -101,14 +101,8 @@ std::vector<int> depths_in(const TriMesh& surface, std::span<const Vec3> points,
   return depth;
 }
 
-/// Letters, digits and underscores.
 std::string set_name(const Segment& segment) {
-  constexpr std::size_t kLongest = 60;
-  std::string name = "L" + std::to_string(segment.label) + "_" + segment.name;
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  }
-  return name.substr(0, kLongest);
+  return detail::solver_name("L" + std::to_string(segment.label) + "_" + segment.name);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/delivery/line_crossing.h"
 
@@ -92,6 +93,28 @@ void mark(const VoxelGrid& grid, const FoundObject& object, std::vector<std::uin
 }
 
 }  // namespace
+
+std::vector<FoundObject> found_objects(const LabelResult& result) {
+  std::vector<FoundObject> found;
+  for (const LabelledObject& object : result.objects) {
+    found.push_back({object.surface, object.segment});
+  }
+  return found;
+}
+
+std::vector<std::string> missing_objects(const LabelResult& result,
+                                         std::span<const Segment> wanted) {
+  if (result.objects.empty()) {
+    throw InputError("labels: expected a surface of at least one object, found none");
+  }
+  std::vector<std::string> warnings;
+  for (const Segment& s : wanted) {
+    const bool found = std::any_of(result.objects.begin(), result.objects.end(),
+                                   [&](const LabelledObject& o) { return o.segment == s; });
+    if (!found) warnings.push_back("labels: nothing was found of '" + s.name + "'");
+  }
+  return warnings;
+}
 
 LabelMap label_map_of(const VoxelGrid& grid, std::span<const FoundObject> objects) {
   LabelMap map;

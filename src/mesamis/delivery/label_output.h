@@ -2,8 +2,11 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "mesamis/image/label_map.h"
+#include "mesamis/method/label_surfaces.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {
@@ -13,6 +16,16 @@ struct FoundObject {
   const TriMesh& surface;  ///< world frame (LPS), mm; closed
   Segment segment;         ///< the label and layer of its voxels
 };
+
+/// The objects of a run on labels, which must live as long. O(objects).
+/// @throws nothing
+std::vector<FoundObject> found_objects(const LabelResult& result);
+
+/// One warning per object that was asked for and of which nothing was found. O(objects squared).
+/// @param wanted  objects that were asked for.
+/// @throws InputError  if no object was found at all.
+std::vector<std::string> missing_objects(const LabelResult& result,
+                                         std::span<const Segment> wanted);
 
 /// Marks the voxels whose centres lie inside of closed surfaces.
 ///

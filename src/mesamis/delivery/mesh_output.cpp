@@ -209,7 +209,7 @@ void write_gmsh(const fs::path& path, const MeshOutput& mesh, Frame frame) {
 
 /// The cells of a region and their fields.
 /// @param native  gets their native values.
-MeshOutput region_of(const Result& result, const Volume& volume, const MeshOptions& options,
+MeshOutput region_of(const Result& result, const VolumeView& volume, const MeshOptions& options,
                      const std::vector<Index>& cells, std::vector<double>& native) {
   RestrictedMesh part = restrict_mesh(result.mesh, cells);
   ImageMeans means = average_image(volume, part.mesh);
@@ -239,7 +239,7 @@ std::vector<Index> labelled_cells(CellSets& labels) {
 
 }  // namespace
 
-MeshOutput make_mesh_output(const Result& result, const Volume& volume,
+MeshOutput make_mesh_output(const Result& result, const VolumeView& volume,
                             const MeshOptions& options) {
   const bool object = options.region == MeshRegion::kObject;
   std::vector<double> native;
@@ -250,8 +250,8 @@ MeshOutput make_mesh_output(const Result& result, const Volume& volume,
   return out;
 }
 
-MeshOutput make_mesh_output(const Result& result, const Volume& volume, const MeshOptions& options,
-                            std::span<const FoundObject> objects) {
+MeshOutput make_mesh_output(const Result& result, const VolumeView& volume,
+                            const MeshOptions& options, std::span<const FoundObject> objects) {
   const bool object = options.region == MeshRegion::kObject;
   CellSets labels = label_sets(result.mesh, objects);
   const auto cells = object ? labelled_cells(labels) : all_cells(result.mesh);

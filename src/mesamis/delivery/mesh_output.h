@@ -50,7 +50,8 @@ struct MeshOutput {
 /// @throws InputError  if no cell belongs to the object, or there is no bin.
 ///
 /// O(voxels + cells). Memory: a copy of the region and of its fields.
-MeshOutput make_mesh_output(const Result& result, const Volume& volume, const MeshOptions& options);
+MeshOutput make_mesh_output(const Result& result, const VolumeView& volume,
+                            const MeshOptions& options);
 
 /// The same of a run on labels: the cells are sorted by the object that their centroid lies in, see
 /// label_sets(); the region is all cells, or those of objects.
@@ -60,8 +61,8 @@ MeshOutput make_mesh_output(const Result& result, const Volume& volume, const Me
 /// @throws InputError  if the region is that of the objects, and no cell lies within one.
 ///
 /// O(voxels + cells), and as label_sets().
-MeshOutput make_mesh_output(const Result& result, const Volume& volume, const MeshOptions& options,
-                            std::span<const FoundObject> objects);
+MeshOutput make_mesh_output(const Result& result, const VolumeView& volume,
+                            const MeshOptions& options, std::span<const FoundObject> objects);
 
 /// Writes the mesh in the format of the extension, one of written_mesh_formats(); .vtu for any
 /// other extension. Each file appears whole or not at all. A .mesh goes with a .sol of the same

@@ -7,7 +7,6 @@
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/cell_quadrature.h"
-#include "mesamis/mesh/locate.h"
 
 namespace mesamis {
 namespace {
@@ -141,13 +140,15 @@ ImageMeans average_image(const VolumeView& image, const TetMesh& mesh) {
 
 std::vector<std::vector<double>> interpolate_fields(const TetMesh& from,
                                                     std::span<const std::span<const double>> fields,
-                                                    std::span<const Vec3> points) {
+                                                    std::span<const Vec3> points,
+                                                    MeshExtent extent) {
+  const auto find = extent == MeshExtent::kBox ? locate : locate_in_piece;
   const auto neighbors = cell_neighbors(from);
   std::vector<std::vector<double>> result(fields.size(), std::vector<double>(points.size()));
   parallel_blocks(points.size(), kBlock, [&](std::size_t begin, std::size_t end) {
     Index cell = 0;
     for (std::size_t n = begin; n < end; ++n) {
-      const Location where = locate(from, neighbors, points[n], cell);
+      const Location where = find(from, neighbors, points[n], cell);
       cell = where.cell;
       for (std::size_t f = 0; f < fields.size(); ++f) {
         double value = 0;

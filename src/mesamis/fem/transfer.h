@@ -10,6 +10,7 @@
 #include "mesamis/fem/solve.h"
 #include "mesamis/image/spline_image.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/mesh/locate.h"
 
 /// Transfer of fields to a mesh: of the image by projection or averaging, of u and v by
 /// interpolation.
@@ -76,16 +77,18 @@ struct ImageMeans {
 ImageMeans average_image(const VolumeView& image, const TetMesh& mesh);
 
 /// Evaluates P1 functions of a mesh at points.
-/// @param from    fills a convex box with cells of positive volume; beyond, see locate().
+/// @param from    cells of positive volume; beyond them, see locate().
 /// @param fields  for each field one value per node of `from`, any unit.
 /// @param points  in the mesh's own coordinates; fast where neighbours in the list are near.
+/// @param extent  whether `from` fills a box.
 /// @return for each field one value per point, in the unit of the field.
 /// @throws InputError  as cell_neighbors(), for `from`.
 ///
 /// O(cells), and O(points) in practice: each search walks from the cell of the point before.
 std::vector<std::vector<double>> interpolate_fields(const TetMesh& from,
                                                     std::span<const std::span<const double>> fields,
-                                                    std::span<const Vec3> points);
+                                                    std::span<const Vec3> points,
+                                                    MeshExtent extent = MeshExtent::kBox);
 
 /// Evaluates P1 functions of a Kuhn grid at points.
 /// @param fields  for each field one value per node of `from`, any unit.

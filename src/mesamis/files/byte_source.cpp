@@ -25,6 +25,7 @@ struct ByteSource::State {
   std::filesystem::path file;
   std::ifstream in;
   std::uint64_t stored = 0;  // bytes of the file after the offset
+  std::uint64_t passed = 0;  // of them, where they are plain: read or skipped
   bool deflated = false, started = false, finished = false;
   z_stream stream{};
   std::vector<unsigned char> chunk = std::vector<unsigned char>(kChunk);
@@ -37,6 +38,7 @@ struct ByteSource::State {
   void end_of_member();
   std::size_t inflate_into(unsigned char* out, std::size_t n);
   std::size_t read_plain(unsigned char* out, std::size_t n);
+  std::uint64_t skip_plain(std::uint64_t n);
 };
 
 void ByteSource::State::refill() {
@@ -48,6 +50,13 @@ std::size_t ByteSource::State::read_plain(unsigned char* out, std::size_t n) {
   in.read(reinterpret_cast<char*>(out), static_cast<std::streamsize>(n));
   if (in.bad()) refuse(file, "reading failed");
   return static_cast<std::size_t>(in.gcount());
+}
+
+std::uint64_t ByteSource::State::skip_plain(std::uint64_t n) {
+  const std::uint64_t step = std::min(n, stored - std::min(passed, stored));
+  in.seekg(static_cast<std::streamoff>(step), std::ios::cur);
+  passed += step;
+  return step;
 }
 
 bool ByteSource::State::looks_like_gzip() {
@@ -112,7 +121,11 @@ ByteSource::~ByteSource() = default;
 
 std::size_t ByteSource::read(void* out, std::size_t n) {
   auto* bytes = static_cast<unsigned char*>(out);
-  if (!state_->deflated) return state_->read_plain(bytes, n);
+  if (!state_->deflated) {
+    const std::size_t got = state_->read_plain(bytes, n);
+    state_->passed += got;
+    return got;
+  }
   std::size_t done = 0;
   while (done < n) {
     const std::size_t step = std::min<std::size_t>(n - done, 1u << 30);
@@ -124,6 +137,7 @@ std::size_t ByteSource::read(void* out, std::size_t n) {
 }
 
 std::uint64_t ByteSource::skip(std::uint64_t n) {
+  if (!state_->deflated) return state_->skip_plain(n);
   std::vector<unsigned char> scratch(kChunk);
   std::uint64_t done = 0;
   while (done < n) {
@@ -138,6 +152,8 @@ std::uint64_t ByteSource::skip(std::uint64_t n) {
 std::uint64_t ByteSource::most_bytes() const {
   return state_->deflated ? state_->stored * kMostDeflateRatio : state_->stored;
 }
+
+bool ByteSource::is_packed() const noexcept { return state_->deflated; }
 
 std::string read_all(const std::filesystem::path& file, MemoryBudget& budget, MostBytes most) {
   constexpr std::size_t kStep = std::size_t{1} << 22;

@@ -33,13 +33,15 @@ class ByteSource {
   /// @return  the number of bytes read; less than n only at the end.
   /// @throws InputError  if compressed data are broken or cut off.
   std::size_t read(void* out, std::size_t n);
-  /// Skips up to n bytes.
+  /// Skips up to n bytes; plain ones are not read.
   /// @return  the number of bytes skipped; less than n only at the end.
   /// @throws InputError  as read().
   std::uint64_t skip(std::uint64_t n);
   /// @return  an upper bound of the bytes to read: kMostDeflateRatio times the compressed size, or
   ///          the very number of plain ones.
   std::uint64_t most_bytes() const;
+  /// @return  whether the bytes are decompressed, so that all before one are needed to read it.
+  bool is_packed() const noexcept;
 
  private:
   struct State;

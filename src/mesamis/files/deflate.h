@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -12,11 +13,40 @@ namespace mesamis::detail {
 /// its unpacked bytes is compared with it before memory is taken for them.
 inline constexpr std::uint64_t kMostDeflateRatio = 1032;
 
-/// Compresses bytes as one gzip stream, at zlib's fastest level.
-/// @param path  the file to be written, for messages.
+/// Compresses bytes that come in parts as one gzip stream: the same bytes, however they are cut.
+class Deflater {
+ public:
+  /// Starts a stream. O(1).
+  /// @param path   the file to be written, for messages.
+  /// @param level  zlib's, 1 (fastest) to 9 (smallest).
+  /// @throws InputError  if zlib cannot be started.
+  explicit Deflater(const std::filesystem::path& path, int level = 1);
+  ~Deflater();
+  Deflater(const Deflater&) = delete;
+  Deflater& operator=(const Deflater&) = delete;
+
+  /// Takes the next bytes.
+  /// @return what zlib hands out by now; the rest comes later.
+  /// @throws nothing
+  ///
+  /// Linear in the bytes; memory: what is returned.
+  std::string add(std::string_view bytes);
+  /// Ends the stream, once. O(1).
+  /// @return its last bytes.
+  /// @throws nothing
+  std::string finish();
+
+ private:
+  struct Stream;
+  std::unique_ptr<Stream> stream_;
+};
+
+/// Compresses bytes as one gzip stream.
+/// @param path   the file to be written, for messages.
+/// @param level  zlib's, 1 (fastest) to 9 (smallest).
 /// @throws InputError  if zlib cannot be started.
 ///
 /// Linear in the bytes; memory: the compressed bytes.
-std::string gzipped(const std::filesystem::path& path, std::string_view bytes);
+std::string gzipped(const std::filesystem::path& path, std::string_view bytes, int level = 1);
 
 }  // namespace mesamis::detail

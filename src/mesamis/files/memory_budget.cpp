@@ -10,11 +10,10 @@
 namespace mesamis::detail {
 namespace {
 
-constexpr double kGigabyte = 1e9;
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
 std::uint64_t limit_in_bytes(const ReadLimits& limits) {
-  const auto free = limits.memory_gb > 0 ? kGigabyte * limits.memory_gb : available_memory();
+  const auto free = memory_limit(limits.memory_gb);
   return free && *free < static_cast<double>(kNoLimit) ? static_cast<std::uint64_t>(*free)
                                                        : kNoLimit;
 }

@@ -5,13 +5,15 @@ set(ROOM_HEADERS
   read_limits.h
   read_record.h
   sha256.h
-  utf8.h)
+  utf8.h
+  xml_text.h)
 # For the rooms above alone: not installed.
 set(ROOM_INNER_HEADERS
   byte_source.h
   bytes.h
   deflate.h
   file_list.h
+  given_spacing.h
   in_one_line.h
   memory_budget.h
   number_type.h
@@ -26,6 +28,7 @@ set(ROOM_SOURCES
   byte_source.cpp
   deflate.cpp
   file_list.cpp
+  given_spacing.cpp
   output_set.cpp
   owned_file.cpp
   pending_file.cpp
@@ -35,4 +38,5 @@ set(ROOM_SOURCES
   sha256.cpp
   utf8.cpp
   xml.cpp
+  xml_text.cpp
   zip_archive.cpp)

@@ -55,10 +55,6 @@ struct XmlDocument {
 XmlDocument parse_xml(const std::filesystem::path& file, std::string_view text,
                       MemoryBudget& budget, const XmlOptions& options = {});
 
-/// Escapes a text for an XML element or attribute, in UTF-8. '?' replaces each byte that XML does
-/// not allow: control characters other than tab and line ends, and bytes that are not UTF-8.
-std::string xml_escaped(std::string_view text);
-
 /// The text that an XML reader would find in these characters of an element; the characters
 /// themselves where they are not well-formed.
 std::string xml_unescaped(const std::string& text);

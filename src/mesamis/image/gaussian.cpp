@@ -14,7 +14,7 @@ namespace {
 
 /// Weights at distance 0, 1, ...; they add up to 1 together with their mirror images.
 std::vector<double> gaussian_weights(double sigma) {
-  const auto radius = static_cast<std::size_t>(std::ceil(4 * sigma));
+  const auto radius = static_cast<std::size_t>(gaussian_reach(sigma));
   std::vector<double> weights;
   double sum = 0;
   for (std::size_t i = 0; i <= radius; ++i) {
@@ -67,6 +67,8 @@ void convolve(Volume& volume, double sigma) {
 }
 
 }  // namespace
+
+Index gaussian_reach(double sigma) { return static_cast<Index>(std::ceil(4 * sigma)); }
 
 Volume gaussian_smoothed(Volume volume, double sigma) {
   if (!(sigma >= 0 && sigma <= 100)) {

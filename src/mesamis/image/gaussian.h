@@ -5,6 +5,12 @@
 
 namespace mesamis {
 
+/// How many voxels away a voxel still counts in gaussian_smoothed(): four standard deviations,
+/// rounded up.
+/// @param sigma  standard deviation in voxels, 0 to 100.
+/// @throws nothing
+Index gaussian_reach(double sigma);
+
 /// Convolves a volume with a Gaussian, one axis of the grid after the other.
 ///
 /// The kernel is truncated at four standard deviations and its weights add up to 1. The value at

@@ -131,8 +131,9 @@ ImageValue spline_sum(const SplineImage& image, const Vec3& p) {
 }  // namespace
 
 SplineImage interpolating_spline(Volume volume) {
-  SplineImage image{volume, std::move(volume.samples), 0, 0};
-  std::vector<float>& c = image.coefficients;
+  const auto held = std::make_shared<std::vector<float>>(std::move(volume.samples));
+  std::vector<float>& c = *held;
+  SplineImage image{.grid = volume, .coefficients = c, .owner = held};
   std::tie(image.low, image.high) = sample_range(c);
   const auto& size = image.grid.size;
   const auto nx = static_cast<std::size_t>(size[0]), ny = static_cast<std::size_t>(size[1]);

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <array>
-#include <vector>
+#include <memory>
+#include <span>
 
 #include "mesamis/image/volume.h"
 
@@ -15,8 +16,10 @@ namespace mesamis {
 /// interpolated, so that an edge at a bound keeps its place between the voxels.
 struct SplineImage {
   VoxelGrid grid;
-  std::vector<float> coefficients;  ///< one per voxel, in the unit of the samples; i runs fastest
-  float low = 0, high = 0;          ///< bounds of the values, in the unit of the samples
+  std::span<const float> coefficients{};  ///< one per voxel, in the unit of the samples; i fastest
+  float low = 0, high = 0;                ///< bounds of the values, in the unit of the samples
+  /// What the coefficients belong to, such as a vector or a file in memory. Copies share it.
+  std::shared_ptr<const void> owner{};
 };
 
 /// Value and gradient of an image at a point.

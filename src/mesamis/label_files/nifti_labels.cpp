@@ -9,6 +9,7 @@
 #include "mesamis/files/bytes.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/xml.h"
+#include "mesamis/files/xml_text.h"
 #include "mesamis/label_files/label_values.h"
 
 namespace mesamis::detail {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/material/density.h"
 
+#include <cmath>
 #include <string>
 
 #include "mesamis/base/error.h"
-#include "mesamis/material/number_text.h"
+#include "mesamis/base/written_number.h"
 
 namespace mesamis {
-
-using namespace detail;
 
 namespace {
 

@@ -7,12 +7,13 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
-#include "mesamis/material/number_text.h"
+#include "mesamis/base/written_number.h"
+#include "mesamis/material/trilinear.h"
 #include "mesamis/mesh/kuhn.h"
 
 namespace mesamis {
 
-using namespace detail;
+using detail::Trilinear;
 
 namespace {
 
@@ -86,39 +87,6 @@ void require_cells(const TetMesh& mesh) {
     }
   }
 }
-
-/// The image between its voxels, linear along each axis.
-class Trilinear {
- public:
-  explicit Trilinear(const VolumeView& volume)
-      : samples_(volume.samples.data()),
-        size_(volume.size),
-        step_y_(volume.size[0]),
-        step_z_(step_y_ * volume.size[1]) {}
-
-  /// @param p  in voxels; clamped to the grid.
-  double at(const Vec3& p) const {
-    double fx, fy, fz;
-    const float* s = samples_ + place(p.x, size_[0], fx) + step_y_ * place(p.y, size_[1], fy) +
-                     step_z_ * place(p.z, size_[2], fz);
-    return mix(mix(row(s, fx), row(s + step_y_, fx), fy),
-               mix(row(s + step_z_, fx), row(s + step_y_ + step_z_, fx), fy), fz);
-  }
-
- private:
-  static std::ptrdiff_t place(double x, Index size, double& fraction) {
-    const double inside = std::clamp<double>(x, 0, size - 1);
-    const Index cell = std::min(static_cast<Index>(inside), size - 2);
-    fraction = inside - cell;
-    return cell;
-  }
-  static double mix(double a, double b, double fraction) { return a + fraction * (b - a); }
-  static double row(const float* s, double fraction) { return mix(s[0], s[1], fraction); }
-
-  const float* samples_;
-  std::array<Index, 3> size_;
-  std::ptrdiff_t step_y_, step_z_;
-};
 
 double edge_length_max(const std::array<Vec3, 4>& p) {
   double longest = 0;

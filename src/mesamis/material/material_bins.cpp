@@ -7,11 +7,9 @@
 #include <string>
 
 #include "mesamis/base/error.h"
-#include "mesamis/material/number_text.h"
+#include "mesamis/base/written_number.h"
 
 namespace mesamis {
-
-using namespace detail;
 
 namespace {
 

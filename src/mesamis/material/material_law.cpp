@@ -6,11 +6,9 @@
 #include <limits>
 
 #include "mesamis/base/error.h"
-#include "mesamis/material/number_text.h"
+#include "mesamis/base/written_number.h"
 
 namespace mesamis {
-
-using namespace detail;
 
 namespace {
 

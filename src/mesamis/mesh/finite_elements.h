@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesamis/mesh/tet_mesh.h"
@@ -13,6 +15,19 @@ namespace mesamis {
 /// Gmsh swaps the last two.
 inline constexpr std::array<std::array<int, 2>, 6> kMidNodeEdges{
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+
+inline constexpr std::size_t kLongestSolverName = 60;
+
+/// Whether solvers take a text as a name: letters, digits and underscores, of which the first is a
+/// letter, at most 60. O(length).
+inline bool is_solver_name(std::string_view name) noexcept {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto may_follow = [&](char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
+  };
+  return !name.empty() && name.size() <= kLongestSolverName && is_letter(name[0]) &&
+         std::all_of(name.begin(), name.end(), may_follow);
+}
 
 /// A body of tetrahedra as a solver for finite elements takes it: parts, materials, and sets of
 /// faces and nodes for supports and loads. Names have letters, digits and underscores, begin with a

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <unordered_set>
+#include <vector>
 
 namespace mesamis {
 namespace {
@@ -29,27 +32,60 @@ Location clamped(Index cell, std::array<double, 4> w) {
   return {cell, w};
 }
 
-/// Tries every cell; the one whose worst barycentric coordinate is largest wins.
-Location locate_exhaustively(const TetMesh& mesh, const Vec3& p) {
-  Index best = 0;
-  std::array<double, 4> best_weights{};
-  double best_worst = -std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto w = barycentric(mesh, static_cast<Index>(c), p);
+/// Tries cells; the one whose worst barycentric coordinate is largest wins.
+class Trial {
+ public:
+  Trial(const TetMesh& mesh, const Vec3& p) : mesh_(mesh), p_(p) {}
+  void cell(Index c) {
+    const auto w = barycentric(mesh_, c, p_);
     const double worst = *std::min_element(w.begin(), w.end());
-    if (worst > best_worst) {
-      best = static_cast<Index>(c);
-      best_weights = w;
-      best_worst = worst;
-    }
+    if (worst <= worst_) return;
+    best_ = c;
+    weights_ = w;
+    worst_ = worst;
   }
-  return clamped(best, best_weights);
+  bool is_inside() const { return worst_ >= -kTolerance; }
+  Location best() const { return clamped(best_, weights_); }
+
+ private:
+  const TetMesh& mesh_;
+  const Vec3& p_;
+  Index best_ = 0;
+  std::array<double, 4> weights_{};
+  double worst_ = -std::numeric_limits<double>::infinity();
+};
+
+Location locate_exhaustively(const TetMesh& mesh, const Vec3& p) {
+  Trial trial(mesh, p);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) trial.cell(static_cast<Index>(c));
+  return trial.best();
 }
 
-}  // namespace
+/// Tries the cells around one, ring by ring, until one holds the point or enough were tried.
+Trial try_around(const TetMesh& mesh, std::span<const std::array<Index, 4>> neighbors,
+                 const Vec3& p, Index from) {
+  constexpr std::size_t kMost = 1000;
+  Trial trial(mesh, p);
+  std::vector<Index> cells{from};
+  std::unordered_set<Index> known{from};
+  for (std::size_t i = 0; i < cells.size() && !trial.is_inside(); ++i) {
+    trial.cell(cells[i]);
+    for (const Index n : neighbors[cells[i]]) {
+      if (n == kNoIndex || cells.size() == kMost || !known.insert(n).second) continue;
+      cells.push_back(n);
+    }
+  }
+  return trial;
+}
 
-Location locate(const TetMesh& mesh, std::span<const std::array<Index, 4>> neighbors, const Vec3& p,
-                Index start) {
+/// Where a walk has ended: in the cell that holds the point, or not.
+struct Walk {
+  Index cell = kNoIndex;
+  std::optional<Location> found{};
+};
+
+Walk walk(const TetMesh& mesh, std::span<const std::array<Index, 4>> neighbors, const Vec3& p,
+          Index start) {
   // A walk through the worst face can circle on a mesh that is not Delaunay. After a while the
   // face is picked by a small generator instead, which leaves every circle sooner or later.
   constexpr int kSteadySteps = 200, kMaxSteps = 4000;
@@ -72,11 +108,27 @@ Location locate(const TetMesh& mesh, std::span<const std::array<Index, 4>> neigh
           (steady ? w[f] < w[exit] : (random >> 16) % static_cast<unsigned>(candidates) == 0);
       if (take) exit = f;
     }
-    if (!outside) return clamped(cell, w);
+    if (!outside) return {cell, clamped(cell, w)};
     if (exit < 0) break;  // behind the boundary only: outside the box, or a blind corner
     cell = neighbors[cell][exit];
   }
-  return locate_exhaustively(mesh, p);
+  return {cell};
+}
+
+}  // namespace
+
+Location locate(const TetMesh& mesh, std::span<const std::array<Index, 4>> neighbors, const Vec3& p,
+                Index start) {
+  const Walk walked = walk(mesh, neighbors, p, start);
+  if (walked.found) return *walked.found;
+  const Trial around = try_around(mesh, neighbors, p, walked.cell);
+  return around.is_inside() ? around.best() : locate_exhaustively(mesh, p);
+}
+
+Location locate_in_piece(const TetMesh& mesh, std::span<const std::array<Index, 4>> neighbors,
+                         const Vec3& p, Index start) {
+  const Walk walked = walk(mesh, neighbors, p, start);
+  return walked.found ? *walked.found : try_around(mesh, neighbors, p, walked.cell).best();
 }
 
 }  // namespace mesamis

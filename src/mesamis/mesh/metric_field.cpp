@@ -8,7 +8,6 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/sym3.h"
-#include "mesamis/mesh/locate.h"
 #include "mesamis/mesh/metric.h"
 
 namespace mesamis {
@@ -62,8 +61,12 @@ Sym3 GridMetricField::at(const Vec3& p, Index&) const {
   return exp_sym({sum[0], sum[1], sum[2], sum[3], sum[4], sum[5]});
 }
 
-MeshMetricField::MeshMetricField(TetMesh mesh, std::span<const Sym3> node_metrics)
-    : mesh_(std::move(mesh)), box_(bounding_box(mesh_.points)), neighbors_(cell_neighbors(mesh_)) {
+MeshMetricField::MeshMetricField(TetMesh mesh, std::span<const Sym3> node_metrics,
+                                 MeshExtent extent)
+    : mesh_(std::move(mesh)),
+      extent_(extent),
+      box_(bounding_box(mesh_.points)),
+      neighbors_(cell_neighbors(mesh_)) {
   require_count(mesh_.points.size(), node_metrics.size());
   require_positive_definite(node_metrics);
   log_metrics_.resize(node_metrics.size());
@@ -76,7 +79,8 @@ Sym3 MeshMetricField::at(const Vec3& p, Index& hint) const {
   for (int axis = 0; axis < 3; ++axis) {
     inside[axis] = std::clamp(p[axis], box_.lo[axis], box_.hi[axis]);
   }
-  const Location where = locate(mesh_, neighbors_, inside, hint);
+  const Location where =
+      (extent_ == MeshExtent::kBox ? locate : locate_in_piece)(mesh_, neighbors_, inside, hint);
   hint = where.cell;
   Sym3 sum;
   const Cell& cell = mesh_.cells[static_cast<std::size_t>(where.cell)];

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/mesh/locate.h"
 #include "mesamis/mesh/tet_mesh.h"
 
 namespace mesamis {
@@ -48,15 +49,18 @@ class GridMetricField : public MetricField {
 class MeshMetricField : public MetricField {
  public:
   /// Finds the neighbours of the cells and takes the logarithms of the metrics. O(m).
-  /// @param mesh          the background mesh, n nodes, m cells, mm; fills its bounding box.
+  /// @param mesh          the background mesh, n nodes, m cells, mm.
   /// @param node_metrics  n symmetric positive definite matrices, 1/mm^2.
   /// @throws InputError   if the sizes differ, or a metric is not finite or not positive definite;
   ///                      the message names the node. As cell_neighbors().
-  MeshMetricField(TetMesh mesh, std::span<const Sym3> node_metrics);
+  /// @param extent        whether the mesh fills its bounding box.
+  MeshMetricField(TetMesh mesh, std::span<const Sym3> node_metrics,
+                  MeshExtent extent = MeshExtent::kBox);
   Sym3 at(const Vec3& p, Index& hint) const override;
 
  private:
   TetMesh mesh_;
+  MeshExtent extent_;
   Box box_;
   std::vector<std::array<Index, 4>> neighbors_;
   std::vector<Sym3> log_metrics_;

@@ -94,6 +94,12 @@ void drop_parts(std::vector<Part> parts, const CellSelection& selection,
 
 }  // namespace
 
+double mesh_volume(const TetMesh& mesh) {
+  double sum = 0;
+  for (Index c = 0; c < std::ssize(mesh.cells); ++c) sum += cell_volume(mesh, c);
+  return sum;
+}
+
 std::vector<double> cell_means(const TetMesh& mesh, std::span<const double> values) {
   require_one_per_node(mesh, values);
   std::vector<double> means;
@@ -149,6 +155,17 @@ std::vector<Index> select_cells(const TetMesh& mesh, std::span<const Index> cell
     if (inside[c]) kept.push_back(static_cast<Index>(c));
   }
   return kept;
+}
+
+std::vector<Index> face_parts(const TetMesh& mesh) {
+  std::vector<Index> numbers(mesh.cells.size());
+  Index number = 0;
+  const auto neighbors = cell_neighbors(mesh);
+  for (const Part& part : find_parts(mesh, neighbors, std::vector<char>(mesh.cells.size(), 1))) {
+    for (const Index cell : part.cells) numbers[cell] = number;
+    ++number;
+  }
+  return numbers;
 }
 
 std::int64_t count_face_parts(const TetMesh& mesh) {

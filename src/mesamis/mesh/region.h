@@ -11,6 +11,11 @@
 /// Parts of a mesh: sets of cells, and the mesh of such a set.
 namespace mesamis {
 
+/// The volume of all cells, mm^3. O(m) for m cells.
+/// @param mesh  mm.
+/// @throws nothing
+double mesh_volume(const TetMesh& mesh);
+
 /// The mean of a P1 function over each cell, which is its value at the centroid.
 /// @param mesh         n nodes, m cells.
 /// @param values       n values of any unit.
@@ -58,6 +63,13 @@ struct CellSelection {
 /// O(m), and O(p log p) for p parts.
 std::vector<Index> select_cells(const TetMesh& mesh, std::span<const Index> cells,
                                 const CellSelection& selection);
+
+/// Numbers the face-connected parts of the mesh, from 0 in the order of their first cells.
+/// @return one number per cell.
+/// @throws InputError  as cell_neighbors().
+///
+/// O(m) for m cells.
+std::vector<Index> face_parts(const TetMesh& mesh);
 
 /// Counts the face-connected parts of the mesh.
 /// @throws InputError  as cell_neighbors().

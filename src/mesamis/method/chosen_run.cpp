@@ -57,7 +57,13 @@ Parameters in_scan_units(Parameters p, const ChosenObject& object) {
 
 Result run_on_object(const ChosenObject& object, const Settings& settings, const Progress& progress,
                      const HasEnough& enough) {
-  Result result = mes_amis(object.volume, settings_for(object, settings), progress, enough);
+  return run_on_object(ObjectInPlace{object, object.volume}, settings, progress, enough);
+}
+
+Result run_on_object(const ObjectInPlace& in_place, const Settings& settings,
+                     const Progress& progress, const HasEnough& enough) {
+  const auto& [object, image] = in_place;
+  Result result = mes_amis(image, settings_for(object, settings), progress, enough);
   result.parameters = in_scan_units(result.parameters, object);
   if (object.level_uncertainty > 0) {
     result.image.level_uncertainty = object.level_uncertainty;
@@ -67,8 +73,14 @@ Result run_on_object(const ChosenObject& object, const Settings& settings, const
 
 LabelResult run_on_labels(const ChosenObject& object, const LabelRequest& request,
                           const Settings& settings, const Progress& progress) {
+  return run_on_labels(ObjectInPlace{object, object.volume}, request, settings, progress);
+}
+
+LabelResult run_on_labels(const ObjectInPlace& in_place, const LabelRequest& request,
+                          const Settings& settings, const Progress& progress) {
+  const auto& [object, image] = in_place;
   LabelResult result =
-      find_labelled_objects(object.volume, request, settings_for(object, settings), progress);
+      find_labelled_objects(image, request, settings_for(object, settings), progress);
   result.parameters = in_scan_units(result.parameters, object);
   if (result.mesh) result.mesh->parameters = in_scan_units(result.mesh->parameters, object);
   if (object.kind == TissueKind::kDark) {

@@ -36,6 +36,19 @@ Parameters in_scan_units(Parameters parameters, const ChosenObject& object);
 Result run_on_object(const ChosenObject& object, const Settings& settings,
                      const Progress& progress = {}, const HasEnough& enough = {});
 
+/// A chosen object where the samples of its image lie elsewhere, see choose_in_place(). It refers
+/// to the object, which must live as long.
+struct ObjectInPlace {
+  const ChosenObject& object;
+  VolumeView image;  ///< of the object's grid, native units; read in place
+};
+
+/// Runs the method on the image of an object in place.
+/// @param object, settings, progress, enough  as for a chosen object.
+/// @throws InputError, Cancelled  as mes_amis(). Cost as there.
+Result run_on_object(const ObjectInPlace& object, const Settings& settings,
+                     const Progress& progress = {}, const HasEnough& enough = {});
+
 /// Finds the objects of a label map in the image of a chosen object.
 /// @param object    of choose_object().
 /// @param request   labels on a grid of their own, or the parts of the object that several seeds
@@ -44,6 +57,12 @@ Result run_on_object(const ChosenObject& object, const Settings& settings,
 /// @return as find_labelled_objects(), levels in the units of the scan.
 /// @throws InputError, Cancelled  as find_labelled_objects(). Cost as there.
 LabelResult run_on_labels(const ChosenObject& object, const LabelRequest& request,
+                          const Settings& settings, const Progress& progress = {});
+
+/// Finds the objects of a label map in the image of an object in place.
+/// @param object, request, settings, progress  as for a chosen object.
+/// @throws InputError, Cancelled  as find_labelled_objects(). Cost as there.
+LabelResult run_on_labels(const ObjectInPlace& object, const LabelRequest& request,
                           const Settings& settings, const Progress& progress = {});
 
 }  // namespace mesamis

@@ -50,7 +50,7 @@ Loop run_loop(const RunInput& run, const Progress& progress, const HasEnough& en
     const State& state = loop.state;
     Minimum minimum = minimise(pass, state.mesh, {state.u, state.v}, options);
     record_energy_change(loop.passes);
-    record_surface(pass, state, minimum);
+    record_surface(pass, state.mesh, state.u, minimum.u);
     return minimum;
   };
   const Stage first(progress, adaptation_name(1, p) + ", on the voxel grid");

@@ -69,7 +69,7 @@ std::optional<std::array<Index, 3>> stride_that_fits(const VoxelGrid& volume, Se
 void require_memory(const VoxelGrid& volume, const Settings& settings, double limit_gb,
                     double still_taken) {
   constexpr double kGigabyte = 1e9;
-  const auto limit = limit_gb > 0 ? std::optional(limit_gb * kGigabyte) : available_memory();
+  const auto limit = memory_limit(limit_gb);
   const double needed = memory_needed(volume, settings) + still_taken;
   if (!limit || needed <= *limit) return;
   std::ostringstream message;

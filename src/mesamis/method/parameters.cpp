@@ -49,8 +49,7 @@ Settings settings_of(const Parameters& p) {
   return s;
 }
 
-std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing,
-                              double accuracy) {
+double cells_for_surface(double area, double thin_share, const Vec3& spacing, double accuracy) {
   constexpr double kCells = 4.5, kCellsWhereThin = 18, kThickest = 8;
   constexpr double kUsual = 0.1, kMostFiner = 4;  // voxels; times the usual number
   const auto [shortest, longest] = std::minmax({spacing.x, spacing.y, spacing.z});
@@ -59,8 +58,13 @@ std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacin
   const double voxel = std::cbrt(spacing.x * spacing.y * spacing.z);
   const double finer =
       accuracy > 0 ? std::clamp(kUsual * voxel / accuracy, 1 / kMostFiner, kMostFiner) : 1;
-  return std::llround(
-      std::clamp<double>(finer * per_square * area / (side * side), kFewestTets, kMostTets));
+  return finer * per_square * area / (side * side);
+}
+
+std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing,
+                              double accuracy) {
+  const double cells = cells_for_surface(area, thin_share, spacing, accuracy);
+  return std::llround(std::clamp<double>(cells, kFewestTets, kMostTets));
 }
 
 std::array<Index, 3> default_stride(const std::array<Index, 3>& voxels, const Vec3& spacing) {

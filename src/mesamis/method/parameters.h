@@ -91,6 +91,15 @@ inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
 std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing,
                               double accuracy = 0);
 
+/// The cells of default_max_tets() before its bounds: surfaces of parts of a scan add up to that of
+/// the whole.
+/// @param area, thin_share, spacing, accuracy  as there: mm^2, no unit, mm and mm.
+/// @return a number, no unit.
+/// @throws nothing
+///
+/// O(1).
+double cells_for_surface(double area, double thin_share, const Vec3& spacing, double accuracy = 0);
+
 /// The default of stride: every voxel is a node of the first grid, but in more than a million
 /// voxels every second one, along each axis where two voxels are no longer than twice the geometric
 /// mean of the spacing. The first grid leads to the first mesh alone, and its nodes take the mean

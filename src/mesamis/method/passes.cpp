@@ -104,16 +104,6 @@ void add_metrics_beside(const Pass& pass, const KuhnGrid& grid, const SizeContro
   }
 }
 
-/// The metric of the first pass, and whether max_tets acted on it.
-GridMetricField grid_metric(const Pass& pass, const KuhnGrid& grid, const GridFields& fields,
-                            const SizeControl& control) {
-  std::vector<PackedSym3> logs = log_metrics(pass, grid, fields, control);
-  add_metrics_beside(pass, grid, control, logs);
-  smooth_log_metrics(grid, logs, kSmoothingSweeps);
-  if (pass.record.bounded) set_complexity(grid, logs, control.complexity);
-  return {pass.run.box, grid.size, std::move(logs)};
-}
-
 /// The metric on a mesh, refined for the edges of the images beside.
 std::vector<Sym3> metric_of_all(const Pass& pass, const TetMesh& mesh, const Minimum& minimum,
                                 const SizeControl& control) {
@@ -212,18 +202,24 @@ void minimise_on(const P1Space& space, const AmisOptions& options, Minimum& m, I
   record.energy = energy(space, options.parameters, {m.u, m.v, m.f});
 }
 
+std::vector<Sym3> asked_metric(const Pass& pass, const TetMesh& mesh, const Minimum& m,
+                               std::int64_t cell_count) {
+  const RunInput& run = pass.run;
+  const Estimate estimated = estimate(mesh, run.parameters.functional, {m.u, m.v, m.f});
+  pass.record.estimator = estimated.sums.zeta();
+  std::vector<Sym3> cells(mesh.cells.size());
+  const auto options = metric_options(run, cell_count);
+  parallel_for(cells.size(),
+               [&](std::size_t c) { cells[c] = cell_metric(estimated.gamma[c], options); });
+  pass.record.predicted_tets = predicted_cells(mesh, cells);
+  return node_metrics(mesh, cells);
+}
+
 std::vector<Sym3> mesh_metric(const Pass& pass, const TetMesh& mesh, const Minimum& m,
                               const SizeControl& control) {
   const RunInput& run = pass.run;
   Iteration& record = pass.record;
-  const Estimate estimated = estimate(mesh, run.parameters.functional, {m.u, m.v, m.f});
-  record.estimator = estimated.sums.zeta();
-  std::vector<Sym3> cells(mesh.cells.size());
-  const auto options = metric_options(run, std::ssize(cells));
-  parallel_for(cells.size(),
-               [&](std::size_t c) { cells[c] = cell_metric(estimated.gamma[c], options); });
-  record.predicted_tets = predicted_cells(mesh, cells);
-  std::vector<Sym3> metric = node_metrics(mesh, cells);
+  std::vector<Sym3> metric = asked_metric(pass, mesh, m, std::ssize(mesh.cells));
   record.bounded = control_sizes(metric, m.lumped_mass, control) > 1;
   if (run.parameters.gradation != 0) {
     limit_gradation(mesh, metric, run.parameters.gradation);
@@ -251,14 +247,23 @@ GridPass minimise_on_grid(const Pass& pass) {
   return found;
 }
 
+std::vector<PackedSym3> grid_log_metric(const Pass& pass, const KuhnGrid& grid,
+                                        const GridFields& fields, const SizeControl& control) {
+  std::vector<PackedSym3> logs = log_metrics(pass, grid, fields, control);
+  add_metrics_beside(pass, grid, control, logs);
+  smooth_log_metrics(grid, logs, kSmoothingSweeps);
+  if (pass.record.bounded) set_complexity(grid, logs, control.complexity);
+  return logs;
+}
+
 State adapt_from_grid(const Pass& pass) {
   const auto& [run, number, stage, record] = pass;
   const GridPass found = minimise_on_grid(pass);
   const auto& [grid, projected, m] = found;
   Stopwatch watch;
   const Sizes sizes = sizes_of(pass, kCellsPerComplexity);
-  const GridMetricField field =
-      grid_metric(pass, grid, {m.u, m.v, found.image(run)}, sizes.control);
+  const GridMetricField field(
+      run.box, grid.size, grid_log_metric(pass, grid, {m.u, m.v, found.image(run)}, sizes.control));
   record.seconds.estimate = watch.lap();
   State next = remeshed(pass, coarse_box_mesh(run.box), field, sizes);
   record.seconds.remesh = watch.lap();
@@ -327,14 +332,15 @@ double mean_expected_error(const RunInput& run, const TriMesh& surface) {
   return summarize_error(surface, expected_error(surface, run.image, run.error)).mean;
 }
 
-void record_surface(const Pass& pass, const State& state, const Minimum& minimum) {
+void record_surface(const Pass& pass, const TetMesh& mesh, std::span<const double> before,
+                    std::span<const double> now) {
   const auto& [run, number, stage, record] = pass;
   const Parameters& p = run.parameters;
   if (p.surface != SurfaceKind::kSolid) return;
   const double level = p.grey.to_grey(p.level), voxel = run.grey.voxel_size();
   record.surface_change =
-      p.unit_mm * level_set_change(state.mesh, state.u, minimum.u, {level, voxel / p.unit_mm});
-  TriMesh surface = extract_solid(state.mesh, minimum.u, level);
+      p.unit_mm * level_set_change(mesh, before, now, {level, voxel / p.unit_mm});
+  TriMesh surface = extract_solid(mesh, now, level);
   bring_to_world(run, surface.points);
   const double error = mean_expected_error(run, surface);
   record.surface_tolerance = std::max(error, p.follow ? kFollowed * voxel : 0);

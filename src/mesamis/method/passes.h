@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mesamis/adapt/grid_estimator.h"
 #include "mesamis/adapt/size_control.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/progress.h"
@@ -96,6 +97,12 @@ struct GridPass {
 /// of the estimator.
 GridPass minimise_on_grid(const Pass& pass);
 
+/// The logarithms of the metric that the fields on the first grid ask for, smoothed, with bounded
+/// sizes and complexity. Records the estimator and whether the complexity was bounded.
+/// @param fields  on the grid.
+std::vector<PackedSym3> grid_log_metric(const Pass& pass, const KuhnGrid& grid,
+                                        const GridFields& fields, const SizeControl& control);
+
 /// Adaptation 1: minimises on the voxel grid, estimates, and refines the first mesh from a box.
 State adapt_from_grid(const Pass& pass);
 
@@ -103,6 +110,12 @@ State adapt_from_grid(const Pass& pass);
 /// Records energy and alternations.
 void minimise_on(const P1Space& space, const AmisOptions& options, Minimum& minimum,
                  Iteration& record);
+
+/// The nodal metric that the fields ask for, (9) to (11), before its sizes are bounded. Records the
+/// estimator and the predicted cells.
+/// @param cells  of the whole mesh, of which this may be a part.
+std::vector<Sym3> asked_metric(const Pass& pass, const TetMesh& mesh, const Minimum& minimum,
+                               std::int64_t cells);
 
 /// The nodal metric that the fields ask for, (9) to (12), in length units. Records the estimator,
 /// the predicted cells, and whether the complexity was bounded.
@@ -131,7 +144,9 @@ double mean_expected_error(const RunInput& run, const TriMesh& surface);
 
 /// Records how far the minimisation has moved the solid's surface, and how far it may; nothing for
 /// a band.
-void record_surface(const Pass& pass, const State& state, const Minimum& minimum);
+/// @param before, now  u at the nodes of the mesh, as the mesh before had it and as it is now.
+void record_surface(const Pass& pass, const TetMesh& mesh, std::span<const double> before,
+                    std::span<const double> now);
 
 /// Whether, by Parameters::until, no mesh is needed after the one that the last of these passes has
 /// made. While the number of cells is still to grow, one is. Where the surface decides, three are

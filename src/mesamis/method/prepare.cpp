@@ -67,12 +67,13 @@ Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
   return p;
 }
 
-/// How much surface the restored image has. Where its noise would make surface of its own, it is
+/// How much surface a restored image has. Where its noise would make surface of its own, it is
 /// smoothed before, and nothing thin can be told from noise.
-SurfaceExtent extent_of(const Restored& restored, double contrast, double level) {
+SurfaceExtent measured_extent(const VolumeView& restored, double noise, double contrast,
+                              double level) {
   constexpr double kQuiet = 0.1;  // of the contrast: noise reaches the level at five deviations
-  if (restored.noise_left < kQuiet * contrast) return measure_extent(restored.volume, level);
-  return {level_area(smoothed(restored.volume), level), 0};
+  if (noise < kQuiet * contrast) return measure_extent(restored, level);
+  return {level_area(smoothed(restored), level), 0};
 }
 
 /// What restore() makes of the image; where restoring is off, the image as it is, with its noise.
@@ -165,6 +166,59 @@ void require_contrast(const VolumeView& volume, const Parameters& p) {
   if (!message.str().empty()) throw InputError(message.str());
 }
 
+/// A choice, and the image that it was made from.
+struct Chosen {
+  Choice choice;
+  Restored restored;
+};
+
+Chosen choose(const VolumeView& volume, const VoxelGrid& whole, const Settings& settings) {
+  require_level_in_data(volume, settings);
+  Chosen chosen;
+  Parameters& p = chosen.choice.parameters = parameters_from_grid(whole, settings);
+
+  const HalfMaximumLevel seen = find_half_maximum_level(volume);
+  if (seen.in_noise && !settings.level && settings.surface == SurfaceKind::kSolid) {
+    throw InputError("level: found no object that stands out of the noise; expected --level");
+  }
+  const Window window = settings.window.value_or(
+      window_with_room(volume, seen.contrast, settings.level.value_or(seen.level)));
+  p.grey = {window.low, window.high, window.low};
+  Volume scan = clamped(volume, window);
+  const HalfMaximumLevel object = chosen.choice.object = find_object_edge(scan, seen);
+
+  const Restored& restored = chosen.restored = restore_if_asked(std::move(scan), object, settings);
+  p.noise = restored.noise;
+  p.blur = restored.blur;
+  chosen.choice.impulse_height = restored.impulse_height;
+
+  const auto measured = find_tissue_threshold(volume, seen.contrast, seen.level, restored.noise);
+  p.grey.threshold =
+      choose_threshold(settings, p.grey, measured, settings.level.value_or(object.level));
+  p.level = settings.level.value_or(level_above(p.grey, object));
+  const double contrast = object.contrast.difference();
+  chosen.choice.measured = {restored.noise_left, restored.noise_correlation, restored.impulses,
+                            contrast, settings.level ? 0 : object.uncertainty};
+  if (!settings.max_tets && !settings.preview) {
+    const SurfaceExtent extent =
+        measured_extent(restored.volume, restored.noise_left, contrast, p.level);
+    p.max_tets = default_max_tets(extent.area, extent.thin_share, volume.spacing, p.accuracy);
+  }
+  if (!settings.gamma) {
+    p.functional.gamma = choose_gamma(p, contrast, restored.noise_left);
+  }
+  require_contrast(restored.volume, p);
+  return chosen;
+}
+
+/// @param restored  in native units; taken over.
+Prepared prepared_from(const Choice& choice, Volume restored) {
+  const GreyMap& map = choice.parameters.grey;
+  Prepared prepared{choice.parameters, choice.measured, {}, spline_image(map, restored)};
+  prepared.grey = apply(map, std::move(restored));
+  return prepared;
+}
+
 }  // namespace
 
 std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
@@ -175,42 +229,28 @@ std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
 }
 
 Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
-  require_level_in_data(volume, settings);
-  Prepared prepared;
-  Parameters& p = prepared.parameters = parameters_from_grid(volume, settings);
+  Chosen chosen = choose(volume, volume, settings);
+  return prepared_from(chosen.choice, std::move(chosen.restored.volume));
+}
 
-  const HalfMaximumLevel seen = find_half_maximum_level(volume);
-  if (seen.in_noise && !settings.level && settings.surface == SurfaceKind::kSolid) {
-    throw InputError("level: found no object that stands out of the noise; expected --level");
-  }
-  const Window window = settings.window.value_or(
-      window_with_room(volume, seen.contrast, settings.level.value_or(seen.level)));
-  p.grey = {window.low, window.high, window.low};
-  Volume scan = clamped(volume, window);
-  const HalfMaximumLevel object = find_object_edge(scan, seen);
+Choice choose_parameters(const VolumeView& part, const VoxelGrid& whole, const Settings& settings) {
+  return choose(part, whole, settings).choice;
+}
 
-  Restored restored = restore_if_asked(std::move(scan), object, settings);
-  p.noise = restored.noise;
-  p.blur = restored.blur;
+Prepared prepare_slab(const VolumeView& slab, const Choice& choice) {
+  const Parameters& p = choice.parameters;
+  Volume scan = clamped(slab, {p.grey.low, p.grey.high});
+  if (!p.restore) return prepared_from(choice, std::move(scan));
+  Restored restored =
+      restore(std::move(scan), choice.object, {p.noise, p.blur, choice.impulse_height});
+  return prepared_from(choice, std::move(restored.volume));
+}
 
-  const auto measured = find_tissue_threshold(volume, seen.contrast, seen.level, restored.noise);
-  p.grey.threshold =
-      choose_threshold(settings, p.grey, measured, settings.level.value_or(object.level));
-  p.level = settings.level.value_or(level_above(p.grey, object));
-  const double contrast = object.contrast.difference();
-  prepared.measured = {restored.noise_left, restored.noise_correlation, restored.impulses, contrast,
-                       settings.level ? 0 : object.uncertainty};
-  if (!settings.max_tets && !settings.preview) {
-    const SurfaceExtent extent = extent_of(restored, contrast, p.level);
-    p.max_tets = default_max_tets(extent.area, extent.thin_share, volume.spacing, p.accuracy);
-  }
-  if (!settings.gamma) {
-    p.functional.gamma = choose_gamma(p, contrast, restored.noise_left);
-  }
-  require_contrast(restored.volume, p);
-  prepared.image = spline_image(p.grey, restored.volume);
-  prepared.grey = apply(p.grey, std::move(restored.volume));
-  return prepared;
+SurfaceExtent extent_of(const Prepared& slab) {
+  const Parameters& p = slab.parameters;
+  const double scale = p.grey.grey_per_native();
+  return measured_extent(slab.grey, slab.measured.noise_left * scale,
+                         slab.measured.contrast * scale, p.grey.to_grey(p.level));
 }
 
 }  // namespace mesamis

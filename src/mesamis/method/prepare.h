@@ -8,6 +8,8 @@
 #include "mesamis/method/measured_image.h"
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/settings.h"
+#include "mesamis/restore/half_maximum_level.h"
+#include "mesamis/restore/surface_extent.h"
 
 namespace mesamis {
 
@@ -18,6 +20,14 @@ struct Prepared {
   Volume grey;  ///< the volume, restored, in grey values
   /// The same between the voxels: the spline through what the bounds have not cut yet.
   SplineImage image;
+};
+
+/// What a run uses, chosen from a scan or from a part of it that stands for the whole.
+struct Choice {
+  Parameters parameters;  ///< max_tets counts the surface of the part
+  MeasuredImage measured;
+  HalfMaximumLevel object;    ///< at whose surface the image is restored, native units
+  double impulse_height = 0;  ///< see RestoreOptions
 };
 
 /// Counts the nodes of the first grid along each axis: every stride-th voxel, at least two.
@@ -39,5 +49,29 @@ std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
 ///
 /// O(voxels); two copies of the samples at a time.
 Prepared prepare_image(const VolumeView& volume, const Settings& settings);
+
+/// Chooses as prepare_image() does, and keeps nothing of the image.
+/// @param part      native units, see require_usable().
+/// @param whole     the scan that it is a part of: the sizes that follow from a grid are its own.
+/// @param settings  valid.
+/// @throws InputError  as prepare_image().
+///
+/// O(voxels of the part); two copies of its samples at a time.
+Choice choose_parameters(const VolumeView& part, const VoxelGrid& whole, const Settings& settings);
+
+/// Prepares some slices of a scan as prepare_image() would with this choice.
+/// @param slab    native units. The outer slices lack neighbours: twelve of them are not as they
+///                would be in the whole.
+/// @param choice  of choose_parameters().
+/// @return parameters and measured values as chosen; image and grey of the slab.
+/// @throws nothing
+///
+/// As choose_parameters().
+Prepared prepare_slab(const VolumeView& slab, const Choice& choice);
+
+/// How much surface at the level of a choice a prepared slab has; of its own grey values.
+/// @throws nothing
+/// O(voxels).
+SurfaceExtent extent_of(const Prepared& slab);
 
 }  // namespace mesamis

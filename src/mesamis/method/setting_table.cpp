@@ -2,11 +2,11 @@
 #include "mesamis/method/setting_table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/written_number.h"
 #include "mesamis/method/setting_rows.h"
 
 namespace mesamis {
@@ -35,11 +35,10 @@ std::string say(const Part&... parts) {
   throw InputError(say("expected ", forms_of(setting), ", found '", text, "'"));
 }
 
-/// A number in any of the usual spellings: 5, +5, .5, 5e3.
 bool read_number(std::string_view text, double& value) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && stop == text.data() + text.size() && std::isfinite(value);
+  const auto number = written_number(text);
+  value = number.value_or(0);
+  return number.has_value();
 }
 
 std::vector<std::string_view> split(std::string_view text, char mark) {
@@ -74,12 +73,6 @@ bool read_numbers(const Setting& setting, std::string_view text, Numbers& number
 }
 
 bool is_switch(const Setting& setting) { return setting.count == 0 && setting.words.empty(); }
-
-std::string number_text(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return {text, end};
-}
 
 void check_number(const Setting& setting, double number) {
   if (setting.whole && number != std::floor(number)) {

@@ -13,8 +13,14 @@ set(ROOM_HEADERS
   printable.h
   setting_table.h
   settings.h)
+# For the rooms above alone: not installed.
+set(ROOM_INNER_HEADERS
+  deliver.h
+  loop.h
+  passes.h)
 set(ROOM_SOURCES
   chosen_run.cpp
+  deliver.cpp
   expected_error.cpp
   follow_image.cpp
   follow_partition.cpp

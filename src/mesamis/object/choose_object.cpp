@@ -50,6 +50,10 @@ double value_around(const VolumeView& volume, const VoxelMask& grown) {
   return values.empty() ? sample_range(volume.samples).first : median(values);
 }
 
+[[noreturn]] void refuse_without_body() {
+  throw InputError("remove: expected a patient's body in a CT scan, found none");
+}
+
 /// The steps of choose_object().
 class Choice {
  public:
@@ -100,9 +104,7 @@ class Choice {
     if (request_.surroundings == SurroundingsRule::kKeep) return;
     const bool asked = request_.surroundings == SurroundingsRule::kRemove;
     body_ = find_body(chosen_.volume);
-    if (!body_ && asked) {
-      throw InputError("remove: expected a patient's body in a CT scan, found none");
-    }
+    if (!body_ && asked) refuse_without_body();
     if (!body_ || body_->removed.empty()) return;
     chosen_.volume = without_surroundings(std::move(chosen_.volume), *body_);
     chosen_.removed = body_->removed;
@@ -270,18 +272,39 @@ ChosenObject choose_object(Volume scan, const ObjectRequest& request) {
   return Choice(std::move(scan), request).run();
 }
 
+std::optional<ChosenObject> choose_in_place(const VolumeView& scan, const ObjectRequest& request) {
+  const bool asked = request.tissue || request.remove || request.mask || !request.seeds.empty();
+  if (asked || !(request.crop == CropRange{}) || find_padding(scan)) return std::nullopt;
+  if (request.surroundings != SurroundingsRule::kKeep) {
+    const std::optional<Body> body = find_body(scan);
+    if (body && !body->removed.empty()) return std::nullopt;
+    if (!body && request.surroundings == SurroundingsRule::kRemove) refuse_without_body();
+  }
+  ChosenObject chosen;
+  static_cast<VoxelGrid&>(chosen.volume) = scan;
+  if (is_hounsfield(scan)) chosen.volume.modality = "CT";
+  chosen.level = request.level;
+  if (request.level) chosen.level_from = LevelSource::kUser;
+  return chosen;
+}
+
 std::vector<std::string> surface_warnings(const ChosenObject& object, double level) {
+  return surface_warnings(object, object.volume, level);
+}
+
+std::vector<std::string> surface_warnings(const ChosenObject& object, const VolumeView& image,
+                                          double level) {
   constexpr double kMostAtBorder = 0.05;
   const double in_image = object.kind == TissueKind::kDark ? mirrored(level) : level;
   std::vector<std::string> warnings;
   const bool guessed = object.tissue.empty() && object.level_from != LevelSource::kUser;
-  if (guessed && surface_at_level(object.volume, in_image) == "skin") {
+  if (guessed && surface_at_level(image, in_image) == "skin") {
     warnings.push_back(
         line("surface: the level %.4g HU is likely that of the skin; --tissue says what is meant",
              level));
   }
   if (object.unmeasured.empty()) return warnings;
-  const double share = share_at_border(object.volume, object.unmeasured, in_image);
+  const double share = share_at_border(image, object.unmeasured, in_image);
   if (share > kMostAtBorder) {
     warnings.push_back(
         line("surface: %.0f %% of it is likely the border of the padding, where the "

@@ -94,6 +94,16 @@ struct ChosenObject {
 /// bytes per voxel that find_body() looks at.
 ChosenObject choose_object(Volume scan, const ObjectRequest& request);
 
+/// Finds out whether choose_object() would leave a scan's samples as they are, so that the scan can
+/// be read in place.
+/// @param scan  usable, see require_usable().
+/// @return what choose_object() returns, but for a volume without samples; nothing where it would
+///         change or crop them, or is asked to look for more than a level.
+/// @throws InputError  as choose_object().
+///
+/// O(voxels); no copy of the samples.
+std::optional<ChosenObject> choose_in_place(const VolumeView& scan, const ObjectRequest& request);
+
 /// Says in words what a surface may show instead of what was meant: the skin, where neither tissue
 /// nor level were given, or the border of what the scanner measured.
 /// @param level  of the surface, units of the scan, as run_on_object() tells it.
@@ -102,5 +112,12 @@ ChosenObject choose_object(Volume scan, const ObjectRequest& request);
 ///
 /// O(voxels).
 std::vector<std::string> surface_warnings(const ChosenObject& object, double level);
+
+/// The same where the samples of the object's image lie elsewhere, see choose_in_place().
+/// @throws nothing
+///
+/// O(voxels).
+std::vector<std::string> surface_warnings(const ChosenObject& object, const VolumeView& image,
+                                          double level);
 
 }  // namespace mesamis

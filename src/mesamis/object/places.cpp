@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mesamis/base/error.h"
-#include "mesamis/object/written.h"
+#include "mesamis/base/written_number.h"
 
 namespace mesamis {
 namespace {

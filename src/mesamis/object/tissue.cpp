@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "mesamis/base/error.h"
-#include "mesamis/object/written.h"
+#include "mesamis/base/written_number.h"
 
 namespace mesamis {
 namespace {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/phantom/degrade.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <sstream>
 
@@ -45,17 +47,20 @@ class Random {
   std::uint64_t key_;
 };
 
-void add_noise(Volume& volume, const DegradeOptions& options) {
+/// @param first  the place of the first sample in the whole image.
+void add_noise(std::vector<float>& samples, std::size_t first, const DegradeOptions& options) {
+  if (options.speckle <= 0 && options.noise <= 0 && options.salt_pepper <= 0) return;
   const Random speckle(options.seed, Purpose::kSpeckle), noise(options.seed, Purpose::kNoise);
   const Random salt_pepper(options.seed, Purpose::kSaltPepper);
-  parallel_for(volume.samples.size(), [&](std::size_t n) {
-    double value = volume.samples[n];
+  parallel_for(samples.size(), [&](std::size_t i) {
+    const std::size_t n = first + i;
+    double value = samples[i];
     if (options.speckle > 0) value += value * options.speckle * speckle.normal(n);
     if (options.noise > 0) value += options.noise * noise.normal(n);
     if (options.salt_pepper > 0 && salt_pepper.uniform(n) < options.salt_pepper) {
       value = salt_pepper.uniform(n, 1) < 0.5 ? options.pepper : options.salt;
     }
-    volume.samples[n] = static_cast<float>(value);
+    samples[i] = static_cast<float>(value);
   });
 }
 
@@ -82,10 +87,30 @@ void require_valid(const DegradeOptions& options) {
 Volume degrade(Volume volume, const DegradeOptions& options) {
   require_valid(options);
   volume = gaussian_smoothed(std::move(volume), options.blur);
-  if (options.speckle > 0 || options.noise > 0 || options.salt_pepper > 0) {
-    add_noise(volume, options);
-  }
+  add_noise(volume.samples, 0, options);
   return volume;
+}
+
+DegradedSlices::DegradedSlices(const SliceSource& sharp, const DegradeOptions& options)
+    : sharp_(sharp), options_(options) {
+  require_valid(options);
+}
+
+std::vector<float> DegradedSlices::read(Index first, Index count) const {
+  const Index reach = gaussian_reach(options_.blur);
+  const Index begin = std::max(first - reach, 0);
+  const Index end = std::min(first + count + reach, grid().size[2]);
+  Volume slab = gaussian_smoothed(read_slab(sharp_, begin, end - begin), options_.blur);
+  std::vector<float>& samples = slab.samples;
+  samples.erase(samples.begin(),
+                samples.begin() + static_cast<std::ptrdiff_t>(grid().offset(0, 0, first - begin)));
+  samples.resize(grid().offset(0, 0, count));
+  add_noise(samples, grid().offset(0, 0, first), options_);
+  return std::move(samples);
+}
+
+Index DegradedSlices::slab() const {
+  return slab_slices(grid(), 2 * gaussian_reach(options_.blur));
 }
 
 }  // namespace mesamis

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "mesamis/image/slice_source.h"
 #include "mesamis/image/volume.h"
 
 namespace mesamis {
@@ -31,5 +32,24 @@ void require_valid(const DegradeOptions& options);
 /// @throws InputError  as require_valid().
 /// O(voxels blur).
 Volume degrade(Volume volume, const DegradeOptions& options);
+
+/// A degraded image, made a few slices at a time: to the bit those of degrade().
+class DegradedSlices : public SliceSource {
+ public:
+  /// @param sharp  the image; must live as long as this object.
+  /// @throws InputError  as require_valid().
+  DegradedSlices(const SliceSource& sharp, const DegradeOptions& options);
+  DegradedSlices(const SliceSource&& sharp, const DegradeOptions& options) = delete;
+  const VoxelGrid& grid() const override { return sharp_.grid(); }
+  /// Reads the slices that the blur reaches on both sides, too: these are the cost of slabs.
+  std::vector<float> read(Index first, Index count) const override;
+  /// How many slices are worth reading at once, see slab_slices(). O(1).
+  /// @throws nothing
+  Index slab() const;
+
+ private:
+  const SliceSource& sharp_;
+  DegradeOptions options_;
+};
 
 }  // namespace mesamis

@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t kBlockBricks = 8;  // bricks per direction that are decided at once
 constexpr int kPasses = 16;
+constexpr int kSparingPasses = 8;     // that cut no more than they must
 constexpr double kGradientMin = 0.2;  // a promise of the field
 
 /// A parameter and the function's value there.
@@ -220,10 +221,16 @@ struct Cut {
 /// One pass of cuts over a surface.
 class Refinement {
  public:
-  /// @param is_new  1 for each triangle that no pass has looked at.
+  /// @param is_new   1 for each triangle that no pass has looked at.
+  /// @param sparing  false: all sides of a triangle are cut if one is. Else slivers between points
+  ///                 in one line may make each other again, pass after pass.
   Refinement(TriMesh& surface, std::vector<char>& is_new, const ImplicitField& inside,
-             double tolerance)
-      : surface_(surface), is_new_(is_new), inside_(inside), tolerance_(tolerance) {}
+             double tolerance, bool sparing)
+      : surface_(surface),
+        is_new_(is_new),
+        inside_(inside),
+        tolerance_(tolerance),
+        sparing_(sparing) {}
 
   /// @return whether anything was cut.
   bool run() {
@@ -235,6 +242,7 @@ class Refinement {
       marked[e] = edge.is_new && is_far(0.5 * (point(edge.lo) + point(edge.hi)));
     });
     mark_longest_sides(marked);
+    if (!sparing_) mark_all_sides(marked);
     const std::size_t before = surface_.points.size();
     add_points(marked);
     if (surface_.points.size() == before) return false;
@@ -292,6 +300,15 @@ class Refinement {
     }
   }
 
+  /// Of triangles that have a marked side.
+  void mark_all_sides(std::vector<char>& marked) const {
+    const std::vector<char> before = marked;
+    for (std::size_t side = 0; side < edge_of_.size(); ++side) {
+      if (before[edge_of_[side]] == 0) continue;
+      for (std::size_t i = 0; i < 3; ++i) marked[edge_of_[side / 3 * 3 + i]] = 1;
+    }
+  }
+
   void add_points(const std::vector<char>& marked) {
     std::vector<std::size_t> chosen;
     for (std::size_t e = 0; e < marked.size(); ++e) {
@@ -346,6 +363,7 @@ class Refinement {
   std::vector<char>& is_new_;
   const ImplicitField& inside_;
   double tolerance_;
+  bool sparing_;
   std::vector<Cut> edges_;
   std::vector<std::size_t> edge_of_;  // of side 3 t + i
 };
@@ -411,7 +429,8 @@ TriMesh extract_implicit(const GridLines& lines, const ImplicitField& inside, do
   TriMesh surface = extract_on_grid(lines, inside);
   std::vector<char> is_new(surface.triangles.size(), 1);
   for (int pass = 0; pass < kPasses; ++pass) {
-    if (!Refinement(surface, is_new, inside, tolerance).run()) break;
+    const bool sparing = pass < kSparingPasses;
+    if (!Refinement(surface, is_new, inside, tolerance, sparing).run()) break;
   }
   return surface;
 }

@@ -24,19 +24,16 @@ const PhantomDesign& design_called(std::string_view name) {
 }
 
 void require_grid(const std::array<Index, 3>& size, const Vec3& spacing) {
-  double voxels = 1;
   for (int a = 0; a < 3; ++a) {
     const Index n = size[static_cast<std::size_t>(a)];
     if (n < kPhantomSizeMin || n > kSizeMax) {
       throw InputError("size: expected " + std::to_string(kPhantomSizeMin) + " to " +
                        std::to_string(kSizeMax) + " voxels, found " + std::to_string(n));
     }
-    voxels *= n;
     if (!(spacing[a] >= 1e-6 && spacing[a] <= 1e6)) {
       throw InputError("spacing: expected 1e-6 to 1e6 mm, found " + std::to_string(spacing[a]));
     }
   }
-  if (voxels >= 0x1p31) throw InputError("size: expected less than 2^31 voxels in all");
 }
 
 /// From lo to hi in steps of at most `step`, evenly; hi is left out.
@@ -80,23 +77,30 @@ Placement placement_of(const PhantomDesign& design, const std::array<Index, 3>& 
   return placement;
 }
 
+/// Samples of the slices [first, end) of a grid.
+struct Slab {
+  Index first, end;
+  std::vector<float>& samples;
+};
+
 /// Samples the voxels of one brick.
 class Sampler {
  public:
-  Sampler(const Phantom& phantom, int samples, Volume& volume)
-      : phantom_(phantom), samples_(samples), volume_(volume) {}
+  Sampler(const Phantom& phantom, int samples, const VoxelGrid& grid)
+      : phantom_(phantom), samples_(samples), grid_(grid) {}
 
-  void fill(const std::array<Index, 3>& begin) const {
+  /// Fills what the slab has of a brick. The brick is decided as a whole: the slab changes nothing.
+  void fill(const std::array<Index, 3>& begin, Slab& slab) const {
     std::array<Index, 3> end;
-    for (std::size_t a = 0; a < 3; ++a) end[a] = std::min(begin[a] + kBrick, volume_.size[a]);
+    for (std::size_t a = 0; a < 3; ++a) end[a] = std::min(begin[a] + kBrick, grid_.size[a]);
     const Vec3 first = center(begin), last = center({end[0] - 1, end[1] - 1, end[2] - 1});
-    const double reach = 0.5 * norm(last - first + volume_.spacing);
+    const double reach = 0.5 * norm(last - first + grid_.spacing);
     const bool is_outside = phantom_.inside(0.5 * (first + last)) < -reach;
-    for (Index k = begin[2]; k < end[2]; ++k) {
+    for (Index k = std::max(begin[2], slab.first); k < std::min(end[2], slab.end); ++k) {
       for (Index j = begin[1]; j < end[1]; ++j) {
         for (Index i = begin[0]; i < end[0]; ++i) {
           const double value = is_outside ? phantom_.background : voxel(center({i, j, k}));
-          volume_.samples[volume_.offset(i, j, k)] = static_cast<float>(value);
+          slab.samples[grid_.offset(i, j, k - slab.first)] = static_cast<float>(value);
         }
       }
     }
@@ -104,8 +108,8 @@ class Sampler {
 
  private:
   Vec3 center(const std::array<Index, 3>& v) const {
-    const Vec3& s = volume_.spacing;
-    return volume_.origin + Vec3{v[0] * s.x, v[1] * s.y, v[2] * s.z};
+    const Vec3& s = grid_.spacing;
+    return grid_.origin + Vec3{v[0] * s.x, v[1] * s.y, v[2] * s.z};
   }
 
   double value(const Vec3& p) const {
@@ -115,7 +119,7 @@ class Sampler {
 
   /// `inside` is 1-Lipschitz: what is further from zero than a corner is from the centre decides.
   double voxel(const Vec3& p) const {
-    const double depth = phantom_.inside(p), reach = 0.5 * norm(volume_.spacing);
+    const double depth = phantom_.inside(p), reach = 0.5 * norm(grid_.spacing);
     if (depth < -reach) return phantom_.background;
     if (depth > reach + phantom_.constant_below) return phantom_.grey(p, depth);
     return mean(p);
@@ -125,7 +129,7 @@ class Sampler {
     const auto offset = [this](int i, double spacing) {
       return ((i + 0.5) / samples_ - 0.5) * spacing;
     };
-    const Vec3& s = volume_.spacing;
+    const Vec3& s = grid_.spacing;
     double sum = 0;
     for (int k = 0; k < samples_; ++k) {
       for (int j = 0; j < samples_; ++j) {
@@ -139,7 +143,7 @@ class Sampler {
 
   const Phantom& phantom_;
   int samples_;
-  Volume& volume_;
+  const VoxelGrid& grid_;
 };
 
 }  // namespace
@@ -176,25 +180,39 @@ Phantom make_phantom(std::string_view name, const std::array<Index, 3>& size, co
 }
 
 Volume sample_phantom(const Phantom& phantom, int samples) {
+  const PhantomSlices slices(phantom, samples);
+  if (slices.grid().voxel_count() >= std::size_t{1} << 31) {
+    throw InputError("size: expected less than 2^31 voxels in memory at once, found " +
+                     std::to_string(slices.grid().voxel_count()));
+  }
+  return read_slab(slices, 0, phantom.size[2]);
+}
+
+PhantomSlices::PhantomSlices(Phantom phantom, int samples)
+    : phantom_(std::move(phantom)),
+      samples_(samples),
+      grid_{.size = phantom_.size, .spacing = phantom_.spacing, .origin = 0.5 * phantom_.spacing} {
   if (samples < 1 || samples > kSamplesMax) {
     throw InputError("samples: expected 1 to " + std::to_string(kSamplesMax) + ", found " +
                      std::to_string(samples));
   }
-  Volume volume;
-  volume.size = phantom.size;
-  volume.spacing = phantom.spacing;
-  volume.origin = 0.5 * phantom.spacing;
-  volume.samples.resize(volume.voxel_count());
-  const Sampler sampler(phantom, samples, volume);
-  const auto bricks = [&volume](std::size_t a) { return (volume.size[a] + kBrick - 1) / kBrick; };
-  parallel_for_each(static_cast<std::size_t>(bricks(2)), [&](std::size_t k) {
-    for (Index j = 0; j < bricks(1); ++j) {
-      for (Index i = 0; i < bricks(0); ++i) {
-        sampler.fill({i * kBrick, j * kBrick, static_cast<Index>(k) * kBrick});
-      }
+}
+
+std::vector<float> PhantomSlices::read(Index first, Index count) const {
+  std::vector<float> samples(grid_.offset(0, 0, count));
+  const Sampler sampler(phantom_, samples_, grid_);
+  Slab slab{first, first + count, samples};
+  const auto bricks = [this](std::size_t a) { return (grid_.size[a] + kBrick - 1) / kBrick; };
+  const auto rows = static_cast<std::size_t>(bricks(1));
+  const Index layer = first / kBrick;
+  const auto layers = static_cast<std::size_t>((slab.end + kBrick - 1) / kBrick - layer);
+  parallel_for_each(layers * rows, [&](std::size_t n) {
+    const auto j = static_cast<Index>(n % rows), k = layer + static_cast<Index>(n / rows);
+    for (Index i = 0; i < bricks(0); ++i) {
+      sampler.fill({i * kBrick, j * kBrick, k * kBrick}, slab);
     }
   });
-  return volume;
+  return samples;
 }
 
 }  // namespace mesamis

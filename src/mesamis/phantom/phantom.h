@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mesamis/image/slice_source.h"
 #include "mesamis/image/volume.h"
 
 /// Phantoms: synthetic scans whose surface is known. Each is an implicit function, sampled.
@@ -49,7 +50,7 @@ inline constexpr Index kPhantomSizeMin = 8;
 
 /// Makes a phantom in a box.
 /// @param name     one of phantom_list().
-/// @param size     kPhantomSizeMin to 4096 voxels each, less than 2^31 in all; {0, 0, 0}: its own.
+/// @param size     kPhantomSizeMin to 4096 voxels each; {0, 0, 0}: its own.
 /// @param spacing  mm, positive.
 /// @throws InputError  for anything else.
 /// O(1); nothing is sampled yet.
@@ -61,8 +62,25 @@ Phantom make_phantom(std::string_view name, const std::array<Index, 3>& size = {
 /// has its centre at half the spacing; the axes are those of the world.
 /// @param samples  points per voxel and axis, 1 to 16.
 /// @return grey values. The same bits for any number of threads.
-/// @throws InputError  if samples is out of range.
+/// @throws InputError  if samples is out of range, or there are 2^31 voxels or more: see
+///                     PhantomSlices.
 /// O(voxels), and samples^3 per voxel at the surface.
 Volume sample_phantom(const Phantom& phantom, int samples = 4);
+
+/// A phantom that is sampled a few slices at a time, for volumes larger than the memory: to the bit
+/// the slices of sample_phantom().
+class PhantomSlices : public SliceSource {
+ public:
+  /// @param samples  points per voxel and axis, 1 to 16.
+  /// @throws InputError  if samples is out of range.
+  explicit PhantomSlices(Phantom phantom, int samples = 4);
+  const VoxelGrid& grid() const override { return grid_; }
+  std::vector<float> read(Index first, Index count) const override;
+
+ private:
+  Phantom phantom_;
+  int samples_;
+  VoxelGrid grid_;
+};
 
 }  // namespace mesamis

@@ -3,7 +3,7 @@
 
 #include <charconv>
 
-#include "mesamis/files/xml.h"
+#include "mesamis/files/xml_text.h"
 
 namespace mesamis::detail {
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/record/body_json.h"
 
+#include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
+
+#include "mesamis/record/json_file.h"
 
 namespace mesamis {
 namespace {
@@ -15,6 +19,18 @@ ordered_json quality_json(const ElementQuality& quality) {
           {"share_above_15_deg", quality.share_above_15_deg},
           {"scaled_jacobian_min", quality.scaled_jacobian_min},
           {"share_scaled_jacobian_above_0.2", quality.share_jacobian_above}};
+}
+
+/// JSON has no infinity: null where an object has no element.
+ordered_json finite(double value) { return std::isfinite(value) ? ordered_json(value) : nullptr; }
+
+ordered_json fit_json(const MeshedBody& facts) {
+  return {{"skin_to_surface_mm", finite(facts.fit.skin_to_surface)},
+          {"surface_to_skin_mm", finite(facts.fit.surface_to_skin)},
+          {"volume_ratio", facts.fit.volume_ratio},
+          {"elements_of_skin_only", facts.fit.elements_of_skin_only},
+          {"least_size_mm", facts.least_size},
+          {"narrow_area_share", facts.narrow_share}};
 }
 
 ordered_json parts_json(const FiniteElements& elements) {
@@ -45,6 +61,7 @@ ordered_json material_json(const BodyOutput& body) {
           {"density", density_name(report.density)},
           {"density_g_cm3_at_0", report.calibration.offset},
           {"density_g_cm3_per_unit", report.calibration.slope},
+          {"rim_mm", vec_json(body.rim)},
           {"bins", body.elements.materials.size()},
           {"share_below_density_min", report.share_below_min},
           {"share_above_density_max", report.share_above_max},
@@ -65,10 +82,14 @@ nlohmann::ordered_json body_json(const BodyOutput& body) {
   json.update(quality_json(facts.quality));
   json["components"] = facts.parts;
   json["components_dropped"] = facts.parts_dropped;
+  json["fit"] = fit_json(facts);
   json["straight_skin_edges"] = facts.middles.straight;
   json["parts"] = parts_json(body.elements);
   json["sets"] = sets_json(body.elements);
   json["material"] = material_json(body);
+  const std::string missed = unmet(body);
+  json["kept"] = missed.empty();
+  json["unmet"] = missed;
   json["seconds"] = facts.seconds.total;
   return json;
 }

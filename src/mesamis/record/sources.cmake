@@ -4,10 +4,13 @@ set(ROOM_HEADERS
   comparison_json.h
   json_file.h
   label_report.h
+  label_surface_files.h
+  meshing_json.h
   object_report.h
   remesh_json.h
   report.h
   run_summary.h
+  run_surface.h
   settings_json.h
   verdict.h)
 set(ROOM_SOURCES
@@ -15,9 +18,12 @@ set(ROOM_SOURCES
   comparison_json.cpp
   json_file.cpp
   label_report.cpp
+  label_surface_files.cpp
+  meshing_json.cpp
   object_report.cpp
   remesh_json.cpp
   report.cpp
   run_summary.cpp
+  run_surface.cpp
   settings_json.cpp
   verdict.cpp)

@@ -20,12 +20,13 @@ struct BodyMesh {
 
 /// Builds a mesh of the objects of a shape, whose edges have length one in the metric.
 ///
-/// The start mesh is cut: an edge between two materials is split where it crosses the border, and
-/// the cells outside are dropped. Then the operations of remesh() work on what is left. The skin
-/// stays a boundary: its vertices move along it only, its edges are split on it, collapsed along it
-/// where the link condition holds, and turned where the new triangles are as near to the border.
-/// Where the skin meets a plane of the box it stays in both. Every cell is certified positive at
-/// any time.
+/// The start mesh is cut: an edge between two materials is split where it crosses the border, also
+/// where it passes through a wall or gap that is thinner than the cells. Then the operations of
+/// remesh() work on all of it. The skin stays a boundary: its vertices move along it only, its
+/// edges are split on it, collapsed along it where the link condition holds, and turned where the
+/// new triangles are as near to the border. Where the skin meets a plane of the box it stays in
+/// both. Every cell is certified positive at any time, and the cells outside stay until the end:
+/// the skin cannot pass through itself.
 ///
 /// @param start   a valid mesh of a box around the objects, mm, whose edges have about the length
 ///                that is wanted: of remesh() with the same metric.

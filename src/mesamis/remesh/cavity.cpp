@@ -105,21 +105,6 @@ void Cavity::replace(std::span<const Index> old_cells) {
     write_cell(i < old_cells.size() ? old_cells[i] : mesh_.new_cell(), proposed_[i]);
   }
   for (std::size_t i = proposed_.size(); i < old_cells.size(); ++i) mesh_.free_cell(old_cells[i]);
-  if (mesh_.shape != nullptr) leave_skin_behind();
-}
-
-/// Faces towards cells that went without another in their place are skin from now on.
-void Cavity::leave_skin_behind() {
-  for (const FaceRef face : outer_faces_) {
-    WorkCell& cell = mesh_.cells[cell_of(face)];
-    if (face_slot(cell.points, face_of(face)).matched) continue;
-    cell.neighbors[face_of(face)] = kNoIndex;
-    cell.pending = kToAll;
-    cell.tried = 0;
-    for (const Index p : cell.points) {
-      if (p != cell.points[face_of(face)]) mesh_.vertices[p].cell = cell_of(face);
-    }
-  }
 }
 
 std::uint32_t Cavity::next_mark() {
@@ -152,21 +137,19 @@ Cavity::FaceSlot& Cavity::face_slot(const Cell& cell, int face) {
   const std::size_t last = faces_.size() - 1;
   std::size_t i = hash(key) & last;
   while (faces_[i].epoch == faces_epoch_ && !is_same(faces_[i].key, key)) i = (i + 1) & last;
-  if (faces_[i].epoch != faces_epoch_) faces_[i] = {key, kNoIndex, faces_epoch_, false};
+  if (faces_[i].epoch != faces_epoch_) faces_[i] = {key, kNoIndex, faces_epoch_};
   return faces_[i];
 }
 
 void Cavity::collect_outer_faces(std::span<const Index> old_cells) {
   const std::uint32_t mark = next_mark();
   for (const Index c : old_cells) mesh_.cells[c].mark = mark;
-  outer_faces_.clear();
   for (const Index c : old_cells) {
     const WorkCell& cell = mesh_.cells[c];
     for (int f = 0; f < 4; ++f) {
       const FaceRef n = cell.neighbors[f];
       if (n == kNoIndex || mesh_.cells[cell_of(n)].mark == mark) continue;
       face_slot(cell.points, f).face = n;
-      if (mesh_.shape != nullptr) outer_faces_.push_back(n);
     }
   }
 }
@@ -185,7 +168,6 @@ void Cavity::write_cell(Index id, const Proposal& proposal) {
       slot.face = face_ref(id, f);
     } else {
       mesh_.cells[cell_of(slot.face)].neighbors[face_of(slot.face)] = face_ref(id, f);
-      slot.matched = true;
     }
     Vertex& vertex = mesh_.vertices[proposal.points[f]];
     vertex.cell = id;

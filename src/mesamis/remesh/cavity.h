@@ -46,8 +46,7 @@ class Cavity {
   }
   std::span<const Proposal> proposed() const { return proposed_; }
 
-  /// Puts the proposed cells in the place of the old ones, which fill the same space; of a body
-  /// also less or more, where the old ones had faces on its skin.
+  /// Puts the proposed cells in the place of the old ones, which fill the same space.
   void replace(std::span<const Index> old_cells);
 
  private:
@@ -55,7 +54,6 @@ class Cavity {
     std::array<Index, 3> key{};
     FaceRef face = kNoIndex;
     std::uint32_t epoch = 0;
-    bool matched = false;  ///< a proposed cell has the face of a cell outside
   };
 
   /// The shell from `first` to the box or round to it again.
@@ -65,7 +63,6 @@ class Cavity {
   FaceSlot& face_slot(const Cell& cell, int face);
   void collect_outer_faces(std::span<const Index> old_cells);
   void write_cell(Index cell, const Proposal& proposal);
-  void leave_skin_behind();
 
   WorkingMesh& mesh_;
   std::uint32_t mark_ = 0;
@@ -75,7 +72,6 @@ class Cavity {
   std::size_t shell_size_ = 0, ring_size_ = 0;
   std::vector<Proposal> proposed_;
   std::vector<FaceSlot> faces_;
-  std::vector<FaceRef> outer_faces_;  ///< of a body: of the cells outside the cavity
   std::uint32_t faces_epoch_ = 0;
 };
 

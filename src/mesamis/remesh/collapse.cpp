@@ -35,8 +35,7 @@ bool propose_moved(Workbench& bench, std::span<const Index> ball, std::array<Ind
     if (q < quality3_min) return false;
     bench.cavity.propose(moved, q, bench.mesh.cells[c].material);
   }
-  // A corner of a body may vanish with its cells: the skin then passes over it.
-  return !bench.cavity.proposed().empty() || (bench.mesh.vertices[move[0]].mask & kOnSkin);
+  return !bench.cavity.proposed().empty();
 }
 
 CollapseRule balanced(CollapseRule rule, double length) {
@@ -65,22 +64,22 @@ Index collapse_edge(Workbench& bench, const EdgeCandidate& edge, const CollapseR
 }  // namespace
 
 bool propose_collapse(Workbench& bench, std::span<const Index> ball, std::array<Index, 2> move,
-                      double quality3_min) {
-  const Vertex &vertex = bench.mesh.vertices[move[0]], &onto = bench.mesh.vertices[move[1]];
-  if (!may_move(vertex, onto) || !propose_moved(bench, ball, move, quality3_min)) return false;
+                      const CollapseLimits& limits) {
+  const auto& vertices = bench.mesh.vertices;
+  if (!may_move(vertices[move[0]], vertices[move[1]])) return false;
+  if (!propose_moved(bench, ball, move, limits.quality3_min)) return false;
+  if (!keeps_edges_short(bench, move[1], limits.new_length_max)) return false;
   return bench.mesh.shape == nullptr || may_collapse_in_body(bench, ball, move[0], move[1]);
 }
 
 bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseRule& rule) {
   WorkingMesh& mesh = bench.mesh;
-  if (!may_move(mesh.vertices[vertex], mesh.vertices[onto])) return false;
+  if (!may_move(mesh.vertices[vertex], mesh.vertices[onto])) return false;  // spares the ball
   const auto ball = bench.cavity.ball(vertex);
   if (ball.empty()) return false;
   const double loss_limit = rule.quality3_loss * worst_quality3(mesh, ball);
   const double limit = std::min(rule.quality3_min, std::max(loss_limit, kTinyQuality3));
-  if (!propose_moved(bench, ball, {vertex, onto}, limit)) return false;
-  if (!keeps_edges_short(bench, onto, rule.new_length_max)) return false;
-  if (mesh.shape != nullptr && !may_collapse_in_body(bench, ball, vertex, onto)) return false;
+  if (!propose_collapse(bench, ball, {vertex, onto}, {limit, rule.new_length_max})) return false;
   bench.cavity.replace(ball);
   mesh.free_vertex(vertex);
   return true;

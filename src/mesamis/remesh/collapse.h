@@ -22,11 +22,18 @@ struct CollapseRule {
 /// @return the number of collapses.
 std::int64_t collapse_short_edges(Workbench& bench, const CollapseRule& rule);
 
-/// Proposes the cells around a vertex with `onto` in its place, if they are valid, fit the body's
-/// skin, and are no worse than a bound.
+/// What the cells of a collapse must keep.
+struct CollapseLimits {
+  double quality3_min;    ///< no cell is worse
+  double new_length_max;  ///< no new edge is longer
+};
+
+/// Proposes the cells around a vertex with its neighbour in its place, if they are valid, within
+/// the limits, and fit the body's skin.
 /// @param ball  the cells around the vertex.
+/// @param move  the vertex, and the neighbour.
 bool propose_collapse(Workbench& bench, std::span<const Index> ball, std::array<Index, 2> move,
-                      double quality3_min);
+                      const CollapseLimits& limits);
 
 /// Moves a vertex onto a neighbour, which takes its place, if the rule allows.
 bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseRule& rule);

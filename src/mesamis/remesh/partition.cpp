@@ -260,10 +260,10 @@ void match_border(WorkingMesh& mesh, const std::vector<Part>& parts) {
   });
   for (std::size_t i = 0; i < faces.size(); i += 2) {
     if (i + 1 == faces.size() || faces[i].points != faces[i + 1].points) {
-      if (mesh.shape == nullptr) {
+      if (mesh.shape == nullptr && !mesh.is_part) {
         throw NumericalError("remesh: the parts of the mesh do not fit together");
       }
-      --i;  // the skin of a body has one side only
+      --i;  // the skin of a body and the border of a piece have one side only
       continue;
     }
     const FaceRef a = faces[i].face, b = faces[i + 1].face;

@@ -5,9 +5,14 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/stopwatch.h"
+#include "mesamis/remesh/explore.h"
 #include "mesamis/remesh/remesher.h"
 
 namespace mesamis {
+
+double predicted_cells(const MetricField& metric, const Box& box) {
+  return kCellsPerComplexity * remeshing::probe_complexity({metric, box}, box);
+}
 
 TetMesh remesh(const TetMesh& start, const MetricField& metric, const RemeshOptions& options,
                RemeshReport* report) {

@@ -21,6 +21,9 @@ struct RemeshOptions {
   /// For a mesh that only leads to the next one: the rounds have converged as soon as fewer than a
   /// fifth of the vertices are inserted or removed, and one polish round follows at most.
   bool draft = false;
+  /// Of remesh_body(): vertices of the skin leave the border within the tolerance, so that the
+  /// body's volume is kept.
+  bool balanced = false;
   Index part_cells = 40000;  ///< cells per part of the parallel schedule
   Progress progress;         ///< optional
 };
@@ -37,6 +40,15 @@ struct RemeshReport {
   /// between the rounds, mostly in one thread.
   std::vector<std::vector<double>> part_seconds;
 };
+
+/// About how many cells remesh() makes of a box: the complexity of the metric, sampled at 2^18
+/// places, times kCellsPerComplexity.
+/// @param metric  in 1/mm^2, defined on the whole box; called in threads.
+/// @param box     mm.
+/// @throws nothing
+///
+/// O(1) look-ups. The same bits for any number of threads.
+double predicted_cells(const MetricField& metric, const Box& box);
 
 /// Builds a mesh of the start mesh's box whose edges have length one in the metric.
 ///

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/written_number.h"
+#include "mesamis/remesh/balance.h"
 #include "mesamis/remesh/collapse.h"
 #include "mesamis/remesh/explore.h"
 #include "mesamis/remesh/partition.h"
@@ -126,6 +128,16 @@ void Remesher::repair() {
   count(repair_shapes(bench, {}));
 }
 
+// Twice: vertices at the borders of the parts of the first round, and what their neighbours' moves
+// changed.
+void Remesher::balance() {
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds; ++round) {
+    count(on_parts(options_.max_rounds + options_.polish_rounds + round,
+                   [](Workbench& bench) { return balance_skin(bench, {}); }));
+  }
+}
+
 WorkingMesh& Remesher::result() {
   compact(mesh_);
   return mesh_;
@@ -233,14 +245,16 @@ void Remesher::keep_compact() {
 }
 
 void Remesher::choose_size_factor() {
-  if (mesh_.shape != nullptr) return;  // the start says how many there will be
+  // The start of a body says how many there will be; of a piece's metric only a part is known.
+  if (mesh_.shape != nullptr || mesh_.is_part) return;
   const double predicted = kFewestCellsPerComplexity * probe_complexity(sampler_, mesh_.box);
   if (options_.max_cells > 0) {
     const double ratio = predicted / static_cast<double>(options_.max_cells);
     set_size_factor(std::max(1.0, std::cbrt(ratio)));
   } else if (!(predicted < 0.5 * static_cast<double>(kMostCells))) {
-    throw InputError("remesh: the metric asks for about " + std::to_string(predicted) +
-                     " cells, more than fit; expected max_cells to be set");
+    throw InputError("remesh: expected a metric of less than " + number_text(0.5 * kMostCells) +
+                     " cells, or a limit of cells, found one of about " +
+                     number_text(std::round(predicted)));
   }
 }
 

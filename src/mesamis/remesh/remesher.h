@@ -22,7 +22,7 @@ enum class Bands {
 /// The rounds of remesh() and remesh_body(): they adapt a mesh to a metric, then polish it.
 class Remesher {
  public:
-  /// @param mesh     valid; of a body, without the cells outside.
+  /// @param mesh     valid; of a body, cut along its border.
   /// @param sampler  its size factor may be set here.
   /// @param options  are referred to.
   /// @throws InputError  if the metric asks for more cells than fit and max_cells is not set.
@@ -32,6 +32,8 @@ class Remesher {
   void polish();
   /// Works on the shapes of the worst cells, whatever the metric.
   void repair();
+  /// Balances the skin of a body around its border.
+  void balance();
   /// The mesh, without unused slots.
   WorkingMesh& result();
   const RemeshReport& report() const { return report_; }

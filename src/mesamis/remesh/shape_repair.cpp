@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "mesamis/base/parallel.h"
-#include "mesamis/mesh/element_quality.h"
+#include "mesamis/remesh/body_shape.h"
 #include "mesamis/remesh/collapse.h"
 #include "mesamis/remesh/geometry.h"
 #include "mesamis/remesh/skin.h"
@@ -50,37 +50,26 @@ class ShapeRepair {
     Index cell;
   };
 
-  /// 1 where the rule is just kept, less where it is not.
-  double score(const std::array<Vec3, 4>& corners) const {
-    const ElementShape shape = element_shape(corners);
-    return std::min({shape.least_angle / rule_.least_angle,
-                     (180 - shape.greatest_angle) / (180 - rule_.greatest_angle),
-                     shape.scaled_jacobian / rule_.scaled_jacobian});
-  }
-  double score(const Cell& points) const {
-    std::array<Vec3, 4> corners;
-    for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh_.vertices[points[i]].position;
-    return score(corners);
-  }
+  double score(const Cell& points) const { return shape_score(mesh_, points, rule_); }
   double worst_of(std::span<const Index> cells) const {
-    double worst = INFINITY;
-    for (const Index c : cells) worst = std::min(worst, score(mesh_.cells[c].points));
-    return worst;
+    return worst_score_inside(mesh_, cells, rule_);
   }
   double worst_proposed() const {
     double worst = INFINITY;
     for (const auto& proposal : bench_.cavity.proposed()) {
       if (proposal.quality3 <= kTinyQuality3) return 0;
-      worst = std::min(worst, score(proposal.points));
+      if (proposal.material != kOutside) worst = std::min(worst, score(proposal.points));
     }
     return worst;
   }
+
+  static bool is_inside(const WorkCell& cell) { return cell.alive() && cell.material != kOutside; }
 
   std::vector<BadCell> bad_cells() const {
     auto bad = parallel_collect<BadCell>(mesh_.cells.size(), kBlock,
                                          [&](std::size_t begin, std::size_t end, auto& found) {
                                            for (std::size_t c = begin; c < end; ++c) {
-                                             if (!mesh_.cells[c].alive()) continue;
+                                             if (!is_inside(mesh_.cells[c])) continue;
                                              const double s = score(mesh_.cells[c].points);
                                              if (s < 1) found.push_back({s, static_cast<Index>(c)});
                                            }
@@ -93,7 +82,8 @@ class ShapeRepair {
 
   /// A cell of the list may have been replaced since: what is in its slot is looked at again.
   bool improve(Index cell) {
-    if (!take_pending(mesh_, cell, kToRepair) || score(mesh_.cells[cell].points) >= 1) return false;
+    if (!take_pending(mesh_, cell, kToRepair) || !is_inside(mesh_.cells[cell])) return false;
+    if (score(mesh_.cells[cell].points) >= 1) return false;
     if (remove_an_edge(cell) || remove_a_face(cell)) {
       ++done_.swaps;
       return true;
@@ -140,21 +130,12 @@ class ShapeRepair {
 
   bool collapse(Index vertex, Index onto) {
     const auto ball = bench_.cavity.ball(vertex);
-    if (ball.empty() || !propose_collapse(bench_, ball, {vertex, onto}, kTinyQuality3))
-      return false;
-    if (!(worst_proposed() > kGain * worst_of(ball)) || makes_long_edges(onto)) return false;
+    const CollapseLimits limits{kTinyQuality3, rule_.new_length_max};
+    if (ball.empty() || !propose_collapse(bench_, ball, {vertex, onto}, limits)) return false;
+    if (!(worst_proposed() > kGain * worst_of(ball))) return false;
     bench_.cavity.replace(ball);
     mesh_.free_vertex(vertex);
     return true;
-  }
-
-  bool makes_long_edges(Index onto) const {
-    for (const auto& proposal : bench_.cavity.proposed()) {
-      for (const Index p : proposal.points) {
-        if (length(mesh_.vertices[onto], mesh_.vertices[p]) > rule_.new_length_max) return true;
-      }
-    }
-    return false;
   }
 
   bool move_a_vertex(Index cell) {
@@ -215,7 +196,7 @@ class ShapeRepair {
       }
     }
     if (!(best > kGain * before)) return false;
-    settle(star);
+    settle_moved(bench_, star.vertex, star.ball);
     return true;
   }
 
@@ -239,27 +220,11 @@ class ShapeRepair {
     if (!mesh_.box.contains(place) || planes_of(mesh_.box, place) != planes) return 0;
     Vertex& vertex = mesh_.vertices[star.vertex];
     vertex.position = place;
-    const double worst = is_positive(star.ball) ? worst_of(star.ball) : 0;
+    const double worst = are_positive(mesh_, star.ball) ? worst_of(star.ball) : 0;
     if (worst <= 0 || !star.features.on_skin()) return worst;
-    if (star.leaves_border && deviation(mesh_, place) > 1) return 0;
+    if (star.leaves_border && deviation(mesh_, place, star.features) > 1) return 0;
     const auto skin = skin_triangles(mesh_, star.ball, star.vertex, place);
     return may_replace_skin(mesh_, star.skin, skin) ? worst : 0;
-  }
-
-  bool is_positive(std::span<const Index> cells) const {
-    return std::ranges::all_of(
-        cells, [this](Index c) { return quality3(mesh_, mesh_.cells[c].points) > kTinyQuality3; });
-  }
-
-  /// The vertex is where it is: its metric and the qualities around it follow.
-  void settle(const Star& star) {
-    Vertex& vertex = mesh_.vertices[star.vertex];
-    measure(vertex, bench_.sampler, vertex.hint);
-    for (const Index c : star.ball) {
-      mesh_.cells[c].quality3 = static_cast<float>(quality3(mesh_, mesh_.cells[c].points));
-      mesh_.cells[c].pending = kToAll;
-      mesh_.cells[c].tried = 0;
-    }
   }
 
   Workbench& bench_;

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "mesamis/remesh/body_shape.h"
+#include "mesamis/mesh/edges.h"
 
 namespace mesamis::remeshing {
 namespace {
@@ -14,12 +14,6 @@ namespace {
 std::array<Index, 3> face_points(const Cell& cell, int face) {
   const auto& f = kCellFaces[static_cast<std::size_t>(face)];
   return {cell[f[0]], cell[f[1]], cell[f[2]]};
-}
-
-unsigned shared_planes(const WorkingMesh& mesh, std::span<const Index> points) {
-  unsigned planes = kPlanes;
-  for (const Index p : points) planes &= mesh.vertices[p].mask;
-  return planes;
 }
 
 /// Calls visit(cell, face) for the faces of the skin at a vertex. A face between two materials is
@@ -31,8 +25,7 @@ void for_each_skin_face(const WorkingMesh& mesh, std::span<const Index> ball, In
     const WorkCell& cell = mesh.cells[c];
     for (int f = 0; f < 4; ++f) {
       if (cell.points[f] == vertex || !is_skin(mesh, c, f)) continue;
-      const FaceRef n = cell.neighbors[f];
-      if (n != kNoIndex && mesh.cells[cell_of(n)].material < cell.material) continue;
+      if (mesh.cells[cell_of(cell.neighbors[f])].material < cell.material) continue;
       visit(c, f);
     }
   }
@@ -73,14 +66,9 @@ void insert_skin_neighbors(const WorkingMesh& mesh, std::span<const Index> ball,
   });
 }
 
-void insert_points(const WorkingMesh& mesh, std::span<const Index> cells, VertexSet& into) {
-  for (const Index c : cells) {
-    for (const Index p : mesh.cells[c].points) into.insert(p);
-  }
-}
-
-/// The link condition for an edge of the skin: whatever both ends meet, the edge meets too. Else
-/// the collapse would glue two parts of the body, or of its skin, together.
+/// The link condition for an edge of the skin: whatever of the skin meets both ends meets the edge
+/// too. Else the collapse would glue two sheets of the skin together. That cells fill the box, and
+/// stay positive, is the condition for the cells.
 /// Source: Dey, Edelsbrunner, Guha and Nekhayev, Topology preserving edge contraction, 1999.
 class LinkCondition {
  public:
@@ -96,8 +84,7 @@ class LinkCondition {
   }
 
   bool holds() {
-    return !other_ball_.empty() && no_cell_has_both_skins() && common_points_are_in_ring() &&
-           common_skin_is_at_edge() && common_edges_are_in_ring();
+    return !other_ball_.empty() && no_cell_has_both_skins() && common_skin_is_at_edge();
   }
 
  private:
@@ -108,24 +95,6 @@ class LinkCondition {
       return is_skin(mesh_, c, local_index(points, edge_[0])) &&
              is_skin(mesh_, c, local_index(points, edge_[1]));
     });
-  }
-
-  bool is_in_ring(Index p) const {
-    const auto ring = cavity_.ring();
-    return std::find(ring.begin(), ring.end(), p) != ring.end();
-  }
-
-  bool common_points_are_in_ring() {
-    first_.clear();
-    second_.clear();
-    insert_points(mesh_, other_ball_, first_);
-    for (const Index c : ball_) {
-      for (const Index p : mesh_.cells[c].points) {
-        if (p == edge_[0] || p == edge_[1] || is_in_ring(p) || !second_.insert(p)) continue;
-        if (!first_.insert(p)) return false;
-      }
-    }
-    return true;
   }
 
   /// Points that the skin joins to both ends belong to faces of the skin at the edge.
@@ -152,37 +121,6 @@ class LinkCondition {
       }
     }
     return false;
-  }
-
-  using Pair = std::array<Index, 2>;
-
-  /// Edges between two points of the ring, of cells around one end and not around the other.
-  std::vector<Pair> ring_edges(std::span<const Index> cells, Index without) const {
-    std::vector<Pair> edges;
-    for (const Index c : cells) {
-      const Cell& points = mesh_.cells[c].points;
-      if (local_index(points, without) >= 0) continue;
-      for (const auto& [i, j] : kCellEdges) {
-        if (!is_in_ring(points[i]) || !is_in_ring(points[j])) continue;
-        edges.push_back({std::min(points[i], points[j]), std::max(points[i], points[j])});
-      }
-    }
-    std::sort(edges.begin(), edges.end());
-    return edges;
-  }
-
-  bool is_ring_edge(const Pair& edge) const {
-    return std::ranges::any_of(cavity_.shell(), [&](Index c) {
-      const Cell& points = mesh_.cells[c].points;
-      return local_index(points, edge[0]) >= 0 && local_index(points, edge[1]) >= 0;
-    });
-  }
-
-  bool common_edges_are_in_ring() const {
-    const auto first = ring_edges(ball_, edge_[1]), second = ring_edges(other_ball_, edge_[0]);
-    return std::ranges::none_of(first, [&](const Pair& edge) {
-      return std::binary_search(second.begin(), second.end(), edge) && !is_ring_edge(edge);
-    });
   }
 
   const WorkingMesh& mesh_;
@@ -212,46 +150,81 @@ bool keeps_skin(const WorkingMesh& mesh, std::span<const Index> ball, std::array
   return may_replace_skin(mesh, before, after);
 }
 
+/// Whether a neighbour is joined to the vertex along all features.
+bool is_along(const WorkingMesh& mesh, std::span<const Index> ball, Index neighbor,
+              const Features& features) {
+  Features of_edge{{}, features.planes};
+  for (const Index c : ball) {
+    const WorkCell& cell = mesh.cells[c];
+    if (local_index(cell.points, neighbor) >= 0) of_edge.materials.set(cell.material);
+  }
+  return of_edge == features;
+}
+
+/// Whether the line where three materials meet may follow when its first point moves onto the
+/// second.
+bool keeps_junction(const WorkingMesh& mesh, std::span<const Index> ball,
+                    std::array<Index, 2> move) {
+  const Features features = vertex_features(mesh, ball, move[0]);
+  if (!features.junction()) return true;
+  const auto at = [&](Index v) -> const Vec3& { return mesh.vertices[v].position; };
+  for (const Index c : ball) {
+    for (const Index p : mesh.cells[c].points) {
+      if (p == move[0] || p == move[1] || !is_along(mesh, ball, p, features)) continue;
+      const double after = deviation(mesh, 0.5 * (at(p) + at(move[1])), features);
+      if (after > 1 && after > deviation(mesh, 0.5 * (at(p) + at(move[0])), features)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
-double deviation(const WorkingMesh& mesh, const Vec3& p) {
+double deviation(const WorkingMesh& mesh, const Vec3& p, const Features& features) {
   const BorderPoint border = mesh.shape->nearest_border(p);
-  return norm(border.point - p) / border.tolerance;
+  const double off_border = norm(border.point - p);
+  const auto line = nearest_junction(mesh, p, features);
+  return std::max(off_border, line ? norm(line->point - p) : 0) / border.tolerance;
 }
 
 int Features::freedom() const {
-  if (materials.count() > 2) return 0;
-  return std::max(0, 3 - std::popcount(planes) - (on_skin() ? 1 : 0));
+  const auto met = static_cast<int>(materials.count());
+  return std::max(0, 4 - met - std::popcount(planes));
+}
+
+std::optional<MaterialTriple> Features::junction() const {
+  if (materials.count() != 3) return std::nullopt;
+  MaterialTriple triple{};
+  auto next = triple.begin();
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    if (materials[m]) *next++ = static_cast<Material>(m);
+  }
+  return triple;
+}
+
+std::optional<JunctionPoint> nearest_junction(const WorkingMesh& mesh, const Vec3& p,
+                                              const Features& features) {
+  const auto materials = features.junction();
+  return materials ? mesh.shape->nearest_junction(p, *materials) : std::nullopt;
 }
 
 bool is_skin(const WorkingMesh& mesh, Index cell, int face) {
-  if (mesh.shape == nullptr) return false;
   const WorkCell& k = mesh.cells[cell];
   const FaceRef n = k.neighbors[face];
-  if (n != kNoIndex) return mesh.cells[cell_of(n)].material != k.material;
-  return shared_planes(mesh, face_points(k.points, face)) == 0;
+  return n != kNoIndex && mesh.cells[cell_of(n)].material != k.material;
 }
 
 Features vertex_features(const WorkingMesh& mesh, std::span<const Index> ball, Index vertex) {
   Features features;
   features.planes = mesh.vertices[vertex].mask & kPlanes;
   for (const Index c : ball) features.materials.set(mesh.cells[c].material);
-  for_each_skin_face(mesh, ball, vertex, [&](Index c, int f) {
-    if (mesh.cells[c].neighbors[f] == kNoIndex) features.materials.set(kOutside);
-  });
   return features;
 }
 
 Features edge_features(const WorkingMesh& mesh, const Cavity& cavity, std::array<Index, 2> edge) {
   Features features;
-  features.planes = shared_planes(mesh, edge);
+  features.planes = mesh.vertices[edge[0]].mask & mesh.vertices[edge[1]].mask & kPlanes;
   for (const Index c : cavity.shell()) features.materials.set(mesh.cells[c].material);
-  if (cavity.shell_is_closed()) return features;
-  for (const Index end : {cavity.ring().front(), cavity.ring().back()}) {
-    if (shared_planes(mesh, std::array{edge[0], edge[1], end}) == 0) {
-      features.materials.set(kOutside);
-    }
-  }
   return features;
 }
 
@@ -259,7 +232,8 @@ Vec3 onto_features(const WorkingMesh& mesh, Vec3 position, const Features& featu
   if (!features.on_skin()) return position;
   const int steps = features.planes == 0 ? 1 : 4;
   for (int step = 0; step < steps; ++step) {
-    position = mesh.shape->nearest_border(position).point;
+    const auto line = nearest_junction(mesh, position, features);
+    position = line ? line->point : mesh.shape->nearest_border(position).point;
     for (int axis = 0; axis < 3; ++axis) {
       if (features.planes >> (2 * axis) & 1) position[axis] = mesh.box.lo[axis];
       if (features.planes >> (2 * axis) & 2) position[axis] = mesh.box.hi[axis];
@@ -276,13 +250,19 @@ Vec3 skin_normal(const WorkingMesh& mesh, std::span<const Index> ball, Index ver
   return unit_or_zero(sum);
 }
 
-bool may_replace_skin(const WorkingMesh& mesh, std::span<const Corners3> old_triangles,
-                      std::span<const Corners3> new_triangles) {
+bool are_turned_little(std::span<const Corners3> old_triangles,
+                       std::span<const Corners3> new_triangles) {
+  const bool in_pairs = old_triangles.size() == new_triangles.size();
   for (std::size_t i = 0; i < new_triangles.size(); ++i) {
-    const bool in_pairs = old_triangles.size() == new_triangles.size();
     const auto before = in_pairs ? old_triangles.subspan(i, 1) : old_triangles;
     if (!is_turned_little(before, new_triangles[i])) return false;
   }
+  return true;
+}
+
+bool may_replace_skin(const WorkingMesh& mesh, std::span<const Corners3> old_triangles,
+                      std::span<const Corners3> new_triangles) {
+  if (!are_turned_little(old_triangles, new_triangles)) return false;
   const double after = deviation(mesh, new_triangles);
   return after <= 1 || after <= deviation(mesh, old_triangles);
 }
@@ -303,40 +283,13 @@ std::vector<Corners3> skin_triangles(const WorkingMesh& mesh, std::span<const In
 
 bool may_collapse_in_body(Workbench& bench, std::span<const Index> ball, Index vertex, Index onto) {
   const WorkingMesh& mesh = bench.mesh;
+  if (!(mesh.vertices[vertex].mask & kOnSkin)) return true;
   const auto cell = std::ranges::find_if(
       ball, [&](Index c) { return local_index(mesh.cells[c].points, onto) >= 0; });
-  if (cell == ball.end() || !bench.cavity.find_shell(*cell, vertex, onto)) return false;
-  const bool on_skin = mesh.vertices[vertex].mask & kOnSkin;
-  if (on_skin && !is_along_features(bench, ball, {vertex, onto})) return false;
-  return LinkCondition(bench, ball, {vertex, onto}).holds() &&
-         (!on_skin || keeps_skin(mesh, ball, {vertex, onto}));
-}
-
-bool makes_edge_twice(Workbench& bench, std::span<const Index> old_cells) {
-  using Edge = std::array<Index, 2>;
-  std::vector<Edge> known, made;
-  auto add_edges = [](const Cell& points, std::vector<Edge>& edges) {
-    for (const auto& [i, j] : kCellEdges) {
-      edges.push_back({std::min(points[i], points[j]), std::max(points[i], points[j])});
-    }
-  };
-  for (const Index c : old_cells) add_edges(bench.mesh.cells[c].points, known);
-  for (const auto& proposal : bench.cavity.proposed()) add_edges(proposal.points, made);
-  std::sort(known.begin(), known.end());
-  return std::ranges::any_of(made, [&](const Edge& edge) {
-    return !std::binary_search(known.begin(), known.end(), edge) &&
-           has_edge(bench, edge[0], edge[1]);
-  });
-}
-
-bool has_edge(Workbench& bench, Index a, Index b) {
-  if (bench.mesh.vertices[a].mask & kFrozen) std::swap(a, b);
-  if (bench.mesh.vertices[a].mask & kFrozen) return true;
-  std::vector<Index>& ball = bench.other_ball;
-  bench.cavity.collect_ball(a, ball);
-  return ball.empty() || std::ranges::any_of(ball, [&](Index c) {
-           return local_index(bench.mesh.cells[c].points, b) >= 0;
-         });
+  return cell != ball.end() && bench.cavity.find_shell(*cell, vertex, onto) &&
+         is_along_features(bench, ball, {vertex, onto}) &&
+         LinkCondition(bench, ball, {vertex, onto}).holds() &&
+         keeps_skin(mesh, ball, {vertex, onto}) && keeps_junction(mesh, ball, {vertex, onto});
 }
 
 }  // namespace mesamis::remeshing

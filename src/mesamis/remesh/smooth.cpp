@@ -32,12 +32,32 @@ class Mover {
     if (!(vertex_.mask & kOnSkin)) return;
     features_ = vertex_features(mesh_, ball_, v);
     normal_ = skin_normal(mesh_, ball_, v);
+    if (features_.freedom() == 1) tangent_ = line_direction();
     skin_ = skin_triangles(mesh_, ball_, v, vertex_.position);
     index_ = v;
   }
 
   /// Whether the vertex may move at all.
   bool is_free() const { return !features_.on_skin() || features_.freedom() > 0; }
+
+  /// The cut leaves vertices where three materials meet off their line. They come to it as far as
+  /// the cells around allow, whatever their energy.
+  bool approach_junction() {
+    if (!features_.junction() || !(deviation(mesh_, vertex_.position, features_) > kOffLine)) {
+      return false;
+    }
+    const Vertex old = vertex_;
+    const Vec3 way = onto_features(mesh_, old.position, features_) - old.position;
+    for (const double share : {1.0, 0.5, 0.25}) {
+      if (std::isfinite(energy_at(old, old.position + share * way)) &&
+          are_turned_little(skin_, skin_here())) {
+        accept(false);
+        return true;
+      }
+    }
+    vertex_ = old;
+    return false;
+  }
 
   bool run() {
     const BallShape::Directions directions = shape_.directions(vertex_);
@@ -61,8 +81,8 @@ class Mover {
   /// The part of a move that keeps the vertex on its planes and, to first order, on the skin.
   Vec3 on_planes(Vec3 move) const {
     if (features_.on_skin()) {
+      if (features_.freedom() == 1) return dot(move, tangent_) * tangent_;
       move = move - dot(move, normal_) * normal_;
-      if (features_.planes != 0) return along_rim(move);
     }
     for (int axis = 0; axis < 3; ++axis) {
       if (vertex_.mask >> (2 * axis) & 3) move[axis] = 0;
@@ -70,12 +90,14 @@ class Mover {
     return move;
   }
 
-  /// Where the skin meets a plane of the box.
-  Vec3 along_rim(const Vec3& move) const {
+  /// Of the line where three materials meet, or where the skin meets a plane of the box.
+  Vec3 line_direction() const {
+    if (const auto line = nearest_junction(mesh_, vertex_.position, features_)) {
+      return line->direction;
+    }
     Vec3 axis;
     for (int i = 0; i < 3; ++i) axis[i] = features_.planes >> (2 * i) & 3 ? 1 : 0;
-    const Vec3 tangent = unit_or_zero(cross(normal_, axis));
-    return dot(move, tangent) * tangent;
+    return unit_or_zero(cross(normal_, axis));
   }
 
   /// Line search. The energy is convex, near enough: where it falls too slowly at first it
@@ -104,7 +126,11 @@ class Mover {
 
   /// The energy with the vertex there, where it stays; infinite if a cell is too bad.
   double try_position(const Vertex& old, const Vec3& move) {
-    vertex_.position = onto_features(mesh_, old.position + move, features_);
+    return energy_at(old, onto_features(mesh_, old.position + move, features_));
+  }
+
+  double energy_at(const Vertex& old, const Vec3& place) {
+    vertex_.position = place;
     if (!mesh_.box.contains(vertex_.position) ||
         planes_of(mesh_.box, vertex_.position) != (old.mask & kPlanes)) {
       return kTooBad;
@@ -118,8 +144,11 @@ class Mover {
   }
 
   bool keeps_skin() const {
-    return !features_.on_skin() ||
-           may_replace_skin(mesh_, skin_, skin_triangles(mesh_, ball_, index_, vertex_.position));
+    return !features_.on_skin() || may_replace_skin(mesh_, skin_, skin_here());
+  }
+
+  std::vector<Corners3> skin_here() const {
+    return skin_triangles(mesh_, ball_, index_, vertex_.position);
   }
 
   void accept(bool is_small) {
@@ -132,6 +161,8 @@ class Mover {
     }
   }
 
+  /// In tolerances: nearer vertices are on the line of three materials.
+  static constexpr double kOffLine = 0.1;
   static constexpr double kTooBad = std::numeric_limits<double>::infinity();
 
   WorkingMesh& mesh_;
@@ -146,6 +177,7 @@ class Mover {
   // Of a vertex on the skin:
   Features features_;
   Vec3 normal_;
+  Vec3 tangent_;                ///< of the line that the vertex may move along
   std::vector<Corners3> skin_;  ///< around the vertex where it was
   Index index_ = kNoIndex;
 };
@@ -162,7 +194,7 @@ bool smooth_vertex(Workbench& bench, Index v, const SmoothRule& rule) {
   const auto ball = bench.cavity.ball(v);
   if (ball.empty()) return false;
   Mover mover(bench, v, ball, rule);
-  const bool moved = mover.is_free() && mover.run();
+  const bool moved = mover.approach_junction() || (mover.is_free() && mover.run());
   const int failures = moved ? 0 : std::min(rule.most_rest, vertex.failures + 1);
   vertex.failures = vertex.rest = static_cast<std::uint8_t>(failures);
   return moved;

@@ -3,21 +3,27 @@ set(ROOM_HEADERS
   adapt_mesh.h
   body.h
   body_shape.h
+  piece.h
   remesh.h)
 set(ROOM_SOURCES
   adapt_mesh.cpp
+  balance.cpp
   ball_shape.cpp
   body.cpp
   cavity.cpp
   collapse.cpp
+  cut.cpp
   edge_candidates.cpp
   explore.cpp
+  manifold_skin.cpp
   metric_sampler.cpp
   partition.cpp
+  piece.cpp
   remesh.cpp
   remesher.cpp
   repair.cpp
   shape_repair.cpp
+  shape_score.cpp
   skin.cpp
   smooth.cpp
   split.cpp

@@ -33,18 +33,27 @@ Vec3 point_between(const WorkingMesh& mesh, const Vertex& a, const Vertex& b, do
   return p;
 }
 
-/// @param features  of the edge.
-Index make_middle(Workbench& bench, Index a, Index b, const Features& features) {
+/// @param on_skin  whether the edge lies on the skin of a body.
+Index make_vertex(Workbench& bench, const SplitEdge& edge, const Vec3& position, bool on_skin) {
   WorkingMesh& mesh = bench.mesh;
   const Index v = mesh.new_vertex();
-  const Vertex &va = mesh.vertices[a], &vb = mesh.vertices[b];
-  Vertex& middle = mesh.vertices[v];
-  middle.position =
-      onto_features(mesh, point_between(mesh, va, vb, metric_middle(va, vb)), features);
-  middle.mask = va.mask & vb.mask & kPlanes;
-  if (features.on_skin()) middle.mask |= kOnSkin;
-  measure(middle, bench.sampler, va.hint);
+  const Vertex &va = mesh.vertices[edge.a], &vb = mesh.vertices[edge.b];
+  Vertex& vertex = mesh.vertices[v];
+  vertex.position = position;
+  vertex.mask = va.mask & vb.mask & kPlanes;
+  if (on_skin) vertex.mask |= kOnSkin;
+  measure(vertex, bench.sampler, va.hint);
   return v;
+}
+
+/// The middle of the edge in the metric; of an edge on the skin the place on it that is nearest.
+Index make_middle(Workbench& bench, const SplitEdge& edge) {
+  const WorkingMesh& mesh = bench.mesh;
+  Features features;
+  if (mesh.shape != nullptr) features = edge_features(mesh, bench.cavity, {edge.a, edge.b});
+  const Vertex &va = mesh.vertices[edge.a], &vb = mesh.vertices[edge.b];
+  const Vec3 middle = point_between(mesh, va, vb, metric_middle(va, vb));
+  return make_vertex(bench, edge, onto_features(mesh, middle, features), features.on_skin());
 }
 
 SplitRule balanced(SplitRule rule, double length) {
@@ -77,43 +86,40 @@ bool propose_halves(Workbench& bench, const SplitEdge& edge, Index v, const Spli
   return edge.urgent || after >= rule.quality3_min || after >= rule.quality3_loss * before;
 }
 
+/// Puts the halves in the place of the shell, or takes the new vertex back.
+bool finish_split(Workbench& bench, Index v, bool is_good) {
+  if (is_good) {
+    bench.cavity.replace(bench.cavity.shell());
+  } else {
+    bench.mesh.free_vertex(v);
+  }
+  return is_good;
+}
+
 }  // namespace
 
 bool split_edge(Workbench& bench, const SplitEdge& edge, const SplitRule& rule) {
   WorkingMesh& mesh = bench.mesh;
   if (mesh.vertices[edge.a].mask & mesh.vertices[edge.b].mask & kFrozen) return false;
   if (!bench.cavity.find_shell(edge.cell, edge.a, edge.b)) return false;
-  Features features;
-  if (mesh.shape != nullptr) features = edge_features(mesh, bench.cavity, {edge.a, edge.b});
-  const Index v = make_middle(bench, edge.a, edge.b, features);
+  const Index v = make_middle(bench, edge);
   const Vertex& middle = mesh.vertices[v];
   const bool placed = planes_of(mesh.box, middle.position) == (middle.mask & kPlanes);
-  if (!placed || (!edge.urgent && !keeps_distance(bench, edge, v, rule.new_length_min)) ||
-      !propose_halves(bench, edge, v, rule)) {
-    mesh.free_vertex(v);
-    return false;
-  }
-  bench.cavity.replace(bench.cavity.shell());
-  return true;
+  return finish_split(bench, v,
+                      placed &&
+                          (edge.urgent || keeps_distance(bench, edge, v, rule.new_length_min)) &&
+                          propose_halves(bench, edge, v, rule));
 }
 
-bool split_edge_at(Workbench& bench, const SplitEdge& edge, double share) {
+Index split_edge_at(Workbench& bench, const SplitEdge& edge, double share, bool on_skin) {
   constexpr double kLeastShare = 0.03;
-  WorkingMesh& mesh = bench.mesh;
-  if (!bench.cavity.find_shell(edge.cell, edge.a, edge.b)) return false;
-  const Index v = mesh.new_vertex();
+  const WorkingMesh& mesh = bench.mesh;
+  if (!bench.cavity.find_shell(edge.cell, edge.a, edge.b)) return kNoIndex;
   const Vertex &va = mesh.vertices[edge.a], &vb = mesh.vertices[edge.b];
-  Vertex& middle = mesh.vertices[v];
-  middle.mask = va.mask & vb.mask & kPlanes;
-  middle.position = point_between(mesh, va, vb, std::clamp(share, kLeastShare, 1 - kLeastShare));
-  middle.mask |= kOnSkin;
-  measure(middle, bench.sampler, va.hint);
-  if (!propose_halves(bench, {edge.cell, edge.a, edge.b, true}, v, {})) {
-    mesh.free_vertex(v);
-    return false;
-  }
-  bench.cavity.replace(bench.cavity.shell());
-  return true;
+  const double inside = std::clamp(share, kLeastShare, 1 - kLeastShare);
+  const Index v = make_vertex(bench, edge, point_between(mesh, va, vb, inside), on_skin);
+  const bool is_good = propose_halves(bench, {edge.cell, edge.a, edge.b, true}, v, {});
+  return finish_split(bench, v, is_good) ? v : kNoIndex;
 }
 
 std::int64_t split_long_edges(Workbench& bench, const SplitRule& rule) {

@@ -33,8 +33,9 @@ struct SplitEdge {
 /// @return whether it was split.
 bool split_edge(Workbench& bench, const SplitEdge& edge, const SplitRule& rule);
 
-/// Splits an edge where it crosses the border of a body: at a share of the way, kept off the ends.
-/// @return false if a new cell would not be positive.
-bool split_edge_at(Workbench& bench, const SplitEdge& edge, double share);
+/// Splits an edge at a share of the way, kept off the ends.
+/// @param on_skin  whether the new vertex belongs to the skin of a body.
+/// @return the new vertex; kNoIndex if a new cell would not be positive.
+Index split_edge_at(Workbench& bench, const SplitEdge& edge, double share, bool on_skin);
 
 }  // namespace mesamis::remeshing

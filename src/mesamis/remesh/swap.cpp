@@ -5,6 +5,7 @@
 #include <bit>
 #include <limits>
 
+#include "mesamis/mesh/edges.h"
 #include "mesamis/remesh/geometry.h"
 #include "mesamis/remesh/skin.h"
 
@@ -114,12 +115,11 @@ struct Removal {
   std::array<Index, 2> skin_edge{kNoIndex, kNoIndex};  ///< that takes the edge's place on the skin
 };
 
-using Edge = std::array<Index, 2>;
-
 /// Positions i of the ring where the cell before and the cell after differ in material.
 std::vector<std::size_t> material_changes(const WorkingMesh& mesh, const Cavity& cavity) {
   const auto shell = cavity.shell();
-  std::vector<std::size_t> changes;  // takes no memory where there is none
+  std::vector<std::size_t> changes;
+  if (mesh.shape == nullptr) return changes;
   for (std::size_t i = cavity.shell_is_closed() ? 0 : 1; i < shell.size(); ++i) {
     const Index before = shell[i == 0 ? shell.size() - 1 : i - 1];
     if (mesh.cells[before].material != mesh.cells[shell[i]].material) changes.push_back(i);
@@ -140,11 +140,6 @@ Arc arc_between(const WorkingMesh& mesh, const Cavity& cavity, std::size_t from,
   return arc;
 }
 
-bool is_in_plane(const WorkingMesh& mesh, const Edge& edge, Index p) {
-  return mesh.vertices[edge[0]].mask & mesh.vertices[edge[1]].mask & mesh.vertices[p].mask &
-         kPlanes;
-}
-
 Removal whole_ring(const WorkingMesh& mesh, const Cavity& cavity) {
   Removal removal{.count = 1};
   removal.both[0].material = mesh.cells[cavity.shell()[0]].material;
@@ -154,25 +149,16 @@ Removal whole_ring(const WorkingMesh& mesh, const Cavity& cavity) {
 
 /// An edge on one box plane can go, the face edges of its ring's ends meet in that plane; an edge
 /// of the box cannot, nor one where the skin meets a plane or a third material.
-Removal find_removal(const WorkingMesh& mesh, const Cavity& cavity, const Edge& edge) {
+Removal find_removal(const WorkingMesh& mesh, const Cavity& cavity) {
   const auto ring = cavity.ring();
-  if (ring.size() > kMostRing) return {};
+  if (ring.size() < 3 || ring.size() > kMostRing) return {};
   const auto changes = material_changes(mesh, cavity);
-  if (cavity.shell_is_closed()) {
-    if (ring.size() < 3) return {};
-    if (changes.empty()) return whole_ring(mesh, cavity);
-    if (changes.size() != 2) return {};
-    return {{arc_between(mesh, cavity, changes[0], changes[1]),
-             arc_between(mesh, cavity, changes[1], changes[0])},
-            2,
-            {ring[changes[0]], ring[changes[1]]}};
-  }
-  const bool first_in_plane = is_in_plane(mesh, edge, ring.front());
-  if (!changes.empty() || first_in_plane != is_in_plane(mesh, edge, ring.back())) return {};
-  if (first_in_plane && ring.size() < 3) return {};
-  Removal removal = whole_ring(mesh, cavity);
-  if (!first_in_plane) removal.skin_edge = {ring.front(), ring.back()};
-  return removal;
+  if (changes.empty()) return whole_ring(mesh, cavity);
+  if (changes.size() != 2 || !cavity.shell_is_closed()) return {};
+  return {{arc_between(mesh, cavity, changes[0], changes[1]),
+           arc_between(mesh, cavity, changes[1], changes[0])},
+          2,
+          {ring[changes[0]], ring[changes[1]]}};
 }
 
 /// Whether one of the arcs is a single cell, which vanishes: the skin then passes over it.
@@ -180,20 +166,19 @@ bool peels_a_cell(const Removal& removal) {
   return std::ranges::any_of(removal.arcs(), &Arc::is_one_cell);
 }
 
-/// Whether the skin may turn its edge (a, b) into the removal's: the new one is not there yet, or
-/// not on the skin yet, and the new triangles are as near to the border as they must be.
+/// Whether the skin may turn its edge (a, b) into the removal's: the new triangles are as near to
+/// the border as they must be, and the new edge is not on the skin yet.
 bool may_turn_skin(Workbench& bench, const Edge& edge, const Removal& removal) {
   const WorkingMesh& mesh = bench.mesh;
   const Index p = removal.skin_edge[0], q = removal.skin_edge[1];
-  const unsigned frozen = mesh.vertices[p].mask & mesh.vertices[q].mask & kFrozen;
-  if (mesh.shape == nullptr || frozen) return false;
   auto at = [&mesh](Index v) { return mesh.vertices[v].position; };
   const std::array<Corners3, 2> before{Corners3{at(edge[0]), at(edge[1]), at(p)},
                                        Corners3{at(edge[1]), at(edge[0]), at(q)}};
   const std::array<Corners3, 2> after{Corners3{at(edge[1]), at(p), at(q)},
                                       Corners3{at(edge[0]), at(q), at(p)}};
   if (!may_replace_skin(mesh, before, after)) return false;
-  if (!peels_a_cell(removal)) return !has_edge(bench, p, q);
+  if (!peels_a_cell(removal)) return true;  // cells fill the box: the edge is nowhere else
+  if (mesh.vertices[p].mask & mesh.vertices[q].mask & kFrozen) return false;
   const auto shell = bench.cavity.shell();
   const Index cell = *std::ranges::find_if(shell, [&](Index c) {
     return local_index(mesh.cells[c].points, p) >= 0 && local_index(mesh.cells[c].points, q) >= 0;
@@ -247,7 +232,7 @@ double energy_without(const WorkingMesh& mesh, const Edge& edge, const Removal& 
 double edge_removal_gain(Workbench& bench, const Edge& edge, double gain) {
   const double before = energy_of(bench.mesh, bench.cavity.shell());
   if (before <= std::max(gain, hopeless_energy(bench.cavity.shell().size()))) return 0;
-  const Removal removal = find_removal(bench.mesh, bench.cavity, edge);
+  const Removal removal = find_removal(bench.mesh, bench.cavity);
   if (removal.count == 0 || (peels_a_cell(removal) && before < kPeelEnergy)) return 0;
   const double after = energy_without(bench.mesh, edge, removal, before - gain);
   if (after == kImpossible) return 0;
@@ -323,14 +308,14 @@ bool propose_removal(Workbench& bench, const Edge& edge, const Removal& removal,
     limit -= energy;
     triangulation.propose(bench.cavity);
   }
-  return bench.mesh.shape == nullptr || !makes_edge_twice(bench, bench.cavity.shell());
+  return true;
 }
 
 bool remove_edge(Workbench& bench, Index cell, int local_edge) {
   const Cell points = bench.mesh.cells[cell].points;
   const Edge edge{points[kCellEdges[local_edge][0]], points[kCellEdges[local_edge][1]]};
   bench.cavity.find_shell(cell, edge[0], edge[1]);
-  const Removal removal = find_removal(bench.mesh, bench.cavity, edge);
+  const Removal removal = find_removal(bench.mesh, bench.cavity);
   const double before = energy_of(bench.mesh, bench.cavity.shell());
   if (!propose_removal(bench, edge, removal, before)) return false;
   bench.cavity.replace(bench.cavity.shell());
@@ -369,7 +354,7 @@ bool propose_without_edge(Workbench& bench, Index cell, std::array<Index, 2> edg
   const unsigned shared = vertices[edge[0]].mask & vertices[edge[1]].mask;
   if ((shared & kFrozen) || std::popcount(shared & kPlanes) > 1) return false;
   if (!bench.cavity.find_shell(cell, edge[0], edge[1])) return false;
-  const Removal removal = find_removal(bench.mesh, bench.cavity, edge);
+  const Removal removal = find_removal(bench.mesh, bench.cavity);
   if (removal.count == 0 || !propose_removal(bench, edge, removal, 1 / kTinyQuality3)) return false;
   return removal.skin_edge[0] == kNoIndex || may_turn_skin(bench, edge, removal);
 }
@@ -382,8 +367,7 @@ bool propose_without_face(Workbench& bench, Index cell, int face) {
   for (const Cell& c : cells_through_face(bench.mesh, cell, face)) {
     bench.cavity.propose(c, quality3(bench.mesh, c), k.material);
   }
-  const std::array<Index, 2> old_cells{cell, cell_of(across)};
-  return bench.mesh.shape == nullptr || !makes_edge_twice(bench, old_cells);
+  return true;
 }
 
 }  // namespace mesamis::remeshing

@@ -54,7 +54,7 @@ struct WorkCell {
   float quality3 = 0;      ///< cube of the mean ratio in the metric
   std::uint32_t mark = 0;  ///< Cavity's
   std::uint8_t pending = kToAll;
-  std::uint8_t material = 1;  ///< of a body: which of its objects; 1 where there is no body
+  std::uint8_t material = 1;  ///< of a body: see Material; 1 where there is no body
   /// Swap's: bit e, the removal of edge e was found useless; bit 6 + f, that of face f. Holds
   /// until a cell around the edge or face changes, which then is new and tries again itself.
   std::uint16_t tried = 0;
@@ -75,9 +75,9 @@ struct WorkingMesh {
   std::vector<Vertex> vertices;
   std::vector<WorkCell> cells;
   std::vector<Index> free_vertices, free_cells;
-  bool is_part = false;  ///< some vertices may be frozen
-  /// Of a body, whose cells outside are left out: where its skin is kept. Null: the cells fill the
-  /// box.
+  bool is_part = false;  ///< some vertices may be frozen, and faces between them have one side
+  /// Of a body: where its skin is kept. The cells outside it, of material kOutside, are there as
+  /// well: the cells fill the box, so that the skin cannot pass through itself.
   const BodyShape* shape = nullptr;
 
   std::int64_t vertex_count() const { return std::ssize(vertices) - std::ssize(free_vertices); }

@@ -56,6 +56,18 @@ Guide make_guide(const VolumeView& volume, double level) {
   return guide;
 }
 
+/// @return whether there were any; then height and share are set.
+bool remove_impulses(Restored& restored, double height, double least_share) {
+  if (!(height > 0)) return false;
+  WithoutImpulses clean = remove_impulses(std::move(restored.volume), height, least_share);
+  restored.volume = std::move(clean.volume);
+  if (clean.replaced == 0) return false;
+  restored.impulse_height = height;
+  restored.impulses =
+      static_cast<double>(clean.replaced) / static_cast<double>(restored.volume.voxel_count());
+  return true;
+}
+
 /// What is undone of the blur, voxels. The rest is about that of a spline through samples that are
 /// means over their own extent: an image that is sharper swings between them.
 std::array<double, 3> undoable(const std::array<double, 3>& blur) {
@@ -100,12 +112,8 @@ Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOpt
     return measure_noise(restored.volume, guide.image, guide.points, object.level);
   };
   if (!options.noise) restored.noise = noise_now();
-  WithoutImpulses clean = remove_impulses(std::move(restored.volume),
-                                          impulse_height(restored.noise, contrast), kFewImpulses);
-  restored.volume = std::move(clean.volume);
-  if (clean.replaced > 0) {
-    restored.impulses =
-        static_cast<double>(clean.replaced) / static_cast<double>(restored.volume.voxel_count());
+  const double height = options.impulse_height.value_or(impulse_height(restored.noise, contrast));
+  if (remove_impulses(restored, height, options.impulse_height ? 0 : kFewImpulses)) {
     guide = make_guide(restored.volume, object.level);
     if (!options.noise) restored.noise = noise_now();
   }

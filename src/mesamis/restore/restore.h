@@ -15,6 +15,9 @@ struct RestoreOptions {
   std::optional<double> noise = std::nullopt;
   /// Standard deviations along the axes, voxels, 0 to kLargestBlur; default: measure_blur().
   std::optional<std::array<double, 3>> blur = std::nullopt;
+  /// The difference to its neighbours that makes a voxel an impulse, native units; 0: nothing does.
+  /// Default: as noise and contrast have it, where so many are found that they are no structures.
+  std::optional<double> impulse_height = std::nullopt;
 };
 
 /// A scan without its impulses and with its blur undone, as far as the noise permits.
@@ -26,6 +29,7 @@ struct Restored {
   double noise_left = 0;         ///< standard deviation in the volume here, native units
   std::array<double, 3> blur{};  ///< standard deviations in the scan, voxels
   double impulses = 0;           ///< share of the voxels that were replaced, 0 to 1
+  double impulse_height = 0;     ///< see RestoreOptions; 0 where none were replaced
 };
 
 /// Restores a scan: measures noise, impulses and blur near the object's surface, removes the

@@ -13,6 +13,12 @@
 /// the budget before it takes memory whose amount a file decides.
 namespace mesamis::detail {
 
+/// A header, and how to read the samples of some slices.
+struct OpenSlices {
+  ScanFile scan;
+  SliceReader read;
+};
+
 /// NIfTI-1 and -2, one file, plain or gzip'd, either byte order. World frame: the sform if its
 /// code is above 0, else the qform, else (with a warning) method 1 of the standard: axes along
 /// RAS, origin 0. RAS is turned into LPS; lengths in m or um into mm.
@@ -47,6 +53,7 @@ ScanFile open_raw(const std::filesystem::path& file, const RawLayout& layout);
 /// the resolution tags and from ImageJ's description (unit, spacing), 1 mm with a warning else.
 VolumeFile read_tiff(const std::filesystem::path& file, MemoryBudget& budget);
 ScanFile open_tiff_header(const std::filesystem::path& file, MemoryBudget& budget);
+OpenSlices open_tiff_slices(const std::filesystem::path& file, MemoryBudget& budget);
 
 /// A PNG, one slice as above; 1 to 16 bits, grey, or colours that are. Spacing along x and y from
 /// its resolution (pHYs). Not interlaced. What it claims is compared with its bytes before memory
@@ -64,6 +71,17 @@ bool is_picture(const std::filesystem::path& file);
 VolumeFile read_picture(const std::filesystem::path& file, MemoryBudget& budget);
 /// Its grid and the type of its samples; they are not read.
 ScanFile open_picture(const std::filesystem::path& file, MemoryBudget& budget);
+/// The same, and how to read its slices: of a .tif some of its pages, else the one slice.
+OpenSlices open_picture_slices(const std::filesystem::path& file, MemoryBudget& budget);
+
+/// Refuses a file of no format that is read.
+[[noreturn]] void refuse_unknown(const std::filesystem::path& file);
+
+/// @throws InputError  for a spacing that was asked for and is none.
+void require_spacing(const std::filesystem::path& path, const ReadOptions& options);
+/// The spacing that was asked for, if one was, takes the place of the file's, with a warning, and
+/// of what was assumed.
+void apply_spacing(const ReadOptions& options, VolumeFile& file);
 
 /// Tells the caller of the grid whose samples are about to be read, with the spacing that was asked
 /// for.

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "mesamis/base/error.h"
 #include "mesamis/files/file_list.h"
+#include "mesamis/files/given_spacing.h"
 #include "mesamis/files/in_one_line.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
@@ -21,7 +21,9 @@ namespace fs = std::filesystem;
 using detail::in_one_line;
 using detail::MemoryBudget;
 using detail::Opening;
+using detail::OpenSlices;
 using detail::refuse;
+using detail::refuse_unknown;
 using detail::ScanFile;
 
 /// A format of plain arrays and the ends of its files' names.
@@ -51,13 +53,19 @@ struct PictureFormat {
   std::string_view extension;
   ScanFile (*open)(const fs::path&, MemoryBudget&);
   VolumeFile (*read)(const fs::path&, MemoryBudget&);
+  OpenSlices (*slices)(const fs::path&, MemoryBudget&);
 };
 
+/// A picture that holds one slice.
+OpenSlices open_one_slice(const fs::path& file, MemoryBudget& budget) {
+  return {detail::open_picture(file, budget), detail::read_pictures({file})};
+}
+
 constexpr std::array<PictureFormat, 4> kPictureFormats{
-    {{".tif", detail::open_tiff_header, detail::read_tiff},
-     {".tiff", detail::open_tiff_header, detail::read_tiff},
-     {".png", detail::open_png, detail::read_png},
-     {".bmp", detail::open_bmp, detail::read_bmp}}};
+    {{".tif", detail::open_tiff_header, detail::read_tiff, detail::open_tiff_slices},
+     {".tiff", detail::open_tiff_header, detail::read_tiff, detail::open_tiff_slices},
+     {".png", detail::open_png, detail::read_png, open_one_slice},
+     {".bmp", detail::open_bmp, detail::read_bmp, open_one_slice}}};
 
 const PictureFormat* picture_format_of(const fs::path& file) {
   const std::string extension = detail::lower(file.extension().string());
@@ -69,13 +77,6 @@ const PictureFormat* picture_format_of(const fs::path& file) {
 
 bool has_known_extension(const fs::path& file) {
   return array_format_of(file) || detail::is_picture(file);
-}
-
-[[noreturn]] void refuse_unknown(const fs::path& file) {
-  refuse(
-      file,
-      "expected .nii .nii.gz .nrrd .nhdr .mha .mhd .tif .png .bmp .inv3, DICOM, or --raw with the "
-      "layout of a raw file, found none of them");
 }
 
 /// A path, and what it is read with.
@@ -99,20 +100,9 @@ VolumeFile read_one_picture(const Request& request) {
   return detail::read_picture(request.path, request.budget);
 }
 
-bool holds_dicom(const fs::path& directory) {
-  const std::vector<fs::path> files = detail::files_below(directory);
-  return std::any_of(files.begin(), files.end(), detail::looks_like_dicom);
-}
-
-/// The pictures of a directory that are its slices: none where there is DICOM.
-std::vector<fs::path> slices_of(const Request& request) {
-  std::vector<fs::path> slices = detail::slices_in(request.path, request.budget);
-  return slices.empty() || holds_dicom(request.path) ? std::vector<fs::path>{} : slices;
-}
-
 VolumeFile read_directory(const Request& request) {
   const auto& [path, options, budget] = request;
-  const std::vector<fs::path> slices = slices_of(request);
+  const std::vector<fs::path> slices = detail::slices_without_dicom(path, budget);
   return slices.empty() ? detail::read_dicom(path, options, budget)
                         : detail::read_slices(path, slices, options, budget);
 }
@@ -155,7 +145,7 @@ VolumeInfo describe(const Request& request) {
 /// DICOM series, or slices, then the other volumes.
 std::vector<VolumeInfo> list_directory(const Request& request) {
   const auto& [path, options, budget] = request;
-  const std::vector<fs::path> slices = slices_of(request);
+  const std::vector<fs::path> slices = detail::slices_without_dicom(path, budget);
   std::vector<VolumeInfo> all = slices.empty()
                                     ? detail::list_dicom(path, options, budget)
                                     : std::vector{detail::describe_slices(path, slices, budget)};
@@ -175,24 +165,10 @@ std::vector<VolumeInfo> list(const Request& request) {
   refuse_unknown(path);
 }
 
-void require_positive(const fs::path& path, const Vec3& spacing) {
-  for (int a = 0; a < 3; ++a) {
-    if (spacing[a] > 0 && std::isfinite(spacing[a])) continue;
-    refuse(path, detail::say("expected a positive spacing, found ", spacing[a], " mm"));
-  }
-}
-
-/// The spacing that was asked for takes the place of the file's, and of what was assumed.
-void apply_spacing(const Vec3& spacing, VolumeFile& file) {
-  const auto assumed = std::erase_if(file.warnings, [](const std::string& warning) {
-    return warning.find(": 1 mm taken") != std::string::npos;
-  });
-  const Vec3 stated = std::exchange(file.volume.spacing, spacing);
-  if (assumed == 0 && stated != spacing) {
-    file.warnings.push_back(detail::say("the file's spacing, ", stated.x, " x ", stated.y, " x ",
-                                        stated.z, " mm, is replaced by the one given"));
-  }
-}
+/// Thrown through a reader that has told the grid: the samples are not wanted.
+struct GridFound {
+  VoxelGrid grid;
+};
 
 }  // namespace
 
@@ -206,6 +182,28 @@ void detail::announce(VoxelGrid grid, const ReadOptions& options) {
   if (options.on_grid) options.on_grid(grid);
 }
 
+void detail::refuse_unknown(const fs::path& file) {
+  refuse(
+      file,
+      "expected .nii .nii.gz .nrrd .nhdr .mha .mhd .tif .png .bmp .inv3, DICOM, or --raw with the "
+      "layout of a raw file, found none of them");
+}
+
+void detail::require_spacing(const fs::path& path, const ReadOptions& options) {
+  if (options.spacing) require_positive_spacing(path, *options.spacing);
+}
+
+void detail::apply_spacing(const ReadOptions& options, VolumeFile& file) {
+  if (!options.spacing) return;
+  const auto assumed = std::erase_if(file.warnings, [](const std::string& warning) {
+    return warning.find(": 1 mm taken") != std::string::npos;
+  });
+  const Vec3 stated = std::exchange(file.volume.spacing, *options.spacing);
+  if (assumed == 0 && stated != *options.spacing) {
+    file.warnings.push_back(spacing_is_replaced(stated));
+  }
+}
+
 bool detail::is_picture(const fs::path& file) { return picture_format_of(file) != nullptr; }
 
 VolumeFile detail::read_picture(const fs::path& file, MemoryBudget& budget) {
@@ -215,6 +213,11 @@ VolumeFile detail::read_picture(const fs::path& file, MemoryBudget& budget) {
 ScanFile detail::open_picture(const fs::path& file, MemoryBudget& budget) {
   const ScopedFile scope(budget, file);
   return picture_format_of(file)->open(file, budget);
+}
+
+detail::OpenSlices detail::open_picture_slices(const fs::path& file, MemoryBudget& budget) {
+  const ScopedFile scope(budget, file);
+  return picture_format_of(file)->slices(file, budget);
 }
 
 void detail::set_grid(VolumeInfo& info, const VoxelGrid& grid) {
@@ -228,12 +231,22 @@ VolumeFile read_volume(const fs::path& path, const ReadOptions& options) {
   MemoryBudget budget(path, options.limits);
   const ReadRecord record;
   return in_one_line(path, [&] {
-    if (options.spacing) require_positive(path, *options.spacing);
+    detail::require_spacing(path, options);
     VolumeFile file = read_file({path, options, budget});
-    if (options.spacing) apply_spacing(*options.spacing, file);
+    detail::apply_spacing(options, file);
     file.files = record.files();
     return file;
   });
+}
+
+VoxelGrid read_grid(const fs::path& path, const ReadOptions& options) {
+  ReadOptions headers = options;
+  headers.on_grid = [](const VoxelGrid& grid) { throw GridFound{grid}; };
+  try {
+    return read_volume(path, headers).volume;
+  } catch (const GridFound& found) {
+    return found.grid;
+  }
 }
 
 std::vector<VolumeInfo> list_volumes(const fs::path& path, const ReadOptions& options) {

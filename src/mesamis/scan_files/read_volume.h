@@ -105,6 +105,14 @@ struct VolumeFile {
 /// hold, or beyond options.limits, is refused before it is taken.
 VolumeFile read_volume(const std::filesystem::path& path, const ReadOptions& options = {});
 
+/// Reads where the voxels of a scan lie, and how many they are, from its headers: what
+/// read_volume() tells options.on_grid, without the samples.
+/// @return finite grid, mm, LPS.
+/// @throws InputError  as read_volume(), but for what only the samples show.
+///
+/// O(bytes) of the headers; pictures and DICOM as list_volumes().
+VoxelGrid read_grid(const std::filesystem::path& path, const ReadOptions& options = {});
+
 /// One 3D image a path offers: what `mesamis info` lists.
 struct VolumeInfo {
   std::string series;                  ///< DICOM series UID, else empty

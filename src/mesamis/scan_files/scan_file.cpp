@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "mesamis/base/error.h"
 #include "mesamis/files/refuse.h"
 
 namespace mesamis::detail {
@@ -57,16 +58,18 @@ template <class Found>
                                " samples, found ", found));
 }
 
-void read_binary(const ScanFile& scan, ByteSource& bytes, std::vector<float>& out) {
+/// Appends the next `count` samples.
+void read_binary(const ScanFile& scan, ByteSource& bytes, std::size_t count,
+                 std::vector<float>& out) {
   const auto width = byte_size(scan.source.type);
-  const std::size_t count = sample_count(scan);
-  std::vector<unsigned char> block(kSamplesAtOnce * width);
-  while (out.size() < count) {
-    const std::size_t wanted = std::min(kSamplesAtOnce, count - out.size()) * width;
-    const std::size_t got = bytes.read(block.data(), wanted);
-    if (got < wanted) {
-      refuse_short(scan, std::uint64_t{count} * width, out.size() * width + got, "bytes");
+  std::vector<unsigned char> block(std::min(kSamplesAtOnce, count) * width);
+  for (std::size_t done = 0; done < count;) {
+    const std::size_t samples = std::min(kSamplesAtOnce, count - done);
+    const std::size_t got = bytes.read(block.data(), samples * width);
+    if (got < samples * width) {
+      refuse_short(scan, std::uint64_t{count} * width, done * width + got, "bytes");
     }
+    done += samples;
     append_samples({block.data(), got}, scan.source, out);
   }
 }
@@ -106,28 +109,22 @@ std::uint64_t fewest_bytes(const ScanFile& scan) {
   return scan.source.text ? 2 * count - 1 : count * byte_size(scan.source.type);
 }
 
+[[noreturn]] void refuse_long(const ScanFile& scan) {
+  refuse(scan.source.file, say("expected the data to end after ", fewest_bytes(scan), " bytes for ",
+                               size_text(scan), " samples, but they go on"));
+}
+
+[[noreturn]] void refuse_unplain(const ScanFile& scan, std::string_view found) {
+  refuse(scan.file, say("expected uncompressed voxels, which can be read a slice at a time, found ",
+                        found, "; unpack it, or run without --slabs"));
+}
+
 std::uint64_t bytes_before_last_samples(const ScanFile& scan) {
   ByteSource all(scan.source.file, scan.source.packing, scan.source.offset);
   const std::uint64_t total = all.skip(std::numeric_limits<std::uint64_t>::max());
   const std::uint64_t needed = fewest_bytes(scan);
   if (total < needed) refuse_short(scan, needed, total, "bytes");
   return total - needed;
-}
-
-double column_cosine(const std::array<Vec3, 3>& unit) {
-  return std::max({std::abs(dot(unit[0], unit[1])), std::abs(dot(unit[1], unit[2])),
-                   std::abs(dot(unit[2], unit[0]))});
-}
-
-/// The orthonormal matrix closest to three nearly orthonormal columns: Newton's iteration
-/// for the polar decomposition, Q <- (Q + Q^-T)/2.
-std::array<Vec3, 3> nearest_orthonormal(std::array<Vec3, 3> q) {
-  for (int step = 0; step < 6; ++step) {
-    const double det = dot(q[0], cross(q[1], q[2]));
-    const std::array<Vec3, 3> cofactor{cross(q[1], q[2]), cross(q[2], q[0]), cross(q[0], q[1])};
-    for (std::size_t a = 0; a < 3; ++a) q[a] = 0.5 * (q[a] + (1 / det) * cofactor[a]);
-  }
-  return q;
 }
 
 }  // namespace
@@ -157,28 +154,18 @@ void set_values(ScanFile& scan, std::int64_t inner, std::int64_t outer) {
 }
 
 void set_axes(ScanFile& scan, const std::array<Vec3, 3>& steps) {
-  std::array<Vec3, 3> unit;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double length = norm(steps[a]);
-    if (!(length > 0) || !std::isfinite(length)) {
-      refuse(scan.file,
-             say("expected a positive voxel spacing along axis ", a, ", found ", length, " mm"));
-    }
-    scan.grid.spacing[static_cast<int>(a)] = length;
-    unit[a] = (1 / length) * steps[a];
+  GridAxes axes;
+  try {
+    axes = grid_axes(steps);
+  } catch (const InputError& error) {
+    refuse(scan.file, error.what());
   }
-  const double skew = column_cosine(unit);
-  if (!(skew <= kSkewTolerance)) {
-    refuse(scan.file, say("expected orthogonal voxel axes (cosines up to ", kSkewTolerance,
-                          "), found a cosine of ", skew));
-  }
-  if (skew > kRoundingSkew) {
+  if (axes.skew > kRoundingSkew) {
     scan.warnings.push_back(
-        say("the voxel axes are not orthogonal (cosine ", skew, "): made orthonormal"));
+        say("the voxel axes are not orthogonal (cosine ", axes.skew, "): made orthonormal"));
   }
-  if (skew > 0) unit = nearest_orthonormal(unit);
-  for (Vec3& axis : unit) axis += Vec3{};  // -0 becomes 0
-  scan.grid.direction = transpose(Mat3{unit});
+  scan.grid.spacing = axes.spacing;
+  scan.grid.direction = axes.direction;
 }
 
 void set_origin(ScanFile& scan, const Vec3& origin) {
@@ -210,13 +197,33 @@ std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget) {
   bytes.skip(skip);
   std::vector<float> samples;
   reserve_within(budget, samples, sample_count(scan), "samples");
-  source.text ? read_text(scan, bytes, samples) : read_binary(scan, bytes, samples);
+  source.text ? read_text(scan, bytes, samples)
+              : read_binary(scan, bytes, sample_count(scan), samples);
   char beyond = 0;
-  if (source.exact && !source.text && bytes.read(&beyond, 1) > 0) {
-    refuse(source.file, say("expected the data to end after ", needed, " bytes for ",
-                            size_text(scan), " samples, but they go on"));
-  }
+  if (source.exact && !source.text && bytes.read(&beyond, 1) > 0) refuse_long(scan);
   return samples;
+}
+
+std::uint64_t find_plain_samples(const ScanFile& scan) {
+  const SampleSource& source = scan.source;
+  if (source.text) refuse_unplain(scan, "numbers in text");
+  const ByteSource bytes(source.file, source.packing, source.offset);
+  if (bytes.is_packed()) {
+    refuse_unplain(scan, source.packing == Packing::kSniffed ? "gzip" : "gzip or zlib");
+  }
+  const std::uint64_t there = bytes.most_bytes(), needed = fewest_bytes(scan);
+  const std::uint64_t skip = std::min(source.skip, there);
+  if (there - skip < needed) refuse_short(scan, needed, there - skip, "bytes");
+  if (source.at_end) return source.offset + there - needed;
+  if (source.exact && there - skip > needed) refuse_long(scan);
+  return source.offset + skip;
+}
+
+void append_slices(const ScanFile& scan, std::uint64_t begin, const SliceRange& slices,
+                   std::vector<float>& out) {
+  const std::uint64_t before = scan.grid.offset(0, 0, slices.first);
+  ByteSource bytes(scan.source.file, Packing::kPlain, begin + before * byte_size(scan.source.type));
+  read_binary(scan, bytes, scan.grid.offset(0, 0, slices.count), out);
 }
 
 }  // namespace mesamis::detail

@@ -12,7 +12,9 @@
 #include "mesamis/files/byte_source.h"
 #include "mesamis/files/memory_budget.h"
 #include "mesamis/files/number_type.h"
+#include "mesamis/image/grid_axes.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/scan_files/slice_reader.h"
 
 /// Shared by the readers of plain arrays (NIfTI, NRRD, MetaImage, InVesalius): a header is read
 /// into a grid and the place and coding of the samples, and read_samples() reads them.
@@ -65,7 +67,6 @@ void set_values(ScanFile& scan, std::int64_t inner, std::int64_t outer);
 ///
 /// Axes whose cosines are below 1e-5 are made orthonormal; up to kSkewTolerance with a warning.
 /// @throws InputError  for larger cosines, and a step of length 0 or that is not finite.
-inline constexpr double kSkewTolerance = 1e-3;
 void set_axes(ScanFile& scan, const std::array<Vec3, 3>& steps);
 
 /// Sets the origin. @throws InputError  if it is not finite.
@@ -76,6 +77,17 @@ void set_origin(ScanFile& scan, const Vec3& origin);
 /// @throws InputError  if the data are too short, broken or (source.exact) too long; as
 ///                     MemoryBudget::claim().
 std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget);
+
+/// Where the samples begin in source.file, in bytes, if they lie there as they are. The header is
+/// held against the size of the file; no sample is read.
+/// @throws InputError  if they are compressed or in text; as read_samples().
+std::uint64_t find_plain_samples(const ScanFile& scan);
+
+/// Appends the samples of some slices; no other is read.
+/// @param begin  from find_plain_samples().
+/// @throws InputError  if the file ends before them.
+void append_slices(const ScanFile& scan, std::uint64_t begin, const SliceRange& slices,
+                   std::vector<float>& out);
 
 /// Appends stored samples to `out` as native values.
 /// @param bytes  a whole number of samples.

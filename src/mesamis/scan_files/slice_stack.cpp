@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <utility>
 
 #include "mesamis/base/error.h"
 #include "mesamis/files/file_list.h"
@@ -87,8 +89,8 @@ void require_like(const ScanFile& first, const ScanFile& slice) {
 }
 
 /// The headers of all files, checked, as one volume without samples.
-ScanFile open_slices(const fs::path& directory, const std::vector<fs::path>& files,
-                     MemoryBudget& budget) {
+ScanFile open_headers(const fs::path& directory, const std::vector<fs::path>& files,
+                      MemoryBudget& budget) {
   ScanFile first = open_picture(files[0], budget);
   if (first.grid.size[2] != 1) {
     refuse(files[0], say("expected one slice per file, found ", first.grid.size[2]));
@@ -101,6 +103,11 @@ ScanFile open_slices(const fs::path& directory, const std::vector<fs::path>& fil
   set_size(scan, {first.grid.size[0], first.grid.size[1], std::ssize(files)});
   warn_of_gaps(files, scan.warnings);
   return scan;
+}
+
+bool holds_dicom(const fs::path& directory) {
+  const std::vector<fs::path> files = files_below(directory);
+  return std::any_of(files.begin(), files.end(), looks_like_dicom);
 }
 
 }  // namespace
@@ -125,17 +132,37 @@ std::vector<fs::path> slices_in(const fs::path& directory, MemoryBudget& budget)
   return files;
 }
 
+std::vector<fs::path> slices_without_dicom(const fs::path& directory, MemoryBudget& budget) {
+  std::vector<fs::path> slices = slices_in(directory, budget);
+  return slices.empty() || holds_dicom(directory) ? std::vector<fs::path>{} : slices;
+}
+
+SliceReader read_pictures(std::vector<fs::path> files) {
+  return [files = std::move(files)](const SliceRange& slices, MemoryBudget& budget,
+                                    std::vector<float>& out) {
+    const auto asked = std::span(files).subspan(static_cast<std::size_t>(slices.first),
+                                                static_cast<std::size_t>(slices.count));
+    for (const fs::path& file : asked) {
+      const ScopedFile scope(budget, file);
+      const std::vector<float> slice = read_picture(file, budget).volume.samples;
+      out.insert(out.end(), slice.begin(), slice.end());
+    }
+  };
+}
+
+OpenSlices open_stack(const fs::path& directory, const std::vector<fs::path>& files,
+                      MemoryBudget& budget) {
+  return {open_headers(directory, files, budget), read_pictures(files)};
+}
+
 VolumeFile read_slices(const fs::path& directory, const std::vector<fs::path>& files,
                        const ReadOptions& options, MemoryBudget& budget) {
-  ScanFile scan = open_slices(directory, files, budget);
+  const OpenSlices stack = open_stack(directory, files, budget);
+  const ScanFile& scan = stack.scan;
   announce(scan.grid, options);
-  VolumeFile out{std::move(scan.grid), scan.format, std::move(scan.warnings)};
+  VolumeFile out{scan.grid, scan.format, scan.warnings};
   reserve_within(budget, out.volume.samples, out.volume.voxel_count(), "samples");
-  for (const fs::path& file : files) {
-    const ScopedFile scope(budget, file);
-    const std::vector<float> slice = read_picture(file, budget).volume.samples;
-    out.volume.samples.insert(out.volume.samples.end(), slice.begin(), slice.end());
-  }
+  stack.read({0, out.volume.size[2]}, budget, out.volume.samples);
   return out;
 }
 
@@ -145,7 +172,7 @@ VolumeInfo describe_slices(const fs::path& directory, const std::vector<fs::path
   info.description = (directory / "").parent_path().filename().string();
   info.format = "slices";
   try {
-    const ScanFile scan = open_slices(directory, files, budget);
+    const ScanFile scan = open_headers(directory, files, budget);
     info.format = scan.format;
     set_grid(info, scan.grid);
   } catch (const InputError& error) {

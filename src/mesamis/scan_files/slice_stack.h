@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesamis/files/memory_budget.h"
+#include "mesamis/scan_files/formats.h"
 #include "mesamis/scan_files/read_volume.h"
 
 /// Pictures of a directory as the slices of one volume.
@@ -20,6 +21,26 @@ bool natural_less(const std::string& a, const std::string& b);
 /// @throws InputError  as files_in().
 std::vector<std::filesystem::path> slices_in(const std::filesystem::path& directory,
                                              MemoryBudget& budget);
+
+/// The same, but none where the directory, or one below it, holds DICOM: pictures beside a series
+/// are previews.
+/// @throws InputError  as files_below().
+std::vector<std::filesystem::path> slices_without_dicom(const std::filesystem::path& directory,
+                                                        MemoryBudget& budget);
+
+/// Reads pictures of one slice each, only those that are asked for.
+/// @param files  in the order of the slices.
+/// @throws nothing
+SliceReader read_pictures(std::vector<std::filesystem::path> files);
+
+/// The headers of all files, held against each other, as one volume. Its reader opens only the
+/// files of the slices that are asked for.
+/// @param files  at least one.
+/// @throws InputError  as read_slices().
+///
+/// O(bytes) of the headers, for PNG and BMP of whole files.
+OpenSlices open_stack(const std::filesystem::path& directory,
+                      const std::vector<std::filesystem::path>& files, MemoryBudget& budget);
 
 /// Reads the pictures as slices, the first at z = 0. Spacing along x and y as the first file has
 /// it, 1 mm between slices with a warning. Numbers in the names that do not go up in equal steps

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  open_slices.h
   read_volume.h
   write_volume.h)
 # For the rooms above alone: not installed.
@@ -10,7 +11,8 @@ set(ROOM_INNER_HEADERS
   dicom_spacing.h
   formats.h
   nrrd_header.h
-  scan_file.h)
+  scan_file.h
+  slice_reader.h)
 set(ROOM_SOURCES
   bmp_file.cpp
   dicom_data.cpp
@@ -32,6 +34,7 @@ set(ROOM_SOURCES
   nifti_file.cpp
   nrrd_file.cpp
   nrrd_header.cpp
+  open_slices.cpp
   png_file.cpp
   raw_file.cpp
   read_volume.cpp

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "mesamis/files/deflate.h"
 #include "mesamis/files/file_list.h"
@@ -111,18 +112,68 @@ void for_each_slice(const std::filesystem::path& file, TIFF* tiff, Visit&& visit
   }
 }
 
-/// Counts the slices and makes sure that they are alike.
-std::int64_t count_slices(const std::filesystem::path& file, TIFF* tiff, Page& common) {
-  std::int64_t slices = 0;
+/// Where the directory of a page lies in the file, and which page that is.
+struct PagePlace {
+  std::uint64_t offset = 0;
+  tdir_t number = 0;
+};
+
+/// The header of a file: what is read of it once.
+struct TiffPages {
+  ScanFile scan;
+  Page page;
+  std::vector<PagePlace> places;  ///< of the slices
+  std::optional<tdir_t> cut_off;  ///< the first page that goes on behind the end of the file
+};
+
+void require_like(const std::filesystem::path& file, const Page& common, const Page& page,
+                  tdir_t number) {
+  if (page == common) return;
+  refuse(file, say("expected pages of one size and type (", common.width, " x ", common.height,
+                   ", ", common.bits, " bits), found page ", number, " of ", page.width, " x ",
+                   page.height, ", ", page.bits, " bits"));
+}
+
+[[noreturn]] void refuse_page(const std::filesystem::path& file, tdir_t number) {
+  refuse(file, say("page ", number, " is broken or cut off"));
+}
+
+/// The bytes of a strip or a tile that are read: of a plain strip no more than its lines.
+std::uint64_t bytes_of_part(TIFF* tiff, const Page& page, std::uint32_t part) {
+  const std::uint64_t stored = TIFFGetStrileByteCount(tiff, part);
+  std::uint16_t compression = COMPRESSION_NONE;
+  std::uint32_t lines = page.height;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &compression);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_ROWSPERSTRIP, &lines);
+  if (TIFFIsTiled(tiff) || compression != COMPRESSION_NONE) return stored;
+  const std::uint64_t before = std::uint64_t{part} * lines;
+  const std::uint64_t left = page.height - std::min<std::uint64_t>(before, page.height);
+  return std::min(stored, std::min<std::uint64_t>(lines, left) * TIFFScanlineSize64(tiff));
+}
+
+/// Whether the pixels of the page lie within the file.
+bool is_complete(const std::filesystem::path& file, TIFF* tiff, const Page& page) {
+  const std::uint64_t size = size_of(file);
+  const std::uint32_t parts =
+      TIFFIsTiled(tiff) ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
+  for (std::uint32_t part = 0; part < parts; ++part) {
+    const std::uint64_t bytes = bytes_of_part(tiff, page, part);
+    if (bytes > size || TIFFGetStrileOffset(tiff, part) > size - bytes) return false;
+  }
+  return true;
+}
+
+/// Finds the slices and makes sure that they are alike.
+void find_slices(TiffPages& in, TIFF* tiff, MemoryBudget& budget) {
+  const std::filesystem::path& file = in.scan.file;
   for_each_slice(file, tiff, [&] {
     const Page page = page_of(tiff);
-    if (slices++ == 0) common = page;
-    if (page == common) return;
-    refuse(file, say("expected pages of one size and type (", common.width, " x ", common.height,
-                     ", ", common.bits, " bits), found page ", TIFFCurrentDirectory(tiff), " of ",
-                     page.width, " x ", page.height, ", ", page.bits, " bits"));
+    const tdir_t number = TIFFCurrentDirectory(tiff);
+    if (in.places.empty()) in.page = page;
+    require_like(file, in.page, page, number);
+    if (!in.cut_off && !is_complete(file, tiff, page)) in.cut_off = number;
+    append_within(budget, in.places, PagePlace{TIFFCurrentDirOffset(tiff), number}, "pages");
   });
-  return slices;
 }
 
 /// The number behind "key=" at the start of a line of ImageJ's description.
@@ -176,10 +227,6 @@ Vec3 spacing_of(TIFF* tiff, std::vector<std::string>& warnings) {
   return spacing;
 }
 
-[[noreturn]] void refuse_page(const std::filesystem::path& file, TIFF* tiff) {
-  refuse(file, say("page ", TIFFCurrentDirectory(tiff), " is broken or cut off"));
-}
-
 /// Width and height of the tiles, checked against what the file can hold.
 std::array<std::size_t, 2> tile_size(const std::filesystem::path& file, TIFF* tiff,
                                      std::size_t pixel) {
@@ -194,16 +241,18 @@ std::array<std::size_t, 2> tile_size(const std::filesystem::path& file, TIFF* ti
   return {width, height};
 }
 
-struct OpenTiff {
-  ScanFile scan;
-  TiffHandle tiff;
-  Page page;
+/// A page that is read.
+struct PageRead {
+  const TiffPages& in;
+  TIFF* tiff;
+  MemoryBudget& budget;
+  tdir_t number = 0;
 };
 
-void read_tiles(const OpenTiff& in, std::vector<unsigned char>& out, MemoryBudget& budget) {
+void read_tiles(const PageRead& read, std::vector<unsigned char>& out) {
+  const auto& [in, tiff, budget, number] = read;
   const std::filesystem::path& file = in.scan.file;
   const Page& page = in.page;
-  TIFF* tiff = in.tiff.get();
   const std::size_t pixel = page.bits / 8u, line = page.width * pixel;
   const auto [tile_width, tile_height] = tile_size(file, tiff, pixel);
   const ScopedClaim claim(budget, 2 * tile_width * tile_height, pixel, "a tile");  // and libtiff's
@@ -212,7 +261,7 @@ void read_tiles(const OpenTiff& in, std::vector<unsigned char>& out, MemoryBudge
     for (std::size_t x = 0; x < page.width; x += tile_width) {
       if (TIFFReadTile(tiff, tile.data(), static_cast<std::uint32_t>(x),
                        static_cast<std::uint32_t>(y), 0, 0) < 0) {
-        refuse_page(file, tiff);
+        refuse_page(file, number);
       }
       const std::size_t bytes = std::min(tile_width, page.width - x) * pixel;
       for (std::size_t row = 0; row < std::min(tile_height, page.height - y); ++row) {
@@ -223,31 +272,29 @@ void read_tiles(const OpenTiff& in, std::vector<unsigned char>& out, MemoryBudge
   }
 }
 
-void read_strips(const OpenTiff& in, std::vector<unsigned char>& out, MemoryBudget&) {
-  const std::filesystem::path& file = in.scan.file;
-  const Page& page = in.page;
-  TIFF* tiff = in.tiff.get();
+void read_strips(const PageRead& read, std::vector<unsigned char>& out) {
+  const std::filesystem::path& file = read.in.scan.file;
+  const Page& page = read.in.page;
+  TIFF* tiff = read.tiff;
   const std::size_t line = std::size_t{page.width} * (page.bits / 8u);
   if (static_cast<std::size_t>(TIFFScanlineSize64(tiff)) != line) {
-    refuse(file, say("page ", TIFFCurrentDirectory(tiff), ": expected lines of ", line, " bytes"));
+    refuse(file, say("page ", read.number, ": expected lines of ", line, " bytes"));
   }
   for (std::uint32_t y = 0; y < page.height; ++y) {
-    if (TIFFReadScanline(tiff, out.data() + y * line, y, 0) < 0) refuse_page(file, tiff);
+    if (TIFFReadScanline(tiff, out.data() + y * line, y, 0) < 0) refuse_page(file, read.number);
   }
 }
 
-OpenTiff open_tiff(const std::filesystem::path& file, const MemoryBudget& budget) {
-  OpenTiff open_file;
-  open_file.tiff = open(file, budget);
-  ScanFile& scan = open_file.scan;
+TiffPages open_pages(const std::filesystem::path& file, TIFF* tiff, MemoryBudget& budget) {
+  TiffPages in;
+  ScanFile& scan = in.scan;
   scan.file = file;
   scan.format = "TIFF";
-  TIFF* tiff = open_file.tiff.get();
   const Vec3 spacing = spacing_of(tiff, scan.warnings);
-  const std::int64_t slices = count_slices(file, tiff, open_file.page);
-  const Page& page = open_file.page;
+  find_slices(in, tiff, budget);
+  const Page& page = in.page;
   scan.source.type = require_grey(file, page);
-  set_size(scan, {page.width, page.height, slices});
+  set_size(scan, {page.width, page.height, std::ssize(in.places)});
   set_axes(scan, {Vec3{spacing.x, 0, 0}, Vec3{0, spacing.y, 0}, Vec3{0, 0, spacing.z}});
   if (page.photometric == PHOTOMETRIC_MINISWHITE) {
     scan.warnings.push_back("small values are meant to be shown white; they are kept as stored");
@@ -256,28 +303,48 @@ OpenTiff open_tiff(const std::filesystem::path& file, const MemoryBudget& budget
   if (static_cast<double>(needed) > allocation_bound(file)) {
     refuse(file, say("expected ", needed, " bytes of samples, found a file of ", size_of(file)));
   }
-  return open_file;
+  if (in.cut_off) refuse_page(file, *in.cut_off);
+  return in;
+}
+
+/// Appends the samples of some slices.
+void append_pages(PageRead read, const SliceRange& slices, std::vector<float>& out) {
+  const TiffPages& in = read.in;
+  const std::size_t pixels = std::size_t{in.page.width} * in.page.height;
+  const ScopedClaim claim(read.budget, pixels, in.page.bits / 8u, "a page");
+  std::vector<unsigned char> page(pixels * (in.page.bits / 8u));
+  const auto asked = std::span(in.places).subspan(static_cast<std::size_t>(slices.first),
+                                                  static_cast<std::size_t>(slices.count));
+  for (const PagePlace& place : asked) {
+    read.number = place.number;
+    if (!TIFFSetSubDirectory(read.tiff, place.offset)) refuse_page(in.scan.file, place.number);
+    TIFFIsTiled(read.tiff) ? read_tiles(read, page) : read_strips(read, page);
+    append_samples(page, in.scan.source, out);
+  }
 }
 
 }  // namespace
 
 VolumeFile read_tiff(const std::filesystem::path& file, MemoryBudget& budget) {
-  OpenTiff in = open_tiff(file, budget);
-  VolumeFile out{std::move(in.scan.grid), in.scan.format, in.scan.warnings};
-  const std::size_t pixels = std::size_t{in.page.width} * in.page.height;
-  const ScopedClaim claim(budget, pixels, in.page.bits / 8u, "a page");
-  std::vector<unsigned char> page(pixels * (in.page.bits / 8u));
+  const TiffHandle tiff = open(file, budget);
+  const TiffPages in = open_pages(file, tiff.get(), budget);
+  VolumeFile out{in.scan.grid, in.scan.format, in.scan.warnings};
   reserve_within(budget, out.volume.samples, out.volume.voxel_count(), "samples");
-  for_each_slice(file, in.tiff.get(), [&] {
-    const auto read = TIFFIsTiled(in.tiff.get()) ? read_tiles : read_strips;
-    read(in, page, budget);
-    append_samples(page, in.scan.source, out.volume.samples);
-  });
+  append_pages({in, tiff.get(), budget}, {0, out.volume.size[2]}, out.volume.samples);
   return out;
 }
 
 ScanFile open_tiff_header(const std::filesystem::path& file, MemoryBudget& budget) {
-  return open_tiff(file, budget).scan;
+  return open_pages(file, open(file, budget).get(), budget).scan;
+}
+
+OpenSlices open_tiff_slices(const std::filesystem::path& file, MemoryBudget& budget) {
+  const TiffHandle header = open(file, budget);
+  const auto in = std::make_shared<const TiffPages>(open_pages(file, header.get(), budget));
+  return {in->scan, [in](const SliceRange& slices, MemoryBudget& of_read, std::vector<float>& out) {
+            const TiffHandle tiff = open(in->scan.file, of_read);
+            append_pages({*in, tiff.get(), of_read}, slices, out);
+          }};
 }
 
 }  // namespace mesamis::detail

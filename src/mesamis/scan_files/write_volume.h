@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "mesamis/image/slice_source.h"
 #include "mesamis/image/volume.h"
 
 namespace mesamis {
@@ -15,6 +16,7 @@ enum class SampleType {
 struct NrrdOptions {
   SampleType type = SampleType::kFloat;
   bool gzip = false;  ///< compressed by zlib, fastest level
+  Index slab = 0;     ///< slices of a source that are read at once, no change of the bytes; 0: some
 };
 
 /// Writes a volume as .nrrd (NRRD0004, header and samples in one file).
@@ -27,8 +29,17 @@ struct NrrdOptions {
 /// @throws InputError  for another extension, samples that are not as many as voxels, samples that
 ///                     do not fit into 16 bits, or a file that cannot be written.
 ///
-/// O(voxels). Memory: the file's bytes once, with gzip twice.
+/// O(voxels). Memory: a slab's samples, see slab_slices().
 void write_nrrd(const std::filesystem::path& path, const Volume& volume,
+                const NrrdOptions& options = {});
+
+/// Writes a volume that need not fit into the memory, a few slices at a time: the bytes of the
+/// function above.
+/// @param source  samples in native units.
+/// @throws InputError  as the function above, and as source.read().
+///
+/// O(voxels). Memory: a slab's samples.
+void write_nrrd(const std::filesystem::path& path, const SliceSource& source,
                 const NrrdOptions& options = {});
 
 }  // namespace mesamis

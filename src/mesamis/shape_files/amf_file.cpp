@@ -5,6 +5,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/text_writer.h"
 #include "mesamis/files/xml.h"
+#include "mesamis/files/xml_text.h"
 #include "mesamis/shape_files/object_formats.h"
 #include "mesamis/shape_files/polygons.h"
 

@@ -17,16 +17,6 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t kLongestName = 60;
-
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
-bool is_name(const std::string& name) {
-  return !name.empty() && name.size() <= kLongestName && is_letter(name[0]) &&
-         std::all_of(name.begin(), name.end(),
-                     [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; });
-}
-
 /// What a body must hold, each check in one line.
 class Checks {
  public:
@@ -95,10 +85,10 @@ class Checks {
   }
 
   void require_name(const std::string& name, std::set<std::string>& seen) const {
-    if (!is_name(name)) {
-      refuse(path_,
-             say("expected a name of letters, digits and underscores that begins with a ",
-                 "letter and has at most ", kLongestName, " characters, found ", in_quotes(name)));
+    if (!is_solver_name(name)) {
+      refuse(path_, say("expected a name of letters, digits and underscores that begins with a ",
+                        "letter and has at most ", kLongestSolverName, " characters, found ",
+                        in_quotes(name)));
     }
     if (!seen.insert(lower(name)).second) {
       refuse(path_,
@@ -126,16 +116,29 @@ std::vector<std::string> names_of(const std::vector<Named>& items) {
   return names;
 }
 
+/// Of each set an array "set_NAME": 1 at its nodes, 0 elsewhere.
+std::vector<MeshArray> set_arrays(const FiniteElements& elements) {
+  std::vector<MeshArray> arrays;
+  for (const FiniteElements::FaceSet& set : elements.sets) {
+    MeshArray& array = arrays.emplace_back(MeshArray{"set_" + set.name, 1, {}});
+    array.values.assign(elements.points.size(), 0);
+    for (const Index node : set.nodes) array.values[static_cast<std::size_t>(node)] = 1;
+  }
+  return arrays;
+}
+
 void write_vtu_elements(const std::filesystem::path& path, const FiniteElements& elements,
                         const ElementWriteOptions& options) {
   VtuGrid grid{elements.points, elements.cells, elements.mid_nodes};
-  grid.field_data.push_back(vtk_texts("PartNames", names_of(elements.parts)));
+  grid.field_data.push_back(vtk_text_bytes("PartNames", names_of(elements.parts)));
   if (!elements.materials.empty()) {
-    grid.field_data.push_back(vtk_texts("MaterialNames", names_of(elements.materials)));
+    grid.field_data.push_back(vtk_text_bytes("MaterialNames", names_of(elements.materials)));
   }
   std::vector<MeshArray> arrays = material_arrays(elements);
   arrays.insert(arrays.end(), options.cell_arrays.begin(), options.cell_arrays.end());
-  write_vtu_grid(path, grid, {options.point_arrays, arrays, options.frame});
+  std::vector<MeshArray> point_arrays(options.point_arrays.begin(), options.point_arrays.end());
+  for (MeshArray& set : set_arrays(elements)) point_arrays.push_back(std::move(set));
+  write_vtu_grid(path, grid, {point_arrays, arrays, options.frame});
 }
 
 void write_medit_elements(const std::filesystem::path& path, const FiniteElements& elements,

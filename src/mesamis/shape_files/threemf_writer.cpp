@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "mesamis/files/xml.h"
+#include "mesamis/files/xml_text.h"
 #include "mesamis/shape_files/object_formats.h"
 #include "mesamis/shape_files/threemf_handle.h"
 

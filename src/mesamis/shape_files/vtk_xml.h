@@ -48,11 +48,12 @@ class VtkXml {
   ///                     overlap; and as MemoryBudget::claim().
   std::vector<double> values(const XmlElement& data_array, std::size_t count);
 
-  /// The first text of an Array of type String; empty if it is none.
+  /// The first text of an Array of type String, or of a DataArray that holds the bytes of texts,
+  /// see vtk_text_bytes(); empty if it is none.
   /// @throws InputError  as values(), or if the texts have more than 1 MiB.
   std::string text(const XmlElement& array);
 
-  /// All texts of an Array of type String.
+  /// All texts of such an array.
   /// @throws InputError  as values(), or if the texts have more than 16 MiB.
   std::vector<std::string> texts(const XmlElement& array);
 

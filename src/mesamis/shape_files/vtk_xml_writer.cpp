@@ -14,7 +14,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/files/atomic_file.h"
 #include "mesamis/files/refuse.h"
-#include "mesamis/files/xml.h"
+#include "mesamis/files/xml_text.h"
 
 namespace mesamis::detail {
 namespace {
@@ -147,7 +147,7 @@ class Writer {
 
   /// VTK leaves the range of the whole numbers that make up cells open.
   void write_range(const VtkArray& array) {
-    std::string least, most;
+    std::string least = array.least, most = array.most;
     if (array.type == std::string_view(vtk_type_name<double>())) {
       const auto range = range_of(array);
       least = with_11_digits(range[0]);
@@ -225,6 +225,24 @@ VtkArray vtk_texts(std::string name, const std::vector<std::string>& texts) {
     bytes.append(all, begin, end - begin);
   };
   return {std::move(name), kTextType, 1, size, 1, std::move(append_values), texts.size()};
+}
+
+VtkArray vtk_text_bytes(std::string name, const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) {
+    if (&text != &texts.front()) all += '\0';
+    all += text;
+  }
+  const auto code = [](char c) { return static_cast<unsigned char>(c); };
+  VtkArray array = vtk_array<std::uint8_t>(std::move(name), 1, all.size(),
+                                           [all, code](std::size_t i) { return code(all[i]); });
+  array.tuples = all.size();
+  if (all.empty()) return array;
+  const auto [least, most] = std::minmax_element(
+      all.begin(), all.end(), [code](char a, char b) { return code(a) < code(b); });
+  array.least = std::to_string(code(*least));
+  array.most = std::to_string(code(*most));
+  return array;
 }
 
 void write_vtk_xml(const std::filesystem::path& path, const VtkFile& file) {

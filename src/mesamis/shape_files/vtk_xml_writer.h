@@ -43,7 +43,8 @@ struct VtkArray {
   std::size_t value_size = 0;  ///< bytes per value
   /// Appends the values [begin, end) to bytes, little endian.
   std::function<void(std::size_t begin, std::size_t end, std::string& bytes)> append_values;
-  std::size_t tuples = 0;  ///< stated where not 0: no piece counts the field data
+  std::size_t tuples = 0;       ///< stated where not 0: no piece counts the field data
+  std::string least{}, most{};  ///< the range, where it is stated and not of doubles
 };
 
 /// An array of numbers.
@@ -65,6 +66,11 @@ VtkArray vtk_text(std::string name, std::string text);
 
 /// An array of texts, none of which has a zero byte.
 VtkArray vtk_texts(std::string name, const std::vector<std::string>& texts);
+
+/// Texts as an array of numbers: their bytes, a zero between two texts. VtkXml reads it as it reads
+/// texts. Readers that know numbers alone, as meshio, take it too.
+/// @param texts  none has a zero byte; together they have a byte at least.
+VtkArray vtk_text_bytes(std::string name, const std::vector<std::string>& texts);
 
 /// The arrays in one element of a piece, e.g. <PointData>.
 struct VtkArrayGroup {

@@ -218,12 +218,13 @@ void detail::write_vtu_grid(const std::filesystem::path& path, const VtuGrid& gr
                             const VtuOptions& options) {
   const Frame frame = options.frame;
   const std::size_t points = grid.points.size(), cells = grid.cells.size();
-  VtkFile file{"UnstructuredGrid",
-               {vtk_text(kFrameName, frame_name(frame)), vtk_text("LengthUnit", "mm")},
-               {{"NumberOfPoints", points}, {"NumberOfCells", cells}},
-               {group_of("PointData", options.point_arrays, points, "point", frame),
-                group_of("CellData", options.cell_arrays, cells, "cell", frame),
-                group_of_points(grid.points, frame), group_of_cells(grid)}};
+  VtkFile file{
+      "UnstructuredGrid",
+      {vtk_text_bytes(kFrameName, {frame_name(frame)}), vtk_text_bytes("LengthUnit", {"mm"})},
+      {{"NumberOfPoints", points}, {"NumberOfCells", cells}},
+      {group_of("PointData", options.point_arrays, points, "point", frame),
+       group_of("CellData", options.cell_arrays, cells, "cell", frame),
+       group_of_points(grid.points, frame), group_of_cells(grid)}};
   file.field_data.insert(file.field_data.end(), grid.field_data.begin(), grid.field_data.end());
   write_vtk_xml(path, file);
 }

@@ -16,6 +16,7 @@ set(ROOM_HEADERS
   smooth_memberships.h
   split_edges.h
   tri_mesh.h
+  triangle_shapes.h
   unused_points.h)
 # For the rooms above alone: not installed.
 set(ROOM_INNER_HEADERS
@@ -56,6 +57,7 @@ set(ROOM_SOURCES
   split_edges.cpp
   tri_mesh.cpp
   triangle_intersection.cpp
+  triangle_shapes.cpp
   triangle_tree.cpp
   unused_points.cpp
   yield_nodes.cpp)

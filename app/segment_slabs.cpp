@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "segment_slabs.h"
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "arguments.h"
+#include "costs.h"
+#include "log.h"
+#include "mesamis/record/json_file.h"
+#include "mesamis/record/report.h"
+#include "mesamis/record/run_surface.h"
+#include "mesamis/record/verdict.h"
+#include "mesamis/shape_files/surface_files.h"
+#include "mesamis/slabs/run_in_slabs.h"
+#include "outputs.h"
+#include "progress.h"
+#include "scan.h"
+#include "summary.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What tells a scan from another of the same name: a folder's files are not looked at.
+std::string identity_of(const fs::path& path) {
+  const auto written = fs::last_write_time(path).time_since_epoch().count();
+  const auto bytes = fs::is_regular_file(path) ? fs::file_size(path) : 0;
+  return fs::absolute(path).string() + " " + std::to_string(bytes) + " " + std::to_string(written);
+}
+
+/// Without a place for checkpoints, scratch files lie beside the first output.
+SlabRunOptions slab_options(const SegmentRun& run, const SlabArguments& slabs) {
+  SlabRunOptions options;
+  if (slabs.slabs.value_or(0) > 0) options.slabs = slabs.slabs;
+  options.scratch = slabs.checkpoint;
+  options.resumable = !slabs.checkpoint.empty();
+  options.input = identity_of(run.scan.input);
+  if (options.scratch.empty()) {
+    options.scratch = run.surfaces.empty() ? run.report : run.surfaces.front();
+    options.scratch += ".slabs";
+  }
+  return options;
+}
+
+nlohmann::ordered_json slabs_json(const SlabRunResult& found, const Team& team) {
+  auto each = nlohmann::ordered_json::array();
+  for (std::size_t s = 0; s < found.slabs.size(); ++s) {
+    const SlabWork& work = found.slabs[s];
+    each.push_back({{"first_slice", found.plan.cuts[s]},
+                    {"slices", found.plan.cuts[s + 1] - found.plan.cuts[s]},
+                    {"voxels", work.voxels},
+                    {"rows", work.rows},
+                    {"cells", work.cells},
+                    {"bytes_of_others", work.bytes}});
+  }
+  return {{"count", found.plan.count()},
+          {"processes", team.size()},
+          {"overlap_mm", found.plan.overlap * found.plan.unit_mm},
+          {"own_rows", found.own_rows},
+          {"own_cells", found.own_cells},
+          {"slabs", std::move(each)}};
+}
+
+nlohmann::ordered_json scan_json(const SegmentRun& run, const VolumeFile& head) {
+  return {{"path", run.scan.input.string()},
+          {"format", head.format},
+          {"modality", head.volume.modality},
+          {"size", head.volume.size},
+          {"spacing_mm", vec_json(head.volume.spacing)}};
+}
+
+struct Ended {
+  const SlabRunResult& found;
+  const SurfaceCheck& check;
+  const Verdict& verdict;
+};
+
+void write_slab_report(const SegmentRun& run, const Settings& settings, const VolumeFile& head,
+                       const Ended& ended, const Team& team, const OutputSet& set) {
+  if (run.report.empty()) return;
+  nlohmann::ordered_json report;
+  report["program"] = program_json();
+  report["input"] = scan_json(run, head);
+  report["command"] = run.command;
+  report["output"] = output_json(run.scan.frame);
+  report.update(run_json(settings, ended.found.result, ended.check));
+  report["slabs"] = slabs_json(ended.found, team);
+  report["warnings"] = head.warnings;
+  report["verdict"] = {{"kept", ended.verdict.outcome == Outcome::kKept},
+                       {"message", ended.verdict.message}};
+  report["files"] = files_json(set);
+  add_costs(report);
+  write_json(run.report, report);
+}
+
+int deliver(const SegmentRun& run, const Settings& settings, const VolumeFile& head,
+            const SlabRunResult& found, const Team& team) {
+  const Result& result = found.result;
+  const SurfaceCheck check = check_surface(result.surface);
+  const Verdict verdict = judge(result, check);
+  if (!run.surfaces.empty()) require_surface(result);
+  const bool grey = std::any_of(run.surfaces.begin(), run.surfaces.end(), carries_grey);
+  const auto as = surface_options(result, head.volume.voxel_size(),
+                                  {run.scan.frame, run.name, run.error, grey});
+  OutputSet set;
+  for (const fs::path& path : run.surfaces) write_surface(path, result.surface, as);
+  write_slab_report(run, settings, head, {found, check, verdict}, team, set);
+  const Paths files = files_of(set);
+  commit(set);
+  RunFigures figures = figures_of(result, check, head.volume.modality);
+  figures.files = files;
+  show_summary(figures);
+  if (verdict.outcome != Outcome::kKept) log_error(verdict.message);
+  return exit_status(verdict.outcome);
+}
+
+}  // namespace
+
+void add_slab_options(CLI::App& command, SlabArguments& arguments) {
+  command.add_option_function<std::string>(
+      "--slabs",
+      [&arguments](const std::string& text) {
+        arguments.slabs = text == "auto" ? 0 : parse_integers(text, 1, "--slabs").front();
+        if (*arguments.slabs < (text == "auto" ? 0 : 1)) {
+          throw CLI::ValidationError("--slabs", "expected at least 1, found " + text);
+        }
+      },
+      "Read and work in so many slabs (or: auto), one after the other, for scans that are larger "
+      "than the memory; scratch files lie beside the first output");
+  command.add_option("--checkpoint", arguments.checkpoint,
+                     "Folder for the scratch files of --slabs: a run that was killed goes on "
+                     "there; removed at the end");
+}
+
+void require_slabs(const SegmentRun& run, const Settings& settings) {
+  const auto refuse = [](const std::string& option) {
+    throw CLI::ValidationError("--slabs",
+                               "expected no option that needs the whole scan at once, "
+                               "found " +
+                                   option);
+  };
+  if (run.scan.labels.given()) refuse("labels");
+  if (run.scan.places.given()) refuse("--tissue, --seed, --box, --mask or --remove");
+  if (run.wants_mesh()) refuse("--mesh or --band-mesh");
+  if (run.body.elements()) refuse("--body or --surface-quality");
+  if (!run.labelmap.empty()) refuse("--labelmap");
+  if (run.page.given()) refuse("--html or --pictures");
+  if (settings.preview) refuse("--preview");
+  if (!(settings.crop == CropRange{})) refuse("--crop");
+  if (run.scan.input.empty()) throw CLI::ValidationError("input", "expected a scan, found none");
+}
+
+int run_slabs(const SegmentRun& run, const SlabArguments& slabs, const Settings& settings,
+              const CommonOptions& common) {
+  Team& team = *common.team;
+  const std::unique_ptr<FileSlices> source = open_any_slices(run.scan.input, run.scan.read);
+  const VolumeFile& head = source->head();
+  for (const std::string& warning : head.warnings) log_warning(warning);
+  ProgressDisplay display(common.quiet || common.is_helper());
+  SlabRunOptions options = slab_options(run, slabs);
+  options.progress = display.callback();
+  const auto found = run_in_slabs(*source, settings, options, team);
+  display.finish();
+  if (!found) return kExitDone;
+  return deliver(run, settings, head, *found, team);
+}
+
+}  // namespace mesamis

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The licences of what the tar and the packages hold beside our own files, as SPDX expressions.
+
+Keys are Debian 12's binary packages. A library that is not here is not bundled: read its copyright
+file first. Nothing under the GPL may come in without an exception for linking."""
+
+LIBRARIES = {
+    "lib3mf1": "BSD-2-Clause",
+    "libaec0": "BSD-2-Clause",
+    "libblosc1": "BSD-3-Clause AND MIT AND Zlib",
+    "libbrotli1": "MIT",
+    "libbsd0": "BSD-3-Clause AND BSD-2-Clause AND ISC AND MIT",
+    "libbz2-1.0": "bzip2-1.0.6",
+    "libcharls2": "BSD-3-Clause",
+    "libdeflate0": "MIT",
+    "libexpat1": "MIT",
+    "libfmt9": "MIT",
+    "libfreetype6": "FTL",
+    "libgcc-s1": "GPL-3.0-or-later WITH GCC-exception-3.1",
+    "libgdcm3.0": "BSD-3-Clause",
+    "libgl1": "MIT",
+    "libglew2.2": "BSD-3-Clause AND MIT",
+    "libglvnd0": "MIT",
+    "libglx0": "MIT",
+    "libhdf5-103-1": "BSD-3-Clause",
+    "libinsighttoolkit5.2": "Apache-2.0",
+    "libjpeg62-turbo": "IJG AND BSD-3-Clause AND Zlib",
+    "libjson-c5": "MIT",
+    "liblerc4": "Apache-2.0",
+    "liblz4-1": "BSD-2-Clause",
+    "liblzma5": "0BSD",
+    "libmd0": "BSD-3-Clause AND BSD-2-Clause AND ISC AND Beerware",
+    "libopengl0": "MIT",
+    "libopenjp2-7": "BSD-2-Clause",
+    "libopenmesh1": "BSD-3-Clause",
+    "libpng16-16": "libpng-2.0",
+    "libsnappy1v5": "BSD-3-Clause",
+    "libspdlog1.10": "MIT",
+    "libssl3": "Apache-2.0",
+    "libstdc++6": "GPL-3.0-or-later WITH GCC-exception-3.1",
+    "libsz2": "BSD-2-Clause",
+    "libtbb12": "Apache-2.0",
+    "libtiff6": "libtiff",
+    "libuuid1": "BSD-3-Clause",
+    "libvtk9.1": "BSD-3-Clause",
+    "libwebp7": "BSD-3-Clause",
+    "libx11-6": "MIT AND X11",
+    "libxau6": "MIT",
+    "libxcb1": "MIT",
+    "libxdmcp6": "MIT",
+    "libzip4": "BSD-3-Clause",
+    "libzstd1": "BSD-3-Clause",
+    "zlib1g": "Zlib",
+}
+
+# Libraries that are not brought: sources of what stands in their place, and versions of its symbols.
+STAND_INS = {"libjbig.so.0": ("jbig_absent.c", None), "libcurl.so.4": ("curl_absent.c", "curl_absent.map")}
+
+# Headers that are compiled into our files. The last column: what of ours holds them.
+HEADERS = {
+    "libcli11-dev": ("BSD-3-Clause", ("mesamis",)),
+    "libeigen3-dev": ("MPL-2.0", ("mesamis", "libmesamis-dev", "python3-mesamis")),
+    "libopenmesh-dev": ("BSD-3-Clause", ("mesamis", "libmesamis-dev", "python3-mesamis")),
+    "nlohmann-json3-dev": ("MIT", ("mesamis", "libmesamis-dev", "python3-mesamis")),
+    "pybind11-dev": ("BSD-3-Clause", ("python3-mesamis",)),
+}
+
+# What npm fetched and the program embeds, where there is such a list; it names the licences itself.
+NPM_LIST = "web/package-lock.json"
+NPM_VIEWER = "web/node_modules/@niivue/niivue/dist/niivue.umd.js"  # is there where it was embedded
+NPM_TEXTS = ("web/NIIVUE_LICENSE.txt",)

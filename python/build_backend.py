@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds the wheel of the package with CMake: the back end of `pip install .` (PEP 517).
+
+Nothing is downloaded: CMake, a compiler, pybind11 and the libraries that scripts/setup lists must be
+there. MESAMIS_BUILD_FOLDER names the build folder (default: build/wheel), MESAMIS_JOBS the parallel
+jobs, MESAMIS_CMAKE_ARGS further options of CMake.
+"""
+
+import base64
+import hashlib
+import os
+import re
+import shlex
+import subprocess
+import sys
+import sysconfig
+import tempfile
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+SUMMARY = "From a 3D scan to a printable surface and a mesh that follows the image"
+
+
+def version():
+    text = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    return re.search(r"project\(mesamis VERSION ([0-9.]+)", text).group(1)
+
+
+def metadata():
+    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+    return (f"Metadata-Version: 2.1\nName: mesamis\nVersion: {version()}\nSummary: {SUMMARY}\n"
+            "License: Apache-2.0\nRequires-Python: >=3.9\nRequires-Dist: numpy>=1.20\n"
+            f"Description-Content-Type: text/markdown\n\n{page}")
+
+
+def tag():
+    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    return f"{python}-{python}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
+
+
+def installed(stage):
+    """Builds the package and installs it below a folder."""
+    folder = Path(os.environ.get("MESAMIS_BUILD_FOLDER", ROOT / "build" / "wheel"))
+    jobs = os.environ.get("MESAMIS_JOBS", str(os.cpu_count() or 1))
+    options = ["-DMESAMIS_BUILD_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}"]
+    if not (folder / "CMakeCache.txt").exists():
+        options += ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DMESAMIS_BUILD_APP=OFF",
+                    "-DMESAMIS_BUILD_TESTS=OFF", "-DMESAMIS_BUILD_EXAMPLES=OFF"]
+    options += shlex.split(os.environ.get("MESAMIS_CMAKE_ARGS", ""))
+    for command in (["cmake", "-S", ROOT, "-B", folder, *options],
+                    ["cmake", "--build", folder, "-j", jobs, "--target", "mesamis_python"],
+                    ["cmake", "--install", folder, "--component", "python", "--prefix", stage, "--strip"]):
+        subprocess.run([str(part) for part in command], check=True, stdout=sys.stderr)
+    return next(Path(stage).rglob("mesamis"))
+
+
+def contents(package):
+    """What is in the wheel: names and bytes."""
+    info = f"mesamis-{version()}.dist-info"
+    files = {f"mesamis/{p.relative_to(package)}": p.read_bytes() for p in sorted(package.rglob("*")) if p.is_file()}
+    files[f"{info}/METADATA"] = metadata().encode()
+    files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: mesamis {version()}\nRoot-Is-Purelib: false\n"
+                              f"Tag: {tag()}\n").encode()
+    files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
+    rows = []
+    for name, data in files.items():
+        digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
+        rows.append(f"{name},sha256={digest},{len(data)}\n")
+    files[f"{info}/RECORD"] = ("".join(rows) + f"{info}/RECORD,,\n").encode()
+    return files
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    """Writes the wheel; the same sources give the same bytes. Returns its name."""
+    name = f"mesamis-{version()}-{tag()}.whl"
+    with tempfile.TemporaryDirectory() as stage:
+        files = contents(installed(stage))
+    with zipfile.ZipFile(Path(wheel_directory) / name, "w", zipfile.ZIP_DEFLATED) as wheel:
+        for path, data in files.items():
+            entry = zipfile.ZipInfo(path, (1980, 1, 1, 0, 0, 0))
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.external_attr = 0o644 << 16
+            wheel.writestr(entry, data)
+    return name
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    raise NotImplementedError("mesamis: build from a checkout; there is no archive of the sources")

@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a call of segment returns."""
+
+import json
+import os
+import tempfile
+
+import numpy as np
+
+from . import _core
+
+MESH_FORMATS = (".vtu", ".mesh", ".msh", ".inp")
+
+
+def _extension(path):
+    return os.path.splitext(os.fspath(path))[1].lower()
+
+
+def _write_json(path, value):
+    """The file appears whole or not at all."""
+    folder = os.path.dirname(os.fspath(path)) or "."
+    handle, temporary = tempfile.mkstemp(dir=folder, prefix=".mesamis-")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8") as file:
+            json.dump(value, file, indent=2, ensure_ascii=False)
+            file.write("\n")
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+
+
+class _AnyResult:
+    """What results of one object and of several have in common."""
+
+    def __init__(self, run, frame):
+        self._run = run
+        self._report = None
+        self.frame = frame
+
+    def _turned(self, points):
+        return points if self.frame == "lps" else points * np.array([-1.0, -1.0, 1.0])
+
+    @property
+    def report(self):
+        """The run's report, as the program writes it with --report."""
+        if self._report is None:
+            self._report = json.loads(self._run.report())
+        return self._report
+
+    @property
+    def warnings(self):
+        """What was warned of, a line each."""
+        return [*self._run.warnings, *([self._run.flaw] if self._run.flaw else [])]
+
+    @property
+    def notes(self):
+        """What was done to the scan unasked, a line each: padding filled, a table removed."""
+        return list(self._run.notes)
+
+    @property
+    def nodes(self):
+        """The mesh's nodes, (n, 3), mm; none for a preview, nor of labels without mesh=True. The
+        same is true of the tetrahedra and fields."""
+        return self._turned(self._run.nodes)
+
+    @property
+    def tets(self):
+        """The mesh's tetrahedra, (m, 4) indices of nodes."""
+        return self._run.tets
+
+    @property
+    def u(self):
+        """The denoised image at the nodes, grey values."""
+        return self._run.u
+
+    @property
+    def v(self):
+        """The edge indicator at the nodes: 0 at edges, 1 elsewhere."""
+        return self._run.v
+
+
+class Result(_AnyResult):
+    """The result of `segment` for one object. Arrays share the library's memory and cannot be
+    written to; with `frame="ras"` points and metric are turned copies."""
+
+    @property
+    def points(self):
+        """The surface's points, (n, 3), mm."""
+        return self._turned(self._run.points)
+
+    @property
+    def triangles(self):
+        """The surface's triangles, (m, 3) indices of points, outward."""
+        return self._run.triangles
+
+    @property
+    def expected_error(self):
+        """How far each point is expected to lie from the truth, mm; empty for a band."""
+        return self._run.expected_error
+
+    @property
+    def f(self):
+        """The scan at the nodes, grey values."""
+        return self._run.f
+
+    @property
+    def metric(self):
+        """The metric that the mesh was made for, at the nodes, 1/mm^2: xx xy xz yy yz zz."""
+        metric = self._run.metric
+        return metric if self.frame == "lps" else metric * np.array([1.0, 1, -1, 1, -1, 1])
+
+    @property
+    def level(self):
+        """The level of the surface, native units of the scan."""
+        return self._run.level
+
+    @property
+    def converged(self):
+        return self._run.converged
+
+    @property
+    def stopped(self):
+        """The time limit came first."""
+        return self._run.stopped
+
+    @property
+    def closed(self):
+        return self._run.closed
+
+    def save(self, path, *, name="mesamis surface", error=False, region="box", bins=10, band=False):
+        """Writes the surface (.stl .ply .obj .vtp .3mf .amf), the mesh (.vtu .mesh .msh .inp) or the
+        report (.json): the extension decides. The bytes are those of the program.
+
+        `error` adds the expected error to a .vtp or .ply. Of the mesh, `region` is "box" or "object",
+        `bins` the number of sets of cells; `band` writes the cells near edges with v alone (.vtu).
+        """
+        path = os.fspath(path)
+        if _extension(path) == ".json":
+            _write_json(path, self.report)
+        elif band:
+            self._run.save_band(path)
+        elif _extension(path) in MESH_FORMATS:
+            self._run.save_mesh(path, region, int(bins))
+        else:
+            self._run.save_surface(path, name, bool(error))
+
+    def __repr__(self):
+        return (f"<mesamis.Result {len(self._run.triangles)} triangles, {len(self._run.tets)} "
+                f"tetrahedra, level {self.level:.6g}>")
+
+
+class Object:
+    """One object of a label map: `name`, `label`, `layer`, `colour` (red, green, blue), `points`,
+    `triangles`, `expected_error`."""
+
+    def __init__(self, values, turned, frame):
+        self.name = values["name"]
+        self.label = values["label"]
+        self.layer = values["layer"]
+        self.colour = values["colour"]
+        self.points = turned(values["points"])
+        self.triangles = values["triangles"]
+        self.expected_error = values["expected_error"]
+        self.frame = frame
+
+    def __repr__(self):
+        return f"<mesamis.Object {self.name!r}, label {self.label}, {len(self.triangles)} triangles>"
+
+
+class LabelResult(_AnyResult):
+    """The result of `segment` for several objects: iterate over it, or ask for one by name or
+    label."""
+
+    @property
+    def objects(self):
+        """The objects, in the order chosen."""
+        return [Object(values, self._turned, self.frame) for values in self._run.objects]
+
+    def __iter__(self):
+        return iter(self.objects)
+
+    def __len__(self):
+        return len(self._run.objects)
+
+    def __getitem__(self, key):
+        for o in self.objects:
+            if key in (o.name, o.label):
+                return o
+        raise KeyError(key)
+
+    def save(self, path, *, name="mesamis surface", error=False, region="box", bins=10):
+        """Writes all objects into one file (.3mf .vtp .obj .amf), one file per object ({label} in the
+        name, or a format of one object), the mesh, or the report."""
+        path = os.fspath(path)
+        if _extension(path) == ".json":
+            _write_json(path, self.report)
+        elif _extension(path) in MESH_FORMATS:
+            self._run.save_mesh(path, region, int(bins))
+        else:
+            self._run.save_surfaces(path, name, bool(error))
+
+    def save_labelmap(self, path):
+        """Writes what was found, voxel by voxel: .nii .nii.gz .nrrd .seg.nrrd."""
+        self._run.save_labelmap(os.fspath(path))
+
+    def __repr__(self):
+        return f"<mesamis.LabelResult {', '.join(o.name for o in self.objects)}>"
+
+
+def result_of(run, frame):
+    return Result(run, frame) if isinstance(run, _core.Run) else LabelResult(run, frame)

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Decimation, distances, remeshing, phantoms."""
+
+import json
+
+import numpy as np
+
+from . import _core
+from ._geometry import Mesh, Surface, mesh_parts, surface_parts
+from ._volume import Volume
+from ._warnings import warn
+
+
+def decimate(surface, *, tolerance=None, triangles=None, min_volume=0, keep_largest=0, fill_cavities=False,
+             progress=None, threads=0):
+    """Removes triangles of a closed surface while it stays within `tolerance` (mm), down to `triangles`.
+
+    `surface` is a path, a result, a Surface or (points, triangles). Islands and cavities below
+    `min_volume` (mm^3) go, all but the `keep_largest` islands, and with `fill_cavities` every cavity.
+
+    >>> import mesamis
+    >>> ball = mesamis.phantom_surface("sphere", size=(20, 20, 20))
+    >>> fewer = mesamis.decimate(ball, tolerance=0.1)
+    >>> len(fewer.triangles) < len(ball.triangles) / 4
+    True
+    >>> fewer.report["closed"]
+    True
+    """
+    if tolerance is None and triangles is None:
+        raise _core.InputError("decimate: expected tolerance or triangles, found neither")
+    for name, value in (("tolerance", tolerance), ("triangles", triangles)):
+        if value is not None and not value >= 0:
+            raise _core.InputError(f"{name}: expected 0 or more, found {value}")
+    points, corners, frame = surface_parts(surface)
+    turn = np.array([-1.0, -1.0, 1.0]) if frame == "ras" else 1.0  # the program decimates in LPS
+    points = np.asarray(points) * turn
+    wanted = {"tolerance": tolerance, "triangles": triangles, "min_volume": min_volume,
+              "keep_largest": keep_largest, "fill_cavities": bool(fill_cavities)}
+    points, corners, report, flaw = _core.decimate(points, corners, wanted, progress, threads)
+    warn([flaw])
+    return Surface(points * turn, corners, frame or None, json.loads(report))
+
+
+class Comparison:
+    """Distances between two surfaces, mm.
+
+    `report` has mean, rms, p95, p99 and max for both directions, of the vertices and by area;
+    `surface_to_reference` and `reference_to_surface` are the distances of the vertices.
+    """
+
+    def __init__(self, report, to_reference, to_surface):
+        self.report = report
+        self.surface_to_reference = to_reference
+        self.reference_to_surface = to_surface
+
+    @property
+    def mean(self):
+        """By area, the mean of both directions."""
+        return sum(self.report[d]["by_area"]["mean"] for d in _DIRECTIONS) / 2
+
+    @property
+    def max(self):
+        """The greatest of both directions, by area and of the vertices."""
+        return max(max(self.report[d]["max"], self.report[d]["by_area"]["max"]) for d in _DIRECTIONS)
+
+    def __repr__(self):
+        return f"<mesamis.Comparison mean {self.mean:.4g} mm, max {self.max:.4g} mm>"
+
+
+_DIRECTIONS = ("surface_to_reference", "reference_to_surface")
+
+
+def compare(reference, surface, *, frames="auto", box=None, threads=0):
+    """Measures the distances between two surfaces, both directions.
+
+    Each is a path, a result, a Surface or (points, triangles). Points of files that state no frame are
+    taken as they are; `frames` is "auto", "as-is" or "turned". `box` is (x0, y0, z0, x1, y1, z1): only
+    points inside count.
+
+    >>> import mesamis
+    >>> ball = mesamis.phantom_surface("sphere", size=(20, 20, 20))
+    >>> c = mesamis.compare(ball, mesamis.decimate(ball, tolerance=0.1))
+    >>> 0 < c.mean < c.max < 0.11
+    True
+    """
+    box = None if box is None else np.asarray(box, dtype=float).ravel().tolist()
+    if box is not None and (len(box) != 6 or not all(box[a] < box[a + 3] for a in range(3))):
+        raise _core.InputError("box: expected x0, y0, z0, x1, y1, z1 with each first below its second")
+    report, warnings, there, back = _core.compare(surface_parts(reference), surface_parts(surface), frames,
+                                                  box, threads)
+    warn(warnings)
+    return Comparison(json.loads(report), there, back)
+
+
+def _tensors(metric):
+    """A metric as rows xx xy xz yy yz zz."""
+    metric = np.asarray(metric, dtype=float)
+    if metric.ndim == 1:
+        if not (metric > 0).all():
+            raise _core.InputError("metric: expected sizes above 0, found others")
+        size = 1 / metric**2
+        zero = np.zeros_like(size)
+        return np.stack([size, zero, zero, size, zero, size], axis=1)
+    if metric.ndim == 3 and metric.shape[1:] == (3, 3):
+        if not np.allclose(metric, metric.transpose(0, 2, 1), rtol=1e-9, atol=0):
+            raise _core.InputError("metric: expected symmetric matrices, found others")
+        rows, columns = np.triu_indices(3)
+        return metric[:, rows, columns]
+    return metric
+
+
+def remesh(mesh, metric, *, max_tets=None, progress=None, threads=0):
+    """Adapts a mesh of a box to a metric at its nodes: edges of the new mesh have length one in it.
+
+    `mesh` is a Mesh, a result or (nodes, tets) that fills its bounding box. `metric` is one size per node
+    (mm), one 3 x 3 matrix (1/mm^2), or its six numbers xx xy xz yy yz zz. `max_tets` coarsens the metric
+    until about so many are enough.
+
+    >>> import mesamis, numpy as np
+    >>> start = mesamis.box_mesh((0, 0, 0), (1, 1, 1), 4)
+    >>> fine = mesamis.remesh(start, np.full(len(start.nodes), 0.15))
+    >>> bool(len(fine.tets) > 1000 and np.isclose(fine.volumes.sum(), 1))
+    True
+    """
+    nodes, tets, frame = mesh_parts(mesh)
+    if max_tets is not None and not max_tets >= 1:
+        raise _core.InputError(f"max_tets: expected 1 or more, found {max_tets}")
+    nodes, tets, report = _core.remesh(nodes, tets, _tensors(metric), int(max_tets or 0), progress, threads)
+    report = json.loads(report)
+    if not report["converged"]:
+        warn([f"remesh: not converged after {report['remesh']['rounds']} rounds; the mesh is valid"])
+    return Mesh(nodes, tets, report=report, frame=frame)
+
+
+def box_mesh(low, high, cells):
+    """Fills a box with cubes of six tetrahedra each: `cells` along each axis, one number or three.
+
+    >>> len(box_mesh((0, 0, 0), (1, 1, 1), (1, 2, 3)).tets)
+    36
+    """
+    cells = np.broadcast_to(np.asarray(cells, dtype=int), (3,)).tolist()
+    return Mesh(*_core.box_mesh([float(x) for x in low], [float(x) for x in high], cells))
+
+
+def phantoms():
+    """Returns the phantoms: {name: (description, size in voxels of 1 mm)}."""
+    return {name: (text, tuple(size)) for name, text, size in _core.phantoms()}
+
+
+def _grid(size, spacing):
+    size = (0, 0, 0) if size is None else np.broadcast_to(np.asarray(size, dtype=int), (3,))
+    spacing = np.broadcast_to(np.asarray(spacing, dtype=float), (3,))
+    return [int(n) for n in size], spacing.tolist()
+
+
+def phantom(name, *, size=None, spacing=1.0, blur=1.0, noise=0.0, speckle=0.0, salt_pepper=0.0, pepper=0.0,
+            salt=255.0, seed=1, samples=4):
+    """Makes a synthetic scan whose surface is known, see `phantom_surface`.
+
+    `size` in voxels and `spacing` in mm along x, y, z; `blur` in voxels; `noise` in grey values; `speckle`
+    as a share; `salt_pepper` as a share of voxels. `phantoms()` lists the names.
+
+    >>> phantom("femur", size=(16, 16, 24), spacing=4, noise=10)
+    <mesamis.Volume 16 x 16 x 24 voxels of 4 x 4 x 4 mm, LPS>
+    """
+    wanted = {"blur": blur, "noise": noise, "speckle": speckle, "salt_pepper": salt_pepper, "pepper": pepper,
+              "salt": salt, "seed": seed}
+    return Volume(_core.phantom(name, *_grid(size, spacing), wanted, samples))
+
+
+def phantom_surface(name, *, size=None, spacing=1.0):
+    """Makes the true surface of a phantom; report["error_max_mm"] bounds its own error."""
+    points, triangles, error = _core.phantom_surface(name, *_grid(size, spacing))
+    return Surface(points, triangles, "lps", {"error_max_mm": error})

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <pybind11/stl.h>
+
+#include <map>
+
+#include "arrays.h"
+#include "binding.h"
+#include "mesamis/base/error.h"
+#include "mesamis/shape_files/mesh_files.h"
+#include "mesamis/shape_files/surface_files.h"
+#include "request.h"
+
+namespace mesamis::python {
+namespace {
+
+using namespace py::literals;
+using Arrays = std::map<std::string, Doubles>;
+
+py::tuple read_surface_file(const std::string& path) {
+  SurfaceFile file;
+  {
+    const py::gil_scoped_release lock_released;
+    file = mesamis::read_surface_file(path);
+  }
+  const bool ras = file.frame == Frame::kRas;
+  const py::object frame = file.frame ? py::object(py::str(ras ? "ras" : "lps")) : py::none();
+  return py::make_tuple(array_of<double>(std::move(file.surface.points)),
+                        array_of<Index>(std::move(file.surface.triangles)), frame);
+}
+
+std::vector<double> flat(const Doubles& array) {
+  return {array.data(), array.data() + array.size()};
+}
+
+/// What goes into the file, points as they are in the frame that it states.
+void write_surface_file(const std::string& path, const Doubles& points, const Indices& triangles,
+                        const std::string& frame, const std::string& name, const Arrays& arrays) {
+  TriMesh surface = surface_of(points, triangles);
+  SurfaceWriteOptions as{.frame = std::nullopt, .name = name};
+  if (!frame.empty()) as.frame = frame_of(frame);
+  if (as.frame == Frame::kRas) surface = turned(std::move(surface));  // the writer takes LPS
+  for (const auto& [key, values] : arrays) as.point_arrays.push_back({key, flat(values)});
+  const py::gil_scoped_release lock_released;
+  write_surface(path, surface, as);
+}
+
+std::vector<MeshArray> mesh_arrays(const Arrays& arrays) {
+  std::vector<MeshArray> list;
+  for (const auto& [name, values] : arrays) {
+    const int components = values.ndim() == 1 ? 1 : static_cast<int>(values.shape(1));
+    list.push_back({name, components, flat(values)});
+  }
+  return list;
+}
+
+/// @param nodes  LPS; vectors and tensors too. The file states the frame, and has them in it.
+void write_mesh_file(const std::string& path, const Doubles& nodes, const Indices& tets,
+                     const std::string& frame_name,
+                     const std::pair<Arrays, Arrays>& point_and_cell_arrays) {
+  const Frame frame = frame_of(frame_name);
+  MeshWithArrays grid{{points_of(nodes, "nodes"), cells_of(tets, "tets")},
+                      mesh_arrays(point_and_cell_arrays.first),
+                      mesh_arrays(point_and_cell_arrays.second)};
+  for (const Cell& cell : grid.mesh.cells) {
+    for (const Index node : cell) {
+      if (static_cast<std::size_t>(node) < grid.mesh.points.size()) continue;
+      throw InputError("tets: expected indices of " + std::to_string(grid.mesh.points.size()) +
+                       " nodes, found " + std::to_string(node));
+    }
+  }
+  const std::string extension = path.substr(std::min(path.size(), path.rfind('.')));
+  const py::gil_scoped_release lock_released;
+  if (extension == ".vtu") {
+    write_vtu(path, grid.mesh, {grid.point_arrays, grid.cell_arrays, frame});
+  } else if (extension == ".mesh") {
+    write_medit_mesh(path, grid.mesh, frame);
+  } else {
+    throw InputError(path + ": expected .vtu or .mesh, found '" + extension + "'");
+  }
+}
+
+py::dict dict_of(const std::vector<MeshArray>& arrays) {
+  py::dict dict;
+  for (const MeshArray& array : arrays) {
+    py::array values = array_of<double>(array.values);
+    if (array.components > 1) values = values.attr("reshape")(-1, array.components);
+    dict[py::str(array.name)] = values;
+  }
+  return dict;
+}
+
+py::tuple read_mesh_file(const std::string& path) {
+  MeshWithArrays grid;
+  {
+    const py::gil_scoped_release lock_released;
+    const bool medit = path.size() > 5 && path.compare(path.size() - 5, 5, ".mesh") == 0;
+    grid = medit ? MeshWithArrays{read_medit_mesh(path), {}, {}} : read_vtu(path);
+  }
+  const py::dict points = dict_of(grid.point_arrays), cells = dict_of(grid.cell_arrays);
+  return py::make_tuple(array_of<double>(std::move(grid.mesh.points)),
+                        array_of<Index>(std::move(grid.mesh.cells)), points, cells);
+}
+
+}  // namespace
+
+void bind_files(py::module_& module) {
+  module.def("surface_formats", &written_surface_formats);
+  module.def("read_surface", &read_surface_file, "path"_a);
+  module.def("write_surface", &write_surface_file, "path"_a, "points"_a, "triangles"_a, "frame"_a,
+             "name"_a, "arrays"_a);
+  module.def("read_mesh", &read_mesh_file, "path"_a);
+  module.def("write_mesh", &write_mesh_file, "path"_a, "nodes"_a, "tets"_a, "frame"_a, "arrays"_a);
+}
+
+}  // namespace mesamis::python

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <pybind11/stl.h>
+
+#include <limits>
+
+#include "arrays.h"
+#include "binding.h"
+#include "call.h"
+#include "mesamis/base/error.h"
+#include "mesamis/comparison/comparison.h"
+#include "mesamis/comparison/surface_pair.h"
+#include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/method/printable.h"
+#include "mesamis/phantom/degrade.h"
+#include "mesamis/phantom/phantom.h"
+#include "mesamis/phantom/phantom_truth.h"
+#include "mesamis/record/comparison_json.h"
+#include "mesamis/record/remesh_json.h"
+#include "mesamis/record/report.h"
+#include "mesamis/record/verdict.h"
+#include "mesamis/remesh/adapt_mesh.h"
+#include "request.h"
+#include "run.h"
+
+namespace mesamis::python {
+namespace {
+
+using namespace py::literals;
+using Size = std::array<Index, 3>;
+using Vector = std::array<double, 3>;
+
+// ---- decimate
+
+/// A surface of Python in its frame: "lps", "ras", or none.
+SurfaceFile surface_file(const Doubles& points, const Indices& triangles,
+                         const std::string& frame) {
+  SurfaceFile file{surface_of(points, triangles), std::nullopt};
+  if (!frame.empty()) file.frame = frame_of(frame);
+  return file;
+}
+
+struct Decimated {
+  TriMesh surface;
+  std::string report, flaw;
+};
+
+Decimated decimated(const TriMesh& surface, const PrintableOptions& options) {
+  const std::string flaws = flaws_of(check_surface(surface));
+  if (!flaws.empty()) {
+    throw InputError("surface: expected a closed 2-manifold surface, found " + flaws);
+  }
+  PrintableReport printable;
+  Decimated result{make_printable(surface, options, &printable), "", ""};
+  if (result.surface.triangles.empty()) {
+    throw InputError("surface: every part is smaller than min_volume");
+  }
+  nlohmann::ordered_json report = printable_json(printable, options.tolerance);
+  report.update(check_json(result.surface, check_surface(result.surface)));
+  result.report = json_text(report);
+  if (!printable.within(options.tolerance)) {
+    result.flaw = tolerance_unmet(options.tolerance, printable);
+  }
+  return result;
+}
+
+py::tuple decimate_surface(const Doubles& points, const Indices& triangles,
+                           const py::dict& arguments, const py::object& progress, int threads) {
+  const Arguments wanted(arguments);
+  const TriMesh surface = surface_of(points, triangles);
+  PrintableOptions options;
+  options.tolerance = wanted.get("tolerance", std::numeric_limits<double>::infinity());
+  options.triangles = wanted.get<std::int64_t>("triangles");
+  options.min_volume = wanted.get<double>("min_volume");
+  options.keep_largest = wanted.get<std::int64_t>("keep_largest");
+  options.fill_cavities = wanted.get<bool>("fill_cavities");
+  Decimated done = released({progress, threads}, [&](const Progress& tell) {
+    options.progress = tell;
+    return decimated(surface, options);
+  });
+  return py::make_tuple(array_of<double>(std::move(done.surface.points)),
+                        array_of<Index>(std::move(done.surface.triangles)), done.report, done.flaw);
+}
+
+// ---- compare
+
+FrameRule rule_of(const std::string& name) {
+  if (name == "auto") return FrameRule::kAuto;
+  if (name == "as-is") return FrameRule::kAsIs;
+  if (name == "turned") return FrameRule::kTurned;
+  throw InputError("frames: expected 'auto', 'as-is' or 'turned', found '" + name + "'");
+}
+
+struct Compared {
+  SurfacePair pair;
+  std::vector<DirectedDistances> directions;
+  std::string report;
+};
+
+Compared compared(const SurfaceFile& reference, const SurfaceFile& surface, FrameRule rule,
+                  const std::optional<Box>& box) {
+  Compared c{pair_up(reference, surface, rule, "surface"), {}, ""};
+  c.directions = {measure_distances("surface_to_reference", c.pair.surface, c.pair.reference, box),
+                  measure_distances("reference_to_surface", c.pair.reference, c.pair.surface, box)};
+  nlohmann::ordered_json report;
+  report["frames"] = frames_json(c.pair);
+  report["unit"] = "mm";
+  for (const DirectedDistances& d : c.directions) report[d.name] = distances_json(d);
+  report["paper"] = paper_distances_json(c.directions[1]);
+  c.report = json_text(report);
+  return c;
+}
+
+using SurfaceOfPython = std::tuple<Doubles, Indices, std::string>;
+
+py::tuple compare_surfaces(const SurfaceOfPython& reference, const SurfaceOfPython& surface,
+                           const std::string& frames, const std::optional<std::array<double, 6>>& b,
+                           int threads) {
+  const auto file = [](const SurfaceOfPython& s) {
+    return surface_file(std::get<0>(s), std::get<1>(s), std::get<2>(s));
+  };
+  const SurfaceFile first = file(reference), second = file(surface);
+  std::optional<Box> box;
+  if (b) box = Box{{(*b)[0], (*b)[1], (*b)[2]}, {(*b)[3], (*b)[4], (*b)[5]}};
+  const FrameRule rule = rule_of(frames);
+  Compared c = released({py::none(), threads},
+                        [&](const Progress&) { return compared(first, second, rule, box); });
+  return py::make_tuple(c.report, c.pair.warnings,
+                        array_of<double>(std::move(c.directions[0].from_vertices)),
+                        array_of<double>(std::move(c.directions[1].from_vertices)));
+}
+
+// ---- remesh
+
+py::tuple remesh_mesh(const Doubles& nodes, const Indices& tets, const Doubles& metric,
+                      std::int64_t max_tets, const py::object& progress, int threads) {
+  const TetMesh mesh{points_of(nodes, "nodes"), cells_of(tets, "tets")};
+  const std::vector<Sym3> metrics = tensors_of(metric, "metric");
+  if (mesh.points.empty() || mesh.cells.empty()) {
+    throw InputError("mesh: expected nodes and tets, found none");
+  }
+  if (max_tets < 0)
+    throw InputError("max_tets: expected 1 or more, found " + std::to_string(max_tets));
+  AdaptedMesh done = released({progress, threads}, [&](const Progress& tell) {
+    const std::string flaw = find_flaw(mesh, bounding_box(mesh.points));
+    if (!flaw.empty()) throw InputError("mesh: not a mesh of its bounding box: " + flaw);
+    if (metrics.size() != mesh.points.size()) {
+      throw InputError("metric: expected " + std::to_string(mesh.points.size()) +
+                       " metrics, one per node, found " + std::to_string(metrics.size()));
+    }
+    require_positive_definite(metrics);
+    RemeshOptions options;
+    options.max_cells = max_tets;
+    options.progress = tell;
+    return adapt_mesh(mesh, metrics, options);
+  });
+  nlohmann::ordered_json report;
+  report["mesh"] = fit_json(done);
+  report["remesh"] = remesh_json(done.report);
+  report["converged"] = done.report.converged;
+  return py::make_tuple(array_of<double>(std::move(done.mesh.points)),
+                        array_of<Index>(std::move(done.mesh.cells)), json_text(report));
+}
+
+py::tuple box_of_cells(const Vector& low, const Vector& high, const Size& cells) {
+  const Box box{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+  for (int a = 0; a < 3; ++a) {
+    if (!(box.lo[a] < box.hi[a])) throw InputError("box: expected each low end below its high end");
+    if (cells[static_cast<std::size_t>(a)] < 1) {
+      throw InputError("cells: expected at least 1 along each axis");
+    }
+  }
+  TetMesh mesh = box_mesh(box, cells);
+  return py::make_tuple(array_of<double>(std::move(mesh.points)),
+                        array_of<Index>(std::move(mesh.cells)));
+}
+
+// ---- phantom
+
+std::shared_ptr<Scan> phantom_scan(const std::string& name, const Size& size, const Vector& spacing,
+                                   const py::dict& arguments, int samples) {
+  const Arguments wanted(arguments);
+  DegradeOptions degrade_as;
+  degrade_as.blur = wanted.get<double>("blur");
+  degrade_as.noise = wanted.get<double>("noise");
+  degrade_as.speckle = wanted.get<double>("speckle");
+  degrade_as.salt_pepper = wanted.get<double>("salt_pepper");
+  degrade_as.pepper = wanted.get<double>("pepper");
+  degrade_as.salt = wanted.get<double>("salt");
+  degrade_as.seed = wanted.get<std::uint64_t>("seed");
+  const auto scan = scan_of(released({py::none(), 0}, [&](const Progress&) {
+    require_valid(degrade_as);
+    const Phantom phantom = make_phantom(name, size, {spacing[0], spacing[1], spacing[2]});
+    return degrade(sample_phantom(phantom, samples), degrade_as);
+  }));
+  scan->format = "phantom " + name;
+  return scan;
+}
+
+py::tuple phantom_surface(const std::string& name, const Size& size, const Vector& spacing) {
+  PhantomTruth truth = released({py::none(), 0}, [&](const Progress&) {
+    return make_truth(make_phantom(name, size, {spacing[0], spacing[1], spacing[2]}));
+  });
+  return py::make_tuple(array_of<double>(std::move(truth.surface.points)),
+                        array_of<Index>(std::move(truth.surface.triangles)), truth.error.max);
+}
+
+py::list phantom_names() {
+  py::list names;
+  for (const PhantomInfo& info : phantom_list()) {
+    names.append(py::make_tuple(info.name, info.description, info.size));
+  }
+  return names;
+}
+
+}  // namespace
+
+void bind_tools(py::module_& module) {
+  module.def("require_frame", [](const std::string& name) { frame_of(name); });
+  module.def("decimate", &decimate_surface, "points"_a, "triangles"_a, "wanted"_a, "progress"_a,
+             "threads"_a);
+  module.def("compare", &compare_surfaces, "reference"_a, "surface"_a, "frames"_a, "box"_a,
+             "threads"_a);
+  module.def("remesh", &remesh_mesh, "nodes"_a, "tets"_a, "metric"_a, "max_tets"_a, "progress"_a,
+             "threads"_a);
+  module.def("box_mesh", &box_of_cells, "low"_a, "high"_a, "cells"_a);
+  module.def("phantom", &phantom_scan, "name"_a, "size"_a, "spacing"_a, "wanted"_a, "samples"_a);
+  module.def("phantom_surface", &phantom_surface, "name"_a, "size"_a, "spacing"_a);
+  module.def("phantoms", &phantom_names);
+}
+
+}  // namespace mesamis::python

@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Remeshing, distances, decimation, bodies, files."""
+
+import numpy as np
+import pytest
+
+import mesamis
+
+
+def test_remesh_follows_an_own_metric():
+    start = mesamis.box_mesh((0, 0, 0), (10, 10, 10), 6)
+    z = start.nodes[:, 2]
+    sizes = 0.6 + 0.3 * np.abs(z - 5)
+    adapted = mesamis.remesh(start, sizes)
+    assert (adapted.volumes > 0).all() and adapted.volumes.sum() == pytest.approx(1000)
+    middle = adapted.nodes[adapted.tets].mean(axis=1)[:, 2]
+    near, far = np.abs(middle - 5) < 1, np.abs(middle - 5) > 4
+    assert adapted.volumes[near].mean() < adapted.volumes[far].mean() / 5
+    assert adapted.report["mesh"]["edge_unit_fraction"] > 0.9
+
+
+def test_a_metric_may_be_sizes_matrices_or_six_numbers():
+    start = mesamis.box_mesh((0, 0, 0), (1, 1, 1), 3)
+    n = len(start.nodes)
+    sizes = np.full(n, 0.3)
+    matrices = np.tile(np.eye(3) / 0.09, (n, 1, 1))
+    six = np.tile(np.array([1, 0, 0, 1, 0, 1]) / 0.09, (n, 1))
+    a, b, c = (mesamis.remesh(start, m) for m in (sizes, matrices, six))
+    assert np.allclose(a.nodes, b.nodes) and np.allclose(b.nodes, c.nodes)
+    for bad, message in [
+        (sizes[1:], "expected 64 metrics"), (-sizes, "sizes above 0"), (six[:, :5], r"shape \(n, 6\)"),
+        (-six, "positive definite"), (np.tile(np.triu(np.ones((3, 3))), (n, 1, 1)), "symmetric"),
+    ]:
+        with pytest.raises(mesamis.InputError, match=message):
+            mesamis.remesh(start, bad)
+    with pytest.raises(mesamis.InputError, match="not a mesh of its bounding box"):
+        mesamis.remesh((start.nodes, start.tets[1:]), sizes)
+    with pytest.raises(mesamis.InputError, match="tets"):
+        mesamis.remesh((start.nodes, -start.tets), sizes)
+
+
+def test_remesh_of_a_result(result):
+    coarse = mesamis.remesh(result, 0.5 * result.metric, max_tets=3000)
+    assert len(coarse.tets) < len(result.tets)
+
+
+def test_decimate_keeps_its_promise():
+    truth = mesamis.phantom_surface("femur", size=(24, 24, 36), spacing=2)
+    fewer = mesamis.decimate(truth, tolerance=0.3)
+    assert len(fewer.triangles) < len(truth.triangles) / 3
+    c = mesamis.compare(truth, fewer)
+    assert c.max <= 0.3
+    assert set(map(tuple, fewer.points)) <= set(map(tuple, np.float32(truth.points).astype(float)))
+    for arguments, message in [
+        ({}, "expected tolerance or triangles"), ({"tolerance": -1}, "tolerance: expected 0"),
+        ({"tolerance": 1, "min_volume": 1e9}, "smaller than min_volume"),
+    ]:
+        with pytest.raises(mesamis.InputError, match=message):
+            mesamis.decimate(truth, **arguments)
+    with pytest.raises(mesamis.InputError, match="closed"):
+        mesamis.decimate((truth.points, truth.triangles[1:]), tolerance=1)
+    with pytest.raises(mesamis.InputError, match="triangle 0 names point"):
+        mesamis.decimate((truth.points[:5], truth.triangles), tolerance=1)
+
+
+def test_compare_knows_frames(tmp_path):
+    lps = mesamis.phantom_surface("femur", size=(16, 16, 24), spacing=3)
+    ras = mesamis.Surface(lps.points * [-1, -1, 1], lps.triangles, "ras")
+    with pytest.warns(mesamis.MesamisWarning):
+        assert mesamis.compare(lps, ras).max < 1e-9
+    with pytest.raises(mesamis.InputError):
+        mesamis.compare(lps, mesamis.Surface(ras.points, ras.triangles, None))
+    shifted = mesamis.Surface(lps.points + [0.25, 0, 0], lps.triangles)
+    assert mesamis.compare(lps, shifted).max == pytest.approx(0.25, rel=0.2)
+
+
+def test_unknown_frames_are_refused(tmp_path):
+    s = mesamis.phantom_surface("sphere", size=(12, 12, 12))
+    upper = mesamis.Surface(s.points, s.triangles, "RAS")
+    mesh = mesamis.box_mesh((0, 0, 0), (1, 1, 1), 2)
+    mesh.frame = "RAS"
+    for call in (lambda: mesamis.compare(s, upper), lambda: mesamis.compare(upper, s),
+                 lambda: mesamis.decimate(upper, tolerance=1), lambda: upper.save(tmp_path / "a.ply"),
+                 lambda: mesamis.write_surface(tmp_path / "a.ply", s, frame="RAS"),
+                 lambda: mesh.save(tmp_path / "a.vtu"), lambda: mesamis.remesh(mesh, np.ones(27))):
+        with pytest.raises(mesamis.InputError, match="frame: expected 'lps' or 'ras', found 'RAS'"):
+            call()
+    assert not list(tmp_path.iterdir())
+
+
+def test_wrong_types_are_named():
+    s = mesamis.phantom_surface("sphere", size=(12, 12, 12))
+    with pytest.raises(mesamis.InputError, match="triangles: expected a whole number, found float"):
+        mesamis.decimate(s, triangles=10.5)
+    with pytest.raises(mesamis.InputError, match="noise: expected a number, found str"):
+        mesamis.phantom("sphere", size=12, noise="much")
+
+
+def test_surfaces_come_back_from_files(tmp_path):
+    s = mesamis.phantom_surface("sphere", size=(12, 12, 12))
+    height = s.points[:, 2]
+    for name in ("a.ply", "a.vtp", "a.obj"):
+        for frame in ("lps", "ras", None):
+            mesamis.Surface(s.points, s.triangles, frame).save(
+                tmp_path / name, arrays=None if name == "a.obj" else {"height": height})
+            back = mesamis.read_surface(tmp_path / name)
+            assert back.frame == frame
+            assert np.allclose(back.points, s.points, rtol=0, atol=1e-12)
+            assert np.array_equal(back.triangles, s.triangles)
+    with pytest.raises(mesamis.InputError, match="none.stl"):
+        mesamis.read_surface(tmp_path / "none.stl")
+
+
+def test_meshes_come_back_from_files(tmp_path):
+    mesh = mesamis.box_mesh((0, 0, 0), (1, 2, 3), 2)
+    mesh.point_arrays = {"z": mesh.nodes[:, 2], "place": mesh.nodes}
+    mesh.cell_arrays = {"volume": mesh.volumes}
+    mesh.save(tmp_path / "m.vtu")
+    back = mesamis.read_mesh(tmp_path / "m.vtu")
+    assert np.array_equal(back.nodes, mesh.nodes) and np.array_equal(back.tets, mesh.tets)
+    assert np.array_equal(back.point_arrays["place"], mesh.nodes)
+    assert np.array_equal(back.cell_arrays["volume"], mesh.volumes)
+    mesh.save(tmp_path / "m.mesh")
+    assert np.array_equal(mesamis.read_mesh(tmp_path / "m.mesh").nodes, mesh.nodes)
+    with pytest.raises(mesamis.InputError, match="expected .vtu or .mesh"):
+        mesh.save(tmp_path / "m.stl")
+    with pytest.raises(mesamis.InputError, match="expected indices of 27 nodes"):
+        mesamis.write_mesh(tmp_path / "n.vtu", (mesh.nodes, mesh.tets + 20))
+
+
+def test_meshes_in_ras_state_it(ball, tmp_path):
+    """Nodes, vectors and tensors are written as they are, with the frame that they are in."""
+    meshio = pytest.importorskip("meshio")
+    with pytest.warns(mesamis.MesamisWarning):
+        ras = mesamis.segment(ball, frame="ras", max_tets=3000, adaptations=1)
+    arrays = {"place": ras.nodes, "stress": np.tile(np.arange(6.0), (len(ras.nodes), 1)), "u": ras.u}
+    mesamis.write_mesh(tmp_path / "r.vtu", ras, point_arrays=arrays)
+    there = meshio.read(tmp_path / "r.vtu")
+    assert bytes(np.asarray(there.field_data["SPACE"], dtype=np.uint8)) == b"RAS"
+    assert np.array_equal(there.points, ras.nodes)
+    for name, values in arrays.items():
+        assert np.array_equal(there.point_data[name], values)
+    lps = ras.nodes * [-1, -1, 1]
+    assert np.array_equal(mesamis.read_mesh(tmp_path / "r.vtu").nodes, lps)
+    mesamis.write_mesh(tmp_path / "again.vtu", there)
+    assert np.array_equal(mesamis.read_mesh(tmp_path / "again.vtu").nodes, lps)
+    coarse = mesamis.remesh(ras, 0.5 * ras.metric, max_tets=2000)
+    coarse.save(tmp_path / "c.vtu")
+    assert coarse.frame == "ras"
+    assert np.array_equal(mesamis.read_mesh(tmp_path / "c.vtu").nodes, coarse.nodes * [-1, -1, 1])
+
+
+def test_volumes_come_back_from_files(ball, tmp_path):
+    mesamis.write_volume(tmp_path / "v.nrrd", ball, gzip=True)
+    back = mesamis.read_volume(tmp_path / "v.nrrd")
+    assert np.array_equal(back.array, ball.array) and np.array_equal(back.affine, ball.affine)
+
+
+def test_phantoms_are_listed_and_refused():
+    assert set(mesamis.phantoms()) >= {"sphere", "femur", "hemipelvis"}
+    with pytest.raises(mesamis.InputError):
+        mesamis.phantom("unicorn")
+    with pytest.raises(mesamis.InputError):
+        mesamis.phantom("sphere", size=2)
+
+
+def test_a_body_with_materials(result):
+    body = mesamis.make_body(result, element_size=3, quadratic=True, sets=["TOP=top:z,2mm"],
+                             material="keyak-1994", calibration="0,0.001")
+    assert body.elements.shape[1] == 10 and body.elements.max() < len(body.nodes)
+    assert len(body.material) == len(body.part) == len(body.elements)
+    assert body.materials[0][1] > 0 and len(body.sets["TOP"]) > 3
+    with pytest.raises(mesamis.InputError, match="calibration"):
+        mesamis.make_body(result, material="keyak-1994")
+    with pytest.raises(mesamis.InputError, match="what segment"):
+        mesamis.make_body(3)
+
+
+def test_the_sets_of_a_body_are_in_the_frame_of_its_result(ball):
+    for frame, sign in [("lps", 1), ("ras", -1)]:
+        result = mesamis.segment(ball, frame=frame, preview=True)
+        middle = result.points.mean(axis=0)
+        low, high = [-99, -99, -99], [99, 99, 99]
+        low[0] = middle[0] + 2
+        text = ",".join(map(str, [*low, *high]))
+        body = mesamis.make_body(result, element_size=4, sets=["SIDE=top:x,2mm", f"BOX=box:{text}"])
+        for name in ("SIDE", "BOX"):
+            x = body.nodes[body.sets[name]][:, 0]
+            assert len(x) and (x > middle[0]).all(), (frame, name, sign)
+
+
+def test_what_a_body_misses_is_a_warning(ball):
+    result = mesamis.segment(ball, preview=True)
+    with pytest.warns(mesamis.MesamisWarning, match="set 'HOLE' has no face") as caught:
+        body = mesamis.make_body(result, element_size=4, sets=["HOLE=inner"])
+    assert caught[0].filename == __file__
+    assert any("HOLE" in line for line in body.warnings)
+
+
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        ({"element_size": 0}, "element_size: expected a number above 0, found 0"),
+        ({"element_size": float("inf")}, "element size: expected a finite number"),
+        ({"element_size": "3"}, "element_size: expected a number, found str"),
+        ({"element_size": 2, "least_size": 3}, "least size: expected at most"),
+        ({"tolerance": 0}, "tolerance: expected a finite number above 0"),
+        ({"tolerance": float("inf")}, "tolerance: expected a finite number above 0"),
+        ({"gradation": 0.01}, "gradation: expected 0.05 to 5, found 0.01"),
+        ({"wall_elements": 11}, "wall elements: expected 0 to 10, found 11"),
+        ({"wall_elements": 1.5}, "wall_elements: expected a whole number, found float"),
+        ({"sets": "A=top:z,1"}, "sets: expected a list of texts, found str"),
+        ({"sets": ["A=left:z,1"]}, "set: expected NAME="),
+        ({"sets": ["A=top:z,1", "a=top:z,2"]}, "set: expected names that differ"),
+        ({"sets": ["A=between:1,2"]}, "set A: expected two of the objects 1 'object', found 2"),
+        ({"ash": "equal"}, "ash: expected material beside it"),
+        ({"material": "keyak-1994", "calibration": "0,0.001", "ash": "none"}, "ash"),
+        ({"material": "keyak-1994", "calibration": "0,0.001", "poisson": 0.5}, "poisson: expected -0.99 to 0.499"),
+        ({"material": "keyak-1994", "calibration": "0,0.001", "material_rim": -1}, "material rim: expected"),
+        ({"material": "keyak-1994", "calibration": "0,0.001", "material_gap": -1}, "material gap: expected"),
+        ({"element_size": 0.5, "memory": 1e-5}, "elements"),
+    ],
+)
+def test_bad_arguments_of_bodies(result, arguments, message):
+    with pytest.raises(mesamis.InputError, match=message) as caught:
+        mesamis.make_body(result, **arguments)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_body_needs_a_solid_and_a_tolerance(ball):
+    raw = mesamis.segment(ball, preview=True, tolerance=0)
+    with pytest.raises(mesamis.InputError, match="tolerance: expected one above 0 for the skin"):
+        mesamis.make_body(raw, element_size=4)
+    assert len(mesamis.make_body(raw, element_size=4, tolerance=0.3).nodes)

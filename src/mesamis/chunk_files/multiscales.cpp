@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/chunk_files/multiscales.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "mesamis/files/refuse.h"
+
+namespace mesamis::detail {
+namespace {
+
+struct LengthUnit {
+  std::string_view name;
+  double mm;
+};
+
+constexpr std::array kUnits{
+    LengthUnit{"millimeter", 1},   LengthUnit{"mm", 1},          LengthUnit{"micrometer", 1e-3},
+    LengthUnit{"um", 1e-3},        LengthUnit{"micron", 1e-3},   LengthUnit{"\xc2\xb5m", 1e-3},
+    LengthUnit{"nanometer", 1e-6}, LengthUnit{"nm", 1e-6},       LengthUnit{"angstrom", 1e-7},
+    LengthUnit{"picometer", 1e-9}, LengthUnit{"centimeter", 10}, LengthUnit{"cm", 10},
+    LengthUnit{"decimeter", 100},  LengthUnit{"meter", 1000},    LengthUnit{"m", 1000},
+    LengthUnit{"inch", 25.4},
+};
+
+struct Axis {
+  std::string name, unit;
+};
+
+std::vector<Axis> read_axes(const JsonValue& image) {
+  std::vector<Axis> axes;
+  const auto stated = image.find("axes");
+  if (!stated) return axes;
+  for (const JsonValue& axis : stated->list()) {
+    if (axis.is_text()) {  // NGFF 0.3
+      axes.push_back({axis.text(), {}});
+      continue;
+    }
+    const auto unit = axis.find("unit");
+    axes.push_back({axis.at("name").text(), unit ? unit->text() : std::string()});
+  }
+  return axes;
+}
+
+void require_space_last(const JsonValue& image, const std::vector<Axis>& axes) {
+  if (axes.empty()) return;
+  constexpr std::array<std::string_view, 3> kSpace{"z", "y", "x"};
+  std::string found;
+  for (const Axis& axis : axes) found += (found.empty() ? "" : ", ") + shown(axis.name);
+  bool fits = axes.size() >= kSpace.size();
+  for (std::size_t a = 0; fits && a < kSpace.size(); ++a) {
+    fits = lower(axes[axes.size() - 3 + a].name) == kSpace[a];
+  }
+  if (!fits) refuse(image.file(), "expected axes that end with z, y, x, found " + found);
+}
+
+/// mm per unit; none if the axis tells none that is a length.
+std::optional<double> mm_per(const std::string& unit) {
+  std::string name = lower(unit);
+  const auto british = name.find("metre");
+  if (british != std::string::npos) name.replace(british, 5, "meter");
+  const auto found = std::find_if(kUnits.begin(), kUnits.end(),
+                                  [&](const LengthUnit& known) { return known.name == name; });
+  return found == kUnits.end() ? std::nullopt : std::optional(found->mm);
+}
+
+/// scale * index + translation, along each axis.
+struct Transform {
+  bool stated = false;
+  std::vector<double> scale, translation;
+};
+
+std::vector<double> vector_of(const JsonValue& list, std::size_t axes) {
+  std::vector<double> values = list.numbers();
+  if (values.size() != axes) list.refuse_as(say("a list of ", axes, " numbers"));
+  return values;
+}
+
+/// What is done after what `transform` does already.
+void append_transforms(const JsonValue& owner, Transform& transform) {
+  const auto steps = owner.find("coordinateTransformations");
+  if (!steps) return;
+  const std::size_t axes = transform.scale.size();
+  for (const JsonValue& step : steps->list()) {
+    const std::string type = step.at("type").text();
+    if (type == "identity") continue;
+    if (type != "scale" && type != "translation") {
+      step.at("type").refuse_as("scale or translation");
+    }
+    const auto values = vector_of(step.at(type.c_str()), axes);
+    transform.stated |= type == "scale";
+    for (std::size_t a = 0; a < axes; ++a) {
+      if (type == "scale") {
+        transform.scale[a] *= values[a];
+        transform.translation[a] *= values[a];
+      } else {
+        transform.translation[a] += values[a];
+      }
+    }
+  }
+}
+
+/// The number of axes that the transforms of a level have, where the axes are not told.
+std::size_t axis_count(const std::vector<Axis>& axes, const JsonValue& level) {
+  if (!axes.empty()) return axes.size();
+  const auto steps = level.find("coordinateTransformations");
+  if (!steps) return 3;
+  for (const JsonValue& step : steps->list()) {
+    for (const char* key : {"scale", "translation"}) {
+      if (step.has(key)) return std::max<std::size_t>(3, step.at(key).list().size());
+    }
+  }
+  return 3;
+}
+
+void set_lengths(const std::vector<Axis>& axes, const Transform& transform, ScaleLevel& level) {
+  if (!transform.stated) return;
+  const std::size_t count = transform.scale.size();
+  level.spacing.emplace();
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::size_t axis = count - 1 - a;
+    const std::string unit = axis < axes.size() ? axes[axis].unit : std::string();
+    const auto mm = mm_per(unit);
+    if (!mm) {
+      level.warnings.push_back(say("axis ", "xyz"[a], " has ",
+                                   unit.empty() ? "no unit" : "the unit " + in_quotes(unit),
+                                   ": its lengths are taken as mm"));
+    }
+    (*level.spacing)[static_cast<int>(a)] = transform.scale[axis] * mm.value_or(1);
+    level.origin[static_cast<int>(a)] = transform.translation[axis] * mm.value_or(1);
+  }
+}
+
+}  // namespace
+
+std::vector<ScaleLevel> read_multiscales(const JsonValue& attributes) {
+  const auto ome = attributes.find("ome");  // NGFF 0.5
+  const JsonValue& owner = ome ? *ome : attributes;
+  const auto images = owner.find("multiscales");
+  if (!images || images->list().empty()) return {};
+  const JsonValue image = images->list().front();
+  const std::vector<Axis> axes = read_axes(image);
+  require_space_last(image, axes);
+  std::vector<ScaleLevel> levels;
+  for (const JsonValue& dataset : image.at("datasets").list()) {
+    ScaleLevel level;
+    level.path = dataset.at("path").text();
+    for (const Axis& axis : axes) level.axes.push_back(axis.name);
+    const std::size_t count = axis_count(axes, dataset);
+    Transform transform{false, std::vector<double>(count, 1), std::vector<double>(count, 0)};
+    append_transforms(dataset, transform);
+    append_transforms(image, transform);
+    set_lengths(axes, transform, level);
+    levels.push_back(std::move(level));
+  }
+  if (levels.empty()) image.at("datasets").refuse_as("a list with a dataset");
+  return levels;
+}
+
+}  // namespace mesamis::detail

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesamis/base/types.h"
+#include "mesamis/chunk_files/json_value.h"
+
+/// The metadata by which OME-Zarr groups arrays of one image (NGFF 0.1 to 0.5).
+namespace mesamis::detail {
+
+/// One resolution of an image.
+struct ScaleLevel {
+  std::string path;               ///< of the array, from the group
+  std::vector<std::string> axes;  ///< names, slowest first; empty if they are not told
+  std::optional<Vec3> spacing;    ///< mm along i, j, k; none if it is not told
+  Vec3 origin;                    ///< mm
+  std::vector<std::string> warnings;
+};
+
+/// The levels of the first image that a group describes, finest first; empty if it describes none.
+/// @param attributes  of the group.
+/// @throws InputError  for what contradicts the format, and space axes other than z, y, x.
+std::vector<ScaleLevel> read_multiscales(const JsonValue& attributes);
+
+}  // namespace mesamis::detail

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mesamis/chunk_files/chunk_array.h"
+#include "mesamis/chunk_files/json_value.h"
+
+/// The metadata of one array in a Zarr store.
+namespace mesamis::detail {
+
+struct ZarrArray {
+  ChunkLayout layout;
+  std::string prefix;    ///< of the names of chunks: "c/", or nothing
+  char separator = '.';  ///< between the numbers in them
+};
+
+/// Reads the content of .zarray (version 2), or of zarr.json (version 3) of an array.
+/// @throws InputError  naming the file: what is not supported, or contradicts the format.
+///
+/// The layout is not checked: require_layout() does.
+ZarrArray read_zarr_v2(const JsonValue& metadata);
+ZarrArray read_zarr_v3(const JsonValue& metadata);
+
+/// The name of a chunk's file below the array's folder: "0.3.12", "c/0/3/12".
+std::string chunk_name(const ZarrArray& array, const std::vector<std::uint64_t>& place);
+
+}  // namespace mesamis::detail

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesamis/delivery/body_output.h"
+#include "mesamis/method/settings.h"
+
+namespace mesamis {
+
+/// What somebody asks for of a body; what is left open follows the scan and the run.
+struct BodyWishes {
+  BodyOptions elements;  ///< sizes, gradation, walls, mid-side nodes; its tolerance and its limit
+                         ///< of elements do not count
+  std::optional<double> tolerance{};  ///< of the skin, mm, > 0; none: see complete_request()
+  std::optional<MaterialOptions> material{};  ///< none: elements without materials
+  std::optional<double> rim{};  ///< of the objects, mm, >= 0; none: as deep as the scan is blurred
+  std::vector<FaceQuery> sets{};  ///< in the world frame (LPS), mm
+};
+
+/// The ends of what may be asked for: growth of sizes (no unit), elements through a wall, Poisson's
+/// ratio (no unit).
+inline constexpr std::array<double, 2> kGradations{0.05, 5}, kPoissonRatios{-0.99, 0.499};
+inline constexpr std::array<int, 2> kWallElements{0, 10};
+
+/// What a body follows where nothing was asked for.
+struct BodySource {
+  const VoxelGrid& grid;              ///< of the scan
+  std::optional<double> tolerance{};  ///< of the run's settings, mm, > 0; none: none was given
+  std::array<double, 3> blur{};       ///< of the scan, standard deviation along each axis, voxels
+  double memory_gb = 0;               ///< that the body may take; 0: what is free
+};
+
+/// What is wrong with a least size above the element size, without its name; empty where it is not
+/// or one of both is left open. O(1).
+/// @param options  sizes in mm.
+/// @throws nothing
+std::string wrong_least_size(const BodyOptions& options);
+
+/// Checks numbers: sizes, depths and gaps are finite, in mm and MPa, >= 0 (sizes of 0 are left
+/// open), the tolerance is above 0, gradation, elements through a wall and Poisson's ratio lie in
+/// their ranges above, and the least size is not above the element size.
+/// @throws InputError  naming the number, what was expected and found.
+void require_valid(const BodyWishes& wishes);
+
+/// Checks that a run gives a surface that elements can fill, and a tolerance for their skin.
+/// @param settings   of the run, as they were given.
+/// @param tolerance  that was asked for, mm; none: that of the settings.
+/// @throws InputError  for a band, and where neither is a tolerance.
+void require_fillable(const Settings& settings, std::optional<double> tolerance);
+
+/// The request with what was left open: the skin's tolerance is that of the run's settings if one
+/// was given, else a tenth of the element size; with a material the rim is as deep as the scan is
+/// blurred; no more elements are made than fit into the memory.
+/// @param wishes   see require_valid().
+/// @param objects  that shall be filled.
+/// @param source   tolerance in mm, memory in GB.
+/// @throws InputError  as require_valid() and require_set_names(), or if a set names an object that
+///                     is not there.
+///
+/// O(n log n) for n sets.
+BodyRequest complete_request(const BodyWishes& wishes, std::span<const FoundObject> objects,
+                             const BodySource& source);
+
+/// A warning of parts that do not touch each other: they have to be held one by one, or a solver
+/// finds no balance. O(1).
+/// @param parts    connected by faces.
+/// @param objects  that were filled.
+/// @return empty if there are no more parts than objects.
+/// @throws nothing
+std::string loose_parts(std::int64_t parts, std::int64_t objects);
+
+}  // namespace mesamis

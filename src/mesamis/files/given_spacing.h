@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "mesamis/base/types.h"
+
+/// A spacing that the user gives in place of the file's: what all readers of scans say of it.
+namespace mesamis::detail {
+
+/// @param spacing  mm.
+/// @throws InputError  naming the path, unless all three are positive and finite.
+void require_positive_spacing(const std::filesystem::path& path, const Vec3& spacing);
+
+/// The warning that another spacing than the file's was given. O(1).
+/// @param stated  by the file, mm.
+/// @throws nothing
+std::string spacing_is_replaced(const Vec3& stated);
+
+}  // namespace mesamis::detail

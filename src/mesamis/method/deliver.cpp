@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/deliver.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "mesamis/base/stopwatch.h"
+#include "mesamis/method/expected_error.h"
+#include "mesamis/method/follow_image.h"
+#include "mesamis/surface/extract.h"
+
+namespace mesamis {
+namespace {
+
+TriMesh followed(const RunInput& run, TriMesh extracted) {
+  const Parameters& p = run.parameters;
+  if (!p.follow) return extracted;
+  return follow_image(extracted, run.image, {p.grey.to_grey(p.level), run.error.noise, p.unit_mm});
+}
+
+/// A left-handed grid turns every orientation round.
+void bring_surface_to_world(const RunInput& run, TriMesh& surface) {
+  bring_to_world(run, surface.points);
+  if (determinant(run.grey.direction) >= 0) return;
+  for (Triangle& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);
+}
+
+}  // namespace
+
+void deliver_surface(const RunInput& run, TriMesh extracted, Result& result) {
+  Stopwatch watch;
+  result.surface = followed(run, std::move(extracted));
+  bring_surface_to_world(run, result.surface);
+  result.seconds.surface += watch.lap();
+}
+
+void deliver_loop(const RunInput& run, Loop loop, const Progress& progress, Result& result) {
+  (void)Stage(progress, "surface");
+  const Parameters& p = run.parameters;
+  const TetMesh& mesh = loop.state.mesh;
+  Stopwatch watch;
+  if (p.surface == SurfaceKind::kBand) {
+    result.surface = extract_band(mesh, loop.minimum.v, p.band_threshold);
+    bring_surface_to_world(run, result.surface);
+    result.seconds.surface = watch.lap();
+  } else {
+    TriMesh extracted = extract_solid(mesh, loop.minimum.u, p.grey.to_grey(p.level));
+    result.seconds.surface = watch.lap();
+    deliver_surface(run, std::move(extracted), result);
+  }
+  deliver_mesh(run, std::move(loop), result);
+}
+
+void finish_surface(const RunInput& run, const Settings& settings, const Progress& progress,
+                    Result& result) {
+  Parameters& p = result.parameters;
+  result.printable.triangles_extracted = std::ssize(result.surface.triangles);
+  if (p.surface == SurfaceKind::kBand) return;
+  if (!settings.tolerance && !settings.triangles) {
+    p.tolerance = default_tolerance(run.grey.voxel_size(), mean_expected_error(run, result.surface),
+                                    p.accuracy);
+  }
+  result.surface = make_printable(result.surface,
+                                  {p.min_volume, p.keep_largest, p.fill_cavities, p.tolerance,
+                                   p.triangles, progress, p.preview},
+                                  &result.printable);
+  ErrorOptions delivered = run.error;
+  delivered.decimated =
+      std::max(result.printable.extracted_to_result, result.printable.result_to_extracted);
+  result.expected_error = expected_error(result.surface, run.image, delivered);
+}
+
+}  // namespace mesamis

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mesamis/method/loop.h"
+#include "mesamis/method/mes_amis.h"
+#include "mesamis/method/passes.h"
+
+/// From what a run has found to what it delivers.
+namespace mesamis {
+
+/// Takes a solid in length units over into a result: it follows the image where that is
+/// more exact than the mesh; then it lies in the world frame, where a left-handed grid turns every
+/// triangle round. Adds the time.
+/// @throws nothing
+void deliver_surface(const RunInput& run, TriMesh extracted, Result& result);
+
+/// Extracts the surface of what the loop leaves, and delivers it and the mesh, see deliver_mesh().
+/// @param progress  stage "surface".
+/// @throws Cancelled  if progress says stop.
+void deliver_loop(const RunInput& run, Loop loop, const Progress& progress, Result& result);
+
+/// Makes a solid printable, and tells its error; the paper's band is delivered as it is.
+/// @param result  with a surface; Parameters::tolerance is set where the settings leave it open.
+/// @throws Cancelled  if progress says stop.
+void finish_surface(const RunInput& run, const Settings& settings, const Progress& progress,
+                    Result& result);
+
+}  // namespace mesamis

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace mesamis::detail {
+
+/// Bytes as base64 (RFC 4648) with padding, on one line. O(bytes).
+std::string base64(std::string_view bytes);
+
+}  // namespace mesamis::detail

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "mesamis/page/html.h"
+
+/// The parts of a page that are made of a report alone. Each is empty where the report has nothing
+/// for it.
+namespace mesamis::detail {
+
+/// A part of the page with its heading; others refer to it by its id.
+Html page_part(const std::string& id, std::string_view heading);
+
+/// Whether all that was promised was kept, and what was not, in a line.
+Html verdict_section(const nlohmann::json& report);
+
+/// The few numbers that everybody asks for first.
+Html headline_section(const nlohmann::json& report);
+
+/// Warnings, and what was done to the scan and to the surface: parts dropped, surroundings removed.
+Html notes_section(const nlohmann::json& report);
+
+/// Surface or surfaces: counts, sizes, errors.
+Html surfaces_section(const nlohmann::json& report);
+
+/// What the scan is like.
+Html scan_section(const nlohmann::json& report);
+
+/// The settings that the program chose, and why.
+Html choices_section(const nlohmann::json& report);
+
+/// Pass by pass: cells, energy, movement.
+Html passes_section(const nlohmann::json& report);
+
+/// Every setting.
+Html settings_section(const nlohmann::json& report);
+
+/// How to repeat the run.
+/// @param command   see repeat_command().
+Html repeat_section(const nlohmann::json& report, const std::string& command);
+
+/// A paragraph for a publication, with the citation.
+Html methods_section(const nlohmann::json& report);
+
+}  // namespace mesamis::detail

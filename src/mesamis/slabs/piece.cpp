@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/slabs/piece.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <unordered_map>
+
+#include "mesamis/base/error.h"
+#include "mesamis/mesh/region.h"
+
+namespace mesamis::detail {
+namespace {
+
+using Bits = std::array<std::uint64_t, 3>;
+
+/// Coordinates to the bit; 0 and -0 are one.
+Bits bits_of(const Vec3& p) {
+  return {std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0),
+          std::bit_cast<std::uint64_t>(p.z + 0.0)};
+}
+
+struct HashOfBits {
+  std::size_t operator()(const Bits& bits) const noexcept {
+    std::uint64_t hash = 0;
+    for (const std::uint64_t word : bits) {
+      hash = (hash ^ word) * 0x9e3779b97f4a7c15;
+      hash ^= hash >> 32;
+    }
+    return hash;
+  }
+};
+
+}  // namespace
+
+Piece join(std::span<const Piece* const> pieces) {
+  Piece joined;
+  std::unordered_map<Bits, Index, HashOfBits> known;
+  for (const Piece* piece : pieces) {
+    std::vector<Index> number(piece->mesh.points.size());
+    for (std::size_t n = 0; n < number.size(); ++n) {
+      const Vec3& p = piece->mesh.points[n];
+      const auto [place, is_new] =
+          known.try_emplace(bits_of(p), static_cast<Index>(joined.mesh.points.size()));
+      number[n] = place->second;
+      if (!is_new) continue;
+      joined.mesh.points.push_back(p);
+      joined.nodes.push_back(piece->nodes[n]);
+    }
+    for (Cell cell : piece->mesh.cells) {
+      for (Index& corner : cell) corner = number[corner];
+      joined.mesh.cells.push_back(cell);
+    }
+  }
+  return joined;
+}
+
+Piece select(const Piece& piece, const std::function<bool(const Cell&)>& choose) {
+  std::vector<Index> cells;
+  for (std::size_t c = 0; c < piece.mesh.cells.size(); ++c) {
+    if (choose(piece.mesh.cells[c])) cells.push_back(static_cast<Index>(c));
+  }
+  RestrictedMesh some = restrict_mesh(piece.mesh, cells);
+  Piece selected{std::move(some.mesh), {}};
+  selected.nodes.reserve(some.nodes.size());
+  for (const Index node : some.nodes) selected.nodes.push_back(piece.nodes[node]);
+  return selected;
+}
+
+void add_piece(ArchiveWriter& archive, const Piece& piece) {
+  archive.add(piece.mesh.points);
+  archive.add(piece.mesh.cells);
+  archive.add(piece.nodes);
+}
+
+Piece next_piece(ArchiveReader& archive) {
+  Piece piece;
+  piece.mesh.points = archive.next<Vec3>();
+  piece.mesh.cells = archive.next<Cell>();
+  piece.nodes = archive.next<NodeValues>();
+  return piece;
+}
+
+double height_of(const TetMesh& mesh, const Cell& cell) {
+  double sum = 0;
+  for (const Index corner : cell) sum += mesh.points[corner].z;
+  return sum / 4;
+}
+
+bool is_near(const TetMesh& mesh, const Cell& cell, double height, double distance) {
+  return std::any_of(cell.begin(), cell.end(), [&](Index corner) {
+    return std::abs(mesh.points[corner].z - height) < distance;
+  });
+}
+
+std::vector<double> lumped_mass_of(const TetMesh& mesh, std::span<const std::uint8_t> chosen) {
+  std::vector<double> mass(mesh.points.size(), 0);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    if (chosen[c] == 0) continue;
+    const double quarter = cell_volume(mesh, static_cast<Index>(c)) / 4;
+    for (const Index corner : mesh.cells[c]) mass[corner] += quarter;
+  }
+  return mass;
+}
+
+}  // namespace mesamis::detail

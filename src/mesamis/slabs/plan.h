@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mesamis/base/types.h"
+#include "mesamis/image/volume.h"
+
+namespace mesamis {
+
+/// How a scan is cut into slabs: blocks of slices that tasks work on one by one.
+struct SlabPlan {
+  VoxelGrid whole;          ///< of the scan
+  double unit_mm = 1;       ///< the length unit of the meshes, mm
+  double overlap = 0;       ///< how far a slab looks over its borders, length units
+  std::vector<Index> cuts;  ///< slab s owns the slices cuts[s] to cuts[s + 1] - 1
+
+  /// The number of slabs. O(1).
+  /// @throws nothing
+  Index count() const noexcept { return static_cast<Index>(cuts.size()) - 1; }
+  /// The box of the voxel centres, length units, in the grid's own axes. O(1).
+  /// @throws nothing
+  Box box() const noexcept { return {{0, 0, 0}, (1 / unit_mm) * whole.box().extent()}; }
+  /// The height of a slice. O(1).
+  /// @return in units of unit_mm.
+  /// @throws nothing
+  double height_of_slice(Index k) const noexcept { return k * whole.spacing.z / unit_mm; }
+  /// The height where slab s begins; that of count() is where the last one ends. O(1).
+  /// @return in units of unit_mm.
+  /// @throws nothing
+  double height(Index s) const noexcept {
+    return s == 0         ? 0
+           : s == count() ? box().hi.z
+                          : height_of_slice(cuts[static_cast<std::size_t>(s)]);
+  }
+  /// How many slices are at least so thick. O(1).
+  /// @param length  in units of unit_mm.
+  /// @throws nothing
+  Index slices_in(double length) const noexcept;
+  /// The thickness of the thinnest slab. O(slabs).
+  /// @return in units of unit_mm.
+  /// @throws nothing
+  double thinnest() const noexcept;
+};
+
+/// What a plan depends on beside the scan's grid.
+struct SlabOptions {
+  double unit_mm = 1;
+  double beta = 2;  ///< of the functional: its root is the length that influences reach
+  std::optional<Index> slabs{};  ///< default: of at most 2^26 voxels each
+};
+
+/// Cuts a scan so that all slabs have about the same work.
+/// @param work  of each slice, any unit, >= 0.
+/// @throws InputError  if the slabs asked for are thinner than four overlaps.
+///
+/// O(slices).
+SlabPlan plan_slabs(const VoxelGrid& whole, std::span<const double> work,
+                    const SlabOptions& options);
+
+}  // namespace mesamis

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "mesamis/method/iteration.h"
+
+namespace mesamis::detail {
+
+/// Puts together what slabs have recorded of one pass: counts, energies and estimators add up; of
+/// the solvers' figures the worst counts; means are weighted. Where records are of slabs that
+/// overlap (on the grid; estimators on meshes), the sum counts what is common more than once.
+/// @param slabs   at least one.
+/// @param shares  of the surface, by slab; weights of surface_change.
+Iteration sum_of_records(const std::vector<Iteration>& slabs, const std::vector<double>& shares);
+
+}  // namespace mesamis::detail

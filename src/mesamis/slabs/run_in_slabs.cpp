@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/slabs/run_in_slabs.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "mesamis/base/error.h"
+#include "mesamis/base/stopwatch.h"
+#include "mesamis/base/version.h"
+#include "mesamis/base/written_number.h"
+#include "mesamis/method/chosen_run.h"
+#include "mesamis/method/deliver.h"
+#include "mesamis/method/setting_table.h"
+#include "mesamis/slabs/mapped_floats.h"
+#include "mesamis/slabs/sample.h"
+#include "mesamis/slabs/tasks.h"
+
+namespace mesamis {
+namespace {
+
+using namespace detail;
+
+/// Voxels of which the parameters are chosen.
+constexpr std::size_t kSample = std::size_t{1} << 27;
+/// Slices that are looked at together before there is a plan.
+constexpr Index kChunk = 16;
+
+/// Stages of a run: each process does its share of the tasks, unless they are done already.
+class Stages {
+ public:
+  Stages(const Scratch& scratch, Team& team, const Progress& progress)
+      : scratch_(scratch), team_(team), progress_(progress) {}
+
+  /// Does task(0) to task(count - 1), neighbours in one process, and waits for the others.
+  void run(const std::string& name, Index count, const std::function<SlabWork(Index)>& task) {
+    const auto first = [&](int rank) {
+      return static_cast<Index>(std::int64_t{count} * rank / team_.size());
+    };
+    const Index begin = first(team_.rank()), end = first(team_.rank() + 1);
+    const Stage stage(progress_, "slabs: " + name);
+    for (Index n = begin; n < end; ++n) {
+      if (!scratch_.has(done_file(name, n))) {
+        ArchiveWriter archive;
+        archive.add_one(task(n));
+        scratch_.write(done_file(name, n), archive);
+      }
+      stage.advance(static_cast<double>(n + 1 - begin) / (end - begin));
+    }
+    team_.wait_for_all();
+  }
+
+  SlabWork work_of(const std::string& name, Index n) const {
+    return scratch_.read(done_file(name, n)).next_one<SlabWork>();
+  }
+
+ private:
+  static std::string done_file(const std::string& name, Index n) {
+    return "done." + name + "." + std::to_string(n);
+  }
+  const Scratch& scratch_;
+  Team& team_;
+  const Progress& progress_;
+};
+
+std::string chunk_file(const char* what, Index chunk) {
+  return std::string(what) + "." + std::to_string(chunk);
+}
+
+Index chunks_of(const VoxelGrid& whole) { return (whole.size[2] + kChunk - 1) / kChunk; }
+
+/// Slices of a chunk, and `more` after it as far as there are any.
+Volume read_chunk(const SliceSource& source, Index chunk, Index more) {
+  const Index first = chunk * kChunk;
+  return read_slab(source, first, std::min(kChunk + more, source.grid().size[2] - first));
+}
+
+/// What is written per slice by chunks, for all slices.
+template <class Item>
+std::vector<Item> of_all_slices(const Scratch& scratch, const char* what, Index chunks) {
+  std::vector<Item> all;
+  for (Index c = 0; c < chunks; ++c) {
+    const auto some = scratch.read(chunk_file(what, c)).template next<Item>();
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+/// The work per slice; the last slice of the scan has none after it and costs as the one before.
+std::vector<double> work_in_chunk(const SliceSource& source, Index chunk, const Choice& choice) {
+  Volume slab = read_chunk(source, chunk, 1);
+  const bool is_last = (chunk + 1) * kChunk >= source.grid().size[2];
+  std::vector<double> work;
+  if (slab.size[2] > 1) work = work_of_slices(slab, choice);
+  if (is_last) work.push_back(work.empty() ? 1 : work.back());
+  return work;
+}
+
+/// The object as a run of one machine would take it.
+ChosenObject choose_in(Volume scan, const Settings& settings) {
+  require_usable(scan);
+  return choose_object(std::move(scan), object_request(settings));
+}
+
+Choice choose_of_object(const ChosenObject& object, const VoxelGrid& whole,
+                        const Settings& settings) {
+  Choice choice = choose_parameters(object.volume, whole, settings_for(object, settings));
+  if (object.level_uncertainty > 0) choice.measured.level_uncertainty = object.level_uncertainty;
+  return choice;
+}
+
+/// The slices that stand for the scan.
+SliceRange slices_to_look_at(const SliceSource& source, const Scratch& scratch, Stages& stages) {
+  const VoxelGrid& whole = source.grid();
+  if (whole.voxel_count() <= kSample) return {0, whole.size[2]};
+  const Index chunks = chunks_of(whole);
+  stages.run("look", chunks, [&](Index c) {
+    ArchiveWriter archive;
+    archive.add(sums_of_slices(read_chunk(source, c, 0)));
+    scratch.write(chunk_file("sums", c), archive);
+    return SlabWork{};
+  });
+  return sample_slices(whole, of_all_slices<SliceSums>(scratch, "sums", chunks), kSample);
+}
+
+/// Chooses the parameters and cuts the scan: what must be known before slabs can be worked on.
+SlabRun begin_run(const SliceSource& source, const Settings& settings, const Scratch& scratch,
+                  Stages& stages, const std::optional<Index>& slabs) {
+  const VoxelGrid& whole = source.grid();
+  const SliceRange sample = slices_to_look_at(source, scratch, stages);
+  stages.run("choose", 1, [&](Index) {
+    Choice choice = choose_of_object(
+        choose_in(read_slab(source, sample.first, sample.count), settings), whole, settings);
+    choice.parameters.max_tets = settings.max_tets.value_or(0);  // else as the slabs' surfaces need
+    ArchiveWriter archive;
+    archive.add_one(choice);
+    scratch.write("choice", archive);
+    return SlabWork{};
+  });
+  const Choice choice = scratch.read("choice").next_one<Choice>();
+  const Index chunks = chunks_of(whole);
+  stages.run("cut", chunks, [&](Index c) {
+    ArchiveWriter archive;
+    archive.add(work_in_chunk(source, c, choice));
+    scratch.write(chunk_file("work", c), archive);
+    return SlabWork{};
+  });
+  const Parameters& p = choice.parameters;
+  return {source, scratch,
+          plan_slabs(whole, of_all_slices<double>(scratch, "work", chunks),
+                     {p.unit_mm, p.functional.beta, slabs}),
+          choice};
+}
+
+std::string of_mesh(const char* what, int k) { return what + (" " + std::to_string(k)); }
+
+/// All tasks on meshes: as many meshes as run_loop() would make.
+/// @return the number of the last mesh.
+int run_meshes(const MeshRun& run, Stages& stages) {
+  const Index slabs = run.slabs.plan.count();
+  stages.run("mesh 1", slabs, [&](Index s) { return first_mesh(run, s); });
+  stages.run("borders 1", slabs - 1, [&](Index s) { return seam(run, 1, s); });
+  int k = 1;
+  for (bool settled = false; k < run.input.parameters.adaptations && !settled; ++k) {
+    stages.run(of_mesh("minimise", k), slabs, [&](Index s) { return solve(run, k, s); });
+    stages.run(of_mesh("mesh", k + 1), slabs, [&](Index s) { return adapt_slab(run, k, s); });
+    stages.run(of_mesh("borders", k + 1), slabs - 1, [&](Index s) { return seam(run, k + 1, s); });
+    settled = has_settled(run.input, records_of(run, k));
+  }
+  stages.run("final minimisation", slabs, [&](Index s) { return finish(run, k, s); });
+  return k;
+}
+
+/// What the slabs have done, in the order in which they did it.
+/// @param meshes  that were made.
+std::vector<SlabWork> work_of_slabs(const SlabRun& run, const Stages& stages, int meshes) {
+  std::vector<SlabWork> all;
+  std::vector<std::string> names{"prepare", "final minimisation"};
+  std::vector<std::string> borders;
+  for (int k = 1; k <= meshes; ++k) {
+    names.push_back(of_mesh("mesh", k));
+    borders.push_back(of_mesh("borders", k));
+    if (k < meshes) names.push_back(of_mesh("minimise", k));
+  }
+  for (Index s = 0; s < run.plan.count(); ++s) {
+    SlabWork sum;
+    for (const std::string& name : names) sum += stages.work_of(name, s);
+    for (const std::string& name : borders) {
+      if (s + 1 < run.plan.count()) sum += stages.work_of(name, s);
+    }
+    all.push_back(sum);
+  }
+  return all;
+}
+
+/// What the loop leaves.
+Loop loop_of(const MeshRun& run, Finished finished) {
+  Loop loop;
+  Piece& whole = finished.whole;
+  loop.minimum.f = values_of(whole, &NodeValues::f);
+  loop.minimum.u = values_of(whole, &NodeValues::u);
+  loop.minimum.v = values_of(whole, &NodeValues::v);
+  loop.state.metric = values_of(whole, &NodeValues::metric);
+  loop.state.mesh = std::move(whole.mesh);
+  loop.passes = std::move(finished.passes);
+  for (std::size_t pass = 1; pass < loop.passes.size(); ++pass) {
+    Iteration& now = loop.passes[pass];
+    const Iteration& before = loop.passes[pass - 1];
+    now.energy_change =
+        std::abs(now.energy.total() - before.energy.total()) / before.energy.total();
+  }
+  std::vector<Iteration> adaptations(loop.passes.begin(), loop.passes.end() - 1);
+  loop.settled = adaptations.size() > 1 && has_settled(run.input, adaptations);
+  return loop;
+}
+
+/// As if the whole scan had one; those of the slabs overlap.
+std::int64_t nodes_of_first_grid(const MeshRun& run) {
+  const auto size = first_grid_size(run.slabs.plan.whole.size, run.input.parameters.stride);
+  return std::int64_t{size[0]} * size[1] * size[2];
+}
+
+/// @param meshes  that were made.
+SlabRunResult deliver(const MeshRun& run, int meshes, const Settings& settings,
+                      const Stages& stages, const Progress& progress) {
+  SlabRunResult all;
+  Result& result = all.result;
+  result.parameters = run.prepared.parameters;
+  result.image = run.prepared.measured;
+  Loop loop = loop_of(run, collect(run, meshes));
+  all.own_rows = nodes_of_first_grid(run);
+  for (std::size_t pass = 1; pass < loop.passes.size(); ++pass) {
+    all.own_rows += loop.passes[pass].nodes;
+    all.own_cells += loop.passes[pass].tets;
+  }
+  deliver_loop(run.input, std::move(loop), progress, result);
+  Stopwatch watch;
+  finish_surface(run.input, settings, progress, result);
+  result.seconds.printable = watch.lap();
+  all.plan = run.slabs.plan;
+  all.slabs = work_of_slabs(run.slabs, stages, meshes);
+  return all;
+}
+
+void require_possible(const Settings& settings) {
+  require_valid(settings);
+  if (settings.preview) throw InputError("slabs: expected a run with meshes, found a preview");
+  if (!(settings.crop == CropRange{})) {
+    throw InputError("slabs: expected the whole scan, found a crop");
+  }
+  if (settings.until != StopRule::kSurface) {
+    throw InputError("slabs: expected a run until the surface has settled, found until energy");
+  }
+  if (settings.surface != SurfaceKind::kSolid) {
+    throw InputError("slabs: expected a run that finds a solid, found the band of an edge");
+  }
+}
+
+/// A number that tells the samples of a slice from others (FNV-1a).
+std::uint64_t hash_of_slice(const SliceSource& source, Index k) {
+  std::uint64_t hash = 14695981039346656037U;
+  for (const float sample : source.read(k, 1)) {
+    hash = (hash ^ std::bit_cast<std::uint32_t>(sample)) * 1099511628211U;
+  }
+  return hash;
+}
+
+/// What a folder of scratch files belongs to: files of another run would be taken for its own. Of
+/// the samples only those of the middle slice count: the scan is large.
+std::string description_of(const SliceSource& source, const Settings& settings,
+                           const SlabRunOptions& options) {
+  const VoxelGrid& grid = source.grid();
+  std::string text = std::string(version()) + " " + options.input + " slabs " +
+                     std::to_string(options.slabs.value_or(0));
+  for (const Setting& setting : setting_table()) {
+    text += " " + setting.name + " " + text_of(setting, setting.get(settings));
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<int>(a);
+    text += " " + std::to_string(grid.size[a]);
+    for (const double number : {grid.spacing[axis], grid.origin[axis], grid.direction.rows[a].x,
+                                grid.direction.rows[a].y, grid.direction.rows[a].z}) {
+      text += " " + number_text(number);
+    }
+  }
+  return text + " samples " + std::to_string(hash_of_slice(source, grid.size[2] / 2));
+}
+
+void require_same_run(const Scratch& scratch, const std::string& description, Team& team) {
+  if (team.rank() == 0 && !scratch.has("run")) {
+    ArchiveWriter archive;
+    archive.add(std::vector<char>(description.begin(), description.end()));
+    scratch.write("run", archive);
+  }
+  team.wait_for_all();
+  const std::vector<char> there = scratch.read("run").next<char>();
+  if (std::string(there.begin(), there.end()) == description) return;
+  throw InputError(scratch.folder().string() +
+                   ": expected a folder for the scratch files of this run, found those of a run "
+                   "with another scan or other settings");
+}
+
+/// The plan if all slices were equal work: how many slabs there are depends on no sample.
+SlabPlan even_plan(const VoxelGrid& whole, const Settings& settings,
+                   const std::optional<Index>& slabs) {
+  const std::vector<double> equal(static_cast<std::size_t>(whole.size[2]), 1);
+  return plan_slabs(whole, equal, {whole.voxel_size(), settings.beta, slabs});
+}
+
+/// One slab is the whole scan: a run like any other.
+SlabRunResult run_whole(const SliceSource& source, const Settings& settings, SlabPlan plan,
+                        const Progress& progress) {
+  const ChosenObject object = choose_in(read_slab(source, 0, plan.whole.size[2]), settings);
+  SlabRunResult all;
+  all.result = run_on_object(object, settings, progress);
+  all.plan = std::move(plan);
+  for (const Iteration& pass : all.result.iterations) {
+    all.own_rows += pass.nodes;
+    if (&pass != &all.result.iterations.front()) all.own_cells += pass.tets;
+  }
+  all.slabs = {
+      {static_cast<std::int64_t>(all.plan.whole.voxel_count()), all.own_rows, all.own_cells, 0}};
+  return all;
+}
+
+std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSource& source,
+                                         const Settings& settings, const SlabRunOptions& options,
+                                         Team& team) {
+  const Progress& progress = options.progress;
+  const SlabPlan even = even_plan(source.grid(), settings, options.slabs);
+  if (even.count() == 1) {
+    if (team.rank() != 0) return std::nullopt;
+    return run_whole(source, settings, even, progress);
+  }
+  Stages stages(scratch, team, progress);
+  const SlabRun run = begin_run(source, settings, scratch, stages, options.slabs);
+  stages.run("image", 1, [&](Index) {
+    make_float_file(scratch.path(kImageFile), run.plan.whole.voxel_count());
+    return SlabWork{};
+  });
+  stages.run("prepare", run.plan.count(), [&](Index s) { return prepare_and_minimise(run, s); });
+  const MeshRun meshes(run);
+  const int last = run_meshes(meshes, stages);
+  if (team.rank() != 0) return std::nullopt;
+  return deliver(meshes, last, settings, stages, progress);
+}
+
+}  // namespace
+
+std::optional<SlabRunResult> run_in_slabs(const SliceSource& source, const Settings& settings,
+                                          const SlabRunOptions& options, Team& team) {
+  require_possible(settings);
+  Stopwatch watch;
+  const Scratch scratch(options.scratch);
+  require_same_run(scratch, description_of(source, settings, options), team);
+  std::optional<SlabRunResult> found;
+  try {
+    found = run_through(scratch, source, settings, options, team);
+  } catch (...) {
+    if (!options.resumable) scratch.clear();
+    throw;
+  }
+  if (!found) return std::nullopt;
+  found->result.seconds.total = watch.lap();
+  if (!options.keep_scratch) scratch.clear();
+  return found;
+}
+
+}  // namespace mesamis

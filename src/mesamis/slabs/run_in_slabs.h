@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesamis/base/progress.h"
+#include "mesamis/image/slice_source.h"
+#include "mesamis/method/mes_amis.h"
+#include "mesamis/slabs/plan.h"
+#include "mesamis/slabs/slab_work.h"
+#include "mesamis/slabs/team.h"
+
+/// Scans that are larger than the memory: the whole method, slab by slab.
+namespace mesamis {
+
+/// How a scan is worked on in slabs.
+struct SlabRunOptions {
+  std::optional<Index> slabs{};   ///< default: as plan_slabs()
+  std::filesystem::path scratch;  ///< a folder on a disk that all processes see; made where missing
+  bool keep_scratch = false;      ///< at the end; else what is in the folder goes
+  bool resumable = true;          ///< a run that fails leaves its files, to be gone on with
+  std::string input{};            ///< what tells this scan from others, such as a path and a date
+  Progress progress{};            ///< optional; "slabs: ..." and the stages of mes_amis()
+};
+
+/// A result, and how it came about.
+struct SlabRunResult {
+  Result result;
+  SlabPlan plan;
+  std::vector<SlabWork> slabs;  ///< one per slab
+  std::int64_t own_rows = 0;    ///< rows without those that slabs have in common
+  std::int64_t own_cells = 0;   ///< of all meshes, each cell once
+};
+
+/// Segments a scan as mes_amis() does, without ever holding more of it than a slab.
+///
+/// The parameters come from the whole scan where it has no more than 2^27 voxels, and then are
+/// those of mes_amis(); else from so many voxels of consecutive slices, those whose samples vary
+/// most. The image is restored and minimised on slab by slab, each with the slices around that
+/// matter to it. Each mesh is adapted in two steps: slabs on their own, their borders kept; then
+/// the cells around each border, kept at their own borders. On meshes the functional is minimised
+/// slab by slab with the cells around. At the end the mesh is put together, in the memory of rank
+/// 0; the surface is extracted and finished as by mes_amis().
+///
+/// The result depends on the scan, the settings and the number of slabs alone: not on the number of
+/// processes, not on threads, not on whether a run was killed and started again.
+///
+/// @param source    read by slabs, see SliceSource.
+/// @param settings  valid; no preview, no crop, no band, and until the surface has settled.
+/// @param options   how many slabs, and where scratch files go: about 5 bytes per voxel and 200 per
+///                  cell. A folder with files of the same run is gone on with.
+/// @param team      the processes that all call this function with the same arguments.
+/// @return on rank 0; nothing elsewhere.
+/// @throws InputError  as mes_amis(), plan_slabs() and the source; or if the folder holds files of
+///                     another run.
+/// @throws Cancelled   if progress says stop; the folder is kept.
+///
+/// Time as mes_amis(), and what overlaps add. Memory of a process: about that of mes_amis() for the
+/// largest slab; of rank 0 also the mesh, about 60 bytes per cell, and its surface.
+std::optional<SlabRunResult> run_in_slabs(const SliceSource& source, const Settings& settings,
+                                          const SlabRunOptions& options, Team& team);
+
+}  // namespace mesamis

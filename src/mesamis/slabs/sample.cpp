@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/slabs/sample.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesamis/base/parallel.h"
+
+namespace mesamis::detail {
+namespace {
+
+/// What a crossing of the level with an edge between voxels costs, in voxels: about three cells,
+/// in three meshes.
+constexpr double kCostOfCrossing = 60;
+
+}  // namespace
+
+std::vector<SliceSums> sums_of_slices(const Volume& slab) {
+  std::vector<SliceSums> sums(static_cast<std::size_t>(slab.size[2]));
+  const std::size_t slice = slab.offset(0, 0, 1);
+  parallel_for_each(sums.size(), [&](std::size_t k) {
+    for (std::size_t n = k * slice; n < (k + 1) * slice; ++n) {
+      const double sample = slab.samples[n];
+      sums[k].sum += sample;
+      sums[k].squares += sample * sample;
+    }
+  });
+  return sums;
+}
+
+SliceRange sample_slices(const VoxelGrid& whole, const std::vector<SliceSums>& sums,
+                         std::size_t most) {
+  const auto slices = static_cast<Index>(sums.size());
+  const auto slice = static_cast<double>(whole.offset(0, 0, 1));
+  const auto count = std::clamp(
+      static_cast<Index>(std::min(static_cast<double>(most) / slice, 1.0 * slices)), 2, slices);
+  SliceRange best{0, count};
+  double best_variance = -1;
+  for (Index first = 0; first + count <= slices; ++first) {
+    SliceSums all;
+    for (Index k = first; k < first + count; ++k) {
+      all.sum += sums[static_cast<std::size_t>(k)].sum;
+      all.squares += sums[static_cast<std::size_t>(k)].squares;
+    }
+    const double voxels = slice * count, mean = all.sum / voxels;
+    const double variance = all.squares / voxels - mean * mean;
+    if (variance <= best_variance) continue;
+    best_variance = variance;
+    best.first = first;
+  }
+  return best;
+}
+
+std::vector<double> work_of_slices(const Volume& slab, const Choice& choice) {
+  const auto level = static_cast<float>(choice.parameters.level);
+  const auto [nx, ny, nz] = slab.size;
+  std::vector<double> work(static_cast<std::size_t>(nz - 1));
+  parallel_for_each(work.size(), [&, nx = nx, ny = ny](std::size_t at) {
+    const auto k = static_cast<Index>(at);
+    std::int64_t crossings = 0;
+    for (Index j = 0; j < ny; ++j) {
+      for (Index i = 0; i < nx; ++i) {
+        const bool in = slab.at(i, j, k) > level;
+        crossings += in != (slab.at(i, j, k + 1) > level);
+        if (i + 1 < nx) crossings += in != (slab.at(i + 1, j, k) > level);
+        if (j + 1 < ny) crossings += in != (slab.at(i, j + 1, k) > level);
+      }
+    }
+    work[at] = static_cast<double>(nx) * ny + kCostOfCrossing * static_cast<double>(crossings);
+  });
+  return work;
+}
+
+}  // namespace mesamis::detail

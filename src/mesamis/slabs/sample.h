@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "mesamis/image/slice_source.h"
+#include "mesamis/method/prepare.h"
+
+/// What is looked at of a scan before it is cut into slabs.
+namespace mesamis::detail {
+
+/// Sums over the samples of a slice.
+struct SliceSums {
+  double sum = 0, squares = 0;
+};
+
+/// Of some slices. O(voxels).
+std::vector<SliceSums> sums_of_slices(const Volume& slab);
+
+/// All slices where they have no more voxels than `most`; else as many as that allows, at least
+/// two, where the samples vary most.
+SliceRange sample_slices(const VoxelGrid& whole, const std::vector<SliceSums>& sums,
+                         std::size_t most);
+
+/// Work that the slices will be, in voxels: each voxel counts once, and again as many times as it
+/// takes for cells where the level is crossed.
+/// @param slab  whose last slice is only there to be compared with.
+std::vector<double> work_of_slices(const Volume& slab, const Choice& choice);
+
+}  // namespace mesamis::detail

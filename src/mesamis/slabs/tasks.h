@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesamis/image/slice_source.h"
+#include "mesamis/method/passes.h"
+#include "mesamis/slabs/piece.h"
+#include "mesamis/slabs/plan.h"
+#include "mesamis/slabs/scratch.h"
+#include "mesamis/slabs/slab_work.h"
+
+/// The tasks of a run in slabs. Each reads what others have left in the scratch folder, and leaves
+/// its own result there; it depends on nothing else, so that any process can do it at any time
+/// after those.
+///
+/// For each mesh k, from 1: slabs adapt their own cells up to their borders (first_mesh(),
+/// adapt()), then the cells near each border between two slabs are adapted as a piece of their own
+/// (seam()), and the functional is minimised on each slab and what lies around it (solve(),
+/// finish()).
+namespace mesamis::detail {
+
+/// What all tasks know.
+struct SlabRun {
+  const SliceSource& source;
+  const Scratch& scratch;
+  SlabPlan plan;
+  Choice choice;
+};
+
+/// What prepare_and_minimise() tells the others of a slab.
+struct SlabExtent {
+  double cells = 0;         ///< that its surface asks for
+  float low = 0, high = 0;  ///< bounds of the image
+};
+
+/// Restores the slices of slab s, writes their spline, and minimises on their grid.
+SlabWork prepare_and_minimise(const SlabRun& run, Index s);
+/// Of all slabs; after prepare_and_minimise().
+std::vector<SlabExtent> extents_of(const SlabRun& run);
+
+/// The file of the image's spline.
+inline constexpr const char* kImageFile = "image";
+
+/// What tasks on meshes know: parameters are final, the image is mapped.
+struct MeshRun {
+  const SlabRun& slabs;
+  Prepared prepared;  ///< grey without samples
+  RunInput input;
+  std::vector<double> shares;  ///< of the cells, by slab
+
+  explicit MeshRun(const SlabRun& run);
+  MeshRun(const MeshRun&) = delete;
+  MeshRun& operator=(const MeshRun&) = delete;
+};
+
+/// Mesh 1 of slab s, from its grid.
+SlabWork first_mesh(const MeshRun& run, Index s);
+/// Mesh k around the border between the slabs s and s + 1.
+SlabWork seam(const MeshRun& run, int k, Index s);
+/// Minimises on mesh k of slab s.
+SlabWork solve(const MeshRun& run, int k, Index s);
+/// Mesh k + 1 of slab s.
+SlabWork adapt_slab(const MeshRun& run, int k, Index s);
+/// Minimises on mesh k of slab s, the last one, as the result needs it.
+SlabWork finish(const MeshRun& run, int k, Index s);
+
+/// What was recorded of the minimisations on the grid and on the meshes 1 to k; after solve().
+std::vector<Iteration> records_of(const MeshRun& run, int k);
+
+/// The whole mesh and its fields, and what is known of all passes; after finish().
+struct Finished {
+  Piece whole;
+  std::vector<Iteration> passes;
+};
+Finished collect(const MeshRun& run, int k);
+
+}  // namespace mesamis::detail

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pages of runs: what they say, what is refused, and how a browser shows them.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "support/external_program.h"
+#include "support/png_pixels.h"
+#include "support/run_program.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A sphere, its surface, mesh and report.
+class ReportPageTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    run_program(folder_,
+                {"phantom", "sphere", "--size", "24,24,24", "--noise", "3", "-o", at("scan.nrrd")});
+    made_ = run_program(
+        folder_, {"segment", at("scan.nrrd"), "-o", at("a.ply"), "--mesh", at("a.vtu"), "--report",
+                  at("a.json"), "--html", at("a.html"), "--pictures", at("pictures"), "--labelmap",
+                  at("labels.nrrd"), "--max-tets", "4000", "--adaptations", "2"});
+    ASSERT_THAT(made_.status, testing::AnyOf(0, 4)) << made_.err;
+  }
+  std::string at(const std::string& name) const { return folder_ / name; }
+  json report() const { return json::parse(read_bytes(at("a.json"))); }
+  TempFolder folder_;
+
+ private:
+  ProgramRun made_;
+};
+
+bool holds(const std::string& page, const std::string& text) {
+  return page.find(text) != std::string::npos;
+}
+
+/// The exact value that a page has of an entry of the report.
+std::string value_of(const std::string& page, const std::string& pointer) {
+  const std::size_t at = page.find("data-of=\"" + pointer + "\"");
+  if (at == std::string::npos) return {};
+  const std::size_t begin = page.rfind("value=\"", at) + 7;
+  return page.substr(begin, page.find('"', begin) - begin);
+}
+
+TEST_F(ReportPageTest, HasTheNumbersOfTheReportAndIsMadeOfItAgain) {
+  const std::string page = read_bytes(at("a.html"));
+  const json facts = report();
+  for (const char* pointer : {"/surface/triangles", "/surface/volume_mm3", "/surface/level_native",
+                              "/mesh/tets", "/quality/noise", "/quality/expected_error_mm/mean"}) {
+    EXPECT_EQ(value_of(page, pointer), facts.at(json::json_pointer(pointer)).dump()) << pointer;
+  }
+  EXPECT_LT(page.size(), 10'000'000u);
+  EXPECT_EQ(facts["command"][0], "segment");
+  EXPECT_TRUE(facts["warnings"].is_array());
+  EXPECT_TRUE(facts["verdict"]["kept"].is_boolean());
+  std::vector<std::string> listed;
+  for (const json& file : facts["files"]) listed.push_back(fs::path(file["path"]).filename());
+  EXPECT_THAT(listed, testing::IsSupersetOf({"a.html", "mesh-cut.png", "slice-axial.png"}));
+  const ProgramRun run = run_program(folder_, {"report", at("a.json"), "--html", at("b.html")});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  // A .ply holds every bit of the points.
+  EXPECT_TRUE(read_bytes(at("b.html")) == read_bytes(at("a.html")));
+  EXPECT_FALSE(holds(read_bytes(at("a.html")), at("scan.nrrd")));
+  run_program(folder_, {"report", at("a.json"), "--html", at("c.html"), "--html-names"});
+  EXPECT_TRUE(holds(read_bytes(at("c.html")), at("scan.nrrd")));
+}
+
+TEST_F(ReportPageTest, TakesTheFilesOfTheRunAndNoOthers) {
+  json moved = report();
+  const std::string gone = "/nowhere/";
+  moved["input"]["path"] = gone + "scan.nrrd";
+  for (json& file : moved["files"]) {
+    file["path"] = gone + fs::path(file["path"]).filename().string();
+  }
+  fs::create_directory(at("other"));
+  for (const char* name : {"scan.nrrd", "a.ply", "a.vtu"}) {
+    fs::copy_file(at(name), at(std::string("other/") + name));
+  }
+  write_bytes(at("other/r.json"), moved.dump());
+  const ProgramRun run =
+      run_program(folder_, {"report", at("other/r.json"), "--html", at("b.html")});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(holds(read_bytes(at("b.html")), "<canvas") ||
+              holds(read_bytes(at("b.html")), "id=\"no-viewer\""));
+  fs::remove(at("other/scan.nrrd"));
+  const ProgramRun without =
+      run_program(folder_, {"report", at("other/r.json"), "--html", at("c.html")});
+  EXPECT_EQ(without.status, 0);
+  EXPECT_THAT(without.err, HasSubstr("/nowhere/scan.nrrd: not found"));
+  EXPECT_FALSE(holds(read_bytes(at("c.html")), "<canvas"));
+  const std::string page = at("d.html");
+  json other = report();
+  other["files"][0]["sha256"] = std::string(64, '0');
+  write_bytes(at("other.json"), other.dump());
+  EXPECT_FAILS(run_program(folder_, {"report", at("other.json"), "--html", page}), 3,
+               "a.ply: expected the file of the run");
+  EXPECT_FAILS(
+      run_program(folder_, {"report", at("a.json"), "--html", page, "--scan", at("a.vtu")}), 3,
+      "a.vtu");
+  write_bytes(at("x.json"), "{\"program\": {\"name\": \"mesamis\"}}");
+  EXPECT_FAILS(run_program(folder_, {"report", at("x.json"), "--html", page}), 3,
+               "expected the report of a run of segment");
+  EXPECT_FAILS(run_program(folder_, {"report", at("a.json")}), 2, "expected --html or --pictures");
+  EXPECT_FAILS(run_program(folder_, {"report", at("a.json"), "--html", at("b.pdf")}), 2, ".html");
+  EXPECT_FAILS(run_program(folder_, {"report", at("a.json"), "--pictures", at("a.json")}), 3,
+               "a folder");
+  EXPECT_FAILS(run_program(folder_, {"segment", at("scan.nrrd"), "--html", at("none/b.html")}), 3,
+               "there is no folder");
+  EXPECT_FALSE(fs::exists(page));
+}
+
+TEST(ReportPage, OfAReportOfAnotherShapeIsRefusedInOneLine) {
+  const TempFolder folder;
+  const std::string file = folder / "r.json", page = folder / "r.html";
+  const std::string head = R"({"program": {"name": "mesamis"}, "surface": {}, )";
+  for (const auto& [text, entry] :
+       {std::pair<std::string, std::string>{head + R"("iterations": 3})", "/iterations"},
+        {head + R"("iterations": [3]})", "/iterations"},
+        {head + R"("output": "x"})", "/output"},
+        {head + R"("body": 3})", "/body"},
+        {head + R"("input": []})", "/input"},
+        {head + R"("files": {"path": "x"}})", "/files"},
+        {head + R"("object": {"surfaces": [1, 2]}})", "/object/surfaces"},
+        {R"({"program": {"name": "mesamis"}, "surface": [1]})", "/surface"},
+        {R"(["a"])", "report of a run"}}) {
+    write_bytes(file, text);
+    EXPECT_FAILS(run_program(folder, {"report", file, "--html", page}), 3, entry);
+    EXPECT_FALSE(fs::exists(page));
+  }
+  write_bytes(file, head + R"("body": null, "files": null, "verdict": {"message": 3}})");
+  EXPECT_EQ(run_program(folder, {"report", file, "--html", page}).status, 0);
+}
+
+TEST_F(ReportPageTest, ShowsObjectsInTheirColours) {
+  const ProgramRun run =
+      run_program(folder_, {"segment", at("scan.nrrd"), "--labels", at("labels.nrrd"), "-o",
+                            at("all.vtp"), "--report", at("r.json"), "--html", at("l.html")});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const std::string page = read_bytes(at("l.html"));
+  const json facts = json::parse(read_bytes(at("r.json")));
+  EXPECT_EQ(value_of(page, "/object/surfaces/0/triangles"),
+            facts["object"]["surfaces"][0]["triangles"].dump());
+  EXPECT_TRUE(holds(page, "labelled objects"));
+}
+
+/// Starts a browser without a window on a page.
+/// @return what it wrote to stdout and stderr.
+ProgramRun browse(const TempFolder& folder, const std::string& page,
+                  std::vector<std::string> more) {
+  const std::string browser =
+      is_installed("chromium-headless-shell") ? "chromium-headless-shell" : "chromium";
+  std::vector<std::string> command{"timeout",
+                                   "120",
+                                   browser,
+                                   "--headless",
+                                   "--no-sandbox",
+                                   "--use-gl=angle",
+                                   "--use-angle=swiftshader",
+                                   "--enable-unsafe-swiftshader",
+                                   "--virtual-time-budget=30000",
+                                   "--user-data-dir=" + (folder / "profile").string(),
+                                   "--disable-background-networking",
+                                   "--disable-component-update",
+                                   "--disable-sync",
+                                   "--no-first-run",
+                                   "--enable-logging=stderr",
+                                   "--window-size=1200,860",
+                                   "--hide-scrollbars"};
+  command.insert(command.end(), more.begin(), more.end());
+  command.push_back("file://" + page);
+  return run_command(folder, command);
+}
+
+/// What the page said, or the browser of it.
+std::vector<std::string> console_lines(const std::string& err) {
+  std::vector<std::string> lines;
+  std::istringstream in(err);
+  for (std::string line; std::getline(in, line);) {
+    if (line.find("CONSOLE") != std::string::npos) lines.push_back(line.substr(0, 300));
+  }
+  return lines;
+}
+
+#define MESAMIS_REQUIRE_BROWSER()                                                \
+  if (!is_installed("chromium-headless-shell") && !is_installed("chromium")) {   \
+    GTEST_SKIP() << "neither chromium-headless-shell nor chromium is installed"; \
+  }                                                                              \
+  if (!holds(read_bytes(at("a.html")), "<canvas")) {                             \
+    GTEST_SKIP() << "the viewer is not part of this build: npm was not at hand"; \
+  }                                                                              \
+  static_assert(true)
+
+TEST_F(ReportPageTest, ABrowserDrawsScanAndSurfaceAndAsksForNothing) {
+  MESAMIS_REQUIRE_BROWSER();
+  const std::string shot = at("shot.png"), net = at("net.json");
+  const ProgramRun run =
+      browse(folder_, at("a.html"), {"--screenshot=" + shot, "--log-net-log=" + net});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(console_lines(run.err), testing::IsEmpty());
+  // The browser logs each request with its address.
+  const std::string requests = read_bytes(net);
+  EXPECT_TRUE(holds(requests, "\"events\""));
+  static const std::regex outside("\"url\":\"(https?|wss?|ftp):[^\"]{0,200}");
+  std::smatch found;
+  EXPECT_FALSE(std::regex_search(requests, found, outside)) << found.str();
+  // The ball of the sphere: a disc in the colour of the surface on the dark canvas.
+  const PngPixels image(read_bytes(shot));
+  ASSERT_FALSE(image.bytes.empty());
+  int dark = 0, orange = 0, grey = 0;
+  for (std::size_t y = 0; y < image.height; ++y) {
+    for (std::size_t x = 0; x < image.width; ++x) {
+      const auto c = image.at(x, y);
+      dark += c.r < 30 && c.g < 30 && c.b < 35;
+      orange += c.r - c.b > 50 && c.r > c.g && c.g > c.b;
+      grey += c.r > 150 && c.r < 240 && c.r == c.g && c.g == c.b;
+    }
+  }
+  EXPECT_GT(dark, 200'000) << "the canvas";
+  EXPECT_GT(orange, 4'000) << "the surface";
+  EXPECT_LT(orange, 200'000);
+  EXPECT_GT(grey, 2'000) << "the slices of the scan";
+  const ProgramRun dom = browse(folder_, at("a.html"), {"--dump-dom"});
+  ASSERT_EQ(dom.status, 0) << dom.err;
+  EXPECT_THAT(console_lines(dom.err), testing::IsEmpty());
+  EXPECT_TRUE(holds(dom.out, "data-ready=\"yes\"")) << "every volume and surface was taken";
+  EXPECT_TRUE(holds(dom.out, "aria-pressed=\"true\""));
+}
+
+}  // namespace
+}  // namespace mesamis

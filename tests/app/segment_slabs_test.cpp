@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "support/external_program.h"
+#include "support/run_program.h"
+
+namespace mesamis {
+namespace {
+
+using testing::HasSubstr;
+
+/// A sphere in 32 x 32 x 72 voxels.
+void write_scan(const TempFolder& folder) {
+  const ProgramRun made =
+      run_program(folder, {"phantom", "sphere", "--size", "32,32,72", "-o", folder / "scan.nrrd"});
+  ASSERT_EQ(made.status, 0) << made.err;
+}
+
+std::vector<std::string> segment(const TempFolder& folder, const std::string& name,
+                                 std::vector<std::string> more) {
+  std::vector<std::string> arguments{
+      "segment", folder / "scan.nrrd", "-o", folder / (name + ".stl"), "--threads", "1"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+ProgramRun run_together(const TempFolder& folder, int processes,
+                        const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{"mpirun", "--allow-run-as-root",     "--oversubscribe",  "-q",
+                                   "-np",    std::to_string(processes), MESAMIS_MPI_PROGRAM};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return run_command(folder, command);
+}
+
+bool can_run_together() { return std::string(MESAMIS_MPI_PROGRAM) != "" && is_installed("mpirun"); }
+
+nlohmann::json report_of(const TempFolder& folder, const std::string& name) {
+  return nlohmann::json::parse(read_bytes(folder / (name + ".json")));
+}
+
+bool has_scratch(const TempFolder& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(folder / ""))) {
+    if (entry.path().extension() == ".slabs") return true;
+  }
+  return false;
+}
+
+TEST(SlabsOfSegment, MakeAClosedSurfaceAndTellTheirWork) {
+  const TempFolder folder;
+  write_scan(folder);
+  const ProgramRun run = run_program(
+      folder, segment(folder, "two", {"--slabs", "2", "--report", folder / "two.json"}));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_FALSE(has_scratch(folder));
+  const nlohmann::json report = report_of(folder, "two");
+  EXPECT_TRUE(report["surface"]["closed"]);
+  const nlohmann::json& slabs = report["slabs"];
+  EXPECT_EQ(slabs["count"], 2);
+  EXPECT_EQ(slabs["processes"], 1);
+  ASSERT_EQ(slabs["slabs"].size(), 2u);
+  EXPECT_EQ(slabs["slabs"][0]["slices"].get<int>() + slabs["slabs"][1]["slices"].get<int>(), 72);
+  std::int64_t rows = 0;
+  for (const auto& slab : slabs["slabs"]) rows += slab["rows"].get<std::int64_t>();
+  EXPECT_GT(rows, slabs["own_rows"].get<std::int64_t>());
+}
+
+TEST(SlabsOfSegment, OneSlabHasTheBytesOfARunWithoutSlabs) {
+  const TempFolder folder;
+  write_scan(folder);
+  EXPECT_EQ(run_program(folder, segment(folder, "one", {"--slabs", "1"})).status, 0);
+  EXPECT_EQ(run_program(folder, segment(folder, "whole", {})).status, 0);
+  EXPECT_EQ(read_bytes(folder / "one.stl"), read_bytes(folder / "whole.stl"));
+}
+
+TEST(SlabsOfSegment, AnyNumberOfProcessesWritesTheSameBytes) {
+  if (!can_run_together()) GTEST_SKIP() << "mesamis-mpi or mpirun is not there";
+  const TempFolder folder;
+  write_scan(folder);
+  EXPECT_EQ(run_program(folder, segment(folder, "alone", {"--slabs", "2"})).status, 0);
+  for (const int processes : {1, 2, 3}) {
+    const ProgramRun run = run_together(
+        folder, processes,
+        segment(folder, "together", {"--slabs", "2", "--report", folder / "together.json"}));
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(read_bytes(folder / "together.stl"), read_bytes(folder / "alone.stl"));
+    EXPECT_EQ(report_of(folder, "together")["slabs"]["processes"], processes);
+  }
+}
+
+TEST(SlabsOfSegment, AFailureOfOneEndsAllWithOneLineAndNoOutput) {
+  if (!can_run_together()) GTEST_SKIP() << "mesamis-mpi or mpirun is not there";
+  const TempFolder folder;
+  write_scan(folder);
+  std::filesystem::resize_file(std::string(folder / "scan.nrrd"), 90'000);
+  const ProgramRun run =
+      run_together(folder, 3, segment(folder, "none", {"--slabs", "2", "--quiet"}));
+  EXPECT_EQ(run.status, 3);
+  EXPECT_THAT(run.err, HasSubstr("scan.nrrd"));
+  const std::string marker = "mesamis: ";
+  EXPECT_EQ(run.err.find(marker), run.err.rfind(marker)) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(std::string(folder / "none.stl")));
+}
+
+TEST(SlabsOfSegment, ARunThatFailsLeavesNothing) {
+  const TempFolder folder;
+  write_scan(folder);
+  const ProgramRun run =
+      run_program(folder, segment(folder, "none", {"--slabs", "2", "--level", "1e6"}));
+  EXPECT_EQ(run.status, 3);
+  EXPECT_THAT(run.err, HasSubstr("level"));
+  EXPECT_FALSE(has_scratch(folder));
+}
+
+/// Kills a run when a scratch file is there, or at its end.
+void kill_when_there(const TempFolder& folder, pid_t child, const std::string& file) {
+  const std::string path = std::string(folder / "keep") + "/mesamis-slabs/" + file;
+  int status = 0;
+  while (!std::filesystem::exists(path)) {
+    ASSERT_EQ(waitpid(child, &status, WNOHANG), 0) << "the run has ended before " << file;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  kill(child, SIGKILL);
+  waitpid(child, &status, 0);
+}
+
+TEST(SlabsOfSegment, AKilledRunGoesOnWhereItWas) {
+  const TempFolder folder;
+  write_scan(folder);
+  EXPECT_EQ(run_program(folder, segment(folder, "whole", {"--slabs", "2"})).status, 0);
+  const auto arguments =
+      segment(folder, "again", {"--slabs", "2", "--checkpoint", folder / "keep", "--quiet"});
+  for (const char* file : {"done.prepare.0", "done.mesh 1.1", "done.minimise 2.0"}) {
+    kill_when_there(folder, start_program(folder, arguments), file);
+    EXPECT_FALSE(std::filesystem::exists(std::string(folder / "again.stl")));
+  }
+  const ProgramRun other = run_program(
+      folder, segment(folder, "other", {"--slabs", "1", "--checkpoint", folder / "keep"}));
+  EXPECT_EQ(other.status, 3);
+  EXPECT_THAT(other.err, HasSubstr("another"));
+  const ProgramRun run = run_program(folder, arguments);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(read_bytes(folder / "again.stl"), read_bytes(folder / "whole.stl"));
+  EXPECT_FALSE(std::filesystem::exists(std::string(folder / "keep")));
+}
+
+TEST(SlabsOfSegment, WhatNeedsAllOfAScanIsRefused) {
+  const TempFolder folder;
+  write_scan(folder);
+  for (const std::vector<std::string>& more :
+       std::vector<std::vector<std::string>>{{"--mesh", folder / "m.vtu"},
+                                             {"--labelmap", folder / "l.nrrd"},
+                                             {"--crop", "0:20,,"},
+                                             {"--preview"},
+                                             {"--slabs", "0"},
+                                             {"--html", folder / "p.html"}}) {
+    auto arguments = segment(folder, "none", {"--slabs", "2"});
+    if (more[0] == "--slabs") arguments = segment(folder, "none", {});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = run_program(folder, arguments);
+    EXPECT_EQ(run.status, 2) << more[0];
+    EXPECT_EQ(run.error_lines(), 1u) << run.err;
+  }
+  const ProgramRun thin = run_program(folder, segment(folder, "none", {"--slabs", "40"}));
+  EXPECT_EQ(thin.status, 3);
+  EXPECT_THAT(thin.err, HasSubstr("slabs: expected 1 to 2"));
+}
+
+}  // namespace
+}  // namespace mesamis

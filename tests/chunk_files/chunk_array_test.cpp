@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/chunk_files/chunk_array.h"
+
+#include <gtest/gtest.h>
+
+#include "chunk_files/chunk_bytes.h"
+#include "support/throws.h"
+
+namespace mesamis::detail {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+ChunkLayout small_layout() {
+  ChunkLayout layout;
+  layout.shape = {7, 6, 5};
+  layout.chunk = {2, 4, 3};
+  layout.order = {0, 1, 2};
+  layout.type = NumberType::kInt16;
+  return layout;
+}
+
+/// An array in memory that counts how often chunks are fetched.
+struct Counted {
+  std::shared_ptr<int> fetches = std::make_shared<int>(0);
+  std::unique_ptr<ChunkedScan> scan;
+
+  explicit Counted(ReadLimits limits = {.memory_gb = 0.1}) {
+    OpenedArray array;
+    array.path = ".";
+    array.format = "test";
+    array.layout = small_layout();
+    array.grid.size = require_layout(array.path, array.layout);
+    array.limits = limits;
+    array.fetch = [n = fetches](const std::vector<std::uint64_t>& place, MemoryBudget&) {
+      ++*n;
+      return std::optional(StoredChunk{
+          ".", ArrayBytes{}.chunk_bytes<std::int16_t>({place[0], place[1], place[2]}), {}});
+    };
+    scan = make_chunked_scan(std::move(array));
+  }
+};
+
+TEST(ChunkArray, ReadsAnySlicesInAnyOrderAlike) {
+  const Counted array;
+  for (const Index first : {6, 0, 3, 2, 5, 1, 4}) {
+    for (Index count = 7 - first; count >= 1; --count) {
+      EXPECT_EQ(array.scan->read(first, count), expected_slices(static_cast<std::uint64_t>(first),
+                                                                static_cast<std::uint64_t>(count)))
+          << first << " " << count;
+    }
+  }
+}
+
+TEST(ChunkArray, FetchesOnlyTheChunksThatAreTouchedAndEachOnce) {
+  const Counted array;
+  array.scan->read(2, 2);
+  EXPECT_EQ(*array.fetches, 4);  // a row of 2 x 2 chunks
+  *array.fetches = 0;
+  for (Index k = 0; k < 7; ++k) array.scan->read(k, 1);
+  EXPECT_EQ(*array.fetches, 16);  // four rows: each is kept for its second slice
+}
+
+TEST(ChunkArray, DecodesAgainWhereARowMustNotBeKept) {
+  // A row of chunks is 240 bytes: too much for a quarter of 800.
+  const Counted array({.memory_gb = 8e-7});
+  for (Index k = 0; k < 4; ++k) {
+    EXPECT_EQ(array.scan->read(k, 1), expected_slices(static_cast<std::uint64_t>(k), 1));
+  }
+  EXPECT_EQ(*array.fetches, 16);
+}
+
+TEST(ChunkArray, RefusesSlicesThatThereAreNot) {
+  const Counted array;
+  EXPECT_REFUSED(array.scan->read(-1, 1), HasSubstr("expected slices of 0 to 6"));
+  EXPECT_REFUSED(array.scan->read(0, 0), HasSubstr("found 0 from 0 on"));
+  EXPECT_REFUSED(array.scan->read(5, 3), HasSubstr("found 3 from 5 on"));
+  EXPECT_REFUSED(array.scan->read(2147483647, 2147483647), HasSubstr("expected slices"));
+}
+
+TEST(ChunkArray, AsksForMemoryBeforeItIsTaken) {
+  EXPECT_REFUSED(Counted({.memory_gb = 1e-7}).scan->read(0, 7), HasSubstr("for slices"));
+}
+
+TEST(ChunkArray, RefusesLayoutsThatAreNoVolume) {
+  const auto refused = [](std::vector<std::uint64_t> shape, std::vector<std::uint64_t> chunk,
+                          const char* message) {
+    ChunkLayout layout;
+    layout.shape = std::move(shape);
+    layout.chunk = std::move(chunk);
+    EXPECT_REFUSED(require_layout("f", layout, {"t", "c"}), HasSubstr(message));
+  };
+  refused({4, 4}, {4, 4}, "expected an array of 3 axes, found 2");
+  refused({2, 1, 4, 4, 4}, {1, 1, 4, 4, 4}, "1 along axis 0 (t), found 2");
+  refused({1, 3, 4, 4, 4}, {1, 1, 4, 4, 4}, "1 along axis 1 (c), found 3");
+  refused({4, 0, 4}, {4, 4, 4}, "found 0");
+  refused({4, 4, 4}, {4, 0, 4}, "expected chunks of 1 to");
+  refused({1u << 20, 1u << 20, 1u << 20}, {1, 1, 1}, "at most 2^40 elements");
+  refused({4, 4, 4}, {1u << 20, 1u << 20, 1u << 20}, "at most 2^40 elements");
+  refused({4, 4, std::uint64_t{1} << 63}, {4, 4, 4}, "found 9223372036854775808");
+  EXPECT_THAT(require_layout("f", small_layout()), ElementsAre(5, 6, 7));
+}
+
+TEST(ChunkArray, SetsTheSpacingAndSaysWhereFrom) {
+  const auto warnings = [](std::optional<Vec3> stated, std::optional<Vec3> asked) {
+    OpenedArray array;
+    array.format = "Zarr";
+    set_spacing(array, stated, asked);
+    EXPECT_EQ(array.grid.spacing, asked.value_or(stated.value_or(Vec3{1, 1, 1})));
+    return array.warnings;
+  };
+  EXPECT_THAT(warnings({}, {}), ElementsAre("the Zarr array gives no spacing: 1 mm taken"));
+  EXPECT_THAT(warnings({}, Vec3{1, 2, 3}), IsEmpty());
+  EXPECT_THAT(warnings(Vec3{1, 2, 3}, Vec3{1, 2, 3}), IsEmpty());
+  EXPECT_THAT(warnings(Vec3{1, 2, 3}, Vec3{1, 2, 4}), ElementsAre(HasSubstr("is replaced")));
+  EXPECT_REFUSED(warnings({}, Vec3{1, 0, 1}), HasSubstr("expected a positive spacing, found 0"));
+}
+
+}  // namespace
+}  // namespace mesamis::detail

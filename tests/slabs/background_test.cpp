@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/slabs/background.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "support/metric_fields.h"
+#include "support/perturbed_box.h"
+
+namespace mesamis::detail {
+namespace {
+
+const Box kBox{{0, 0, 0}, {4, 4, 8}};
+
+double linear(const Vec3& p) { return 1 + 2 * p.x - p.y + 0.5 * p.z; }
+double other_linear(const Vec3& p) { return 3 - p.x + p.z; }
+/// Linear in its logarithm: interpolated without an error.
+Sym3 metric_at(const Vec3& p, double scale) { return scale * std::exp(0.1 * p.z) * kIdentity3; }
+
+Piece mesh_piece(double scale) {
+  Piece piece{perturbed_box(kBox, {4, 4, 8}, 0.2), {}};
+  for (const Vec3& p : piece.mesh.points) {
+    piece.nodes.push_back({scale * linear(p), other_linear(p), 5, metric_at(p, scale)});
+  }
+  return piece;
+}
+
+GridWindow grid_window(double scale) {
+  GridWindow window{kBox, {5, 5, 9}, {}, {}, {}};
+  for (Index k = 0; k < 9; ++k) {
+    for (Index j = 0; j < 5; ++j) {
+      for (Index i = 0; i < 5; ++i) {
+        const Vec3 p{1.0 * i, 1.0 * j, 1.0 * k};
+        window.u.push_back(static_cast<float>(scale * linear(p)));
+        window.v.push_back(static_cast<float>(other_linear(p)));
+        const auto log = static_cast<float>(std::log(scale) + 0.1 * p.z);
+        window.log_metrics.push_back({log, 0, 0, log, 0, log});
+      }
+    }
+  }
+  return window;
+}
+
+std::vector<Vec3> random_points(double low = 0, double high = 8) {
+  std::mt19937 generator(4);
+  std::uniform_real_distribution<double> across(0, 4), up(low, high);
+  std::vector<Vec3> points;
+  for (int n = 0; n < 200; ++n)
+    points.push_back({across(generator), across(generator), up(generator)});
+  return points;
+}
+
+void expect_exact(const Background& background, const std::vector<Vec3>& points, double scale,
+                  double tolerance) {
+  const std::vector<NodeValues> values = background.values(points);
+  ASSERT_EQ(values.size(), points.size());
+  Index hint = 0;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    EXPECT_NEAR(values[n].u, scale * linear(points[n]), scale * tolerance);
+    EXPECT_NEAR(values[n].v, other_linear(points[n]), tolerance);
+    EXPECT_EQ(values[n].f, 0);
+    const double expected = metric_at(points[n], scale).yy;
+    EXPECT_NEAR(values[n].metric.yy / expected, 1, tolerance);
+    EXPECT_NEAR(background.at(points[n], hint).yy / expected, 1, tolerance);
+  }
+}
+
+TEST(MeshBackground, LinearFieldsAreExact) {
+  expect_exact(MeshBackground(mesh_piece(2)), random_points(), 2, 1e-9);
+}
+
+TEST(GridBackground, LinearFieldsAreExact) {
+  expect_exact(GridBackground(grid_window(2)), random_points(), 2, 1e-5);
+}
+
+TEST(GridWindow, SomeSlicesKeepTheirPlaceAndValues) {
+  const GridWindow some = slices_between(grid_window(1), 2.5, 4.2);
+  EXPECT_EQ(some.box.lo.z, 2);
+  EXPECT_EQ(some.box.hi.z, 5);
+  EXPECT_EQ(some.size, (std::array<Index, 3>{5, 5, 4}));
+  EXPECT_EQ(some.u.size(), 100U);
+  expect_exact(GridBackground(some), random_points(2, 5), 1, 1e-5);
+}
+
+TEST(GridWindow, HasTwoSlicesAtLeast) {
+  for (const double height : {-3.0, 0.0, 3.0, 8.0, 12.0}) {
+    const GridWindow some = slices_between(grid_window(1), height, height);
+    EXPECT_EQ(some.size[2], 2) << height;
+    expect_exact(GridBackground(some), random_points(some.box.lo.z, some.box.hi.z), 1, 1e-5);
+  }
+  EXPECT_EQ(slices_between(grid_window(1), -5, 50).u, grid_window(1).u);
+}
+
+TEST(GridWindow, IsReadAsItWasWritten) {
+  ArchiveWriter written;
+  add_window(written, grid_window(3));
+  ArchiveReader archive(std::string(written.bytes()), "file");
+  const GridWindow read = next_window(archive);
+  EXPECT_EQ(read.box.hi, kBox.hi);
+  EXPECT_EQ(read.size, grid_window(3).size);
+  EXPECT_EQ(read.u, grid_window(3).u);
+  EXPECT_EQ(read.v, grid_window(3).v);
+  EXPECT_EQ(read.log_metrics, grid_window(3).log_metrics);
+}
+
+TEST(TwoBackgrounds, TakeTheValuesOfEachSide) {
+  const TwoBackgrounds both(std::make_unique<MeshBackground>(mesh_piece(1)),
+                            std::make_unique<MeshBackground>(mesh_piece(10)), 4);
+  expect_exact(both, random_points(0, 3.99), 1, 1e-9);
+  expect_exact(both, random_points(4, 8), 10, 1e-9);
+  // One hint for places on both sides, in turns.
+  Index hint = 0;
+  for (const Vec3& p : random_points()) {
+    const double scale = p.z >= 4 ? 10 : 1;
+    EXPECT_NEAR(both.at(p, hint).xx / metric_at(p, scale).xx, 1, 1e-9);
+  }
+  const std::vector<Vec3> mixed = random_points();
+  const std::vector<NodeValues> values = both.values(mixed);
+  for (std::size_t n = 0; n < mixed.size(); ++n) {
+    EXPECT_NEAR(values[n].u, (mixed[n].z >= 4 ? 10 : 1) * linear(mixed[n]), 1e-8);
+  }
+  EXPECT_EQ(both.values({}).size(), 0U);
+}
+
+}  // namespace
+}  // namespace mesamis::detail

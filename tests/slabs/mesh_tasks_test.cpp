@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "mesamis/slabs/mapped_floats.h"
+#include "mesamis/slabs/mesh_files.h"
+#include "mesamis/slabs/tasks.h"
+#include "slabs/small_run.h"
+#include "support/throws.h"
+
+namespace mesamis::detail {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two slabs with mesh 1, its border adapted.
+struct TwoSlabs {
+  TwoSlabs() {
+    make_float_file(small.scratch.path(kImageFile), small.scan.voxel_count());
+    for (Index s = 0; s < 2; ++s) prepare_and_minimise(small.run, s);
+    run.emplace(small.run);
+    for (Index s = 0; s < 2; ++s) first_mesh(*run, s);
+    seam(*run, 1, 0);
+  }
+  Piece read(const std::string& name) const {
+    ArchiveReader archive = small.scratch.read(name);
+    return next_piece(archive);
+  }
+  /// Both slabs and what lies between.
+  Piece whole(const std::string& k) const {
+    const Piece low = read("core." + k + ".0"), middle = read("seam." + k + ".0"),
+                high = read("core." + k + ".1");
+    const std::array<const Piece*, 3> all{&low, &middle, &high};
+    return join(all);
+  }
+  SmallRun small{72, {0, 33, 72}};
+  std::optional<MeshRun> run;
+};
+
+/// The largest difference of u at nodes of both pieces.
+double largest_difference(const Piece& a, const Piece& b) {
+  std::map<std::array<double, 3>, double> u;
+  for (std::size_t n = 0; n < a.nodes.size(); ++n) {
+    const Vec3& p = a.mesh.points[n];
+    u[{p.x, p.y, p.z}] = a.nodes[n].u;
+  }
+  double largest = 0;
+  int common = 0;
+  for (std::size_t n = 0; n < b.nodes.size(); ++n) {
+    const Vec3& p = b.mesh.points[n];
+    const auto place = u.find({p.x, p.y, p.z});
+    if (place == u.end()) continue;
+    ++common;
+    largest = std::max(largest, std::abs(place->second - b.nodes[n].u));
+  }
+  EXPECT_GT(common, 20);
+  return largest;
+}
+
+TEST(Seam, FitsBetweenTheSlabsAndCrossesTheirBorder) {
+  const TwoSlabs slabs;
+  EXPECT_EQ(find_flaw(slabs.whole("1").mesh, slabs.run->input.box), "");
+  const Piece middle = slabs.read("seam.1.0");
+  const double border = slabs.small.run.plan.height(1);
+  const auto crosses = [&](const Cell& cell) {
+    bool below = false, above = false;
+    for (const Index corner : cell) {
+      const double z = middle.mesh.points[static_cast<std::size_t>(corner)].z;
+      below |= z < border;
+      above |= z > border;
+    }
+    return below && above;
+  };
+  EXPECT_GT(std::count_if(middle.mesh.cells.begin(), middle.mesh.cells.end(), crosses), 20)
+      << "the plane of the cut is gone";
+}
+
+TEST(Seam, ANodeOfTwoPiecesHasTheSameValuesInBoth) {
+  // Else the result would depend on which of them is read first.
+  const TwoSlabs slabs;
+  const Piece low = slabs.read("core.1.0"), middle = slabs.read("seam.1.0");
+  const std::array<const Piece*, 2> one{&low, &middle}, other{&middle, &low};
+  EXPECT_LT(largest_difference(join(one), join(other)), 1e-3) << "grey values";
+}
+
+TEST(Finish, BothSlabsHaveTheSameFieldsAtTheirBorder) {
+  const TwoSlabs slabs;
+  for (Index s = 0; s < 2; ++s) solve(*slabs.run, 1, s);
+  for (Index s = 0; s < 2; ++s) adapt_slab(*slabs.run, 1, s);
+  seam(*slabs.run, 2, 0);
+  for (Index s = 0; s < 2; ++s) finish(*slabs.run, 2, s);
+  const Piece low = slabs.read("final.2.0"), high = slabs.read("final.2.1");
+  EXPECT_LT(largest_difference(low, high), 2.5) << "a hundredth of the contrast, grey values";
+}
+
+TEST(AdaptSlab, MeshesFitAndAreAsLargeAsAsked) {
+  const TwoSlabs slabs;
+  for (Index s = 0; s < 2; ++s) solve(*slabs.run, 1, s);
+  for (Index s = 0; s < 2; ++s) adapt_slab(*slabs.run, 1, s);
+  seam(*slabs.run, 2, 0);
+  const Piece whole = slabs.whole("2");
+  EXPECT_EQ(find_flaw(whole.mesh, slabs.run->input.box), "");
+  const auto asked = static_cast<double>(slabs.run->input.cells_after(2));
+  EXPECT_NEAR(static_cast<double>(whole.mesh.cells.size()) / asked, 1, 0.25);
+  // Again, as after a run that was killed before the task was known to be done.
+  const std::string core = read_bytes(slabs.small.scratch.path("core.2.1"));
+  adapt_slab(*slabs.run, 1, 1);
+  EXPECT_EQ(read_bytes(slabs.small.scratch.path("core.2.1")), core);
+}
+
+TEST(Collect, PutsTogetherWhatTheSlabsFinished) {
+  const TwoSlabs slabs;
+  const SlabWork work = finish(*slabs.run, 1, 0);
+  finish(*slabs.run, 1, 1);
+  EXPECT_GT(work.rows, 0);
+  EXPECT_EQ(work.bytes, 0) << "the slab below owns what lies between";
+  const Finished finished = collect(*slabs.run, 1);
+  EXPECT_EQ(find_flaw(finished.whole.mesh, slabs.run->input.box), "");
+  ASSERT_EQ(finished.passes.size(), 2U) << "on the grid and on the mesh";
+  EXPECT_EQ(finished.passes[1].tets, std::ssize(finished.whole.mesh.cells)) << "each cell once";
+  EXPECT_GE(finished.passes[1].nodes, std::ssize(finished.whole.mesh.points));
+  double sum = 0;
+  for (const NodeValues& node : finished.whole.nodes) sum += std::abs(node.u - node.f);
+  EXPECT_LT(sum / static_cast<double>(finished.whole.nodes.size()), 10) << "u is near the image";
+}
+
+TEST(MeshTasks, RefuseFilesThatAreCutOff) {
+  const TwoSlabs slabs;
+  const auto file = slabs.small.scratch.path("seam.1.0");
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  EXPECT_REFUSED(solve(*slabs.run, 1, 0), HasSubstr("seam.1.0: "));
+  std::filesystem::remove(file);
+  EXPECT_REFUSED(finish(*slabs.run, 1, 1), HasSubstr("seam.1.0: "));
+  std::filesystem::resize_file(slabs.small.scratch.path("image"), 1000);
+  EXPECT_REFUSED(MeshRun(slabs.small.run), HasSubstr("image: "));
+}
+
+}  // namespace
+}  // namespace mesamis::detail

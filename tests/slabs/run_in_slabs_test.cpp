@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/slabs/run_in_slabs.h"
+
+#include <gtest/gtest.h>
+
+#include <barrier>
+#include <thread>
+
+#include "mesamis/base/parallel.h"
+#include "slabs/small_run.h"
+#include "support/throws.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A rank that is a thread.
+class ThreadRank : public Team {
+ public:
+  ThreadRank(std::barrier<>& barrier, int size, int rank)
+      : barrier_(barrier), size_(size), rank_(rank) {}
+  int size() const noexcept override { return size_; }
+  int rank() const noexcept override { return rank_; }
+  void wait_for_all() override { barrier_.arrive_and_wait(); }
+
+ private:
+  std::barrier<>& barrier_;
+  int size_, rank_;
+};
+
+SlabRunResult run_with_ranks(const Volume& scan, const SlabRunOptions& options, int size) {
+  const VolumeSlices source(scan);
+  std::barrier barrier(size);
+  std::vector<std::optional<SlabRunResult>> results(static_cast<std::size_t>(size));
+  std::vector<std::thread> ranks;
+  for (int rank = 0; rank < size; ++rank) {
+    ranks.emplace_back([&, rank] {
+      ThreadRank team(barrier, size, rank);
+      results[static_cast<std::size_t>(rank)] =
+          run_in_slabs(source, quick_settings(), options, team);
+    });
+  }
+  for (std::thread& rank : ranks) rank.join();
+  for (std::size_t rank = 1; rank < results.size(); ++rank) EXPECT_FALSE(results[rank]);
+  return *std::move(results[0]);
+}
+
+SlabRunResult run_alone(const Volume& scan, SlabRunOptions options,
+                        const Settings& settings = quick_settings(),
+                        const Progress& progress = {}) {
+  options.progress = progress;
+  Alone alone;
+  return *run_in_slabs(VolumeSlices(scan), settings, options, alone);
+}
+
+void expect_same(const SlabRunResult& a, const SlabRunResult& b) {
+  EXPECT_TRUE(a.result.surface.points == b.result.surface.points);
+  EXPECT_TRUE(a.result.surface.triangles == b.result.surface.triangles);
+  EXPECT_TRUE(a.result.mesh.points == b.result.mesh.points);
+  EXPECT_TRUE(a.result.mesh.cells == b.result.mesh.cells);
+  EXPECT_TRUE(a.result.u == b.result.u);
+  EXPECT_TRUE(a.result.expected_error == b.result.expected_error);
+}
+
+double mean_distance(const Result& result, const Rod& rod) {
+  double sum = 0;
+  for (const Vec3& p : result.surface.points) sum += std::abs(rod.depth(p));
+  return sum / static_cast<double>(result.surface.points.size());
+}
+
+/// What every result is.
+void expect_sound(const SlabRunResult& run, const Volume& scan) {
+  const Result& result = run.result;
+  EXPECT_EQ(find_flaw(result.mesh, scan.box()), "");
+  EXPECT_EQ(solid_flaws_of(check_surface(result.surface)), "");
+  EXPECT_EQ(result.u.size(), result.mesh.points.size());
+  EXPECT_EQ(result.metric.size(), result.mesh.points.size());
+  EXPECT_EQ(result.expected_error.size(), result.surface.points.size());
+  EXPECT_NEAR(static_cast<double>(result.mesh.cells.size()) / 6000, 1, 0.25);
+}
+
+/// Work is counted slab by slab, and each slice, row and cell at least once.
+void expect_counted(const SlabRunResult& run, const Volume& scan, Index slabs) {
+  ASSERT_EQ(std::ssize(run.slabs), slabs);
+  EXPECT_EQ(run.plan.count(), slabs);
+  SlabWork sum;
+  for (const SlabWork& slab : run.slabs) {
+    sum.voxels += slab.voxels;
+    sum.rows += slab.rows;
+    sum.cells += slab.cells;
+    EXPECT_GT(slab.bytes, 0);
+  }
+  const std::int64_t slice = std::int64_t{scan.size[0]} * scan.size[1];
+  EXPECT_EQ(sum.voxels, slice * (scan.size[2] + (slabs - 1) * 2 * 16));
+  EXPECT_GE(sum.rows, run.own_rows);
+  EXPECT_GE(sum.cells, run.own_cells);
+}
+
+class RunInSlabs : public testing::TestWithParam<Index> {};
+
+TEST_P(RunInSlabs, FindsWhatMesAmisFinds) {
+  const TempFolder folder;
+  const Volume scan = scan_of_rod(96);
+  const SlabRunResult run = run_alone(scan, {.slabs = GetParam(), .scratch = folder / "scratch"});
+  expect_sound(run, scan);
+  expect_counted(run, scan, GetParam());
+  const Result whole = mes_amis(scan, quick_settings());
+  EXPECT_EQ(run.result.parameters.level, whole.parameters.level);
+  EXPECT_EQ(run.result.parameters.functional.gamma, whole.parameters.functional.gamma);
+  EXPECT_EQ(run.result.iterations.size(), whole.iterations.size());
+  const Rod rod = rod_in(96);
+  EXPECT_LT(mean_distance(run.result, rod), 1.3 * mean_distance(whole, rod));
+  EXPECT_FALSE(fs::exists(folder / "scratch"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Slabs, RunInSlabs, testing::Values(2, 3));
+
+TEST(SlabRun, OneSlabIsARunLikeAnyOther) {
+  const TempFolder folder;
+  const Volume scan = scan_of_rod(40);
+  const SlabRunResult run = run_alone(scan, {.slabs = 1, .scratch = folder / "scratch"});
+  const Result whole = mes_amis(scan, quick_settings());
+  EXPECT_TRUE(run.result.surface.points == whole.surface.points);
+  EXPECT_TRUE(run.result.mesh.cells == whole.mesh.cells);
+  ASSERT_EQ(run.slabs.size(), 1U);
+  EXPECT_EQ(run.slabs[0].voxels, static_cast<std::int64_t>(scan.voxel_count()));
+  EXPECT_EQ(run.slabs[0].rows, run.own_rows);
+  EXPECT_EQ(run.slabs[0].cells, run.own_cells);
+  EXPECT_EQ(run.slabs[0].bytes, 0);
+}
+
+TEST(SlabRun, TheSameBitsForAnyNumberOfThreads) {
+  const TempFolder folder;
+  const Volume scan = scan_of_rod(72);
+  const SlabRunOptions options{.slabs = 2, .scratch = folder / "scratch"};
+  const SlabRunResult one = with_threads(1, [&] { return run_alone(scan, options); });
+  expect_same(with_threads(2, [&] { return run_alone(scan, options); }), one);
+}
+
+TEST(SlabRun, TheSameBitsForAnyNumberOfRanks) {
+  const TempFolder folder;
+  const Volume scan = scan_of_rod(96);
+  const SlabRunOptions options{.slabs = 3, .scratch = folder / "scratch"};
+  const SlabRunResult one = run_alone(scan, options);
+  for (const int ranks : {2, 4}) expect_same(run_with_ranks(scan, options, ranks), one);
+}
+
+TEST(SlabRun, OneMeshIsEnough) {
+  const TempFolder folder;
+  Settings settings = quick_settings();
+  settings.adaptations = 1;
+  const Volume scan = scan_of_rod(72);
+  const SlabRunResult run = run_alone(scan, {.slabs = 2, .scratch = folder / "scratch"}, settings);
+  expect_sound(run, scan);
+  EXPECT_EQ(run.result.iterations.size(), 2U) << "on the grid, and on the mesh";
+  EXPECT_GT(run.own_cells, 0);
+  EXPECT_FALSE(run.result.converged) << "as for mes_amis(): nothing was compared";
+}
+
+/// The file that says that the last task is done.
+std::optional<fs::path> newest_done_file(const fs::path& folder) {
+  std::optional<fs::path> newest;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename().string().rfind("done.", 0) != 0) continue;
+    if (!newest || fs::last_write_time(entry) > fs::last_write_time(*newest)) newest = entry.path();
+  }
+  return newest;
+}
+
+TEST(SlabRun, GoesOnWhereItWasStopped) {
+  const TempFolder folder;
+  const Volume scan = scan_of_rod(72);
+  const SlabRunOptions options{.slabs = 2, .scratch = folder / "scratch"};
+  int calls = 0;
+  const SlabRunResult expected = run_alone(scan, options, quick_settings(), [&](auto, double) {
+    ++calls;
+    return true;
+  });
+  EXPECT_GT(calls, 20);
+  std::optional<SlabRunResult> found;
+  int stops = 0;
+  for (int last = 2; !found; last += 5) {
+    int call = 0;
+    try {
+      found =
+          run_alone(scan, options, quick_settings(), [&](auto, double) { return ++call < last; });
+    } catch (const Cancelled&) {
+      ++stops;
+      // As if it had been killed before it could say so: the task is done again.
+      const auto done = newest_done_file(folder / "scratch/mesamis-slabs");
+      if (done) fs::remove(*done);
+    }
+  }
+  EXPECT_GT(stops, 6);
+  expect_same(*found, expected);
+}
+
+TEST(SlabRun, RefusesTheFolderOfAnotherRun) {
+  const TempFolder folder;
+  const Volume scan = scan_of_rod(72);
+  const SlabRunOptions options{.slabs = 2, .scratch = folder.path()};
+  const Progress stop = [](auto stage, double) { return stage != "slabs: choose"; };
+  EXPECT_THROW(run_alone(scan, options, quick_settings(), stop), Cancelled);
+  const auto refused = AllOf(HasSubstr(folder.path().string()), HasSubstr("another scan"));
+  Settings other = quick_settings();
+  other.max_tets = 7000;
+  EXPECT_REFUSED(run_alone(scan, options, other), refused);
+  EXPECT_REFUSED(run_alone(scan, {.slabs = 1, .scratch = folder.path()}), refused);
+  SlabRunOptions elsewhere = options;
+  elsewhere.input = "another file";
+  EXPECT_REFUSED(run_alone(scan, elsewhere), refused);
+  Volume moved = scan;
+  moved.origin.y += 1;
+  EXPECT_REFUSED(run_alone(moved, options), refused);
+  Volume changed = scan;
+  for (float& sample : changed.samples) sample += 1;
+  EXPECT_REFUSED(run_alone(changed, options), refused);
+  EXPECT_THROW(run_alone(scan, options, quick_settings(), stop), Cancelled) << "its own is left";
+}
+
+TEST(SlabRun, RefusesScratchFilesThatAreCutOff) {
+  const TempFolder folder;
+  const Volume scan = scan_of_rod(72);
+  const SlabRunOptions options{.slabs = 2, .scratch = folder.path(), .keep_scratch = true};
+  const SlabRunResult first = run_alone(scan, options);
+  const fs::path files = folder / "mesamis-slabs";
+  for (const char* name : {"run", "choice", "work.0", "extent.1", "image", "grid.0", "profile.1.0",
+                           "final.2.1", "done.prepare.0"}) {
+    const std::string bytes = read_bytes(files / name);
+    ASSERT_FALSE(bytes.empty()) << name;
+    write_bytes(files / name, bytes.substr(0, bytes.size() / 2));
+    EXPECT_REFUSED(run_alone(scan, options), HasSubstr(std::string("/") + name + ": "));
+    fs::remove(files / name);
+    if (std::string(name) != "run" && std::string(name) != "done.prepare.0") {
+      EXPECT_REFUSED(run_alone(scan, options), HasSubstr(std::string("/") + name + ": "));
+    }
+    write_bytes(files / name, bytes);
+  }
+  expect_same(run_alone(scan, options), first);
+  EXPECT_TRUE(fs::exists(files)) << "kept";
+}
+
+TEST(SlabRun, RefusesWhatHasNoMeaningInSlabs) {
+  const TempFolder folder;
+  const Volume scan = scan_of_rod(72);
+  const auto run_with = [&](const std::function<void(Settings&)>& change) {
+    Settings settings = quick_settings();
+    change(settings);
+    run_alone(scan, {.slabs = 2, .scratch = folder / "scratch"}, settings);
+  };
+  EXPECT_REFUSED(run_with([](Settings& s) { s.preview = true; }), HasSubstr("preview"));
+  EXPECT_REFUSED(run_with([](Settings& s) { s.crop.begin[0] = 2; }), HasSubstr("crop"));
+  EXPECT_REFUSED(run_with([](Settings& s) { s.until = StopRule::kEnergy; }), HasSubstr("energy"));
+  EXPECT_REFUSED(run_with([](Settings& s) { s.surface = SurfaceKind::kBand; }), HasSubstr("band"));
+  EXPECT_FALSE(fs::exists(folder / "scratch")) << "nothing was begun";
+  EXPECT_REFUSED(run_alone(scan, {.slabs = 9, .scratch = folder / "scratch"}),
+                 HasSubstr("expected 1 to 2"));
+}
+
+}  // namespace
+}  // namespace mesamis

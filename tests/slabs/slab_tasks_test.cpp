@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "mesamis/slabs/mapped_floats.h"
+#include "mesamis/slabs/mesh_files.h"
+#include "mesamis/slabs/tasks.h"
+#include "slabs/small_run.h"
+
+namespace mesamis::detail {
+namespace {
+
+void prepare_all(const SlabRun& run) {
+  make_float_file(run.scratch.path(kImageFile), run.plan.whole.voxel_count());
+  for (Index s = 0; s < run.plan.count(); ++s) prepare_and_minimise(run, s);
+}
+
+TEST(PrepareAndMinimise, TheSlabsHaveTheSplineOfTheWhole) {
+  const SmallRun small(72, {0, 33, 72});
+  prepare_all(small.run);
+  const Prepared whole = prepare_image(small.scan, quick_settings());
+  const MappedFloats slabs = map_floats(small.scratch.path(kImageFile), small.scan.voxel_count());
+  float largest = 0;
+  for (std::size_t n = 0; n < slabs.values.size(); ++n) {
+    largest = std::max(largest, std::abs(slabs.values[n] - whole.image.coefficients[n]));
+  }
+  EXPECT_LT(largest, 0.02) << "grey values, of 255";
+}
+
+TEST(PrepareAndMinimise, TheSlabsSurfacesAreThatOfTheWhole) {
+  const SmallRun small(72, {0, 33, 72});
+  prepare_all(small.run);
+  const std::vector<SlabExtent> extents = extents_of(small.run);
+  ASSERT_EQ(extents.size(), 2U);
+  const Prepared whole = prepare_image(small.scan, quick_settings());
+  const SurfaceExtent extent = extent_of(whole);
+  const double cells = cells_for_surface(extent.area, extent.thin_share, small.scan.spacing, 0);
+  EXPECT_NEAR((extents[0].cells + extents[1].cells) / cells, 1, 0.03)
+      << "but for the slice that they have in common";
+  EXPECT_GT(extents[0].cells, 0.3 * cells);
+  EXPECT_LT(extents[0].low, extents[0].high);
+}
+
+TEST(PrepareAndMinimise, TellsWhatItHasDone) {
+  const SmallRun small(72, {0, 33, 72});
+  make_float_file(small.scratch.path(kImageFile), small.scan.voxel_count());
+  const SlabWork work = prepare_and_minimise(small.run, 0);
+  EXPECT_EQ(work.voxels, 32 * 30 * (33 + 16));
+  EXPECT_EQ(work.rows, 32 * 30 * (33 + 8));
+  EXPECT_EQ(work.bytes, 32 * 30 * 16 * 4);
+  EXPECT_EQ(work.cells, 0);
+}
+
+TEST(PrepareAndMinimise, DoneAgainItLeavesTheSameFiles) {
+  const SmallRun small(72, {0, 33, 72});
+  prepare_all(small.run);
+  const std::string image = read_bytes(small.scratch.path(kImageFile));
+  prepare_and_minimise(small.run, 1);
+  EXPECT_EQ(read_bytes(small.scratch.path(kImageFile)), image);
+}
+
+TEST(FirstMesh, TheSlabsFitTogether) {
+  const SmallRun small(72, {0, 33, 72});
+  prepare_all(small.run);
+  const MeshRun run(small.run);
+  EXPECT_NEAR(run.shares[0] + run.shares[1], 1, 1e-12);
+  std::vector<Piece> pieces;
+  std::int64_t cells = 0;
+  for (Index s = 0; s < 2; ++s) cells += first_mesh(run, s).cells;
+  for (const char* name : {"core.1.0", "border.1.0.high", "border.1.1.low", "core.1.1"}) {
+    ArchiveReader archive = small.scratch.read(name);
+    pieces.push_back(next_piece(archive));
+    EXPECT_FALSE(pieces.back().mesh.cells.empty()) << name;
+  }
+  const std::array<const Piece*, 4> all{&pieces[0], &pieces[1], &pieces[2], &pieces[3]};
+  const Piece whole = join(all);
+  EXPECT_EQ(find_flaw(whole.mesh, run.input.box), "");
+  EXPECT_EQ(std::ssize(whole.mesh.cells), cells);
+  EXPECT_GT(grid_record(small.run, 0).estimator, 0);
+  EXPECT_GT(grid_record(small.run, 0).energy.total(), 0);
+  // A border piece reaches no farther than its slab.
+  for (const Vec3& p : pieces[1].mesh.points) EXPECT_LE(p.z, small.run.plan.height(1));
+  for (const Vec3& p : pieces[2].mesh.points) EXPECT_GE(p.z, small.run.plan.height(1));
+}
+
+TEST(FirstMesh, OnlyInnerBordersHaveNeighbours) {
+  const SmallRun small(72, {0, 33, 72});
+  const SlabPlan& plan = small.run.plan;
+  EXPECT_FALSE(has_neighbour(plan, 0, Side::kLow));
+  EXPECT_TRUE(has_neighbour(plan, 0, Side::kHigh));
+  EXPECT_TRUE(has_neighbour(plan, 1, Side::kLow));
+  EXPECT_FALSE(has_neighbour(plan, 1, Side::kHigh));
+}
+
+}  // namespace
+}  // namespace mesamis::detail
