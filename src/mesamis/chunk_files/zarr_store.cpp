@@ -157,6 +157,7 @@ std::optional<ScaleLevel> level_of(const fs::path& root, const fs::path& folder,
 
 std::string names_of(const fs::path& root, const std::vector<Found>& found) {
   std::vector<std::string> names;
+  names.reserve(found.size());
   for (const Found& array : found) {
     names.push_back(detail::shown(array.folder.lexically_relative(root).string()));
   }
