@@ -145,6 +145,29 @@ TEST(RemeshPiece, PiecesThatWereAdaptedApartFit) {
   }
 }
 
+/// The least volume of a cell, as a share of the cube of its longest edge.
+double flattest(const TetMesh& mesh) {
+  double least = 1;
+  for (const Cell& cell : mesh.cells) {
+    const auto corners = cell_corners(mesh, cell);
+    double longest = 0;
+    for (const auto& [i, j] : kCellEdges) longest = std::max(longest, norm(corners[i] - corners[j]));
+    const double volume = six_volume(corners[0], corners[1], corners[2], corners[3]) / 6;
+    least = std::min(least, volume / (longest * longest * longest));
+  }
+  return least;
+}
+
+// Edges of a border that stays may be far too long for the metric. What is adapted around them must
+// not come nearer and nearer to them.
+TEST(RemeshPiece, CellsAtABorderOfLongEdgesAreNotFlat) {
+  const TetMesh piece = side_of(perturbed_box(kUnitBox, {3, 3, 4}, 0.2), 0.5, false);
+  ASSERT_GT(flattest(piece), 1e-2);
+  for (const double size : {0.1, 0.05}) {
+    EXPECT_GT(flattest(remesh_piece(piece, kUnitBox, uniform_metric(size))), 1e-4) << size;
+  }
+}
+
 TEST(RemeshPiece, IsRemeshWhereThePieceIsTheWhole) {
   const TetMesh adapted = remesh_piece(start(), kUnitBox, uniform_metric(0.12));
   EXPECT_EQ(find_flaw(adapted, kUnitBox), "");

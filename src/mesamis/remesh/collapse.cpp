@@ -77,8 +77,10 @@ bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseR
   if (!may_move(mesh.vertices[vertex], mesh.vertices[onto])) return false;  // spares the ball
   const auto ball = bench.cavity.ball(vertex);
   if (ball.empty()) return false;
-  const double loss_limit = rule.quality3_loss * worst_quality3(mesh, ball);
-  const double limit = std::min(rule.quality3_min, std::max(loss_limit, kTinyQuality3));
+  const double worst = worst_quality3(mesh, ball);
+  const double loss_limit = std::max(rule.quality3_loss * worst, kTinyQuality3);
+  const double limit = std::max(std::min(rule.quality3_min, loss_limit),
+                                std::min(rule.quality3_floor, worst));
   if (!propose_collapse(bench, ball, {vertex, onto}, {limit, rule.new_length_max})) return false;
   bench.cavity.replace(ball);
   mesh.free_vertex(vertex);

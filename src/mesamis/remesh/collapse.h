@@ -15,6 +15,7 @@ struct CollapseRule {
   double balance = 0;
   double quality3_min = 0.008;  ///< new cells are at least this good,
   double quality3_loss = 0.3;   ///< or lose no more than this factor
+  double quality3_floor = 0;    ///< none is worse, whatever else holds, than this and all before
 };
 
 /// Collapses short edges of pending cells, shortest first, onto one of their ends, and moves that

@@ -30,6 +30,9 @@ constexpr double kBusy = 0.3, kMany = 0.2, kSome = 0.05, kFew = 0.02, kHardlyAny
 /// A round that makes and removes more than this share of the vertices of the round before undoes
 /// much of what that did: splits and collapses answer each other.
 constexpr double kSlow = 0.72, kStuck = 0.8;
+/// At a border that stays, whose edges may be far too long, splits and collapses never end. Cells
+/// that each made a little worse would get as flat as numbers can tell.
+constexpr double kFloorAtBorder = 1e-5;
 /// So many rounds accept new edges a little outside the goal.
 constexpr int kWideRoundsMin = 9, kWideRoundsMax = 14;
 
@@ -151,7 +154,7 @@ double Remesher::share_of_vertices(const Counters& done) const {
 
 bool Remesher::is_done(double change, double last_change) const {
   if (options_.draft) return change < kMany;
-  const bool circling = change < kFew && change > 0.8 * last_change;
+  const bool circling = (change < kFew || mesh_.is_part) && change > 0.8 * last_change;
   return bands_ == Bands::kGoal && (change < kHardlyAny || circling);
 }
 
@@ -202,6 +205,9 @@ Counters Remesher::run_round(int round) {
   const double growth = static_cast<double>(most_cells()) / static_cast<double>(mesh_.cell_count());
   return on_parts(round, [&](Workbench& bench) {
     Rules rules = make_rules(bands_);
+    if (mesh_.is_part) {
+      rules.split.quality3_floor = rules.collapse.quality3_floor = kFloorAtBorder;
+    }
     rules.split.most_cells =
         static_cast<std::int64_t>(growth * static_cast<double>(bench.mesh.cell_count()));
     return adapt_once(bench, rules);

@@ -83,6 +83,7 @@ bool propose_halves(Workbench& bench, const SplitEdge& edge, Index v, const Spli
       bench.cavity.propose(half, q, bench.mesh.cells[c].material);
     }
   }
+  if (after < std::min(rule.quality3_floor, before)) return false;
   return edge.urgent || after >= rule.quality3_min || after >= rule.quality3_loss * before;
 }
 

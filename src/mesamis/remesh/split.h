@@ -16,6 +16,7 @@ struct SplitRule {
   double urgent_length = 2;      ///< longer edges are split whatever comes out, if it is valid
   double quality3_min = 0.008;   ///< new cells are at least this good,
   double quality3_loss = 0.125;  ///< or lose no more than this factor
+  double quality3_floor = 0;     ///< none is worse, whatever else holds, than this and all before
   std::int64_t most_cells = kMostCells;  ///< no split once there are as many
 };
 
@@ -26,7 +27,7 @@ std::int64_t split_long_edges(Workbench& bench, const SplitRule& rule);
 /// The edge (a, b) of a cell, to be split.
 struct SplitEdge {
   Index cell, a, b;
-  bool urgent = false;  ///< the new cells need to be valid only
+  bool urgent = false;  ///< the new cells need to be valid, and not below the floor, only
 };
 
 /// Splits one edge at its middle in the metric if the rule allows.
