@@ -54,7 +54,8 @@ nlohmann::ordered_json slabs_json(const SlabRunResult& found, const Team& team) 
                     {"voxels", work.voxels},
                     {"rows", work.rows},
                     {"cells", work.cells},
-                    {"bytes_of_others", work.bytes}});
+                    {"bytes_of_others", work.bytes},
+                    {"seconds", work.seconds}});
   }
   return {{"count", found.plan.count()},
           {"processes", team.size()},

@@ -151,7 +151,8 @@ double flattest(const TetMesh& mesh) {
   for (const Cell& cell : mesh.cells) {
     const auto corners = cell_corners(mesh, cell);
     double longest = 0;
-    for (const auto& [i, j] : kCellEdges) longest = std::max(longest, norm(corners[i] - corners[j]));
+    for (const auto& [i, j] : kCellEdges)
+      longest = std::max(longest, norm(corners[i] - corners[j]));
     const double volume = six_volume(corners[0], corners[1], corners[2], corners[3]) / 6;
     least = std::min(least, volume / (longest * longest * longest));
   }

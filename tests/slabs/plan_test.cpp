@@ -55,8 +55,23 @@ TEST(SlabPlan, NoSlabIsThinnerThanFourOverlaps) {
   work[198] = work[199] = 100;
   const SlabPlan plan = plan_slabs(grid_of({20, 20, 200}), work, {.slabs = 4});
   EXPECT_GE(plan.thinnest(), 4 * plan.overlap - 1) << "the last one ends at its last slice";
-  EXPECT_EQ(plan.cuts, (std::vector<Index>{0, 104, 136, 168, 200}));
+  EXPECT_EQ(plan.cuts, (std::vector<Index>{0, 100, 136, 168, 200}));
   EXPECT_NO_THROW(plan_slabs(grid_of({20, 20, 200}), std::vector<double>(200, 0), {.slabs = 4}));
+}
+
+TEST(SlabPlan, NoSlabIsThickerThanTwiceTheMean) {
+  for (const Index busy : {0, 90, 199}) {  // the slice with all the work
+    std::vector<double> work(200, 0);
+    work[static_cast<std::size_t>(busy)] = 1;
+    const SlabPlan plan = plan_slabs(grid_of({20, 20, 200}), work, {.slabs = 4});
+    EXPECT_EQ(plan.cuts.front(), 0);
+    EXPECT_EQ(plan.cuts.back(), 200);
+    for (Index s = 0; s < 4; ++s) {
+      const auto at = static_cast<std::size_t>(s);
+      EXPECT_LE(plan.cuts[at + 1] - plan.cuts[at], 100) << busy;
+      EXPECT_GE(plan.cuts[at + 1] - plan.cuts[at], 32) << busy;
+    }
+  }
 }
 
 TEST(SlabPlan, RefusesSlabsThatWouldBeTooThin) {

@@ -79,8 +79,8 @@ bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseR
   if (ball.empty()) return false;
   const double worst = worst_quality3(mesh, ball);
   const double loss_limit = std::max(rule.quality3_loss * worst, kTinyQuality3);
-  const double limit = std::max(std::min(rule.quality3_min, loss_limit),
-                                std::min(rule.quality3_floor, worst));
+  const double limit =
+      std::max(std::min(rule.quality3_min, loss_limit), std::min(rule.quality3_floor, worst));
   if (!propose_collapse(bench, ball, {vertex, onto}, {limit, rule.new_length_max})) return false;
   bench.cavity.replace(ball);
   mesh.free_vertex(vertex);

@@ -241,7 +241,7 @@ SlabWork hand_on(const MeshRun& run, int k, Index s, const Piece& mesh) {
     if (!has_neighbour(plan, s, side)) continue;
     write_piece(run.slabs.scratch, side_file("border", k, s, side), part(side));
   }
-  return {0, 0, std::ssize(mesh.mesh.cells), 0};
+  return {.cells = std::ssize(mesh.mesh.cells)};
 }
 
 MeshRun::MeshRun(const SlabRun& run)

@@ -20,24 +20,28 @@ constexpr double kOverlap = 8;
 constexpr Index kThinnest = 4;
 
 Index default_count(const VoxelGrid& whole, Index thinnest) {
-  constexpr double kMostVoxels = 1 << 26;
+  constexpr double kMeanVoxels = 1 << 26;
   const auto by_memory =
-      static_cast<Index>(std::ceil(static_cast<double>(whole.voxel_count()) / kMostVoxels));
+      static_cast<Index>(std::ceil(static_cast<double>(whole.voxel_count()) / kMeanVoxels));
   return std::clamp(by_memory, 1, std::max(1, whole.size[2] / thinnest));
 }
 
-/// The first slices of the slabs, and the end of the last.
+/// The first slices of the slabs, and the end of the last. No slab is thicker than twice the mean:
+/// memory counts voxels.
 /// @param thinnest  slices; count times that is no more than there are.
 std::vector<Index> equal_shares(std::span<const double> work, Index count, Index thinnest) {
   const auto slices = static_cast<Index>(work.size());
+  const Index thickest = 2 * ((slices + count - 1) / count);
   std::vector<double> before(work.size() + 1, 0);
   std::partial_sum(work.begin(), work.end(), before.begin() + 1);
   std::vector<Index> cuts{0};
   for (Index s = 1; s < count; ++s) {
     const double share = before.back() * s / count;
     const auto place = std::lower_bound(before.begin(), before.end(), share) - before.begin();
-    cuts.push_back(std::clamp(static_cast<Index>(place), cuts.back() + thinnest,
-                              slices - (count - s) * thinnest));
+    const Index after = count - s;
+    cuts.push_back(std::clamp(static_cast<Index>(place),
+                              std::max(cuts.back() + thinnest, slices - after * thickest),
+                              std::min(cuts.back() + thickest, slices - after * thinnest)));
   }
   cuts.push_back(slices);
   return cuts;

@@ -49,10 +49,11 @@ struct SlabPlan {
 struct SlabOptions {
   double unit_mm = 1;
   double beta = 2;  ///< of the functional: its root is the length that influences reach
-  std::optional<Index> slabs{};  ///< default: of at most 2^26 voxels each
+  std::optional<Index> slabs{};  ///< default: of 2^26 voxels in the mean
 };
 
-/// Cuts a scan so that all slabs have about the same work.
+/// Cuts a scan so that all slabs have about the same work, and none more than twice the mean
+/// number of slices.
 /// @param work  of each slice, any unit, >= 0.
 /// @throws InputError  if the slabs asked for are thinner than four overlaps.
 ///

@@ -43,8 +43,11 @@ class Stages {
     const Stage stage(progress_, "slabs: " + name);
     for (Index n = begin; n < end; ++n) {
       if (!scratch_.has(done_file(name, n))) {
+        Stopwatch watch;
+        SlabWork work = task(n);
+        work.seconds = watch.lap();
         ArchiveWriter archive;
-        archive.add_one(task(n));
+        archive.add_one(work);
         scratch_.write(done_file(name, n), archive);
       }
       stage.advance(static_cast<double>(n + 1 - begin) / (end - begin));

@@ -12,6 +12,7 @@ struct SlabWork {
   std::int64_t rows = 0;    ///< of linear systems: nodes of grids and meshes
   std::int64_t cells = 0;   ///< that the remesher made
   std::int64_t bytes = 0;   ///< read of what belongs to other slabs
+  double seconds = 0;       ///< wall time
 
   /// Adds the work of other tasks. O(1).
   /// @throws nothing
@@ -20,6 +21,7 @@ struct SlabWork {
     rows += other.rows;
     cells += other.cells;
     bytes += other.bytes;
+    seconds += other.seconds;
     return *this;
   }
 };
