@@ -8,11 +8,13 @@
 #include "arguments.h"
 #include "costs.h"
 #include "log.h"
+#include "mesamis/delivery/mesh_output.h"
 #include "mesamis/record/json_file.h"
 #include "mesamis/record/report.h"
 #include "mesamis/record/run_surface.h"
 #include "mesamis/record/verdict.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "mesamis/slabs/map_scan.h"
 #include "mesamis/slabs/run_in_slabs.h"
 #include "outputs.h"
 #include "progress.h"
@@ -39,7 +41,9 @@ SlabRunOptions slab_options(const SegmentRun& run, const SlabArguments& slabs) {
   options.resumable = !slabs.checkpoint.empty();
   options.input = identity_of(run.scan.input);
   if (options.scratch.empty()) {
-    options.scratch = run.surfaces.empty() ? run.report : run.surfaces.front();
+    options.scratch = !run.surfaces.empty() ? run.surfaces.front()
+                      : !run.meshes.empty() ? run.meshes.front()
+                                            : run.report;
     options.scratch += ".slabs";
   }
   return options;
@@ -77,6 +81,7 @@ struct Ended {
   const SlabRunResult& found;
   const SurfaceCheck& check;
   const Verdict& verdict;
+  const std::optional<MeshOutput>& mesh;
 };
 
 void write_slab_report(const SegmentRun& run, const Settings& settings, const VolumeFile& head,
@@ -88,6 +93,7 @@ void write_slab_report(const SegmentRun& run, const Settings& settings, const Vo
   report["command"] = run.command;
   report["output"] = output_json(run.scan.frame);
   report.update(run_json(settings, ended.found.result, ended.check));
+  if (ended.mesh) report["mesh"]["region"] = region_json(*ended.mesh);
   report["slabs"] = slabs_json(ended.found, team);
   report["warnings"] = head.warnings;
   report["verdict"] = {{"kept", ended.verdict.outcome == Outcome::kKept},
@@ -97,18 +103,29 @@ void write_slab_report(const SegmentRun& run, const Settings& settings, const Vo
   write_json(run.report, report);
 }
 
-int deliver(const SegmentRun& run, const Settings& settings, const VolumeFile& head,
+/// The mesh as it is written: its cells have the mean of the voxels in them, of the whole scan.
+std::optional<MeshOutput> mesh_of(const SegmentRun& run, const SliceSource& source,
+                                  const Result& result) {
+  if (run.meshes.empty()) return {};
+  const MappedScan scan = map_scan(source, fs::absolute(run.meshes.front()).parent_path());
+  return make_mesh_output(result, scan.volume, run.mesh);
+}
+
+int deliver(const SegmentRun& run, const Settings& settings, const FileSlices& source,
             const SlabRunResult& found, const Team& team) {
+  const VolumeFile& head = source.head();
   const Result& result = found.result;
   const SurfaceCheck check = check_surface(result.surface);
   const Verdict verdict = judge(result, check);
+  const std::optional<MeshOutput> mesh = mesh_of(run, source, result);
   if (!run.surfaces.empty()) require_surface(result);
   const bool grey = std::any_of(run.surfaces.begin(), run.surfaces.end(), carries_grey);
   const auto as = surface_options(result, head.volume.voxel_size(),
                                   {run.scan.frame, run.name, run.error, grey});
   OutputSet set;
   for (const fs::path& path : run.surfaces) write_surface(path, result.surface, as);
-  write_slab_report(run, settings, head, {found, check, verdict}, team, set);
+  for (const fs::path& path : run.meshes) write_mesh(path, *mesh, run.scan.frame);
+  write_slab_report(run, settings, head, {found, check, verdict, mesh}, team, set);
   const Paths files = files_of(set);
   commit(set);
   RunFigures figures = figures_of(result, check, head.volume.modality);
@@ -145,7 +162,7 @@ void require_slabs(const SegmentRun& run, const Settings& settings) {
   };
   if (run.scan.labels.given()) refuse("labels");
   if (run.scan.places.given()) refuse("--tissue, --seed, --box, --mask or --remove");
-  if (run.wants_mesh()) refuse("--mesh or --band-mesh");
+  if (!run.band_meshes.empty()) refuse("--band-mesh");
   if (run.body.elements()) refuse("--body or --surface-quality");
   if (!run.labelmap.empty()) refuse("--labelmap");
   if (run.page.given()) refuse("--html or --pictures");
@@ -166,7 +183,7 @@ int run_slabs(const SegmentRun& run, const SlabArguments& slabs, const Settings&
   const auto found = run_in_slabs(*source, settings, options, team);
   display.finish();
   if (!found) return kExitDone;
-  return deliver(run, settings, head, *found, team);
+  return deliver(run, settings, *source, *found, team);
 }
 
 }  // namespace mesamis

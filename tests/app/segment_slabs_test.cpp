@@ -73,9 +73,33 @@ TEST(SlabsOfSegment, MakeAClosedSurfaceAndTellTheirWork) {
 TEST(SlabsOfSegment, OneSlabHasTheBytesOfARunWithoutSlabs) {
   const TempFolder folder;
   write_scan(folder);
-  EXPECT_EQ(run_program(folder, segment(folder, "one", {"--slabs", "1"})).status, 0);
-  EXPECT_EQ(run_program(folder, segment(folder, "whole", {})).status, 0);
-  EXPECT_EQ(read_bytes(folder / "one.stl"), read_bytes(folder / "whole.stl"));
+  EXPECT_EQ(
+      run_program(folder, segment(folder, "one", {"--slabs", "1", "--mesh", folder / "one.vtu"}))
+          .status,
+      0);
+  EXPECT_EQ(run_program(folder, segment(folder, "whole", {"--mesh", folder / "whole.vtu"})).status,
+            0);
+  for (const char* extension : {".stl", ".vtu"}) {
+    EXPECT_EQ(read_bytes(folder / ("one" + std::string(extension))),
+              read_bytes(folder / ("whole" + std::string(extension))));
+  }
+}
+
+TEST(SlabsOfSegment, TheMeshIsThatOfTheWholeScan) {
+  const TempFolder folder;
+  write_scan(folder);
+  const ProgramRun run =
+      run_program(folder, segment(folder, "two",
+                                  {"--slabs", "2", "--mesh", folder / "two.mesh", "--bins", "4",
+                                   "--report", folder / "two.json"}));
+  EXPECT_EQ(run.status, 0) << run.err;
+  const nlohmann::json mesh = report_of(folder, "two")["mesh"];
+  EXPECT_EQ(mesh["region"]["cells"], mesh["tets"]);
+  EXPECT_NEAR(mesh["region"]["volume_mm3"].get<double>(), 31. * 31 * 71, 1e-6 * 31 * 31 * 71);
+  EXPECT_EQ(mesh["region"]["bins"].size(), 4u);
+  for (const char* file : {"two.mesh", "two.sol"}) {
+    EXPECT_TRUE(std::filesystem::exists(std::string(folder / file))) << file;
+  }
 }
 
 TEST(SlabsOfSegment, AnyNumberOfProcessesWritesTheSameBytes) {
@@ -153,7 +177,7 @@ TEST(SlabsOfSegment, WhatNeedsAllOfAScanIsRefused) {
   const TempFolder folder;
   write_scan(folder);
   for (const std::vector<std::string>& more :
-       std::vector<std::vector<std::string>>{{"--mesh", folder / "m.vtu"},
+       std::vector<std::vector<std::string>>{{"--band-mesh", folder / "m.vtu"},
                                              {"--labelmap", folder / "l.nrrd"},
                                              {"--crop", "0:20,,"},
                                              {"--preview"},

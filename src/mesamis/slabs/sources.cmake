@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  map_scan.h
   plan.h
   run_in_slabs.h
   slab_work.h
@@ -7,6 +8,7 @@ set(ROOM_HEADERS
 set(ROOM_SOURCES
   archive.cpp
   background.cpp
+  map_scan.cpp
   mapped_floats.cpp
   mesh_tasks.cpp
   piece.cpp
