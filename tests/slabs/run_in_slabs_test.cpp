@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/mesh/edges.h"
 #include "slabs/small_run.h"
 #include "support/throws.h"
 
@@ -117,6 +118,31 @@ TEST_P(RunInSlabs, FindsWhatMesAmisFinds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Slabs, RunInSlabs, testing::Values(2, 3));
+
+// Where nothing is to be seen, cells are as large as a slab, and belong to pieces of its
+// neighbours.
+TEST(SlabRun, MostSlabsMayBeEmpty) {
+  const TempFolder folder;
+  const Vec3 middle{15, 14, 20};
+  constexpr double kRadius = 8;
+  const Volume scan = degrade(sampled_volume({32, 30, 200}, {1, 1, 1},
+                                             [&](const Vec3& p) {
+                                               const double depth = kRadius - norm(p - middle);
+                                               return 120 + 110 * std::clamp(0.5 + depth, 0.0, 1.0);
+                                             }),
+                              {.blur = 0.7, .noise = 0.5});
+  const SlabRunResult run = run_alone(scan, {.slabs = 5, .scratch = folder / "scratch"});
+  EXPECT_EQ(find_flaw(run.result.mesh, scan.box()), "");
+  EXPECT_EQ(solid_flaws_of(check_surface(run.result.surface)), "");
+  ASSERT_FALSE(run.result.surface.points.empty());
+  for (const Vec3& p : run.result.surface.points) EXPECT_NEAR(norm(p - middle), kRadius, 0.5);
+  double largest = 0;
+  for (const Edge& edge : unique_edges(run.result.mesh)) {
+    largest = std::max(largest, norm(run.result.mesh.points[static_cast<std::size_t>(edge[0])] -
+                                     run.result.mesh.points[static_cast<std::size_t>(edge[1])]));
+  }
+  EXPECT_GT(largest, 20) << "few cells fill what is empty";
+}
 
 TEST(SlabRun, OneSlabIsARunLikeAnyOther) {
   const TempFolder folder;

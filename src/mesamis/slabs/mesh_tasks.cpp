@@ -212,6 +212,7 @@ Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background&
   // A few nodes of large cells may ask for very small ones all around them: what is above the
   // cells of the complexity is held back, as in a mesh of the whole.
   constexpr double kMost = 1.1 * kCellsPerComplexity;
+  if (start.cells.empty()) return {};
   RemeshOptions options;
   options.max_cells = std::max(std::llround(kMost * complexity), kFewestInPiece);
   options.draft = run.input.cells_after(k) < run.input.parameters.max_tets;
@@ -258,9 +259,9 @@ MeshRun::MeshRun(const SlabRun& run)
     p.max_tets = std::llround(
         std::clamp<double>(cells, kFewestTets, static_cast<double>(kMostTets) * run.plan.count()));
   }
-  // A cell must not reach over a slab from border to border.
-  const double between = run.plan.thinnest() - 2 * run.plan.overlap;
-  if (run.plan.count() > 1) p.h_max = std::max(p.h_min, std::min(p.h_max, between / 1.5));
+  // Larger cells would reach over whole slabs. Smaller ones must not be asked for: in a large scan
+  // cells of a few voxels that only fill the box outnumber those at its surface.
+  if (run.plan.count() > 1) p.h_max = std::max(p.h_min, std::min(p.h_max, run.plan.thinnest()));
   static_cast<VoxelGrid&>(prepared.grey) = run.plan.whole;
   MappedFloats mapped = map_floats(run.scratch.path(kImageFile), run.plan.whole.voxel_count());
   prepared.image = {run.plan.whole, mapped.values, extents[0].low, extents[0].high, mapped.owner};

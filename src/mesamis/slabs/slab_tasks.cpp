@@ -112,14 +112,18 @@ double complexity_of(const KuhnGrid& grid, const std::vector<PackedSym3>& log_me
   });
 }
 
-/// Bricks of about the largest size, in the same columns in every slab, so that slabs fit.
+/// Bricks of less than a slab's inner part, in the same columns in every slab, so that slabs fit.
+/// Their faces at the borders stay in the first mesh: larger ones would be far from what it needs.
 TetMesh start_mesh(const MeshRun& run, Index s) {
-  const Box box = box_of_slab(run.slabs.plan, s);
+  const SlabPlan& plan = run.slabs.plan;
+  const double size =
+      std::min(run.input.parameters.h_max, (plan.thinnest() - 2 * plan.overlap) / 1.5);
+  const Box box = box_of_slab(plan, s);
   const Vec3 extent = box.extent();
   std::array<Index, 3> bricks{};
   for (int a = 0; a < 3; ++a) {
     bricks[static_cast<std::size_t>(a)] =
-        std::max(1, static_cast<Index>(std::ceil(extent[a] / run.input.parameters.h_max)));
+        std::max(1, static_cast<Index>(std::ceil(extent[a] / size)));
   }
   return box_mesh(box, bricks);
 }
@@ -175,7 +179,10 @@ SlabWork first_mesh(const MeshRun& run, Index s) {
   const double around = window.box.extent().z / box_of_slab(plan, s).extent().z;
   const double cells = static_cast<double>(run.input.cells_after(1)) *
                        run.shares[static_cast<std::size_t>(s)] * around;
-  const SizeControl control{p.h_min, p.h_max, cells / kCellsPerComplexity};
+  // Where nothing is to be seen, cells of the largest size: no bound at all would mesh the noise.
+  const Vec3 extent = window.box.extent();
+  const double fewest = extent.x * extent.y * extent.z / std::pow(p.h_max, 3);
+  const SizeControl control{p.h_min, p.h_max, std::max(fewest, cells / kCellsPerComplexity)};
   window.log_metrics = grid_log_metric({run.input, 1, silent_stage(), fields.record}, grid,
                                        {window.u, window.v, fields.f}, control);
   for (const Side side : {Side::kLow, Side::kHigh}) {
