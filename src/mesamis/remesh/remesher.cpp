@@ -153,7 +153,7 @@ double Remesher::share_of_vertices(const Counters& done) const {
 }
 
 bool Remesher::is_done(double change, double last_change) const {
-  if (options_.draft) return change < kMany;
+  if (options_.draft && change < kMany) return true;
   const bool circling = (change < kFew || mesh_.is_part) && change > 0.8 * last_change;
   return bands_ == Bands::kGoal && (change < kHardlyAny || circling);
 }
