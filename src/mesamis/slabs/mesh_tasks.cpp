@@ -112,8 +112,8 @@ Minimum minimise_on(const MeshRun& run, int k, const AmisOptions& options, Piece
   return m;
 }
 
-/// A piece has so many cells at least.
-constexpr long long kFewestInPiece = 1000;
+/// A piece may have so many cells at least.
+constexpr std::int64_t kFewestInPiece = 1000;
 
 /// What all slabs tell each other of a mesh, to choose the sizes of the next one together.
 constexpr std::size_t kFactors = 97;
@@ -209,12 +209,12 @@ std::string window_file(int k, Index s, Side side) { return side_file("window", 
 
 Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background& background,
               double complexity) {
-  // A few nodes of large cells may ask for very small ones all around them: what is above the
-  // cells of the complexity is held back, as in a mesh of the whole.
-  constexpr double kMost = 1.1 * kCellsPerComplexity;
+  // Only a guard: a border that stays needs cells whatever the metric asks for, and a bound that
+  // cannot be kept would make all cells coarser, also those at the surface.
+  constexpr double kMost = 2 * kCellsPerComplexity;
   if (start.cells.empty()) return {};
   RemeshOptions options;
-  options.max_cells = std::max(std::llround(kMost * complexity), kFewestInPiece);
+  options.max_cells = std::llround(kMost * complexity) + std::ssize(start.cells) + kFewestInPiece;
   options.draft = run.input.cells_after(k) < run.input.parameters.max_tets;
   Piece piece{remesh_piece(start, run.slabs.plan.box(), background, options), {}};
   piece.nodes = background.values(piece.mesh.points);
