@@ -193,6 +193,12 @@ TEST(RemeshPiece, TheSameBitsForAnyNumberOfThreads) {
   }
 }
 
+TEST(RemeshPiece, NothingStaysNothing) {
+  const TetMesh adapted = remesh_piece({}, kUnitBox, uniform_metric(0.2));
+  EXPECT_TRUE(adapted.cells.empty());
+  EXPECT_TRUE(adapted.points.empty());
+}
+
 TEST(RemeshPiece, RefusesCellsWithoutPositiveVolume) {
   TetMesh piece = side_of(start(), 0.5, false);
   std::swap(piece.cells[7][0], piece.cells[7][1]);

@@ -41,6 +41,7 @@ void freeze_border(WorkingMesh& mesh) {
 
 TetMesh remesh_piece(const TetMesh& piece, const Box& box, const MetricField& metric,
                      const RemeshOptions& options) {
+  if (piece.cells.empty()) return {};
   require_positive_cells(piece);
   WorkingMesh mesh = load(piece, box);
   freeze_border(mesh);

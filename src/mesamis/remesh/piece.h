@@ -14,7 +14,7 @@ namespace mesamis {
 /// their points stay, and no edge between two of them is split. The cells at the border are adapted
 /// by a later call for a piece in whose inside they lie.
 ///
-/// @param piece   some cells of a valid mesh of the box, mm; every point belongs to a cell.
+/// @param piece   some cells, or none, of a valid mesh of the box, mm; every point is of a cell.
 /// @param box     of the whole mesh, mm.
 /// @param metric  in 1/mm^2, defined on the piece; called in threads.
 /// @param options  max_cells counts the piece's.

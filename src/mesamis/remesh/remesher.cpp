@@ -43,8 +43,10 @@ struct Rules {
   SmoothRule smooth;
 };
 
-Rules make_rules(Bands bands) {
+/// @param floor  of the quality, see SplitRule.
+Rules make_rules(Bands bands, double floor) {
   Rules rules;
+  rules.split.quality3_floor = rules.collapse.quality3_floor = floor;
   if (bands == Bands::kBalanced) {
     rules.split.balance = 0.95;
     rules.collapse.balance = 1.05;
@@ -204,10 +206,7 @@ Counters Remesher::run_round(int round) {
   ++report_.rounds;
   const double growth = static_cast<double>(most_cells()) / static_cast<double>(mesh_.cell_count());
   return on_parts(round, [&](Workbench& bench) {
-    Rules rules = make_rules(bands_);
-    if (mesh_.is_part) {
-      rules.split.quality3_floor = rules.collapse.quality3_floor = kFloorAtBorder;
-    }
+    Rules rules = make_rules(bands_, mesh_.is_part ? kFloorAtBorder : 0);
     rules.split.most_cells =
         static_cast<std::int64_t>(growth * static_cast<double>(bench.mesh.cell_count()));
     return adapt_once(bench, rules);

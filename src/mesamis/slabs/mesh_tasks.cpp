@@ -212,7 +212,6 @@ Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background&
   // Only a guard: a border that stays needs cells whatever the metric asks for, and a bound that
   // cannot be kept would make all cells coarser, also those at the surface.
   constexpr double kMost = 2 * kCellsPerComplexity;
-  if (start.cells.empty()) return {};
   RemeshOptions options;
   options.max_cells = std::llround(kMost * complexity) + std::ssize(start.cells) + kFewestInPiece;
   options.draft = run.input.cells_after(k) < run.input.parameters.max_tets;

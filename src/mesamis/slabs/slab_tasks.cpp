@@ -180,8 +180,7 @@ SlabWork first_mesh(const MeshRun& run, Index s) {
   const double cells = static_cast<double>(run.input.cells_after(1)) *
                        run.shares[static_cast<std::size_t>(s)] * around;
   // Where nothing is to be seen, cells of the largest size: no bound at all would mesh the noise.
-  const Vec3 extent = window.box.extent();
-  const double fewest = extent.x * extent.y * extent.z / std::pow(p.h_max, 3);
+  const double fewest = window.box.volume() / std::pow(p.h_max, 3);
   const SizeControl control{p.h_min, p.h_max, std::max(fewest, cells / kCellsPerComplexity)};
   window.log_metrics = grid_log_metric({run.input, 1, silent_stage(), fields.record}, grid,
                                        {window.u, window.v, fields.f}, control);
