@@ -14,7 +14,7 @@ namespace {
 struct Scan {
   const char* name;
   const char* path;
-  const char* stride = "2,2,2";
+  const char* stride = "3,3,3";
 };
 
 class EachScan : public testing::TestWithParam<Scan> {
@@ -24,20 +24,20 @@ class EachScan : public testing::TestWithParam<Scan> {
     return run_program(
         folder_, {"segment", scan, "-o", folder_ / "a.stl", "-o", folder_ / "a.3mf", "-o",
                   folder_ / "a.amf", "--report", folder_ / "r.json", "--stride", GetParam().stride,
-                  "--max-tets", "60000", "--adaptations", "2", "--quiet"});
+                  "--max-tets", "30000", "--adaptations", "2", "--quiet"});
   }
 
   TempFolder folder_;
 };
 
 INSTANTIATE_TEST_SUITE_P(Real, EachScan,
-                         testing::Values(Scan{"cranium", "cranium_inv/ct.nrrd", "3,3,3"},
+                         testing::Values(Scan{"cranium", "cranium_inv/ct.nrrd", "4,4,4"},
                                          Scan{"pelvis", "pelvis_ts/ct.nii.gz"},
-                                         Scan{"skull", "skull_phantom/ct_soft_1mm.nrrd", "4,4,2"},
+                                         Scan{"skull", "skull_phantom/ct_soft_1mm.nrrd", "6,6,3"},
                                          Scan{"mouse", "mouse_skull/ct_A_J.nii.gz"},
                                          Scan{"mouse_template", "mouse_skull/ct_template.nii.gz"},
                                          Scan{"spine", "thoracic_spine_ts/ct.nii.gz"},
-                                         Scan{"trabecular", "trabecular_microct/ct.nrrd", "3,3,3"},
+                                         Scan{"trabecular", "trabecular_microct/ct.nrrd", "4,4,4"},
                                          Scan{"head_aniso", "head_aniso/ct.nii.gz"},
                                          Scan{"mr", "head_aniso/mr_t1.nii.gz"},
                                          Scan{"j2k", "dicom_ct_j2k"},

@@ -14,7 +14,7 @@ namespace {
 constexpr double kOfNoise = 0.67, kOfBends = 0.18, kOfLevelAndBlur = 0.018, kOfLevel = 0.0085;
 constexpr double kOfDecimation = 0.25;
 constexpr double kMost = 2;           // voxels
-constexpr double kLeastSlope = 1;     // grey values per voxel: less tells of no edge
+constexpr double kSlopeOfNoEdge = 1;  // grey values per voxel: less tells of no edge
 constexpr double kMostCurvature = 2;  // per voxel
 
 /// How fast the direction of the image's gradient turns around a point, per voxel.
@@ -44,7 +44,7 @@ std::vector<double> expected_error(const TriMesh& surface, const SplineImage& im
   parallel_for(errors.size(), [&](std::size_t n) {
     const Vec3 p = image.grid.to_grid(surface.points[n]);
     if (!inner.contains(p)) return;
-    const double slope = std::max(norm(spline_at(image, p).gradient) * voxel, kLeastSlope);
+    const double slope = std::max(norm(spline_at(image, p).gradient) * voxel, kSlopeOfNoEdge);
     const double noise = options.noise / slope, level = options.contrast / slope;
     const double error =
         std::hypot(std::hypot(kOfNoise * noise, kOfLevel * level),

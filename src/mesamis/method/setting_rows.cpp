@@ -8,6 +8,12 @@
 #include "mesamis/restore/deblur.h"
 
 namespace mesamis {
+
+bool is_word(const SettingValue& value, std::string_view word) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr && *text == word;
+}
+
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -50,11 +56,6 @@ void take(const Numbers& n, CropRange& range) {
     range.begin[a] = static_cast<Index>(n[2 * a]);
     range.end[a] = static_cast<Index>(n[2 * a + 1]);
   }
-}
-
-bool is_word(const SettingValue& value, std::string_view word) {
-  const auto* text = std::get_if<std::string>(&value);
-  return text != nullptr && *text == word;
 }
 
 template <class T>

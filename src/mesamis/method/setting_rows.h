@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "mesamis/method/setting_table.h"
@@ -9,5 +10,8 @@ namespace mesamis {
 
 /// The rows of setting_table(), built.
 std::vector<Setting> build_setting_rows();
+
+/// Whether the value is this word, and no number.
+bool is_word(const SettingValue& value, std::string_view word);
 
 }  // namespace mesamis

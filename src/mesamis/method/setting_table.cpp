@@ -14,11 +14,6 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-bool is_word(const SettingValue& value, std::string_view word) {
-  const auto* text = std::get_if<std::string>(&value);
-  return text != nullptr && *text == word;
-}
-
 std::string option_name(std::string name) {
   std::replace(name.begin(), name.end(), '_', '-');
   return name;

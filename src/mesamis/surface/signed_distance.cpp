@@ -7,6 +7,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/surface/farthest.h"
 #include "mesamis/surface/half_edges.h"
 
 namespace mesamis {
@@ -60,10 +61,6 @@ OnTriangle nearest_on(const Vec3& p, const Corners& t) {
 double angle_at(const Corners& t, std::size_t i) {
   const Vec3 a = t[(i + 1) % 3] - t[i], b = t[(i + 2) % 3] - t[i];
   return std::atan2(norm(cross(a, b)), dot(a, b));
-}
-
-Corners corners_of(const TriMesh& surface, const Triangle& t) {
-  return {surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]};
 }
 
 const TriMesh& checked(const TriMesh& surface) {
