@@ -48,7 +48,7 @@ endfunction()
 
 # Rooms whose sources have no names in common. Read as one source each, the headers of the system are read once: half
 # the time of a build with sanitizers, and of clang-tidy (scripts/tidy).
-file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/rooms_as_one.txt MESAMIS_ROOMS_AS_ONE)
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/rooms_as_one.txt MESAMIS_ROOMS_AS_ONE REGEX "^[a-z]")
 
 # Adds a room to a library. Its sources.cmake names its doors (ROOM_HEADERS, which are installed), the
 # headers that other rooms of the project may include as well (ROOM_INNER_HEADERS) and its sources
