@@ -110,16 +110,16 @@ Groups group(std::span<const Index> part_of, Index parts) {
 
 /// Who works on what. A cell goes to the lowest part among its vertices; a vertex whose cells go
 /// to different parts is shared by them.
-struct Cut {
+struct PartCut {
   std::vector<Index> part_of_cell, owner;  ///< owner of a vertex: a part or kShared
   Groups cells, vertices;
   std::vector<Index> shared;         ///< the shared vertices
   std::vector<Index> shared_number;  ///< position in `shared`, by vertex
 };
 
-Cut make_cut(const WorkingMesh& mesh, int round, Index parts) {
+PartCut make_cut(const WorkingMesh& mesh, int round, Index parts) {
   const std::vector<Index> part_of_vertex = Bisection(mesh, round).parts_of_vertices(parts);
-  Cut cut;
+  PartCut cut;
   cut.part_of_cell.resize(mesh.cells.size());
   cut.owner.assign(mesh.vertices.size(), kNoIndex);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
@@ -146,14 +146,14 @@ Cut make_cut(const WorkingMesh& mesh, int round, Index parts) {
 /// A part as a mesh of its own. Its shared vertices come first and stay first.
 struct Part {
   WorkingMesh mesh;
-  std::vector<Index> shared;  ///< their positions in Cut::shared, increasing
+  std::vector<Index> shared;  ///< their positions in PartCut::shared, increasing
   Counters counters;
   Index first_cell = 0, first_vertex = 0;  ///< in the joined mesh
 };
 
-/// Local numbers of the shared vertices of a part, by position in Cut::shared; kNoIndex for those
-/// of other parts.
-std::vector<Index> number_shared(const WorkingMesh& mesh, const Cut& cut, Index part) {
+/// Local numbers of the shared vertices of a part, by position in PartCut::shared; kNoIndex for
+/// those of other parts.
+std::vector<Index> number_shared(const WorkingMesh& mesh, const PartCut& cut, Index part) {
   std::vector<Index> number(cut.shared.size(), kNoIndex);
   for (const Index c : cut.cells.of(part)) {
     for (const Index v : mesh.cells[c].points) {
@@ -167,7 +167,7 @@ std::vector<Index> number_shared(const WorkingMesh& mesh, const Cut& cut, Index 
   return number;
 }
 
-Part extract(const WorkingMesh& mesh, const Cut& cut, Index p) {
+Part extract(const WorkingMesh& mesh, const PartCut& cut, Index p) {
   Part part;
   const std::vector<Index> number = number_shared(mesh, cut, p);
   for (std::size_t s = 0; s < number.size(); ++s) {
@@ -280,7 +280,7 @@ void make_room(std::vector<Item>& items, std::size_t count) {
 }
 
 /// Writes the parts over the mesh that they were cut from.
-void join(WorkingMesh& mesh, const Cut& cut, std::vector<Part>& parts) {
+void join(WorkingMesh& mesh, const PartCut& cut, std::vector<Part>& parts) {
   std::size_t cells = 0, vertices = cut.shared.size();
   for (Part& part : parts) {
     part.first_cell = static_cast<Index>(cells);
@@ -307,7 +307,7 @@ void join(WorkingMesh& mesh, const Cut& cut, std::vector<Part>& parts) {
 
 PartsReport work_on_parts(WorkingMesh& mesh, const PartSchedule& schedule,
                           const std::function<Counters(WorkingMesh&)>& work) {
-  const Cut cut = make_cut(mesh, schedule.round, schedule.parts);
+  const PartCut cut = make_cut(mesh, schedule.round, schedule.parts);
   std::vector<Part> parts(static_cast<std::size_t>(schedule.parts));
   PartsReport report{{}, std::vector<double>(parts.size())};
   parallel_for_each(parts.size(), [&](std::size_t p) {
