@@ -43,6 +43,8 @@ function(mesamis_instrument target)
     target_compile_options(${target} PRIVATE -fsanitize=${MESAMIS_SANITIZE}
                                              -fno-sanitize-recover=all -fno-omit-frame-pointer
                                              $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    # Sources that are read as one may use another's names for their own variables.
+    target_compile_options(${target} PRIVATE -Wno-shadow)
   endif()
 endfunction()
 
