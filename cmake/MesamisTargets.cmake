@@ -39,12 +39,11 @@ endfunction()
 function(mesamis_instrument target)
   if(MESAMIS_SANITIZE)
     # Whatever is found ends the program: undefined behaviour would only be printed otherwise.
-    # In instrumented code gcc takes members of the standard library for uninitialised.
+    # In instrumented code gcc takes members of the standard library for uninitialised. Sources that are read as
+    # one may use another's names for their own variables.
     target_compile_options(${target} PRIVATE -fsanitize=${MESAMIS_SANITIZE}
-                                             -fno-sanitize-recover=all -fno-omit-frame-pointer
+                                             -fno-sanitize-recover=all -fno-omit-frame-pointer -Wno-shadow
                                              $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-    # Sources that are read as one may use another's names for their own variables.
-    target_compile_options(${target} PRIVATE -Wno-shadow)
   endif()
 endfunction()
 
