@@ -55,6 +55,8 @@ nlohmann::ordered_json slabs_json(const SlabRunResult& found, const Team& team) 
     const SlabWork& work = found.slabs[s];
     each.push_back({{"first_slice", found.plan.cuts[s]},
                     {"slices", found.plan.cuts[s + 1] - found.plan.cuts[s]},
+                    {"first_slice_of_mesh", found.mesh_plan.cuts[s]},
+                    {"slices_of_mesh", found.mesh_plan.cuts[s + 1] - found.mesh_plan.cuts[s]},
                     {"voxels", work.voxels},
                     {"rows", work.rows},
                     {"cells", work.cells},

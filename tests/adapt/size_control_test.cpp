@@ -6,6 +6,7 @@
 #include <random>
 
 #include "mesamis/base/error.h"
+#include "mesamis/mesh/metric.h"
 
 namespace mesamis {
 namespace {
@@ -99,6 +100,20 @@ TEST(SizeControl, SetComplexityScalesAllSizesAlike) {
     metrics[n] = scaled;
   }
   EXPECT_NEAR(complexity_of(metrics, weights) / before, 8, 1e-3);
+}
+
+TEST(SizeControl, ScaledSizesStayWithinTheirBounds) {
+  const auto before = random_metrics(100);
+  std::vector<PackedSym3> logs;
+  for (const Sym3& m : before) logs.push_back(pack(log_spd(m)));
+  scale_log_sizes(logs, 1.5, {0.3, 2, 0});
+  for (std::size_t n = 0; n < logs.size(); ++n) {
+    const Sym3 expected = clamp_sizes((1 / 2.25) * before[n], 0.3, 2);
+    const Sym3 found = exp_sym(unpack(logs[n]));
+    for (const auto entry : {&Sym3::xx, &Sym3::xy, &Sym3::xz, &Sym3::yy, &Sym3::yz, &Sym3::zz}) {
+      EXPECT_NEAR(found.*entry, expected.*entry, 1e-4 * trace(expected));
+    }
+  }
 }
 
 TEST(SizeControl, RefusesWeightsOfAnotherSize) {

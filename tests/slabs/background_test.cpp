@@ -94,34 +94,54 @@ TEST(GridWindow, HasTwoSlicesAtLeast) {
 }
 
 TEST(GridWindow, IsReadAsItWasWritten) {
+  const std::vector<GridWindow> windows{slices_between(grid_window(3), 0, 4),
+                                        slices_between(grid_window(3), 4, 8)};
   ArchiveWriter written;
-  add_window(written, grid_window(3));
+  add_windows(written, windows, 3, 8);
+  add_windows(written, windows, 4.5, 5);
   ArchiveReader archive(std::string(written.bytes()), "file");
-  const GridWindow read = next_window(archive);
-  EXPECT_EQ(read.box.hi, kBox.hi);
-  EXPECT_EQ(read.size, grid_window(3).size);
-  EXPECT_EQ(read.u, grid_window(3).u);
-  EXPECT_EQ(read.v, grid_window(3).v);
-  EXPECT_EQ(read.log_metrics, grid_window(3).log_metrics);
+  const std::vector<GridWindow> read = next_windows(archive);
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0].box.lo.z, 3);
+  EXPECT_EQ(read[0].box.hi.z, 4);
+  EXPECT_EQ(read[1].box.hi, kBox.hi);
+  EXPECT_EQ(read[1].size, windows[1].size);
+  EXPECT_EQ(read[1].u, windows[1].u);
+  EXPECT_EQ(read[1].v, windows[1].v);
+  EXPECT_EQ(read[1].log_metrics, windows[1].log_metrics);
+  EXPECT_EQ(next_windows(archive).size(), 1U) << "those that have none of the slices are left out";
 }
 
-TEST(TwoBackgrounds, TakeTheValuesOfEachSide) {
-  const TwoBackgrounds both(std::make_unique<MeshBackground>(mesh_piece(1)),
-                            std::make_unique<MeshBackground>(mesh_piece(10)), 4);
-  expect_exact(both, random_points(0, 3.99), 1, 1e-9);
-  expect_exact(both, random_points(4, 8), 10, 1e-9);
-  // One hint for places on both sides, in turns.
+std::unique_ptr<MeshBackground> mesh_background(double scale) {
+  return std::make_unique<MeshBackground>(mesh_piece(scale));
+}
+
+TEST(StackedBackground, TakesTheValuesOfEachPart) {
+  std::vector<std::unique_ptr<Background>> parts;
+  for (const double scale : {1, 10, 100}) parts.push_back(mesh_background(scale));
+  const StackedBackground all(std::move(parts), {4, 6});
+  const auto scale_at = [](const Vec3& p) { return p.z < 4 ? 1.0 : p.z < 6 ? 10.0 : 100.0; };
+  expect_exact(all, random_points(0, 3.99), 1, 1e-9);
+  expect_exact(all, random_points(4, 5.99), 10, 1e-9);
+  expect_exact(all, random_points(6, 8), 100, 1e-9);
+  // One hint for places of all parts, in turns.
   Index hint = 0;
   for (const Vec3& p : random_points()) {
-    const double scale = p.z >= 4 ? 10 : 1;
-    EXPECT_NEAR(both.at(p, hint).xx / metric_at(p, scale).xx, 1, 1e-9);
+    EXPECT_NEAR(all.at(p, hint).xx / metric_at(p, scale_at(p)).xx, 1, 1e-9);
   }
   const std::vector<Vec3> mixed = random_points();
-  const std::vector<NodeValues> values = both.values(mixed);
+  const std::vector<NodeValues> values = all.values(mixed);
   for (std::size_t n = 0; n < mixed.size(); ++n) {
-    EXPECT_NEAR(values[n].u, (mixed[n].z >= 4 ? 10 : 1) * linear(mixed[n]), 1e-8);
+    EXPECT_NEAR(values[n].u, scale_at(mixed[n]) * linear(mixed[n]), 1e-7);
   }
-  EXPECT_EQ(both.values({}).size(), 0U);
+  EXPECT_EQ(all.values({}).size(), 0U);
+}
+
+TEST(StackedBackground, OfWindowsIsThatOfTheWhole) {
+  const GridWindow whole = grid_window(2);
+  const auto all = stack({slices_between(whole, 0, 2), slices_between(whole, 2, 5),
+                          slices_between(whole, 5, 8)});
+  expect_exact(*all, random_points(), 2, 1e-5);
 }
 
 }  // namespace

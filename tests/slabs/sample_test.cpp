@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "support/sampled_volume.h"
 
 namespace mesamis::detail {
@@ -46,35 +44,6 @@ TEST(SampleSlices, AreThoseThatVaryMost) {
 TEST(SampleSlices, AreTwoAtLeast) {
   const std::vector<SliceSums> sums(10, {1, 1});
   EXPECT_EQ(sample_slices(grid_of({4, 4, 10}), sums, 1).count, 2);
-}
-
-TEST(WorkOfSlices, GrowsWithTheSurface) {
-  Choice choice;
-  choice.parameters.level = 0.5;
-  const Volume flat = sampled_volume({8, 8, 4}, {1, 1, 1}, [](const Vec3&) { return 0; });
-  for (const double work : work_of_slices(flat, choice)) EXPECT_EQ(work, 64);
-  // A plane between the slices 1 and 2 is crossed by 64 edges.
-  const Volume step =
-      sampled_volume({8, 8, 4}, {1, 1, 1}, [](const Vec3& p) { return p.z > 1.5 ? 1 : 0; });
-  const std::vector<double> work = work_of_slices(step, choice);
-  ASSERT_EQ(work.size(), 3U);
-  EXPECT_EQ(work[0], 64);
-  EXPECT_GT(work[1], 10 * 64);
-  EXPECT_EQ(work[2], 64);
-}
-
-TEST(WorkOfSlices, CountsCrossingsAlikeAlongAllAxes) {
-  Choice choice;
-  choice.parameters.level = 0.5;
-  std::array<double, 3> work{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const Volume step = sampled_volume({9, 9, 9}, {1, 1, 1},
-                                       [axis](const Vec3& p) { return p[axis] > 3.5 ? 1 : 0; });
-    const std::vector<double> slices = work_of_slices(step, choice);
-    work[static_cast<std::size_t>(axis)] = std::accumulate(slices.begin(), slices.end(), 0.0);
-  }
-  EXPECT_EQ(work[0], work[1]);
-  EXPECT_NEAR(work[0] - 8 * 81, (work[2] - 8 * 81) * 8 / 9, 1e-9) << "the last slice is left out";
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "mesamis/slabs/mapped_floats.h"
+#include "mesamis/slabs/mapped_items.h"
 #include "mesamis/slabs/mesh_files.h"
 #include "mesamis/slabs/tasks.h"
 #include "slabs/small_run.h"
@@ -12,7 +12,7 @@ namespace mesamis::detail {
 namespace {
 
 void prepare_all(const SlabRun& run) {
-  make_float_file(run.scratch.path(kImageFile), run.plan.whole.voxel_count());
+  make_item_file<float>(run.scratch.path(kImageFile), run.plan.whole.voxel_count());
   for (Index s = 0; s < run.plan.count(); ++s) prepare_and_minimise(run, s);
 }
 
@@ -20,7 +20,8 @@ TEST(PrepareAndMinimise, TheSlabsHaveTheSplineOfTheWhole) {
   const SmallRun small(72, {0, 33, 72});
   prepare_all(small.run);
   const Prepared whole = prepare_image(small.scan, quick_settings());
-  const MappedFloats slabs = map_floats(small.scratch.path(kImageFile), small.scan.voxel_count());
+  const auto slabs =
+      map_items<float>(small.scratch.path(kImageFile), small.scan.voxel_count());
   float largest = 0;
   for (std::size_t n = 0; n < slabs.values.size(); ++n) {
     largest = std::max(largest, std::abs(slabs.values[n] - whole.image.coefficients[n]));
@@ -31,20 +32,33 @@ TEST(PrepareAndMinimise, TheSlabsHaveTheSplineOfTheWhole) {
 TEST(PrepareAndMinimise, TheSlabsSurfacesAreThatOfTheWhole) {
   const SmallRun small(72, {0, 33, 72});
   prepare_all(small.run);
-  const std::vector<SlabExtent> extents = extents_of(small.run);
-  ASSERT_EQ(extents.size(), 2U);
+  const std::vector<GridSlab> slabs = grid_slabs(small.run);
+  ASSERT_EQ(slabs.size(), 2U);
   const Prepared whole = prepare_image(small.scan, quick_settings());
   const SurfaceExtent extent = extent_of(whole);
   const double cells = cells_for_surface(extent.area, extent.thin_share, small.scan.spacing, 0);
-  EXPECT_NEAR((extents[0].cells + extents[1].cells) / cells, 1, 0.03)
+  EXPECT_NEAR((slabs[0].extent.cells + slabs[1].extent.cells) / cells, 1, 0.03)
       << "but for the slice that they have in common";
-  EXPECT_GT(extents[0].cells, 0.3 * cells);
-  EXPECT_LT(extents[0].low, extents[0].high);
+  EXPECT_GT(slabs[0].extent.cells, 0.3 * cells);
+  EXPECT_LT(slabs[0].extent.low, slabs[0].extent.high);
+}
+
+TEST(PrepareAndMinimise, TellsWhereCellsWillBe) {
+  const SmallRun small(72, {0, 33, 72});
+  prepare_all(small.run);
+  const std::vector<GridSlab> slabs = grid_slabs(small.run);
+  ASSERT_EQ(slabs[0].complexities.size(), 33U);
+  ASSERT_EQ(slabs[1].complexities.size(), 39U);
+  const double full = slabs[0].complexities[25], empty = slabs[0].complexities[1];
+  EXPECT_GT(full, 4 * empty) << "the rod begins in slice 5";
+  EXPECT_NEAR(slabs[1].complexities[5] / full, 1, 0.35) << "and is as thick in both slabs";
+  EXPECT_GT(slabs[0].record.estimator, 0);
+  EXPECT_GT(slabs[0].record.energy.total(), 0);
 }
 
 TEST(PrepareAndMinimise, TellsWhatItHasDone) {
   const SmallRun small(72, {0, 33, 72});
-  make_float_file(small.scratch.path(kImageFile), small.scan.voxel_count());
+  make_item_file<float>(small.scratch.path(kImageFile), small.scan.voxel_count());
   const SlabWork work = prepare_and_minimise(small.run, 0);
   EXPECT_EQ(work.voxels, 32 * 30 * (33 + 16));
   EXPECT_EQ(work.rows, 32 * 30 * (33 + 8));
@@ -68,20 +82,20 @@ TEST(FirstMesh, TheSlabsFitTogether) {
   std::vector<Piece> pieces;
   std::int64_t cells = 0;
   for (Index s = 0; s < 2; ++s) cells += first_mesh(run, s).cells;
-  for (const char* name : {"core.1.0", "border.1.0.high", "border.1.1.low", "core.1.1"}) {
+  for (const char* name : {"core.1.0", "rim.1.0.high", "border.1.0.high", "border.1.1.low",
+                           "rim.1.1.low", "core.1.1"}) {
     ArchiveReader archive = small.scratch.read(name);
     pieces.push_back(next_piece(archive));
     EXPECT_FALSE(pieces.back().mesh.cells.empty()) << name;
   }
-  const std::array<const Piece*, 4> all{&pieces[0], &pieces[1], &pieces[2], &pieces[3]};
+  const std::array<const Piece*, 6> all{&pieces[0], &pieces[1], &pieces[2],
+                                        &pieces[3], &pieces[4], &pieces[5]};
   const Piece whole = join(all);
   EXPECT_EQ(find_flaw(whole.mesh, run.input.box), "");
   EXPECT_EQ(std::ssize(whole.mesh.cells), cells);
-  EXPECT_GT(grid_record(small.run, 0).estimator, 0);
-  EXPECT_GT(grid_record(small.run, 0).energy.total(), 0);
   // A border piece reaches no farther than its slab.
-  for (const Vec3& p : pieces[1].mesh.points) EXPECT_LE(p.z, small.run.plan.height(1));
-  for (const Vec3& p : pieces[2].mesh.points) EXPECT_GE(p.z, small.run.plan.height(1));
+  for (const Vec3& p : pieces[2].mesh.points) EXPECT_LE(p.z, run.plan.height(1));
+  for (const Vec3& p : pieces[3].mesh.points) EXPECT_GE(p.z, run.plan.height(1));
 }
 
 TEST(FirstMesh, OnlyInnerBordersHaveNeighbours) {

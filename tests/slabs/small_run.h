@@ -52,11 +52,13 @@ struct SmallRun {
         source(scan),
         scratch(folder.path()),
         run{source, scratch, {}, choose_parameters(scan, scan, settings)} {
-    const Parameters& p = run.choice.parameters;
+    Parameters& p = run.choice.parameters;
+    p.max_tets = settings.max_tets.value_or(0);
     const std::vector<double> work(static_cast<std::size_t>(slices), 1.0);
     run.plan =
         plan_slabs(scan, work, {p.unit_mm, p.functional.beta, static_cast<Index>(cuts.size()) - 1});
     run.plan.cuts = std::move(cuts);
+    p.h_max = std::min(p.h_max, run.plan.least_thickness());
   }
   TempFolder folder;
   Volume scan;

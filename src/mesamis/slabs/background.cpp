@@ -44,20 +44,34 @@ KuhnGrid grid_of(const GridWindow& window) {
   return grid;
 }
 
-GridWindow slices_between(const GridWindow& window, double low, double high) {
+SliceRange slice_range(const GridWindow& window, double low, double high) {
   const double step = (window.box.hi.z - window.box.lo.z) / (window.size[2] - 1);
-  const auto slice_at = [&](double height) {
-    return std::clamp((height - window.box.lo.z) / step, 0.0, window.size[2] - 1.0);
+  // What lies on a slice but for round-off needs none beyond.
+  constexpr double kRoundOff = 1e-6;
+  const auto slice_at = [&](double height, double slack) {
+    return std::clamp((height - window.box.lo.z) / step + slack, 0.0, window.size[2] - 1.0);
   };
-  const auto first = std::min(static_cast<Index>(slice_at(low)), window.size[2] - 2);
-  const auto last = std::max(static_cast<Index>(std::ceil(slice_at(high))), first + 1);
+  const auto first = std::min(static_cast<Index>(slice_at(low, kRoundOff)), window.size[2] - 2);
+  const auto last = std::max(static_cast<Index>(std::ceil(slice_at(high, -kRoundOff))), first + 1);
+  return {first, last - first + 1};
+}
+
+GridWindow frame_of(const GridWindow& window, const SliceRange& range) {
+  const double step = (window.box.hi.z - window.box.lo.z) / (window.size[2] - 1);
   GridWindow some{window.box, window.size, {}, {}, {}};
-  some.size[2] = last - first + 1;
-  some.box.lo.z = window.box.lo.z + first * step;
-  some.box.hi.z = window.box.lo.z + last * step;
+  some.size[2] = range.count;
+  some.box.lo.z = window.box.lo.z + range.first * step;
+  some.box.hi.z = window.box.lo.z + (range.first + range.count - 1) * step;
+  return some;
+}
+
+GridWindow slices_between(const GridWindow& window, double low, double high) {
+  const SliceRange range = slice_range(window, low, high);
+  GridWindow some = frame_of(window, range);
   const auto slice = static_cast<std::ptrdiff_t>(window.size[0]) * window.size[1];
   const auto copy = [&](const auto& from, auto& to) {
-    to.assign(from.begin() + first * slice, from.begin() + (last + 1) * slice);
+    const auto begin = from.begin() + range.first * slice;
+    to.assign(begin, begin + range.count * slice);
   };
   copy(window.u, some.u);
   copy(window.v, some.v);
@@ -65,22 +79,35 @@ GridWindow slices_between(const GridWindow& window, double low, double high) {
   return some;
 }
 
-void add_window(ArchiveWriter& archive, const GridWindow& window) {
-  archive.add_one(window.box);
-  archive.add_one(window.size);
-  archive.add(window.u);
-  archive.add(window.v);
-  archive.add(window.log_metrics);
+void add_windows(ArchiveWriter& archive, std::span<const GridWindow> windows, double low,
+                 double high) {
+  std::vector<GridWindow> some;
+  for (const GridWindow& window : windows) {
+    if (window.box.hi.z > low && window.box.lo.z < high) {
+      some.push_back(slices_between(window, low, high));
+    }
+  }
+  archive.add_one(some.size());
+  for (const GridWindow& window : some) {
+    archive.add_one(window.box);
+    archive.add_one(window.size);
+    archive.add(window.u);
+    archive.add(window.v);
+    archive.add(window.log_metrics);
+  }
 }
 
-GridWindow next_window(ArchiveReader& archive) {
-  GridWindow window;
-  window.box = archive.next_one<Box>();
-  window.size = archive.next_one<std::array<Index, 3>>();
-  window.u = archive.next<float>();
-  window.v = archive.next<float>();
-  window.log_metrics = archive.next<std::array<float, 6>>();
-  return window;
+std::vector<GridWindow> next_windows(ArchiveReader& archive) {
+  std::vector<GridWindow> windows;
+  for (auto left = archive.next_one<std::size_t>(); left > 0; --left) {
+    GridWindow& window = windows.emplace_back();
+    window.box = archive.next_one<Box>();
+    window.size = archive.next_one<std::array<Index, 3>>();
+    window.u = archive.next<float>();
+    window.v = archive.next<float>();
+    window.log_metrics = archive.next<std::array<float, 6>>();
+  }
+  return windows;
 }
 
 GridBackground::GridBackground(GridWindow window)
@@ -94,29 +121,45 @@ std::vector<NodeValues> GridBackground::values(std::span<const Vec3> points) con
   return collected(metric_, points, interpolate_fields(grid_of(window_), fields, from_corner));
 }
 
-// The hint is that of one of both, and whose: the other one's would be the number of no cell.
-Sym3 TwoBackgrounds::at(const Vec3& p, Index& hint) const {
-  const bool above = p.z >= height_;
-  Index inner = (hint % 2 != 0) == above ? hint / 2 : 0;
-  const Sym3 metric = (above ? *above_ : *below_).at(p, inner);
-  hint = 2 * inner + (above ? 1 : 0);
+Index StackedBackground::part_at(double height) const {
+  return static_cast<Index>(std::upper_bound(tops_.begin(), tops_.end(), height) - tops_.begin());
+}
+
+// The hint is that of one of the parts, and whose: another one's would be the number of no cell.
+Sym3 StackedBackground::at(const Vec3& p, Index& hint) const {
+  const auto count = static_cast<Index>(parts_.size());
+  const Index part = part_at(p.z);
+  Index inner = hint % count == part ? hint / count : 0;
+  const Sym3 metric = parts_[static_cast<std::size_t>(part)]->at(p, inner);
+  hint = count * inner + part;
   return metric;
 }
 
-std::vector<NodeValues> TwoBackgrounds::values(std::span<const Vec3> points) const {
+std::vector<NodeValues> StackedBackground::values(std::span<const Vec3> points) const {
+  std::vector<std::vector<std::size_t>> places(parts_.size());
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    places[static_cast<std::size_t>(part_at(points[n].z))].push_back(n);
+  }
   std::vector<NodeValues> all(points.size());
-  for (const bool above : {false, true}) {
-    std::vector<std::size_t> places;
+  for (std::size_t part = 0; part < parts_.size(); ++part) {
     std::vector<Vec3> some;
-    for (std::size_t n = 0; n < points.size(); ++n) {
-      if ((points[n].z >= height_) != above) continue;
-      places.push_back(n);
-      some.push_back(points[n]);
-    }
-    const std::vector<NodeValues> values = (above ? *above_ : *below_).values(some);
-    for (std::size_t n = 0; n < places.size(); ++n) all[places[n]] = values[n];
+    some.reserve(places[part].size());
+    for (const std::size_t n : places[part]) some.push_back(points[n]);
+    const std::vector<NodeValues> values = parts_[part]->values(some);
+    for (std::size_t at = 0; at < values.size(); ++at) all[places[part][at]] = values[at];
   }
   return all;
+}
+
+std::unique_ptr<Background> stack(std::vector<GridWindow> windows) {
+  std::vector<std::unique_ptr<Background>> parts;
+  std::vector<double> tops;
+  for (GridWindow& window : windows) {
+    tops.push_back(window.box.hi.z);
+    parts.push_back(std::make_unique<GridBackground>(std::move(window)));
+  }
+  tops.pop_back();
+  return std::make_unique<StackedBackground>(std::move(parts), std::move(tops));
 }
 
 }  // namespace mesamis::detail

@@ -3,9 +3,11 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesamis/fem/grid_space.h"
+#include "mesamis/image/slice_source.h"
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/slabs/piece.h"
 
@@ -42,11 +44,19 @@ struct GridWindow {
 /// The grid of a window, whose first node is the window's low corner. O(1).
 KuhnGrid grid_of(const GridWindow& window);
 
-/// The slices of a window that lie between two heights, and one beyond each where there is one.
+/// The slices of a window that lie between two heights, and one beyond each where there is one; at
+/// least two. O(1).
+SliceRange slice_range(const GridWindow& window, double low, double high);
+/// A window of some slices, still without values. O(1).
+GridWindow frame_of(const GridWindow& window, const SliceRange& range);
+/// The slices of slice_range(), with their values.
 GridWindow slices_between(const GridWindow& window, double low, double high);
-void add_window(ArchiveWriter& archive, const GridWindow& window);
+/// Adds the slices between two heights, as slices_between(), of those windows that have any.
+void add_windows(ArchiveWriter& archive, std::span<const GridWindow> windows, double low,
+                 double high);
+/// What add_windows() added.
 /// @throws InputError  as ArchiveReader::next().
-GridWindow next_window(ArchiveReader& archive);
+std::vector<GridWindow> next_windows(ArchiveReader& archive);
 
 class GridBackground : public Background {
  public:
@@ -59,18 +69,24 @@ class GridBackground : public Background {
   GridMetricField metric_;
 };
 
-/// One background below a height, another one from there on.
-class TwoBackgrounds : public Background {
+/// Backgrounds one above the other.
+class StackedBackground : public Background {
  public:
-  TwoBackgrounds(std::unique_ptr<Background> below, std::unique_ptr<Background> above,
-                 double height)
-      : below_(std::move(below)), above_(std::move(above)), height_(height) {}
+  /// @param parts  at least one, the lowest first.
+  /// @param tops   where each ends and the next one begins; none for the last.
+  StackedBackground(std::vector<std::unique_ptr<Background>> parts, std::vector<double> tops)
+      : parts_(std::move(parts)), tops_(std::move(tops)) {}
   Sym3 at(const Vec3& p, Index& hint) const override;
   std::vector<NodeValues> values(std::span<const Vec3> points) const override;
 
  private:
-  std::unique_ptr<Background> below_, above_;
-  double height_;
+  /// The number of the part at a height.
+  Index part_at(double height) const;
+  std::vector<std::unique_ptr<Background>> parts_;
+  std::vector<double> tops_;
 };
+
+/// Windows one above the other, each with a slice of the next one.
+std::unique_ptr<Background> stack(std::vector<GridWindow> windows);
 
 }  // namespace mesamis::detail

@@ -7,7 +7,7 @@
 #include <string>
 #include <system_error>
 
-#include "mesamis/slabs/mapped_floats.h"
+#include "mesamis/slabs/mapped_items.h"
 
 namespace mesamis {
 namespace {
@@ -35,13 +35,13 @@ class PassingName {
 MappedScan map_scan(const SliceSource& source, const fs::path& folder) {
   const VoxelGrid& grid = source.grid();
   const PassingName file(folder / ("mesamis-scan-" + std::to_string(::getpid())));
-  detail::make_float_file(file.path(), grid.voxel_count());
+  detail::make_item_file<float>(file.path(), grid.voxel_count());
   const Index slices = slab_slices(grid);
   for (Index first = 0; first < grid.size[2]; first += slices) {
     const Index count = std::min(slices, grid.size[2] - first);
-    detail::write_floats(file.path(), grid.offset(0, 0, first), source.read(first, count));
+    detail::write_items<float>(file.path(), grid.offset(0, 0, first), source.read(first, count));
   }
-  detail::MappedFloats mapped = detail::map_floats(file.path(), grid.voxel_count());
+  auto mapped = detail::map_items<float>(file.path(), grid.voxel_count());
   return {{grid, mapped.values}, std::move(mapped.owner)};
 }
 

@@ -10,6 +10,8 @@
 namespace mesamis::detail {
 
 enum class Side { kLow, kHigh };
+inline Side opposite(Side side) { return side == Side::kLow ? Side::kHigh : Side::kLow; }
+
 /// Whether there is a slab on that side.
 inline bool has_neighbour(const SlabPlan& plan, Index s, Side side) {
   return side == Side::kLow ? s > 0 : s + 1 < plan.count();
@@ -31,14 +33,12 @@ std::string window_file(int k, Index s, Side side);
 Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background& background,
               double complexity);
 
-/// Writes mesh k of slab s: the cells near its borders for the seams, and the others.
+/// Writes mesh k of slab s: the cells at its borders for the seams ("border"), those around that the
+/// neighbours see too ("rim"), and the others ("core").
 /// @return the cells as work done.
 SlabWork hand_on(const MeshRun& run, int k, Index s, const Piece& mesh);
 
-/// Removes the fields on the first grid of slab s, when all have made their first mesh.
-void remove_grid_files(const SlabRun& run, Index s);
-
-/// How the first grid of slab s was minimised on; after first_mesh().
-Iteration grid_record(const SlabRun& run, Index s);
+/// Removes the nodes of slab g of the first grid, when all have made their first mesh.
+void remove_grid_files(const SlabRun& run, Index g);
 
 }  // namespace mesamis::detail

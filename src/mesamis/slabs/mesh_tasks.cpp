@@ -11,7 +11,7 @@
 #include "mesamis/fem/mesh_space.h"
 #include "mesamis/mesh/metric.h"
 #include "mesamis/remesh/piece.h"
-#include "mesamis/slabs/mapped_floats.h"
+#include "mesamis/slabs/mapped_items.h"
 #include "mesamis/slabs/mesh_files.h"
 #include "mesamis/slabs/records.h"
 #include "mesamis/slabs/tasks.h"
@@ -41,7 +41,7 @@ Piece read_piece(const Scratch& scratch, const std::string& name, SlabWork* work
 
 std::unique_ptr<Background> read_background(const Scratch& scratch, int k, Index s, Side side) {
   ArchiveReader archive = scratch.read(window_file(k, s, side));
-  if (k == 1) return std::make_unique<GridBackground>(next_window(archive));
+  if (k == 1) return stack(next_windows(archive));
   return std::make_unique<MeshBackground>(next_piece(archive));
 }
 
@@ -59,20 +59,27 @@ Piece join_all(const std::vector<Piece>& pieces) {
 }
 
 LocalMesh read_local(const MeshRun& run, int k, Index s, SlabWork& work) {
-  const SlabPlan& plan = run.slabs.plan;
+  const SlabPlan& plan = run.plan;
   const Scratch& scratch = run.slabs.scratch;
-  LocalMesh local;
   std::vector<Piece> parts{read_piece(scratch, file_of("core", k, s))};
+  LocalMesh local;
+  const auto add = [&](Piece part, const auto& is_own) {
+    for (const Cell& cell : part.mesh.cells) local.own.push_back(is_own(part, cell) ? 1 : 0);
+    parts.push_back(std::move(part));
+  };
+  const auto all = [](const Piece&, const Cell&) { return true; };
+  const auto none = [](const Piece&, const Cell&) { return false; };
   local.own.assign(parts[0].mesh.cells.size(), 1);
   for (const Side side : {Side::kLow, Side::kHigh}) {
     if (!has_neighbour(plan, s, side)) continue;
     const bool low = side == Side::kLow;
-    const Piece& part = parts.emplace_back(
-        read_piece(scratch, file_of("seam", k, low ? s - 1 : s), low ? &work : nullptr));
     const double border = border_of(plan, s, side);
-    for (const Cell& cell : part.mesh.cells) {
-      local.own.push_back((height_of(part.mesh, cell) < border) != low ? 1 : 0);
-    }
+    add(read_piece(scratch, side_file("rim", k, s, side)), all);
+    add(read_piece(scratch, file_of("seam", k, low ? s - 1 : s), low ? &work : nullptr),
+        [&](const Piece& part, const Cell& cell) {
+          return (height_of(part.mesh, cell) < border) != low;
+        });
+    add(read_piece(scratch, side_file("rim", k, low ? s - 1 : s + 1, opposite(side)), &work), none);
   }
   local.piece = join_all(parts);
   return local;
@@ -85,7 +92,7 @@ void remove_files_before(const MeshRun& run, int k, Index s) {
   const Scratch& scratch = run.slabs.scratch;
   for (const char* what : {"core", "seam", "solved"}) scratch.remove(file_of(what, k - 1, s));
   for (const Side side : {Side::kLow, Side::kHigh}) {
-    scratch.remove(side_file("border", k - 1, s, side));
+    for (const char* what : {"border", "rim"}) scratch.remove(side_file(what, k - 1, s, side));
     scratch.remove(window_file(k - 1, s, side));
   }
 }
@@ -111,6 +118,12 @@ Minimum minimise_on(const MeshRun& run, int k, const AmisOptions& options, Piece
   }
   return m;
 }
+
+/// How far from a border cells are adapted again, in overlaps: farther, and more is done twice.
+constexpr double kSeam = 0.5;
+
+/// Of the logarithm of the first mesh's number of cells.
+constexpr double kSlackOfFirstMesh = 0.05;
 
 /// A piece may have so many cells at least.
 constexpr std::int64_t kFewestInPiece = 1000;
@@ -145,7 +158,7 @@ Iteration mesh_record(const MeshRun& run, int k, Index s) {
 
 Profile sum_of_profiles(const MeshRun& run, int k) {
   Profile sum;
-  for (Index s = 0; s < run.slabs.plan.count(); ++s) {
+  for (Index s = 0; s < run.plan.count(); ++s) {
     sum += run.slabs.scratch.read(file_of("profile", k, s)).next_one<Profile>();
   }
   return sum;
@@ -215,56 +228,73 @@ Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background&
   RemeshOptions options;
   options.max_cells = std::llround(kMost * complexity) + std::ssize(start.cells) + kFewestInPiece;
   options.draft = run.input.cells_after(k) < run.input.parameters.max_tets;
-  Piece piece{remesh_piece(start, run.slabs.plan.box(), background, options), {}};
+  Piece piece{remesh_piece(start, run.plan.box(), background, options), {}};
   piece.nodes = background.values(piece.mesh.points);
   return piece;
 }
 
 SlabWork hand_on(const MeshRun& run, int k, Index s, const Piece& mesh) {
-  const SlabPlan& plan = run.slabs.plan;
-  const auto near_border = [&](const Cell& cell, Side side) {
-    return has_neighbour(plan, s, side) &&
-           is_near(mesh.mesh, cell, border_of(plan, s, side), plan.overlap);
-  };
-  // A cell that reaches from border to border belongs to the lower one.
-  const auto side_of = [&](const Cell& cell) -> std::optional<Side> {
+  const SlabPlan& plan = run.plan;
+  // A cell that is near both borders belongs to the lower one.
+  const auto side_of = [&](const Piece& piece, const Cell& cell,
+                           double distance) -> std::optional<Side> {
     for (const Side side : {Side::kLow, Side::kHigh}) {
-      if (near_border(cell, side)) return side;
+      if (has_neighbour(plan, s, side) &&
+          is_near(piece.mesh, cell, border_of(plan, s, side), distance)) {
+        return side;
+      }
     }
     return std::nullopt;
   };
-  const auto part = [&](std::optional<Side> wanted) {
-    return select(mesh, [&](const Cell& cell) { return side_of(cell) == wanted; });
+  // Writes what is near the borders, and returns the rest.
+  const auto cut_off = [&](const char* what, const Piece& piece, double distance) {
+    const auto part = [&](std::optional<Side> wanted) {
+      return select(
+          piece, [&](const Cell& cell) { return side_of(piece, cell, distance) == wanted; });
+    };
+    for (const Side side : {Side::kLow, Side::kHigh}) {
+      if (!has_neighbour(plan, s, side)) continue;
+      write_piece(run.slabs.scratch, side_file(what, k, s, side), part(side));
+    }
+    return part(std::nullopt);
   };
-  write_piece(run.slabs.scratch, file_of("core", k, s), part(std::nullopt));
-  for (const Side side : {Side::kLow, Side::kHigh}) {
-    if (!has_neighbour(plan, s, side)) continue;
-    write_piece(run.slabs.scratch, side_file("border", k, s, side), part(side));
-  }
+  const Piece inner = cut_off("border", mesh, kSeam * plan.overlap);
+  write_piece(run.slabs.scratch, file_of("core", k, s), cut_off("rim", inner, plan.overlap));
   return {.cells = std::ssize(mesh.mesh.cells)};
 }
 
 MeshRun::MeshRun(const SlabRun& run)
-    : slabs(run), prepared{run.choice.parameters, run.choice.measured, {}, {}}, input(prepared) {
-  const std::vector<SlabExtent> extents = extents_of(run);
-  const double cells =
-      std::accumulate(extents.begin(), extents.end(), 0.0,
-                      [](double sum, const SlabExtent& e) { return sum + e.cells; });
-  for (const SlabExtent& extent : extents) {
-    shares.push_back(cells > 0 ? extent.cells / cells : 1.0 / static_cast<double>(extents.size()));
+    : slabs(run),
+      prepared{run.choice.parameters, run.choice.measured, {}, {}},
+      input(prepared),
+      grid(grid_slabs(run)) {
+  const VoxelGrid& whole = run.plan.whole;
+  double cells = 0;
+  std::vector<double> complexities;  // of the slices
+  for (const GridSlab& slab : grid) {
+    cells += slab.extent.cells;
+    complexities.insert(complexities.end(), slab.complexities.begin(), slab.complexities.end());
   }
   Parameters& p = prepared.parameters;
+  plan = plan_slabs(whole, complexities, {p.unit_mm, p.functional.beta, run.plan.count()});
+  const double all = std::accumulate(complexities.begin(), complexities.end(), 0.0);
+  for (Index s = 0; s < plan.count(); ++s) {
+    const auto at = static_cast<std::size_t>(s);
+    shares.push_back(std::accumulate(complexities.begin() + plan.cuts[at],
+                                     complexities.begin() + plan.cuts[at + 1], 0.0) /
+                     all);
+  }
   if (p.max_tets == 0) {
     p.max_tets = std::llround(
-        std::clamp<double>(cells, kFewestTets, static_cast<double>(kMostTets) * run.plan.count()));
+        std::clamp<double>(cells, kFewestTets, static_cast<double>(kMostTets) * plan.count()));
   }
-  // Larger cells would reach over whole slabs. Smaller ones must not be asked for: in a large scan
-  // cells of a few voxels that only fill the box outnumber those at its surface.
-  if (run.plan.count() > 1) p.h_max = std::max(p.h_min, std::min(p.h_max, run.plan.thinnest()));
-  static_cast<VoxelGrid&>(prepared.grey) = run.plan.whole;
-  MappedFloats mapped = map_floats(run.scratch.path(kImageFile), run.plan.whole.voxel_count());
-  prepared.image = {run.plan.whole, mapped.values, extents[0].low, extents[0].high, mapped.owner};
-  input.box = run.plan.box();
+  // Where the slabs were too rough a guess, or the bounds above act.
+  const double asked = static_cast<double>(input.cells_after(1)) / kCellsPerComplexity;
+  if (std::abs(std::log(all / asked)) > kSlackOfFirstMesh) first_factor = std::cbrt(all / asked);
+  static_cast<VoxelGrid&>(prepared.grey) = whole;
+  auto mapped = map_items<float>(run.scratch.path(kImageFile), whole.voxel_count());
+  prepared.image = {whole, mapped.values, grid[0].extent.low, grid[0].extent.high, mapped.owner};
+  input.box = plan.box();
 }
 
 SlabWork seam(const MeshRun& run, int k, Index s) {
@@ -273,9 +303,10 @@ SlabWork seam(const MeshRun& run, int k, Index s) {
   const Piece below = read_piece(scratch, side_file("border", k, s, Side::kHigh));
   const Piece above = read_piece(scratch, side_file("border", k, s + 1, Side::kLow), &work);
   const std::array<const Piece*, 2> both{&below, &above};
-  const TwoBackgrounds background(read_background(scratch, k, s, Side::kHigh),
-                                  read_background(scratch, k, s + 1, Side::kLow),
-                                  run.slabs.plan.height(s + 1));
+  std::vector<std::unique_ptr<Background>> sides;
+  sides.push_back(read_background(scratch, k, s, Side::kHigh));
+  sides.push_back(read_background(scratch, k, s + 1, Side::kLow));
+  const StackedBackground background(std::move(sides), {run.plan.height(s + 1)});
   const TetMesh start = join(both).mesh;
   const double needed = complexity(start, sample(background, start.points));
   const Piece piece = adapted(run, k, start, background, needed);
@@ -316,7 +347,7 @@ SlabWork solve(const MeshRun& run, int k, Index s) {
 }
 
 SlabWork adapt_slab(const MeshRun& run, int k, Index s) {
-  const SlabPlan& plan = run.slabs.plan;
+  const SlabPlan& plan = run.plan;
   const Scratch& scratch = run.slabs.scratch;
   LocalMesh local;
   {
@@ -357,13 +388,16 @@ SlabWork finish(const MeshRun& run, int k, Index s) {
 }
 
 std::vector<Iteration> records_of(const MeshRun& run, int k) {
-  const Index slabs = run.slabs.plan.count();
-  std::vector<Iteration> passes;
-  for (int mesh = 0; mesh <= k; ++mesh) {
-    std::vector<Iteration> records;
-    records.reserve(static_cast<std::size_t>(slabs));
-    for (Index s = 0; s < slabs; ++s) {
-      records.push_back(mesh == 0 ? grid_record(run.slabs, s) : mesh_record(run, mesh, s));
+  std::vector<Iteration> passes, records;
+  std::vector<double> equal;
+  for (const GridSlab& slab : run.grid) {
+    records.push_back(slab.record);
+    equal.push_back(1.0 / run.plan.count());
+  }
+  passes.push_back(sum_of_records(records, equal));
+  for (int mesh = 1; mesh <= k; ++mesh) {
+    for (Index s = 0; s < run.plan.count(); ++s) {
+      records[static_cast<std::size_t>(s)] = mesh_record(run, mesh, s);
     }
     passes.push_back(sum_of_records(records, run.shares));
   }
@@ -375,7 +409,7 @@ Finished collect(const MeshRun& run, int k) {
   finished.passes = records_of(run, k - 1);
   std::vector<Piece> pieces;
   std::vector<Iteration> records;
-  for (Index s = 0; s < run.slabs.plan.count(); ++s) {
+  for (Index s = 0; s < run.plan.count(); ++s) {
     ArchiveReader archive = run.slabs.scratch.read(file_of("final", k, s));
     pieces.push_back(next_piece(archive));
     records.push_back(archive.next_one<Iteration>());

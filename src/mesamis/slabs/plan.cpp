@@ -16,8 +16,6 @@ namespace {
 /// voxel moves the fields by a few thousandths of its change. On meshes the cells count as well:
 /// influences fall by about four from one to the next.
 constexpr double kOverlap = 8;
-/// Overlaps in the thinnest slab: those of both borders, and as much between them.
-constexpr Index kThinnest = 4;
 
 Index default_count(const VoxelGrid& whole, Index thinnest) {
   constexpr double kMeanVoxels = 1 << 26;
@@ -64,7 +62,7 @@ SlabPlan plan_slabs(const VoxelGrid& whole, std::span<const double> work,
   SlabPlan plan{whole, options.unit_mm, 0, {0, whole.size[2]}};
   const double voxels = std::max(1.0, std::sqrt(options.beta / 2)) * whole.voxel_size();
   plan.overlap = kOverlap * voxels / options.unit_mm;
-  const Index thinnest = kThinnest * plan.slices_in(plan.overlap);
+  const Index thinnest = kOverlapsInSlab * plan.slices_in(plan.overlap);
   const Index count = options.slabs.value_or(default_count(whole, thinnest));
   if (count < 1 || (count > 1 && whole.size[2] / count < thinnest)) {
     throw InputError("slabs: expected 1 to " +

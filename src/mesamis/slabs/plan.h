@@ -10,6 +10,9 @@
 
 namespace mesamis {
 
+/// Overlaps in the thinnest slab: those of both borders, and as much between them.
+inline constexpr Index kOverlapsInSlab = 4;
+
 /// How a scan is cut into slabs: blocks of slices that tasks work on one by one.
 struct SlabPlan {
   VoxelGrid whole;          ///< of the scan
@@ -43,6 +46,10 @@ struct SlabPlan {
   /// @return in units of unit_mm.
   /// @throws nothing
   double thinnest() const noexcept;
+  /// How thick any plan's slabs are at least. O(1).
+  /// @return in units of unit_mm.
+  /// @throws nothing
+  double least_thickness() const noexcept { return kOverlapsInSlab * overlap; }
 };
 
 /// What a plan depends on beside the scan's grid.

@@ -14,7 +14,7 @@
 #include "mesamis/method/chosen_run.h"
 #include "mesamis/method/deliver.h"
 #include "mesamis/method/setting_table.h"
-#include "mesamis/slabs/mapped_floats.h"
+#include "mesamis/slabs/mapped_items.h"
 #include "mesamis/slabs/sample.h"
 #include "mesamis/slabs/tasks.h"
 
@@ -68,37 +68,11 @@ class Stages {
   const Progress& progress_;
 };
 
-std::string chunk_file(const char* what, Index chunk) {
-  return std::string(what) + "." + std::to_string(chunk);
-}
+std::string sums_file(Index chunk) { return "sums." + std::to_string(chunk); }
 
-Index chunks_of(const VoxelGrid& whole) { return (whole.size[2] + kChunk - 1) / kChunk; }
-
-/// Slices of a chunk, and `more` after it as far as there are any.
-Volume read_chunk(const SliceSource& source, Index chunk, Index more) {
+Volume read_chunk(const SliceSource& source, Index chunk) {
   const Index first = chunk * kChunk;
-  return read_slab(source, first, std::min(kChunk + more, source.grid().size[2] - first));
-}
-
-/// What is written per slice by chunks, for all slices.
-template <class Item>
-std::vector<Item> of_all_slices(const Scratch& scratch, const char* what, Index chunks) {
-  std::vector<Item> all;
-  for (Index c = 0; c < chunks; ++c) {
-    const auto some = scratch.read(chunk_file(what, c)).template next<Item>();
-    all.insert(all.end(), some.begin(), some.end());
-  }
-  return all;
-}
-
-/// The work per slice; the last slice of the scan has none after it and costs as the one before.
-std::vector<double> work_in_chunk(const SliceSource& source, Index chunk, const Choice& choice) {
-  Volume slab = read_chunk(source, chunk, 1);
-  const bool is_last = (chunk + 1) * kChunk >= source.grid().size[2];
-  std::vector<double> work;
-  if (slab.size[2] > 1) work = work_of_slices(slab, choice);
-  if (is_last) work.push_back(work.empty() ? 1 : work.back());
-  return work;
+  return read_slab(source, first, std::min(kChunk, source.grid().size[2] - first));
 }
 
 /// The object as a run of one machine would take it.
@@ -118,14 +92,25 @@ Choice choose_of_object(const ChosenObject& object, const VoxelGrid& whole,
 SliceRange slices_to_look_at(const SliceSource& source, const Scratch& scratch, Stages& stages) {
   const VoxelGrid& whole = source.grid();
   if (whole.voxel_count() <= kSample) return {0, whole.size[2]};
-  const Index chunks = chunks_of(whole);
+  const Index chunks = (whole.size[2] + kChunk - 1) / kChunk;
   stages.run("look", chunks, [&](Index c) {
     ArchiveWriter archive;
-    archive.add(sums_of_slices(read_chunk(source, c, 0)));
-    scratch.write(chunk_file("sums", c), archive);
+    archive.add(sums_of_slices(read_chunk(source, c)));
+    scratch.write(sums_file(c), archive);
     return SlabWork{};
   });
-  return sample_slices(whole, of_all_slices<SliceSums>(scratch, "sums", chunks), kSample);
+  std::vector<SliceSums> all;
+  for (Index c = 0; c < chunks; ++c) {
+    const auto some = scratch.read(sums_file(c)).next<SliceSums>();
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return sample_slices(whole, all, kSample);
+}
+
+/// The plan if all slices are equal work, as on a grid.
+SlabPlan even_plan(const VoxelGrid& whole, const SlabOptions& options) {
+  const std::vector<double> equal(static_cast<std::size_t>(whole.size[2]), 1);
+  return plan_slabs(whole, equal, options);
 }
 
 /// Chooses the parameters and cuts the scan: what must be known before slabs can be worked on.
@@ -142,19 +127,11 @@ SlabRun begin_run(const SliceSource& source, const Settings& settings, const Scr
     scratch.write("choice", archive);
     return SlabWork{};
   });
-  const Choice choice = scratch.read("choice").next_one<Choice>();
-  const Index chunks = chunks_of(whole);
-  stages.run("cut", chunks, [&](Index c) {
-    ArchiveWriter archive;
-    archive.add(work_in_chunk(source, c, choice));
-    scratch.write(chunk_file("work", c), archive);
-    return SlabWork{};
-  });
-  const Parameters& p = choice.parameters;
-  return {source, scratch,
-          plan_slabs(whole, of_all_slices<double>(scratch, "work", chunks),
-                     {p.unit_mm, p.functional.beta, slabs}),
-          choice};
+  auto choice = scratch.read("choice").next_one<Choice>();
+  Parameters& p = choice.parameters;
+  const SlabPlan plan = even_plan(whole, {p.unit_mm, p.functional.beta, slabs});
+  p.h_max = std::max(p.h_min, std::min(p.h_max, plan.least_thickness()));
+  return {source, scratch, plan, choice};
 }
 
 std::string of_mesh(const char* what, int k) { return what + (" " + std::to_string(k)); }
@@ -162,7 +139,7 @@ std::string of_mesh(const char* what, int k) { return what + (" " + std::to_stri
 /// All tasks on meshes: as many meshes as run_loop() would make.
 /// @return the number of the last mesh.
 int run_meshes(const MeshRun& run, Stages& stages) {
-  const Index slabs = run.slabs.plan.count();
+  const Index slabs = run.plan.count();
   stages.run("mesh 1", slabs, [&](Index s) { return first_mesh(run, s); });
   stages.run("borders 1", slabs - 1, [&](Index s) { return seam(run, 1, s); });
   int k = 1;
@@ -243,6 +220,7 @@ SlabRunResult deliver(const MeshRun& run, int meshes, const Settings& settings,
   finish_surface(run.input, settings, progress, result);
   result.seconds.printable = watch.lap();
   all.plan = run.slabs.plan;
+  all.mesh_plan = run.plan;
   all.slabs = work_of_slabs(run.slabs, stages, meshes);
   return all;
 }
@@ -305,20 +283,13 @@ void require_same_run(const Scratch& scratch, const std::string& description, Te
                    "with another scan or other settings");
 }
 
-/// The plan if all slices were equal work: how many slabs there are depends on no sample.
-SlabPlan even_plan(const VoxelGrid& whole, const Settings& settings,
-                   const std::optional<Index>& slabs) {
-  const std::vector<double> equal(static_cast<std::size_t>(whole.size[2]), 1);
-  return plan_slabs(whole, equal, {whole.voxel_size(), settings.beta, slabs});
-}
-
 /// One slab is the whole scan: a run like any other.
 SlabRunResult run_whole(const SliceSource& source, const Settings& settings, SlabPlan plan,
                         const Progress& progress) {
   const ChosenObject object = choose_in(read_slab(source, 0, plan.whole.size[2]), settings);
   SlabRunResult all;
   all.result = run_on_object(object, settings, progress);
-  all.plan = std::move(plan);
+  all.plan = all.mesh_plan = std::move(plan);
   for (const Iteration& pass : all.result.iterations) {
     all.own_rows += pass.nodes;
     if (&pass != &all.result.iterations.front()) all.own_cells += pass.tets;
@@ -332,7 +303,9 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
                                          const Settings& settings, const SlabRunOptions& options,
                                          Team& team) {
   const Progress& progress = options.progress;
-  const SlabPlan even = even_plan(source.grid(), settings, options.slabs);
+  const VoxelGrid& whole = source.grid();
+  // How many slabs there are depends on no sample.
+  const SlabPlan even = even_plan(whole, {whole.voxel_size(), settings.beta, options.slabs});
   if (even.count() == 1) {
     if (team.rank() != 0) return std::nullopt;
     return run_whole(source, settings, even, progress);
@@ -340,7 +313,7 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
   Stages stages(scratch, team, progress);
   const SlabRun run = begin_run(source, settings, scratch, stages, options.slabs);
   stages.run("image", 1, [&](Index) {
-    make_float_file(scratch.path(kImageFile), run.plan.whole.voxel_count());
+    make_item_file<float>(scratch.path(kImageFile), run.plan.whole.voxel_count());
     return SlabWork{};
   });
   stages.run("prepare", run.plan.count(), [&](Index s) { return prepare_and_minimise(run, s); });

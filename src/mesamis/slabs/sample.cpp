@@ -7,13 +7,6 @@
 #include "mesamis/base/parallel.h"
 
 namespace mesamis::detail {
-namespace {
-
-/// What a crossing of the level with an edge between voxels costs, in voxels: about three cells in
-/// each of some meshes. Measured in seconds on the hemipelvis of 160^3 and of 512^3 voxels.
-constexpr double kCostOfCrossing = 500;
-
-}  // namespace
 
 std::vector<SliceSums> sums_of_slices(const Volume& slab) {
   std::vector<SliceSums> sums(static_cast<std::size_t>(slab.size[2]));
@@ -49,26 +42,6 @@ SliceRange sample_slices(const VoxelGrid& whole, const std::vector<SliceSums>& s
     best.first = first;
   }
   return best;
-}
-
-std::vector<double> work_of_slices(const Volume& slab, const Choice& choice) {
-  const auto level = static_cast<float>(choice.parameters.level);
-  const auto [nx, ny, nz] = slab.size;
-  std::vector<double> work(static_cast<std::size_t>(nz - 1));
-  parallel_for_each(work.size(), [&, nx = nx, ny = ny](std::size_t at) {
-    const auto k = static_cast<Index>(at);
-    std::int64_t crossings = 0;
-    for (Index j = 0; j < ny; ++j) {
-      for (Index i = 0; i < nx; ++i) {
-        const bool in = slab.at(i, j, k) > level;
-        crossings += in != (slab.at(i, j, k + 1) > level);
-        if (i + 1 < nx) crossings += in != (slab.at(i + 1, j, k) > level);
-        if (j + 1 < ny) crossings += in != (slab.at(i, j + 1, k) > level);
-      }
-    }
-    work[at] = static_cast<double>(nx) * ny + kCostOfCrossing * static_cast<double>(crossings);
-  });
-  return work;
 }
 
 }  // namespace mesamis::detail

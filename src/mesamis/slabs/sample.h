@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "mesamis/image/slice_source.h"
-#include "mesamis/method/prepare.h"
 
 /// What is looked at of a scan before it is cut into slabs.
 namespace mesamis::detail {
@@ -21,10 +20,5 @@ std::vector<SliceSums> sums_of_slices(const Volume& slab);
 /// two, where the samples vary most.
 SliceRange sample_slices(const VoxelGrid& whole, const std::vector<SliceSums>& sums,
                          std::size_t most);
-
-/// Work that the slices will be, in voxels: each voxel counts once, and again as many times as it
-/// takes for cells where the level is crossed.
-/// @param slab  whose last slice is only there to be compared with.
-std::vector<double> work_of_slices(const Volume& slab, const Choice& choice);
 
 }  // namespace mesamis::detail

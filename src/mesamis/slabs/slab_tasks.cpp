@@ -5,10 +5,12 @@
 #include <memory>
 #include <utility>
 
+#include "mesamis/adapt/size_control.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/grid_mass.h"
 #include "mesamis/method/prepare.h"
-#include "mesamis/slabs/mapped_floats.h"
+#include "mesamis/slabs/grid_nodes.h"
+#include "mesamis/slabs/mapped_items.h"
 #include "mesamis/slabs/mesh_files.h"
 #include "mesamis/slabs/tasks.h"
 
@@ -18,9 +20,8 @@ namespace {
 /// Voxels that the restored image and its spline look across the border of a slab.
 constexpr double kReach = 16;
 
-std::string fields_file(Index s) { return "fields." + std::to_string(s); }
-std::string record_file(Index s) { return "grid." + std::to_string(s); }
-std::string extent_file(Index s) { return "extent." + std::to_string(s); }
+std::string nodes_file(Index g) { return "nodes." + std::to_string(g); }
+std::string grid_file(Index g) { return "grid." + std::to_string(g); }
 
 /// Slices [begin, end) of the whole scan.
 struct Slices {
@@ -46,7 +47,7 @@ Volume cut_out(const Volume& volume, const Slices& held, const Slices& wanted) {
 void write_spline(const SlabRun& run, Index s, const SplineImage& image, const Slices& held) {
   const Slices own = slices_of(run.plan, s, 0);
   const VoxelGrid& whole = run.plan.whole;
-  write_floats(run.scratch.path(kImageFile), whole.offset(0, 0, own.begin),
+  write_items<float>(run.scratch.path(kImageFile), whole.offset(0, 0, own.begin),
                image.coefficients.subspan(image.grid.offset(0, 0, own.begin - held.begin),
                                           image.grid.offset(0, 0, own.count())));
 }
@@ -62,34 +63,40 @@ SlabExtent extent_in(const SlabRun& run, Index s, const Prepared& prepared, cons
   return {cells, prepared.image.low, prepared.image.high};
 }
 
-/// The fields on the first grid of some slices.
+/// The share of all cells that the first mesh has, where no bound acts on their number.
+double share_of_first_mesh(const Prepared& prepared) {
+  constexpr std::int64_t kMany = 1'000'000'000'000;
+  Prepared many{prepared.parameters, prepared.measured, {}, {}};
+  many.parameters.max_tets = kMany;
+  return static_cast<double>(RunInput(many).cells_after(1)) / static_cast<double>(kMany);
+}
+
+/// The fields on the first grid of some slices, and the metric that they ask for.
 struct SlabFields {
   GridWindow window;
-  std::vector<float> f;
   Iteration record;
 };
 
-SlabFields minimise_on_slices(const SlabRun& run, Prepared prepared, const Slices& slices) {
+/// @param cells  of the last mesh, that the slices ask for.
+SlabFields minimise_on_slices(const SlabRun& run, Prepared prepared, const Slices& slices,
+                              double cells) {
   const RunInput input(prepared);
+  const Parameters& p = input.parameters;
   SlabFields fields;
-  GridPass found = minimise_on_grid({input, 1, silent_stage(), fields.record});
   GridWindow& window = fields.window;
+  const Pass pass{input, 1, silent_stage(), fields.record};
+  GridPass found = minimise_on_grid(pass);
   window.box = {{0, 0, run.plan.height_of_slice(slices.begin)}, run.plan.box().hi};
   window.box.hi.z = run.plan.height_of_slice(slices.end - 1);
   window.size = found.grid.size;
-  const auto image = found.image(input);
-  fields.f.assign(image.begin(), image.end());
+  // Where nothing is to be seen, cells of the largest size: no bound at all would mesh the noise.
+  const double fewest = window.box.volume() / std::pow(p.h_max, 3);
+  const double wanted = share_of_first_mesh(prepared) * cells / kCellsPerComplexity;
+  window.log_metrics =
+      grid_log_metric(pass, found.grid, {found.minimum.u, found.minimum.v, found.image(input)},
+                      {p.h_min, p.h_max, std::max(fewest, wanted)});
   window.u = std::move(found.minimum.u);
   window.v = std::move(found.minimum.v);
-  return fields;
-}
-
-SlabFields read_fields(const SlabRun& run, Index s) {
-  ArchiveReader archive = run.scratch.read(fields_file(s));
-  SlabFields fields;
-  fields.window = next_window(archive);
-  fields.f = archive.next<float>();
-  fields.record = archive.next_one<Iteration>();
   return fields;
 }
 
@@ -100,22 +107,55 @@ Box box_of_slab(const SlabPlan& plan, Index s) {
   return box;
 }
 
-/// The integral of sqrt(det M) over a grid.
-double complexity_of(const KuhnGrid& grid, const std::vector<PackedSym3>& log_metrics) {
+/// The integral of sqrt(det M) over the slices that slab g owns, each node's share in its slice:
+/// how many cells they will have, but for a factor.
+std::vector<double> complexities_of(const SlabPlan& plan, const Slices& own,
+                                    const GridWindow& window) {
+  const KuhnGrid grid = grid_of(window);
   const GridMass mass(grid);
-  return parallel_sum(log_metrics.size(), [&](std::size_t begin, std::size_t end) {
-    double sum = 0;
-    for (std::size_t n = begin; n < end; ++n) {
-      sum += mass.at(n) * std::exp(trace(unpack(log_metrics[n])) / 2);
+  const auto slice = static_cast<std::size_t>(window.size[0]) * window.size[1];
+  std::vector<double> sums(static_cast<std::size_t>(window.size[2]));
+  parallel_for_each(sums.size(), [&](std::size_t k) {
+    for (std::size_t n = k * slice; n < (k + 1) * slice; ++n) {
+      sums[k] += mass.at(n) * std::exp(trace(unpack(window.log_metrics[n])) / 2);
     }
-    return sum;
   });
+  std::vector<double> complexities(static_cast<std::size_t>(own.count()), 0);
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    const double height = window.box.lo.z + static_cast<double>(k) * grid.spacing.z;
+    const auto at = static_cast<Index>(std::floor(height / plan.height_of_slice(1) + 1e-6));
+    if (at >= own.begin && at < own.end) {
+      complexities[static_cast<std::size_t>(at - own.begin)] += sums[k];
+    }
+  }
+  return complexities;
+}
+
+/// The slices of nodes around slab s of the meshes, from those who have them.
+std::vector<GridWindow> read_windows(const MeshRun& run, Index s, SlabWork& work) {
+  const SlabPlan& plan = run.slabs.plan;
+  const double low = run.plan.height(s) - plan.overlap;
+  const double high = run.plan.height(s + 1) + plan.overlap;
+  const Parameters& p = run.input.parameters;
+  std::vector<GridWindow> windows;
+  for (Index g = 0; g < plan.count(); ++g) {
+    if (plan.height(g + 1) <= low || plan.height(g) >= high) continue;
+    GridWindow& window = windows.emplace_back(read_nodes(
+        run.slabs.scratch.path(nodes_file(g)), run.grid[static_cast<std::size_t>(g)].frame, low,
+        high));
+    if (run.first_factor != 1) {
+      scale_log_sizes(window.log_metrics, run.first_factor, {p.h_min, p.h_max, 0});
+    }
+    constexpr std::int64_t kBytesOfNode = 16;
+    if (g != s) work.bytes += kBytesOfNode * std::ssize(window.u);
+  }
+  return windows;
 }
 
 /// Bricks of less than a slab's inner part, in the same columns in every slab, so that slabs fit.
 /// Their faces at the borders stay in the first mesh: larger ones would be far from what it needs.
 TetMesh start_mesh(const MeshRun& run, Index s) {
-  const SlabPlan& plan = run.slabs.plan;
+  const SlabPlan& plan = run.plan;
   const double size =
       std::min(run.input.parameters.h_max, (plan.thinnest() - 2 * plan.overlap) / 1.5);
   const Box box = box_of_slab(plan, s);
@@ -130,74 +170,68 @@ TetMesh start_mesh(const MeshRun& run, Index s) {
 
 }  // namespace
 
-SlabWork prepare_and_minimise(const SlabRun& run, Index s) {
+SlabWork prepare_and_minimise(const SlabRun& run, Index g) {
   const SlabPlan& plan = run.plan;
   const double voxel = plan.whole.voxel_size() / plan.unit_mm;
-  const Slices held = slices_of(plan, s, plan.slices_in(kReach * voxel));
+  const Slices own = slices_of(plan, g, 0);
+  const Slices held = slices_of(plan, g, plan.slices_in(kReach * voxel));
   Prepared prepared = prepare_slab(read_slab(run.source, held.begin, held.count()), run.choice);
-  write_spline(run, s, prepared.image, held);
-  ArchiveWriter extent;
-  extent.add_one(extent_in(run, s, prepared, held));
+  write_spline(run, g, prepared.image, held);
+  const SlabExtent extent = extent_in(run, g, prepared, held);
 
-  const Slices seen = slices_of(plan, s, plan.slices_in(plan.overlap));
+  const Slices seen = slices_of(plan, g, plan.slices_in(plan.overlap));
   Prepared part{prepared.parameters, prepared.measured, cut_out(prepared.grey, held, seen), {}};
   prepared = {};
-  const SlabFields fields = minimise_on_slices(run, std::move(part), seen);
+  const double around = static_cast<double>(seen.count()) / own.count();
+  const SlabFields fields =
+      minimise_on_slices(run, std::move(part), seen, around * extent.cells);
+  const GridWindow nodes = slices_between(fields.window, plan.height(g), plan.height(g + 1));
+  write_nodes(run.scratch.path(nodes_file(g)), nodes);
   ArchiveWriter archive;
-  add_window(archive, fields.window);
-  archive.add(fields.f);
+  archive.add_one(nodes.box);
+  archive.add_one(nodes.size);
+  archive.add_one(extent);
+  archive.add(complexities_of(plan, own, fields.window));
   archive.add_one(fields.record);
-  run.scratch.write(fields_file(s), archive);
-  run.scratch.write(extent_file(s), extent);
+  run.scratch.write(grid_file(g), archive);
   const auto slice = static_cast<std::int64_t>(plan.whole.offset(0, 0, 1));
   return {slice * held.count(), fields.record.nodes, 0,
-          (held.count() - slices_of(plan, s, 0).count()) * slice *
-              static_cast<std::int64_t>(sizeof(float))};
+          (held.count() - own.count()) * slice * static_cast<std::int64_t>(sizeof(float))};
 }
 
-std::vector<SlabExtent> extents_of(const SlabRun& run) {
-  std::vector<SlabExtent> extents;
-  extents.reserve(static_cast<std::size_t>(run.plan.count()));
-  for (Index s = 0; s < run.plan.count(); ++s) {
-    extents.push_back(run.scratch.read(extent_file(s)).next_one<SlabExtent>());
+std::vector<GridSlab> grid_slabs(const SlabRun& run) {
+  std::vector<GridSlab> slabs(static_cast<std::size_t>(run.plan.count()));
+  for (std::size_t g = 0; g < slabs.size(); ++g) {
+    ArchiveReader archive = run.scratch.read(grid_file(static_cast<Index>(g)));
+    GridSlab& slab = slabs[g];
+    slab.frame.box = archive.next_one<Box>();
+    slab.frame.size = archive.next_one<std::array<Index, 3>>();
+    slab.extent = archive.next_one<SlabExtent>();
+    slab.complexities = archive.next<double>();
+    slab.record = archive.next_one<Iteration>();
   }
-  return extents;
+  return slabs;
 }
 
-Iteration grid_record(const SlabRun& run, Index s) {
-  return run.scratch.read(record_file(s)).next_one<Iteration>();
-}
-
-void remove_grid_files(const SlabRun& run, Index s) { run.scratch.remove(fields_file(s)); }
+void remove_grid_files(const SlabRun& run, Index g) { run.scratch.remove(nodes_file(g)); }
 
 SlabWork first_mesh(const MeshRun& run, Index s) {
-  const SlabPlan& plan = run.slabs.plan;
-  SlabFields fields = read_fields(run.slabs, s);
-  GridWindow& window = fields.window;
-  const KuhnGrid grid = grid_of(window);
-  const Parameters& p = run.input.parameters;
-  const double around = window.box.extent().z / box_of_slab(plan, s).extent().z;
-  const double cells = static_cast<double>(run.input.cells_after(1)) *
-                       run.shares[static_cast<std::size_t>(s)] * around;
-  // Where nothing is to be seen, cells of the largest size: no bound at all would mesh the noise.
-  const double fewest = window.box.volume() / std::pow(p.h_max, 3);
-  const SizeControl control{p.h_min, p.h_max, std::max(fewest, cells / kCellsPerComplexity)};
-  window.log_metrics = grid_log_metric({run.input, 1, silent_stage(), fields.record}, grid,
-                                       {window.u, window.v, fields.f}, control);
+  const SlabPlan& plan = run.plan;
+  SlabWork work;
+  std::vector<GridWindow> windows = read_windows(run, s, work);
   for (const Side side : {Side::kLow, Side::kHigh}) {
     if (!has_neighbour(plan, s, side)) continue;
     const double border = border_of(plan, s, side);
     ArchiveWriter archive;
-    add_window(archive,
-               slices_between(window, border - 3 * plan.overlap, border + 3 * plan.overlap));
+    add_windows(archive, windows, border - 3 * plan.overlap, border + 3 * plan.overlap);
     run.slabs.scratch.write(window_file(1, s, side), archive);
   }
-  ArchiveWriter record;
-  record.add_one(fields.record);
-  run.slabs.scratch.write(record_file(s), record);
-  const double complexity = complexity_of(grid, window.log_metrics) / around;
-  const GridBackground background(std::move(window));
-  return hand_on(run, 1, s, adapted(run, 1, start_mesh(run, s), background, complexity));
+  const double cells = static_cast<double>(run.input.cells_after(1));
+  const double complexity =
+      run.shares[static_cast<std::size_t>(s)] * cells / kCellsPerComplexity;
+  const std::unique_ptr<Background> background = stack(std::move(windows));
+  work += hand_on(run, 1, s, adapted(run, 1, start_mesh(run, s), *background, complexity));
+  return work;
 }
 
 }  // namespace mesamis::detail

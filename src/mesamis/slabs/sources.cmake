@@ -8,8 +8,9 @@ set(ROOM_HEADERS
 set(ROOM_SOURCES
   archive.cpp
   background.cpp
+  grid_nodes.cpp
   map_scan.cpp
-  mapped_floats.cpp
+  mapped_items.cpp
   mesh_tasks.cpp
   piece.cpp
   plan.cpp

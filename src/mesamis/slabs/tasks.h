@@ -6,6 +6,7 @@
 
 #include "mesamis/image/slice_source.h"
 #include "mesamis/method/passes.h"
+#include "mesamis/slabs/background.h"
 #include "mesamis/slabs/piece.h"
 #include "mesamis/slabs/plan.h"
 #include "mesamis/slabs/scratch.h"
@@ -25,20 +26,30 @@ namespace mesamis::detail {
 struct SlabRun {
   const SliceSource& source;
   const Scratch& scratch;
-  SlabPlan plan;
-  Choice choice;
+  SlabPlan plan;  ///< of voxels
+  Choice choice;  ///< h_max at most least_thickness(): larger cells would reach over whole slabs
 };
 
-/// What prepare_and_minimise() tells the others of a slab.
+/// What the surface in a slab asks for.
 struct SlabExtent {
-  double cells = 0;         ///< that its surface asks for
+  double cells = 0;         ///< of the last mesh
   float low = 0, high = 0;  ///< bounds of the image
 };
 
-/// Restores the slices of slab s, writes their spline, and minimises on their grid.
-SlabWork prepare_and_minimise(const SlabRun& run, Index s);
-/// Of all slabs; after prepare_and_minimise().
-std::vector<SlabExtent> extents_of(const SlabRun& run);
+/// What is known of a slab of the first grid, beside its nodes.
+struct GridSlab {
+  GridWindow frame;  ///< of its nodes, without values
+  SlabExtent extent;
+  std::vector<double> complexities;  ///< of the metric, of each slice
+  Iteration record;
+};
+
+/// Restores the slices of slab g, writes their spline, minimises on their grid, and asks for the
+/// metric of the first mesh. Its complexity is that of as many cells as the slab's own surface asks
+/// for: the number that the whole surface may have is not known yet.
+SlabWork prepare_and_minimise(const SlabRun& run, Index g);
+/// All slabs, after prepare_and_minimise().
+std::vector<GridSlab> grid_slabs(const SlabRun& run);
 
 /// The file of the image's spline.
 inline constexpr const char* kImageFile = "image";
@@ -48,14 +59,20 @@ struct MeshRun {
   const SlabRun& slabs;
   Prepared prepared;  ///< grey without samples
   RunInput input;
-  std::vector<double> shares;  ///< of the cells, by slab
+  std::vector<GridSlab> grid;
+  /// Slabs of meshes: cuts that give all the same number of cells, as the first metric predicts.
+  /// The slabs of voxels have as many slices each.
+  SlabPlan plan;
+  std::vector<double> shares;  ///< of the predicted cells, by slab
+  /// By which all sizes on the grid are multiplied, so that the first mesh has the cells it may.
+  double first_factor = 1;
 
   explicit MeshRun(const SlabRun& run);
   MeshRun(const MeshRun&) = delete;
   MeshRun& operator=(const MeshRun&) = delete;
 };
 
-/// Mesh 1 of slab s, from its grid.
+/// Mesh 1 of slab s, from the grids around it.
 SlabWork first_mesh(const MeshRun& run, Index s);
 /// Mesh k around the border between the slabs s and s + 1.
 SlabWork seam(const MeshRun& run, int k, Index s);

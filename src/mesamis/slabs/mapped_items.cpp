@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/slabs/mapped_floats.h"
+#include "mesamis/slabs/mapped_items.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -43,40 +43,35 @@ class OpenFile {
 
 }  // namespace
 
-void make_float_file(const std::filesystem::path& path, std::size_t count) {
+void make_file(const std::filesystem::path& path, std::size_t bytes) {
   const OpenFile file(path, O_RDWR | O_CREAT | O_TRUNC);
-  const std::size_t bytes = count * sizeof(float);
   if (::ftruncate(file.descriptor(), static_cast<off_t>(bytes)) != 0) {
     file.refuse("found no room for " + std::to_string(bytes) + " bytes");
   }
 }
 
-void write_floats(const std::filesystem::path& path, std::size_t first,
-                  std::span<const float> values) {
+void write_at(const std::filesystem::path& path, std::size_t first,
+              std::span<const std::byte> bytes) {
   const OpenFile file(path, O_WRONLY);
-  const char* next = reinterpret_cast<const char*>(values.data());
-  std::size_t left = values.size_bytes();
-  auto at = static_cast<off_t>(first * sizeof(float));
-  while (left > 0) {
-    const ssize_t done = ::pwrite(file.descriptor(), next, left, at);
+  auto at = static_cast<off_t>(first);
+  while (!bytes.empty()) {
+    const ssize_t done = ::pwrite(file.descriptor(), bytes.data(), bytes.size(), at);
     if (done < 0 && errno == EINTR) continue;
     if (done <= 0) file.refuse("cannot be written");
-    next += done;
     at += done;
-    left -= static_cast<std::size_t>(done);
+    bytes = bytes.subspan(static_cast<std::size_t>(done));
   }
 }
 
-MappedFloats map_floats(const std::filesystem::path& path, std::size_t count) {
+MappedBytes map_file(const std::filesystem::path& path, std::size_t bytes) {
   const OpenFile file(path, O_RDONLY);
-  const std::size_t bytes = count * sizeof(float);
   if (file.size() != bytes) {
     throw InputError(path.string() + ": expected a scratch file of " + std::to_string(bytes) +
                      " bytes, found " + std::to_string(file.size()));
   }
   void* memory = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, file.descriptor(), 0);
   if (memory == MAP_FAILED) file.refuse("cannot be mapped");
-  return {{static_cast<const float*>(memory), count},
+  return {{static_cast<const std::byte*>(memory), bytes},
           {memory, [bytes](const void* p) { ::munmap(const_cast<void*>(p), bytes); }}};
 }
 
