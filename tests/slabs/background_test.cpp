@@ -93,25 +93,6 @@ TEST(GridWindow, HasTwoSlicesAtLeast) {
   EXPECT_EQ(slices_between(grid_window(1), -5, 50).u, grid_window(1).u);
 }
 
-TEST(GridWindow, IsReadAsItWasWritten) {
-  const std::vector<GridWindow> windows{slices_between(grid_window(3), 0, 4),
-                                        slices_between(grid_window(3), 4, 8)};
-  ArchiveWriter written;
-  add_windows(written, windows, 3, 8);
-  add_windows(written, windows, 4.5, 5);
-  ArchiveReader archive(std::string(written.bytes()), "file");
-  const std::vector<GridWindow> read = next_windows(archive);
-  ASSERT_EQ(read.size(), 2U);
-  EXPECT_EQ(read[0].box.lo.z, 3);
-  EXPECT_EQ(read[0].box.hi.z, 4);
-  EXPECT_EQ(read[1].box.hi, kBox.hi);
-  EXPECT_EQ(read[1].size, windows[1].size);
-  EXPECT_EQ(read[1].u, windows[1].u);
-  EXPECT_EQ(read[1].v, windows[1].v);
-  EXPECT_EQ(read[1].log_metrics, windows[1].log_metrics);
-  EXPECT_EQ(next_windows(archive).size(), 1U) << "those that have none of the slices are left out";
-}
-
 std::unique_ptr<MeshBackground> mesh_background(double scale) {
   return std::make_unique<MeshBackground>(mesh_piece(scale));
 }

@@ -24,7 +24,7 @@ Iteration record(std::int64_t tets, double scale) {
 }
 
 TEST(SumOfRecords, OfOneSlabIsItsOwn) {
-  const Iteration sum = sum_of_records({record(100, 3)}, {1});
+  const Iteration sum = sum_of_records({record(100, 3)});
   EXPECT_EQ(sum.tets, 100);
   EXPECT_EQ(sum.nodes, 20);
   EXPECT_EQ(sum.energy.total(), record(100, 3).energy.total());
@@ -37,7 +37,7 @@ TEST(SumOfRecords, OfOneSlabIsItsOwn) {
 TEST(SumOfRecords, AddsCountsAndWeighsMeans) {
   Iteration open = record(300, 5);
   open.amis.converged = false;
-  const Iteration sum = sum_of_records({record(100, 1), open}, {0.25, 0.75});
+  const Iteration sum = sum_of_records({record(100, 1), open});
   EXPECT_EQ(sum.tets, 400);
   EXPECT_EQ(sum.nodes, 80);
   EXPECT_EQ(sum.energy.fidelity, 6);
@@ -56,7 +56,7 @@ TEST(SumOfRecords, AddsCountsAndWeighsMeans) {
 }
 
 TEST(SumOfRecords, WithoutCellsThereIsNoMean) {
-  EXPECT_EQ(sum_of_records({record(0, 0), record(0, 0)}, {0.5, 0.5}).aspect_mean[0], 0);
+  EXPECT_EQ(sum_of_records({record(0, 0), record(0, 0)}).aspect_mean[0], 0);
 }
 
 }  // namespace

@@ -79,37 +79,6 @@ GridWindow slices_between(const GridWindow& window, double low, double high) {
   return some;
 }
 
-void add_windows(ArchiveWriter& archive, std::span<const GridWindow> windows, double low,
-                 double high) {
-  std::vector<GridWindow> some;
-  for (const GridWindow& window : windows) {
-    if (window.box.hi.z > low && window.box.lo.z < high) {
-      some.push_back(slices_between(window, low, high));
-    }
-  }
-  archive.add_one(some.size());
-  for (const GridWindow& window : some) {
-    archive.add_one(window.box);
-    archive.add_one(window.size);
-    archive.add(window.u);
-    archive.add(window.v);
-    archive.add(window.log_metrics);
-  }
-}
-
-std::vector<GridWindow> next_windows(ArchiveReader& archive) {
-  std::vector<GridWindow> windows;
-  for (auto left = archive.next_one<std::size_t>(); left > 0; --left) {
-    GridWindow& window = windows.emplace_back();
-    window.box = archive.next_one<Box>();
-    window.size = archive.next_one<std::array<Index, 3>>();
-    window.u = archive.next<float>();
-    window.v = archive.next<float>();
-    window.log_metrics = archive.next<std::array<float, 6>>();
-  }
-  return windows;
-}
-
 GridBackground::GridBackground(GridWindow window)
     : window_(std::move(window)),
       metric_(window_.box, window_.size, std::move(window_.log_metrics)) {}

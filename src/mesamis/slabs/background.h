@@ -51,13 +51,6 @@ SliceRange slice_range(const GridWindow& window, double low, double high);
 GridWindow frame_of(const GridWindow& window, const SliceRange& range);
 /// The slices of slice_range(), with their values.
 GridWindow slices_between(const GridWindow& window, double low, double high);
-/// Adds the slices between two heights, as slices_between(), of those windows that have any.
-void add_windows(ArchiveWriter& archive, std::span<const GridWindow> windows, double low,
-                 double high);
-/// What add_windows() added.
-/// @throws InputError  as ArchiveReader::next().
-std::vector<GridWindow> next_windows(ArchiveReader& archive);
-
 class GridBackground : public Background {
  public:
   explicit GridBackground(GridWindow window);

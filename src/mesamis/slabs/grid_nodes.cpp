@@ -16,6 +16,7 @@ namespace {
 
 /// u, v and the six entries of the metric's logarithm.
 using PackedNode = std::array<std::int16_t, 8>;
+static_assert(sizeof(PackedNode) == kBytesOfNode);
 
 /// Steps per unit. Sizes of 1e-3 to 1e3 length units have logarithms of metrics up to 14.
 constexpr float kStepsOfU = 100, kStepsOfV = 32000, kStepsOfLog = 2000;

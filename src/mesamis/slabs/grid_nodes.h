@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "mesamis/slabs/background.h"
@@ -9,6 +10,8 @@
 /// rounded: u to 0.01 grey values, v to 3e-5, logarithms of metrics to 5e-4. They are first guesses
 /// and sizes of cells; nothing that is delivered is made of them.
 namespace mesamis::detail {
+
+inline constexpr std::int64_t kBytesOfNode = 16;
 
 /// Writes the values at the nodes of a window.
 /// @throws InputError  as make_item_file() and write_items().

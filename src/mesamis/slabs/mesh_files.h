@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "mesamis/slabs/background.h"
@@ -8,6 +9,9 @@
 
 /// What the tasks on meshes share: names of files, and how a slab hands its mesh on.
 namespace mesamis::detail {
+
+/// How far from a border cells are adapted again, in overlaps: farther, and more is done twice.
+inline constexpr double kSeam = 0.4;
 
 enum class Side { kLow, kHigh };
 inline Side opposite(Side side) { return side == Side::kLow ? Side::kHigh : Side::kLow; }
@@ -25,18 +29,21 @@ inline double border_of(const SlabPlan& plan, Index s, Side side) {
 /// The stage of passes that tell nobody how far they have come: a task is one step.
 const Stage& silent_stage();
 
-/// What mesh k was made for, near a border of slab s.
-std::string window_file(int k, Index s, Side side);
+/// What the first mesh is made for, between two heights.
+/// @param own   whose nodes are not those of another slab.
+/// @param work  where the bytes of others are counted.
+std::unique_ptr<Background> grid_background(const MeshRun& run, double low, double high, Index own,
+                                            SlabWork& work);
 
 /// Remeshes a piece for mesh k, and takes over what is known around it.
 /// @param complexity  of the metric on the piece: it bounds the cells.
 Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background& background,
               double complexity);
 
-/// Writes mesh k of slab s: the cells at its borders for the seams ("border"), those around that the
-/// neighbours see too ("rim"), and the others ("core").
-/// @return the cells as work done.
-SlabWork hand_on(const MeshRun& run, int k, Index s, const Piece& mesh);
+/// Writes mesh k of slab s: the cells at its borders for the seams ("border"), those around that
+/// the neighbours see too ("rim"), and the others ("core").
+/// @param work  to which the cells are added.
+void hand_on(const MeshRun& run, int k, Index s, const Piece& mesh, SlabWork& work);
 
 /// Removes the nodes of slab g of the first grid, when all have made their first mesh.
 void remove_grid_files(const SlabRun& run, Index g);

@@ -39,12 +39,6 @@ Piece read_piece(const Scratch& scratch, const std::string& name, SlabWork* work
   return next_piece(archive);
 }
 
-std::unique_ptr<Background> read_background(const Scratch& scratch, int k, Index s, Side side) {
-  ArchiveReader archive = scratch.read(window_file(k, s, side));
-  if (k == 1) return stack(next_windows(archive));
-  return std::make_unique<MeshBackground>(next_piece(archive));
-}
-
 /// Mesh k as slab s sees it: its own cells, and those around.
 struct LocalMesh {
   Piece piece;
@@ -59,7 +53,7 @@ Piece join_all(const std::vector<Piece>& pieces) {
 }
 
 LocalMesh read_local(const MeshRun& run, int k, Index s, SlabWork& work) {
-  const SlabPlan& plan = run.plan;
+  const SlabPlan& plan = run.plan(k);
   const Scratch& scratch = run.slabs.scratch;
   std::vector<Piece> parts{read_piece(scratch, file_of("core", k, s))};
   LocalMesh local;
@@ -93,7 +87,6 @@ void remove_files_before(const MeshRun& run, int k, Index s) {
   for (const char* what : {"core", "seam", "solved"}) scratch.remove(file_of(what, k - 1, s));
   for (const Side side : {Side::kLow, Side::kHigh}) {
     for (const char* what : {"border", "rim"}) scratch.remove(side_file(what, k - 1, s, side));
-    scratch.remove(window_file(k - 1, s, side));
   }
 }
 
@@ -119,8 +112,8 @@ Minimum minimise_on(const MeshRun& run, int k, const AmisOptions& options, Piece
   return m;
 }
 
-/// How far from a border cells are adapted again, in overlaps: farther, and more is done twice.
-constexpr double kSeam = 0.5;
+/// How far cells reach that are adapted again, in overlaps, as was counted.
+constexpr double kReachOfSeam = 0.8;
 
 /// Of the logarithm of the first mesh's number of cells.
 constexpr double kSlackOfFirstMesh = 0.05;
@@ -128,17 +121,9 @@ constexpr double kSlackOfFirstMesh = 0.05;
 /// A piece may have so many cells at least.
 constexpr std::int64_t kFewestInPiece = 1000;
 
-/// What all slabs tell each other of a mesh, to choose the sizes of the next one together.
+/// Factors of sizes for which complexities are told: what lies between is interpolated.
 constexpr std::size_t kFactors = 97;
-struct Profile {
-  std::array<double, kFactors> complexity{};  ///< of the own nodes, for each of factors()
-  double cells = 0;                           ///< own
-  Profile& operator+=(const Profile& other) {
-    for (std::size_t i = 0; i < kFactors; ++i) complexity[i] += other.complexity[i];
-    cells += other.cells;
-    return *this;
-  }
-};
+using Complexities = std::array<double, kFactors>;
 
 std::vector<double> factors() {
   constexpr double kMost = 12;  // of the logarithm
@@ -149,25 +134,24 @@ std::vector<double> factors() {
   return all;
 }
 
-/// What was recorded of the minimisation on a mesh that is not the last.
-Iteration mesh_record(const MeshRun& run, int k, Index s) {
-  ArchiveReader archive = run.slabs.scratch.read(file_of("profile", k, s));
-  archive.next_one<Profile>();
-  return archive.next_one<Iteration>();
-}
+/// What slabs tell each other of a mesh, to choose the sizes of the next one and its slabs.
+struct Profile {
+  Index first_slice = 0;
+  std::vector<Complexities> slices;  ///< of the nodes in each slice, for each of factors()
+};
 
-Profile sum_of_profiles(const MeshRun& run, int k) {
-  Profile sum;
-  for (Index s = 0; s < run.plan.count(); ++s) {
-    sum += run.slabs.scratch.read(file_of("profile", k, s)).next_one<Profile>();
-  }
-  return sum;
+/// Where all sizes are multiplied by a factor.
+double complexity_at(const Complexities& c, double factor) {
+  const std::vector<double> all = factors();
+  std::size_t i = 1;
+  while (i + 1 < kFactors && all[i] < factor) ++i;
+  const double share = std::log(factor / all[i - 1]) / std::log(all[i] / all[i - 1]);
+  return c[i - 1] > 0 ? c[i - 1] * std::pow(c[i] / c[i - 1], share) : 0;
 }
 
 /// The factor by which all sizes are multiplied to bring the complexity to a bound.
-double factor_for(const Profile& profile, double bound) {
+double factor_for(const Complexities& c, double bound) {
   const std::vector<double> all = factors();
-  const auto& c = profile.complexity;
   if (c[0] <= bound) return 1;
   std::size_t i = 1;
   while (i + 1 < kFactors && c[i] > bound) ++i;
@@ -175,28 +159,93 @@ double factor_for(const Profile& profile, double bound) {
   return all[i - 1] * std::pow(all[i] / all[i - 1], std::min(share, 1.0));
 }
 
-/// The factor for the sizes of mesh k + 1. The remesher's cells per unit of complexity are taken to
-/// be those that mesh k was measured to have.
-double next_factor(const MeshRun& run, int k) {
-  double complexity = static_cast<double>(run.input.cells_after(1)) / kCellsPerComplexity;
+/// @param own  a slab's own part of a mesh, with the metrics that are asked for.
+Profile profile_of(const MeshRun& run, const Piece& own) {
+  const SlabPlan& plan = run.slabs.plan;
+  const Parameters& p = run.input.parameters;
+  const std::vector<std::uint8_t> all(own.mesh.cells.size(), 1);
+  const std::vector<double> mass = lumped_mass_of(own.mesh, all);
+  std::vector<std::vector<std::size_t>> nodes(static_cast<std::size_t>(plan.whole.size[2]));
+  for (std::size_t n = 0; n < mass.size(); ++n)
+    nodes[plan.slice_at(own.mesh.points[n].z)].push_back(n);
   Profile profile;
-  for (int mesh = 1; mesh <= k; ++mesh) {
-    profile = sum_of_profiles(run, mesh);
-    const double per_complexity = std::clamp(profile.cells / complexity, 4.0, 20.0);
-    complexity = static_cast<double>(run.input.cells_after(mesh + 1)) / per_complexity;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (profile.slices.empty() && nodes[k].empty()) continue;
+    if (profile.slices.empty()) profile.first_slice = static_cast<Index>(k);
+    std::vector<Sym3> metrics;
+    std::vector<double> weights;
+    for (const std::size_t n : nodes[k]) {
+      metrics.push_back(own.nodes[n].metric);
+      weights.push_back(mass[n]);
+    }
+    const auto found = clamped_complexities(metrics, weights, {p.h_min, p.h_max, 0}, factors());
+    std::copy(found.begin(), found.end(), profile.slices.emplace_back().begin());
   }
-  return factor_for(profile, complexity);
+  return profile;
 }
 
-/// Bounds the sizes of the metrics at the nodes, and so the number of cells of mesh k + 1.
-void control_metric(const MeshRun& run, int k, Piece& piece) {
+/// What was recorded of the minimisation on a mesh that is not the last.
+Iteration mesh_record(const MeshRun& run, int k, Index s) {
+  return run.slabs.scratch.read(file_of("record", k, s)).next_one<Iteration>();
+}
+
+/// Of all slices.
+std::vector<Complexities> complexities_of(const MeshRun& run, int k) {
+  std::vector<Complexities> all(static_cast<std::size_t>(run.slabs.plan.whole.size[2]));
+  for (Index s = 0; s < run.count(); ++s) {
+    ArchiveReader archive = run.slabs.scratch.read(file_of("profile", k, s));
+    auto slice = archive.next_one<Index>();
+    for (const Complexities& some : archive.next<Complexities>()) {
+      Complexities& sum = all.at(static_cast<std::size_t>(slice++));
+      for (std::size_t i = 0; i < kFactors; ++i) sum[i] += some[i];
+    }
+  }
+  return all;
+}
+
+/// The cells of mesh k that were minimised on between two heights, with their fields, and the
+/// metrics of mesh k + 1 at their nodes.
+/// @param own   whose cells are not those of another slab.
+/// @param work  where the bytes of others are counted.
+Piece solved_between(const MeshRun& run, int k, double low, double high, Index own,
+                     SlabWork& work) {
+  const SlabPlan& plan = run.plan(k);
+  std::vector<Piece> pieces;
+  for (Index t = 0; t < plan.count(); ++t) {
+    if (plan.height(t + 1) <= low || plan.height(t) >= high) continue;
+    const Piece piece =
+        read_piece(run.slabs.scratch, file_of("solved", k, t), t == own ? nullptr : &work);
+    pieces.push_back(select(piece, [&](const Cell& cell) {
+      const double height = height_of(piece.mesh, cell);
+      return height >= low && height < high;
+    }));
+  }
+  Piece piece = join_all(pieces);
   const Parameters& p = run.input.parameters;
-  const double factor = next_factor(run, k);
+  const double factor = run.mesh(k + 1).factor;
   std::vector<Sym3> metric = values_of(piece, &NodeValues::metric);
   for (Sym3& m : metric) m = (1 / (factor * factor)) * m;
   const std::vector<double> weights(metric.size(), 1);
   control_sizes(metric, weights, {p.h_min, p.h_max, 0});
   for (std::size_t n = 0; n < metric.size(); ++n) piece.nodes[n].metric = metric[n];
+  return piece;
+}
+
+/// Cuts slabs of equal predicted cells.
+/// @param cells  of each slice, any unit.
+void cut_mesh(const SlabRun& run, const std::vector<double>& cells, bool bounded, MeshPlan& mesh) {
+  const SlabPlan& plan = run.plan;
+  mesh.slabs = plan_slabs(plan.whole, cells,
+                          {.unit_mm = plan.unit_mm,
+                           .beta = run.choice.parameters.functional.beta,
+                           .slabs = plan.count(),
+                           .thinnest = kOverlapsInSlabOfCells,
+                           .bounded = bounded,
+                           .again = kReachOfSeam * plan.overlap});
+  for (Index s = 0; s < plan.count(); ++s) {
+    const auto* cut = &mesh.slabs.cuts[static_cast<std::size_t>(s)];
+    mesh.predicted.push_back(std::accumulate(cells.begin() + cut[0], cells.begin() + cut[1], 0.0));
+  }
 }
 
 /// The record of a pass, as far as it is the slab's own, to be added up.
@@ -218,8 +267,6 @@ const Stage& silent_stage() {
   return stage;
 }
 
-std::string window_file(int k, Index s, Side side) { return side_file("window", k, s, side); }
-
 Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background& background,
               double complexity) {
   // Only a guard: a border that stays needs cells whatever the metric asks for, and a bound that
@@ -228,13 +275,13 @@ Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background&
   RemeshOptions options;
   options.max_cells = std::llround(kMost * complexity) + std::ssize(start.cells) + kFewestInPiece;
   options.draft = run.input.cells_after(k) < run.input.parameters.max_tets;
-  Piece piece{remesh_piece(start, run.plan.box(), background, options), {}};
+  Piece piece{remesh_piece(start, run.input.box, background, options), {}};
   piece.nodes = background.values(piece.mesh.points);
   return piece;
 }
 
-SlabWork hand_on(const MeshRun& run, int k, Index s, const Piece& mesh) {
-  const SlabPlan& plan = run.plan;
+void hand_on(const MeshRun& run, int k, Index s, const Piece& mesh, SlabWork& work) {
+  const SlabPlan& plan = run.plan(k);
   // A cell that is near both borders belongs to the lower one.
   const auto side_of = [&](const Piece& piece, const Cell& cell,
                            double distance) -> std::optional<Side> {
@@ -249,8 +296,8 @@ SlabWork hand_on(const MeshRun& run, int k, Index s, const Piece& mesh) {
   // Writes what is near the borders, and returns the rest.
   const auto cut_off = [&](const char* what, const Piece& piece, double distance) {
     const auto part = [&](std::optional<Side> wanted) {
-      return select(
-          piece, [&](const Cell& cell) { return side_of(piece, cell, distance) == wanted; });
+      return select(piece,
+                    [&](const Cell& cell) { return side_of(piece, cell, distance) == wanted; });
     };
     for (const Side side : {Side::kLow, Side::kHigh}) {
       if (!has_neighbour(plan, s, side)) continue;
@@ -260,7 +307,7 @@ SlabWork hand_on(const MeshRun& run, int k, Index s, const Piece& mesh) {
   };
   const Piece inner = cut_off("border", mesh, kSeam * plan.overlap);
   write_piece(run.slabs.scratch, file_of("core", k, s), cut_off("rim", inner, plan.overlap));
-  return {.cells = std::ssize(mesh.mesh.cells)};
+  work.cells += std::ssize(mesh.mesh.cells);
 }
 
 MeshRun::MeshRun(const SlabRun& run)
@@ -276,40 +323,44 @@ MeshRun::MeshRun(const SlabRun& run)
     complexities.insert(complexities.end(), slab.complexities.begin(), slab.complexities.end());
   }
   Parameters& p = prepared.parameters;
-  plan = plan_slabs(whole, complexities, {p.unit_mm, p.functional.beta, run.plan.count()});
-  const double all = std::accumulate(complexities.begin(), complexities.end(), 0.0);
-  for (Index s = 0; s < plan.count(); ++s) {
-    const auto at = static_cast<std::size_t>(s);
-    shares.push_back(std::accumulate(complexities.begin() + plan.cuts[at],
-                                     complexities.begin() + plan.cuts[at + 1], 0.0) /
-                     all);
-  }
   if (p.max_tets == 0) {
     p.max_tets = std::llround(
-        std::clamp<double>(cells, kFewestTets, static_cast<double>(kMostTets) * plan.count()));
+        std::clamp<double>(cells, kFewestTets, static_cast<double>(kMostTets) * count()));
   }
-  // Where the slabs were too rough a guess, or the bounds above act.
-  const double asked = static_cast<double>(input.cells_after(1)) / kCellsPerComplexity;
-  if (std::abs(std::log(all / asked)) > kSlackOfFirstMesh) first_factor = std::cbrt(all / asked);
+  // Each slice of the grid that a slab sees is in its memory.
+  MeshPlan& first = meshes.emplace_back();
+  cut_mesh(run, complexities, true, first);
+  first.complexity = static_cast<double>(input.cells_after(1)) / kCellsPerComplexity;
+  // The slabs asked for as many cells as their own surfaces need.
+  const double asked = std::accumulate(complexities.begin(), complexities.end(), 0.0);
+  const double excess = std::log(asked / first.complexity);
+  if (std::abs(excess) > kSlackOfFirstMesh) first.factor = std::exp(excess / 3);
   static_cast<VoxelGrid&>(prepared.grey) = whole;
   auto mapped = map_items<float>(run.scratch.path(kImageFile), whole.voxel_count());
   prepared.image = {whole, mapped.values, grid[0].extent.low, grid[0].extent.high, mapped.owner};
-  input.box = plan.box();
+  input.box = run.plan.box();
 }
 
 SlabWork seam(const MeshRun& run, int k, Index s) {
   const Scratch& scratch = run.slabs.scratch;
+  const SlabPlan& plan = run.plan(k);
   SlabWork work;
   const Piece below = read_piece(scratch, side_file("border", k, s, Side::kHigh));
   const Piece above = read_piece(scratch, side_file("border", k, s + 1, Side::kLow), &work);
   const std::array<const Piece*, 2> both{&below, &above};
-  std::vector<std::unique_ptr<Background>> sides;
-  sides.push_back(read_background(scratch, k, s, Side::kHigh));
-  sides.push_back(read_background(scratch, k, s + 1, Side::kLow));
-  const StackedBackground background(std::move(sides), {run.plan.height(s + 1)});
   const TetMesh start = join(both).mesh;
-  const double needed = complexity(start, sample(background, start.points));
-  const Piece piece = adapted(run, k, start, background, needed);
+  const Box box = bounding_box(start.points);
+  // Cells of the mesh before may be so large.
+  const double around = plan.least_thickness();
+  const double low = box.lo.z - around, high = box.hi.z + around;
+  std::unique_ptr<Background> background;
+  if (k == 1) {
+    background = grid_background(run, low, high, s, work);
+  } else {
+    background = std::make_unique<MeshBackground>(solved_between(run, k - 1, low, high, s, work));
+  }
+  const double needed = complexity(start, sample(*background, start.points));
+  const Piece piece = adapted(run, k, start, *background, needed);
   write_piece(scratch, file_of("seam", k, s), piece);
   work.cells = std::ssize(piece.mesh.cells);
   return work;
@@ -328,45 +379,65 @@ SlabWork solve(const MeshRun& run, int k, Index s) {
   record_surface(pass, piece.mesh, before, m.u);
   const std::vector<Sym3> metric = asked_metric(pass, piece.mesh, m, run.input.cells_after(k));
   for (std::size_t n = 0; n < metric.size(); ++n) piece.nodes[n].metric = metric[n];
-  const std::vector<double> mass = lumped_mass_of(piece.mesh, local.own);
-  const Parameters& p = run.input.parameters;
-  const auto complexities = clamped_complexities(metric, mass, {p.h_min, p.h_max, 0}, factors());
-  Profile profile;
-  std::copy(complexities.begin(), complexities.end(), profile.complexity.begin());
-  record_own(run, own_part(local), record);
-  profile.cells = static_cast<double>(record.tets);
-
-  ArchiveWriter solved, told;
-  add_piece(solved, piece);
-  solved.add(local.own);
-  told.add_one(profile);
-  told.add_one(record);
-  run.slabs.scratch.write(file_of("solved", k, s), solved);
+  const Piece own = own_part(local);
+  record_own(run, own, record);
+  const Profile profile = profile_of(run, own);
+  ArchiveWriter recorded, told;
+  recorded.add_one(record);
+  told.add_one(profile.first_slice);
+  told.add(profile.slices);
+  write_piece(run.slabs.scratch, file_of("solved", k, s), own);
+  run.slabs.scratch.write(file_of("record", k, s), recorded);
   run.slabs.scratch.write(file_of("profile", k, s), told);
   return work;
 }
 
+// The remesher's cells per unit of complexity are taken to be those that the mesh was measured to
+// have.
+void plan_next_mesh(MeshRun& run) {
+  const auto k = static_cast<int>(run.meshes.size());
+  const std::vector<Complexities> slices = complexities_of(run, k);
+  Complexities sum{};
+  for (const Complexities& some : slices) {
+    for (std::size_t i = 0; i < kFactors; ++i) sum[i] += some[i];
+  }
+  double cells = 0;
+  std::vector<double> made;  // cells against those predicted, by slab
+  for (Index s = 0; s < run.count(); ++s) {
+    const auto own = static_cast<double>(mesh_record(run, k, s).tets);
+    cells += own;
+    made.push_back(own / run.mesh(k).predicted[static_cast<std::size_t>(s)]);
+  }
+  const double per_complexity = std::clamp(cells / run.mesh(k).complexity, 4.0, 20.0);
+  MeshPlan next;
+  next.complexity = static_cast<double>(run.input.cells_after(k + 1)) / per_complexity;
+  next.factor = factor_for(sum, next.complexity);
+  std::vector<double> predicted;
+  for (Index s = 0; s < run.count(); ++s) {
+    const auto* cut = &run.plan(k).cuts[static_cast<std::size_t>(s)];
+    for (Index slice = cut[0]; slice < cut[1]; ++slice) {
+      predicted.push_back(made[static_cast<std::size_t>(s)] *
+                          complexity_at(slices[static_cast<std::size_t>(slice)], next.factor));
+    }
+  }
+  cut_mesh(run.slabs, predicted, false, next);
+  run.meshes.push_back(std::move(next));
+}
+
 SlabWork adapt_slab(const MeshRun& run, int k, Index s) {
-  const SlabPlan& plan = run.plan;
-  const Scratch& scratch = run.slabs.scratch;
-  LocalMesh local;
-  {
-    ArchiveReader archive = scratch.read(file_of("solved", k, s));
-    local.piece = next_piece(archive);
-    local.own = archive.next<std::uint8_t>();
-  }
-  control_metric(run, k, local.piece);
-  for (const Side side : {Side::kLow, Side::kHigh}) {
-    if (!has_neighbour(plan, s, side)) continue;
-    const double border = border_of(plan, s, side);
-    write_piece(scratch, window_file(k + 1, s, side), select(local.piece, [&](const Cell& cell) {
-                  return is_near(local.piece.mesh, cell, border, 3 * plan.overlap);
-                }));
-  }
-  const Piece own = own_part(local);
-  const MeshBackground background(std::move(local.piece));
+  const SlabPlan& plan = run.plan(k);
+  const double low = plan.height(s), high = plan.height(s + 1);
+  SlabWork work;
+  Piece around =
+      solved_between(run, k - 1, low - 2 * plan.overlap, high + 2 * plan.overlap, s, work);
+  const Piece own = select(around, [&](const Cell& cell) {
+    const double height = height_of(around.mesh, cell);
+    return (s == 0 || height >= low) && (s + 1 == plan.count() || height < high);
+  });
+  const MeshBackground background(std::move(around));
   const double needed = complexity(own.mesh, values_of(own, &NodeValues::metric));
-  return hand_on(run, k + 1, s, adapted(run, k + 1, own.mesh, background, needed));
+  hand_on(run, k, s, adapted(run, k, own.mesh, background, needed), work);
+  return work;
 }
 
 SlabWork finish(const MeshRun& run, int k, Index s) {
@@ -389,17 +460,13 @@ SlabWork finish(const MeshRun& run, int k, Index s) {
 
 std::vector<Iteration> records_of(const MeshRun& run, int k) {
   std::vector<Iteration> passes, records;
-  std::vector<double> equal;
-  for (const GridSlab& slab : run.grid) {
-    records.push_back(slab.record);
-    equal.push_back(1.0 / run.plan.count());
-  }
-  passes.push_back(sum_of_records(records, equal));
+  for (const GridSlab& slab : run.grid) records.push_back(slab.record);
+  passes.push_back(sum_of_records(records));
   for (int mesh = 1; mesh <= k; ++mesh) {
-    for (Index s = 0; s < run.plan.count(); ++s) {
+    for (Index s = 0; s < run.count(); ++s) {
       records[static_cast<std::size_t>(s)] = mesh_record(run, mesh, s);
     }
-    passes.push_back(sum_of_records(records, run.shares));
+    passes.push_back(sum_of_records(records));
   }
   return passes;
 }
@@ -409,12 +476,12 @@ Finished collect(const MeshRun& run, int k) {
   finished.passes = records_of(run, k - 1);
   std::vector<Piece> pieces;
   std::vector<Iteration> records;
-  for (Index s = 0; s < run.plan.count(); ++s) {
+  for (Index s = 0; s < run.count(); ++s) {
     ArchiveReader archive = run.slabs.scratch.read(file_of("final", k, s));
     pieces.push_back(next_piece(archive));
     records.push_back(archive.next_one<Iteration>());
   }
-  finished.passes.push_back(sum_of_records(records, run.shares));
+  finished.passes.push_back(sum_of_records(records));
   finished.whole = join_all(pieces);
   return finished;
 }

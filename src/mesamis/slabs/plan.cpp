@@ -24,31 +24,67 @@ Index default_count(const VoxelGrid& whole, Index thinnest) {
   return std::clamp(by_memory, 1, std::max(1, whole.size[2] / thinnest));
 }
 
-/// The first slices of the slabs, and the end of the last. No slab is thicker than twice the mean:
-/// memory counts voxels.
-/// @param thinnest  slices; count times that is no more than there are.
-std::vector<Index> equal_shares(std::span<const double> work, Index count, Index thinnest) {
-  const auto slices = static_cast<Index>(work.size());
-  const Index thickest = 2 * ((slices + count - 1) / count);
-  std::vector<double> before(work.size() + 1, 0);
-  std::partial_sum(work.begin(), work.end(), before.begin() + 1);
-  std::vector<Index> cuts{0};
-  for (Index s = 1; s < count; ++s) {
-    const double share = before.back() * s / count;
-    const auto place = std::lower_bound(before.begin(), before.end(), share) - before.begin();
-    const Index after = count - s;
-    cuts.push_back(std::clamp(static_cast<Index>(place),
-                              std::max(cuts.back() + thinnest, slices - after * thickest),
-                              std::min(cuts.back() + thickest, slices - after * thinnest)));
+/// Bounds of slabs, slices.
+struct Bounds {
+  Index count = 1;                   ///< of the slabs
+  Index thinnest = 1, thickest = 1;  ///< count times that is no more, no less than there are
+  Index again = 0;                   ///< on each side of a cut
+};
+
+/// Cuts work into slabs that have equal shares of it.
+class EqualShares {
+ public:
+  EqualShares(std::span<const double> work, const Bounds& bounds)
+      : bounds_(bounds), slices_(static_cast<Index>(work.size())), before_(work.size() + 1, 0) {
+    std::partial_sum(work.begin(), work.end(), before_.begin() + 1);
   }
-  cuts.push_back(slices);
-  return cuts;
-}
+
+  /// The first slices of the slabs, and the end of the last.
+  std::vector<Index> cuts() const {
+    double low = 0, high = 2 * before_.back();  // of the share
+    for (int i = 0; i < 50; ++i) {
+      const double share = (low + high) / 2;
+      const std::vector<Index> found = cuts_for(share);
+      (between(found[found.size() - 2], slices_) > share ? low : high) = share;
+    }
+    return cuts_for(high);
+  }
+
+ private:
+  double between(Index begin, Index end) const {
+    return before_[static_cast<std::size_t>(std::min(end, slices_))] -
+           before_[static_cast<std::size_t>(std::max(begin, 0))];
+  }
+  /// Every slab but the last has this share.
+  std::vector<Index> cuts_for(double share) const {
+    const auto& [count, thinnest, thickest, again] = bounds_;
+    std::vector<Index> cuts{0};
+    for (Index s = 1; s < count; ++s) {
+      const Index after = count - s, last = cuts.back();
+      Index cut = std::max(last + thinnest, slices_ - after * thickest);
+      const Index most = std::min(last + thickest, slices_ - after * thinnest);
+      while (cut < most && between(last, cut) + between(cut - again, cut + again) < share) ++cut;
+      cuts.push_back(cut);
+    }
+    cuts.push_back(slices_);
+    return cuts;
+  }
+
+  Bounds bounds_;
+  Index slices_;
+  std::vector<double> before_;
+};
 
 }  // namespace
 
 Index SlabPlan::slices_in(double length) const noexcept {
   return static_cast<Index>(std::ceil(length * unit_mm / whole.spacing.z));
+}
+
+std::size_t SlabPlan::slice_at(double height) const noexcept {
+  constexpr double kRoundOff = 1e-6;
+  const double slice = height * unit_mm / whole.spacing.z + kRoundOff;
+  return static_cast<std::size_t>(std::clamp(slice, 0.0, whole.size[2] - 1.0));
 }
 
 double SlabPlan::thinnest() const noexcept {
@@ -70,7 +106,9 @@ SlabPlan plan_slabs(const VoxelGrid& whole, std::span<const double> work,
                      std::to_string(thinnest) + " of the " + std::to_string(whole.size[2]) +
                      " slices each, found " + std::to_string(count));
   }
-  plan.cuts = equal_shares(work, count, thinnest);
+  const Index slices = whole.size[2];
+  const Index thickest = options.bounded ? 2 * ((slices + count - 1) / count) : slices;
+  plan.cuts = EqualShares(work, {count, thinnest, thickest, plan.slices_in(options.again)}).cuts();
   return plan;
 }
 

@@ -10,8 +10,10 @@
 
 namespace mesamis {
 
-/// Overlaps in the thinnest slab: those of both borders, and as much between them.
+/// Overlaps in the thinnest slab of voxels: those of both borders, and as much between them.
 inline constexpr Index kOverlapsInSlab = 4;
+/// Overlaps in the thinnest slab of cells.
+inline constexpr Index kOverlapsInSlabOfCells = 3;
 
 /// How a scan is cut into slabs: blocks of slices that tasks work on one by one.
 struct SlabPlan {
@@ -30,6 +32,10 @@ struct SlabPlan {
   /// @return in units of unit_mm.
   /// @throws nothing
   double height_of_slice(Index k) const noexcept { return k * whole.spacing.z / unit_mm; }
+  /// The slice at or below a height; the first or the last for one outside. O(1).
+  /// @param height  in units of unit_mm.
+  /// @throws nothing
+  std::size_t slice_at(double height) const noexcept;
   /// The height where slab s begins; that of count() is where the last one ends. O(1).
   /// @return in units of unit_mm.
   /// @throws nothing
@@ -46,7 +52,7 @@ struct SlabPlan {
   /// @return in units of unit_mm.
   /// @throws nothing
   double thinnest() const noexcept;
-  /// How thick any plan's slabs are at least. O(1).
+  /// How thick slabs of voxels are at least. O(1).
   /// @return in units of unit_mm.
   /// @throws nothing
   double least_thickness() const noexcept { return kOverlapsInSlab * overlap; }
@@ -56,11 +62,14 @@ struct SlabPlan {
 struct SlabOptions {
   double unit_mm = 1;
   double beta = 2;  ///< of the functional: its root is the length that influences reach
-  std::optional<Index> slabs{};  ///< default: of 2^26 voxels in the mean
+  std::optional<Index> slabs{};      ///< default: of 2^26 voxels in the mean
+  Index thinnest = kOverlapsInSlab;  ///< slab, overlaps, if all work is there; 1 to the default
+  bool bounded = true;               ///< no slab has more than twice the mean number of slices
+  /// Length units. The work so near to a cut is done again, by the slab below.
+  double again = 0;
 };
 
-/// Cuts a scan so that all slabs have about the same work, and none more than twice the mean
-/// number of slices.
+/// Cuts a scan so that all slabs have about the same work.
 /// @param work  of each slice, any unit, >= 0.
 /// @throws InputError  if the slabs asked for are thinner than four overlaps.
 ///

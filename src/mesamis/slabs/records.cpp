@@ -26,29 +26,32 @@ void add(Iteration::Seconds& sum, const Iteration::Seconds& other) {
 
 }  // namespace
 
-Iteration sum_of_records(const std::vector<Iteration>& slabs, const std::vector<double>& shares) {
+Iteration sum_of_records(const std::vector<Iteration>& slabs) {
   Iteration sum;
   sum.amis = slabs.front().amis;
   for (std::size_t s = 0; s < slabs.size(); ++s) {
     const Iteration& slab = slabs[s];
+    const auto weight = static_cast<double>(slab.tets);
     sum.tets += slab.tets;
     sum.nodes += slab.nodes;
     sum.energy.fidelity += slab.energy.fidelity;
     sum.energy.smoothing += slab.energy.smoothing;
     sum.energy.edge += slab.energy.edge;
-    sum.surface_change += shares[s] * slab.surface_change;
-    sum.surface_tolerance += shares[s] * slab.surface_tolerance;
+    sum.surface_change += weight * slab.surface_change;
+    sum.surface_tolerance += weight * slab.surface_tolerance;
     sum.estimator += slab.estimator;
     sum.predicted_tets += slab.predicted_tets;
     if (s > 0) add(sum.amis, slab.amis);
     add(sum.seconds, slab.seconds);
     for (std::size_t a = 0; a < 3; ++a) {
       sum.aspect_max[a] = std::max(sum.aspect_max[a], slab.aspect_max[a]);
-      sum.aspect_mean[a] += static_cast<double>(slab.tets) * slab.aspect_mean[a];
+      sum.aspect_mean[a] += weight * slab.aspect_mean[a];
     }
   }
-  for (double& mean : sum.aspect_mean)
-    mean /= static_cast<double>(std::max<std::int64_t>(1, sum.tets));
+  const auto all = static_cast<double>(std::max<std::int64_t>(1, sum.tets));
+  for (double& mean : sum.aspect_mean) mean /= all;
+  sum.surface_change /= all;
+  sum.surface_tolerance /= all;
   return sum;
 }
 

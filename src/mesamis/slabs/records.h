@@ -8,10 +8,9 @@
 namespace mesamis::detail {
 
 /// Puts together what slabs have recorded of one pass: counts, energies and estimators add up; of
-/// the solvers' figures the worst counts; means are weighted. Where records are of slabs that
-/// overlap (on the grid; estimators on meshes), the sum counts what is common more than once.
-/// @param slabs   at least one.
-/// @param shares  of the surface, by slab; weights of surface_change.
-Iteration sum_of_records(const std::vector<Iteration>& slabs, const std::vector<double>& shares);
+/// the solvers' figures the worst counts; means are weighted by cells. Where records are of slabs
+/// that overlap (on the grid; estimators on meshes), the sum counts what is common more than once.
+/// @param slabs  at least one.
+Iteration sum_of_records(const std::vector<Iteration>& slabs);
 
 }  // namespace mesamis::detail

@@ -138,14 +138,15 @@ std::string of_mesh(const char* what, int k) { return what + (" " + std::to_stri
 
 /// All tasks on meshes: as many meshes as run_loop() would make.
 /// @return the number of the last mesh.
-int run_meshes(const MeshRun& run, Stages& stages) {
-  const Index slabs = run.plan.count();
+int run_meshes(MeshRun& run, Stages& stages) {
+  const Index slabs = run.count();
   stages.run("mesh 1", slabs, [&](Index s) { return first_mesh(run, s); });
   stages.run("borders 1", slabs - 1, [&](Index s) { return seam(run, 1, s); });
   int k = 1;
   for (bool settled = false; k < run.input.parameters.adaptations && !settled; ++k) {
     stages.run(of_mesh("minimise", k), slabs, [&](Index s) { return solve(run, k, s); });
-    stages.run(of_mesh("mesh", k + 1), slabs, [&](Index s) { return adapt_slab(run, k, s); });
+    plan_next_mesh(run);
+    stages.run(of_mesh("mesh", k + 1), slabs, [&](Index s) { return adapt_slab(run, k + 1, s); });
     stages.run(of_mesh("borders", k + 1), slabs - 1, [&](Index s) { return seam(run, k + 1, s); });
     settled = has_settled(run.input, records_of(run, k));
   }
@@ -220,7 +221,7 @@ SlabRunResult deliver(const MeshRun& run, int meshes, const Settings& settings,
   finish_surface(run.input, settings, progress, result);
   result.seconds.printable = watch.lap();
   all.plan = run.slabs.plan;
-  all.mesh_plan = run.plan;
+  all.mesh_plan = run.plan(meshes);
   all.slabs = work_of_slabs(run.slabs, stages, meshes);
   return all;
 }
@@ -317,7 +318,7 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
     return SlabWork{};
   });
   stages.run("prepare", run.plan.count(), [&](Index s) { return prepare_and_minimise(run, s); });
-  const MeshRun meshes(run);
+  MeshRun meshes(run);
   const int last = run_meshes(meshes, stages);
   if (team.rank() != 0) return std::nullopt;
   return deliver(meshes, last, settings, stages, progress);

@@ -29,8 +29,8 @@ struct SlabRunOptions {
 /// A result, and how it came about.
 struct SlabRunResult {
   Result result;
-  SlabPlan plan;       ///< of voxels
-  SlabPlan mesh_plan;  ///< of cells: as many slabs, cut elsewhere
+  SlabPlan plan;                ///< of voxels
+  SlabPlan mesh_plan;           ///< of the last mesh: as many slabs, cut elsewhere
   std::vector<SlabWork> slabs;  ///< one per slab
   std::int64_t own_rows = 0;    ///< rows without those that slabs have in common
   std::int64_t own_cells = 0;   ///< of all meshes, each cell once

@@ -48,8 +48,8 @@ void write_spline(const SlabRun& run, Index s, const SplineImage& image, const S
   const Slices own = slices_of(run.plan, s, 0);
   const VoxelGrid& whole = run.plan.whole;
   write_items<float>(run.scratch.path(kImageFile), whole.offset(0, 0, own.begin),
-               image.coefficients.subspan(image.grid.offset(0, 0, own.begin - held.begin),
-                                          image.grid.offset(0, 0, own.count())));
+                     image.coefficients.subspan(image.grid.offset(0, 0, own.begin - held.begin),
+                                                image.grid.offset(0, 0, own.count())));
 }
 
 SlabExtent extent_in(const SlabRun& run, Index s, const Prepared& prepared, const Slices& held) {
@@ -123,7 +123,7 @@ std::vector<double> complexities_of(const SlabPlan& plan, const Slices& own,
   std::vector<double> complexities(static_cast<std::size_t>(own.count()), 0);
   for (std::size_t k = 0; k < sums.size(); ++k) {
     const double height = window.box.lo.z + static_cast<double>(k) * grid.spacing.z;
-    const auto at = static_cast<Index>(std::floor(height / plan.height_of_slice(1) + 1e-6));
+    const auto at = static_cast<Index>(plan.slice_at(height));
     if (at >= own.begin && at < own.end) {
       complexities[static_cast<std::size_t>(at - own.begin)] += sums[k];
     }
@@ -131,33 +131,25 @@ std::vector<double> complexities_of(const SlabPlan& plan, const Slices& own,
   return complexities;
 }
 
-/// The slices of nodes around slab s of the meshes, from those who have them.
-std::vector<GridWindow> read_windows(const MeshRun& run, Index s, SlabWork& work) {
-  const SlabPlan& plan = run.slabs.plan;
-  const double low = run.plan.height(s) - plan.overlap;
-  const double high = run.plan.height(s + 1) + plan.overlap;
-  const Parameters& p = run.input.parameters;
-  std::vector<GridWindow> windows;
-  for (Index g = 0; g < plan.count(); ++g) {
-    if (plan.height(g + 1) <= low || plan.height(g) >= high) continue;
-    GridWindow& window = windows.emplace_back(read_nodes(
-        run.slabs.scratch.path(nodes_file(g)), run.grid[static_cast<std::size_t>(g)].frame, low,
-        high));
-    if (run.first_factor != 1) {
-      scale_log_sizes(window.log_metrics, run.first_factor, {p.h_min, p.h_max, 0});
+/// The complexity of the first mesh's metric in some slices.
+double complexity_in(const MeshRun& run, const Slices& slices) {
+  double sum = 0;
+  Index k = 0;
+  for (const GridSlab& slab : run.grid) {
+    for (const double complexity : slab.complexities) {
+      if (k >= slices.begin && k < slices.end) sum += complexity;
+      ++k;
     }
-    constexpr std::int64_t kBytesOfNode = 16;
-    if (g != s) work.bytes += kBytesOfNode * std::ssize(window.u);
   }
-  return windows;
+  return sum / std::pow(run.mesh(1).factor, 3);
 }
 
 /// Bricks of less than a slab's inner part, in the same columns in every slab, so that slabs fit.
 /// Their faces at the borders stay in the first mesh: larger ones would be far from what it needs.
 TetMesh start_mesh(const MeshRun& run, Index s) {
-  const SlabPlan& plan = run.plan;
+  const SlabPlan& plan = run.plan(1);
   const double size =
-      std::min(run.input.parameters.h_max, (plan.thinnest() - 2 * plan.overlap) / 1.5);
+      std::min(run.input.parameters.h_max, (plan.thinnest() - 2 * kSeam * plan.overlap) / 1.5);
   const Box box = box_of_slab(plan, s);
   const Vec3 extent = box.extent();
   std::array<Index, 3> bricks{};
@@ -183,8 +175,7 @@ SlabWork prepare_and_minimise(const SlabRun& run, Index g) {
   Prepared part{prepared.parameters, prepared.measured, cut_out(prepared.grey, held, seen), {}};
   prepared = {};
   const double around = static_cast<double>(seen.count()) / own.count();
-  const SlabFields fields =
-      minimise_on_slices(run, std::move(part), seen, around * extent.cells);
+  const SlabFields fields = minimise_on_slices(run, std::move(part), seen, around * extent.cells);
   const GridWindow nodes = slices_between(fields.window, plan.height(g), plan.height(g + 1));
   write_nodes(run.scratch.path(nodes_file(g)), nodes);
   ArchiveWriter archive;
@@ -215,22 +206,30 @@ std::vector<GridSlab> grid_slabs(const SlabRun& run) {
 
 void remove_grid_files(const SlabRun& run, Index g) { run.scratch.remove(nodes_file(g)); }
 
-SlabWork first_mesh(const MeshRun& run, Index s) {
-  const SlabPlan& plan = run.plan;
-  SlabWork work;
-  std::vector<GridWindow> windows = read_windows(run, s, work);
-  for (const Side side : {Side::kLow, Side::kHigh}) {
-    if (!has_neighbour(plan, s, side)) continue;
-    const double border = border_of(plan, s, side);
-    ArchiveWriter archive;
-    add_windows(archive, windows, border - 3 * plan.overlap, border + 3 * plan.overlap);
-    run.slabs.scratch.write(window_file(1, s, side), archive);
+std::unique_ptr<Background> grid_background(const MeshRun& run, double low, double high, Index own,
+                                            SlabWork& work) {
+  const SlabPlan& plan = run.slabs.plan;
+  const Parameters& p = run.input.parameters;
+  const double factor = run.mesh(1).factor;
+  std::vector<GridWindow> windows;
+  for (Index g = 0; g < plan.count(); ++g) {
+    if (plan.height(g + 1) <= low || plan.height(g) >= high) continue;
+    const GridWindow& frame = run.grid[static_cast<std::size_t>(g)].frame;
+    GridWindow& window =
+        windows.emplace_back(read_nodes(run.slabs.scratch.path(nodes_file(g)), frame, low, high));
+    if (factor != 1) scale_log_sizes(window.log_metrics, factor, {p.h_min, p.h_max, 0});
+    if (g != own) work.bytes += kBytesOfNode * std::ssize(window.u);
   }
-  const double cells = static_cast<double>(run.input.cells_after(1));
-  const double complexity =
-      run.shares[static_cast<std::size_t>(s)] * cells / kCellsPerComplexity;
-  const std::unique_ptr<Background> background = stack(std::move(windows));
-  work += hand_on(run, 1, s, adapted(run, 1, start_mesh(run, s), *background, complexity));
+  return stack(std::move(windows));
+}
+
+SlabWork first_mesh(const MeshRun& run, Index s) {
+  const SlabPlan& plan = run.plan(1);
+  SlabWork work;
+  const auto background = grid_background(run, plan.height(s) - plan.overlap,
+                                          plan.height(s + 1) + plan.overlap, s, work);
+  const double needed = complexity_in(run, slices_of(plan, s, 0));
+  hand_on(run, 1, s, adapted(run, 1, start_mesh(run, s), *background, needed), work);
   return work;
 }
 

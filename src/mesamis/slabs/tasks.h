@@ -16,10 +16,10 @@
 /// its own result there; it depends on nothing else, so that any process can do it at any time
 /// after those.
 ///
-/// For each mesh k, from 1: slabs adapt their own cells up to their borders (first_mesh(),
-/// adapt()), then the cells near each border between two slabs are adapted as a piece of their own
-/// (seam()), and the functional is minimised on each slab and what lies around it (solve(),
-/// finish()).
+/// For each mesh k, from 1: its slabs are cut (MeshRun, plan_next_mesh()); slabs adapt their own
+/// cells up to their borders (first_mesh(), adapt_slab()), then the cells near each border between
+/// two slabs are adapted as a piece of their own (seam()), and the functional is minimised on each
+/// slab and what lies around it (solve(), finish()).
 namespace mesamis::detail {
 
 /// What all tasks know.
@@ -54,22 +54,31 @@ std::vector<GridSlab> grid_slabs(const SlabRun& run);
 /// The file of the image's spline.
 inline constexpr const char* kImageFile = "image";
 
+/// What is known of a mesh before it is made.
+struct MeshPlan {
+  /// Of as many slabs as those of voxels; cuts give all the same number of cells, as the metric
+  /// predicts.
+  SlabPlan slabs;
+  std::vector<double> predicted;  ///< cells of each slab, as predicted, any unit
+  double complexity = 0;          ///< of its metric at most
+  double factor = 1;      ///< by which all sizes that were asked for are multiplied to keep that
+};
+
 /// What tasks on meshes know: parameters are final, the image is mapped.
 struct MeshRun {
   const SlabRun& slabs;
   Prepared prepared;  ///< grey without samples
   RunInput input;
   std::vector<GridSlab> grid;
-  /// Slabs of meshes: cuts that give all the same number of cells, as the first metric predicts.
-  /// The slabs of voxels have as many slices each.
-  SlabPlan plan;
-  std::vector<double> shares;  ///< of the predicted cells, by slab
-  /// By which all sizes on the grid are multiplied, so that the first mesh has the cells it may.
-  double first_factor = 1;
+  std::vector<MeshPlan> meshes;  ///< [k - 1] of mesh k: the first, and those of plan_next_mesh()
 
   explicit MeshRun(const SlabRun& run);
   MeshRun(const MeshRun&) = delete;
   MeshRun& operator=(const MeshRun&) = delete;
+
+  const MeshPlan& mesh(int k) const { return meshes[static_cast<std::size_t>(k - 1)]; }
+  const SlabPlan& plan(int k) const { return mesh(k).slabs; }
+  Index count() const { return slabs.plan.count(); }
 };
 
 /// Mesh 1 of slab s, from the grids around it.
@@ -78,7 +87,9 @@ SlabWork first_mesh(const MeshRun& run, Index s);
 SlabWork seam(const MeshRun& run, int k, Index s);
 /// Minimises on mesh k of slab s.
 SlabWork solve(const MeshRun& run, int k, Index s);
-/// Mesh k + 1 of slab s.
+/// Plans the mesh after the last one that is planned, when solve() of all its slabs is done.
+void plan_next_mesh(MeshRun& run);
+/// Mesh k of slab s, k from 2.
 SlabWork adapt_slab(const MeshRun& run, int k, Index s);
 /// Minimises on mesh k of slab s, the last one, as the result needs it.
 SlabWork finish(const MeshRun& run, int k, Index s);
