@@ -120,8 +120,8 @@ TEST(StackedBackground, TakesTheValuesOfEachPart) {
 
 TEST(StackedBackground, OfWindowsIsThatOfTheWhole) {
   const GridWindow whole = grid_window(2);
-  const auto all = stack({slices_between(whole, 0, 2), slices_between(whole, 2, 5),
-                          slices_between(whole, 5, 8)});
+  const auto all = stack(
+      {slices_between(whole, 0, 2), slices_between(whole, 2, 5), slices_between(whole, 5, 8)});
   expect_exact(*all, random_points(), 2, 1e-5);
 }
 

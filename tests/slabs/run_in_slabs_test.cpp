@@ -257,8 +257,8 @@ TEST(SlabRun, RefusesScratchFilesThatAreCutOff) {
   const SlabRunOptions options{.slabs = 2, .scratch = folder.path(), .keep_scratch = true};
   const SlabRunResult first = run_alone(scan, options);
   const fs::path files = folder / "mesamis-slabs";
-  for (const char* name : {"run", "choice", "image", "grid.0", "profile.1.0",
-                           "final.2.1", "done.prepare.0"}) {
+  for (const char* name :
+       {"run", "choice", "image", "grid.0", "profile.1.0", "final.2.1", "done.prepare.0"}) {
     const std::string bytes = read_bytes(files / name);
     ASSERT_FALSE(bytes.empty()) << name;
     write_bytes(files / name, bytes.substr(0, bytes.size() / 2));

@@ -71,7 +71,7 @@ void set_complexity(const KuhnGrid& grid, std::span<PackedSym3> log_metrics, dou
 
 /// Multiplies all sizes of logarithmic metrics by a factor, and clamps them.
 /// @param log_metrics  logarithms of n metrics in 1 / u^2; changed in place.
-/// @param factor       > 0.
+/// @param factor       > 0, no unit.
 /// @param control      bounds of the sizes, u; its complexity does not count.
 /// @throws nothing
 ///

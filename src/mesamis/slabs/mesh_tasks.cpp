@@ -393,7 +393,7 @@ SlabWork solve(const MeshRun& run, int k, Index s) {
 }
 
 // The remesher's cells per unit of complexity are taken to be those that the mesh was measured to
-// have.
+// have; but the first mesh has cells which only the bricks of its start ask for.
 void plan_next_mesh(MeshRun& run) {
   const auto k = static_cast<int>(run.meshes.size());
   const std::vector<Complexities> slices = complexities_of(run, k);
@@ -408,7 +408,8 @@ void plan_next_mesh(MeshRun& run) {
     cells += own;
     made.push_back(own / run.mesh(k).predicted[static_cast<std::size_t>(s)]);
   }
-  const double per_complexity = std::clamp(cells / run.mesh(k).complexity, 4.0, 20.0);
+  const double per_complexity =
+      k == 1 ? kCellsPerComplexity : std::clamp(cells / run.mesh(k).complexity, 4.0, 20.0);
   MeshPlan next;
   next.complexity = static_cast<double>(run.input.cells_after(k + 1)) / per_complexity;
   next.factor = factor_for(sum, next.complexity);

@@ -61,7 +61,7 @@ struct MeshPlan {
   SlabPlan slabs;
   std::vector<double> predicted;  ///< cells of each slab, as predicted, any unit
   double complexity = 0;          ///< of its metric at most
-  double factor = 1;      ///< by which all sizes that were asked for are multiplied to keep that
+  double factor = 1;  ///< by which all sizes that were asked for are multiplied to keep that
 };
 
 /// What tasks on meshes know: parameters are final, the image is mapped.
