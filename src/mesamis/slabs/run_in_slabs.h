@@ -51,8 +51,8 @@ struct SlabRunResult {
 ///
 /// @param source    read by slabs, see SliceSource.
 /// @param settings  valid; no preview, no crop, no band, and until the surface has settled.
-/// @param options   how many slabs, and where scratch files go: about 5 bytes per voxel and 200 per
-///                  cell. A folder with files of the same run is gone on with.
+/// @param options   how many slabs, and where scratch files go: about 20 bytes per voxel and 200
+///                  per cell. A folder with files of the same run is gone on with.
 /// @param team      the processes that all call this function with the same arguments.
 /// @return on rank 0; nothing elsewhere.
 /// @throws InputError  as mes_amis(), plan_slabs() and the source; or if the folder holds files of
