@@ -116,6 +116,13 @@ TEST(SizeControl, ScaledSizesStayWithinTheirBounds) {
   }
 }
 
+TEST(SizeControl, SizesAtTheLargestStay) {
+  const Sym3 largest = 0.25 * kIdentity3;
+  std::vector<PackedSym3> logs{pack(log_spd(largest))};
+  scale_log_sizes(logs, 0.5, {0.3, 2, 0});
+  EXPECT_NEAR(exp_sym(unpack(logs[0])).yy, largest.yy, 1e-6);
+}
+
 TEST(SizeControl, RefusesWeightsOfAnotherSize) {
   std::vector<Sym3> metrics(3);
   EXPECT_THROW(control_sizes(metrics, std::vector<double>(2, 1), {}), InputError);

@@ -74,6 +74,28 @@ TEST(SlabPlan, NoSlabIsThickerThanTwiceTheMean) {
   }
 }
 
+TEST(SlabPlan, EqualSlicesMakeEqualSlabs) {
+  EXPECT_EQ(plan_slabs(grid_of({20, 20, 200}), even_work(200), {.slabs = 5}).cuts,
+            (std::vector<Index>{0, 40, 80, 120, 160, 200}));
+  EXPECT_EQ(plan_slabs(grid_of({20, 20, 640}), even_work(640), {.slabs = 10}).cuts[9], 576);
+}
+
+TEST(SlabPlan, SlabsMayHaveMostSlicesWhereThatIsAsked) {
+  std::vector<double> work(400, 0);
+  for (std::size_t k = 240; k < 400; ++k) work[k] = 1;
+  const SlabPlan plan = plan_slabs(grid_of({20, 20, 400}), work, {.slabs = 4, .bounded = false});
+  EXPECT_EQ(plan.cuts, (std::vector<Index>{0, 280, 320, 360, 400}));
+}
+
+TEST(SlabPlan, WorkThatIsDoneAgainCountsForTheSlabBelow) {
+  const SlabOptions options{.slabs = 3, .again = 10};
+  const SlabPlan plan = plan_slabs(grid_of({20, 20, 400}), even_work(400), options);
+  // Two borders of twenty slices: 440 in all.
+  EXPECT_NEAR(plan.cuts[1], 440.0 / 3 - 20, 1);
+  EXPECT_NEAR(plan.cuts[2] - plan.cuts[1], 440.0 / 3 - 20, 1);
+  EXPECT_NEAR(400 - plan.cuts[2], 440.0 / 3, 2);
+}
+
 TEST(SlabPlan, RefusesSlabsThatWouldBeTooThin) {
   const auto plan = [](Index slices, Index count) {
     return plan_slabs(grid_of({20, 20, slices}), even_work(slices), {.slabs = count});
@@ -101,6 +123,11 @@ TEST(SlabPlan, LengthsAreInTheUnitOfTheMeshes) {
   const SlabPlan plan = plan_slabs(grid, even_work(101), options);
   EXPECT_EQ(plan.box().hi, (Vec3{40, 40, 400}));
   EXPECT_EQ(plan.height_of_slice(3), 12);
+  EXPECT_EQ(plan.slice_at(12), 3U);
+  EXPECT_EQ(plan.slice_at(15.9), 3U);
+  EXPECT_EQ(plan.slice_at(-5), 0U);
+  EXPECT_EQ(plan.slice_at(1e9), 100U);
+  EXPECT_EQ(plan.least_thickness(), 4 * plan.overlap);
   EXPECT_EQ(plan.height(0), 0);
   EXPECT_EQ(plan.height(1), 400);
   EXPECT_EQ(plan.slices_in(4), 1);

@@ -119,6 +119,18 @@ TEST_P(RunInSlabs, FindsWhatMesAmisFinds) {
 
 INSTANTIATE_TEST_SUITE_P(Slabs, RunInSlabs, testing::Values(2, 3));
 
+// Large scans have a grid of every second voxel: slabs need not begin at one.
+TEST(SlabRun, TheGridMayBeCoarserThanTheVoxels) {
+  const TempFolder folder;
+  Settings settings = quick_settings();
+  settings.stride = {2, 2, 2};
+  const Volume scan = scan_of_rod(99);
+  const SlabRunResult run = run_alone(scan, {.slabs = 3, .scratch = folder / "scratch"}, settings);
+  expect_sound(run, scan);
+  const Rod rod = rod_in(99);
+  EXPECT_LT(mean_distance(run.result, rod), 1.3 * mean_distance(mes_amis(scan, settings), rod));
+}
+
 // Where nothing is to be seen, cells are as large as a slab, and belong to pieces of its
 // neighbours.
 void expect_ball_at(const Vec3& middle) {

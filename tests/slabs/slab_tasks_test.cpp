@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "mesamis/slabs/mapped_items.h"
 #include "mesamis/slabs/mesh_files.h"
 #include "mesamis/slabs/tasks.h"

@@ -209,12 +209,16 @@ void set_complexity(const KuhnGrid& grid, std::span<PackedSym3> log_metrics, dou
 }
 
 void scale_log_sizes(std::span<PackedSym3> log_metrics, double factor,
-                     const SizeControl& control) {
+                     const SizeControl& size_control) {
   const double shift = -2 * std::log(factor);
-  const double lowest = -2 * std::log(control.h_max), highest = -2 * std::log(control.h_min);
+  const double lowest = -2 * std::log(size_control.h_max);
+  const double highest = -2 * std::log(size_control.h_min);
+  constexpr double kRounding = 1e-3;
   parallel_for(log_metrics.size(), [&](std::size_t n) {
     SymEigen e = eigen_of(log_metrics[n]);
-    for (double& value : e.values) value = std::clamp(value + shift, lowest, highest);
+    for (double& value : e.values) {
+      value = value <= lowest + kRounding ? lowest : std::clamp(value + shift, lowest, highest);
+    }
     log_metrics[n] = pack(compose(e.values, e.vectors));
   });
 }

@@ -51,6 +51,8 @@ SliceRange slice_range(const GridWindow& window, double low, double high);
 GridWindow frame_of(const GridWindow& window, const SliceRange& range);
 /// The slices of slice_range(), with their values.
 GridWindow slices_between(const GridWindow& window, double low, double high);
+
+/// Values at the nodes of a window.
 class GridBackground : public Background {
  public:
   explicit GridBackground(GridWindow window);

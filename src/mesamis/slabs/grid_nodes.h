@@ -8,7 +8,7 @@
 
 /// The nodes of the first grid on the disk: 16 bytes each, since a large scan has many. Numbers are
 /// rounded: u to 0.01 grey values, v to 3e-5, logarithms of metrics to 5e-4. They are first guesses
-/// and sizes of cells; nothing that is delivered is made of them.
+/// and sizes of cells.
 namespace mesamis::detail {
 
 inline constexpr std::int64_t kBytesOfNode = 16;

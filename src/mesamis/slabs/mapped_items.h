@@ -17,9 +17,12 @@ struct MappedBytes {
   std::shared_ptr<const void> owner;  ///< keeps it mapped
 };
 
+/// As make_item_file() for bytes.
 void make_file(const std::filesystem::path& path, std::size_t bytes);
+/// As write_items() for bytes.
 void write_at(const std::filesystem::path& path, std::size_t first,
               std::span<const std::byte> bytes);
+/// As map_items() for bytes.
 MappedBytes map_file(const std::filesystem::path& path, std::size_t bytes);
 
 /// Makes a file of so many items, all zero; one that is there already loses what it held.
@@ -39,6 +42,7 @@ void write_items(const std::filesystem::path& path, std::size_t first,
   write_at(path, first * sizeof(Item), std::as_bytes(items));
 }
 
+/// As MappedBytes, for items.
 template <class Item>
 struct MappedItems {
   std::span<const Item> values;

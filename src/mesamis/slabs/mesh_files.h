@@ -2,12 +2,11 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "mesamis/slabs/background.h"
 #include "mesamis/slabs/tasks.h"
 
-/// What the tasks on meshes share: names of files, and how a slab hands its mesh on.
+/// What the tasks on voxels and on meshes share.
 namespace mesamis::detail {
 
 /// How far from a border cells are adapted again, in overlaps: farther, and more is done twice.

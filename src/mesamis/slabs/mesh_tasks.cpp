@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "mesamis/base/error.h"
@@ -13,6 +15,7 @@
 #include "mesamis/remesh/piece.h"
 #include "mesamis/slabs/mapped_items.h"
 #include "mesamis/slabs/mesh_files.h"
+#include "mesamis/slabs/profile.h"
 #include "mesamis/slabs/records.h"
 #include "mesamis/slabs/tasks.h"
 
@@ -121,86 +124,30 @@ constexpr double kSlackOfFirstMesh = 0.05;
 /// A piece may have so many cells at least.
 constexpr std::int64_t kFewestInPiece = 1000;
 
-/// Factors of sizes for which complexities are told: what lies between is interpolated.
-constexpr std::size_t kFactors = 97;
-using Complexities = std::array<double, kFactors>;
-
-std::vector<double> factors() {
-  constexpr double kMost = 12;  // of the logarithm
-  std::vector<double> all(kFactors);
-  for (std::size_t i = 0; i < kFactors; ++i) {
-    all[i] = std::exp(kMost * static_cast<double>(i) / (kFactors - 1));
-  }
-  return all;
-}
-
-/// What slabs tell each other of a mesh, to choose the sizes of the next one and its slabs.
-struct Profile {
-  Index first_slice = 0;
-  std::vector<Complexities> slices;  ///< of the nodes in each slice, for each of factors()
+/// Between the lowest and the highest centroid of a slab's cells: they need not lie between its
+/// borders, since they come of cells that do.
+struct Heights {
+  double low = 0, high = 0;
 };
 
-/// Where all sizes are multiplied by a factor.
-double complexity_at(const Complexities& c, double factor) {
-  const std::vector<double> all = factors();
-  std::size_t i = 1;
-  while (i + 1 < kFactors && all[i] < factor) ++i;
-  const double share = std::log(factor / all[i - 1]) / std::log(all[i] / all[i - 1]);
-  return c[i - 1] > 0 ? c[i - 1] * std::pow(c[i] / c[i - 1], share) : 0;
-}
-
-/// The factor by which all sizes are multiplied to bring the complexity to a bound.
-double factor_for(const Complexities& c, double bound) {
-  const std::vector<double> all = factors();
-  if (c[0] <= bound) return 1;
-  std::size_t i = 1;
-  while (i + 1 < kFactors && c[i] > bound) ++i;
-  const double share = std::log(c[i - 1] / bound) / std::log(c[i - 1] / c[i]);
-  return all[i - 1] * std::pow(all[i] / all[i - 1], std::min(share, 1.0));
-}
-
-/// @param own  a slab's own part of a mesh, with the metrics that are asked for.
-Profile profile_of(const MeshRun& run, const Piece& own) {
-  const SlabPlan& plan = run.slabs.plan;
-  const Parameters& p = run.input.parameters;
-  const std::vector<std::uint8_t> all(own.mesh.cells.size(), 1);
-  const std::vector<double> mass = lumped_mass_of(own.mesh, all);
-  std::vector<std::vector<std::size_t>> nodes(static_cast<std::size_t>(plan.whole.size[2]));
-  for (std::size_t n = 0; n < mass.size(); ++n)
-    nodes[plan.slice_at(own.mesh.points[n].z)].push_back(n);
-  Profile profile;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    if (profile.slices.empty() && nodes[k].empty()) continue;
-    if (profile.slices.empty()) profile.first_slice = static_cast<Index>(k);
-    std::vector<Sym3> metrics;
-    std::vector<double> weights;
-    for (const std::size_t n : nodes[k]) {
-      metrics.push_back(own.nodes[n].metric);
-      weights.push_back(mass[n]);
-    }
-    const auto found = clamped_complexities(metrics, weights, {p.h_min, p.h_max, 0}, factors());
-    std::copy(found.begin(), found.end(), profile.slices.emplace_back().begin());
+Heights heights_of(const TetMesh& mesh) {
+  Heights heights{std::numeric_limits<double>::infinity(),
+                  -std::numeric_limits<double>::infinity()};
+  for (const Cell& cell : mesh.cells) {
+    const double height = height_of(mesh, cell);
+    heights = {std::min(heights.low, height), std::max(heights.high, height)};
   }
-  return profile;
+  return heights;
 }
 
 /// What was recorded of the minimisation on a mesh that is not the last.
-Iteration mesh_record(const MeshRun& run, int k, Index s) {
-  return run.slabs.scratch.read(file_of("record", k, s)).next_one<Iteration>();
-}
+struct MeshRecord {
+  Iteration iteration;
+  Heights heights;
+};
 
-/// Of all slices.
-std::vector<Complexities> complexities_of(const MeshRun& run, int k) {
-  std::vector<Complexities> all(static_cast<std::size_t>(run.slabs.plan.whole.size[2]));
-  for (Index s = 0; s < run.count(); ++s) {
-    ArchiveReader archive = run.slabs.scratch.read(file_of("profile", k, s));
-    auto slice = archive.next_one<Index>();
-    for (const Complexities& some : archive.next<Complexities>()) {
-      Complexities& sum = all.at(static_cast<std::size_t>(slice++));
-      for (std::size_t i = 0; i < kFactors; ++i) sum[i] += some[i];
-    }
-  }
-  return all;
+MeshRecord mesh_record(const MeshRun& run, int k, Index s) {
+  return run.slabs.scratch.read(file_of("record", k, s)).next_one<MeshRecord>();
 }
 
 /// The cells of mesh k that were minimised on between two heights, with their fields, and the
@@ -209,10 +156,10 @@ std::vector<Complexities> complexities_of(const MeshRun& run, int k) {
 /// @param work  where the bytes of others are counted.
 Piece solved_between(const MeshRun& run, int k, double low, double high, Index own,
                      SlabWork& work) {
-  const SlabPlan& plan = run.plan(k);
   std::vector<Piece> pieces;
-  for (Index t = 0; t < plan.count(); ++t) {
-    if (plan.height(t + 1) <= low || plan.height(t) >= high) continue;
+  for (Index t = 0; t < run.count(); ++t) {
+    const Heights heights = mesh_record(run, k, t).heights;
+    if (heights.high < low || heights.low >= high) continue;
     const Piece piece =
         read_piece(run.slabs.scratch, file_of("solved", k, t), t == own ? nullptr : &work);
     pieces.push_back(select(piece, [&](const Cell& cell) {
@@ -239,13 +186,68 @@ void cut_mesh(const SlabRun& run, const std::vector<double>& cells, bool bounded
                           {.unit_mm = plan.unit_mm,
                            .beta = run.choice.parameters.functional.beta,
                            .slabs = plan.count(),
-                           .thinnest = kOverlapsInSlabOfCells,
                            .bounded = bounded,
                            .again = kReachOfSeam * plan.overlap});
   for (Index s = 0; s < plan.count(); ++s) {
     const auto* cut = &mesh.slabs.cuts[static_cast<std::size_t>(s)];
     mesh.predicted.push_back(std::accumulate(cells.begin() + cut[0], cells.begin() + cut[1], 0.0));
   }
+}
+
+/// The slabs asked for as many cells as their own surfaces need; now it is known how many there may
+/// be.
+MeshPlan plan_first_mesh(const MeshRun& run) {
+  std::vector<double> complexities;  // of the slices
+  for (const GridSlab& slab : run.grid) {
+    complexities.insert(complexities.end(), slab.complexities.begin(), slab.complexities.end());
+  }
+  MeshPlan first;
+  // Each slice of the grid that a slab sees is in its memory.
+  cut_mesh(run.slabs, complexities, true, first);
+  first.complexity = static_cast<double>(run.input.cells_after(1)) / kCellsPerComplexity;
+  const double asked = std::accumulate(complexities.begin(), complexities.end(), 0.0);
+  const double excess = std::log(asked / first.complexity);
+  if (std::abs(excess) > kSlackOfFirstMesh) first.factor = std::exp(excess / 3);
+  return first;
+}
+
+/// The cells of each slab of mesh k.
+std::vector<double> cells_of_slabs(const MeshRun& run, int k) {
+  std::vector<double> cells;
+  for (Index s = 0; s < run.count(); ++s) {
+    cells.push_back(static_cast<double>(mesh_record(run, k, s).iteration.tets));
+  }
+  return cells;
+}
+
+/// The cells of each slice of mesh k + 1, any unit: as the metric has it, and as each slab of mesh
+/// k came to have more or fewer cells than were predicted.
+/// @param cells  of the slabs of mesh k.
+std::vector<double> predicted_cells(const MeshRun& run, int k,
+                                    const std::vector<Complexities>& slices,
+                                    const std::vector<double>& cells, double factor) {
+  std::vector<double> predicted;
+  for (std::size_t s = 0; s < cells.size(); ++s) {
+    const double before = run.mesh(k).predicted[s];
+    const double made = before > 0 ? cells[s] / before : 1;
+    const auto* cut = &run.plan(k).cuts[s];
+    for (Index slice = cut[0]; slice < cut[1]; ++slice) {
+      predicted.push_back(made * complexity_at(slices[static_cast<std::size_t>(slice)], factor));
+    }
+  }
+  return predicted;
+}
+
+/// No cell was lost between slabs.
+void require_full(const TetMesh& mesh, const Box& box) {
+  double volume = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    volume += cell_volume(mesh, static_cast<Index>(c));
+  }
+  constexpr double kRoundOff = 1e-9;
+  if (std::abs(volume / box.volume() - 1) < kRoundOff) return;
+  throw NumericalError("slabs: expected a mesh that fills its box, found one of " +
+                       std::to_string(volume / box.volume()) + " of its volume");
 }
 
 /// The record of a pass, as far as it is the slab's own, to be added up.
@@ -316,29 +318,18 @@ MeshRun::MeshRun(const SlabRun& run)
       input(prepared),
       grid(grid_slabs(run)) {
   const VoxelGrid& whole = run.plan.whole;
-  double cells = 0;
-  std::vector<double> complexities;  // of the slices
-  for (const GridSlab& slab : grid) {
-    cells += slab.extent.cells;
-    complexities.insert(complexities.end(), slab.complexities.begin(), slab.complexities.end());
-  }
   Parameters& p = prepared.parameters;
   if (p.max_tets == 0) {
+    double cells = 0;
+    for (const GridSlab& slab : grid) cells += slab.extent.cells;
     p.max_tets = std::llround(
         std::clamp<double>(cells, kFewestTets, static_cast<double>(kMostTets) * count()));
   }
-  // Each slice of the grid that a slab sees is in its memory.
-  MeshPlan& first = meshes.emplace_back();
-  cut_mesh(run, complexities, true, first);
-  first.complexity = static_cast<double>(input.cells_after(1)) / kCellsPerComplexity;
-  // The slabs asked for as many cells as their own surfaces need.
-  const double asked = std::accumulate(complexities.begin(), complexities.end(), 0.0);
-  const double excess = std::log(asked / first.complexity);
-  if (std::abs(excess) > kSlackOfFirstMesh) first.factor = std::exp(excess / 3);
   static_cast<VoxelGrid&>(prepared.grey) = whole;
   auto mapped = map_items<float>(run.scratch.path(kImageFile), whole.voxel_count());
   prepared.image = {whole, mapped.values, grid[0].extent.low, grid[0].extent.high, mapped.owner};
   input.box = run.plan.box();
+  meshes.push_back(plan_first_mesh(*this));
 }
 
 SlabWork seam(const MeshRun& run, int k, Index s) {
@@ -350,8 +341,8 @@ SlabWork seam(const MeshRun& run, int k, Index s) {
   const std::array<const Piece*, 2> both{&below, &above};
   const TetMesh start = join(both).mesh;
   const Box box = bounding_box(start.points);
-  // Cells of the mesh before may be so large.
-  const double around = plan.least_thickness();
+  // Cells of the mesh before may be as large as a slab.
+  const double around = k == 1 ? 0 : plan.least_thickness();
   const double low = box.lo.z - around, high = box.hi.z + around;
   std::unique_ptr<Background> background;
   if (k == 1) {
@@ -381,11 +372,10 @@ SlabWork solve(const MeshRun& run, int k, Index s) {
   for (std::size_t n = 0; n < metric.size(); ++n) piece.nodes[n].metric = metric[n];
   const Piece own = own_part(local);
   record_own(run, own, record);
-  const Profile profile = profile_of(run, own);
+  const Parameters& p = run.input.parameters;
   ArchiveWriter recorded, told;
-  recorded.add_one(record);
-  told.add_one(profile.first_slice);
-  told.add(profile.slices);
+  recorded.add_one(MeshRecord{record, heights_of(own.mesh)});
+  add_profile(told, profile_of(run.slabs.plan, own, {p.h_min, p.h_max, 0}));
   write_piece(run.slabs.scratch, file_of("solved", k, s), own);
   run.slabs.scratch.write(file_of("record", k, s), recorded);
   run.slabs.scratch.write(file_of("profile", k, s), told);
@@ -396,32 +386,18 @@ SlabWork solve(const MeshRun& run, int k, Index s) {
 // have; but the first mesh has cells which only the bricks of its start ask for.
 void plan_next_mesh(MeshRun& run) {
   const auto k = static_cast<int>(run.meshes.size());
-  const std::vector<Complexities> slices = complexities_of(run, k);
-  Complexities sum{};
-  for (const Complexities& some : slices) {
-    for (std::size_t i = 0; i < kFactors; ++i) sum[i] += some[i];
-  }
-  double cells = 0;
-  std::vector<double> made;  // cells against those predicted, by slab
+  std::vector<Complexities> slices(static_cast<std::size_t>(run.slabs.plan.whole.size[2]));
   for (Index s = 0; s < run.count(); ++s) {
-    const auto own = static_cast<double>(mesh_record(run, k, s).tets);
-    cells += own;
-    made.push_back(own / run.mesh(k).predicted[static_cast<std::size_t>(s)]);
+    ArchiveReader archive = run.slabs.scratch.read(file_of("profile", k, s));
+    add_next_profile(archive, slices);
   }
-  const double per_complexity =
-      k == 1 ? kCellsPerComplexity : std::clamp(cells / run.mesh(k).complexity, 4.0, 20.0);
+  const std::vector<double> cells = cells_of_slabs(run, k);
+  const double made = std::accumulate(cells.begin(), cells.end(), 0.0) / run.mesh(k).complexity;
+  const double per_complexity = k == 1 ? kCellsPerComplexity : std::clamp(made, 4.0, 20.0);
   MeshPlan next;
   next.complexity = static_cast<double>(run.input.cells_after(k + 1)) / per_complexity;
-  next.factor = factor_for(sum, next.complexity);
-  std::vector<double> predicted;
-  for (Index s = 0; s < run.count(); ++s) {
-    const auto* cut = &run.plan(k).cuts[static_cast<std::size_t>(s)];
-    for (Index slice = cut[0]; slice < cut[1]; ++slice) {
-      predicted.push_back(made[static_cast<std::size_t>(s)] *
-                          complexity_at(slices[static_cast<std::size_t>(slice)], next.factor));
-    }
-  }
-  cut_mesh(run.slabs, predicted, false, next);
+  next.factor = factor_for(sum_of(slices), next.complexity);
+  cut_mesh(run.slabs, predicted_cells(run, k, slices, cells, next.factor), false, next);
   run.meshes.push_back(std::move(next));
 }
 
@@ -465,7 +441,7 @@ std::vector<Iteration> records_of(const MeshRun& run, int k) {
   passes.push_back(sum_of_records(records));
   for (int mesh = 1; mesh <= k; ++mesh) {
     for (Index s = 0; s < run.count(); ++s) {
-      records[static_cast<std::size_t>(s)] = mesh_record(run, mesh, s);
+      records[static_cast<std::size_t>(s)] = mesh_record(run, mesh, s).iteration;
     }
     passes.push_back(sum_of_records(records));
   }
@@ -484,6 +460,7 @@ Finished collect(const MeshRun& run, int k) {
   }
   finished.passes.push_back(sum_of_records(records));
   finished.whole = join_all(pieces);
+  require_full(finished.whole.mesh, run.input.box);
   return finished;
 }
 

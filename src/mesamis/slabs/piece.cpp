@@ -89,15 +89,15 @@ double height_of(const TetMesh& mesh, const Cell& cell) {
 }
 
 bool is_near(const TetMesh& mesh, const Cell& cell, double height, double distance) {
-  return std::any_of(cell.begin(), cell.end(), [&](Index corner) {
-    return std::abs(mesh.points[corner].z - height) < distance;
-  });
+  const auto heights = {mesh.points[cell[0]].z, mesh.points[cell[1]].z, mesh.points[cell[2]].z,
+                        mesh.points[cell[3]].z};
+  const auto [lowest, highest] = std::minmax(heights);
+  return lowest - distance < height && height < highest + distance;
 }
 
-std::vector<double> lumped_mass_of(const TetMesh& mesh, std::span<const std::uint8_t> chosen) {
+std::vector<double> lumped_mass_of(const TetMesh& mesh) {
   std::vector<double> mass(mesh.points.size(), 0);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    if (chosen[c] == 0) continue;
     const double quarter = cell_volume(mesh, static_cast<Index>(c)) / 4;
     for (const Index corner : mesh.cells[c]) mass[corner] += quarter;
   }

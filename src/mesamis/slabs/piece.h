@@ -48,10 +48,10 @@ std::vector<Value> values_of(const Piece& piece, Value NodeValues::*which) {
 /// The height of a cell's centroid.
 double height_of(const TetMesh& mesh, const Cell& cell);
 
-/// Whether a corner of the cell is nearer to a height than this.
+/// Whether some of the cell is nearer to a height than this.
 bool is_near(const TetMesh& mesh, const Cell& cell, double height, double distance);
 
-/// Of each point, a quarter of the volume of the cells around it that are chosen.
-std::vector<double> lumped_mass_of(const TetMesh& mesh, std::span<const std::uint8_t> chosen);
+/// Of each point, a quarter of the volume of the cells around it.
+std::vector<double> lumped_mass_of(const TetMesh& mesh);
 
 }  // namespace mesamis::detail

@@ -47,7 +47,8 @@ class EqualShares {
       const std::vector<Index> found = cuts_for(share);
       (between(found[found.size() - 2], slices_) > share ? low : high) = share;
     }
-    return cuts_for(high);
+    constexpr double kRoundOff = 1e-9;
+    return cuts_for((1 - kRoundOff) * high);
   }
 
  private:

@@ -10,10 +10,8 @@
 
 namespace mesamis {
 
-/// Overlaps in the thinnest slab of voxels: those of both borders, and as much between them.
+/// Overlaps in the thinnest slab: those of both borders, and as much between them.
 inline constexpr Index kOverlapsInSlab = 4;
-/// Overlaps in the thinnest slab of cells.
-inline constexpr Index kOverlapsInSlabOfCells = 3;
 
 /// How a scan is cut into slabs: blocks of slices that tasks work on one by one.
 struct SlabPlan {
@@ -52,7 +50,7 @@ struct SlabPlan {
   /// @return in units of unit_mm.
   /// @throws nothing
   double thinnest() const noexcept;
-  /// How thick slabs of voxels are at least. O(1).
+  /// How thick slabs are at least, but for a slice at the end of the scan. O(1).
   /// @return in units of unit_mm.
   /// @throws nothing
   double least_thickness() const noexcept { return kOverlapsInSlab * overlap; }
@@ -62,9 +60,8 @@ struct SlabPlan {
 struct SlabOptions {
   double unit_mm = 1;
   double beta = 2;  ///< of the functional: its root is the length that influences reach
-  std::optional<Index> slabs{};      ///< default: of 2^26 voxels in the mean
-  Index thinnest = kOverlapsInSlab;  ///< slab, overlaps, if all work is there; 1 to the default
-  bool bounded = true;               ///< no slab has more than twice the mean number of slices
+  std::optional<Index> slabs{};  ///< default: of 2^26 voxels in the mean
+  bool bounded = true;           ///< no slab has more than twice the mean number of slices
   /// Length units. The work so near to a cut is done again, by the slab below.
   double again = 0;
 };

@@ -51,7 +51,8 @@ struct SlabRunResult {
 ///
 /// @param source    read by slabs, see SliceSource.
 /// @param settings  valid; no preview, no crop, no band, and until the surface has settled.
-/// @param options   how many slabs, and where scratch files go: about 20 bytes per voxel and 200
+/// @param options   how many slabs, and where scratch files go: about 4 bytes per voxel, 16 per
+/// node of the first grid, 200
 ///                  per cell. A folder with files of the same run is gone on with.
 /// @param team      the processes that all call this function with the same arguments.
 /// @return on rank 0; nothing elsewhere.

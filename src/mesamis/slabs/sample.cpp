@@ -2,7 +2,6 @@
 #include "mesamis/slabs/sample.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "mesamis/base/parallel.h"
 

@@ -9,10 +9,11 @@
 
 namespace mesamis::detail {
 
-/// The folder through which the tasks of a run hand their results on. A file in it is whole: it
-/// appears under its name when all of it is written. So a run that was killed goes on where it was.
-/// AtomicFile would bring each of the many files to the disk at once, and tells by locks of one
-/// machine which unfinished files are abandoned.
+/// The folder through which the tasks of a run hand their results on. A file that it
+/// writes is whole: it appears under its name when all of it is written. (Those of mapped_items.h
+/// are written in place; tasks are done when they say so.) So a run that was killed goes on where
+/// it was. AtomicFile would bring each of the many files to the disk at once, and tells by locks of
+/// one machine which unfinished files are abandoned.
 class Scratch {
  public:
   /// @param folder  where a folder of the run's own is made, if there is none.

@@ -109,8 +109,8 @@ Box box_of_slab(const SlabPlan& plan, Index s) {
 
 /// The integral of sqrt(det M) over the slices that slab g owns, each node's share in its slice:
 /// how many cells they will have, but for a factor.
-std::vector<double> complexities_of(const SlabPlan& plan, const Slices& own,
-                                    const GridWindow& window) {
+std::vector<double> complexities_of_slices(const SlabPlan& plan, const Slices& own,
+                                           const GridWindow& window) {
   const KuhnGrid grid = grid_of(window);
   const GridMass mass(grid);
   const auto slice = static_cast<std::size_t>(window.size[0]) * window.size[1];
@@ -182,7 +182,7 @@ SlabWork prepare_and_minimise(const SlabRun& run, Index g) {
   archive.add_one(nodes.box);
   archive.add_one(nodes.size);
   archive.add_one(extent);
-  archive.add(complexities_of(plan, own, fields.window));
+  archive.add(complexities_of_slices(plan, own, fields.window));
   archive.add_one(fields.record);
   run.scratch.write(grid_file(g), archive);
   const auto slice = static_cast<std::int64_t>(plan.whole.offset(0, 0, 1));
@@ -226,8 +226,7 @@ std::unique_ptr<Background> grid_background(const MeshRun& run, double low, doub
 SlabWork first_mesh(const MeshRun& run, Index s) {
   const SlabPlan& plan = run.plan(1);
   SlabWork work;
-  const auto background = grid_background(run, plan.height(s) - plan.overlap,
-                                          plan.height(s + 1) + plan.overlap, s, work);
+  const auto background = grid_background(run, plan.height(s), plan.height(s + 1), s, work);
   const double needed = complexity_in(run, slices_of(plan, s, 0));
   hand_on(run, 1, s, adapted(run, 1, start_mesh(run, s), *background, needed), work);
   return work;

@@ -14,6 +14,7 @@ set(ROOM_SOURCES
   mesh_tasks.cpp
   piece.cpp
   plan.cpp
+  profile.cpp
   records.cpp
   run_in_slabs.cpp
   sample.cpp
