@@ -10,7 +10,7 @@
 namespace mesamis::detail {
 
 /// How far from a border cells are adapted again, in overlaps: farther, and more is done twice.
-inline constexpr double kSeam = 0.35;
+inline constexpr double kSeam = 0.4;
 
 enum class Side { kLow, kHigh };
 inline Side opposite(Side side) { return side == Side::kLow ? Side::kHigh : Side::kLow; }
