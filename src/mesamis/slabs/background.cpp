@@ -124,10 +124,9 @@ std::unique_ptr<Background> stack(std::vector<GridWindow> windows) {
   std::vector<std::unique_ptr<Background>> parts;
   std::vector<double> tops;
   for (GridWindow& window : windows) {
-    tops.push_back(window.box.hi.z);
+    if (parts.size() + 1 < windows.size()) tops.push_back(window.box.hi.z);
     parts.push_back(std::make_unique<GridBackground>(std::move(window)));
   }
-  tops.pop_back();
   return std::make_unique<StackedBackground>(std::move(parts), std::move(tops));
 }
 
