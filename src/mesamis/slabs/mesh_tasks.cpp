@@ -214,6 +214,7 @@ MeshPlan plan_first_mesh(const MeshRun& run) {
 /// The cells of each slab of mesh k.
 std::vector<double> cells_of_slabs(const MeshRun& run, int k) {
   std::vector<double> cells;
+  cells.reserve(static_cast<std::size_t>(run.count()));
   for (Index s = 0; s < run.count(); ++s) {
     cells.push_back(static_cast<double>(mesh_record(run, k, s).iteration.tets));
   }
