@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/self_intersections.h"
 #include "mesamis/surface/tri_mesh.h"
@@ -71,6 +73,18 @@ TEST(SplitEdges, SameBitsForAnyNumberOfThreads) {
   const auto split = [] { return split_edges(cube(), longer_than(0.05), kRounds); };
   const TriMesh one = with_threads(1, split), three = with_threads(3, split);
   EXPECT_EQ(one.triangles, three.triangles);
+}
+
+TEST(SplitEdges, LeavesEdgesBetweenHeldPoints) {
+  const TriMesh before = cube();
+  std::vector<char> held(before.points.size(), 0);
+  held[before.triangles[0][0]] = held[before.triangles[0][1]] = held[before.triangles[0][2]] = 1;
+  const TriMesh after = split_edges(
+      before, [](const Vec3&, const Vec3&) { return true; }, 4, held);
+  EXPECT_EQ(flaws_of(check_surface(after)), "");
+  EXPECT_EQ(std::count(after.triangles.begin(), after.triangles.end(), before.triangles[0]), 1);
+  EXPECT_EQ(after.triangles[0], before.triangles[0]) << "in the order of what they are parts of";
+  EXPECT_GT(after.triangles.size(), 8 * before.triangles.size());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace mesamis {
 /// How extract_solid() treats the box and the places between nodes.
 struct SolidOptions {
   bool close_at_box = true;  ///< cap the object where it meets the box, so that it is closed
+  /// The box, mm; default: that of the mesh. A part of a mesh is not closed where others go on.
+  std::optional<Box> box{};
   /// Where the object's surface crosses the edge from a to b (mm), 0 at a to 1 at b; none: where
   /// the linear function does. For a function that is known between the nodes. Called in threads.
   std::function<double(const Vec3& a, const Vec3& b)> crossing{};

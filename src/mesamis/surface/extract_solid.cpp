@@ -27,9 +27,10 @@ Index site_end(Site s) { return static_cast<Index>(s & 0xffffffffu); }
 /// {u > level} on one mesh, cell by cell.
 class Marcher {
  public:
-  Marcher(const TetMesh& mesh, std::span<const double> u, double level, bool close_at_box)
+  Marcher(const TetMesh& mesh, std::span<const double> u, double level, const SolidOptions& options)
       : mesh_(mesh), u_(u), level_(level) {
-    if (close_at_box) planes_ = box_planes(mesh);
+    if (!options.close_at_box) return;
+    planes_ = box_planes(mesh, options.box ? *options.box : bounding_box(mesh.points));
   }
 
   /// The surface's position at a site.
@@ -163,7 +164,7 @@ void require_values(const TetMesh& mesh, std::span<const double> u, double level
 TriMesh extract_solid(const TetMesh& mesh, std::span<const double> u, double level,
                       const SolidOptions& options) {
   require_values(mesh, u, level);
-  const Marcher marcher(mesh, u, level, options.close_at_box);
+  const Marcher marcher(mesh, u, level, options);
   const std::vector<SiteTriangle> triangles = march_all(mesh, marcher);
   const std::vector<Site> sites = unique_sites(triangles);
   TriMesh surface;

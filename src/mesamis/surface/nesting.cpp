@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <tuple>
+#include <utility>
 
 #include "mesamis/mesh/tet_mesh.h"
 
@@ -13,11 +14,12 @@ namespace {
 /// Whether the ray's foot lies left of the edge from a to b, seen along x. Symbolic perturbation: a
 /// foot on the edge counts as moved by an infinitesimal step in y, and an even smaller one in z, so
 /// that a ray through an edge or a point crosses the triangles that a ray beside it crosses. Both
-/// triangles of an edge start from its lower point and get the same result.
+/// triangles of an edge start from the same point, whatever its numbers in them, and get the same
+/// result.
 bool is_left(const TriMesh& surface, Index a, Index b, const Vec3& foot) {
-  const bool swapped = a > b;
-  if (swapped) std::swap(a, b);
-  const Vec3 &p = surface.points[a], &q = surface.points[b];
+  Vec3 p = surface.points[a], q = surface.points[b];
+  const bool swapped = std::tie(p.x, p.y, p.z) > std::tie(q.x, q.y, q.z);
+  if (swapped) std::swap(p, q);
   double turn = (q.y - p.y) * (foot.z - p.z) - (q.z - p.z) * (foot.y - p.y);
   if (turn == 0) turn = p.z - q.z;
   if (turn == 0) turn = q.y - p.y;
@@ -36,26 +38,18 @@ bool crosses(const TriMesh& surface, const Triangle& t, const Vec3& foot) {
   return a.x - (normal.y * (foot.y - a.y) + normal.z * (foot.z - a.z)) / normal.x < foot.x;
 }
 
-/// One point of each component, in bins by y and z.
+/// Points in bins by y and z.
 class Feet {
  public:
-  Feet(const TriMesh& surface, const SurfaceComponents& components)
-      : box_(bounding_box(surface.points)),
-        side_(std::clamp<Index>(
-            static_cast<Index>(std::sqrt(static_cast<double>(components.sizes.size()))), 1, 1000)),
-        bins_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_)),
-        feet_(components.sizes.size()) {
-    std::vector<char> known(feet_.size(), 0);
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-      const Index c = components.of_triangle[t];
-      if (c == kNoIndex || known[c]) continue;
-      known[c] = 1;
-      feet_[c] = surface.points[surface.triangles[t][0]];
-      bins_[bin(column(feet_[c].y, 1), column(feet_[c].z, 2))].push_back(c);
+  explicit Feet(std::span<const Vec3> feet)
+      : box_(bounding_box(feet)),
+        side_(std::clamp<Index>(static_cast<Index>(std::sqrt(static_cast<double>(feet.size()))), 1,
+                                1000)),
+        bins_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_)) {
+    for (std::size_t c = 0; c < feet.size(); ++c) {
+      bins_[bin(column(feet[c].y, 1), column(feet[c].z, 2))].push_back(static_cast<Index>(c));
     }
   }
-
-  const Vec3& of(Index component) const { return feet_[component]; }
 
   /// Calls visit(component) for each whose foot may lie below the triangle.
   template <class Visit>
@@ -85,24 +79,40 @@ class Feet {
   Box box_;
   Index side_;
   std::vector<std::vector<Index>> bins_;
-  std::vector<Vec3> feet_;
 };
+
+/// A point of each component.
+std::vector<Vec3> feet_of(const TriMesh& surface, const SurfaceComponents& components) {
+  std::vector<Vec3> feet(components.sizes.size());
+  std::vector<char> known(feet.size(), 0);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Index c = components.of_triangle[t];
+    if (c == kNoIndex || known[c]) continue;
+    known[c] = 1;
+    feet[c] = surface.points[surface.triangles[t][0]];
+  }
+  return feet;
+}
 
 }  // namespace
 
-Nesting find_nesting(const TriMesh& surface, const SurfaceComponents& components) {
-  const std::size_t n = components.sizes.size();
-  const Feet feet(surface, components);
-  std::vector<std::map<Index, int>> crossings(n);  // of each component's ray, by component crossed
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const Index crossed = components.of_triangle[t];
+RayCrossings ray_crossings(std::span<const Vec3> feet, const TriMesh& piece,
+                           std::span<const Index> component_of) {
+  RayCrossings crossings(feet.size());
+  if (feet.empty()) return crossings;
+  const Feet bins(feet);
+  for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
+    const Index crossed = component_of[t];
     if (crossed == kNoIndex) continue;
-    feet.for_each_near(surface, surface.triangles[t], [&](Index c) {
-      if (c != crossed && crosses(surface, surface.triangles[t], feet.of(c))) {
-        ++crossings[c][crossed];
-      }
+    bins.for_each_near(piece, piece.triangles[t], [&](Index c) {
+      if (c != crossed && crosses(piece, piece.triangles[t], feet[c])) ++crossings[c][crossed];
     });
   }
+  return crossings;
+}
+
+Nesting nesting_of(RayCrossings crossings) {
+  const std::size_t n = crossings.size();
   Nesting nesting{std::vector<Index>(n, kNoIndex), std::vector<int>(n, 0)};
   for (std::size_t c = 0; c < n; ++c) {
     std::erase_if(crossings[c], [](const auto& entry) { return entry.second % 2 == 0; });
@@ -114,6 +124,10 @@ Nesting find_nesting(const TriMesh& surface, const SurfaceComponents& components
     }
   }
   return nesting;
+}
+
+Nesting find_nesting(const TriMesh& surface, const SurfaceComponents& components) {
+  return nesting_of(ray_crossings(feet_of(surface, components), surface, components.of_triangle));
 }
 
 }  // namespace mesamis

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+#include <span>
 #include <vector>
 
 #include "mesamis/surface/components.h"
@@ -14,10 +16,33 @@ struct Nesting {
                               ///< the wall of a cavity
 };
 
-/// Finds the nesting by the parity of a ray's crossings; rays that meet edges
-/// and points are counted correctly.
-/// @param surface     closed, without self-intersections.
+/// Of the ray of each component, how often it crosses each of the others.
+using RayCrossings = std::vector<std::map<Index, int>>;
+
+/// Counts where rays cross a closed surface or a piece of it: what the pieces have adds up. Rays
+/// that meet edges and points are counted correctly, also where pieces share these.
+/// @param feet          n points, one of each component, mm; its ray goes from there towards -x.
+/// @param piece         m triangles, mm.
+/// @param component_of  m components; kNoIndex: none.
+/// @throws nothing
+///
+/// O(m root n) in the mean.
+RayCrossings ray_crossings(std::span<const Vec3> feet, const TriMesh& piece,
+                           std::span<const Index> component_of);
+
+/// Finds the nesting by the parity of the crossings with the whole surface.
+/// @param crossings  of n components.
+/// @throws nothing
+///
+/// O(n log n) for few components around each.
+Nesting nesting_of(RayCrossings crossings);
+
+/// Finds the nesting of the components of a surface.
+/// @param surface     m triangles, mm; closed, without self-intersections.
 /// @param components  of the surface.
+/// @throws nothing
+///
+/// As ray_crossings().
 Nesting find_nesting(const TriMesh& surface, const SurfaceComponents& components);
 
 }  // namespace mesamis

@@ -3,11 +3,9 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "mesamis/base/error.h"
-#include "mesamis/surface/components.h"
-#include "mesamis/surface/nesting.h"
 #include "mesamis/surface/unused_points.h"
 
 namespace mesamis {
@@ -21,13 +19,13 @@ bool leaves_along(const Nesting& nesting, const std::vector<char>& goes, std::si
 }
 
 /// Which parts go. They come largest first, so that what is around a part is decided before it.
-std::vector<char> find_unwanted(const SurfaceComponents& parts, const Nesting& nesting,
-                                const PartSelection& selection) {
-  std::vector<char> goes(parts.sizes.size(), 0);
+std::vector<char> find_unwanted(std::span<const SurfaceComponents::Size> parts,
+                                const Nesting& nesting, const PartSelection& selection) {
+  std::vector<char> goes(parts.size(), 0);
   std::int64_t islands = 0;
   for (std::size_t p = 0; p < goes.size(); ++p) {
     const bool cavity = is_cavity(nesting, p);
-    const bool small = std::abs(parts.sizes[p].volume) < selection.volume_min;
+    const bool small = std::abs(parts[p].volume) < selection.volume_min;
     const bool filled = cavity && selection.fill_cavities;
     goes[p] = leaves_along(nesting, goes, p) || small || filled;
     if (cavity || goes[p]) continue;
@@ -37,11 +35,11 @@ std::vector<char> find_unwanted(const SurfaceComponents& parts, const Nesting& n
   return goes;
 }
 
-SelectionReport tell(const SurfaceComponents& parts, const Nesting& nesting,
+SelectionReport tell(std::span<const SurfaceComponents::Size> parts, const Nesting& nesting,
                      const std::vector<char>& goes) {
   SelectionReport report;
   for (std::size_t p = 0; p < goes.size(); ++p) {
-    const double volume = std::abs(parts.sizes[p].volume);
+    const double volume = std::abs(parts[p].volume);
     if (is_cavity(nesting, p)) {
       // A cavity that leaves with its island is not filled.
       const bool filled = goes[p] && !leaves_along(nesting, goes, p);
@@ -69,6 +67,13 @@ TriMesh without(const TriMesh& surface, const SurfaceComponents& parts,
 
 }  // namespace
 
+PartChoice choose_parts(std::span<const SurfaceComponents::Size> parts, const Nesting& nesting,
+                        const PartSelection& selection) {
+  std::vector<char> goes = find_unwanted(parts, nesting, selection);
+  const SelectionReport report = tell(parts, nesting, goes);
+  return {std::move(goes), report};
+}
+
 TriMesh select_parts(const TriMesh& surface, const PartSelection& selection,
                      SelectionReport* report) {
   const std::string flaws = flaws_of(check_surface(surface));
@@ -77,9 +82,9 @@ TriMesh select_parts(const TriMesh& surface, const PartSelection& selection,
   }
   const SurfaceComponents parts = find_components(surface);
   const Nesting nesting = find_nesting(surface, parts);
-  const std::vector<char> goes = find_unwanted(parts, nesting, selection);
-  if (report != nullptr) *report = tell(parts, nesting, goes);
-  return without(surface, parts, goes);
+  const PartChoice choice = choose_parts(parts.sizes, nesting, selection);
+  if (report != nullptr) *report = choice.report;
+  return without(surface, parts, choice.goes);
 }
 
 }  // namespace mesamis

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
+#include "mesamis/surface/nesting.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {
@@ -20,6 +23,21 @@ struct SelectionReport {
   std::int64_t islands_dropped = 0, cavities_filled = 0;  ///< of them
   double volume_dropped = 0, volume_filled = 0;           ///< mm^3, each skin's whole volume
 };
+
+/// Which components of a closed surface go.
+struct PartChoice {
+  std::vector<char> goes;  ///< of each component
+  SelectionReport report;
+};
+
+/// Chooses the components that a selection does not keep.
+/// @param parts    n components, the largest absolute volume first.
+/// @param nesting  of them.
+/// @throws nothing
+///
+/// O(n).
+PartChoice choose_parts(std::span<const SurfaceComponents::Size> parts, const Nesting& nesting,
+                        const PartSelection& selection);
 
 /// Removes islands and fills cavities of a closed surface.
 /// @param surface  n triangles, mm; closed and manifold.

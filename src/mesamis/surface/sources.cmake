@@ -8,6 +8,7 @@ set(ROOM_HEADERS
   extract_cubes.h
   grid_partition.h
   measure.h
+  nesting.h
   normals.h
   partition.h
   sampling.h

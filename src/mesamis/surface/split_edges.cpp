@@ -35,10 +35,12 @@ using Edge = std::span<const HalfEdge>;
 
 class Splitter {
  public:
-  Splitter(TriMesh& surface, const SplitRule& rule) : surface_(surface), rule_(rule) {}
+  Splitter(TriMesh& surface, const SplitRule& rule, std::vector<char> held)
+      : surface_(surface), rule_(rule), held_(std::move(held)) {}
 
   /// Splits every edge that the rule asks for. @return false if there was none.
   bool round() {
+    held_.resize(surface_.points.size(), 0);
     std::vector<SplitTriangle> split = find_middles();
     if (split.empty()) return false;
     std::vector<Triangle> triangles;
@@ -52,10 +54,14 @@ class Splitter {
   static constexpr int kNone = -1;
 
   double length(Index a, Index b) const { return norm(surface_.points[a] - surface_.points[b]); }
+  bool stays(Index a, Index b) const { return held_[a] != 0 && held_[b] != 0; }
+  /// Of an edge that stays less than that of any other.
+  double length_to_split(Index a, Index b) const { return stays(a, b) ? -1 : length(a, b); }
 
-  /// The corner from which a triangle's longest edge runs.
+  /// The corner from which a triangle's longest edge runs, of those that may be split.
   int longest_edge(const Triangle& t) const {
-    const std::array<double, 3> lengths{length(t[0], t[1]), length(t[1], t[2]), length(t[2], t[0])};
+    const std::array<double, 3> lengths{length_to_split(t[0], t[1]), length_to_split(t[1], t[2]),
+                                        length_to_split(t[2], t[0])};
     return static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
   }
 
@@ -65,6 +71,7 @@ class Splitter {
     std::vector<char> asked(edges.size());
     parallel_for(edges.size(), [&](std::size_t e) {
       const HalfEdge& edge = edges[e][0];
+      if (stays(edge.lo, edge.hi)) return;
       asked[e] = rule_(surface_.points[edge.lo], surface_.points[edge.hi]) ? 1 : 0;
     });
     std::vector<int> corners(surface_.triangles.size(), kNone);
@@ -127,13 +134,14 @@ class Splitter {
 
   TriMesh& surface_;
   const SplitRule& rule_;
+  std::vector<char> held_;
 };
 
 }  // namespace
 
-TriMesh split_edges(TriMesh surface, const SplitRule& rule, int rounds) {
+TriMesh split_edges(TriMesh surface, const SplitRule& rule, int rounds, std::vector<char> held) {
   require_sound(surface);
-  Splitter splitter(surface, rule);
+  Splitter splitter(surface, rule, std::move(held));
   for (int n = 0; n < rounds && splitter.round(); ++n) {
   }
   return surface;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "mesamis/surface/tri_mesh.h"
 
@@ -16,10 +17,15 @@ using SplitRule = std::function<bool(const Vec3&, const Vec3&)>;
 /// @param surface  n points, mm or any unit.
 /// @param rule     sees the end points in either order.
 /// @param rounds   at most: a rule that never refuses, or needles, would be split for ever.
-/// @return the points of the surface first, in their order.
+/// @param held    of each point 1 if edges to others that are held stay whole, n; empty: none. So
+///                of an open surface whose rim is held, the rim stays as it is, and triangles with
+///                three held corners are not cut.
+/// @return the points of the surface first, in their order; triangles in the order of those that
+///         they are parts of.
 /// @throws InputError  as require_sound().
 ///
 /// O(m log m) for m triangles in the end, and one call of the rule per edge and round.
-TriMesh split_edges(TriMesh surface, const SplitRule& rule, int rounds);
+TriMesh split_edges(TriMesh surface, const SplitRule& rule, int rounds,
+                    std::vector<char> held = {});
 
 }  // namespace mesamis
