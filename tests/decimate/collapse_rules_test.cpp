@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "mesamis/decimate/cover.h"
+#include "mesamis/decimate/patch.h"
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/self_intersections.h"
 #include "support/level_set.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/decimate/cover.h"
+#include "mesamis/decimate/patch.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "mesamis/decimate/cover.h"
 #include "mesamis/decimate/decimate_pass.h"
 #include "mesamis/decimate/openmesh.h"
+#include "mesamis/decimate/patch.h"
 #include "mesamis/surface/box_tree.h"
 #include "mesamis/surface/farthest.h"
 

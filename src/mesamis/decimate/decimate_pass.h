@@ -4,7 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "mesamis/decimate/cover.h"
+#include "mesamis/decimate/patch.h"
 #include "mesamis/decimate/sheets.h"
 #include "mesamis/surface/triangle_tree.h"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesamis/base/error.h"
+#include "mesamis/decimate/decimate_part.h"
 #include "mesamis/surface/farthest.h"
 
 namespace mesamis {
@@ -41,12 +42,20 @@ class Decimation {
 
   /// @param side  of the patches' boxes, mm; infinity: one patch.
   TriMesh run(double side) {
-    Cover cover = cover_of(surface_);
+    const std::vector<char> held =
+        sheets_ ? sheets_->at_rim : std::vector<char>(surface_.points.size(), 0);
+    Cover cover = run(cover_of(surface_), held, side);
+    for (const double drift : cover.drift) report_.drift = std::max(report_.drift, drift);
+    return {surface_.points, std::move(cover.triangles)};
+  }
+
+  /// @param held  of each point of the surface 1 if it stays.
+  Cover run(Cover cover, const std::vector<char>& held, double side) {
     std::vector<char> open(surface_.points.size(), 1);  // of each point 1 if it may go
     if (!std::isinf(side)) {
       std::vector<Patch> patches = cut_into_patches(surface_.points, std::move(cover), side);
       open = held_in(patches);
-      for (Patch& patch : patches) hold_rims(patch);
+      for (Patch& patch : patches) hold_too(held, patch);
       cover =
           decimate_patchwork(task(0, kShareOfPatches, kDistanceSlack), std::move(patches), report_);
       choose_rings(cover.triangles, kRingsAtSeams, open);
@@ -55,11 +64,9 @@ class Decimation {
     for (std::size_t p = 0; p < whole[0].points.size(); ++p) {
       whole[0].held[p] = open[whole[0].points[p]] == 0 ? 1 : 0;
     }
-    hold_rims(whole[0]);
+    hold_too(held, whole[0]);
     const double begin = std::isinf(side) ? 0 : kShareOfPatches;
-    cover = decimate_patchwork(task(begin, 1, 1), std::move(whole), report_);
-    for (const double drift : cover.drift) report_.drift = std::max(report_.drift, drift);
-    return {surface_.points, std::move(cover.triangles)};
+    return decimate_patchwork(task(begin, 1, 1), std::move(whole), report_);
   }
 
  private:
@@ -84,11 +91,8 @@ class Decimation {
             .sheets = sheets_};
   }
 
-  void hold_rims(Patch& patch) const {
-    if (!sheets_) return;
-    for (std::size_t p = 0; p < patch.points.size(); ++p) {
-      patch.held[p] |= sheets_->at_rim[patch.points[p]];
-    }
+  static void hold_too(const std::vector<char>& held, Patch& patch) {
+    for (std::size_t p = 0; p < patch.points.size(); ++p) patch.held[p] |= held[patch.points[p]];
   }
 
   /// Of each point of the original 1 if patches hold it because they touch there.
@@ -134,6 +138,18 @@ TriMesh decimate_sheets(const Sheets& sheets, const DecimateOptions& options,
                         double triangles_per_patch, PatchworkReport& report) {
   return Decimation(sheets.surface, &sheets, options, report)
       .run(patch_side(sheets.surface, options, triangles_per_patch));
+}
+
+Cover decimate_part(const TriMesh& original, Cover part, const std::vector<char>& held,
+                    const DecimateOptions& options) {
+  require_valid(options);
+  if (!(options.tolerance > 0) || std::isinf(options.tolerance) || options.triangles > 0) {
+    throw InputError("decimate: expected a part with a finite tolerance > 0 alone");
+  }
+  if (part.triangles.empty()) return part;
+  PatchworkReport work;
+  const double side = patch_side({original.points, part.triangles}, options, kTrianglesPerPatch);
+  return Decimation(original, nullptr, options, work).run(std::move(part), held, side);
 }
 
 }  // namespace mesamis

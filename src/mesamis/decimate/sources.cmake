@@ -5,15 +5,20 @@ set(ROOM_HEADERS
   decimate_partition.h
   round_to_single.h
   round_together.h)
+# For the rooms above alone: not installed.
+set(ROOM_INNER_HEADERS
+  cover.h
+  decimate_part.h
+  single_places.h)
 set(ROOM_SOURCES
   collapse_rules.cpp
-  cover.cpp
   decimate.cpp
   decimate_partition.cpp
   decimate_pass.cpp
   decimate_patch.cpp
   decimation.cpp
   fan_distance.cpp
+  patch.cpp
   patchwork.cpp
   round_to_single.cpp
   round_together.cpp
