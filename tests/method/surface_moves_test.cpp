@@ -57,8 +57,8 @@ TEST(SurfaceMoves, OffsetsCountWhereTheImageIsSteep) {
   offsets.set(1, *offset, 40);
   EXPECT_EQ(offsets.weight[0], 0);
   EXPECT_EQ(offsets.weight[1], 1);
-  EXPECT_TRUE(is_worthwhile(offsets));
-  EXPECT_FALSE(is_worthwhile(Offsets(3))) << "nothing is told";
+  EXPECT_TRUE(count_told(offsets).is_worthwhile());
+  EXPECT_FALSE(count_told(Offsets(3)).is_worthwhile()) << "nothing is told";
 }
 
 TEST(SurfaceMoves, AreTakenBackWhereTrianglesWouldMeet) {

@@ -18,14 +18,23 @@ TriMesh followed(const RunInput& run, TriMesh extracted) {
   return follow_image(extracted, run.image, {p.grey.to_grey(p.level), run.error.noise, p.unit_mm});
 }
 
-/// A left-handed grid turns every orientation round.
 void bring_surface_to_world(const RunInput& run, TriMesh& surface) {
   bring_to_world(run, surface.points);
+  turn_as_grid(run, surface);
+}
+
+}  // namespace
+
+void turn_as_grid(const RunInput& run, TriMesh& surface) {
   if (determinant(run.grey.direction) >= 0) return;
   for (Triangle& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);
 }
 
-}  // namespace
+void choose_tolerance(const RunInput& run, const Settings& settings, double mean_error,
+                      Parameters& parameters) {
+  if (settings.tolerance || settings.triangles) return;
+  parameters.tolerance = default_tolerance(run.grey.voxel_size(), mean_error, parameters.accuracy);
+}
 
 void deliver_surface(const RunInput& run, TriMesh extracted, Result& result) {
   Stopwatch watch;
@@ -56,14 +65,15 @@ void finish_surface(const RunInput& run, const Settings& settings, const Progres
   Parameters& p = result.parameters;
   result.printable.triangles_extracted = std::ssize(result.surface.triangles);
   if (p.surface == SurfaceKind::kBand) return;
-  if (!settings.tolerance && !settings.triangles) {
-    p.tolerance = default_tolerance(run.grey.voxel_size(), mean_expected_error(run, result.surface),
-                                    p.accuracy);
-  }
+  choose_tolerance(run, settings, mean_expected_error(run, result.surface), p);
   result.surface = make_printable(result.surface,
                                   {p.min_volume, p.keep_largest, p.fill_cavities, p.tolerance,
                                    p.triangles, progress, p.preview},
                                   &result.printable);
+  tell_error(run, result);
+}
+
+void tell_error(const RunInput& run, Result& result) {
   ErrorOptions delivered = run.error;
   delivered.decimated =
       std::max(result.printable.extracted_to_result, result.printable.result_to_extracted);

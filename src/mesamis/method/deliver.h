@@ -19,10 +19,25 @@ void deliver_surface(const RunInput& run, TriMesh extracted, Result& result);
 /// @throws Cancelled  if progress says stop.
 void deliver_loop(const RunInput& run, Loop loop, const Progress& progress, Result& result);
 
+/// Turns every triangle of a surface round if the grid is left-handed: in the world it faces
+/// inward.
+/// @throws nothing
+void turn_as_grid(const RunInput& run, TriMesh& surface);
+
+/// The tolerance of decimation where the settings leave it open.
+/// @param mean_error  expected of the surface, mm.
+/// @throws nothing
+void choose_tolerance(const RunInput& run, const Settings& settings, double mean_error,
+                      Parameters& parameters);
+
 /// Makes a solid printable, and tells its error; the paper's band is delivered as it is.
 /// @param result  with a surface; Parameters::tolerance is set where the settings leave it open.
 /// @throws Cancelled  if progress says stop.
 void finish_surface(const RunInput& run, const Settings& settings, const Progress& progress,
                     Result& result);
+
+/// Tells the error of a result's surface, which has been made printable.
+/// @throws nothing
+void tell_error(const RunInput& run, Result& result);
 
 }  // namespace mesamis

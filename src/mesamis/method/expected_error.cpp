@@ -73,7 +73,7 @@ ErrorSummary summarize_error(const TriMesh& surface, const std::vector<double>& 
     below += part.second;
     return below >= 0.95 * area;
   });
-  return {sum / area, at == parts.end() ? parts.back().first : at->first, parts.back().first};
+  return {sum / area, at == parts.end() ? parts.back().first : at->first, parts.back().first, area};
 }
 
 }  // namespace mesamis

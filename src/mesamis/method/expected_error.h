@@ -43,6 +43,7 @@ struct ErrorSummary {
   double mean = 0;          ///< over the area
   double percentile95 = 0;  ///< nineteen twentieths of the area have less
   double most = 0;          ///< of any triangle
+  double area = 0;          ///< of the triangles that count, mm^2
 };
 
 /// Summarizes values on the points of a surface over its area, without the triangles whose values

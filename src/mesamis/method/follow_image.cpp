@@ -37,18 +37,24 @@ class Follower {
     return offsets;
   }
 
-  TriMesh run(TriMesh surface) const {
+  void run(FollowedPart& part) const {
+    TriMesh& surface = part.extracted;
     surface = split_edges(
         std::move(surface), [this](const Vec3& a, const Vec3& b) { return is_bent(a, b); },
-        kMostRounds);
+        kMostRounds, part.held);
+    part.held.resize(surface.points.size(), 0);
+    part.moved.insert(part.moved.end(), surface.points.begin() + std::ssize(part.moved),
+                      surface.points.end());
     const Neighbors neighbors(surface);
     const std::vector<Vec3> normals = smoothed_normals(surface, neighbors);
     const std::vector<double> moves = filtered_moves(space_, measure(surface, normals), neighbors);
     std::vector<Vec3> shifts(moves.size());
     for (std::size_t p = 0; p < moves.size(); ++p) {
+      if (part.held[p] != 0) continue;
       shifts[p] = space_.within_box(surface.points[p], moves[p] * normals[p]);
     }
-    return moved_without_folds(space_, surface, std::move(shifts));
+    part.moved =
+        moved_without_folds(space_, {part.moved, surface.triangles}, std::move(shifts)).points;
   }
 
  private:
@@ -76,10 +82,20 @@ class Follower {
 
 TriMesh follow_image(const TriMesh& surface, const SplineImage& image,
                      const FollowOptions& options) {
-  if (surface.triangles.empty()) return surface;
-  const Follower follower(image, options);
-  const Offsets offsets = follower.measure(surface, vertex_normals(surface));
-  return is_worthwhile(offsets) ? follower.run(surface) : surface;
+  if (!look_along(surface, image, options).is_worthwhile()) return surface;
+  FollowedPart whole{surface, surface.points, std::vector<char>(surface.points.size(), 0)};
+  follow_part(whole, image, options);
+  return {std::move(whole.moved), std::move(whole.extracted.triangles)};
+}
+
+void follow_part(FollowedPart& part, const SplineImage& image, const FollowOptions& options) {
+  if (!part.extracted.triangles.empty()) Follower(image, options).run(part);
+}
+
+FollowCounts look_along(const TriMesh& surface, const SplineImage& image,
+                        const FollowOptions& options) {
+  if (surface.triangles.empty()) return {};
+  return count_told(Follower(image, options).measure(surface, vertex_normals(surface)));
 }
 
 }  // namespace mesamis

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesamis/image/spline_image.h"
+#include "mesamis/method/surface_moves.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {
@@ -33,5 +34,21 @@ struct FollowOptions {
 /// O(n log n) for n points after splitting, at most about two per square voxel of the surface.
 TriMesh follow_image(const TriMesh& surface, const SplineImage& image,
                      const FollowOptions& options);
+
+/// A part of a surface, which may be open, and what has become of its points.
+struct FollowedPart {
+  TriMesh extracted;        ///< in the grid's own axes; points that were split off lie on it
+  std::vector<Vec3> moved;  ///< of each point where it is now
+  std::vector<char> held;   ///< of each point 1 if it stays there
+};
+
+/// Moves the points of a part that are not held, as follow_image() does with all of a surface that
+/// is worth it. Edges between held points stay; points that are split off are not held.
+/// @param part  those of its points that are not held lie where they were extracted.
+void follow_part(FollowedPart& part, const SplineImage& image, const FollowOptions& options);
+
+/// What the image tells at the points of a surface, or of a part of one.
+FollowCounts look_along(const TriMesh& surface, const SplineImage& image,
+                        const FollowOptions& options);
 
 }  // namespace mesamis

@@ -183,7 +183,7 @@ PartitionSurface follow_image(PartitionSurface partition, const SplineImage& ima
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<Vec3> normals = smoothed_normals(surface, neighbors);
     const Offsets offsets = measure(space, surface, normals, guides, noise);
-    if (!is_worthwhile(offsets)) break;
+    if (!count_told(offsets).is_worthwhile()) break;
     const std::vector<double> moves = filtered_moves(space, offsets, neighbors);
     std::vector<Vec3> shifts(moves.size());
     for (std::size_t p = 0; p < moves.size(); ++p) shifts[p] = moves[p] * normals[p];

@@ -73,7 +73,7 @@ void deliver_mesh(const RunInput& run, Loop loop, Result& result) {
   TetMesh& mesh = loop.state.mesh;
   result.converged = has_converged(loop);
   result.stopped = loop.stopped;
-  result.fit = measure_fit(mesh, loop.state.metric);
+  if (!mesh.cells.empty()) result.fit = measure_fit(mesh, loop.state.metric);
   bring_to_world(run, mesh.points);
   if (determinant(run.grey.direction) < 0) {
     for (Cell& cell : mesh.cells) std::swap(cell[2], cell[3]);

@@ -16,8 +16,10 @@ set(ROOM_HEADERS
 # For the rooms above alone: not installed.
 set(ROOM_INNER_HEADERS
   deliver.h
+  follow_image.h
   loop.h
-  passes.h)
+  passes.h
+  surface_moves.h)
 set(ROOM_SOURCES
   chosen_run.cpp
   deliver.cpp

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "mesamis/base/median.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/normals.h"
 #include "mesamis/surface/self_intersections.h"
@@ -187,12 +186,14 @@ void Offsets::set(std::size_t point, const ImageOffset& offset, double slope) {
   weight[point] = std::min(1.0, slope * slope / (kFullSlope * kFullSlope));
 }
 
-bool is_worthwhile(const Offsets& offsets) {
-  std::vector<double> noise;
+FollowCounts count_told(const Offsets& offsets) {
+  FollowCounts counts;
   for (std::size_t p = 0; p < offsets.noise.size(); ++p) {
-    if (offsets.weight[p] > 0) noise.push_back(offsets.noise[p]);
+    if (!(offsets.weight[p] > 0)) continue;
+    ++counts.told;
+    if (offsets.noise[p] < kMostNoise) ++counts.clear;
   }
-  return !noise.empty() && median(noise) < kMostNoise;
+  return counts;
 }
 
 std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors) {

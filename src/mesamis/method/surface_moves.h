@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -70,8 +71,16 @@ struct Offsets {
   std::vector<double> weight;    ///< 0: the image tells nothing
 };
 
-/// Whether the noise leaves anything to be told.
-bool is_worthwhile(const Offsets& offsets);
+/// At how many points the image tells anything, and at how many of them little noise does. Those of
+/// the parts of a surface add up.
+struct FollowCounts {
+  std::int64_t told = 0, clear = 0;
+
+  /// Whether noise leaves anything to be told of the surface. O(1).
+  /// @throws nothing
+  bool is_worthwhile() const noexcept { return 2 * clear > told; }
+};
+FollowCounts count_told(const Offsets& offsets);
 
 /// Normals, smoothed along the surface.
 std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors);

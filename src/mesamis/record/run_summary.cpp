@@ -23,8 +23,11 @@ RunSummary summarize(const Result& result, const SurfaceCheck& check) {
   summary.parameters = result.parameters;
   summary.image = result.image;
   summary.iterations = result.iterations;
-  summary.tets = count(result.mesh.cells);
-  summary.nodes = count(result.mesh.points);
+  // The last pass was on the mesh, which a result need not have kept; a preview has no mesh.
+  if (!result.iterations.empty() && !result.parameters.preview) {
+    summary.tets = result.iterations.back().tets;
+    summary.nodes = result.iterations.back().nodes;
+  }
   summary.fit = result.fit;
   summary.triangles = count(result.surface.triangles);
   summary.vertices = count(result.surface.points);
