@@ -33,6 +33,11 @@ std::string identity_of(const fs::path& path) {
   return fs::absolute(path).string() + " " + std::to_string(bytes) + " " + std::to_string(written);
 }
 
+/// Whether a surface is to carry grey values, which are those of the mesh below it.
+bool wants_grey(const SegmentRun& run) {
+  return std::any_of(run.surfaces.begin(), run.surfaces.end(), carries_grey);
+}
+
 /// Without a place for checkpoints, scratch files lie beside the first output.
 SlabRunOptions slab_options(const SegmentRun& run, const SlabArguments& slabs) {
   SlabRunOptions options;
@@ -40,6 +45,8 @@ SlabRunOptions slab_options(const SegmentRun& run, const SlabArguments& slabs) {
   options.scratch = slabs.checkpoint;
   options.resumable = !slabs.checkpoint.empty();
   options.input = identity_of(run.scan.input);
+  options.mesh = !run.meshes.empty();
+  options.grey = wants_grey(run);
   if (options.scratch.empty()) {
     options.scratch = !run.surfaces.empty() ? run.surfaces.front()
                       : !run.meshes.empty() ? run.meshes.front()
@@ -121,9 +128,9 @@ int deliver(const SegmentRun& run, const Settings& settings, const FileSlices& s
   const Verdict verdict = judge(result, check);
   const std::optional<MeshOutput> mesh = mesh_of(run, source, result);
   if (!run.surfaces.empty()) require_surface(result);
-  const bool grey = std::any_of(run.surfaces.begin(), run.surfaces.end(), carries_grey);
-  const auto as = surface_options(result, head.volume.voxel_size(),
-                                  {run.scan.frame, run.name, run.error, grey});
+  auto as =
+      surface_options(result, head.volume.voxel_size(), {run.scan.frame, run.name, run.error});
+  as.grey = found.grey;
   OutputSet set;
   for (const fs::path& path : run.surfaces) write_surface(path, result.surface, as);
   for (const fs::path& path : run.meshes) write_mesh(path, *mesh, run.scan.frame);

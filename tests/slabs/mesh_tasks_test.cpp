@@ -122,14 +122,21 @@ TEST(Collect, PutsTogetherWhatTheSlabsFinished) {
   finish(*slabs.run, 1, 1);
   EXPECT_GT(work.rows, 0);
   EXPECT_GT(work.bytes, 0) << "the rim of the slab above";
-  const Finished finished = collect(*slabs.run, 1);
-  EXPECT_EQ(find_flaw(finished.whole.mesh, slabs.run->input.box), "");
-  ASSERT_EQ(finished.passes.size(), 2U) << "on the grid and on the mesh";
-  EXPECT_EQ(finished.passes[1].tets, std::ssize(finished.whole.mesh.cells)) << "each cell once";
-  EXPECT_GE(finished.passes[1].nodes, std::ssize(finished.whole.mesh.points));
+  require_full(*slabs.run, 1);
+  const Piece whole = collect(*slabs.run, 1);
+  EXPECT_EQ(find_flaw(whole.mesh, slabs.run->input.box), "");
+  const std::vector<Iteration> passes = records_of(*slabs.run, 1);
+  ASSERT_EQ(passes.size(), 2U) << "on the grid and on the mesh";
+  EXPECT_EQ(passes[1].tets, std::ssize(whole.mesh.cells)) << "each cell once";
+  EXPECT_EQ(passes[1].nodes, std::ssize(whole.mesh.points)) << "each node once";
   double sum = 0;
-  for (const NodeValues& node : finished.whole.nodes) sum += std::abs(node.u - node.f);
-  EXPECT_LT(sum / static_cast<double>(finished.whole.nodes.size()), 10) << "u is near the image";
+  for (const NodeValues& node : whole.nodes) sum += std::abs(node.u - node.f);
+  EXPECT_LT(sum / static_cast<double>(whole.nodes.size()), 10) << "u is near the image";
+  const MeshFit fit = fit_of(*slabs.run, 1);
+  const MeshFit exact = measure_fit(whole.mesh, values_of(whole, &NodeValues::metric));
+  EXPECT_EQ(fit.quality_min, exact.quality_min);
+  EXPECT_NEAR(fit.quality_mean, exact.quality_mean, 1e-9);
+  EXPECT_NEAR(fit.unit_edge_fraction, exact.unit_edge_fraction, 0.01) << "some edges count twice";
 }
 
 TEST(MeshTasks, RefuseFilesThatAreCutOff) {

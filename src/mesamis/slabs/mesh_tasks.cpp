@@ -17,6 +17,7 @@
 #include "mesamis/slabs/mesh_files.h"
 #include "mesamis/slabs/profile.h"
 #include "mesamis/slabs/records.h"
+#include "mesamis/slabs/surface_files.h"
 #include "mesamis/slabs/tasks.h"
 
 namespace mesamis::detail {
@@ -42,43 +43,43 @@ Piece read_piece(const Scratch& scratch, const std::string& name, SlabWork* work
   return next_piece(archive);
 }
 
+/// Whose a cell is, seen from a slab.
+enum class Owner : std::uint8_t { kSelf, kBelow, kAbove };
+
 /// Mesh k as slab s sees it: its own cells, and those around.
 struct LocalMesh {
   Piece piece;
-  std::vector<std::uint8_t> own;  ///< per cell
+  std::vector<Owner> owners;  ///< of the cells
 };
-
-Piece join_all(const std::vector<Piece>& pieces) {
-  std::vector<const Piece*> pointers(pieces.size());
-  std::transform(pieces.begin(), pieces.end(), pointers.begin(),
-                 [](const Piece& piece) { return &piece; });
-  return join(pointers);
-}
 
 LocalMesh read_local(const MeshRun& run, int k, Index s, SlabWork& work) {
   const SlabPlan& plan = run.plan(k);
   const Scratch& scratch = run.slabs.scratch;
   std::vector<Piece> parts{read_piece(scratch, file_of("core", k, s))};
   LocalMesh local;
-  const auto add = [&](Piece part, const auto& is_own) {
-    for (const Cell& cell : part.mesh.cells) local.own.push_back(is_own(part, cell) ? 1 : 0);
+  const auto add = [&](Owner other, Piece part, const auto& is_own) {
+    for (const Cell& cell : part.mesh.cells) {
+      local.owners.push_back(is_own(part, cell) ? Owner::kSelf : other);
+    }
     parts.push_back(std::move(part));
   };
   const auto all = [](const Piece&, const Cell&) { return true; };
   const auto none = [](const Piece&, const Cell&) { return false; };
-  local.own.assign(parts[0].mesh.cells.size(), 1);
+  local.owners.assign(parts[0].mesh.cells.size(), Owner::kSelf);
   for (const Side side : {Side::kLow, Side::kHigh}) {
     if (!has_neighbour(plan, s, side)) continue;
     const bool low = side == Side::kLow;
     const double border = border_of(plan, s, side);
-    add(read_piece(scratch, side_file("rim", k, s, side)), all);
-    add(read_piece(scratch, file_of("seam", k, low ? s - 1 : s), low ? &work : nullptr),
+    const Owner other = low ? Owner::kBelow : Owner::kAbove;
+    add(other, read_piece(scratch, side_file("rim", k, s, side)), all);
+    add(other, read_piece(scratch, file_of("seam", k, low ? s - 1 : s), low ? &work : nullptr),
         [&](const Piece& part, const Cell& cell) {
           return (height_of(part.mesh, cell) < border) != low;
         });
-    add(read_piece(scratch, side_file("rim", k, low ? s - 1 : s + 1, opposite(side)), &work), none);
+    add(other, read_piece(scratch, side_file("rim", k, low ? s - 1 : s + 1, opposite(side)), &work),
+        none);
   }
-  local.piece = join_all(parts);
+  local.piece = join(parts);
   return local;
 }
 
@@ -96,8 +97,36 @@ void remove_files_before(const MeshRun& run, int k, Index s) {
 Piece own_part(const LocalMesh& local) {
   const Cell* first = local.piece.mesh.cells.data();
   return select(local.piece, [&](const Cell& cell) {
-    return local.own[static_cast<std::size_t>(&cell - first)] != 0;
+    return local.owners[static_cast<std::size_t>(&cell - first)] == Owner::kSelf;
   });
+}
+
+/// Of each node 1 if it is one of the slab's own cells and of those of another owner.
+std::vector<char> shared_with(const LocalMesh& local, Owner other) {
+  std::vector<char> own(local.piece.nodes.size(), 0), others(own);
+  for (std::size_t c = 0; c < local.owners.size(); ++c) {
+    if (local.owners[c] != Owner::kSelf && local.owners[c] != other) continue;
+    std::vector<char>& nodes = local.owners[c] == other ? others : own;
+    for (const Index node : local.piece.mesh.cells[c]) nodes[node] = 1;
+  }
+  for (std::size_t n = 0; n < own.size(); ++n) own[n] &= others[n];
+  return own;
+}
+
+/// Writes the nodes that slabs above see too.
+void write_shared_nodes(const MeshRun& run, int k, Index s, const LocalMesh& local) {
+  const std::vector<char> shared = shared_with(local, Owner::kAbove);
+  std::vector<Vec3> points;
+  std::vector<double> u;
+  for (std::size_t n = 0; n < shared.size(); ++n) {
+    if (shared[n] == 0) continue;
+    points.push_back(local.piece.mesh.points[n]);
+    u.push_back(local.piece.nodes[n].u);
+  }
+  ArchiveWriter archive;
+  archive.add(points);
+  archive.add(u);
+  run.slabs.scratch.write(shared_nodes_file(k, s), archive);
 }
 
 /// Minimises on a local mesh, from what the mesh before left, and writes the fields to its nodes.
@@ -140,10 +169,11 @@ Heights heights_of(const TetMesh& mesh) {
   return heights;
 }
 
-/// What was recorded of the minimisation on a mesh that is not the last.
+/// What was recorded of the minimisation on a mesh.
 struct MeshRecord {
   Iteration iteration;
   Heights heights;
+  double volume = 0;  ///< of the slab's cells, length units^3
 };
 
 MeshRecord mesh_record(const MeshRun& run, int k, Index s) {
@@ -167,7 +197,7 @@ Piece solved_between(const MeshRun& run, int k, double low, double high, Index o
       return height >= low && height < high;
     }));
   }
-  Piece piece = join_all(pieces);
+  Piece piece = join(pieces);
   const Parameters& p = run.input.parameters;
   const double factor = run.mesh(k + 1).factor;
   std::vector<Sym3> metric = values_of(piece, &NodeValues::metric);
@@ -239,27 +269,29 @@ std::vector<double> predicted_cells(const MeshRun& run, int k,
   return predicted;
 }
 
-/// No cell was lost between slabs.
-void require_full(const TetMesh& mesh, const Box& box) {
+double volume_of(const TetMesh& mesh) {
   double volume = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     volume += cell_volume(mesh, static_cast<Index>(c));
   }
-  constexpr double kRoundOff = 1e-9;
-  if (std::abs(volume / box.volume() - 1) < kRoundOff) return;
-  throw NumericalError("slabs: expected a mesh that fills its box, found one of " +
-                       std::to_string(volume / box.volume()) + " of its volume");
+  return volume;
 }
 
-/// The record of a pass, as far as it is the slab's own, to be added up.
+/// Writes the record of a pass, as far as it is the slab's own, to be added up.
 /// @param own  the part of the local mesh that is the slab's.
-void record_own(const MeshRun& run, const Piece& own, Iteration& record) {
+void write_record(const MeshRun& run, int k, Index s, const LocalMesh& local, const Piece& own,
+                  Iteration record) {
   const std::vector<double> u = values_of(own, &NodeValues::u);
   const std::vector<double> v = values_of(own, &NodeValues::v);
   const std::vector<double> f = values_of(own, &NodeValues::f);
   record.tets = std::ssize(own.mesh.cells);
-  record.nodes = std::ssize(own.mesh.points);
+  const std::vector<char> counted_below = shared_with(local, Owner::kBelow);
+  record.nodes =
+      std::ssize(own.mesh.points) - std::count(counted_below.begin(), counted_below.end(), 1);
   record.energy = energy(MeshSpace(own.mesh), run.input.parameters.functional, {u, v, f});
+  ArchiveWriter archive;
+  archive.add_one(MeshRecord{record, heights_of(own.mesh), volume_of(own.mesh)});
+  run.slabs.scratch.write(file_of("record", k, s), archive);
 }
 
 }  // namespace
@@ -372,13 +404,11 @@ SlabWork solve(const MeshRun& run, int k, Index s) {
   const std::vector<Sym3> metric = asked_metric(pass, piece.mesh, m, run.input.cells_after(k));
   for (std::size_t n = 0; n < metric.size(); ++n) piece.nodes[n].metric = metric[n];
   const Piece own = own_part(local);
-  record_own(run, own, record);
+  write_record(run, k, s, local, own, record);
   const Parameters& p = run.input.parameters;
-  ArchiveWriter recorded, told;
-  recorded.add_one(MeshRecord{record, heights_of(own.mesh)});
+  ArchiveWriter told;
   add_profile(told, profile_of(run.slabs.plan, own, {p.h_min, p.h_max, 0}));
   write_piece(run.slabs.scratch, file_of("solved", k, s), own);
-  run.slabs.scratch.write(file_of("record", k, s), recorded);
   run.slabs.scratch.write(file_of("profile", k, s), told);
   return work;
 }
@@ -428,12 +458,29 @@ SlabWork finish(const MeshRun& run, int k, Index s) {
   work.rows = record.nodes;
   record_surface({run.input, k, silent_stage(), record}, local.piece.mesh, before, m.u);
   const Piece own = own_part(local);
-  record_own(run, own, record);
-  ArchiveWriter archive;
-  add_piece(archive, own);
-  archive.add_one(record);
-  run.slabs.scratch.write(file_of("final", k, s), archive);
+  write_record(run, k, s, local, own, record);
+  write_piece(run.slabs.scratch, file_of("final", k, s), own);
+  ArchiveWriter fit;
+  fit.add_one(measure_fit(own.mesh, values_of(own, &NodeValues::metric)));
+  run.slabs.scratch.write(file_of("fit", k, s), fit);
+  write_shared_nodes(run, k, s, local);
   return work;
+}
+
+void require_full(const MeshRun& run, int k) {
+  double volume = 0;
+  for (Index s = 0; s < run.count(); ++s) volume += mesh_record(run, k, s).volume;
+  constexpr double kRoundOff = 1e-9;
+  const double share = volume / run.input.box.volume();
+  if (std::abs(share - 1) < kRoundOff) return;
+  throw NumericalError("slabs: expected a mesh that fills its box, found one of " +
+                       std::to_string(share) + " of its volume");
+}
+
+std::string shared_nodes_file(int k, Index s) { return file_of("shared", k, s); }
+
+Piece read_final(const MeshRun& run, int k, Index s, SlabWork* work) {
+  return read_piece(run.slabs.scratch, file_of("final", k, s), work);
 }
 
 std::vector<Iteration> records_of(const MeshRun& run, int k) {
@@ -449,20 +496,29 @@ std::vector<Iteration> records_of(const MeshRun& run, int k) {
   return passes;
 }
 
-Finished collect(const MeshRun& run, int k) {
-  Finished finished;
-  finished.passes = records_of(run, k - 1);
-  std::vector<Piece> pieces;
-  std::vector<Iteration> records;
+MeshFit fit_of(const MeshRun& run, int k) {
+  MeshFit whole;
+  double cells = 0;
   for (Index s = 0; s < run.count(); ++s) {
-    ArchiveReader archive = run.slabs.scratch.read(file_of("final", k, s));
-    pieces.push_back(next_piece(archive));
-    records.push_back(archive.next_one<Iteration>());
+    const MeshFit fit = run.slabs.scratch.read(file_of("fit", k, s)).next_one<MeshFit>();
+    const auto own = static_cast<double>(mesh_record(run, k, s).iteration.tets);
+    const auto edges = static_cast<double>(whole.edges), more = static_cast<double>(fit.edges);
+    whole.unit_edge_fraction =
+        (edges * whole.unit_edge_fraction + more * fit.unit_edge_fraction) / (edges + more);
+    whole.quality_mean = (cells * whole.quality_mean + own * fit.quality_mean) / (cells + own);
+    whole.length_min = s == 0 ? fit.length_min : std::min(whole.length_min, fit.length_min);
+    whole.quality_min = s == 0 ? fit.quality_min : std::min(whole.quality_min, fit.quality_min);
+    whole.length_max = std::max(whole.length_max, fit.length_max);
+    whole.edges += fit.edges;
+    cells += own;
   }
-  finished.passes.push_back(sum_of_records(records));
-  finished.whole = join_all(pieces);
-  require_full(finished.whole.mesh, run.input.box);
-  return finished;
+  return whole;
+}
+
+Piece collect(const MeshRun& run, int k) {
+  std::vector<Piece> pieces;
+  for (Index s = 0; s < run.count(); ++s) pieces.push_back(read_final(run, k, s));
+  return join(pieces);
 }
 
 }  // namespace mesamis::detail

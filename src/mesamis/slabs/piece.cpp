@@ -2,48 +2,22 @@
 #include "mesamis/slabs/piece.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <unordered_map>
 
 #include "mesamis/base/error.h"
 #include "mesamis/mesh/region.h"
+#include "mesamis/slabs/point_numbers.h"
 
 namespace mesamis::detail {
-namespace {
-
-using Bits = std::array<std::uint64_t, 3>;
-
-/// Coordinates to the bit; 0 and -0 are one.
-Bits bits_of(const Vec3& p) {
-  return {std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0),
-          std::bit_cast<std::uint64_t>(p.z + 0.0)};
-}
-
-struct HashOfBits {
-  std::size_t operator()(const Bits& bits) const noexcept {
-    std::uint64_t hash = 0;
-    for (const std::uint64_t word : bits) {
-      hash = (hash ^ word) * 0x9e3779b97f4a7c15;
-      hash ^= hash >> 32;
-    }
-    return hash;
-  }
-};
-
-}  // namespace
-
 Piece join(std::span<const Piece* const> pieces) {
   Piece joined;
-  std::unordered_map<Bits, Index, HashOfBits> known;
+  PointNumbers numbers;
   for (const Piece* piece : pieces) {
     std::vector<Index> number(piece->mesh.points.size());
     for (std::size_t n = 0; n < number.size(); ++n) {
       const Vec3& p = piece->mesh.points[n];
-      const auto [place, is_new] =
-          known.try_emplace(bits_of(p), static_cast<Index>(joined.mesh.points.size()));
-      number[n] = place->second;
+      const auto [at, is_new] = numbers.of(p);
+      number[n] = at;
       if (!is_new) continue;
       joined.mesh.points.push_back(p);
       joined.nodes.push_back(piece->nodes[n]);
@@ -54,6 +28,13 @@ Piece join(std::span<const Piece* const> pieces) {
     }
   }
   return joined;
+}
+
+Piece join(const std::vector<Piece>& pieces) {
+  std::vector<const Piece*> pointers;
+  pointers.reserve(pieces.size());
+  for (const Piece& piece : pieces) pointers.push_back(&piece);
+  return join(pointers);
 }
 
 Piece select(const Piece& piece, const std::function<bool(const Cell&)>& choose) {

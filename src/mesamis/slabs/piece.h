@@ -28,6 +28,7 @@ struct Piece {
 /// Joins pieces that share no cell. Of a node of several pieces the first one's values stay.
 /// O(points and cells).
 Piece join(std::span<const Piece* const> pieces);
+Piece join(const std::vector<Piece>& pieces);
 
 /// The cells for which `choose` is true, in their order.
 Piece select(const Piece& piece, const std::function<bool(const Cell&)>& choose);

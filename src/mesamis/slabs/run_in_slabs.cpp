@@ -11,11 +11,14 @@
 #include "mesamis/base/stopwatch.h"
 #include "mesamis/base/version.h"
 #include "mesamis/base/written_number.h"
+#include "mesamis/decimate/round_to_single.h"
 #include "mesamis/method/chosen_run.h"
 #include "mesamis/method/deliver.h"
 #include "mesamis/method/setting_table.h"
 #include "mesamis/slabs/mapped_items.h"
 #include "mesamis/slabs/sample.h"
+#include "mesamis/slabs/stages.h"
+#include "mesamis/slabs/surface_tasks.h"
 #include "mesamis/slabs/tasks.h"
 
 namespace mesamis {
@@ -27,46 +30,6 @@ using namespace detail;
 constexpr std::size_t kSample = std::size_t{1} << 27;
 /// Slices that are looked at together before there is a plan.
 constexpr Index kChunk = 16;
-
-/// Stages of a run: each process does its share of the tasks, unless they are done already.
-class Stages {
- public:
-  Stages(const Scratch& scratch, Team& team, const Progress& progress)
-      : scratch_(scratch), team_(team), progress_(progress) {}
-
-  /// Does task(0) to task(count - 1), neighbours in one process, and waits for the others.
-  void run(const std::string& name, Index count, const std::function<SlabWork(Index)>& task) {
-    const auto first = [&](int rank) {
-      return static_cast<Index>(std::int64_t{count} * rank / team_.size());
-    };
-    const Index begin = first(team_.rank()), end = first(team_.rank() + 1);
-    const Stage stage(progress_, "slabs: " + name);
-    for (Index n = begin; n < end; ++n) {
-      if (!scratch_.has(done_file(name, n))) {
-        Stopwatch watch;
-        SlabWork work = task(n);
-        work.seconds = watch.lap();
-        ArchiveWriter archive;
-        archive.add_one(work);
-        scratch_.write(done_file(name, n), archive);
-      }
-      stage.advance(static_cast<double>(n + 1 - begin) / (end - begin));
-    }
-    team_.wait_for_all();
-  }
-
-  SlabWork work_of(const std::string& name, Index n) const {
-    return scratch_.read(done_file(name, n)).next_one<SlabWork>();
-  }
-
- private:
-  static std::string done_file(const std::string& name, Index n) {
-    return "done." + name + "." + std::to_string(n);
-  }
-  const Scratch& scratch_;
-  Team& team_;
-  const Progress& progress_;
-};
 
 std::string sums_file(Index chunk) { return "sums." + std::to_string(chunk); }
 
@@ -134,6 +97,8 @@ SlabRun begin_run(const SliceSource& source, const Settings& settings, const Scr
   return {source, scratch, plan, choice};
 }
 
+constexpr const char* kLastOnMesh = "final minimisation";
+
 std::string of_mesh(const char* what, int k) { return what + (" " + std::to_string(k)); }
 
 /// All tasks on meshes: as many meshes as run_loop() would make.
@@ -150,42 +115,76 @@ int run_meshes(MeshRun& run, Stages& stages) {
     stages.run(of_mesh("borders", k + 1), slabs - 1, [&](Index s) { return seam(run, k + 1, s); });
     settled = has_settled(run.input, records_of(run, k));
   }
-  stages.run("final minimisation", slabs, [&](Index s) { return finish(run, k, s); });
+  stages.run(kLastOnMesh, slabs, [&](Index s) { return finish(run, k, s); });
   return k;
 }
 
-/// What the slabs have done, in the order in which they did it.
-/// @param meshes  that were made.
-std::vector<SlabWork> work_of_slabs(const SlabRun& run, const Stages& stages, int meshes) {
-  std::vector<SlabWork> all;
-  std::vector<std::string> names{"prepare", "final minimisation"};
-  std::vector<std::string> borders;
-  for (int k = 1; k <= meshes; ++k) {
-    names.push_back(of_mesh("mesh", k));
-    borders.push_back(of_mesh("borders", k));
-    if (k < meshes) names.push_back(of_mesh("minimise", k));
+/// All tasks on the surface.
+/// @return its parameters, the tolerance of decimation chosen.
+Parameters run_surface(SurfaceRun& run, Stages& stages, const Settings& settings, bool grey) {
+  const Index slabs = run.count();
+  Parameters p = run.mesh.input.parameters;
+  stages.run("surface", slabs, [&](Index s) { return extract_slab(run, s); });
+  learn_follows(run);
+  stages.run("follow", slabs, [&](Index s) { return follow_slab(run, s); });
+  stages.run("follow at borders", slabs - 1, [&](Index s) { return follow_border(run, s); });
+  stages.run("parts", slabs, [&](Index s) { return list_parts(run, s); });
+  learn_parts(run);
+  choose_tolerance(run.mesh.input, settings, run.parts.mean_error, p);
+  run.tolerance = p.tolerance;
+  if (!decimates_in_slabs(run, p)) return p;
+  stages.run("nesting", slabs, [&](Index s) { return cross_rays(run, s); });
+  learn_choice(run, {p.min_volume, p.keep_largest, p.fill_cavities});
+  stages.run("decimate", slabs, [&](Index s) { return decimate_slab(run, s); });
+  stages.run("decimate at borders", slabs - 1, [&](Index s) { return decimate_border(run, s); });
+  stages.run("distances", slabs, [&](Index s) { return measure_slab(run, s); });
+  if (grey) stages.run("grey", slabs, [&](Index s) { return find_grey(run, s); });
+  return p;
+}
+
+/// The stages with a task for each slab, and those with one for each border, in their order.
+struct StageNames {
+  std::vector<std::string> slabs, borders;
+};
+
+StageNames stage_names(const SurfaceRun& run, const Parameters& p, bool grey) {
+  StageNames names{{"prepare", kLastOnMesh, "surface", "follow", "parts"}, {"follow at borders"}};
+  for (int k = 1; k <= run.last; ++k) {
+    names.slabs.push_back(of_mesh("mesh", k));
+    names.borders.push_back(of_mesh("borders", k));
+    if (k < run.last) names.slabs.push_back(of_mesh("minimise", k));
   }
-  for (Index s = 0; s < run.plan.count(); ++s) {
-    SlabWork sum;
-    for (const std::string& name : names) sum += stages.work_of(name, s);
-    for (const std::string& name : borders) {
-      if (s + 1 < run.plan.count()) sum += stages.work_of(name, s);
-    }
-    all.push_back(sum);
+  if (decimates_in_slabs(run, p)) {
+    names.slabs.insert(names.slabs.end(), {"nesting", "decimate", "distances"});
+    names.borders.emplace_back("decimate at borders");
+    if (grey) names.slabs.emplace_back("grey");
+  }
+  return names;
+}
+
+/// What the slabs have done.
+std::vector<SlabWork> work_of_slabs(const SurfaceRun& run, const StageNames& names,
+                                    const Stages& stages) {
+  std::vector<SlabWork> all;
+  for (Index s = 0; s < run.count(); ++s) {
+    SlabWork& sum = all.emplace_back();
+    for (const std::string& name : names.slabs) sum += stages.work_of(name, s);
+    if (s + 1 == run.count()) continue;
+    for (const std::string& name : names.borders) sum += stages.work_of(name, s);
   }
   return all;
 }
 
 /// What the loop leaves.
-Loop loop_of(const MeshRun& run, Finished finished) {
+/// @param whole  its mesh; empty if nobody wants it.
+Loop loop_of(const SurfaceRun& run, Piece whole) {
   Loop loop;
-  Piece& whole = finished.whole;
   loop.minimum.f = values_of(whole, &NodeValues::f);
   loop.minimum.u = values_of(whole, &NodeValues::u);
   loop.minimum.v = values_of(whole, &NodeValues::v);
   loop.state.metric = values_of(whole, &NodeValues::metric);
   loop.state.mesh = std::move(whole.mesh);
-  loop.passes = std::move(finished.passes);
+  loop.passes = records_of(run.mesh, run.last);
   for (std::size_t pass = 1; pass < loop.passes.size(); ++pass) {
     Iteration& now = loop.passes[pass];
     const Iteration& before = loop.passes[pass - 1];
@@ -193,7 +192,7 @@ Loop loop_of(const MeshRun& run, Finished finished) {
         std::abs(now.energy.total() - before.energy.total()) / before.energy.total();
   }
   std::vector<Iteration> adaptations(loop.passes.begin(), loop.passes.end() - 1);
-  loop.settled = adaptations.size() > 1 && has_settled(run.input, adaptations);
+  loop.settled = adaptations.size() > 1 && has_settled(run.mesh.input, adaptations);
   return loop;
 }
 
@@ -203,26 +202,60 @@ std::int64_t nodes_of_first_grid(const MeshRun& run) {
   return std::int64_t{size[0]} * size[1] * size[2];
 }
 
-/// @param meshes  that were made.
-SlabRunResult deliver(const MeshRun& run, int meshes, const Settings& settings,
-                      const Stages& stages, const Progress& progress) {
+/// The surface as it is delivered, and what is known of it.
+void deliver_surface_of(const SurfaceRun& run, const Settings& settings, const Progress& progress,
+                        Result& result) {
+  const RunInput& input = run.mesh.input;
+  if (!decimates_in_slabs(run, result.parameters)) {
+    result.surface = followed_surface(run);
+    turn_as_grid(input, result.surface);
+    return finish_surface(input, settings, progress, result);
+  }
+  TriMesh surface = decimated_surface(run);
+  turn_as_grid(input, surface);
+  RoundReport rounding;
+  result.surface = round_to_single(surface, &rounding);
+  result.printable = printable_report(run);
+  result.printable.extracted_to_result += rounding.shift;
+  result.printable.result_to_extracted += rounding.shift;
+  tell_error(input, result);
+}
+
+void drop_mesh(Result& result) {
+  result.mesh = {};
+  result.u = result.v = result.f = {};
+  result.metric = {};
+}
+
+SlabRunResult deliver(const SurfaceRun& run, const Parameters& parameters, const Settings& settings,
+                      const SlabRunOptions& options, const Stages& stages) {
+  const MeshRun& mesh = run.mesh;
   SlabRunResult all;
   Result& result = all.result;
-  result.parameters = run.prepared.parameters;
-  result.image = run.prepared.measured;
-  Loop loop = loop_of(run, collect(run, meshes));
-  all.own_rows = nodes_of_first_grid(run);
+  result.parameters = parameters;
+  result.image = mesh.prepared.measured;
+  const bool in_slabs = decimates_in_slabs(run, parameters);
+  // Of the whole surface, the grey values come from the whole mesh.
+  const bool needs_mesh = options.mesh || (options.grey && !in_slabs);
+  Loop loop = loop_of(run, needs_mesh ? collect(mesh, run.last) : Piece{});
+  all.own_rows = nodes_of_first_grid(mesh);
   for (std::size_t pass = 1; pass < loop.passes.size(); ++pass) {
     all.own_rows += loop.passes[pass].nodes;
     all.own_cells += loop.passes[pass].tets;
   }
-  deliver_loop(run.input, std::move(loop), progress, result);
+  deliver_mesh(mesh.input, std::move(loop), result);
+  if (!needs_mesh) result.fit = fit_of(mesh, run.last);
   Stopwatch watch;
-  finish_surface(run.input, settings, progress, result);
+  deliver_surface_of(run, settings, options.progress, result);
   result.seconds.printable = watch.lap();
-  all.plan = run.slabs.plan;
-  all.mesh_plan = run.plan(meshes);
-  all.slabs = work_of_slabs(run.slabs, stages, meshes);
+  if (options.grey) {
+    all.grey = in_slabs ? grey_of(run, result.surface)
+                        : surface_grey(result, mesh.slabs.plan.whole.voxel_size());
+  }
+  if (!options.mesh) drop_mesh(result);
+  all.plan = mesh.slabs.plan;
+  all.mesh_plan = mesh.plan(run.last);
+  all.slabs = work_of_slabs(run, stage_names(run, parameters, options.grey), stages);
   return all;
 }
 
@@ -286,15 +319,17 @@ void require_same_run(const Scratch& scratch, const std::string& description, Te
 
 /// One slab is the whole scan: a run like any other.
 SlabRunResult run_whole(const SliceSource& source, const Settings& settings, SlabPlan plan,
-                        const Progress& progress) {
+                        const SlabRunOptions& options) {
   const ChosenObject object = choose_in(read_slab(source, 0, plan.whole.size[2]), settings);
   SlabRunResult all;
-  all.result = run_on_object(object, settings, progress);
+  all.result = run_on_object(object, settings, options.progress);
+  if (options.grey) all.grey = surface_grey(all.result, source.grid().voxel_size());
   all.plan = all.mesh_plan = std::move(plan);
   for (const Iteration& pass : all.result.iterations) {
     all.own_rows += pass.nodes;
     if (&pass != &all.result.iterations.front()) all.own_cells += pass.tets;
   }
+  if (!options.mesh) drop_mesh(all.result);
   all.slabs = {
       {static_cast<std::int64_t>(all.plan.whole.voxel_count()), all.own_rows, all.own_cells, 0}};
   return all;
@@ -309,7 +344,7 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
   const SlabPlan even = even_plan(whole, {whole.voxel_size(), settings.beta, options.slabs});
   if (even.count() == 1) {
     if (team.rank() != 0) return std::nullopt;
-    return run_whole(source, settings, even, progress);
+    return run_whole(source, settings, even, options);
   }
   Stages stages(scratch, team, progress);
   const SlabRun run = begin_run(source, settings, scratch, stages, options.slabs);
@@ -319,9 +354,11 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
   });
   stages.run("prepare", run.plan.count(), [&](Index s) { return prepare_and_minimise(run, s); });
   MeshRun meshes(run);
-  const int last = run_meshes(meshes, stages);
+  SurfaceRun surface{meshes, run_meshes(meshes, stages)};
+  require_full(meshes, surface.last);
+  const Parameters parameters = run_surface(surface, stages, settings, options.grey);
   if (team.rank() != 0) return std::nullopt;
-  return deliver(meshes, last, settings, stages, progress);
+  return deliver(surface, parameters, settings, options, stages);
 }
 
 }  // namespace

@@ -21,6 +21,8 @@ struct SlabRunOptions {
   std::optional<Index> slabs{};   ///< default: as plan_slabs()
   std::filesystem::path scratch;  ///< a folder on a disk that all processes see; made where missing
   bool keep_scratch = false;      ///< at the end; else what is in the folder goes
+  bool mesh = true;               ///< whether the result has its mesh and fields
+  bool grey = false;              ///< whether to find SlabRunResult::grey
   bool resumable = true;          ///< a run that fails leaves its files, to be gone on with
   std::string input{};            ///< what tells this scan from others, such as a path and a date
   Progress progress{};            ///< optional; "slabs: ..." and the stages of mes_amis()
@@ -29,6 +31,7 @@ struct SlabRunOptions {
 /// A result, and how it came about.
 struct SlabRunResult {
   Result result;
+  std::vector<double> grey{};   ///< of the points of the surface, see surface_grey(); if asked for
   SlabPlan plan;                ///< of voxels
   SlabPlan mesh_plan;           ///< of the last mesh: as many slabs, cut elsewhere
   std::vector<SlabWork> slabs;  ///< one per slab
@@ -43,8 +46,10 @@ struct SlabRunResult {
 /// most. The image is restored and minimised on slab by slab, each with the slices around that
 /// matter to it. Each mesh is adapted in two steps: slabs on their own, their borders kept; then
 /// the cells around each border, kept at their own borders. On meshes the functional is minimised
-/// slab by slab with the cells around. At the end the mesh is put together, in the memory of rank
-/// 0; the surface is extracted and finished as by mes_amis().
+/// slab by slab with the cells around. Surfaces are extracted slab by slab, follow the image and
+/// are decimated, each in two steps as the mesh: the memory of rank 0 holds the decimated surface,
+/// and the mesh if that is asked for. Only where a number of triangles is asked for, or no
+/// decimation, rank 0 holds the whole surface as extracted.
 ///
 /// The result depends on the scan, the settings and the number of slabs alone: not on the number of
 /// processes, not on threads, not on whether a run was killed and started again.
@@ -61,7 +66,7 @@ struct SlabRunResult {
 /// @throws Cancelled   if progress says stop; the folder is kept.
 ///
 /// Time as mes_amis(), and what overlaps add. Memory of a process: about that of mes_amis() for the
-/// largest slab; of rank 0 also the mesh, about 60 bytes per cell, and its surface.
+/// largest slab; of rank 0 also the surface, and the mesh, about 60 bytes per cell.
 std::optional<SlabRunResult> run_in_slabs(const SliceSource& source, const Settings& settings,
                                           const SlabRunOptions& options, Team& team);
 

@@ -8,10 +8,13 @@ set(ROOM_HEADERS
 set(ROOM_SOURCES
   archive.cpp
   background.cpp
+  decimate_tasks.cpp
+  grey_tasks.cpp
   grid_nodes.cpp
   map_scan.cpp
   mapped_items.cpp
   mesh_tasks.cpp
+  part_tasks.cpp
   piece.cpp
   plan.cpp
   profile.cpp
@@ -19,4 +22,7 @@ set(ROOM_SOURCES
   run_in_slabs.cpp
   sample.cpp
   scratch.cpp
-  slab_tasks.cpp)
+  slab_tasks.cpp
+  stages.cpp
+  surface_piece.cpp
+  surface_tasks.cpp)

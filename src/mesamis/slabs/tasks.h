@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesamis/image/slice_source.h"
+#include "mesamis/mesh/metric.h"
 #include "mesamis/method/passes.h"
 #include "mesamis/slabs/background.h"
 #include "mesamis/slabs/piece.h"
@@ -94,14 +95,17 @@ SlabWork adapt_slab(const MeshRun& run, int k, Index s);
 /// Minimises on mesh k of slab s, the last one, as the result needs it.
 SlabWork finish(const MeshRun& run, int k, Index s);
 
-/// What was recorded of the minimisations on the grid and on the meshes 1 to k; after solve().
+/// What was recorded of the minimisations on the grid and on the meshes 1 to k; after solve(), and
+/// of the last mesh after finish().
 std::vector<Iteration> records_of(const MeshRun& run, int k);
 
-/// The whole mesh and its fields, and what is known of all passes; after finish().
-struct Finished {
-  Piece whole;
-  std::vector<Iteration> passes;
-};
-Finished collect(const MeshRun& run, int k);
+/// @throws NumericalError  if a cell of the last mesh was lost between slabs.
+void require_full(const MeshRun& run, int k);
+
+/// How well the last mesh fits its metric; edges at borders count for both slabs; after finish().
+MeshFit fit_of(const MeshRun& run, int k);
+
+/// The whole last mesh and its fields; after finish().
+Piece collect(const MeshRun& run, int k);
 
 }  // namespace mesamis::detail

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decimation, and how far it moved the surface.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "mesamis/decimate/decimate_part.h"
+#include "mesamis/decimate/patch.h"
+#include "mesamis/decimate/single_places.h"
+#include "mesamis/slabs/point_numbers.h"
+#include "mesamis/slabs/surface_files.h"
+#include "mesamis/surface/distance.h"
+
+namespace mesamis::detail {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Rings of points around those that a slab's own task has held: the border's task may remove them.
+constexpr int kRings = 4;
+
+/// A part of a slab's surface on its way, and what it stands for.
+struct CoverPiece {
+  SurfacePiece piece;                          ///< decimated; points also of the originals
+  std::vector<Triangle> originals;             ///< over its points
+  std::vector<std::vector<Index>> stands_for;  ///< as Cover::originals
+  std::vector<double> drift;                   ///< as Cover::drift
+};
+
+void write_cover(const Scratch& scratch, const std::string& name, const CoverPiece& cover) {
+  std::vector<Index> counts, all;
+  for (const std::vector<Index>& originals : cover.stands_for) {
+    counts.push_back(static_cast<Index>(originals.size()));
+    all.insert(all.end(), originals.begin(), originals.end());
+  }
+  ArchiveWriter archive;
+  add_surface(archive, cover.piece);
+  archive.add(cover.originals);
+  archive.add(counts);
+  archive.add(all);
+  archive.add(cover.drift);
+  scratch.write(name, archive);
+}
+
+CoverPiece read_cover(const Scratch& scratch, const std::string& name, SlabWork* work) {
+  ArchiveReader archive = scratch.read(name);
+  if (work != nullptr) work->bytes += static_cast<std::int64_t>(archive.size());
+  CoverPiece cover;
+  cover.piece = next_surface(archive);
+  cover.originals = archive.next<Triangle>();
+  const auto counts = archive.next<Index>();
+  const auto all = archive.next<Index>();
+  auto next = all.begin();
+  for (const Index count : counts) {
+    cover.stands_for.emplace_back(next, next + count);
+    next += count;
+  }
+  cover.drift = archive.next<double>();
+  return cover;
+}
+
+/// Where it is in the world, in single precision; mm.
+TriMesh rounded_in_world(const SurfaceRun& run, const SurfacePiece& piece) {
+  TriMesh mesh = in_world(run, piece);
+  for (Vec3& p : mesh.points) p = rounded(p);
+  return mesh;
+}
+
+DecimateOptions decimate_options(const SurfaceRun& run) {
+  DecimateOptions options;
+  options.tolerance = run.tolerance - run.parts.shift;
+  return options;
+}
+
+/// Above what lies below a slab's surface, and below what lies above it.
+HeightRange free_range(const SurfaceRun& run, Index s) {
+  HeightRange range{-kInfinity, kInfinity};
+  for (Index t = 0; t < run.count(); ++t) {
+    for (const auto* ranges : {&run.parts.core, &run.parts.border}) {
+      const HeightRange& other = (*ranges)[static_cast<std::size_t>(t)];
+      if (t < s) range.low = std::max(range.low, other.high);
+      if (t > s) range.high = std::min(range.high, other.low);
+    }
+  }
+  return range;
+}
+
+/// Of each point 1 if all corners of its triangles lie strictly between two heights.
+std::vector<char> points_between(const std::vector<SurfacePoint>& points,
+                                 const std::vector<Triangle>& triangles, const HeightRange& range) {
+  std::vector<char> between(points.size(), 1);
+  for (const Triangle& t : triangles) {
+    const bool all = std::all_of(t.begin(), t.end(), [&](Index p) {
+      return range.low < points[p].at.z && points[p].at.z < range.high;
+    });
+    if (all) continue;
+    for (const Index p : t) between[p] = 0;
+  }
+  return between;
+}
+
+/// The heights that the tasks on the borders of a slab may work at: none where nothing lies beyond.
+struct Sides {
+  HeightRange low{kInfinity, -kInfinity}, high{kInfinity, -kInfinity};
+};
+
+/// @param free  of free_range().
+Sides sides_of(const HeightRange& free) {
+  const bool below = std::isfinite(free.low), above = std::isfinite(free.high);
+  const double middle = (free.low + free.high) / 2;
+  Sides sides;
+  if (below) sides.low = {-kInfinity, above ? middle : kInfinity};
+  if (above) sides.high = {below ? middle : -kInfinity, kInfinity};
+  return sides;
+}
+
+/// The points near one border that its task may remove: those that the slab's own task has held,
+/// and some around them, on the border's side of the slab's middle.
+/// @param cover  of the slab.
+/// @param side   the heights on that side.
+std::vector<char> open_points(const SurfacePiece& piece, const Cover& cover,
+                              const std::vector<char>& held, const HeightRange& side) {
+  std::vector<char> open(piece.points.size(), 0);
+  for (std::size_t p = 0; p < open.size(); ++p) {
+    open[p] = held[p] != 0 && side.low < piece.points[p].at.z && piece.points[p].at.z < side.high;
+  }
+  choose_rings(cover.triangles, kRings, open);
+  const std::vector<char> between = points_between(piece.points, cover.triangles, side);
+  for (std::size_t p = 0; p < open.size(); ++p) open[p] &= between[p];
+  return open;
+}
+
+/// Of each triangle 1 if any corner is chosen.
+std::vector<char> triangles_at(const std::vector<Triangle>& triangles,
+                               const std::vector<char>& chosen) {
+  std::vector<char> at;
+  at.reserve(triangles.size());
+  for (const Triangle& t : triangles) at.push_back(chosen[t[0]] | chosen[t[1]] | chosen[t[2]]);
+  return at;
+}
+
+/// Numbers points and triangles of a whole as they are needed.
+class Numbering {
+ public:
+  explicit Numbering(std::size_t count) : number_(count, kNoIndex) {}
+  Index of(Index item) {
+    if (number_[item] == kNoIndex) {
+      number_[item] = static_cast<Index>(items_.size());
+      items_.push_back(item);
+    }
+    return number_[item];
+  }
+  const std::vector<Index>& items() const { return items_; }
+
+ private:
+  std::vector<Index> number_;
+  std::vector<Index> items_;  // in the order of their numbers
+};
+
+/// Some triangles of a slab's cover, with what they stand for.
+/// @param open  of each point of the slab's surface 1 if it may be removed.
+CoverPiece part_of(const SurfacePiece& surface, const Cover& cover, const std::vector<char>& chosen,
+                   const std::vector<char>& open) {
+  CoverPiece part;
+  Numbering points(surface.points.size()), originals(surface.triangles.size());
+  const auto over_part = [&](Triangle t) {
+    for (Index& p : t) p = points.of(p);
+    return t;
+  };
+  for (std::size_t t = 0; t < cover.triangles.size(); ++t) {
+    if (chosen[t] == 0) continue;
+    part.piece.triangles.push_back(over_part(cover.triangles[t]));
+    part.drift.push_back(cover.drift[t]);
+    std::vector<Index>& list = part.stands_for.emplace_back();
+    for (const Index original : cover.originals[t]) list.push_back(originals.of(original));
+    std::sort(list.begin(), list.end());
+  }
+  for (const Index t : originals.items()) part.originals.push_back(over_part(surface.triangles[t]));
+  for (const Index p : points.items()) {
+    part.piece.points.push_back(surface.points[p]);
+    part.piece.points.back().settled = open[p] == 0;
+  }
+  return part;
+}
+
+/// Joins what the slabs below and above a border have left for it.
+CoverPiece join(const CoverPiece& below, const CoverPiece& above) {
+  CoverPiece both{mesamis::detail::join({below.piece, above.piece}), {}, {}, {}};
+  PointNumbers numbers;
+  for (const SurfacePoint& p : both.piece.points) (void)numbers.of(p.key);
+  for (const CoverPiece* part : {&below, &above}) {
+    const auto first = static_cast<Index>(both.originals.size());
+    for (Triangle t : part->originals) {
+      for (Index& p : t) p = numbers.find(part->piece.points[p].key);
+      both.originals.push_back(t);
+    }
+    for (std::vector<Index> list : part->stands_for) {
+      for (Index& original : list) original += first;
+      both.stands_for.push_back(std::move(list));
+    }
+    both.drift.insert(both.drift.end(), part->drift.begin(), part->drift.end());
+  }
+  return both;
+}
+
+/// Settles the points on the rim of the triangles.
+void settle_rim(SurfacePiece& piece) {
+  const std::vector<char> rim = rim_of(piece);
+  for (std::size_t p = 0; p < rim.size(); ++p) piece.points[p].settled |= rim[p] != 0;
+}
+
+std::vector<char> settled_points(const SurfacePiece& piece) {
+  std::vector<char> settled;
+  settled.reserve(piece.points.size());
+  for (const SurfacePoint& p : piece.points) settled.push_back(p.settled ? 1 : 0);
+  return settled;
+}
+
+/// Triangles of few corners in common: known by these, in any order.
+class KnownTriangles {
+ public:
+  explicit KnownTriangles(std::span<const Triangle> triangles) {
+    for (const Triangle& t : triangles) known_.push_back(sorted(t));
+    std::sort(known_.begin(), known_.end());
+  }
+  bool has(const Triangle& t) const {
+    return std::binary_search(known_.begin(), known_.end(), sorted(t));
+  }
+
+ private:
+  static Triangle sorted(Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+  }
+  std::vector<Triangle> known_;
+};
+
+/// What of a slab no other task changes: its points are settled.
+void write_decimated(const Scratch& scratch, Index s, const SurfacePiece& piece, const Cover& cover,
+                     const std::vector<char>& chosen) {
+  SurfacePiece some = select({piece.points, cover.triangles}, chosen);
+  for (SurfacePoint& p : some.points) p.settled = true;
+  write_surface(scratch, surface_file("decimated", s), some);
+}
+
+/// What measure_slab() leaves.
+struct Measured {
+  std::int64_t triangles = 0;  ///< before decimation, of the parts that stay
+  double original_to_result = 0, result_to_original = 0;
+};
+
+Measured read_measured(const SurfaceRun& run, Index s) {
+  return run.mesh.slabs.scratch.read(surface_file("measured", s)).next_one<Measured>();
+}
+
+}  // namespace
+
+SlabWork decimate_slab(const SurfaceRun& run, Index s) {
+  const Scratch& scratch = run.mesh.slabs.scratch;
+  const SurfacePiece piece = chosen_surface_of(run, s);
+  const HeightRange free = free_range(run, s);
+  std::vector<char> held = points_between(piece.points, piece.triangles, free);
+  for (char& point : held) point = point == 0 ? 1 : 0;
+  const TriMesh surface = rounded_in_world(run, piece);
+  const Cover cover = decimate_part(surface, cover_of(surface), held, decimate_options(run));
+  const Sides sides = sides_of(free);
+  std::vector<char> stays(cover.triangles.size(), 1);
+  for (const auto& [name, side] : {std::pair{"cover low", sides.low}, {"cover high", sides.high}}) {
+    const std::vector<char> open = open_points(piece, cover, held, side);
+    const std::vector<char> chosen = triangles_at(cover.triangles, open);
+    write_cover(scratch, surface_file(name, s), part_of(piece, cover, chosen, open));
+    for (std::size_t t = 0; t < stays.size(); ++t) {
+      if (chosen[t] != 0) stays[t] = 0;
+    }
+  }
+  write_decimated(scratch, s, piece, cover, stays);
+  return {};
+}
+
+SlabWork decimate_border(const SurfaceRun& run, Index s) {
+  const Scratch& scratch = run.mesh.slabs.scratch;
+  SlabWork work;
+  CoverPiece near = join(read_cover(scratch, surface_file("cover high", s), nullptr),
+                         read_cover(scratch, surface_file("cover low", s + 1), &work));
+  settle_rim(near.piece);
+  // What is around stays, and keeps what changes from running into it.
+  SurfacePiece all = join({near.piece, read_surface(scratch, surface_file("decimated", s)),
+                           read_surface(scratch, surface_file("decimated", s + 1), &work)});
+  const TriMesh surface = rounded_in_world(run, all);
+  Cover cover{surface.triangles, std::move(near.stands_for), std::move(near.drift)};
+  cover.originals.resize(cover.triangles.size());
+  cover.drift.resize(cover.triangles.size(), 0);
+  cover = decimate_part({surface.points, near.originals}, std::move(cover), settled_points(all),
+                        decimate_options(run));
+  const KnownTriangles around(std::span(all.triangles).subspan(near.piece.triangles.size()));
+  std::vector<char> chosen;
+  for (const Triangle& t : cover.triangles) chosen.push_back(around.has(t) ? 0 : 1);
+  write_surface(scratch, surface_file("decimated border", s),
+                select({all.points, cover.triangles}, chosen));
+  return work;
+}
+
+SlabWork measure_slab(const SurfaceRun& run, Index s) {
+  const Scratch& scratch = run.mesh.slabs.scratch;
+  SlabWork work;
+  Measured measured;
+  std::vector<SurfacePiece> originals{chosen_surface_of(run, s)};
+  std::vector<SurfacePiece> delivered{read_surface(scratch, surface_file("decimated", s))};
+  measured.triangles = std::ssize(originals[0].triangles);
+  const auto distance = [&](const TriMesh& from, const TriMesh& to) {
+    if (from.triangles.empty()) return 0.0;
+    return max_distance(from, to, fine_enough(from, run.tolerance));
+  };
+  const auto border = [&](Index below, SlabWork* of_others) {
+    return read_surface(scratch, surface_file("decimated border", below), of_others);
+  };
+  // A border's piece belongs to the slab below, and stands for parts of both.
+  if (s + 1 < run.count()) delivered.push_back(border(s, nullptr));
+  const TriMesh own = rounded_in_world(run, join(delivered));
+  if (s > 0) delivered.push_back(border(s - 1, &work));
+  measured.original_to_result =
+      distance(in_world(run, originals[0]), rounded_in_world(run, join(delivered)));
+  if (s + 1 < run.count()) originals.push_back(chosen_surface_of(run, s + 1, &work));
+  measured.result_to_original = distance(own, in_world(run, join(originals)));
+  ArchiveWriter archive;
+  archive.add_one(measured);
+  scratch.write(surface_file("measured", s), archive);
+  return work;
+}
+
+bool decimates_in_slabs(const SurfaceRun& run, const Parameters& parameters) {
+  return parameters.triangles == 0 && std::isfinite(run.tolerance) &&
+         run.tolerance > run.parts.shift;
+}
+
+SurfacePiece decimated_piece(const SurfaceRun& run) {
+  const Scratch& scratch = run.mesh.slabs.scratch;
+  std::vector<SurfacePiece> pieces;
+  for (Index s = 0; s < run.count(); ++s) {
+    pieces.push_back(read_surface(scratch, surface_file("decimated", s)));
+    if (s + 1 < run.count()) {
+      pieces.push_back(read_surface(scratch, surface_file("decimated border", s)));
+    }
+  }
+  return join(pieces);
+}
+
+TriMesh decimated_surface(const SurfaceRun& run) {
+  return rounded_in_world(run, decimated_piece(run));
+}
+
+PrintableReport printable_report(const SurfaceRun& run) {
+  PrintableReport report;
+  report.parts = run.choice.report;
+  for (Index s = 0; s < run.count(); ++s) {
+    const Measured measured = read_measured(run, s);
+    report.triangles_extracted += measured.triangles;
+    report.extracted_to_result = std::max(report.extracted_to_result, measured.original_to_result);
+    report.result_to_extracted = std::max(report.result_to_extracted, measured.result_to_original);
+  }
+  return report;
+}
+
+}  // namespace mesamis::detail

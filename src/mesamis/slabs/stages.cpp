@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/slabs/stages.h"
+
+#include "mesamis/base/stopwatch.h"
+#include "mesamis/method/passes.h"
+
+namespace mesamis::detail {
+namespace {
+
+std::string done_file(const std::string& name, Index n) {
+  return "done." + name + "." + std::to_string(n);
+}
+
+}  // namespace
+
+void Stages::run(const std::string& name, Index count, const std::function<SlabWork(Index)>& task) {
+  const auto first = [&](int rank) {
+    return static_cast<Index>(std::int64_t{count} * rank / team_.size());
+  };
+  const Index begin = first(team_.rank()), end = first(team_.rank() + 1);
+  const Stage stage(progress_, "slabs: " + name);
+  for (Index n = begin; n < end; ++n) {
+    if (!scratch_.has(done_file(name, n))) {
+      Stopwatch watch;
+      SlabWork work = task(n);
+      work.seconds = watch.lap();
+      ArchiveWriter archive;
+      archive.add_one(work);
+      scratch_.write(done_file(name, n), archive);
+    }
+    stage.advance(static_cast<double>(n + 1 - begin) / (end - begin));
+  }
+  team_.wait_for_all();
+}
+
+SlabWork Stages::work_of(const std::string& name, Index n) const {
+  return scratch_.read(done_file(name, n)).next_one<SlabWork>();
+}
+
+}  // namespace mesamis::detail

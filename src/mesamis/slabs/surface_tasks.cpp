@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+// Extraction, and following the image.
+#include "mesamis/slabs/surface_tasks.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "mesamis/method/follow_image.h"
+#include "mesamis/slabs/mesh_files.h"
+#include "mesamis/slabs/point_numbers.h"
+#include "mesamis/slabs/surface_files.h"
+#include "mesamis/surface/extract.h"
+
+namespace mesamis::detail {
+namespace {
+
+/// How near to a border a task on a slab leaves the surface as it is, in overlaps.
+constexpr double kBand = 0.5;
+/// How far the surface is seen by the task on a border, in overlaps.
+constexpr double kAround = 2;
+
+/// Points in the order of their places: an edge that two slabs share has the same first end in
+/// both, so that both cut it at the same place, to the bit.
+Piece in_order_of_place(const Piece& piece) {
+  const std::vector<Vec3>& points = piece.mesh.points;
+  std::vector<Index> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    const Vec3 &p = points[a], &q = points[b];
+    return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+  });
+  Piece sorted;
+  std::vector<Index> number(order.size());
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    number[order[n]] = static_cast<Index>(n);
+    sorted.mesh.points.push_back(points[order[n]]);
+    sorted.nodes.push_back(piece.nodes[order[n]]);
+  }
+  for (Cell cell : piece.mesh.cells) {
+    for (Index& corner : cell) corner = number[corner];
+    sorted.mesh.cells.push_back(cell);
+  }
+  return sorted;
+}
+
+/// The mesh of slab s. Nodes that it shares with lower slabs have the values of these.
+Piece final_mesh(const SurfaceRun& run, Index s, SlabWork& work) {
+  const Scratch& scratch = run.mesh.slabs.scratch;
+  Piece piece = read_final(run.mesh, run.last, s);
+  PointNumbers numbers;
+  for (const Vec3& p : piece.mesh.points) (void)numbers.of(p);
+  std::vector<char> known(piece.nodes.size(), 0);
+  for (Index lower = 0; lower < s; ++lower) {
+    ArchiveReader archive = scratch.read(shared_nodes_file(run.last, lower));
+    work.bytes += static_cast<std::int64_t>(archive.size());
+    const auto points = archive.next<Vec3>();
+    const auto u = archive.next<double>();
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      const Index node = numbers.find(points[n]);
+      if (node == kNoIndex || known[node] != 0) continue;
+      known[node] = 1;
+      piece.nodes[node].u = u[n];
+    }
+  }
+  return in_order_of_place(piece);
+}
+
+double level_of(const SurfaceRun& run) {
+  const Parameters& p = run.mesh.input.parameters;
+  return p.grey.to_grey(p.level);
+}
+
+FollowOptions follow_options(const SurfaceRun& run) {
+  const RunInput& input = run.mesh.input;
+  return {level_of(run), input.error.noise, input.parameters.unit_mm};
+}
+
+/// The heights that a slab's own task keeps away from: of rims, which lie at its borders, and what
+/// is near these.
+struct Band {
+  double below = -std::numeric_limits<double>::infinity();
+  double above = std::numeric_limits<double>::infinity();
+
+  bool holds(double height) const { return height <= below || height >= above; }
+};
+
+double middle_of(const SlabPlan& plan, Index s) {
+  return (plan.height(s) + plan.height(s + 1)) / 2;
+}
+
+Band band_of(const SurfacePiece& piece, const SlabPlan& plan, Index s) {
+  const std::vector<char> rim = rim_of(piece);
+  const double width = kBand * plan.overlap;
+  Band band;
+  for (std::size_t p = 0; p < rim.size(); ++p) {
+    if (rim[p] == 0) continue;
+    const double height = piece.points[p].key.z;
+    if (height < middle_of(plan, s)) {
+      band.below = std::max(band.below, height + width);
+    } else {
+      band.above = std::min(band.above, height - width);
+    }
+  }
+  return band;
+}
+
+/// Settles the points of all triangles that reach into the band.
+void settle_band(const Band& band, SurfacePiece& piece) {
+  for (const Triangle& t : piece.triangles) {
+    const bool near =
+        std::any_of(t.begin(), t.end(), [&](Index p) { return band.holds(piece.points[p].key.z); });
+    if (!near) continue;
+    for (const Index p : t) piece.points[p].settled = true;
+  }
+}
+
+/// Moves the points of a piece that are not settled.
+void follow(const SurfaceRun& run, SurfacePiece& piece) {
+  if (!run.follows) return;
+  FollowedPart part{mesh_of(piece, &SurfacePoint::key), {}, {}};
+  for (const SurfacePoint& p : piece.points) {
+    part.moved.push_back(p.at);
+    part.held.push_back(p.settled ? 1 : 0);
+  }
+  follow_part(part, run.mesh.input.image, follow_options(run));
+  piece.triangles = std::move(part.extracted.triangles);
+  piece.points.resize(part.moved.size());
+  for (std::size_t p = 0; p < part.moved.size(); ++p) {
+    piece.points[p].key = part.extracted.points[p];
+    piece.points[p].at = part.moved[p];
+  }
+}
+
+/// Where a triangle of a slab goes on: to the border that a settled corner is near, else nowhere.
+enum class Goes : char { kNowhere, kLow, kHigh };
+
+std::vector<Goes> sides_of(const SurfacePiece& piece, double middle) {
+  std::vector<Goes> sides;
+  sides.reserve(piece.triangles.size());
+  for (const Triangle& t : piece.triangles) {
+    Goes side = Goes::kNowhere;
+    for (const Index p : t) {
+      if (!piece.points[p].settled || side == Goes::kLow) continue;
+      side = piece.points[p].key.z < middle ? Goes::kLow : Goes::kHigh;
+    }
+    sides.push_back(side);
+  }
+  return sides;
+}
+
+SurfacePiece part_of(const SurfacePiece& piece, const std::vector<Goes>& sides, Goes wanted) {
+  std::vector<char> chosen(sides.size());
+  std::transform(sides.begin(), sides.end(), chosen.begin(),
+                 [&](Goes side) { return side == wanted ? 1 : 0; });
+  return select(piece, chosen);
+}
+
+/// What of a slab's surface a border sees, beside what it works on.
+SurfacePiece seen_from(const SurfacePiece& core, double border, double distance) {
+  std::vector<char> chosen;
+  chosen.reserve(core.triangles.size());
+  for (const Triangle& t : core.triangles) {
+    chosen.push_back(std::any_of(t.begin(), t.end(), [&](Index p) {
+      return std::abs(core.points[p].key.z - border) < distance;
+    }));
+  }
+  return select(core, chosen);
+}
+
+}  // namespace
+
+SlabWork extract_slab(const SurfaceRun& run, Index s) {
+  SlabWork work;
+  const Piece own = final_mesh(run, s, work);
+  SolidOptions options;
+  options.box = run.mesh.input.box;
+  TriMesh surface = extract_solid(own.mesh, values_of(own, &NodeValues::u), level_of(run), options);
+  FollowCounts counts;
+  if (run.mesh.input.parameters.follow) {
+    counts = look_along(surface, run.mesh.input.image, follow_options(run));
+  }
+  SurfacePiece piece;
+  for (const Vec3& p : surface.points) piece.points.push_back({p, p});
+  piece.triangles = std::move(surface.triangles);
+  ArchiveWriter archive;
+  archive.add_one(counts);
+  add_surface(archive, piece);
+  run.mesh.slabs.scratch.write(surface_file("extracted", s), archive);
+  return work;
+}
+
+void learn_follows(SurfaceRun& run) {
+  FollowCounts sum;
+  for (Index s = 0; s < run.count(); ++s) {
+    const auto counts =
+        run.mesh.slabs.scratch.read(surface_file("extracted", s)).next_one<FollowCounts>();
+    sum.told += counts.told;
+    sum.clear += counts.clear;
+  }
+  run.follows = sum.is_worthwhile();
+}
+
+SlabWork follow_slab(const SurfaceRun& run, Index s) {
+  const Scratch& scratch = run.mesh.slabs.scratch;
+  const SlabPlan& plan = run.mesh.plan(run.last);
+  ArchiveReader archive = scratch.read(surface_file("extracted", s));
+  (void)archive.next_one<FollowCounts>();
+  SurfacePiece piece = next_surface(archive);
+  settle_band(band_of(piece, plan, s), piece);
+  follow(run, piece);
+  const std::vector<Goes> sides = sides_of(piece, middle_of(plan, s));
+  for (SurfacePoint& p : piece.points) p.settled = !p.settled;  // those that were left are next
+  write_surface(scratch, surface_file("core", s), part_of(piece, sides, Goes::kNowhere));
+  write_surface(scratch, surface_file("low", s), part_of(piece, sides, Goes::kLow));
+  write_surface(scratch, surface_file("high", s), part_of(piece, sides, Goes::kHigh));
+  return {};
+}
+
+SlabWork follow_border(const SurfaceRun& run, Index s) {
+  const Scratch& scratch = run.mesh.slabs.scratch;
+  const SlabPlan& plan = run.mesh.plan(run.last);
+  SlabWork work;
+  SurfacePiece near = join({read_surface(scratch, surface_file("high", s)),
+                            read_surface(scratch, surface_file("low", s + 1), &work)});
+  const std::vector<char> rim = rim_of(near);
+  for (std::size_t p = 0; p < rim.size(); ++p) near.points[p].settled |= rim[p] != 0;
+  const double border = plan.height(s + 1), distance = kAround * plan.overlap;
+  const SurfacePiece below =
+      seen_from(read_surface(scratch, surface_file("core", s)), border, distance);
+  const SurfacePiece above =
+      seen_from(read_surface(scratch, surface_file("core", s + 1), &work), border, distance);
+  SurfacePiece all = join({std::move(near), below, above});
+  follow(run, all);
+  // What is only seen is settled: it stays, and comes last.
+  all.triangles.resize(all.triangles.size() - below.triangles.size() - above.triangles.size());
+  write_surface(scratch, surface_file("border", s),
+                select(all, std::vector<char>(all.triangles.size(), 1)));
+  return work;
+}
+
+SurfacePiece surface_of(const SurfaceRun& run, Index s, SlabWork* work) {
+  const Scratch& scratch = run.mesh.slabs.scratch;
+  std::vector<SurfacePiece> pieces{read_surface(scratch, surface_file("core", s), work)};
+  if (s + 1 < run.count()) {
+    pieces.push_back(read_surface(scratch, surface_file("border", s), work));
+  }
+  return join(pieces);
+}
+
+TriMesh followed_surface(const SurfaceRun& run) {
+  std::vector<SurfacePiece> pieces;
+  for (Index s = 0; s < run.count(); ++s) pieces.push_back(surface_of(run, s));
+  return in_world(run, join(pieces));
+}
+
+}  // namespace mesamis::detail
