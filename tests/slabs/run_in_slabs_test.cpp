@@ -160,6 +160,104 @@ TEST(SlabRun, MostSlabsMayBeEmpty) {
   expect_ball_at({15, 14, 90});
 }
 
+/// A hollow ball across the border between two slabs, a ball in the hollow, and one beside.
+Volume scan_of_parts() {
+  const auto depth = [](const Vec3& p) {
+    const double at = norm(p - Vec3{15, 14.5, 47});
+    return std::max({std::min(12 - at, at - 8), 4 - at, 6 - norm(p - Vec3{15, 14, 78})});
+  };
+  return degrade(sampled_volume({32, 30, 96}, {1, 1, 1},
+                                [&](const Vec3& p) {
+                                  return 120 + 110 * std::clamp(0.5 + depth(p), 0.0, 1.0);
+                                }),
+                 {.blur = 0.7, .noise = 2});
+}
+
+Settings settings_for_parts() {
+  Settings settings = quick_settings();
+  settings.max_tets = 12000;
+  settings.min_volume = 10;
+  return settings;
+}
+
+/// @return the parts found.
+SelectionReport expect_the_parts_of_a_whole_run(const Volume& scan, const Settings& settings) {
+  const TempFolder folder;
+  const SlabRunResult run = run_alone(scan, {.slabs = 2, .scratch = folder / "s"}, settings);
+  const Result whole = mes_amis(scan, settings);
+  const SurfaceCheck check = check_surface(run.result.surface),
+                     expected = check_surface(whole.surface);
+  EXPECT_EQ(solid_flaws_of(check), "");
+  EXPECT_EQ(check.islands, expected.islands);
+  EXPECT_EQ(check.cavities, expected.cavities);
+  EXPECT_NEAR(check.volume / expected.volume, 1, 0.01);
+  const SelectionReport found = *run.result.printable.parts, parts = *whole.printable.parts;
+  EXPECT_EQ(found.islands, parts.islands);
+  EXPECT_EQ(found.cavities, parts.cavities);
+  EXPECT_EQ(found.islands_dropped, parts.islands_dropped);
+  EXPECT_EQ(found.cavities_filled, parts.cavities_filled);
+  EXPECT_NEAR(found.volume_dropped, parts.volume_dropped, 0.02 * parts.volume_dropped);
+  EXPECT_NEAR(found.volume_filled, parts.volume_filled, 0.02 * parts.volume_filled);
+  EXPECT_EQ(run.result.parameters.tolerance > 0, whole.parameters.tolerance > 0);
+  return found;
+}
+
+TEST(SlabRun, ChoosesPartsThatReachOverBorders) {
+  Settings settings = settings_for_parts();
+  settings.keep_largest = 1;
+  settings.fill_cavities = true;
+  const SelectionReport parts = expect_the_parts_of_a_whole_run(scan_of_parts(), settings);
+  EXPECT_EQ(parts.islands_dropped, 2);
+  EXPECT_EQ(parts.cavities_filled, 1);
+}
+
+// In the world, what is seen from outside turns the other way in a left-handed grid.
+TEST(SlabRun, KeepsAllPartsOfALeftHandedGrid) {
+  Volume scan = scan_of_parts();
+  scan.direction.rows[0] = {-1, 0, 0};
+  const SelectionReport parts = expect_the_parts_of_a_whole_run(scan, settings_for_parts());
+  EXPECT_EQ(parts.islands, 3);
+  EXPECT_EQ(parts.cavities, 1);
+}
+
+TEST(SlabRun, TheMeshIsKeptForThoseWhoWantIt) {
+  const TempFolder folder;
+  const Volume scan = scan_of_rod(72);
+  SlabRunOptions options{.slabs = 2, .scratch = folder / "scratch", .grey = true};
+  const SlabRunResult with = run_alone(scan, options);
+  options.mesh = false;
+  const SlabRunResult without = run_alone(scan, options);
+  EXPECT_TRUE(without.result.surface.points == with.result.surface.points);
+  EXPECT_TRUE(without.result.surface.triangles == with.result.surface.triangles);
+  EXPECT_TRUE(without.grey == with.grey);
+  EXPECT_EQ(without.grey.size(), with.result.surface.points.size());
+  EXPECT_TRUE(without.result.mesh.cells.empty() && without.result.u.empty());
+  EXPECT_EQ(without.result.fit.quality_min, with.result.fit.quality_min);
+  EXPECT_EQ(without.result.iterations.back().tets, std::ssize(with.result.mesh.cells));
+  EXPECT_EQ(without.result.iterations.back().nodes, std::ssize(with.result.mesh.points));
+}
+
+/// The whole surface is decimated at once where the number of triangles counts, or none is.
+TEST(SlabRun, DecimatesAsIsAskedFor) {
+  const TempFolder folder;
+  const Volume scan = scan_of_rod(72);
+  const SlabRunOptions options{
+      .slabs = 2, .scratch = folder / "scratch", .mesh = false, .grey = true};
+  Settings settings = quick_settings();
+  settings.triangles = 600;
+  const SlabRunResult few = run_alone(scan, options, settings);
+  EXPECT_EQ(few.result.surface.triangles.size(), 600u);
+  settings = quick_settings();
+  settings.tolerance = 0;
+  const SlabRunResult all = run_alone(scan, options, settings);
+  EXPECT_EQ(std::ssize(all.result.surface.triangles), all.result.printable.triangles_extracted);
+  for (const SlabRunResult* run : {&few, &all}) {
+    EXPECT_EQ(solid_flaws_of(check_surface(run->result.surface)), "");
+    EXPECT_EQ(run->grey.size(), run->result.surface.points.size());
+    EXPECT_TRUE(run->result.mesh.cells.empty());
+  }
+}
+
 TEST(SlabRun, OneSlabIsARunLikeAnyOther) {
   const TempFolder folder;
   const Volume scan = scan_of_rod(40);

@@ -10,6 +10,7 @@
 #include "mesamis/slabs/point_numbers.h"
 #include "mesamis/slabs/surface_files.h"
 #include "mesamis/surface/disjoint_sets.h"
+#include "mesamis/surface/measure.h"
 
 namespace mesamis::detail {
 namespace {
@@ -39,6 +40,15 @@ std::vector<Vec3> feet_of(const TriMesh& surface, const SurfaceComponents& compo
     if (c != kNoIndex) feet[c] = surface.points[surface.triangles[t][0]];
   }
   return feet;
+}
+
+/// Volumes of open surfaces add up where all cones have one apex: the middle of the scan.
+void measure_from(const Vec3& apex, const TriMesh& surface, SurfaceComponents& components) {
+  for (SurfaceComponents::Size& size : components.sizes) size.volume = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Index c = components.of_triangle[t];
+    if (c != kNoIndex) components.sizes[c].volume += cone_volume(surface, t, apex);
+  }
 }
 
 /// What list_parts() leaves of a slab.
@@ -143,7 +153,9 @@ SlabWork list_parts(const SurfaceRun& run, Index s) {
   for (const Vec3& p : surface.points) {
     list.facts.shift = std::max(list.facts.shift, norm(rounded(p) - p));
   }
-  const SurfaceComponents components = find_components(surface);
+  SurfaceComponents components = find_components(surface);
+  const VoxelGrid& grid = run.mesh.slabs.plan.whole;
+  measure_from(grid.to_world(0.5 * grid.box().extent()), surface, components);
   const std::vector<char> rim = rim_of(piece);
   std::vector<char> listed(rim.size(), 0);
   for (std::size_t t = 0; t < piece.triangles.size(); ++t) {

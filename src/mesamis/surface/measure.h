@@ -19,12 +19,17 @@ inline double triangle_area(const TriMesh& surface, std::size_t t) noexcept {
   return 0.5 * norm(area_vector(surface, t));
 }
 
+/// The signed volume of the cone over triangle t with a given apex, mm^3.
+inline double cone_volume(const TriMesh& surface, std::size_t t, const Vec3& apex) noexcept {
+  const Vec3& base = surface.points[surface.triangles[t][0]];
+  return dot(base - apex, area_vector(surface, t)) / 6;
+}
+
 /// The signed volume of the cone over triangle t, mm^3; over a closed surface the cones add up to
 /// its volume. The apex is the surface's first point: near the surface, so that little is lost to
 /// round-off when it lies far from the origin.
 inline double cone_volume(const TriMesh& surface, std::size_t t) noexcept {
-  const Vec3& base = surface.points[surface.triangles[t][0]];
-  return dot(base - surface.points[0], area_vector(surface, t)) / 6;
+  return cone_volume(surface, t, surface.points[0]);
 }
 
 }  // namespace mesamis
