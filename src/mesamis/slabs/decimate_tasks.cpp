@@ -87,16 +87,27 @@ HeightRange free_range(const SurfaceRun& run, Index s) {
   return range;
 }
 
-/// Of each point 1 if all corners of its triangles lie strictly between two heights.
-std::vector<char> points_between(const std::vector<SurfacePoint>& points,
-                                 const std::vector<Triangle>& triangles, const HeightRange& range) {
-  std::vector<char> between(points.size(), 1);
-  for (const Triangle& t : triangles) {
-    const bool all = std::all_of(t.begin(), t.end(), [&](Index p) {
-      return range.low < points[p].at.z && points[p].at.z < range.high;
-    });
+bool lies_in(const SurfacePiece& piece, const Triangle& t, const HeightRange& range) {
+  return std::all_of(t.begin(), t.end(), [&](Index p) {
+    return range.low < piece.points[p].at.z && piece.points[p].at.z < range.high;
+  });
+}
+
+/// Of each point 1 if all its triangles, and what they stand for, lie strictly between two heights.
+/// @param cover  of the piece.
+std::vector<char> points_between(const SurfacePiece& piece, const Cover& cover,
+                                 const HeightRange& range) {
+  std::vector<char> lies;  // of each original
+  lies.reserve(piece.triangles.size());
+  for (const Triangle& t : piece.triangles) lies.push_back(lies_in(piece, t, range) ? 1 : 0);
+  std::vector<char> between(piece.points.size(), 1);
+  for (std::size_t t = 0; t < cover.triangles.size(); ++t) {
+    const auto& originals = cover.originals[t];
+    const bool all =
+        lies_in(piece, cover.triangles[t], range) &&
+        std::all_of(originals.begin(), originals.end(), [&](Index o) { return lies[o] != 0; });
     if (all) continue;
-    for (const Index p : t) between[p] = 0;
+    for (const Index p : cover.triangles[t]) between[p] = 0;
   }
   return between;
 }
@@ -127,7 +138,7 @@ std::vector<char> open_points(const SurfacePiece& piece, const Cover& cover,
     open[p] = held[p] != 0 && side.low < piece.points[p].at.z && piece.points[p].at.z < side.high;
   }
   choose_rings(cover.triangles, kRings, open);
-  const std::vector<char> between = points_between(piece.points, cover.triangles, side);
+  const std::vector<char> between = points_between(piece, cover, side);
   for (std::size_t p = 0; p < open.size(); ++p) open[p] &= between[p];
   return open;
 }
@@ -261,9 +272,9 @@ SlabWork decimate_slab(const SurfaceRun& run, Index s) {
   const Scratch& scratch = run.mesh.slabs.scratch;
   const SurfacePiece piece = chosen_surface_of(run, s);
   const HeightRange free = free_range(run, s);
-  std::vector<char> held = points_between(piece.points, piece.triangles, free);
-  for (char& point : held) point = point == 0 ? 1 : 0;
   const TriMesh surface = rounded_in_world(run, piece);
+  std::vector<char> held = points_between(piece, cover_of(surface), free);
+  for (char& point : held) point = point == 0 ? 1 : 0;
   const Cover cover = decimate_part(surface, cover_of(surface), held, decimate_options(run));
   const Sides sides = sides_of(free);
   std::vector<char> stays(cover.triangles.size(), 1);
