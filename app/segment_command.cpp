@@ -112,9 +112,9 @@ void require_outputs(const SegmentOptions& options) {
       std::none_of(options.surfaces.begin(), options.surfaces.end(), carries_arrays)) {
     throw CLI::ValidationError("--error", "expected a .vtp or .ply among --output, found none");
   }
-  for (const fs::path& path : options.meshes) {
-    require_output(path, written_mesh_formats(), "--mesh");
-  }
+  std::vector<std::string> mesh_formats = written_mesh_formats();
+  if (options.slabs.given()) mesh_formats.emplace_back(kPiecesExtension);
+  for (const fs::path& path : options.meshes) require_output(path, mesh_formats, "--mesh");
   for (const fs::path& path : options.meshes) {
     if (lower_extension(path) == ".mesh") require_writable(fields_beside(path));
   }

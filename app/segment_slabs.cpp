@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "segment_slabs.h"
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "arguments.h"
 #include "costs.h"
@@ -33,6 +39,16 @@ std::string identity_of(const fs::path& path) {
   return fs::absolute(path).string() + " " + std::to_string(bytes) + " " + std::to_string(written);
 }
 
+bool is_in_pieces(const fs::path& mesh) { return lower_extension(mesh) == kPiecesExtension; }
+
+/// Those that are written at once.
+Paths whole_meshes_of(const SegmentRun& run) {
+  Paths whole;
+  std::copy_if(run.meshes.begin(), run.meshes.end(), std::back_inserter(whole),
+               [](const fs::path& mesh) { return !is_in_pieces(mesh); });
+  return whole;
+}
+
 /// Whether a surface is to carry grey values, which are those of the mesh below it.
 bool wants_grey(const SegmentRun& run) {
   return std::any_of(run.surfaces.begin(), run.surfaces.end(), carries_grey);
@@ -45,7 +61,7 @@ SlabRunOptions slab_options(const SegmentRun& run, const SlabArguments& slabs) {
   options.scratch = slabs.checkpoint;
   options.resumable = !slabs.checkpoint.empty();
   options.input = identity_of(run.scan.input);
-  options.mesh = !run.meshes.empty();
+  options.mesh = !whole_meshes_of(run).empty();
   options.grey = wants_grey(run);
   if (options.scratch.empty()) {
     options.scratch = !run.surfaces.empty() ? run.surfaces.front()
@@ -112,28 +128,72 @@ void write_slab_report(const SegmentRun& run, const Settings& settings, const Vo
   write_json(run.report, report);
 }
 
-/// The mesh as it is written: its cells have the mean of the voxels in them, of the whole scan.
-std::optional<MeshOutput> mesh_of(const SegmentRun& run, const SliceSource& source,
-                                  const Result& result) {
-  if (run.meshes.empty()) return {};
-  const MappedScan scan = map_scan(source, fs::absolute(run.meshes.front()).parent_path());
-  return make_mesh_output(result, scan.volume, run.mesh);
-}
+/// The meshes of a run, as they come.
+class MeshWriter {
+ public:
+  MeshWriter(const SegmentRun& run, const SliceSource& source) : run_(run), source_(source) {}
 
+  /// Writes the piece of one slab beside each index. Its cells have the mean of the voxels in them.
+  void write_piece(Index slab, const Result& piece) {
+    const MeshWithArrays grid = make_mesh_piece(piece, scan());
+    for (const fs::path& path : run_.meshes) {
+      if (!is_in_pieces(path)) continue;
+      const std::string name = path.stem().string() + "_" + std::to_string(slab) + ".vtu";
+      pieces_[path].push_back(name);
+      write_vtu(fs::path(path).replace_filename(name), grid.mesh,
+                {grid.point_arrays, grid.cell_arrays, run_.scan.frame});
+    }
+    for (const MeshArray& array : grid.point_arrays) keep(array, index_.point_arrays);
+    for (const MeshArray& array : grid.cell_arrays) keep(array, index_.cell_arrays);
+  }
+
+  /// Writes the indices, and the meshes that are written at once.
+  /// @return what these are of, if there is one.
+  std::optional<MeshOutput> finish(const Result& result) {
+    for (const auto& [path, pieces] : pieces_) {
+      write_pvtu(path, pieces, index_.point_arrays, index_.cell_arrays);
+    }
+    const Paths whole = whole_meshes_of(run_);
+    if (whole.empty()) return {};
+    const MeshOutput mesh = make_mesh_output(result, scan(), run_.mesh);
+    for (const fs::path& path : whole) write_mesh(path, mesh, run_.scan.frame);
+    return mesh;
+  }
+
+ private:
+  const VolumeView& scan() {
+    if (!scan_) {
+      scan_.emplace(map_scan(source_, fs::absolute(run_.meshes.front()).parent_path()));
+    }
+    return scan_->volume;
+  }
+  /// All pieces have the same arrays.
+  static void keep(const MeshArray& array, std::vector<MeshArray>& known) {
+    const auto is_same = [&](const MeshArray& other) { return other.name == array.name; };
+    if (std::any_of(known.begin(), known.end(), is_same)) return;
+    known.push_back({array.name, array.components, {}});
+  }
+
+  const SegmentRun& run_;
+  const SliceSource& source_;
+  std::optional<MappedScan> scan_;
+  std::map<fs::path, std::vector<std::string>> pieces_;  // names, by index
+  MeshWithArrays index_;                                 // names and components of the arrays
+};
+
+/// @param set  where the pieces of the mesh wait.
 int deliver(const SegmentRun& run, const Settings& settings, const FileSlices& source,
-            const SlabRunResult& found, const Team& team) {
+            const SlabRunResult& found, const Team& team, MeshWriter& meshes, OutputSet& set) {
   const VolumeFile& head = source.head();
   const Result& result = found.result;
   const SurfaceCheck check = check_surface(result.surface);
   const Verdict verdict = judge(result, check);
-  const std::optional<MeshOutput> mesh = mesh_of(run, source, result);
   if (!run.surfaces.empty()) require_surface(result);
   auto as =
       surface_options(result, head.volume.voxel_size(), {run.scan.frame, run.name, run.error});
   as.grey = found.grey;
-  OutputSet set;
   for (const fs::path& path : run.surfaces) write_surface(path, result.surface, as);
-  for (const fs::path& path : run.meshes) write_mesh(path, *mesh, run.scan.frame);
+  const std::optional<MeshOutput> mesh = meshes.finish(result);
   write_slab_report(run, settings, head, {found, check, verdict, mesh}, team, set);
   const Paths files = files_of(set);
   commit(set);
@@ -172,6 +232,10 @@ void require_slabs(const SegmentRun& run, const Settings& settings) {
   if (run.scan.labels.given()) refuse("labels");
   if (run.scan.places.given()) refuse("--tissue, --seed, --box, --mask or --remove");
   if (!run.band_meshes.empty()) refuse("--band-mesh");
+  if (run.mesh.region == MeshRegion::kObject &&
+      std::any_of(run.meshes.begin(), run.meshes.end(), is_in_pieces)) {
+    refuse("--mesh-region object for a .pvtu");
+  }
   if (run.body.elements()) refuse("--body or --surface-quality");
   if (!run.labelmap.empty()) refuse("--labelmap");
   if (run.page.given()) refuse("--html or --pictures");
@@ -189,10 +253,16 @@ int run_slabs(const SegmentRun& run, const SlabArguments& slabs, const Settings&
   ProgressDisplay display(common.quiet || common.is_helper());
   SlabRunOptions options = slab_options(run, slabs);
   options.progress = display.callback();
+  OutputSet set;
+  std::optional<MeshWriter> meshes;
+  if (team.rank() == 0) meshes.emplace(run, *source);
+  if (std::any_of(run.meshes.begin(), run.meshes.end(), is_in_pieces)) {
+    options.take_piece = [&](Index s, const Result& piece) { meshes->write_piece(s, piece); };
+  }
   const auto found = run_in_slabs(*source, settings, options, team);
   display.finish();
   if (!found) return kExitDone;
-  return deliver(run, settings, *source, *found, team);
+  return deliver(run, settings, *source, *found, team, *meshes, set);
 }
 
 }  // namespace mesamis

@@ -10,6 +10,9 @@
 /// Runs of `segment` on scans that are larger than the memory.
 namespace mesamis {
 
+/// Of the index of a mesh that is written slab by slab.
+inline constexpr const char* kPiecesExtension = ".pvtu";
+
 struct SlabArguments {
   std::optional<Index> slabs;        ///< --slabs; 0: as many as the scan needs
   std::filesystem::path checkpoint;  ///< --checkpoint; may be empty

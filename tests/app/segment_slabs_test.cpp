@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "mesamis/shape_files/mesh_files.h"
 #include "support/external_program.h"
 #include "support/run_program.h"
 
@@ -102,6 +103,32 @@ TEST(SlabsOfSegment, TheMeshIsThatOfTheWholeScan) {
   }
 }
 
+TEST(SlabsOfSegment, TheMeshMayStayInPieces) {
+  const TempFolder folder;
+  write_scan(folder);
+  const ProgramRun run =
+      run_program(folder, segment(folder, "two",
+                                  {"--slabs", "2", "--mesh", folder / "two.pvtu", "--mesh",
+                                   folder / "whole.vtu", "--report", folder / "two.json"}));
+  EXPECT_EQ(run.status, 0) << run.err;
+  const std::string index = read_bytes(folder / "two.pvtu");
+  EXPECT_THAT(index, HasSubstr("<Piece Source=\"two_0.vtu\"/>"));
+  EXPECT_THAT(index, HasSubstr("Name=\"u_native\""));
+  const MeshWithArrays whole = read_vtu(folder / "whole.vtu");
+  double volume = 0;
+  std::size_t cells = 0;
+  for (const char* name : {"two_0.vtu", "two_1.vtu"}) {
+    const MeshWithArrays piece = read_vtu(folder / name);
+    cells += piece.mesh.cells.size();
+    for (Index c = 0; c < std::ssize(piece.mesh.cells); ++c) volume += cell_volume(piece.mesh, c);
+    EXPECT_EQ(piece.point_arrays.size(), whole.point_arrays.size());
+    EXPECT_EQ(piece.cell_arrays.size() + 1, whole.cell_arrays.size()) << "no bins";
+  }
+  EXPECT_EQ(cells, whole.mesh.cells.size());
+  EXPECT_NEAR(volume, 31. * 31 * 71, 1e-6 * volume);
+  EXPECT_TRUE(report_of(folder, "two")["files"].dump().find("two_1.vtu") != std::string::npos);
+}
+
 TEST(SlabsOfSegment, AnyNumberOfProcessesWritesTheSameBytes) {
   if (!can_run_together()) GTEST_SKIP() << "mesamis-mpi or mpirun is not there";
   const TempFolder folder;
@@ -176,13 +203,14 @@ TEST(SlabsOfSegment, AKilledRunGoesOnWhereItWas) {
 TEST(SlabsOfSegment, WhatNeedsAllOfAScanIsRefused) {
   const TempFolder folder;
   write_scan(folder);
-  for (const std::vector<std::string>& more :
-       std::vector<std::vector<std::string>>{{"--band-mesh", folder / "m.vtu"},
-                                             {"--labelmap", folder / "l.nrrd"},
-                                             {"--crop", "0:20,,"},
-                                             {"--preview"},
-                                             {"--slabs", "0"},
-                                             {"--html", folder / "p.html"}}) {
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+           {"--band-mesh", folder / "m.vtu"},
+           {"--labelmap", folder / "l.nrrd"},
+           {"--crop", "0:20,,"},
+           {"--preview"},
+           {"--mesh", folder / "m.pvtu", "--mesh-region", "object"},
+           {"--slabs", "0"},
+           {"--html", folder / "p.html"}}) {
     auto arguments = segment(folder, "none", {"--slabs", "2"});
     if (more[0] == "--slabs") arguments = segment(folder, "none", {});
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -190,6 +218,8 @@ TEST(SlabsOfSegment, WhatNeedsAllOfAScanIsRefused) {
     EXPECT_EQ(run.status, 2) << more[0];
     EXPECT_EQ(run.error_lines(), 1u) << run.err;
   }
+  const auto whole = segment(folder, "none", {"--mesh", folder / "m.pvtu"});
+  EXPECT_EQ(run_program(folder, whole).status, 2) << "a run without slabs has no pieces";
   const ProgramRun thin = run_program(folder, segment(folder, "none", {"--slabs", "40"}));
   EXPECT_EQ(thin.status, 3);
   EXPECT_THAT(thin.err, HasSubstr("slabs: expected 1 to 2"));

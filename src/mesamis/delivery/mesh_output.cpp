@@ -263,6 +263,14 @@ MeshOutput make_mesh_output(const Result& result, const VolumeView& volume,
   return out;
 }
 
+MeshWithArrays make_mesh_piece(const Result& piece, const VolumeView& volume) {
+  RestrictedMesh all = restrict_mesh(piece.mesh, all_cells(piece.mesh));
+  MeshWithArrays grid;
+  add_fields(piece, all, average_image(volume, all.mesh), grid);
+  grid.mesh = std::move(all.mesh);
+  return grid;
+}
+
 void write_mesh(const fs::path& path, const MeshOutput& mesh, Frame frame) {
   const std::string extension = detail::lower(path.extension().string());
   if (extension == ".mesh") {

@@ -64,6 +64,15 @@ MeshOutput make_mesh_output(const Result& result, const VolumeView& volume,
 MeshOutput make_mesh_output(const Result& result, const VolumeView& volume,
                             const MeshOptions& options, std::span<const FoundObject> objects);
 
+/// Collects a part of a run's mesh with its fields, as one piece of several. Native means at nodes
+/// that it shares with other pieces are of its own cells.
+/// @param piece   a result with that part of the mesh.
+/// @param volume  the whole scan, native units.
+/// @throws nothing
+///
+/// O(voxels in the piece's box + cells).
+MeshWithArrays make_mesh_piece(const Result& piece, const VolumeView& volume);
+
 /// Writes the mesh in the format of the extension, one of written_mesh_formats(); .vtu for any
 /// other extension. Each file appears whole or not at all. A .mesh goes with a .sol of the same
 /// name that holds its fields.

@@ -40,6 +40,19 @@ struct VtuOptions {
 void write_vtu(const std::filesystem::path& path, const TetMesh& mesh,
                const VtuOptions& options = {});
 
+/// Writes the index of a mesh in pieces, VTK XML (.pvtu), as parallel programs leave it. The file
+/// appears whole or not at all.
+///
+/// @param pieces        file names of write_vtu(), without a folder: they lie beside the index.
+/// @param point_arrays, cell_arrays  as every piece has them: names and components; their values
+/// are
+///                      not read.
+/// @throws InputError  if the file cannot be written.
+///
+/// O(pieces).
+void write_pvtu(const std::filesystem::path& path, std::span<const std::string> pieces,
+                std::span<const MeshArray> point_arrays, std::span<const MeshArray> cell_arrays);
+
 /// A mesh with its arrays.
 struct MeshWithArrays {
   TetMesh mesh;  ///< points in LPS mm where the file states its frame, else as the file has them

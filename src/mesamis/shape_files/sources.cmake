@@ -21,6 +21,7 @@ set(ROOM_SOURCES
   obj_file.cpp
   object_files.cpp
   ply_file.cpp
+  pvtu_file.cpp
   stl_file.cpp
   surface_files.cpp
   threemf_file.cpp

@@ -18,6 +18,7 @@
 #include "mesamis/slabs/mapped_items.h"
 #include "mesamis/slabs/sample.h"
 #include "mesamis/slabs/stages.h"
+#include "mesamis/slabs/surface_files.h"
 #include "mesamis/slabs/surface_tasks.h"
 #include "mesamis/slabs/tasks.h"
 
@@ -175,15 +176,20 @@ std::vector<SlabWork> work_of_slabs(const SurfaceRun& run, const StageNames& nam
   return all;
 }
 
-/// What the loop leaves.
-/// @param whole  its mesh; empty if nobody wants it.
-Loop loop_of(const SurfaceRun& run, Piece whole) {
+Loop loop_on(Piece whole) {
   Loop loop;
   loop.minimum.f = values_of(whole, &NodeValues::f);
   loop.minimum.u = values_of(whole, &NodeValues::u);
   loop.minimum.v = values_of(whole, &NodeValues::v);
   loop.state.metric = values_of(whole, &NodeValues::metric);
   loop.state.mesh = std::move(whole.mesh);
+  return loop;
+}
+
+/// What the loop leaves.
+/// @param whole  its mesh; empty if nobody wants it.
+Loop loop_of(const SurfaceRun& run, Piece whole) {
+  Loop loop = loop_on(std::move(whole));
   loop.passes = records_of(run.mesh, run.last);
   for (std::size_t pass = 1; pass < loop.passes.size(); ++pass) {
     Iteration& now = loop.passes[pass];
@@ -221,6 +227,19 @@ void deliver_surface_of(const SurfaceRun& run, const Settings& settings, const P
   tell_error(input, result);
 }
 
+/// Hands the mesh out, slab by slab.
+void hand_out_pieces(const SurfaceRun& run, const Parameters& parameters,
+                     const SlabRunOptions& options) {
+  if (!options.take_piece) return;
+  for (Index s = 0; s < run.count(); ++s) {
+    SlabWork uncounted;
+    Result piece;
+    piece.parameters = parameters;
+    deliver_mesh(run.mesh.input, loop_on(final_mesh(run, s, uncounted)), piece);
+    options.take_piece(s, piece);
+  }
+}
+
 void drop_mesh(Result& result) {
   result.mesh = {};
   result.u = result.v = result.f = {};
@@ -253,6 +272,7 @@ SlabRunResult deliver(const SurfaceRun& run, const Parameters& parameters, const
                         : surface_grey(result, mesh.slabs.plan.whole.voxel_size());
   }
   if (!options.mesh) drop_mesh(result);
+  hand_out_pieces(run, parameters, options);
   all.plan = mesh.slabs.plan;
   all.mesh_plan = mesh.plan(run.last);
   all.slabs = work_of_slabs(run, stage_names(run, parameters, options.grey), stages);
@@ -329,6 +349,7 @@ SlabRunResult run_whole(const SliceSource& source, const Settings& settings, Sla
     all.own_rows += pass.nodes;
     if (&pass != &all.result.iterations.front()) all.own_cells += pass.tets;
   }
+  if (options.take_piece) options.take_piece(0, all.result);
   if (!options.mesh) drop_mesh(all.result);
   all.slabs = {
       {static_cast<std::int64_t>(all.plan.whole.voxel_count()), all.own_rows, all.own_cells, 0}};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,10 @@ struct SlabRunOptions {
   bool resumable = true;          ///< a run that fails leaves its files, to be gone on with
   std::string input{};            ///< what tells this scan from others, such as a path and a date
   Progress progress{};            ///< optional; "slabs: ..." and the stages of mes_amis()
+  /// Optional: takes the mesh of each slab in turn, with its fields as Result has them of the
+  /// whole; called on rank 0. What fields have at nodes of two slabs may differ within the solver's
+  /// tolerance, but for u.
+  std::function<void(Index slab, const Result& piece)> take_piece{};
 };
 
 /// A result, and how it came about.

@@ -12,6 +12,9 @@ namespace mesamis::detail {
 /// The last mesh of slab s, its own cells.
 /// @param work  optional: where the bytes of another slab are counted.
 Piece read_final(const MeshRun& run, int k, Index s, SlabWork* work = nullptr);
+/// The same, its nodes in the order of their places. Nodes that it shares with lower slabs have the
+/// u of these.
+Piece final_mesh(const SurfaceRun& run, Index s, SlabWork& work);
 /// The file of the nodes of the last mesh of slab s that are nodes of other slabs too: places and
 /// u.
 std::string shared_nodes_file(int k, Index s);

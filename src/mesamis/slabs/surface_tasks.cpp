@@ -47,28 +47,6 @@ Piece in_order_of_place(const Piece& piece) {
   return sorted;
 }
 
-/// The mesh of slab s. Nodes that it shares with lower slabs have the values of these.
-Piece final_mesh(const SurfaceRun& run, Index s, SlabWork& work) {
-  const Scratch& scratch = run.mesh.slabs.scratch;
-  Piece piece = read_final(run.mesh, run.last, s);
-  PointNumbers numbers;
-  for (const Vec3& p : piece.mesh.points) (void)numbers.of(p);
-  std::vector<char> known(piece.nodes.size(), 0);
-  for (Index lower = 0; lower < s; ++lower) {
-    ArchiveReader archive = scratch.read(shared_nodes_file(run.last, lower));
-    work.bytes += static_cast<std::int64_t>(archive.size());
-    const auto points = archive.next<Vec3>();
-    const auto u = archive.next<double>();
-    for (std::size_t n = 0; n < points.size(); ++n) {
-      const Index node = numbers.find(points[n]);
-      if (node == kNoIndex || known[node] != 0) continue;
-      known[node] = 1;
-      piece.nodes[node].u = u[n];
-    }
-  }
-  return in_order_of_place(piece);
-}
-
 double level_of(const SurfaceRun& run) {
   const Parameters& p = run.mesh.input.parameters;
   return p.grey.to_grey(p.level);
@@ -172,6 +150,27 @@ SurfacePiece seen_from(const SurfacePiece& core, double border, double distance)
 }
 
 }  // namespace
+
+Piece final_mesh(const SurfaceRun& run, Index s, SlabWork& work) {
+  const Scratch& scratch = run.mesh.slabs.scratch;
+  Piece piece = read_final(run.mesh, run.last, s);
+  PointNumbers numbers;
+  for (const Vec3& p : piece.mesh.points) (void)numbers.of(p);
+  std::vector<char> known(piece.nodes.size(), 0);
+  for (Index lower = 0; lower < s; ++lower) {
+    ArchiveReader archive = scratch.read(shared_nodes_file(run.last, lower));
+    work.bytes += static_cast<std::int64_t>(archive.size());
+    const auto points = archive.next<Vec3>();
+    const auto u = archive.next<double>();
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      const Index node = numbers.find(points[n]);
+      if (node == kNoIndex || known[node] != 0) continue;
+      known[node] = 1;
+      piece.nodes[node].u = u[n];
+    }
+  }
+  return in_order_of_place(piece);
+}
 
 SlabWork extract_slab(const SurfaceRun& run, Index s) {
   SlabWork work;
