@@ -9,6 +9,7 @@ set(ROOM_HEADERS
 set(ROOM_INNER_HEADERS
   cover.h
   decimate_part.h
+  patch.h
   single_places.h)
 set(ROOM_SOURCES
   collapse_rules.cpp

@@ -42,7 +42,7 @@ Nesting nesting_of(RayCrossings crossings);
 /// @param components  of the surface.
 /// @throws nothing
 ///
-/// As ray_crossings().
+/// O(m root n) in the mean for n components.
 Nesting find_nesting(const TriMesh& surface, const SurfaceComponents& components);
 
 }  // namespace mesamis

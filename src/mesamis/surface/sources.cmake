@@ -22,6 +22,7 @@ set(ROOM_HEADERS
 # For the rooms above alone: not installed.
 set(ROOM_INNER_HEADERS
   box_tree.h
+  disjoint_sets.h
   farthest.h
   half_edges.h
   list_materials.h

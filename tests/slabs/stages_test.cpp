@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/slabs/stages.h"
+
+#include <gtest/gtest.h>
+
+#include "support/temp_folder.h"
+
+namespace mesamis::detail {
+namespace {
+
+class Rank : public Team {
+ public:
+  Rank(int size, int rank) : size_(size), rank_(rank) {}
+  int size() const noexcept override { return size_; }
+  int rank() const noexcept override { return rank_; }
+  void wait_for_all() override { ++waits; }
+  int waits = 0;
+
+ private:
+  int size_, rank_;
+};
+
+TEST(Stages, EachTaskIsDoneByOneProcessOnce) {
+  const TempFolder folder;
+  const Scratch scratch(folder.path());
+  std::vector<int> done(7, 0);
+  for (int turn = 0; turn < 2; ++turn) {  // again, as after a run that was killed
+    for (int rank = 0; rank < 3; ++rank) {
+      Rank team(3, rank);
+      const Progress progress;
+      Stages stages(scratch, team, progress);
+      stages.run("work", 7, [&](Index n) {
+        ++done[static_cast<std::size_t>(n)];
+        return SlabWork{.rows = 10 + n};
+      });
+      EXPECT_EQ(team.waits, 1);
+      if (rank == 2) {
+        EXPECT_EQ(stages.work_of("work", 3).rows, 13);
+      }
+    }
+  }
+  EXPECT_EQ(done, std::vector<int>(7, 1));
+}
+
+TEST(Stages, ATaskThatFailsIsDoneAgain) {
+  const TempFolder folder;
+  const Scratch scratch(folder.path());
+  const Progress progress;
+  Alone team;
+  Stages stages(scratch, team, progress);
+  int calls = 0;
+  const auto fails_once = [&](Index) {
+    if (++calls == 2) throw std::runtime_error("no more");
+    return SlabWork{};
+  };
+  EXPECT_THROW(stages.run("work", 3, fails_once), std::runtime_error);
+  stages.run("work", 3, fails_once);
+  EXPECT_EQ(calls, 4) << "the first is not done again";
+}
+
+}  // namespace
+}  // namespace mesamis::detail
