@@ -174,6 +174,8 @@ struct MeshRecord {
   Iteration iteration;
   Heights heights;
   double volume = 0;  ///< of the slab's cells, length units^3
+  /// The highest node that slabs above see too; none: minus infinity.
+  double highest_shared = -std::numeric_limits<double>::infinity();
 };
 
 MeshRecord mesh_record(const MeshRun& run, int k, Index s) {
@@ -289,8 +291,14 @@ void write_record(const MeshRun& run, int k, Index s, const LocalMesh& local, co
   record.nodes =
       std::ssize(own.mesh.points) - std::count(counted_below.begin(), counted_below.end(), 1);
   record.energy = energy(MeshSpace(own.mesh), run.input.parameters.functional, {u, v, f});
+  MeshRecord whole{record, heights_of(own.mesh), volume_of(own.mesh)};
+  const std::vector<char> shared = shared_with(local, Owner::kAbove);
+  for (std::size_t n = 0; n < shared.size(); ++n) {
+    if (shared[n] == 0) continue;
+    whole.highest_shared = std::max(whole.highest_shared, local.piece.mesh.points[n].z);
+  }
   ArchiveWriter archive;
-  archive.add_one(MeshRecord{record, heights_of(own.mesh), volume_of(own.mesh)});
+  archive.add_one(whole);
   run.slabs.scratch.write(file_of("record", k, s), archive);
 }
 
@@ -478,6 +486,10 @@ void require_full(const MeshRun& run, int k) {
 }
 
 std::string shared_nodes_file(int k, Index s) { return file_of("shared", k, s); }
+
+double highest_shared_node(const MeshRun& run, int k, Index s) {
+  return mesh_record(run, k, s).highest_shared;
+}
 
 Piece read_final(const MeshRun& run, int k, Index s, SlabWork* work) {
   return read_piece(run.slabs.scratch, file_of("final", k, s), work);

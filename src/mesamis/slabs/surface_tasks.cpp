@@ -157,7 +157,9 @@ Piece final_mesh(const SurfaceRun& run, Index s, SlabWork& work) {
   PointNumbers numbers;
   for (const Vec3& p : piece.mesh.points) (void)numbers.of(p);
   std::vector<char> known(piece.nodes.size(), 0);
+  const double lowest = bounding_box(piece.mesh.points).lo.z;
   for (Index lower = 0; lower < s; ++lower) {
+    if (highest_shared_node(run.mesh, run.last, lower) < lowest) continue;
     ArchiveReader archive = scratch.read(shared_nodes_file(run.last, lower));
     work.bytes += static_cast<std::int64_t>(archive.size());
     const auto points = archive.next<Vec3>();
