@@ -184,17 +184,9 @@ TEST_F(SegmentBody, SetsWithoutAFaceAreTold) {
 
 /// A surface as it was extracted is no skin's tolerance, unless another one is given.
 TEST_F(SegmentBody, NeedsATolerance) {
-  write_nrrd(folder / "block.nrrd", hollow_ball());
-  const auto of_tolerance = [&](std::vector<std::string> more) {
-    std::vector<std::string> all{
-        "segment", folder / "block.nrrd", "--body", folder / "a.inp", "--tolerance",
-        "0",       "--element-size",      "3"};
-    all.insert(all.end(), more.begin(), more.end());
-    return run_program(folder, all);
-  };
-  EXPECT_FAILS(of_tolerance({}), 2,
+  EXPECT_FAILS(segment("a.inp", {}, "3", "0"), 2,
                "--body: tolerance: expected one above 0 for the skin, found 0");
-  EXPECT_EQ(of_tolerance({"--skin-tolerance", "0.2"}).status, 0);
+  EXPECT_EQ(segment("a.inp", {"--skin-tolerance", "0.2"}, "3", "0").status, 0);
 }
 
 TEST_F(SegmentBody, RefusesNamesOfSetsThatSolversCannotTellApart) {

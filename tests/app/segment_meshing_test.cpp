@@ -24,8 +24,8 @@ constexpr double kTolerance = 0.3;
 class SegmentMeshing : public testing::Test {
  protected:
   SegmentMeshing() {
-    run_program(folder, {"phantom", "femur", "-o", folder / "femur.nrrd", "--truth",
-                         folder / "truth.ply", "--noise", "10", "--quiet"});
+    run_program(folder,
+                {"phantom", "femur", "-o", folder / "femur.nrrd", "--noise", "10", "--quiet"});
   }
 
   ProgramRun segment(std::vector<std::string> more) {

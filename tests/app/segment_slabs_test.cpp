@@ -26,7 +26,8 @@ void write_scan(const TempFolder& folder) {
 std::vector<std::string> segment(const TempFolder& folder, const std::string& name,
                                  std::vector<std::string> more) {
   std::vector<std::string> arguments{
-      "segment", folder / "scan.nrrd", "-o", folder / (name + ".stl"), "--threads", "1"};
+      "segment", folder / "scan.nrrd", "-o",  folder / (name + ".stl"), "--threads",
+      "1",       "--max-tets",         "8000"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }

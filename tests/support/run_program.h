@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -64,15 +65,17 @@ inline ProgramRun run_program(const TempFolder& folder, std::vector<std::string>
   return await_program(folder, start_program(folder, std::move(arguments)));
 }
 
+/// A failure as promised: the status, one line on stderr with these words, nothing on stdout.
+inline void expect_failure(const ProgramRun& run, int status, const std::string& words,
+                           const char* file, int line) {
+  const testing::ScopedTrace trace(file, line, "the program");
+  EXPECT_EQ(run.status, status);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.error_lines(), 1u);
+  EXPECT_THAT(run.err, testing::HasSubstr(words));
+}
+
 }  // namespace mesamis
 
-/// A failure as promised: the status, one line on stderr with these words, nothing on stdout.
-#define EXPECT_FAILS(run, expected_status, words)            \
-  {                                                          \
-    const mesamis::ProgramRun mesamis_run = run;             \
-    EXPECT_EQ(mesamis_run.status, expected_status);          \
-    EXPECT_EQ(mesamis_run.out, "");                          \
-    EXPECT_EQ(mesamis_run.error_lines(), 1u);                \
-    EXPECT_THAT(mesamis_run.err, testing::HasSubstr(words)); \
-  }                                                          \
-  static_assert(true)
+#define EXPECT_FAILS(run, expected_status, words) \
+  mesamis::expect_failure(run, expected_status, words, __FILE__, __LINE__)

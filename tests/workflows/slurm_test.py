@@ -165,7 +165,7 @@ case "$*" in *d.nrrd*) [ -e '{self.folder}/cancelled' ] ||
     def test_processes_of_a_job_share_a_run(self):
         subprocess.run([PROGRAM, "phantom", "sphere", "--size=32,32,72", "--quiet",
                         f"--output={self.folder}/a.nrrd"], check=True, stdout=subprocess.DEVNULL)
-        options = "segment a.nrrd --slabs 2 --quiet"
+        options = "segment a.nrrd --slabs 2 --max-tets 8000 --quiet"
         subprocess.run(f"{PROGRAM} {options} -o alone.stl", shell=True, check=True, cwd=self.folder)
         job = (f"mpirun --allow-run-as-root --oversubscribe -np 2 {MPI_PROGRAM} {options} "
                "-o together.stl --report together.json")
