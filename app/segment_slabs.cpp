@@ -49,6 +49,27 @@ Paths whole_meshes_of(const SegmentRun& run) {
   return whole;
 }
 
+/// Whether a file has the name of a piece of a mesh: F_0.vtu for F.pvtu.
+bool is_piece_of(const fs::path& index, const fs::path& file) {
+  const fs::path there = fs::absolute(index), piece = fs::absolute(file);
+  const std::string begin = there.stem().string() + "_", name = piece.stem().string();
+  return piece.parent_path() == there.parent_path() && lower_extension(piece) == ".vtu" &&
+         name.rfind(begin, 0) == 0 && name.size() > begin.size() &&
+         name.find_first_not_of("0123456789", begin.size()) == std::string::npos;
+}
+
+/// The pieces of a mesh are written beside its index: nothing else may have their names.
+void require_room_for_pieces(const SegmentRun& run) {
+  for (const fs::path& index : run.meshes) {
+    if (!is_in_pieces(index)) continue;
+    for (const fs::path& other : run.meshes) {
+      if (!is_piece_of(index, other)) continue;
+      throw CLI::ValidationError("--mesh", "expected another name than that of a piece of " +
+                                               index.string() + ", found " + other.string());
+    }
+  }
+}
+
 /// Whether a surface is to carry grey values, which are those of the mesh below it.
 bool wants_grey(const SegmentRun& run) {
   return std::any_of(run.surfaces.begin(), run.surfaces.end(), carries_grey);
@@ -232,6 +253,7 @@ void require_slabs(const SegmentRun& run, const Settings& settings) {
   if (run.scan.labels.given()) refuse("labels");
   if (run.scan.places.given()) refuse("--tissue, --seed, --box, --mask or --remove");
   if (!run.band_meshes.empty()) refuse("--band-mesh");
+  require_room_for_pieces(run);
   if (run.mesh.region == MeshRegion::kObject &&
       std::any_of(run.meshes.begin(), run.meshes.end(), is_in_pieces)) {
     refuse("--mesh-region object for a .pvtu");

@@ -219,6 +219,9 @@ TEST(SlabsOfSegment, WhatNeedsAllOfAScanIsRefused) {
     EXPECT_EQ(run.status, 2) << more[0];
     EXPECT_EQ(run.error_lines(), 1u) << run.err;
   }
+  const auto taken = segment(
+      folder, "none", {"--slabs", "2", "--mesh", folder / "m.pvtu", "--mesh", folder / "m_1.vtu"});
+  EXPECT_EQ(run_program(folder, taken).status, 2) << "the name of a piece";
   const auto whole = segment(folder, "none", {"--mesh", folder / "m.pvtu"});
   EXPECT_EQ(run_program(folder, whole).status, 2) << "a run without slabs has no pieces";
   const ProgramRun thin = run_program(folder, segment(folder, "none", {"--slabs", "40"}));

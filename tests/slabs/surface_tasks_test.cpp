@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "mesamis/method/follow_image.h"
+#include "mesamis/slabs/point_numbers.h"
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/self_intersections.h"
 #include "slabs/three_slabs.h"
@@ -32,6 +33,25 @@ TEST(ExtractSlab, PiecesFitAndAreTheSurfaceOfTheWholeMesh) {
   EXPECT_EQ(surface.triangles.size(), whole.triangles.size());
   EXPECT_NEAR(check_surface(surface).volume / check_surface(whole).volume, 1, 1e-9);
   EXPECT_LT(max_distance(surface, whole, 1e-9), 1e-6);
+}
+
+// Else the surface would have a crack there.
+TEST(FinalMesh, NodesOfTwoSlabsHaveOneValue) {
+  ThreeSlabs slabs;
+  SlabWork work;
+  int common = 0;
+  for (Index s = 1; s < 3; ++s) {
+    const Piece low = final_mesh(*slabs.run, s - 1, work), high = final_mesh(*slabs.run, s, work);
+    PointNumbers numbers;
+    for (const Vec3& p : low.mesh.points) (void)numbers.of(p);
+    for (std::size_t n = 0; n < high.nodes.size(); ++n) {
+      const Index other = numbers.find(high.mesh.points[n]);
+      if (other == kNoIndex) continue;
+      ++common;
+      EXPECT_EQ(high.nodes[n].u, low.nodes[static_cast<std::size_t>(other)].u);
+    }
+  }
+  EXPECT_GT(common, 40);
 }
 
 TEST(FollowSlab, PiecesFitAndLieWhereTheWholeWouldLie) {
@@ -71,6 +91,29 @@ TEST(FollowBorder, MovesWhatTheSlabsHaveLeft) {
   }
   EXPECT_GT(points, 50);
   EXPECT_GT(moved, 0.9 * points);
+}
+
+/// The heights of the points that a task on a border may move.
+HeightRange free_heights(const SurfacePiece& piece) {
+  HeightRange heights{1e9, -1e9};
+  for (const SurfacePoint& p : piece.points) {
+    if (p.settled) continue;
+    heights = {std::min(heights.low, p.key.z), std::max(heights.high, p.key.z)};
+  }
+  return heights;
+}
+
+TEST(FollowSlab, TheTasksOfTwoBordersHaveNoPointInCommon) {
+  ThreeSlabs slabs;
+  slabs.extract();
+  slabs.follow();
+  const Scratch& scratch = slabs.small.scratch;
+  EXPECT_TRUE(read_surface(scratch, surface_file("low", 0)).triangles.empty());
+  EXPECT_TRUE(read_surface(scratch, surface_file("high", 2)).triangles.empty());
+  const HeightRange low = free_heights(read_surface(scratch, surface_file("low", 1)));
+  const HeightRange high = free_heights(read_surface(scratch, surface_file("high", 1)));
+  EXPECT_LT(low.low, low.high);
+  EXPECT_LT(low.high, high.low);
 }
 
 TEST(SurfaceTasks, RefuseFilesThatAreCutOff) {

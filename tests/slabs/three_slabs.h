@@ -21,7 +21,7 @@ struct ThreeSlabs {
     each([&](Index s) { return first_mesh(*mesh, s); });
     at_borders([&](Index s) { return seam(*mesh, 1, s); });
     each([&](Index s) { return finish(*mesh, 1, s); });
-    run.emplace(SurfaceRun{*mesh, 1});
+    run.emplace(*mesh, 1);
   }
   void each(const std::function<SlabWork(Index)>& task) {
     for (Index s = 0; s < 3; ++s) task(s);
@@ -44,7 +44,7 @@ struct ThreeSlabs {
     learn_choice(*run, {});
   }
   void decimate(double tolerance) {
-    run->tolerance = tolerance;
+    run->parameters.tolerance = tolerance;
     each([&](Index s) { return decimate_slab(*run, s); });
     at_borders([&](Index s) { return decimate_border(*run, s); });
     each([&](Index s) { return measure_slab(*run, s); });
@@ -58,9 +58,7 @@ struct ThreeSlabs {
   SurfacePiece extracted() const {
     std::vector<SurfacePiece> pieces;
     for (Index s = 0; s < 3; ++s) {
-      ArchiveReader archive = small.scratch.read(surface_file("extracted", s));
-      (void)archive.next_one<FollowCounts>();
-      pieces.push_back(next_surface(archive));
+      pieces.push_back(read_surface(small.scratch, surface_file("extracted", s)));
     }
     return join(pieces);
   }

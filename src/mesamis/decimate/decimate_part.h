@@ -18,6 +18,8 @@ namespace mesamis {
 /// @return over the points of the original; the same bits for any number of threads.
 /// @throws InputError  if an option is out of range.
 /// @throws Cancelled   if progress says stop.
+///
+/// As decimate().
 Cover decimate_part(const TriMesh& original, Cover part, const std::vector<char>& held,
                     const DecimateOptions& options);
 

@@ -12,7 +12,7 @@ namespace mesamis {
 
 /// The input that all passes of decimate() share.
 struct DecimateTask {
-  const TriMesh& surface;               ///< the original: closed, 2-manifold; or made of sheets
+  const TriMesh& surface;               ///< the original: a 2-manifold, closed or a part
   std::span<const TriangleTree> trees;  ///< of the original; of each of its sheets, if any
   double tolerance;                     ///< mm; infinity: none
   std::int64_t triangles;               ///< a pass stops at so many

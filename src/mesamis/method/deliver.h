@@ -24,7 +24,7 @@ void deliver_loop(const RunInput& run, Loop loop, const Progress& progress, Resu
 /// @throws nothing
 void turn_as_grid(const RunInput& run, TriMesh& surface);
 
-/// The tolerance of decimation where the settings leave it open.
+/// The tolerance of decimation where the settings leave it open. O(1).
 /// @param mean_error  expected of the surface, mm.
 /// @throws nothing
 void choose_tolerance(const RunInput& run, const Settings& settings, double mean_error,
@@ -36,7 +36,7 @@ void choose_tolerance(const RunInput& run, const Settings& settings, double mean
 void finish_surface(const RunInput& run, const Settings& settings, const Progress& progress,
                     Result& result);
 
-/// Tells the error of a result's surface, which has been made printable.
+/// Tells the error of a result's surface, which has been made printable. O(n).
 /// @throws nothing
 void tell_error(const RunInput& run, Result& result);
 

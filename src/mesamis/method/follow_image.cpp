@@ -50,7 +50,7 @@ class Follower {
     const std::vector<double> moves = filtered_moves(space_, measure(surface, normals), neighbors);
     std::vector<Vec3> shifts(moves.size());
     for (std::size_t p = 0; p < moves.size(); ++p) {
-      if (part.held[p] != 0) continue;
+      if (part.held[p] != kFree) continue;
       shifts[p] = space_.within_box(surface.points[p], moves[p] * normals[p]);
     }
     part.moved =

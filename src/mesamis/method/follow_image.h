@@ -39,15 +39,17 @@ TriMesh follow_image(const TriMesh& surface, const SplineImage& image,
 struct FollowedPart {
   TriMesh extracted;        ///< in the grid's own axes; points that were split off lie on it
   std::vector<Vec3> moved;  ///< of each point where it is now
-  std::vector<char> held;   ///< of each point 1 if it stays there
+  /// A HeldPoint of each: free ones are moved. Held ones that were moved before are fixed, since
+  /// their edges do not lie where they were extracted.
+  std::vector<char> held;
 };
 
-/// Moves the points of a part that are not held, as follow_image() does with all of a surface that
-/// is worth it. Edges between held points stay; points that are split off are not held.
-/// @param part  those of its points that are not held lie where they were extracted.
+/// Moves the free points of a part, as follow_image() does with all of a surface that is worth it.
+/// Points that are split off are free. Cost as follow_image().
+/// @param part  its free points lie where they were extracted.
 void follow_part(FollowedPart& part, const SplineImage& image, const FollowOptions& options);
 
-/// What the image tells at the points of a surface, or of a part of one.
+/// What the image tells at the points of a surface, or of a part of one. O(n).
 FollowCounts look_along(const TriMesh& surface, const SplineImage& image,
                         const FollowOptions& options);
 

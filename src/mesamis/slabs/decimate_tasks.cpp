@@ -70,11 +70,11 @@ TriMesh rounded_in_world(const SurfaceRun& run, const SurfacePiece& piece) {
 
 DecimateOptions decimate_options(const SurfaceRun& run) {
   DecimateOptions options;
-  options.tolerance = run.tolerance - run.parts.shift;
+  options.tolerance = run.parameters.tolerance - run.parts.shift;
   return options;
 }
 
-/// Above what lies below a slab's surface, and below what lies above it.
+/// Above what lies below a slab's surface, and below what lies above it, as rounded as it may be.
 HeightRange free_range(const SurfaceRun& run, Index s) {
   HeightRange range{-kInfinity, kInfinity};
   for (Index t = 0; t < run.count(); ++t) {
@@ -84,7 +84,8 @@ HeightRange free_range(const SurfaceRun& run, Index s) {
       if (t > s) range.high = std::min(range.high, other.low);
     }
   }
-  return range;
+  const double spare = 2 * run.parts.shift / run.mesh.input.parameters.unit_mm;
+  return {range.low + spare, range.high - spare};
 }
 
 bool lies_in(const SurfacePiece& piece, const Triangle& t, const HeightRange& range) {
@@ -93,23 +94,42 @@ bool lies_in(const SurfacePiece& piece, const Triangle& t, const HeightRange& ra
   });
 }
 
-/// Of each point 1 if all its triangles, and what they stand for, lie strictly between two heights.
-/// @param cover  of the piece.
-std::vector<char> points_between(const SurfacePiece& piece, const Cover& cover,
-                                 const HeightRange& range) {
+/// Of each triangle of a cover 1 if it, and what it stands for, lie strictly between two heights.
+std::vector<char> triangles_in(const SurfacePiece& piece, const Cover& cover,
+                               const HeightRange& range) {
   std::vector<char> lies;  // of each original
   lies.reserve(piece.triangles.size());
   for (const Triangle& t : piece.triangles) lies.push_back(lies_in(piece, t, range) ? 1 : 0);
-  std::vector<char> between(piece.points.size(), 1);
+  std::vector<char> in;
+  in.reserve(cover.triangles.size());
   for (std::size_t t = 0; t < cover.triangles.size(); ++t) {
     const auto& originals = cover.originals[t];
-    const bool all =
+    in.push_back(
         lies_in(piece, cover.triangles[t], range) &&
-        std::all_of(originals.begin(), originals.end(), [&](Index o) { return lies[o] != 0; });
-    if (all) continue;
-    for (const Index p : cover.triangles[t]) between[p] = 0;
+        std::all_of(originals.begin(), originals.end(), [&](Index o) { return lies[o] != 0; }));
   }
-  return between;
+  return in;
+}
+
+/// Of each point 1 if all its triangles are chosen.
+std::vector<char> points_within(std::size_t points, const Cover& cover,
+                                const std::vector<char>& chosen) {
+  std::vector<char> within(points, 1);
+  for (std::size_t t = 0; t < cover.triangles.size(); ++t) {
+    if (chosen[t] != 0) continue;
+    for (const Index p : cover.triangles[t]) within[p] = 0;
+  }
+  return within;
+}
+
+/// Of each point 1 if the slab's own task leaves it to those on the borders.
+std::vector<char> held_by_slab(const SurfacePiece& piece, const HeightRange& free) {
+  std::vector<char> held(piece.points.size(), 0);
+  for (const Triangle& t : piece.triangles) {
+    if (lies_in(piece, t, free)) continue;
+    for (const Index p : t) held[p] = 1;
+  }
+  return held;
 }
 
 /// The heights that the tasks on the borders of a slab may work at: none where nothing lies beyond.
@@ -119,28 +139,13 @@ struct Sides {
 
 /// @param free  of free_range().
 Sides sides_of(const HeightRange& free) {
+  if (free.low > free.high) return {};
   const bool below = std::isfinite(free.low), above = std::isfinite(free.high);
   const double middle = (free.low + free.high) / 2;
   Sides sides;
   if (below) sides.low = {-kInfinity, above ? middle : kInfinity};
   if (above) sides.high = {below ? middle : -kInfinity, kInfinity};
   return sides;
-}
-
-/// The points near one border that its task may remove: those that the slab's own task has held,
-/// and some around them, on the border's side of the slab's middle.
-/// @param cover  of the slab.
-/// @param side   the heights on that side.
-std::vector<char> open_points(const SurfacePiece& piece, const Cover& cover,
-                              const std::vector<char>& held, const HeightRange& side) {
-  std::vector<char> open(piece.points.size(), 0);
-  for (std::size_t p = 0; p < open.size(); ++p) {
-    open[p] = held[p] != 0 && side.low < piece.points[p].at.z && piece.points[p].at.z < side.high;
-  }
-  choose_rings(cover.triangles, kRings, open);
-  const std::vector<char> between = points_between(piece, cover, side);
-  for (std::size_t p = 0; p < open.size(); ++p) open[p] &= between[p];
-  return open;
 }
 
 /// Of each triangle 1 if any corner is chosen.
@@ -150,6 +155,32 @@ std::vector<char> triangles_at(const std::vector<Triangle>& triangles,
   at.reserve(triangles.size());
   for (const Triangle& t : triangles) at.push_back(chosen[t[0]] | chosen[t[1]] | chosen[t[2]]);
   return at;
+}
+
+/// What of a slab's cover goes to the task on one border.
+struct BorderShare {
+  std::vector<char> open;       ///< of each point 1 if it may be removed
+  std::vector<char> triangles;  ///< 1 for those at such points, and for a ring around them
+};
+
+/// Open are the points that the slab's own task has held, and some around them, on the border's
+/// side of the slab's middle.
+BorderShare share_of(const SurfacePiece& piece, const Cover& cover, const std::vector<char>& held,
+                     const HeightRange& side) {
+  const std::size_t points = piece.points.size();
+  const std::vector<char> in = triangles_in(piece, cover, side);
+  const std::vector<char> within = points_within(points, cover, in);
+  std::vector<char> open(points, 0);
+  for (std::size_t p = 0; p < points; ++p) {
+    open[p] = held[p] != 0 && side.low < piece.points[p].at.z && piece.points[p].at.z < side.high;
+  }
+  choose_rings(cover.triangles, kRings, open);
+  for (std::size_t p = 0; p < points; ++p) open[p] &= within[p];
+  std::vector<char> ring = open;
+  choose_rings(cover.triangles, 1, ring);
+  std::vector<char> triangles = triangles_at(cover.triangles, ring);
+  for (std::size_t t = 0; t < triangles.size(); ++t) triangles[t] &= in[t];
+  return {std::move(open), std::move(triangles)};
 }
 
 /// Numbers points and triangles of a whole as they are needed.
@@ -171,9 +202,7 @@ class Numbering {
 };
 
 /// Some triangles of a slab's cover, with what they stand for.
-/// @param open  of each point of the slab's surface 1 if it may be removed.
-CoverPiece part_of(const SurfacePiece& surface, const Cover& cover, const std::vector<char>& chosen,
-                   const std::vector<char>& open) {
+CoverPiece part_of(const SurfacePiece& surface, const Cover& cover, const BorderShare& share) {
   CoverPiece part;
   Numbering points(surface.points.size()), originals(surface.triangles.size());
   const auto over_part = [&](Triangle t) {
@@ -181,7 +210,7 @@ CoverPiece part_of(const SurfacePiece& surface, const Cover& cover, const std::v
     return t;
   };
   for (std::size_t t = 0; t < cover.triangles.size(); ++t) {
-    if (chosen[t] == 0) continue;
+    if (share.triangles[t] == 0) continue;
     part.piece.triangles.push_back(over_part(cover.triangles[t]));
     part.drift.push_back(cover.drift[t]);
     std::vector<Index>& list = part.stands_for.emplace_back();
@@ -191,7 +220,7 @@ CoverPiece part_of(const SurfacePiece& surface, const Cover& cover, const std::v
   for (const Index t : originals.items()) part.originals.push_back(over_part(surface.triangles[t]));
   for (const Index p : points.items()) {
     part.piece.points.push_back(surface.points[p]);
-    part.piece.points.back().settled = open[p] == 0;
+    part.piece.points.back().settled = share.open[p] == 0;
   }
   return part;
 }
@@ -214,12 +243,6 @@ CoverPiece join(const CoverPiece& below, const CoverPiece& above) {
     both.drift.insert(both.drift.end(), part->drift.begin(), part->drift.end());
   }
   return both;
-}
-
-/// Settles the points on the rim of the triangles.
-void settle_rim(SurfacePiece& piece) {
-  const std::vector<char> rim = rim_of(piece);
-  for (std::size_t p = 0; p < rim.size(); ++p) piece.points[p].settled |= rim[p] != 0;
 }
 
 std::vector<char> settled_points(const SurfacePiece& piece) {
@@ -248,12 +271,10 @@ class KnownTriangles {
   std::vector<Triangle> known_;
 };
 
-/// What of a slab no other task changes: its points are settled.
-void write_decimated(const Scratch& scratch, Index s, const SurfacePiece& piece, const Cover& cover,
-                     const std::vector<char>& chosen) {
-  SurfacePiece some = select({piece.points, cover.triangles}, chosen);
-  for (SurfacePoint& p : some.points) p.settled = true;
-  write_surface(scratch, surface_file("decimated", s), some);
+/// As what no other task changes.
+SurfacePiece settled_part(SurfacePiece piece) {
+  for (SurfacePoint& p : piece.points) p.settled = true;
+  return piece;
 }
 
 /// What measure_slab() leaves.
@@ -273,20 +294,19 @@ SlabWork decimate_slab(const SurfaceRun& run, Index s) {
   const SurfacePiece piece = chosen_surface_of(run, s);
   const HeightRange free = free_range(run, s);
   const TriMesh surface = rounded_in_world(run, piece);
-  std::vector<char> held = points_between(piece, cover_of(surface), free);
-  for (char& point : held) point = point == 0 ? 1 : 0;
+  std::vector<char> held = held_by_slab(piece, free);
   const Cover cover = decimate_part(surface, cover_of(surface), held, decimate_options(run));
   const Sides sides = sides_of(free);
   std::vector<char> stays(cover.triangles.size(), 1);
   for (const auto& [name, side] : {std::pair{"cover low", sides.low}, {"cover high", sides.high}}) {
-    const std::vector<char> open = open_points(piece, cover, held, side);
-    const std::vector<char> chosen = triangles_at(cover.triangles, open);
-    write_cover(scratch, surface_file(name, s), part_of(piece, cover, chosen, open));
+    const BorderShare share = share_of(piece, cover, held, side);
+    write_cover(scratch, surface_file(name, s), part_of(piece, cover, share));
     for (std::size_t t = 0; t < stays.size(); ++t) {
-      if (chosen[t] != 0) stays[t] = 0;
+      if (share.triangles[t] != 0) stays[t] = 0;
     }
   }
-  write_decimated(scratch, s, piece, cover, stays);
+  write_surface(scratch, surface_file("decimated", s),
+                settled_part(select({piece.points, cover.triangles}, stays)));
   return {};
 }
 
@@ -322,7 +342,7 @@ SlabWork measure_slab(const SurfaceRun& run, Index s) {
   measured.triangles = std::ssize(originals[0].triangles);
   const auto distance = [&](const TriMesh& from, const TriMesh& to) {
     if (from.triangles.empty()) return 0.0;
-    return max_distance(from, to, fine_enough(from, run.tolerance));
+    return max_distance(from, to, fine_enough(from, run.parameters.tolerance));
   };
   const auto border = [&](Index below, SlabWork* of_others) {
     return read_surface(scratch, surface_file("decimated border", below), of_others);
@@ -331,6 +351,11 @@ SlabWork measure_slab(const SurfaceRun& run, Index s) {
   if (s + 1 < run.count()) delivered.push_back(border(s, nullptr));
   const TriMesh own = rounded_in_world(run, join(delivered));
   if (s > 0) delivered.push_back(border(s - 1, &work));
+  // What is near the slab's surface may belong to others.
+  for (const Index t : {s - 1, s + 1}) {
+    if (t < 0 || t == run.count()) continue;
+    delivered.push_back(read_surface(scratch, surface_file("decimated", t), &work));
+  }
   measured.original_to_result =
       distance(in_world(run, originals[0]), rounded_in_world(run, join(delivered)));
   if (s + 1 < run.count()) originals.push_back(chosen_surface_of(run, s + 1, &work));
@@ -341,9 +366,9 @@ SlabWork measure_slab(const SurfaceRun& run, Index s) {
   return work;
 }
 
-bool decimates_in_slabs(const SurfaceRun& run, const Parameters& parameters) {
-  return parameters.triangles == 0 && std::isfinite(run.tolerance) &&
-         run.tolerance > run.parts.shift;
+bool decimates_in_slabs(const SurfaceRun& run) {
+  const Parameters& p = run.parameters;
+  return p.triangles == 0 && std::isfinite(p.tolerance) && p.tolerance > run.parts.shift;
 }
 
 SurfacePiece decimated_piece(const SurfaceRun& run) {

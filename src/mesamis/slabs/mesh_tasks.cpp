@@ -113,15 +113,36 @@ std::vector<char> shared_with(const LocalMesh& local, Owner other) {
   return own;
 }
 
-/// Writes the nodes that slabs above see too.
-void write_shared_nodes(const MeshRun& run, int k, Index s, const LocalMesh& local) {
-  const std::vector<char> shared = shared_with(local, Owner::kAbove);
+/// The nodes of a slab's part that are nodes of other slabs too: those where it ends, but for the
+/// box. Of each face that has one cell.
+std::vector<Index> border_nodes(const TetMesh& own, const Box& box) {
+  std::vector<char> at_border(own.points.size(), 0);
+  const auto neighbors = cell_neighbors(own);
+  for (std::size_t c = 0; c < own.cells.size(); ++c) {
+    for (std::size_t f = 0; f < 4; ++f) {
+      if (neighbors[c][f] != kNoIndex) continue;
+      int planes = -1;
+      for (const std::size_t corner : kCellFaces[f]) {
+        planes &= planes_of(box, own.points[own.cells[c][corner]]);
+      }
+      if (planes != 0) continue;
+      for (const std::size_t corner : kCellFaces[f]) at_border[own.cells[c][corner]] = 1;
+    }
+  }
+  std::vector<Index> nodes;
+  for (std::size_t n = 0; n < at_border.size(); ++n) {
+    if (at_border[n] != 0) nodes.push_back(static_cast<Index>(n));
+  }
+  return nodes;
+}
+
+/// Writes the nodes that other slabs have too.
+void write_shared_nodes(const MeshRun& run, int k, Index s, const Piece& own) {
   std::vector<Vec3> points;
   std::vector<double> u;
-  for (std::size_t n = 0; n < shared.size(); ++n) {
-    if (shared[n] == 0) continue;
-    points.push_back(local.piece.mesh.points[n]);
-    u.push_back(local.piece.nodes[n].u);
+  for (const Index node : border_nodes(own.mesh, run.input.box)) {
+    points.push_back(own.mesh.points[node]);
+    u.push_back(own.nodes[node].u);
   }
   ArchiveWriter archive;
   archive.add(points);
@@ -173,9 +194,8 @@ Heights heights_of(const TetMesh& mesh) {
 struct MeshRecord {
   Iteration iteration;
   Heights heights;
-  double volume = 0;  ///< of the slab's cells, length units^3
-  /// The highest node that slabs above see too; none: minus infinity.
-  double highest_shared = -std::numeric_limits<double>::infinity();
+  double volume = 0;                                      ///< of the slab's cells, length units^3
+  double top = -std::numeric_limits<double>::infinity();  ///< the height of the highest node
 };
 
 MeshRecord mesh_record(const MeshRun& run, int k, Index s) {
@@ -292,11 +312,7 @@ void write_record(const MeshRun& run, int k, Index s, const LocalMesh& local, co
       std::ssize(own.mesh.points) - std::count(counted_below.begin(), counted_below.end(), 1);
   record.energy = energy(MeshSpace(own.mesh), run.input.parameters.functional, {u, v, f});
   MeshRecord whole{record, heights_of(own.mesh), volume_of(own.mesh)};
-  const std::vector<char> shared = shared_with(local, Owner::kAbove);
-  for (std::size_t n = 0; n < shared.size(); ++n) {
-    if (shared[n] == 0) continue;
-    whole.highest_shared = std::max(whole.highest_shared, local.piece.mesh.points[n].z);
-  }
+  for (const Vec3& p : own.mesh.points) whole.top = std::max(whole.top, p.z);
   ArchiveWriter archive;
   archive.add_one(whole);
   run.slabs.scratch.write(file_of("record", k, s), archive);
@@ -471,7 +487,7 @@ SlabWork finish(const MeshRun& run, int k, Index s) {
   ArchiveWriter fit;
   fit.add_one(measure_fit(own.mesh, values_of(own, &NodeValues::metric)));
   run.slabs.scratch.write(file_of("fit", k, s), fit);
-  write_shared_nodes(run, k, s, local);
+  write_shared_nodes(run, k, s, own);
   return work;
 }
 
@@ -487,9 +503,7 @@ void require_full(const MeshRun& run, int k) {
 
 std::string shared_nodes_file(int k, Index s) { return file_of("shared", k, s); }
 
-double highest_shared_node(const MeshRun& run, int k, Index s) {
-  return mesh_record(run, k, s).highest_shared;
-}
+double top_of_mesh(const MeshRun& run, int k, Index s) { return mesh_record(run, k, s).top; }
 
 Piece read_final(const MeshRun& run, int k, Index s, SlabWork* work) {
   return read_piece(run.slabs.scratch, file_of("final", k, s), work);

@@ -121,10 +121,9 @@ int run_meshes(MeshRun& run, Stages& stages) {
 }
 
 /// All tasks on the surface.
-/// @return its parameters, the tolerance of decimation chosen.
-Parameters run_surface(SurfaceRun& run, Stages& stages, const Settings& settings, bool grey) {
+void run_surface(SurfaceRun& run, Stages& stages, const Settings& settings, bool grey) {
   const Index slabs = run.count();
-  Parameters p = run.mesh.input.parameters;
+  Parameters& p = run.parameters;
   stages.run("surface", slabs, [&](Index s) { return extract_slab(run, s); });
   learn_follows(run);
   stages.run("follow", slabs, [&](Index s) { return follow_slab(run, s); });
@@ -132,15 +131,13 @@ Parameters run_surface(SurfaceRun& run, Stages& stages, const Settings& settings
   stages.run("parts", slabs, [&](Index s) { return list_parts(run, s); });
   learn_parts(run);
   choose_tolerance(run.mesh.input, settings, run.parts.mean_error, p);
-  run.tolerance = p.tolerance;
-  if (!decimates_in_slabs(run, p)) return p;
+  if (!decimates_in_slabs(run)) return;
   stages.run("nesting", slabs, [&](Index s) { return cross_rays(run, s); });
   learn_choice(run, {p.min_volume, p.keep_largest, p.fill_cavities});
   stages.run("decimate", slabs, [&](Index s) { return decimate_slab(run, s); });
   stages.run("decimate at borders", slabs - 1, [&](Index s) { return decimate_border(run, s); });
   stages.run("distances", slabs, [&](Index s) { return measure_slab(run, s); });
   if (grey) stages.run("grey", slabs, [&](Index s) { return find_grey(run, s); });
-  return p;
 }
 
 /// The stages with a task for each slab, and those with one for each border, in their order.
@@ -148,14 +145,14 @@ struct StageNames {
   std::vector<std::string> slabs, borders;
 };
 
-StageNames stage_names(const SurfaceRun& run, const Parameters& p, bool grey) {
+StageNames stage_names(const SurfaceRun& run, bool grey) {
   StageNames names{{"prepare", kLastOnMesh, "surface", "follow", "parts"}, {"follow at borders"}};
   for (int k = 1; k <= run.last; ++k) {
     names.slabs.push_back(of_mesh("mesh", k));
     names.borders.push_back(of_mesh("borders", k));
     if (k < run.last) names.slabs.push_back(of_mesh("minimise", k));
   }
-  if (decimates_in_slabs(run, p)) {
+  if (decimates_in_slabs(run)) {
     names.slabs.insert(names.slabs.end(), {"nesting", "decimate", "distances"});
     names.borders.emplace_back("decimate at borders");
     if (grey) names.slabs.emplace_back("grey");
@@ -212,7 +209,7 @@ std::int64_t nodes_of_first_grid(const MeshRun& run) {
 void deliver_surface_of(const SurfaceRun& run, const Settings& settings, const Progress& progress,
                         Result& result) {
   const RunInput& input = run.mesh.input;
-  if (!decimates_in_slabs(run, result.parameters)) {
+  if (!decimates_in_slabs(run)) {
     result.surface = followed_surface(run);
     turn_as_grid(input, result.surface);
     return finish_surface(input, settings, progress, result);
@@ -228,13 +225,12 @@ void deliver_surface_of(const SurfaceRun& run, const Settings& settings, const P
 }
 
 /// Hands the mesh out, slab by slab.
-void hand_out_pieces(const SurfaceRun& run, const Parameters& parameters,
-                     const SlabRunOptions& options) {
+void hand_out_pieces(const SurfaceRun& run, const SlabRunOptions& options) {
   if (!options.take_piece) return;
   for (Index s = 0; s < run.count(); ++s) {
     SlabWork uncounted;
     Result piece;
-    piece.parameters = parameters;
+    piece.parameters = run.parameters;
     deliver_mesh(run.mesh.input, loop_on(final_mesh(run, s, uncounted)), piece);
     options.take_piece(s, piece);
   }
@@ -246,14 +242,14 @@ void drop_mesh(Result& result) {
   result.metric = {};
 }
 
-SlabRunResult deliver(const SurfaceRun& run, const Parameters& parameters, const Settings& settings,
+SlabRunResult deliver(const SurfaceRun& run, const Settings& settings,
                       const SlabRunOptions& options, const Stages& stages) {
   const MeshRun& mesh = run.mesh;
   SlabRunResult all;
   Result& result = all.result;
-  result.parameters = parameters;
+  result.parameters = run.parameters;
   result.image = mesh.prepared.measured;
-  const bool in_slabs = decimates_in_slabs(run, parameters);
+  const bool in_slabs = decimates_in_slabs(run);
   // Of the whole surface, the grey values come from the whole mesh.
   const bool needs_mesh = options.mesh || (options.grey && !in_slabs);
   Loop loop = loop_of(run, needs_mesh ? collect(mesh, run.last) : Piece{});
@@ -272,10 +268,10 @@ SlabRunResult deliver(const SurfaceRun& run, const Parameters& parameters, const
                         : surface_grey(result, mesh.slabs.plan.whole.voxel_size());
   }
   if (!options.mesh) drop_mesh(result);
-  hand_out_pieces(run, parameters, options);
+  hand_out_pieces(run, options);
   all.plan = mesh.slabs.plan;
   all.mesh_plan = mesh.plan(run.last);
-  all.slabs = work_of_slabs(run, stage_names(run, parameters, options.grey), stages);
+  all.slabs = work_of_slabs(run, stage_names(run, options.grey), stages);
   return all;
 }
 
@@ -375,11 +371,12 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
   });
   stages.run("prepare", run.plan.count(), [&](Index s) { return prepare_and_minimise(run, s); });
   MeshRun meshes(run);
-  SurfaceRun surface{meshes, run_meshes(meshes, stages)};
+  SurfaceRun surface(meshes, run_meshes(meshes, stages));
   require_full(meshes, surface.last);
-  const Parameters parameters = run_surface(surface, stages, settings, options.grey);
+  run_surface(surface, stages, settings, options.grey);
+  team.wait_for_all();  // all have read what rank 0 removes at the end
   if (team.rank() != 0) return std::nullopt;
-  return deliver(surface, parameters, settings, options, stages);
+  return deliver(surface, settings, options, stages);
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ Piece final_mesh(const SurfaceRun& run, Index s, SlabWork& work);
 /// The file of the nodes of the last mesh of slab s that are nodes of other slabs too: places and
 /// u.
 std::string shared_nodes_file(int k, Index s);
-/// The height of the highest of them, length units; minus infinity: there is none.
-double highest_shared_node(const MeshRun& run, int k, Index s);
+/// The height of the highest node of mesh k of slab s, length units.
+double top_of_mesh(const MeshRun& run, int k, Index s);
 
 inline std::string surface_file(const char* what, Index s) {
   return "surface." + std::string(what) + "." + std::to_string(s);

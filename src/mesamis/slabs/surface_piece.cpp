@@ -65,6 +65,11 @@ std::vector<char> rim_of(const SurfacePiece& piece) {
   return rim;
 }
 
+void settle_rim(SurfacePiece& piece) {
+  const std::vector<char> rim = rim_of(piece);
+  for (std::size_t p = 0; p < rim.size(); ++p) piece.points[p].settled |= rim[p] != 0;
+}
+
 TriMesh mesh_of(const SurfacePiece& piece, Vec3 SurfacePoint::*place) {
   TriMesh mesh{{}, piece.triangles};
   mesh.points.reserve(piece.points.size());

@@ -11,9 +11,11 @@ namespace mesamis::detail {
 
 /// A point of the surface; length units, in the grid's own axes.
 struct SurfacePoint {
-  Vec3 key;              ///< where it was extracted: it tells the point from others in all pieces
-  Vec3 at;               ///< where it is
-  bool settled = false;  ///< it is not to be moved, or removed, by the task that reads it
+  Vec3 key;  ///< where it was extracted: it tells the point from others in all pieces
+  Vec3 at;   ///< where it is
+  /// It is not to be moved, or removed, by the task that reads the piece: what is settled for one
+  /// task need not be so for the next.
+  bool settled = false;
 };
 
 /// Some triangles of the surface. Pieces have no numbers in common: a point of two pieces is known
@@ -34,6 +36,8 @@ SurfacePiece select(const SurfacePiece& piece, const std::vector<char>& chosen);
 
 /// Of each point 1 if it is on an edge of one triangle alone.
 std::vector<char> rim_of(const SurfacePiece& piece);
+/// Settles these points.
+void settle_rim(SurfacePiece& piece);
 
 /// As the surface of all points and triangles; their keys or places.
 TriMesh mesh_of(const SurfacePiece& piece, Vec3 SurfacePoint::*place);

@@ -14,9 +14,12 @@
 #include "mesamis/slabs/point_numbers.h"
 #include "mesamis/slabs/surface_files.h"
 #include "mesamis/surface/extract.h"
+#include "mesamis/surface/split_edges.h"
 
 namespace mesamis::detail {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// How near to a border a task on a slab leaves the surface as it is, in overlaps.
 constexpr double kBand = 0.5;
@@ -60,13 +63,16 @@ FollowOptions follow_options(const SurfaceRun& run) {
 /// The heights that a slab's own task keeps away from: of rims, which lie at its borders, and what
 /// is near these.
 struct Band {
-  double below = -std::numeric_limits<double>::infinity();
-  double above = std::numeric_limits<double>::infinity();
+  double below = -kInfinity, above = kInfinity;
 
   bool holds(double height) const { return height <= below || height >= above; }
 };
 
+/// Below it, what a slab leaves goes to its lower border, above it to the upper one. The first and
+/// the last slab have one border each.
 double middle_of(const SlabPlan& plan, Index s) {
+  if (s == 0) return -kInfinity;
+  if (s + 1 == plan.count()) return kInfinity;
   return (plan.height(s) + plan.height(s + 1)) / 2;
 }
 
@@ -102,7 +108,7 @@ void follow(const SurfaceRun& run, SurfacePiece& piece) {
   FollowedPart part{mesh_of(piece, &SurfacePoint::key), {}, {}};
   for (const SurfacePoint& p : piece.points) {
     part.moved.push_back(p.at);
-    part.held.push_back(p.settled ? 1 : 0);
+    part.held.push_back(!p.settled ? kFree : p.at == p.key ? kHeld : kFixed);
   }
   follow_part(part, run.mesh.input.image, follow_options(run));
   piece.triangles = std::move(part.extracted.triangles);
@@ -137,16 +143,43 @@ SurfacePiece part_of(const SurfacePiece& piece, const std::vector<Goes>& sides, 
   return select(piece, chosen);
 }
 
-/// What of a slab's surface a border sees, beside what it works on.
-SurfacePiece seen_from(const SurfacePiece& core, double border, double distance) {
-  std::vector<char> chosen;
-  chosen.reserve(core.triangles.size());
-  for (const Triangle& t : core.triangles) {
-    chosen.push_back(std::any_of(t.begin(), t.end(), [&](Index p) {
-      return std::abs(core.points[p].key.z - border) < distance;
-    }));
+HeightRange heights_of(const SurfacePiece& piece, const Triangle& t) {
+  const auto [low, high] =
+      std::minmax({piece.points[t[0]].key.z, piece.points[t[1]].key.z, piece.points[t[2]].key.z});
+  return {low, high};
+}
+
+/// Settles the points whose triangles do not all lie between two heights.
+void settle_beyond(const HeightRange& range, SurfacePiece& piece) {
+  for (const Triangle& t : piece.triangles) {
+    const HeightRange heights = heights_of(piece, t);
+    if (range.low < heights.low && heights.high < range.high) continue;
+    for (const Index p : t) piece.points[p].settled = true;
   }
-  return select(core, chosen);
+}
+
+/// The heights of the triangles that may change.
+HeightRange reach_of(const SurfacePiece& piece) {
+  HeightRange reach{kInfinity, -kInfinity};
+  for (const Triangle& t : piece.triangles) {
+    if (std::all_of(t.begin(), t.end(), [&](Index p) { return piece.points[p].settled; })) continue;
+    const HeightRange heights = heights_of(piece, t);
+    reach = {std::min(reach.low, heights.low), std::max(reach.high, heights.high)};
+  }
+  return reach;
+}
+
+/// What of a piece a border sees beside what it works on: it stays.
+SurfacePiece seen_of(const SurfacePiece& piece, const HeightRange& seen) {
+  std::vector<char> chosen;
+  chosen.reserve(piece.triangles.size());
+  for (const Triangle& t : piece.triangles) {
+    const HeightRange heights = heights_of(piece, t);
+    chosen.push_back(seen.low < heights.high && heights.low < seen.high);
+  }
+  SurfacePiece some = select(piece, chosen);
+  for (SurfacePoint& p : some.points) p.settled = true;
+  return some;
 }
 
 }  // namespace
@@ -159,7 +192,7 @@ Piece final_mesh(const SurfaceRun& run, Index s, SlabWork& work) {
   std::vector<char> known(piece.nodes.size(), 0);
   const double lowest = bounding_box(piece.mesh.points).lo.z;
   for (Index lower = 0; lower < s; ++lower) {
-    if (highest_shared_node(run.mesh, run.last, lower) < lowest) continue;
+    if (top_of_mesh(run.mesh, run.last, lower) < lowest) continue;
     ArchiveReader archive = scratch.read(shared_nodes_file(run.last, lower));
     work.bytes += static_cast<std::int64_t>(archive.size());
     const auto points = archive.next<Vec3>();
@@ -187,10 +220,10 @@ SlabWork extract_slab(const SurfaceRun& run, Index s) {
   SurfacePiece piece;
   for (const Vec3& p : surface.points) piece.points.push_back({p, p});
   piece.triangles = std::move(surface.triangles);
-  ArchiveWriter archive;
-  archive.add_one(counts);
-  add_surface(archive, piece);
-  run.mesh.slabs.scratch.write(surface_file("extracted", s), archive);
+  ArchiveWriter told;
+  told.add_one(counts);
+  run.mesh.slabs.scratch.write(surface_file("told", s), told);
+  write_surface(run.mesh.slabs.scratch, surface_file("extracted", s), piece);
   return work;
 }
 
@@ -198,7 +231,7 @@ void learn_follows(SurfaceRun& run) {
   FollowCounts sum;
   for (Index s = 0; s < run.count(); ++s) {
     const auto counts =
-        run.mesh.slabs.scratch.read(surface_file("extracted", s)).next_one<FollowCounts>();
+        run.mesh.slabs.scratch.read(surface_file("told", s)).next_one<FollowCounts>();
     sum.told += counts.told;
     sum.clear += counts.clear;
   }
@@ -208,9 +241,7 @@ void learn_follows(SurfaceRun& run) {
 SlabWork follow_slab(const SurfaceRun& run, Index s) {
   const Scratch& scratch = run.mesh.slabs.scratch;
   const SlabPlan& plan = run.mesh.plan(run.last);
-  ArchiveReader archive = scratch.read(surface_file("extracted", s));
-  (void)archive.next_one<FollowCounts>();
-  SurfacePiece piece = next_surface(archive);
+  SurfacePiece piece = read_surface(scratch, surface_file("extracted", s));
   settle_band(band_of(piece, plan, s), piece);
   follow(run, piece);
   const std::vector<Goes> sides = sides_of(piece, middle_of(plan, s));
@@ -225,21 +256,29 @@ SlabWork follow_border(const SurfaceRun& run, Index s) {
   const Scratch& scratch = run.mesh.slabs.scratch;
   const SlabPlan& plan = run.mesh.plan(run.last);
   SlabWork work;
-  SurfacePiece near = join({read_surface(scratch, surface_file("high", s)),
-                            read_surface(scratch, surface_file("low", s + 1), &work)});
-  const std::vector<char> rim = rim_of(near);
-  for (std::size_t p = 0; p < rim.size(); ++p) near.points[p].settled |= rim[p] != 0;
-  const double border = plan.height(s + 1), distance = kAround * plan.overlap;
-  const SurfacePiece below =
-      seen_from(read_surface(scratch, surface_file("core", s)), border, distance);
-  const SurfacePiece above =
-      seen_from(read_surface(scratch, surface_file("core", s + 1), &work), border, distance);
-  SurfacePiece all = join({std::move(near), below, above});
-  follow(run, all);
-  // What is only seen is settled: it stays, and comes last.
-  all.triangles.resize(all.triangles.size() - below.triangles.size() - above.triangles.size());
+  std::vector<SurfacePiece> all{join({read_surface(scratch, surface_file("high", s)),
+                                      read_surface(scratch, surface_file("low", s + 1), &work)})};
+  SurfacePiece& near = all[0];
+  settle_rim(near);
+  // The tasks on the borders below and above keep to the other sides of the slabs' middles, with
+  // more than a move between.
+  const double voxel = plan.whole.voxel_size() / plan.unit_mm;
+  settle_beyond({middle_of(plan, s) + voxel, middle_of(plan, s + 1) - voxel}, near);
+  const HeightRange reach = reach_of(near);
+  const HeightRange seen{reach.low - kAround * plan.overlap, reach.high + kAround * plan.overlap};
+  const std::size_t own = near.triangles.size();
+  for (const Index t : {s, s + 1}) {
+    SlabWork* const of_others = t == s ? nullptr : &work;
+    for (const char* what : {"core", t == s ? "low" : "high"}) {
+      all.push_back(seen_of(read_surface(scratch, surface_file(what, t), of_others), seen));
+    }
+  }
+  SurfacePiece whole = join(all);
+  const std::size_t others = whole.triangles.size() - own;
+  follow(run, whole);
+  whole.triangles.resize(whole.triangles.size() - others);  // they were not cut, and come last
   write_surface(scratch, surface_file("border", s),
-                select(all, std::vector<char>(all.triangles.size(), 1)));
+                select(whole, std::vector<char>(whole.triangles.size(), 1)));
   return work;
 }
 

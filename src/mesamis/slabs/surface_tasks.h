@@ -46,8 +46,11 @@ struct SurfaceRun {
   bool follows = false;  ///< whether the surface is to follow the image: after learn_follows()
   SurfaceParts parts{};  ///< after learn_parts()
   PartChoice choice{};   ///< after learn_choice()
-  double tolerance = 0;  ///< of decimation, mm; set by the caller
+  /// The tolerance of decimation is set by the caller, after learn_parts().
+  Parameters parameters;
 
+  SurfaceRun(const MeshRun& of, int mesh_number)
+      : mesh(of), last(mesh_number), parameters(of.input.parameters) {}
   Index count() const { return mesh.count(); }
 };
 
@@ -79,7 +82,7 @@ std::vector<double> grey_of(const SurfaceRun& run, const TriMesh& surface);
 
 /// Whether the slabs decimate the surface: not to a number of triangles, which needs all of it at
 /// once, and not where single precision is coarser than the tolerance.
-bool decimates_in_slabs(const SurfaceRun& run, const Parameters& parameters);
+bool decimates_in_slabs(const SurfaceRun& run);
 
 /// The surface before decimation, all of its parts; world frame, mm. In a left-handed grid its
 /// triangles face inward.

@@ -54,7 +54,9 @@ class Splitter {
   static constexpr int kNone = -1;
 
   double length(Index a, Index b) const { return norm(surface_.points[a] - surface_.points[b]); }
-  bool stays(Index a, Index b) const { return held_[a] != 0 && held_[b] != 0; }
+  bool stays(Index a, Index b) const {
+    return (held_[a] != kFree && held_[b] != kFree) || held_[a] == kFixed || held_[b] == kFixed;
+  }
   /// Of an edge that stays less than that of any other.
   double length_to_split(Index a, Index b) const { return stays(a, b) ? -1 : length(a, b); }
 

@@ -8,6 +8,13 @@
 
 namespace mesamis {
 
+/// What split_edges() leaves of a point's edges.
+enum HeldPoint : char {
+  kFree = 0,
+  kHeld = 1,  ///< edges to others that are held stay whole
+  kFixed = 2  ///< all its edges stay whole
+};
+
 /// Whether the edge between two points is to be split; called from several threads.
 using SplitRule = std::function<bool(const Vec3&, const Vec3&)>;
 
@@ -17,9 +24,8 @@ using SplitRule = std::function<bool(const Vec3&, const Vec3&)>;
 /// @param surface  n points, mm or any unit.
 /// @param rule     sees the end points in either order.
 /// @param rounds   at most: a rule that never refuses, or needles, would be split for ever.
-/// @param held    of each point 1 if edges to others that are held stay whole, n; empty: none. So
-///                of an open surface whose rim is held, the rim stays as it is, and triangles with
-///                three held corners are not cut.
+/// @param held    a HeldPoint of each point, n; empty: all free. So of an open surface whose rim is
+///                held, the rim stays as it is, and triangles with three held corners are not cut.
 /// @return the points of the surface first, in their order; triangles in the order of those that
 ///         they are parts of.
 /// @throws InputError  as require_sound().
