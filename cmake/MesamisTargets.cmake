@@ -10,12 +10,9 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
 
-# The compiler cache takes what a source read from the list that the compiler writes, which spares it a run of the
-# preprocessor, and needs leave to keep what was compiled with headers that are read in advance.
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros
-                                  ${CCACHE_PROGRAM})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
 endif()
 
 # Warnings are errors, and a*b+c is never fused: the same input gives the same bits everywhere.
@@ -48,6 +45,38 @@ function(mesamis_instrument target)
                                              -fno-sanitize-recover=all -fno-omit-frame-pointer -Wno-shadow
                                              $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   endif()
+endfunction()
+
+# Sources read as one, where MESAMIS_JOIN_SOURCES: what takes the time is headers and templates, which are then
+# compiled once. What is written has no path of this tree in it, so that the compiler cache knows it in any other.
+function(mesamis_join_part result folder)
+  get_property(parts DIRECTORY PROPERTY MESAMIS_JOINED)
+  list(LENGTH parts number)
+  list(TRANSFORM ARGN REPLACE "(.+)" "#include \"${folder}\\1\"\n" OUTPUT_VARIABLE lines)
+  list(JOIN lines "" lines)
+  set(file ${CMAKE_CURRENT_BINARY_DIR}/joined_${number}.cpp)
+  set_property(DIRECTORY APPEND PROPERTY MESAMIS_JOINED ${file})
+  file(CONFIGURE OUTPUT ${file} CONTENT "${lines}")
+  set(${result} ${file} PARENT_SCOPE)
+endfunction()
+
+# Sources in parts, with NEXT between them: no name of one is that of another in its part. FOLDER/ is theirs
+# below an include folder, or empty; absolute paths stay sources of their own.
+function(mesamis_join result folder)
+  set(part)
+  set(joined)
+  foreach(source IN LISTS ARGN ITEMS NEXT)
+    if(source MATCHES "^/" OR NOT (MESAMIS_JOIN_SOURCES OR source STREQUAL NEXT))
+      list(APPEND joined ${source})
+    elseif(NOT source STREQUAL NEXT)
+      list(APPEND part ${source})
+    elseif(part)
+      mesamis_join_part(file "${folder}" ${part})
+      list(APPEND joined ${file})
+      set(part)
+    endif()
+  endforeach()
+  set(${result} ${joined} PARENT_SCOPE)
 endfunction()
 
 # Rooms whose sources have no names in common. Read as one source each, the headers of the system are read once: half

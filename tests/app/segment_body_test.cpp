@@ -124,8 +124,8 @@ TEST_F(SegmentBody, AHollowBallUnderPressureHasTheEnergyOfTheory) {
   write_nrrd(folder / "block.nrrd", hollow_ball());
   const ProgramRun run = segment("a.inp",
                                  {"--body", folder / "a.vtu", "--set", "IN=inner", "--set",
-                                  "OUT=outer", "--skin-tolerance", "0.05"},
-                                 "1.5", "0.02");
+                                  "OUT=outer", "--skin-tolerance", "0.1"},
+                                 "1.5", "0.05");
   ASSERT_EQ(run.status, 0) << run.err;
   const TetMesh mesh = read_vtu(folder / "a.vtu").mesh;
   const std::string left = node_at(mesh, kMiddle - Vec3{kOuter, 0, 0}),

@@ -3,15 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/shapes.h"
+#include "surface/nested_cubes.h"
 
 namespace mesamis {
 namespace {
-
-TriMesh turned(TriMesh surface) {
-  for (Triangle& t : surface.triangles) std::swap(t[1], t[2]);
-  return surface;
-}
 
 TEST(Components, AreSortedByVolumeAndKnowTheirSizes) {
   // A small cube, a big one and the wall of a cavity in it.
