@@ -16,8 +16,6 @@
 namespace mesamis::detail {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Rings of points around those that a slab's own task has held: the border's task may remove them.
 constexpr int kRings = 4;
 

@@ -15,8 +15,6 @@
 namespace mesamis::detail {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// What is known of a slab's surface as a whole.
 struct SurfaceFacts {
   HeightRange core, border;    ///< of its points

@@ -19,8 +19,6 @@
 namespace mesamis::detail {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// How near to a border a task on a slab leaves the surface as it is, in overlaps.
 constexpr double kBand = 0.5;
 /// How far the surface is seen by the task on a border, in overlaps.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <optional>
+#include <limits>
 #include <vector>
 
 #include "mesamis/method/printable.h"
@@ -23,6 +22,8 @@
 /// decimate_slab(), decimate_border(); measure_slab(), find_grey(). Between them learn_...() reads
 /// what all slabs have left.
 namespace mesamis::detail {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The heights between which something lies, length units.
 struct HeightRange {
