@@ -149,7 +149,7 @@ void write_slab_report(const SegmentRun& run, const Settings& settings, const Vo
   write_json(run.report, report);
 }
 
-/// The meshes of a run, as they come.
+/// The meshes of a run, as they come; all files of the run appear together.
 class MeshWriter {
  public:
   MeshWriter(const SegmentRun& run, const SliceSource& source) : run_(run), source_(source) {}
@@ -167,6 +167,9 @@ class MeshWriter {
     for (const MeshArray& array : grid.point_arrays) keep(array, index_.point_arrays);
     for (const MeshArray& array : grid.cell_arrays) keep(array, index_.cell_arrays);
   }
+
+  /// Of all files that are written while this object lives.
+  OutputSet& set() { return set_; }
 
   /// Writes the indices, and the meshes that are written at once.
   /// @return what these are of, if there is one.
@@ -195,6 +198,7 @@ class MeshWriter {
     known.push_back({array.name, array.components, {}});
   }
 
+  OutputSet set_;
   const SegmentRun& run_;
   const SliceSource& source_;
   std::optional<MappedScan> scan_;
@@ -202,9 +206,8 @@ class MeshWriter {
   MeshWithArrays index_;                                 // names and components of the arrays
 };
 
-/// @param set  where the pieces of the mesh wait.
 int deliver(const SegmentRun& run, const Settings& settings, const FileSlices& source,
-            const SlabRunResult& found, const Team& team, MeshWriter& meshes, OutputSet& set) {
+            const SlabRunResult& found, const Team& team, MeshWriter& meshes) {
   const VolumeFile& head = source.head();
   const Result& result = found.result;
   const SurfaceCheck check = check_surface(result.surface);
@@ -215,9 +218,9 @@ int deliver(const SegmentRun& run, const Settings& settings, const FileSlices& s
   as.grey = found.grey;
   for (const fs::path& path : run.surfaces) write_surface(path, result.surface, as);
   const std::optional<MeshOutput> mesh = meshes.finish(result);
-  write_slab_report(run, settings, head, {found, check, verdict, mesh}, team, set);
-  const Paths files = files_of(set);
-  commit(set);
+  write_slab_report(run, settings, head, {found, check, verdict, mesh}, team, meshes.set());
+  const Paths files = files_of(meshes.set());
+  commit(meshes.set());
   RunFigures figures = figures_of(result, check, head.volume.modality);
   figures.files = files;
   show_summary(figures);
@@ -275,7 +278,6 @@ int run_slabs(const SegmentRun& run, const SlabArguments& slabs, const Settings&
   ProgressDisplay display(common.quiet || common.is_helper());
   SlabRunOptions options = slab_options(run, slabs);
   options.progress = display.callback();
-  OutputSet set;
   std::optional<MeshWriter> meshes;
   if (team.rank() == 0) meshes.emplace(run, *source);
   if (std::any_of(run.meshes.begin(), run.meshes.end(), is_in_pieces)) {
@@ -284,7 +286,7 @@ int run_slabs(const SegmentRun& run, const SlabArguments& slabs, const Settings&
   const auto found = run_in_slabs(*source, settings, options, team);
   display.finish();
   if (!found) return kExitDone;
-  return deliver(run, settings, *source, *found, team, *meshes, set);
+  return deliver(run, settings, *source, *found, team, *meshes);
 }
 
 }  // namespace mesamis

@@ -543,6 +543,7 @@ MeshFit fit_of(const MeshRun& run, int k) {
 
 Piece collect(const MeshRun& run, int k) {
   std::vector<Piece> pieces;
+  pieces.reserve(static_cast<std::size_t>(run.count()));
   for (Index s = 0; s < run.count(); ++s) pieces.push_back(read_final(run, k, s));
   return join(pieces);
 }

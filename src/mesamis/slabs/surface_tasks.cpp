@@ -291,6 +291,7 @@ SurfacePiece surface_of(const SurfaceRun& run, Index s, SlabWork* work) {
 
 TriMesh followed_surface(const SurfaceRun& run) {
   std::vector<SurfacePiece> pieces;
+  pieces.reserve(static_cast<std::size_t>(run.count()));
   for (Index s = 0; s < run.count(); ++s) pieces.push_back(surface_of(run, s));
   return in_world(run, join(pieces));
 }
