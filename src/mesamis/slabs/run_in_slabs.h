@@ -62,8 +62,9 @@ struct SlabRunResult {
 /// @param source    read by slabs, see SliceSource.
 /// @param settings  valid; no preview, no crop, no band, and until the surface has settled.
 /// @param options   how many slabs, and where scratch files go: about 4 bytes per voxel, 16 per
-/// node of the first grid, 200
-///                  per cell. A folder with files of the same run is gone on with.
+/// node
+///                  of the first grid, 200 per cell, 200 per triangle as extracted. A folder with
+///                  files of the same run is gone on with.
 /// @param team      the processes that all call this function with the same arguments.
 /// @return on rank 0; nothing elsewhere.
 /// @throws InputError  as mes_amis(), plan_slabs() and the source; or if the folder holds files of
@@ -71,7 +72,8 @@ struct SlabRunResult {
 /// @throws Cancelled   if progress says stop; the folder is kept.
 ///
 /// Time as mes_amis(), and what overlaps add. Memory of a process: about that of mes_amis() for the
-/// largest slab; of rank 0 also the surface, and the mesh, about 60 bytes per cell.
+/// largest slab; of rank 0 also the surface, and where it is asked for the mesh, about 60 bytes per
+/// cell: also for grey values where the surface is not decimated slab by slab.
 std::optional<SlabRunResult> run_in_slabs(const SliceSource& source, const Settings& settings,
                                           const SlabRunOptions& options, Team& team);
 
