@@ -34,7 +34,7 @@ const std::map<std::string, std::set<std::string>> kSees{
       "decimate", "labels"}},
     {"slabs",
      {"base", "image", "restore", "object", "mesh", "fem", "segment", "adapt", "remesh", "surface",
-      "method"}},
+      "decimate", "method"}},
     {"parallel", {"base", "slabs"}},
     {"files", {"base"}},
     {"scan_files", {"base", "image", "files"}},

@@ -37,6 +37,17 @@ TEST(RunSummary, CountsWhatTheResultHolds) {
   EXPECT_EQ(summary.seconds.total, 7);
 }
 
+TEST(RunSummary, CountsTheMeshThatWasNotKept) {
+  Result result = made_up_result();
+  result.mesh = {};
+  result.iterations.back().tets = 7;
+  result.iterations.back().nodes = 6;
+  EXPECT_EQ(summarize(result, check_surface(result.surface)).tets, 7);
+  EXPECT_EQ(summarize(result, check_surface(result.surface)).nodes, 6);
+  result.parameters.preview = true;
+  EXPECT_EQ(summarize(result, check_surface(result.surface)).tets, 0) << "the grid is no mesh";
+}
+
 TEST(RunSummary, TheEnergyIsInCubicMillimetres) {
   const Result result = made_up_result();
   const RunSummary summary = summarize(result, check_surface(result.surface));

@@ -23,8 +23,10 @@ RunSummary summarize(const Result& result, const SurfaceCheck& check) {
   summary.parameters = result.parameters;
   summary.image = result.image;
   summary.iterations = result.iterations;
-  // The last pass was on the mesh, which a result need not have kept; a preview has no mesh.
-  if (!result.iterations.empty() && !result.parameters.preview) {
+  summary.tets = count(result.mesh.cells);
+  summary.nodes = count(result.mesh.points);
+  // A result need not have kept the mesh, which the last pass was on; a preview has none.
+  if (summary.tets == 0 && !result.iterations.empty() && !result.parameters.preview) {
     summary.tets = result.iterations.back().tets;
     summary.nodes = result.iterations.back().nodes;
   }
