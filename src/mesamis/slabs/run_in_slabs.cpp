@@ -21,6 +21,7 @@
 #include "mesamis/slabs/surface_files.h"
 #include "mesamis/slabs/surface_tasks.h"
 #include "mesamis/slabs/tasks.h"
+#include "mesamis/surface/self_intersections.h"
 
 namespace mesamis {
 namespace {
@@ -205,23 +206,32 @@ std::int64_t nodes_of_first_grid(const MeshRun& run) {
   return std::int64_t{size[0]} * size[1] * size[2];
 }
 
-/// The surface as it is delivered, and what is known of it.
-void deliver_surface_of(const SurfaceRun& run, const Settings& settings, const Progress& progress,
-                        Result& result) {
-  const RunInput& input = run.mesh.input;
-  if (!decimates_in_slabs(run)) {
-    result.surface = followed_surface(run);
-    turn_as_grid(input, result.surface);
-    return finish_surface(input, settings, progress, result);
-  }
+/// The surface that the slabs have decimated.
+/// @return whether it is one to deliver: where pieces of a dense surface have come to meet, it is
+/// not.
+bool take_decimated(const SurfaceRun& run, Result& result) {
+  if (!decimates_in_slabs(run)) return false;
   TriMesh surface = decimated_surface(run);
-  turn_as_grid(input, surface);
+  turn_as_grid(run.mesh.input, surface);
   RoundReport rounding;
   result.surface = round_to_single(surface, &rounding);
+  if (!find_self_intersections(result.surface).empty()) return false;
   result.printable = printable_report(run);
   result.printable.extracted_to_result += rounding.shift;
   result.printable.result_to_extracted += rounding.shift;
-  tell_error(input, result);
+  tell_error(run.mesh.input, result);
+  return true;
+}
+
+/// The surface as it is delivered, and what is known of it.
+/// @return whether it is what the slabs have decimated; else all of it was finished at once.
+bool deliver_surface_of(const SurfaceRun& run, const Settings& settings, const Progress& progress,
+                        Result& result) {
+  if (take_decimated(run, result)) return true;
+  result.surface = followed_surface(run);
+  turn_as_grid(run.mesh.input, result.surface);
+  finish_surface(run.mesh.input, settings, progress, result);
+  return false;
 }
 
 /// Hands the mesh out, slab by slab.
@@ -249,7 +259,9 @@ SlabRunResult deliver(const SurfaceRun& run, const Settings& settings,
   Result& result = all.result;
   result.parameters = run.parameters;
   result.image = mesh.prepared.measured;
-  const bool in_slabs = decimates_in_slabs(run);
+  Stopwatch watch;
+  const bool in_slabs = deliver_surface_of(run, settings, options.progress, result);
+  result.seconds.printable = watch.lap();
   // Of the whole surface, the grey values come from the whole mesh.
   const bool needs_mesh = options.mesh || (options.grey && !in_slabs);
   Loop loop = loop_of(run, needs_mesh ? collect(mesh, run.last) : Piece{});
@@ -260,9 +272,6 @@ SlabRunResult deliver(const SurfaceRun& run, const Settings& settings,
   }
   deliver_mesh(mesh.input, std::move(loop), result);
   if (!needs_mesh) result.fit = fit_of(mesh, run.last);
-  Stopwatch watch;
-  deliver_surface_of(run, settings, options.progress, result);
-  result.seconds.printable = watch.lap();
   if (options.grey) {
     all.grey = in_slabs ? grey_of(run, result.surface)
                         : surface_grey(result, mesh.slabs.plan.whole.voxel_size());
