@@ -25,6 +25,13 @@ double patch_side(const TriMesh& surface, const DecimateOptions& options, double
   return side > 0 ? side : kInfinity;
 }
 
+/// Whether nothing was decimated yet. Else an original may be near triangles of several patches,
+/// each of which would be too far from it: so the whole is one patch.
+bool stands_for_itself(const Cover& cover) {
+  return std::all_of(cover.originals.begin(), cover.originals.end(),
+                     [](const std::vector<Index>& originals) { return originals.size() == 1; });
+}
+
 class Decimation {
  public:
   /// @param sheets  of the surface; nullptr: it is closed.
@@ -146,9 +153,16 @@ Cover decimate_part(const TriMesh& original, Cover part, const std::vector<char>
   if (!(options.tolerance > 0) || std::isinf(options.tolerance) || options.triangles > 0) {
     throw InputError("decimate: expected a part with a finite tolerance > 0 alone");
   }
+  return decimate_patches(original, std::move(part), held, options, kTrianglesPerPatch);
+}
+
+Cover decimate_patches(const TriMesh& original, Cover part, const std::vector<char>& held,
+                       const DecimateOptions& options, double triangles_per_patch) {
   if (part.triangles.empty()) return part;
   PatchworkReport work;
-  const double side = patch_side({original.points, part.triangles}, options, kTrianglesPerPatch);
+  const double side = stands_for_itself(part) ? patch_side({original.points, part.triangles},
+                                                           options, triangles_per_patch)
+                                              : kInfinity;
   return Decimation(original, nullptr, options, work).run(std::move(part), held, side);
 }
 

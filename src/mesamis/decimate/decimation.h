@@ -30,6 +30,11 @@ void require_valid(const DecimateOptions& options);
 TriMesh decimate_surface(const TriMesh& surface, const DecimateOptions& options,
                          double triangles_per_patch, PatchworkReport& report);
 
+/// What decimate_part() does.
+/// @param triangles_per_patch  about, > 0; of a part that has not been decimated before.
+Cover decimate_patches(const TriMesh& original, Cover part, const std::vector<char>& held,
+                       const DecimateOptions& options, double triangles_per_patch);
+
 /// The same for sheets, whose points at rims stay.
 /// @return over the points of the sheets.
 TriMesh decimate_sheets(const Sheets& sheets, const DecimateOptions& options,
