@@ -30,6 +30,8 @@ constexpr std::array kTestedElsewhere{
              "decode_jpeg() for 13 to 16 bits"},
     TestedBy{"scan_files/dicom_jpeg8", "scan_files/dicom_jpeg_test.cpp",
              "decode_jpeg() for 2 to 8 bits"},
+    TestedBy{"slabs/mesh_plan", "slabs/mesh_tasks_test.cpp",
+             "plans are of meshes, and lead to the next: those tests make them"},
 };
 
 bool is_tested(const std::string& source) {

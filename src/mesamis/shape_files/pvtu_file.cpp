@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/files/text_writer.h"
+#include "mesamis/files/xml_text.h"
 #include "mesamis/shape_files/mesh_files.h"
 
 namespace mesamis {
@@ -8,30 +9,10 @@ using namespace detail;
 
 namespace {
 
-std::string as_attribute(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
 void write_arrays(TextWriter& out, const char* element, std::span<const MeshArray> arrays) {
   out << "    <" << element << ">\n";
   for (const MeshArray& array : arrays) {
-    out << "      <PDataArray type=\"Float64\" Name=\"" << as_attribute(array.name)
+    out << "      <PDataArray type=\"Float64\" Name=\"" << xml_escaped(array.name)
         << "\" NumberOfComponents=\"" << array.components << "\"/>\n";
   }
   out << "    </" << element << ">\n";
@@ -52,7 +33,7 @@ void write_pvtu(const std::filesystem::path& path, std::span<const std::string> 
          "      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n"
          "    </PPoints>\n";
   for (const std::string& piece : pieces) {
-    out << "    <Piece Source=\"" << as_attribute(piece) << "\"/>\n";
+    out << "    <Piece Source=\"" << xml_escaped(piece) << "\"/>\n";
   }
   out << "  </PUnstructuredGrid>\n</VTKFile>\n";
   out.commit();

@@ -59,13 +59,6 @@ CoverPiece read_cover(const Scratch& scratch, const std::string& name, SlabWork*
   return cover;
 }
 
-/// Where it is in the world, in single precision; mm.
-TriMesh rounded_in_world(const SurfaceRun& run, const SurfacePiece& piece) {
-  TriMesh mesh = in_world(run, piece);
-  for (Vec3& p : mesh.points) p = rounded(p);
-  return mesh;
-}
-
 DecimateOptions decimate_options(const SurfaceRun& run) {
   DecimateOptions options;
   options.tolerance = run.parameters.tolerance - run.parts.shift;
@@ -269,12 +262,6 @@ class KnownTriangles {
   std::vector<Triangle> known_;
 };
 
-/// As what no other task changes.
-SurfacePiece settled_part(SurfacePiece piece) {
-  for (SurfacePoint& p : piece.points) p.settled = true;
-  return piece;
-}
-
 /// What measure_slab() leaves.
 struct Measured {
   std::int64_t triangles = 0;  ///< before decimation, of the parts that stay
@@ -303,8 +290,9 @@ SlabWork decimate_slab(const SurfaceRun& run, Index s) {
       if (share.triangles[t] != 0) stays[t] = 0;
     }
   }
-  write_surface(scratch, surface_file("decimated", s),
-                settled_part(select({piece.points, cover.triangles}, stays)));
+  SurfacePiece own = select({piece.points, cover.triangles}, stays);
+  settle_all(own);
+  write_surface(scratch, surface_file("decimated", s), own);
   return {};
 }
 
@@ -332,27 +320,20 @@ SlabWork decimate_border(const SurfaceRun& run, Index s) {
 }
 
 SlabWork measure_slab(const SurfaceRun& run, Index s) {
-  const Scratch& scratch = run.mesh.slabs.scratch;
   SlabWork work;
   Measured measured;
   std::vector<SurfacePiece> originals{chosen_surface_of(run, s)};
-  std::vector<SurfacePiece> delivered{read_surface(scratch, surface_file("decimated", s))};
+  std::vector<SurfacePiece> delivered = decimated_by(run, s);
   measured.triangles = std::ssize(originals[0].triangles);
   const auto distance = [&](const TriMesh& from, const TriMesh& to) {
     if (from.triangles.empty()) return 0.0;
     return max_distance(from, to, fine_enough(from, run.parameters.tolerance));
   };
-  const auto border = [&](Index below, SlabWork* of_others) {
-    return read_surface(scratch, surface_file("decimated border", below), of_others);
-  };
-  // A border's piece belongs to the slab below, and stands for parts of both.
-  if (s + 1 < run.count()) delivered.push_back(border(s, nullptr));
   const TriMesh own = rounded_in_world(run, join(delivered));
-  if (s > 0) delivered.push_back(border(s - 1, &work));
-  // What is near the slab's surface may belong to others.
+  // A border's piece is delivered by the slab below, and stands for parts of both.
   for (const Index t : {s - 1, s + 1}) {
     if (t < 0 || t == run.count()) continue;
-    delivered.push_back(read_surface(scratch, surface_file("decimated", t), &work));
+    for (SurfacePiece& piece : decimated_by(run, t, &work)) delivered.push_back(std::move(piece));
   }
   measured.original_to_result =
       distance(in_world(run, originals[0]), rounded_in_world(run, join(delivered)));
@@ -360,7 +341,7 @@ SlabWork measure_slab(const SurfaceRun& run, Index s) {
   measured.result_to_original = distance(own, in_world(run, join(originals)));
   ArchiveWriter archive;
   archive.add_one(measured);
-  scratch.write(surface_file("measured", s), archive);
+  run.mesh.slabs.scratch.write(surface_file("measured", s), archive);
   return work;
 }
 
@@ -369,16 +350,27 @@ bool decimates_in_slabs(const SurfaceRun& run) {
   return p.triangles == 0 && std::isfinite(p.tolerance) && p.tolerance > run.parts.shift;
 }
 
-SurfacePiece decimated_piece(const SurfaceRun& run) {
+std::vector<SurfacePiece> decimated_by(const SurfaceRun& run, Index s, SlabWork* work) {
   const Scratch& scratch = run.mesh.slabs.scratch;
+  std::vector<SurfacePiece> pieces{read_surface(scratch, surface_file("decimated", s), work)};
+  if (s + 1 < run.count()) {
+    pieces.push_back(read_surface(scratch, surface_file("decimated border", s), work));
+  }
+  return pieces;
+}
+
+SurfacePiece decimated_piece(const SurfaceRun& run) {
   std::vector<SurfacePiece> pieces;
   for (Index s = 0; s < run.count(); ++s) {
-    pieces.push_back(read_surface(scratch, surface_file("decimated", s)));
-    if (s + 1 < run.count()) {
-      pieces.push_back(read_surface(scratch, surface_file("decimated border", s)));
-    }
+    for (SurfacePiece& piece : decimated_by(run, s)) pieces.push_back(std::move(piece));
   }
   return join(pieces);
+}
+
+TriMesh rounded_in_world(const SurfaceRun& run, const SurfacePiece& piece) {
+  TriMesh mesh = in_world(run, piece);
+  for (Vec3& p : mesh.points) p = rounded(p);
+  return mesh;
 }
 
 TriMesh decimated_surface(const SurfaceRun& run) {

@@ -14,15 +14,6 @@ namespace {
 constexpr double kVoxels = 2;
 constexpr int kSamples = 4;
 
-std::vector<SurfacePiece> delivered_by(const SurfaceRun& run, Index s, SlabWork* work) {
-  const Scratch& scratch = run.mesh.slabs.scratch;
-  std::vector<SurfacePiece> pieces{read_surface(scratch, surface_file("decimated", s), work)};
-  if (s + 1 < run.count()) {
-    pieces.push_back(read_surface(scratch, surface_file("decimated border", s), work));
-  }
-  return pieces;
-}
-
 /// The last mesh of slab s and its neighbours, between two heights.
 Piece mesh_between(const SurfaceRun& run, Index s, const HeightRange& range, SlabWork& work) {
   std::vector<Piece> pieces;
@@ -85,12 +76,12 @@ class Places {
 
 SlabWork find_grey(const SurfaceRun& run, Index s) {
   SlabWork work;
-  std::vector<SurfacePiece> pieces = delivered_by(run, s, nullptr);
+  std::vector<SurfacePiece> pieces = decimated_by(run, s);
   const std::size_t own = join(pieces).points.size();
   // The triangles around own points that are others'.
   for (const Index t : {s - 1, s + 1}) {
     if (t < 0 || t == run.count()) continue;
-    for (SurfacePiece& piece : delivered_by(run, t, &work)) pieces.push_back(std::move(piece));
+    for (SurfacePiece& piece : decimated_by(run, t, &work)) pieces.push_back(std::move(piece));
   }
   const SurfacePiece piece = around_first(join(pieces), own);
   std::vector<double> grey;
@@ -116,7 +107,7 @@ std::vector<double> grey_of(const SurfaceRun& run, const TriMesh& surface) {
     const auto grey = archive.next<double>();
     for (std::size_t n = 0; n < keys.size(); ++n) values[numbers.find(keys[n])] = grey[n];
   }
-  const std::vector<Vec3> points = decimated_surface(run).points;
+  const std::vector<Vec3> points = rounded_in_world(run, whole).points;
   const Places places(points);
   std::vector<double> found;
   found.reserve(surface.points.size());

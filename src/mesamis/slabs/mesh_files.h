@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <memory>
+#include <string>
 
 #include "mesamis/slabs/background.h"
 #include "mesamis/slabs/tasks.h"
@@ -24,6 +26,26 @@ inline bool has_neighbour(const SlabPlan& plan, Index s, Side side) {
 inline double border_of(const SlabPlan& plan, Index s, Side side) {
   return plan.height(side == Side::kLow ? s : s + 1);
 }
+
+/// The file of slab s of mesh k.
+std::string file_of(const char* what, int k, Index s);
+
+/// Between the lowest and the highest centroid of a slab's cells: they need not lie between its
+/// borders, since they come of cells that do.
+struct Heights {
+  double low = 0, high = 0;
+};
+
+/// What was recorded of the minimisation on a mesh.
+struct MeshRecord {
+  Iteration iteration;
+  Heights heights;
+  double volume = 0;                                      ///< of the slab's cells, length units^3
+  double top = -std::numeric_limits<double>::infinity();  ///< the height of the highest node
+};
+
+/// After solve(), and of the last mesh after finish().
+MeshRecord mesh_record(const MeshRun& run, int k, Index s);
 
 /// The stage of passes that tell nobody how far they have come: a task is one step.
 const Stage& silent_stage();

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -13,7 +12,6 @@
 #include "mesamis/fem/mesh_space.h"
 #include "mesamis/mesh/metric.h"
 #include "mesamis/remesh/piece.h"
-#include "mesamis/slabs/mapped_items.h"
 #include "mesamis/slabs/mesh_files.h"
 #include "mesamis/slabs/profile.h"
 #include "mesamis/slabs/records.h"
@@ -23,9 +21,6 @@
 namespace mesamis::detail {
 namespace {
 
-std::string file_of(const char* what, int k, Index s) {
-  return std::string(what) + "." + std::to_string(k) + "." + std::to_string(s);
-}
 std::string side_file(const char* what, int k, Index s, Side side) {
   return file_of(what, k, s) + (side == Side::kLow ? ".low" : ".high");
 }
@@ -165,20 +160,8 @@ Minimum minimise_on(const MeshRun& run, int k, const AmisOptions& options, Piece
   return m;
 }
 
-/// How far cells reach that are adapted again, in overlaps, as was counted.
-constexpr double kReachOfSeam = 0.8;
-
-/// Of the logarithm of the first mesh's number of cells.
-constexpr double kSlackOfFirstMesh = 0.05;
-
 /// A piece may have so many cells at least.
 constexpr std::int64_t kFewestInPiece = 1000;
-
-/// Between the lowest and the highest centroid of a slab's cells: they need not lie between its
-/// borders, since they come of cells that do.
-struct Heights {
-  double low = 0, high = 0;
-};
 
 Heights heights_of(const TetMesh& mesh) {
   Heights heights{std::numeric_limits<double>::infinity(),
@@ -188,18 +171,6 @@ Heights heights_of(const TetMesh& mesh) {
     heights = {std::min(heights.low, height), std::max(heights.high, height)};
   }
   return heights;
-}
-
-/// What was recorded of the minimisation on a mesh.
-struct MeshRecord {
-  Iteration iteration;
-  Heights heights;
-  double volume = 0;                                      ///< of the slab's cells, length units^3
-  double top = -std::numeric_limits<double>::infinity();  ///< the height of the highest node
-};
-
-MeshRecord mesh_record(const MeshRun& run, int k, Index s) {
-  return run.slabs.scratch.read(file_of("record", k, s)).next_one<MeshRecord>();
 }
 
 /// The cells of mesh k that were minimised on between two heights, with their fields, and the
@@ -230,67 +201,6 @@ Piece solved_between(const MeshRun& run, int k, double low, double high, Index o
   return piece;
 }
 
-/// Cuts slabs of equal predicted cells.
-/// @param cells  of each slice, any unit.
-void cut_mesh(const SlabRun& run, const std::vector<double>& cells, bool bounded, MeshPlan& mesh) {
-  const SlabPlan& plan = run.plan;
-  mesh.slabs = plan_slabs(plan.whole, cells,
-                          {.unit_mm = plan.unit_mm,
-                           .beta = run.choice.parameters.functional.beta,
-                           .slabs = plan.count(),
-                           .bounded = bounded,
-                           .again = kReachOfSeam * plan.overlap});
-  for (Index s = 0; s < plan.count(); ++s) {
-    const auto* cut = &mesh.slabs.cuts[static_cast<std::size_t>(s)];
-    mesh.predicted.push_back(std::accumulate(cells.begin() + cut[0], cells.begin() + cut[1], 0.0));
-  }
-}
-
-/// The slabs asked for as many cells as their own surfaces need; now it is known how many there may
-/// be.
-MeshPlan plan_first_mesh(const MeshRun& run) {
-  std::vector<double> complexities;  // of the slices
-  for (const GridSlab& slab : run.grid) {
-    complexities.insert(complexities.end(), slab.complexities.begin(), slab.complexities.end());
-  }
-  MeshPlan first;
-  // Each slice of the grid that a slab sees is in its memory.
-  cut_mesh(run.slabs, complexities, true, first);
-  first.complexity = static_cast<double>(run.input.cells_after(1)) / kCellsPerComplexity;
-  const double asked = std::accumulate(complexities.begin(), complexities.end(), 0.0);
-  const double excess = std::log(asked / first.complexity);
-  if (std::abs(excess) > kSlackOfFirstMesh) first.factor = std::exp(excess / 3);
-  return first;
-}
-
-/// The cells of each slab of mesh k.
-std::vector<double> cells_of_slabs(const MeshRun& run, int k) {
-  std::vector<double> cells;
-  cells.reserve(static_cast<std::size_t>(run.count()));
-  for (Index s = 0; s < run.count(); ++s) {
-    cells.push_back(static_cast<double>(mesh_record(run, k, s).iteration.tets));
-  }
-  return cells;
-}
-
-/// The cells of each slice of mesh k + 1, any unit: as the metric has it, and as each slab of mesh
-/// k came to have more or fewer cells than were predicted.
-/// @param cells  of the slabs of mesh k.
-std::vector<double> predicted_cells(const MeshRun& run, int k,
-                                    const std::vector<Complexities>& slices,
-                                    const std::vector<double>& cells, double factor) {
-  std::vector<double> predicted;
-  for (std::size_t s = 0; s < cells.size(); ++s) {
-    const double before = run.mesh(k).predicted[s];
-    const double made = before > 0 ? cells[s] / before : 1;
-    const auto* cut = &run.plan(k).cuts[s];
-    for (Index slice = cut[0]; slice < cut[1]; ++slice) {
-      predicted.push_back(made * complexity_at(slices[static_cast<std::size_t>(slice)], factor));
-    }
-  }
-  return predicted;
-}
-
 double volume_of(const TetMesh& mesh) {
   double volume = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
@@ -319,6 +229,13 @@ void write_record(const MeshRun& run, int k, Index s, const LocalMesh& local, co
 }
 
 }  // namespace
+
+std::string file_of(const char* what, int k, Index s) {
+  return std::string(what) + "." + std::to_string(k) + "." + std::to_string(s);
+}
+MeshRecord mesh_record(const MeshRun& run, int k, Index s) {
+  return run.slabs.scratch.read(file_of("record", k, s)).next_one<MeshRecord>();
+}
 
 const Stage& silent_stage() {
   static const Progress silent;
@@ -369,26 +286,6 @@ void hand_on(const MeshRun& run, int k, Index s, const Piece& mesh, SlabWork& wo
   work.cells += std::ssize(mesh.mesh.cells);
 }
 
-MeshRun::MeshRun(const SlabRun& run)
-    : slabs(run),
-      prepared{run.choice.parameters, run.choice.measured, {}, {}},
-      input(prepared),
-      grid(grid_slabs(run)) {
-  const VoxelGrid& whole = run.plan.whole;
-  Parameters& p = prepared.parameters;
-  if (p.max_tets == 0) {
-    double cells = 0;
-    for (const GridSlab& slab : grid) cells += slab.extent.cells;
-    p.max_tets = std::llround(
-        std::clamp<double>(cells, kFewestTets, static_cast<double>(kMostTets) * count()));
-  }
-  static_cast<VoxelGrid&>(prepared.grey) = whole;
-  auto mapped = map_items<float>(run.scratch.path(kImageFile), whole.voxel_count());
-  prepared.image = {whole, mapped.values, grid[0].extent.low, grid[0].extent.high, mapped.owner};
-  input.box = run.plan.box();
-  meshes.push_back(plan_first_mesh(*this));
-}
-
 SlabWork seam(const MeshRun& run, int k, Index s) {
   const Scratch& scratch = run.slabs.scratch;
   const SlabPlan& plan = run.plan(k);
@@ -435,25 +332,6 @@ SlabWork solve(const MeshRun& run, int k, Index s) {
   write_piece(run.slabs.scratch, file_of("solved", k, s), own);
   run.slabs.scratch.write(file_of("profile", k, s), told);
   return work;
-}
-
-// The remesher's cells per unit of complexity are taken to be those that the mesh was measured to
-// have; but the first mesh has cells which only the bricks of its start ask for.
-void plan_next_mesh(MeshRun& run) {
-  const auto k = static_cast<int>(run.meshes.size());
-  std::vector<Complexities> slices(static_cast<std::size_t>(run.slabs.plan.whole.size[2]));
-  for (Index s = 0; s < run.count(); ++s) {
-    ArchiveReader archive = run.slabs.scratch.read(file_of("profile", k, s));
-    add_next_profile(archive, slices);
-  }
-  const std::vector<double> cells = cells_of_slabs(run, k);
-  const double made = std::accumulate(cells.begin(), cells.end(), 0.0) / run.mesh(k).complexity;
-  const double per_complexity = k == 1 ? kCellsPerComplexity : std::clamp(made, 4.0, 20.0);
-  MeshPlan next;
-  next.complexity = static_cast<double>(run.input.cells_after(k + 1)) / per_complexity;
-  next.factor = factor_for(sum_of(slices), next.complexity);
-  cut_mesh(run.slabs, predicted_cells(run, k, slices, cells, next.factor), false, next);
-  run.meshes.push_back(std::move(next));
 }
 
 SlabWork adapt_slab(const MeshRun& run, int k, Index s) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "mesamis/decimate/single_places.h"
 #include "mesamis/method/expected_error.h"
@@ -30,17 +29,7 @@ HeightRange heights_of(const SurfacePiece& piece) {
   return range;
 }
 
-/// A point of each component.
-std::vector<Vec3> feet_of(const TriMesh& surface, const SurfaceComponents& components) {
-  std::vector<Vec3> feet(components.sizes.size());
-  for (std::size_t t = surface.triangles.size(); t-- > 0;) {
-    const Index c = components.of_triangle[t];
-    if (c != kNoIndex) feet[c] = surface.points[surface.triangles[t][0]];
-  }
-  return feet;
-}
-
-/// Volumes of open surfaces add up where all cones have one apex: the middle of the scan.
+/// Volumes of open surfaces add up where all cones have one apex.
 void measure_from(const Vec3& apex, const TriMesh& surface, SurfaceComponents& components) {
   for (SurfaceComponents::Size& size : components.sizes) size.volume = 0;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -108,11 +97,8 @@ void join_parts(const std::vector<PartList>& lists, SurfaceParts& parts) {
       feet[part] = list->feet[c];  // in the end that of the first
     }
   }
-  std::vector<Index> order(sizes.size()), place(sizes.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
-    return std::abs(sizes[a].volume) > std::abs(sizes[b].volume);
-  });
+  const std::vector<Index> order = largest_first(sizes);
+  std::vector<Index> place(sizes.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     place[order[i]] = static_cast<Index>(i);
     parts.sizes.push_back(sizes[order[i]]);
@@ -123,6 +109,14 @@ void join_parts(const std::vector<PartList>& lists, SurfaceParts& parts) {
     std::vector<Index>& of_slab = parts.of_slab.emplace_back();
     for (std::size_t c = 0; c < list.sizes.size(); ++c) of_slab.push_back(place[*part++]);
   }
+}
+
+/// The part of the whole that each triangle of slab s belongs to; kNoIndex: none.
+std::vector<Index> parts_of(const SurfaceRun& run, Index s) {
+  auto parts = run.mesh.slabs.scratch.read(surface_file("components", s)).next<Index>();
+  const std::vector<Index>& of_slab = run.parts.of_slab[static_cast<std::size_t>(s)];
+  for (Index& part : parts) part = part == kNoIndex ? kNoIndex : of_slab[part];
+  return parts;
 }
 
 /// How often a ray crosses a part.
@@ -167,10 +161,13 @@ SlabWork list_parts(const SurfaceRun& run, Index s) {
   ArchiveWriter archive;
   archive.add_one(list.facts);
   archive.add(components.sizes);
-  archive.add(feet_of(surface, components));
+  archive.add(component_feet(surface, components));
   archive.add(list.rim);
   archive.add(list.of_rim);
   scratch.write(surface_file("parts", s), archive);
+  ArchiveWriter of_triangles;
+  of_triangles.add(components.of_triangle);
+  scratch.write(surface_file("components", s), of_triangles);
   return {};
 }
 
@@ -191,12 +188,8 @@ void learn_parts(SurfaceRun& run) {
 }
 
 SlabWork cross_rays(const SurfaceRun& run, Index s) {
-  const TriMesh surface = in_world(run, surface_of(run, s));
-  const SurfaceComponents components = find_components(surface);
-  const std::vector<Index>& parts = run.parts.of_slab[static_cast<std::size_t>(s)];
-  std::vector<Index> part_of(components.of_triangle);
-  for (Index& part : part_of) part = part == kNoIndex ? kNoIndex : parts[part];
-  const RayCrossings crossings = ray_crossings(run.parts.feet, surface, part_of);
+  const RayCrossings crossings =
+      ray_crossings(run.parts.feet, in_world(run, surface_of(run, s)), parts_of(run, s));
   std::vector<Crossing> list;
   for (std::size_t ray = 0; ray < crossings.size(); ++ray) {
     for (const auto& [part, count] : crossings[ray]) {
@@ -227,15 +220,11 @@ TriMesh in_world(const SurfaceRun& run, const SurfacePiece& piece) {
 }
 
 SurfacePiece chosen_surface_of(const SurfaceRun& run, Index s, SlabWork* work) {
-  const SurfacePiece piece = surface_of(run, s, work);
-  const SurfaceComponents components = find_components(in_world(run, piece));
-  const std::vector<Index>& parts = run.parts.of_slab[static_cast<std::size_t>(s)];
   std::vector<char> stays;
-  stays.reserve(piece.triangles.size());
-  for (const Index c : components.of_triangle) {
-    stays.push_back(c != kNoIndex && run.choice.goes[parts[c]] == 0);
+  for (const Index part : parts_of(run, s)) {
+    stays.push_back(part != kNoIndex && run.choice.goes[part] == 0);
   }
-  return select(piece, stays);
+  return select(surface_of(run, s, work), stays);
 }
 
 }  // namespace mesamis::detail

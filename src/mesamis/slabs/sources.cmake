@@ -13,6 +13,7 @@ set(ROOM_SOURCES
   grid_nodes.cpp
   map_scan.cpp
   mapped_items.cpp
+  mesh_plan.cpp
   mesh_tasks.cpp
   part_tasks.cpp
   piece.cpp

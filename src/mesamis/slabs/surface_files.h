@@ -47,10 +47,15 @@ SurfacePiece surface_of(const SurfaceRun& run, Index s, SlabWork* work = nullptr
 /// The same of the parts that stay.
 SurfacePiece chosen_surface_of(const SurfaceRun& run, Index s, SlabWork* work = nullptr);
 
+/// What slab s delivers: its decimated surface, and that at its upper border.
+/// @param work  optional, as for read_surface().
+std::vector<SurfacePiece> decimated_by(const SurfaceRun& run, Index s, SlabWork* work = nullptr);
 /// The whole surface of the parts that stay, decimated.
 SurfacePiece decimated_piece(const SurfaceRun& run);
 
 /// A piece where it is in the world; mm. In a left-handed grid its triangles face inward.
 TriMesh in_world(const SurfaceRun& run, const SurfacePiece& piece);
+/// The same in single precision.
+TriMesh rounded_in_world(const SurfaceRun& run, const SurfacePiece& piece);
 
 }  // namespace mesamis::detail

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/slabs/surface_piece.h"
 
+#include <span>
+
 #include "mesamis/slabs/point_numbers.h"
 #include "mesamis/surface/half_edges.h"
 
 namespace mesamis::detail {
 
-SurfacePiece join(std::span<const SurfacePiece* const> pieces) {
+SurfacePiece join(const std::vector<SurfacePiece>& pieces) {
   SurfacePiece joined;
   PointNumbers numbers;
-  for (const SurfacePiece* piece : pieces) {
+  for (const SurfacePiece& piece : pieces) {
     std::vector<Index> number;
-    number.reserve(piece->points.size());
-    for (const SurfacePoint& p : piece->points) {
+    number.reserve(piece.points.size());
+    for (const SurfacePoint& p : piece.points) {
       const auto [at, is_new] = numbers.of(p.key);
       number.push_back(at);
       if (is_new) {
@@ -21,19 +23,12 @@ SurfacePiece join(std::span<const SurfacePiece* const> pieces) {
         joined.points[at].settled |= p.settled;
       }
     }
-    for (Triangle t : piece->triangles) {
+    for (Triangle t : piece.triangles) {
       for (Index& corner : t) corner = number[corner];
       joined.triangles.push_back(t);
     }
   }
   return joined;
-}
-
-SurfacePiece join(const std::vector<SurfacePiece>& pieces) {
-  std::vector<const SurfacePiece*> pointers;
-  pointers.reserve(pieces.size());
-  for (const SurfacePiece& piece : pieces) pointers.push_back(&piece);
-  return join(pointers);
 }
 
 SurfacePiece select(const SurfacePiece& piece, const std::vector<char>& chosen) {
@@ -68,6 +63,10 @@ std::vector<char> rim_of(const SurfacePiece& piece) {
 void settle_rim(SurfacePiece& piece) {
   const std::vector<char> rim = rim_of(piece);
   for (std::size_t p = 0; p < rim.size(); ++p) piece.points[p].settled |= rim[p] != 0;
+}
+
+void settle_all(SurfacePiece& piece) {
+  for (SurfacePoint& p : piece.points) p.settled = true;
 }
 
 TriMesh mesh_of(const SurfacePiece& piece, Vec3 SurfacePoint::*place) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "mesamis/slabs/archive.h"
@@ -27,7 +26,6 @@ struct SurfacePiece {
 
 /// Joins pieces that share no triangle, in their order. Of a point of several pieces the first
 /// one's place stays; it is settled if any of them says so. O(points and triangles).
-SurfacePiece join(std::span<const SurfacePiece* const> pieces);
 SurfacePiece join(const std::vector<SurfacePiece>& pieces);
 
 /// The triangles chosen, and their points, in their order.
@@ -38,6 +36,8 @@ SurfacePiece select(const SurfacePiece& piece, const std::vector<char>& chosen);
 std::vector<char> rim_of(const SurfacePiece& piece);
 /// Settles these points.
 void settle_rim(SurfacePiece& piece);
+/// Settles all points.
+void settle_all(SurfacePiece& piece);
 
 /// As the surface of all points and triangles; their keys or places.
 TriMesh mesh_of(const SurfacePiece& piece, Vec3 SurfacePoint::*place);

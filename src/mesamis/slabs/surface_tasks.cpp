@@ -58,14 +58,6 @@ FollowOptions follow_options(const SurfaceRun& run) {
   return {level_of(run), input.error.noise, input.parameters.unit_mm};
 }
 
-/// The heights that a slab's own task keeps away from: of rims, which lie at its borders, and what
-/// is near these.
-struct Band {
-  double below = -kInfinity, above = kInfinity;
-
-  bool holds(double height) const { return height <= below || height >= above; }
-};
-
 /// Below it, what a slab leaves goes to its lower border, above it to the upper one. The first and
 /// the last slab have one border each.
 double middle_of(const SlabPlan& plan, Index s) {
@@ -74,30 +66,22 @@ double middle_of(const SlabPlan& plan, Index s) {
   return (plan.height(s) + plan.height(s + 1)) / 2;
 }
 
-Band band_of(const SurfacePiece& piece, const SlabPlan& plan, Index s) {
+/// The heights that a slab's own task keeps within: away from rims, which lie at its borders, and
+/// from what is near these.
+HeightRange range_between_rims(const SurfacePiece& piece, const SlabPlan& plan, Index s) {
   const std::vector<char> rim = rim_of(piece);
   const double width = kBand * plan.overlap;
-  Band band;
+  HeightRange range{-kInfinity, kInfinity};
   for (std::size_t p = 0; p < rim.size(); ++p) {
     if (rim[p] == 0) continue;
     const double height = piece.points[p].key.z;
     if (height < middle_of(plan, s)) {
-      band.below = std::max(band.below, height + width);
+      range.low = std::max(range.low, height + width);
     } else {
-      band.above = std::min(band.above, height - width);
+      range.high = std::min(range.high, height - width);
     }
   }
-  return band;
-}
-
-/// Settles the points of all triangles that reach into the band.
-void settle_band(const Band& band, SurfacePiece& piece) {
-  for (const Triangle& t : piece.triangles) {
-    const bool near =
-        std::any_of(t.begin(), t.end(), [&](Index p) { return band.holds(piece.points[p].key.z); });
-    if (!near) continue;
-    for (const Index p : t) piece.points[p].settled = true;
-  }
+  return range;
 }
 
 /// Moves the points of a piece that are not settled.
@@ -176,7 +160,7 @@ SurfacePiece seen_of(const SurfacePiece& piece, const HeightRange& seen) {
     chosen.push_back(seen.low < heights.high && heights.low < seen.high);
   }
   SurfacePiece some = select(piece, chosen);
-  for (SurfacePoint& p : some.points) p.settled = true;
+  settle_all(some);
   return some;
 }
 
@@ -240,7 +224,7 @@ SlabWork follow_slab(const SurfaceRun& run, Index s) {
   const Scratch& scratch = run.mesh.slabs.scratch;
   const SlabPlan& plan = run.mesh.plan(run.last);
   SurfacePiece piece = read_surface(scratch, surface_file("extracted", s));
-  settle_band(band_of(piece, plan, s), piece);
+  settle_beyond(range_between_rims(piece, plan, s), piece);
   follow(run, piece);
   const std::vector<Goes> sides = sides_of(piece, middle_of(plan, s));
   for (SurfacePoint& p : piece.points) p.settled = !p.settled;  // those that were left are next

@@ -33,11 +33,7 @@ SurfaceComponents number_parts(const TriMesh& surface, DisjointSets& parts) {
 
 void sort_by_volume(SurfaceComponents& components) {
   const auto& sizes = components.sizes;
-  std::vector<Index> order(sizes.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&sizes](Index a, Index b) {
-    return std::abs(sizes[a].volume) > std::abs(sizes[b].volume);
-  });
+  const std::vector<Index> order = largest_first(sizes);
   SurfaceComponents sorted;
   std::vector<Index> place(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -51,6 +47,16 @@ void sort_by_volume(SurfaceComponents& components) {
 }
 
 }  // namespace
+
+std::vector<Index> largest_first(std::span<const SurfaceComponents::Size> sizes) {
+  std::vector<Index> order(sizes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [sizes](Index a, Index b) {
+    return std::abs(sizes[static_cast<std::size_t>(a)].volume) >
+           std::abs(sizes[static_cast<std::size_t>(b)].volume);
+  });
+  return order;
+}
 
 SurfaceComponents find_components(const TriMesh& surface) {
   require_sound(surface);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesamis/surface/tri_mesh.h"
@@ -17,6 +18,13 @@ struct SurfaceComponents {
   std::vector<Size> sizes;         ///< largest absolute volume first
   std::vector<Index> of_triangle;  ///< index into sizes; kNoIndex for a degenerate triangle
 };
+
+/// The order in which components come: the largest absolute volume first, of equal ones the first.
+/// @return the index of each in `sizes`.
+/// @throws nothing
+///
+/// O(n log n) for n components.
+std::vector<Index> largest_first(std::span<const SurfaceComponents::Size> sizes);
 
 /// Finds the components of a surface and measures them.
 /// @param surface      n triangles, mm.

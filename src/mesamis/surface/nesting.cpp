@@ -81,8 +81,9 @@ class Feet {
   std::vector<std::vector<Index>> bins_;
 };
 
-/// A point of each component.
-std::vector<Vec3> feet_of(const TriMesh& surface, const SurfaceComponents& components) {
+}  // namespace
+
+std::vector<Vec3> component_feet(const TriMesh& surface, const SurfaceComponents& components) {
   std::vector<Vec3> feet(components.sizes.size());
   std::vector<char> known(feet.size(), 0);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -93,8 +94,6 @@ std::vector<Vec3> feet_of(const TriMesh& surface, const SurfaceComponents& compo
   }
   return feet;
 }
-
-}  // namespace
 
 RayCrossings ray_crossings(std::span<const Vec3> feet, const TriMesh& piece,
                            std::span<const Index> component_of) {
@@ -127,7 +126,8 @@ Nesting nesting_of(RayCrossings crossings) {
 }
 
 Nesting find_nesting(const TriMesh& surface, const SurfaceComponents& components) {
-  return nesting_of(ray_crossings(feet_of(surface, components), surface, components.of_triangle));
+  return nesting_of(
+      ray_crossings(component_feet(surface, components), surface, components.of_triangle));
 }
 
 }  // namespace mesamis

@@ -16,6 +16,14 @@ struct Nesting {
                               ///< the wall of a cavity
 };
 
+/// A point of each component: of its first triangle.
+/// @param surface     m triangles, mm.
+/// @param components  of the surface.
+/// @throws nothing
+///
+/// O(m).
+std::vector<Vec3> component_feet(const TriMesh& surface, const SurfaceComponents& components);
+
 /// Of the ray of each component, how often it crosses each of the others.
 using RayCrossings = std::vector<std::map<Index, int>>;
 
