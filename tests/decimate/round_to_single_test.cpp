@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <set>
@@ -100,6 +101,48 @@ TEST(RoundToSingle, TurnsFlatTrianglesAway) {
   EXPECT_EQ(report.flat, 0);
   EXPECT_EQ(result.triangles.size(), 14u);
   EXPECT_TRUE(find_self_intersections(result).empty());
+}
+
+/// A cube with needles along the diagonal of a face: points, each nearer to it than the last, in
+/// the triangles that were left there.
+TriMesh cube_with_needles(unsigned seed) {
+  TriMesh surface = cube({1000, 0, 0});
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> along(0.5, 0.50001);
+  Index third = surface.triangles[1][2];  // of the triangle at the diagonal
+  const Index a = surface.triangles[1][0], b = surface.triangles[1][1];
+  const std::array<Vec3, 3> corners{surface.points[a], surface.points[b], surface.points[third]};
+  Triangle* last = &surface.triangles[1];
+  for (double off = 1e-3; off > 1e-7; off /= 2) {
+    const double s = along(random);
+    const Vec3 on = corners[0] + s * (corners[1] - corners[0]);
+    const auto next = static_cast<Index>(surface.points.size());
+    surface.points.push_back(on + off * (corners[2] - on));
+    *last = {next, a, b};
+    surface.triangles.insert(surface.triangles.end(), {{third, a, next}, {third, next, b}});
+    last = &surface.triangles[1];
+    third = next;
+  }
+  return surface;
+}
+
+TEST(RoundToSingle, JoinsNeedlesThatWouldMeet) {
+  int met = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const TriMesh surface = cube_with_needles(seed);
+    ASSERT_TRUE(find_self_intersections(surface).empty());
+    TriMesh simply = surface;
+    for (Vec3& p : simply.points) {
+      for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
+    }
+    if (!find_self_intersections(simply).empty()) ++met;
+    RoundReport report;
+    const TriMesh result = round_to_single(surface, &report);
+    expect_single_and_closed(result);
+    EXPECT_TRUE(find_self_intersections(result).empty()) << "seed " << seed;
+    EXPECT_LT(report.shift, 0.01);
+  }
+  EXPECT_GT(met, 5);
 }
 
 TEST(RoundToSingle, LeavesOutWhatCollapsesInAnOpenSurface) {

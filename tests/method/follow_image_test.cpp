@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -78,6 +79,25 @@ TEST(FollowImage, KeepsWhatLiesOnTheBox) {
   EXPECT_EQ(norm(box.lo - before.lo), 0);
   EXPECT_NEAR(check_surface(followed).volume, check_surface(half).volume,
               0.05 * check_surface(half).volume);
+}
+
+TEST(FollowImage, SplitsNoEdgesOnTheBox) {
+  // A ball that the box cuts off: outlines on its walls are bent, but nothing there may move.
+  const TriMesh cut = coarse_ball(24);
+  const SplineImage image = interpolating_spline(make_ball({.noise = 0, .radius = 24.5}));
+  const TriMesh followed = follow_image(cut, image, {.level = kLevel, .noise = 0.1});
+  const auto on_walls = [&](const TriMesh& surface) {
+    const Box box = image.grid.box();
+    return std::count_if(
+        surface.triangles.begin(), surface.triangles.end(), [&](const Triangle& t) {
+          const Vec3 middle =
+              (1.0 / 3) * (surface.points[t[0]] + surface.points[t[1]] + surface.points[t[2]]);
+          return middle.x == box.lo.x || middle.y == box.lo.y || middle.z == box.lo.z;
+        });
+  };
+  EXPECT_GT(followed.triangles.size(), cut.triangles.size());
+  EXPECT_GT(on_walls(cut), 20);
+  EXPECT_EQ(on_walls(followed), on_walls(cut));
 }
 
 TEST(FollowImage, StaysInTheBox) {

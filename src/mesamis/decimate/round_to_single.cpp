@@ -2,22 +2,60 @@
 #include "mesamis/decimate/round_to_single.h"
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
 
 #include "mesamis/decimate/openmesh.h"
 #include "mesamis/decimate/single_places.h"
+#include "mesamis/surface/self_intersections.h"
 #include "mesamis/surface/triangle_intersection.h"
 #include "mesamis/surface/unused_points.h"
 
 namespace mesamis {
 namespace {
 
+/// Shorter edges are collapsed where triangles meet, in distances between floats.
+constexpr double kShortEdge = 128;
+/// So often triangles are sought that meet: few do, and each collapse takes one away.
+constexpr int kMostRounds = 16;
+
+/// The greatest distance between neighbouring floats among the coordinates.
+double coarseness(const std::vector<Vec3>& points) {
+  double largest = 0;
+  for (const Vec3& p : points) {
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  return largest * std::numeric_limits<float>::epsilon();
+}
+
 class Rounding {
  public:
   Rounding(const TriMesh& surface, RoundReport& report) : exact_(surface.points), report_(report) {
     rounded_.triangles = surface.triangles;
     for (const Vec3& p : surface.points) rounded_.points.push_back(rounded(p));
+    stands_in_.resize(exact_.size());
+    std::iota(stands_in_.begin(), stands_in_.end(), 0);
   }
 
+  void run() {
+    if (!keeps_points_distinct_and_areas()) repair();
+    part_what_meets();
+  }
+
+  TriMesh result() const { return without_unused_points(rounded_); }
+
+  /// The farthest that any point of the surface was moved.
+  double shift() const {
+    double farthest = 0;
+    for (std::size_t p = 0; p < exact_.size(); ++p) {
+      Index at = stands_in_[p];
+      while (stands_in_[at] != at) at = stands_in_[at];
+      farthest = std::max(farthest, norm(rounded_.points[at] - exact_[p]));
+    }
+    return farthest;
+  }
+
+ private:
   bool keeps_points_distinct_and_areas() const {
     std::vector<Vec3> sorted = rounded_.points;
     std::sort(sorted.begin(), sorted.end(), ByPlace());
@@ -35,21 +73,49 @@ class Rounding {
     rounded_.triangles = remaining_triangles(mesh_);
   }
 
-  TriMesh result() const { return without_unused_points(rounded_); }
-
-  /// The farthest any point that is left was moved.
-  double shift() const {
-    double farthest = 0;
-    for (std::size_t p = 0; p < exact_.size(); ++p) {
-      const bool gone = p < mesh_.n_vertices() && mesh_.status(handle(p)).deleted();
-      if (!gone) farthest = std::max(farthest, norm(rounded_.points[p] - exact_[p]));
+  /// Thin triangles may meet once their points have moved. Where they have a short edge, it is
+  /// collapsed.
+  void part_what_meets() {
+    const double shortest = kShortEdge * coarseness(rounded_.points);
+    for (int round = 0; round < kMostRounds; ++round) {
+      std::vector<Index> meeting;
+      for (const TrianglePair& pair : find_self_intersections(rounded_)) {
+        meeting.insert(meeting.end(), pair.begin(), pair.end());
+      }
+      if (meeting.empty()) return;
+      std::sort(meeting.begin(), meeting.end());
+      meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
+      if (!collapse_short_edges(meeting, shortest)) return;
     }
-    return farthest;
   }
 
- private:
-  static OpenMesh::VertexHandle handle(std::size_t p) {
-    return OpenMesh::VertexHandle(static_cast<int>(p));
+  /// @param triangles  of the rounded surface.
+  /// @return whether an edge was collapsed.
+  bool collapse_short_edges(const std::vector<Index>& triangles, double shortest) {
+    mesh_.clear();
+    build_halfedges(rounded_, {0, 0, 0}, mesh_);
+    const std::int64_t before = report_.collapsed;
+    for (const Index t : triangles) {
+      const auto f = mesh_.face_handle(static_cast<unsigned>(t));
+      if (mesh_.status(f).deleted()) continue;
+      std::vector<OpenMesh::HalfedgeHandle> sides(mesh_.cfh_begin(f), mesh_.cfh_end(f));
+      std::sort(sides.begin(), sides.end(),
+                [this](auto a, auto b) { return length(a) < length(b); });
+      for (const auto h : sides) {
+        if (length(h) > shortest || collapse(h)) break;
+      }
+    }
+    rounded_.triangles = remaining_triangles(mesh_);
+    return report_.collapsed > before;
+  }
+
+  /// @return whether the surface stays a manifold; else nothing is done.
+  bool collapse(OpenMesh::HalfedgeHandle h) {
+    if (!keeps_manifold(mesh_, h)) return false;
+    stands_in_[index(mesh_.from_vertex_handle(h))] = mesh_.to_vertex_handle(h).idx();
+    mesh_.collapse(h);
+    ++report_.collapsed;
+    return true;
   }
 
   const Vec3& at(OpenMesh::VertexHandle v) const { return rounded_.points[index(v)]; }
@@ -60,10 +126,7 @@ class Rounding {
     for (const auto e : mesh_.edges()) {
       if (mesh_.status(e).deleted()) continue;
       const auto h = mesh_.halfedge_handle(e, 0);
-      if (at(mesh_.from_vertex_handle(h)) != at(mesh_.to_vertex_handle(h))) continue;
-      if (!keeps_manifold(mesh_, h)) continue;
-      mesh_.collapse(h);
-      ++report_.collapsed;
+      if (at(mesh_.from_vertex_handle(h)) == at(mesh_.to_vertex_handle(h))) collapse(h);
     }
     return report_.collapsed > before;
   }
@@ -121,6 +184,7 @@ class Rounding {
   const std::vector<Vec3>& exact_;
   RoundReport& report_;
   TriMesh rounded_;
+  std::vector<Index> stands_in_;  // of each point, the one that it was collapsed into, or itself
   HalfedgeMesh mesh_;
 };
 
@@ -146,7 +210,7 @@ TriMesh round_to_single(const TriMesh& surface, RoundReport* report) {
   const SurfaceCheck check = check_surface(surface);
   if (!check.closed() || !check.manifold()) return simply_rounded(surface);
   Rounding rounding(surface, counts);
-  if (!rounding.keeps_points_distinct_and_areas()) rounding.repair();
+  rounding.run();
   counts.shift = rounding.shift();
   return rounding.result();
 }

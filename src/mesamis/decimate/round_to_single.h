@@ -7,11 +7,11 @@ namespace mesamis {
 
 /// What rounding did to a surface.
 struct RoundReport {
-  std::int64_t collapsed = 0;  ///< edges collapsed because their points became equal
+  std::int64_t collapsed = 0;  ///< edges collapsed: their points became equal, or triangles met
   std::int64_t moved = 0;      ///< points moved because another point had become equal to them
   std::int64_t flipped = 0;    ///< edges flipped in triangles that had lost their area
   std::int64_t flat = 0;       ///< triangles without area that are left
-  double shift = 0;            ///< the farthest that a remaining point was moved, mm
+  double shift = 0;            ///< the farthest that a point was moved, or joined to another, mm
 };
 
 /// Rounds the coordinates of a surface to single precision, which STL stores.
@@ -19,8 +19,10 @@ struct RoundReport {
 /// A closed 2-manifold stays one, and no two of its points are equal: a reader that joins equal
 /// points gets the same triangles back. Points that become equal by rounding are joined if the
 /// surface stays a manifold; otherwise one of them moves to the nearest free place. In triangles
-/// that lose their area the longest edge is flipped where possible. Of any other surface the points
-/// are rounded, and triangles with two equal corners are left out.
+/// that lose their area the longest edge is flipped where possible. Of triangles that meet then,
+/// edges below 128 distances between floats are collapsed: so needles go that rounding bends over
+/// each other. Of any other surface the points are rounded, and triangles with two equal corners
+/// are left out.
 ///
 /// @param surface  n triangles, mm.
 /// @param report   optional.

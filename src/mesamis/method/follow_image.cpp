@@ -39,6 +39,7 @@ class Follower {
 
   void run(FollowedPart& part) const {
     TriMesh& surface = part.extracted;
+    hold_on_box(part);
     surface = split_edges(
         std::move(surface), [this](const Vec3& a, const Vec3& b) { return is_bent(a, b); },
         kMostRounds, part.held);
@@ -58,6 +59,13 @@ class Follower {
   }
 
  private:
+  /// On the box nothing moves: points there would only cut the walls into needles.
+  void hold_on_box(FollowedPart& part) const {
+    for (std::size_t p = 0; p < part.held.size(); ++p) {
+      if (part.held[p] == kFree && space_.on_box(part.extracted.points[p])) part.held[p] = kHeld;
+    }
+  }
+
   /// Along the gradient.
   std::optional<ImageOffset> offset_at(const Vec3& p) const {
     const ImageValue here = space_.at(p);

@@ -24,8 +24,8 @@ struct FollowOptions {
 /// V of d along the surface (Lee 1980), the point moves by
 ///   a m + k (d - m),   k = max(0, 1 - N^2 / V),   a = max(0, 1 - 0.2 N^2 / m^2),
 /// by no more than 0.7 voxels, and never out of the image's box. Points where the image is too flat
-/// to tell stay, as do those on the box. Moves that would make the surface meet itself are taken
-/// back.
+/// to tell stay, as do those on the box, whose edges are not split. Moves that would make the
+/// surface meet itself are taken back.
 /// @param surface  in the grid's own axes; without self-intersections.
 /// @param image    in grey values; its bounds do not count here.
 /// @return the surface as it was, where noise outweighs everything that the image could tell.
