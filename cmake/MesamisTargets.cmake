@@ -39,10 +39,9 @@ endfunction()
 function(mesamis_instrument target)
   if(MESAMIS_SANITIZE)
     # Whatever is found ends the program: undefined behaviour would only be printed otherwise.
-    # In instrumented code gcc takes members of the standard library for uninitialised. Sources that are read as
-    # one may use another's names for their own variables.
+    # In instrumented code gcc takes members of the standard library for uninitialised.
     target_compile_options(${target} PRIVATE -fsanitize=${MESAMIS_SANITIZE}
-                                             -fno-sanitize-recover=all -fno-omit-frame-pointer -Wno-shadow
+                                             -fno-sanitize-recover=all -fno-omit-frame-pointer
                                              $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   endif()
 endfunction()
@@ -79,8 +78,8 @@ function(mesamis_join result folder)
   set(${result} ${joined} PARENT_SCOPE)
 endfunction()
 
-# Rooms whose sources have no names in common. Read as one source each, the headers of the system are read once: half
-# the time of a build with sanitizers, and of clang-tidy (scripts/tidy).
+# Rooms whose sources have no names in common. Read as one source each, where MESAMIS_JOIN_ROOMS, the headers of the
+# system are read once: half the time of a build with sanitizers, and of clang-tidy (scripts/tidy).
 file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/rooms_as_one.txt MESAMIS_ROOMS_AS_ONE REGEX "^[a-z]")
 
 # Adds a room to a library. Its sources.cmake names its doors (ROOM_HEADERS, which are installed), the
@@ -90,14 +89,16 @@ function(mesamis_add_room target room)
   set(folder ${PROJECT_SOURCE_DIR}/src/mesamis/${room})
   include(${folder}/sources.cmake)
   list(TRANSFORM ROOM_HEADERS PREPEND ${folder}/)
-  list(TRANSFORM ROOM_SOURCES PREPEND ${folder}/)
+  if(MESAMIS_JOIN_ROOMS AND room IN_LIST MESAMIS_ROOMS_AS_ONE)
+    mesamis_join_part(ROOM_SOURCES mesamis/${room}/ ${ROOM_SOURCES})
+    # A source may use another's names for its own variables.
+    set_source_files_properties(${ROOM_SOURCES} PROPERTIES COMPILE_OPTIONS -Wno-shadow)
+  else()
+    list(TRANSFORM ROOM_SOURCES PREPEND ${folder}/)
+  endif()
   target_sources(${target}
     PRIVATE ${ROOM_SOURCES}
     PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${ROOM_HEADERS})
-  if(MESAMIS_SANITIZE AND room IN_LIST MESAMIS_ROOMS_AS_ONE)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-    set_source_files_properties(${ROOM_SOURCES} PROPERTIES UNITY_GROUP ${room})
-  endif()
 endfunction()
 
 # A room with dependencies of its own: the library mesamis_ROOM, which is mesamis::ROOM elsewhere.

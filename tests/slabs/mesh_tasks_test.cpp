@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "mesamis/slabs/mapped_items.h"
 #include "mesamis/slabs/mesh_files.h"
@@ -114,6 +116,30 @@ TEST(AdaptSlab, MeshesFitAndAreAsLargeAsAsked) {
   const std::string core = read_bytes(slabs.small.scratch.path("core.2.1"));
   adapt_slab(*slabs.run, 2, 1);
   EXPECT_EQ(read_bytes(slabs.small.scratch.path("core.2.1")), core);
+}
+
+TEST(AdaptSlab, WhateverTouchesTheBorderIsAdaptedAgain) {
+  // Else faces as they were cut from the mesh before would stay in the next one.
+  TwoSlabs slabs;
+  for (Index s = 0; s < 2; ++s) solve(*slabs.run, 1, s);
+  plan_next_mesh(*slabs.run);
+  for (Index s = 0; s < 2; ++s) adapt_slab(*slabs.run, 2, s);
+  const auto points = [&](const std::vector<std::string>& names) {
+    std::set<std::array<double, 3>> places;
+    for (const std::string& name : names) {
+      for (const Vec3& p : slabs.read(name).mesh.points) places.insert({p.x, p.y, p.z});
+    }
+    return places;
+  };
+  const auto in_both = [](const auto& a, const auto& b) {
+    return std::count_if(a.begin(), a.end(), [&](const auto& place) { return b.count(place) > 0; });
+  };
+  const auto low = points({"core.2.0", "rim.2.0.high"}), high = points({"core.2.1", "rim.2.1.low"});
+  const auto at_low = points({"border.2.0.high"}), at_high = points({"border.2.1.low"});
+  EXPECT_GT(in_both(at_low, at_high), 20);
+  EXPECT_EQ(in_both(low, at_high), 0);
+  EXPECT_EQ(in_both(high, at_low), 0);
+  EXPECT_EQ(in_both(low, high), 0);
 }
 
 TEST(Collect, PutsTogetherWhatTheSlabsFinished) {

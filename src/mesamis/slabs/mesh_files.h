@@ -11,9 +11,6 @@
 /// What the tasks on voxels and on meshes share.
 namespace mesamis::detail {
 
-/// How far from a border cells are adapted again, in overlaps: farther, and more is done twice.
-inline constexpr double kSeam = 0.4;
-
 enum class Side { kLow, kHigh };
 inline Side opposite(Side side) { return side == Side::kLow ? Side::kHigh : Side::kLow; }
 
@@ -61,8 +58,8 @@ std::unique_ptr<Background> grid_background(const MeshRun& run, double low, doub
 Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background& background,
               double complexity);
 
-/// Writes mesh k of slab s: the cells at its borders for the seams ("border"), those around that
-/// the neighbours see too ("rim"), and the others ("core").
+/// Writes mesh k of slab s: the cells that touch its borders, which are still to be adapted, for
+/// the seams ("border"), those around that the neighbours see too ("rim"), and the others ("core").
 /// @param work  to which the cells are added.
 void hand_on(const MeshRun& run, int k, Index s, const Piece& mesh, SlabWork& work);
 

@@ -131,6 +131,20 @@ std::vector<Index> border_nodes(const TetMesh& own, const Box& box) {
   return nodes;
 }
 
+/// Of each node of slab s at which of its borders it is. Where large cells were cut a border
+/// reaches far from its height: it is the one whose height is nearer.
+std::vector<std::optional<Side>> sides_of_border(const MeshRun& run, int k, Index s,
+                                                 const TetMesh& own) {
+  const SlabPlan& plan = run.plan(k);
+  const double middle = (plan.height(s) + plan.height(s + 1)) / 2;
+  std::vector<std::optional<Side>> sides(own.points.size());
+  for (const Index node : border_nodes(own, run.input.box)) {
+    const Side nearer = own.points[node].z < middle ? Side::kLow : Side::kHigh;
+    sides[node] = has_neighbour(plan, s, nearer) ? nearer : opposite(nearer);
+  }
+  return sides;
+}
+
 /// Writes the nodes that other slabs have too.
 void write_shared_nodes(const MeshRun& run, int k, Index s, const Piece& own) {
   std::vector<Vec3> points;
@@ -258,22 +272,17 @@ Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background&
 
 void hand_on(const MeshRun& run, int k, Index s, const Piece& mesh, SlabWork& work) {
   const SlabPlan& plan = run.plan(k);
-  // A cell that is near both borders belongs to the lower one.
-  const auto side_of = [&](const Piece& piece, const Cell& cell,
-                           double distance) -> std::optional<Side> {
-    for (const Side side : {Side::kLow, Side::kHigh}) {
-      if (has_neighbour(plan, s, side) &&
-          is_near(piece.mesh, cell, border_of(plan, s, side), distance)) {
-        return side;
+  // Writes the cells that belong to a border, and returns the rest. Of a cell that belongs to both
+  // the lower one gets it.
+  const auto cut_off = [&](const char* what, const Piece& piece, const auto& belongs) {
+    const auto side_of = [&](const Cell& cell) -> std::optional<Side> {
+      for (const Side side : {Side::kLow, Side::kHigh}) {
+        if (has_neighbour(plan, s, side) && belongs(cell, side)) return side;
       }
-    }
-    return std::nullopt;
-  };
-  // Writes what is near the borders, and returns the rest.
-  const auto cut_off = [&](const char* what, const Piece& piece, double distance) {
+      return std::nullopt;
+    };
     const auto part = [&](std::optional<Side> wanted) {
-      return select(piece,
-                    [&](const Cell& cell) { return side_of(piece, cell, distance) == wanted; });
+      return select(piece, [&](const Cell& cell) { return side_of(cell) == wanted; });
     };
     for (const Side side : {Side::kLow, Side::kHigh}) {
       if (!has_neighbour(plan, s, side)) continue;
@@ -281,8 +290,14 @@ void hand_on(const MeshRun& run, int k, Index s, const Piece& mesh, SlabWork& wo
     }
     return part(std::nullopt);
   };
-  const Piece inner = cut_off("border", mesh, kSeam * plan.overlap);
-  write_piece(run.slabs.scratch, file_of("core", k, s), cut_off("rim", inner, plan.overlap));
+  const std::vector<std::optional<Side>> borders = sides_of_border(run, k, s, mesh.mesh);
+  const Piece inner = cut_off("border", mesh, [&](const Cell& cell, Side side) {
+    return std::any_of(cell.begin(), cell.end(), [&](Index n) { return borders[n] == side; });
+  });
+  const Piece core = cut_off("rim", inner, [&](const Cell& cell, Side side) {
+    return is_near(inner.mesh, cell, border_of(plan, s, side), plan.overlap);
+  });
+  write_piece(run.slabs.scratch, file_of("core", k, s), core);
   work.cells += std::ssize(mesh.mesh.cells);
 }
 

@@ -144,12 +144,10 @@ double complexity_in(const MeshRun& run, const Slices& slices) {
   return sum / std::pow(run.mesh(1).factor, 3);
 }
 
-/// Bricks of less than a slab's inner part, in the same columns in every slab, so that slabs fit.
-/// Their faces at the borders stay in the first mesh: larger ones would be far from what it needs.
+/// Bricks of less than a slab, in the same columns in every slab, so that slabs fit.
 TetMesh start_mesh(const MeshRun& run, Index s) {
   const SlabPlan& plan = run.plan(1);
-  const double size =
-      std::min(run.input.parameters.h_max, (plan.thinnest() - 2 * kSeam * plan.overlap) / 1.5);
+  const double size = std::min(run.input.parameters.h_max, plan.thinnest() / 1.5);
   const Box box = box_of_slab(plan, s);
   const Vec3 extent = box.extent();
   std::array<Index, 3> bricks{};
