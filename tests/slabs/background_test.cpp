@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -73,6 +74,28 @@ TEST(MeshBackground, LinearFieldsAreExact) {
 
 TEST(GridBackground, LinearFieldsAreExact) {
   expect_exact(GridBackground(grid_window(2)), random_points(), 2, 1e-5);
+}
+
+TEST(LowBackground, OnlyWhatIsTooHighIsLowered) {
+  // Sizes of the metric fall from 1 to 0.67 with height; edges along z are to have 0.8 at most.
+  const GridBackground inner(grid_window(1));
+  const LowBackground low(inner, 1, 0.8);
+  const std::vector<Vec3> points = random_points();
+  const std::vector<NodeValues> before = inner.values(points), after = low.values(points);
+  int lowered = 0;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    Index hint = 0;
+    EXPECT_EQ(low.at(points[n], hint), after[n].metric);
+    EXPECT_EQ(after[n].u, before[n].u);
+    EXPECT_EQ(after[n].v, before[n].v);
+    const Sym3 &was = before[n].metric, &is = after[n].metric;
+    EXPECT_NEAR(is.xx, was.xx, 1e-12);
+    EXPECT_NEAR(is.yy, was.yy, 1e-12);
+    EXPECT_NEAR(1 / std::sqrt(is.zz), std::min(0.8, 1 / std::sqrt(was.zz)), 1e-12);
+    if (is.zz > 1.01 * was.zz) ++lowered;
+  }
+  EXPECT_GT(lowered, 40);
+  EXPECT_LT(lowered, 160);
 }
 
 TEST(GridWindow, SomeSlicesKeepTheirPlaceAndValues) {

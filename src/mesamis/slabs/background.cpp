@@ -35,6 +35,18 @@ std::vector<NodeValues> MeshBackground::values(std::span<const Vec3> points) con
                    interpolate_fields(piece_.mesh, fields, points, MeshExtent::kPiece));
 }
 
+LowBackground::LowBackground(const Background& inner, double h_max, double highest)
+    : inner_(inner) {
+  const double coarse = 1 / (h_max * h_max), fine = 1 / (highest * highest);
+  low_ = {coarse, 0, 0, coarse, 0, std::max(coarse, fine)};
+}
+
+std::vector<NodeValues> LowBackground::values(std::span<const Vec3> points) const {
+  std::vector<NodeValues> values = inner_.values(points);
+  for (NodeValues& node : values) node.metric = intersect(node.metric, low_);
+  return values;
+}
+
 KuhnGrid grid_of(const GridWindow& window) {
   KuhnGrid grid{.size = window.size, .spacing = {}};
   const Vec3 extent = window.box.extent();

@@ -8,6 +8,7 @@
 
 #include "mesamis/fem/grid_space.h"
 #include "mesamis/image/slice_source.h"
+#include "mesamis/mesh/metric.h"
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/slabs/piece.h"
 
@@ -31,6 +32,21 @@ class MeshBackground : public Background {
  private:
   Piece piece_;
   MeshMetricField metric_;
+};
+
+/// Another background whose metric asks for edges that are not too long along z.
+class LowBackground : public Background {
+ public:
+  /// @param inner    is kept as a reference.
+  /// @param h_max    the largest size of its metric, length units.
+  /// @param highest  of an edge along z, length units, > 0.
+  LowBackground(const Background& inner, double h_max, double highest);
+  Sym3 at(const Vec3& p, Index& hint) const override { return intersect(inner_.at(p, hint), low_); }
+  std::vector<NodeValues> values(std::span<const Vec3> points) const override;
+
+ private:
+  const Background& inner_;
+  Sym3 low_;  // the coarsest metric that is low enough
 };
 
 /// Values at the nodes of some slices of a Kuhn grid.

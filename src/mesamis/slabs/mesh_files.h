@@ -55,8 +55,9 @@ std::unique_ptr<Background> grid_background(const MeshRun& run, double low, doub
 
 /// Remeshes a piece for mesh k, and takes over what is known around it.
 /// @param complexity  of the metric on the piece: it bounds the cells.
+/// @param thickness   of the thinnest slab that the piece is of: cells are less high.
 Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background& background,
-              double complexity);
+              double complexity, double thickness);
 
 /// Writes mesh k of slab s: the cells that touch its borders, which are still to be adapted, for
 /// the seams ("border"), those around that the neighbours see too ("rim"), and the others ("core").

@@ -258,15 +258,18 @@ const Stage& silent_stage() {
 }
 
 Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background& background,
-              double complexity) {
+              double complexity, double thickness) {
   // Only a guard: a border that stays needs cells whatever the metric asks for, and a bound that
   // cannot be kept would make all cells coarser, also those at the surface.
   constexpr double kMost = 2 * kCellsPerComplexity;
+  // Of slabs: cells that reach from border to border are never adapted with all their points free.
+  constexpr double kHighest = 0.5;
   RemeshOptions options;
   options.max_cells = std::llround(kMost * complexity) + std::ssize(start.cells) + kFewestInPiece;
   options.draft = run.input.cells_after(k) < run.input.parameters.max_tets;
-  Piece piece{remesh_piece(start, run.input.box, background, options), {}};
-  piece.nodes = background.values(piece.mesh.points);
+  const LowBackground low(background, run.input.parameters.h_max, kHighest * thickness);
+  Piece piece{remesh_piece(start, run.input.box, low, options), {}};
+  piece.nodes = low.values(piece.mesh.points);
   return piece;
 }
 
@@ -320,7 +323,8 @@ SlabWork seam(const MeshRun& run, int k, Index s) {
     background = std::make_unique<MeshBackground>(solved_between(run, k - 1, low, high, s, work));
   }
   const double needed = complexity(start, sample(*background, start.points));
-  const Piece piece = adapted(run, k, start, *background, needed);
+  const double thickness = std::min(plan.thickness(s), plan.thickness(s + 1));
+  const Piece piece = adapted(run, k, start, *background, needed, thickness);
   write_piece(scratch, file_of("seam", k, s), piece);
   work.cells = std::ssize(piece.mesh.cells);
   return work;
@@ -361,7 +365,7 @@ SlabWork adapt_slab(const MeshRun& run, int k, Index s) {
   });
   const MeshBackground background(std::move(around));
   const double needed = complexity(own.mesh, values_of(own, &NodeValues::metric));
-  hand_on(run, k, s, adapted(run, k, own.mesh, background, needed), work);
+  hand_on(run, k, s, adapted(run, k, own.mesh, background, needed, plan.thickness(s)), work);
   return work;
 }
 

@@ -90,7 +90,7 @@ std::size_t SlabPlan::slice_at(double height) const noexcept {
 
 double SlabPlan::thinnest() const noexcept {
   double least = std::numeric_limits<double>::infinity();
-  for (Index s = 0; s < count(); ++s) least = std::min(least, height(s + 1) - height(s));
+  for (Index s = 0; s < count(); ++s) least = std::min(least, thickness(s));
   return least;
 }
 

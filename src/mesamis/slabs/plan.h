@@ -46,6 +46,10 @@ struct SlabPlan {
   /// @param length  in units of unit_mm.
   /// @throws nothing
   Index slices_in(double length) const noexcept;
+  /// O(1).
+  /// @return in units of unit_mm.
+  /// @throws nothing
+  double thickness(Index s) const noexcept { return height(s + 1) - height(s); }
   /// The thickness of the thinnest slab. O(slabs).
   /// @return in units of unit_mm.
   /// @throws nothing
