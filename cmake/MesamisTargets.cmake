@@ -78,9 +78,12 @@ function(mesamis_join result folder)
   set(${result} ${joined} PARENT_SCOPE)
 endfunction()
 
-# Rooms whose sources have no names in common. Read as one source each, where MESAMIS_JOIN_ROOMS, the headers of the
+# Rooms whose sources have no names in common. Read as one source each, where MESAMIS_JOIN_SOURCES, the headers of the
 # system are read once: half the time of a build with sanitizers, and of clang-tidy (scripts/tidy).
 file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/rooms_as_one.txt MESAMIS_ROOMS_AS_ONE REGEX "^[a-z]")
+if(MESAMIS_SANITIZE MATCHES thread)
+  list(REMOVE_ITEM MESAMIS_ROOMS_AS_ONE base)  # parallel.cpp has options of its own then
+endif()
 
 # Adds a room to a library. Its sources.cmake names its doors (ROOM_HEADERS, which are installed), the
 # headers that other rooms of the project may include as well (ROOM_INNER_HEADERS) and its sources
@@ -89,10 +92,11 @@ function(mesamis_add_room target room)
   set(folder ${PROJECT_SOURCE_DIR}/src/mesamis/${room})
   include(${folder}/sources.cmake)
   list(TRANSFORM ROOM_HEADERS PREPEND ${folder}/)
-  if(MESAMIS_JOIN_ROOMS AND room IN_LIST MESAMIS_ROOMS_AS_ONE)
+  if(MESAMIS_JOIN_SOURCES AND room IN_LIST MESAMIS_ROOMS_AS_ONE)
     mesamis_join_part(ROOM_SOURCES mesamis/${room}/ ${ROOM_SOURCES})
     # A source may use another's names for its own variables.
-    set_source_files_properties(${ROOM_SOURCES} PROPERTIES COMPILE_OPTIONS -Wno-shadow)
+    set_source_files_properties(${ROOM_SOURCES} PROPERTIES
+      COMPILE_OPTIONS "-Wno-shadow;$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>")
   else()
     list(TRANSFORM ROOM_SOURCES PREPEND ${folder}/)
   endif()

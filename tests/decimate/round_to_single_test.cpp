@@ -12,6 +12,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/surface/self_intersections.h"
+#include "mesamis/surface/triangle_tree.h"
 #include "support/level_set.h"
 #include "support/shapes.h"
 
@@ -141,6 +142,11 @@ TEST(RoundToSingle, JoinsNeedlesThatWouldMeet) {
     expect_single_and_closed(result);
     EXPECT_TRUE(find_self_intersections(result).empty()) << "seed " << seed;
     EXPECT_LT(report.shift, 0.01);
+    std::size_t hint = 0;
+    const TriangleTree tree(result);
+    for (const Vec3& p : surface.points) {
+      EXPECT_LE(std::sqrt(tree.squared_distance_to(p, hint)), report.shift);
+    }
   }
   EXPECT_GT(met, 5);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "mesamis/base/sym3.h"
 #include "support/metric_fields.h"
 #include "support/perturbed_box.h"
 
@@ -96,6 +97,27 @@ TEST(LowBackground, OnlyWhatIsTooHighIsLowered) {
   }
   EXPECT_GT(lowered, 40);
   EXPECT_LT(lowered, 160);
+}
+
+TEST(LowBackground, NoUnitEdgeOfATiltedMetricIsHigher) {
+  // Unit edges reach up by the root of the inverse's zz.
+  const auto height = [](const Sym3& m) { return std::sqrt(inverse(m).zz); };
+  const double tilt = std::sqrt(0.5);
+  const Sym3 tilted =
+      compose({1, 16, 4}, {Vec3{tilt, 0, tilt}, Vec3{tilt, 0, -tilt}, Vec3{0, 1, 0}});
+  Piece piece = mesh_piece(1);
+  for (NodeValues& node : piece.nodes) node.metric = tilted;
+  const MeshBackground inner(std::move(piece));
+  ASSERT_GT(height(tilted), 0.7);
+  for (const double highest : {0.2, 0.5, 2.0}) {
+    const LowBackground low(inner, 1, highest);
+    Index hint = 0;
+    const Sym3 metric = low.at({2, 2, 4}, hint);
+    EXPECT_LE(height(metric), std::min(highest, height(tilted)) + 1e-9);
+    if (highest > 1) {
+      EXPECT_NEAR(metric.xz, tilted.xz, 1e-9) << "nothing is to be lowered";
+    }
+  }
 }
 
 TEST(GridWindow, SomeSlicesKeepTheirPlaceAndValues) {

@@ -115,7 +115,7 @@ TEST_P(RunInSlabs, FindsWhatMesAmisFinds) {
   EXPECT_EQ(run.result.parameters.level, whole.parameters.level);
   EXPECT_EQ(run.result.parameters.functional.gamma, whole.parameters.functional.gamma);
   EXPECT_EQ(run.result.iterations.size(), whole.iterations.size());
-  // Slabs of 32 slices have cells of up to as much: none may be left as a border cut it.
+  // Thin slabs have large cells: none may be left as a border cut it.
   EXPECT_GT(run.result.fit.unit_edge_fraction, whole.fit.unit_edge_fraction - 0.04);
   EXPECT_GT(run.result.fit.quality_min, 0.1);
   const Rod rod = rod_in(96);

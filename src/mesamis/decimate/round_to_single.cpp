@@ -2,6 +2,7 @@
 #include "mesamis/decimate/round_to_single.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -19,13 +20,16 @@ constexpr double kShortEdge = 128;
 /// So often triangles are sought that meet: few do, and each collapse takes one away.
 constexpr int kMostRounds = 16;
 
-/// The greatest distance between neighbouring floats among the coordinates.
-double coarseness(const std::vector<Vec3>& points) {
-  double largest = 0;
-  for (const Vec3& p : points) {
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+/// The greatest distance between neighbouring floats among the coordinates of the triangles.
+double coarseness(const TriMesh& surface) {
+  double largest = std::numeric_limits<float>::min();
+  for (const Triangle& t : surface.triangles) {
+    for (const Index corner : t) {
+      const Vec3& p = surface.points[corner];
+      largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
   }
-  return largest * std::numeric_limits<float>::epsilon();
+  return std::ldexp(std::numeric_limits<float>::epsilon(), std::ilogb(largest));
 }
 
 class Rounding {
@@ -76,7 +80,7 @@ class Rounding {
   /// Thin triangles may meet once their points have moved. Where they have a short edge, it is
   /// collapsed.
   void part_what_meets() {
-    const double shortest = kShortEdge * coarseness(rounded_.points);
+    const double shortest = kShortEdge * coarseness(rounded_);
     for (int round = 0; round < kMostRounds; ++round) {
       std::vector<Index> meeting;
       for (const TrianglePair& pair : find_self_intersections(rounded_)) {
@@ -86,6 +90,9 @@ class Rounding {
       std::sort(meeting.begin(), meeting.end());
       meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
       if (!collapse_short_edges(meeting, shortest)) return;
+      report_.flat =
+          std::count_if(rounded_.triangles.begin(), rounded_.triangles.end(),
+                        [this](const Triangle& t) { return !has_area(rounded_.points, t); });
     }
   }
 

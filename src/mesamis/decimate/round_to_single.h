@@ -29,7 +29,7 @@ struct RoundReport {
 /// @return mm; each coordinate is a float's value, and no zero is negative.
 /// @throws InputError  as require_sound(), or if a coordinate exceeds single precision.
 ///
-/// O(n log n).
+/// O(n log n) for a surface that rarely meets itself.
 TriMesh round_to_single(const TriMesh& surface, RoundReport* report = nullptr);
 
 }  // namespace mesamis

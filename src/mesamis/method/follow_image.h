@@ -24,8 +24,8 @@ struct FollowOptions {
 /// V of d along the surface (Lee 1980), the point moves by
 ///   a m + k (d - m),   k = max(0, 1 - N^2 / V),   a = max(0, 1 - 0.2 N^2 / m^2),
 /// by no more than 0.7 voxels, and never out of the image's box. Points where the image is too flat
-/// to tell stay, as do those on the box, whose edges are not split. Moves that would make the
-/// surface meet itself are taken back.
+/// to tell stay, as do those on the box; edges between two of these are not split. Moves that would
+/// make the surface meet itself are taken back.
 /// @param surface  in the grid's own axes; without self-intersections.
 /// @param image    in grey values; its bounds do not count here.
 /// @return the surface as it was, where noise outweighs everything that the image could tell.
@@ -39,8 +39,8 @@ TriMesh follow_image(const TriMesh& surface, const SplineImage& image,
 struct FollowedPart {
   TriMesh extracted;        ///< in the grid's own axes; points that were split off lie on it
   std::vector<Vec3> moved;  ///< of each point where it is now
-  /// A HeldPoint of each: free ones are moved. Held ones that were moved before are fixed, since
-  /// their edges do not lie where they were extracted.
+  /// A HeldPoint of each: free ones are moved. Those on the box become held. Held ones that were
+  /// moved before are fixed, since their edges do not lie where they were extracted.
   std::vector<char> held;
 };
 

@@ -55,7 +55,8 @@ std::unique_ptr<Background> grid_background(const MeshRun& run, double low, doub
 
 /// Remeshes a piece for mesh k, and takes over what is known around it.
 /// @param complexity  of the metric on the piece: it bounds the cells.
-/// @param thickness   of the thinnest slab that the piece is of: cells are less high.
+/// @param thickness   of the thinnest slab that the piece is of, length units: edges along z are no
+///                    longer than half of it.
 Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background& background,
               double complexity, double thickness);
 

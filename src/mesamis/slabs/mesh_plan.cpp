@@ -12,7 +12,7 @@
 namespace mesamis::detail {
 namespace {
 
-/// How far cells reach that are adapted again, in overlaps, as was counted.
+/// How far cells reach that are adapted again, in overlaps, about.
 constexpr double kReachOfSeam = 0.8;
 
 /// Of the logarithm of the first mesh's number of cells.

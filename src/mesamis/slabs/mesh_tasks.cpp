@@ -267,7 +267,8 @@ Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background&
   RemeshOptions options;
   options.max_cells = std::llround(kMost * complexity) + std::ssize(start.cells) + kFewestInPiece;
   options.draft = run.input.cells_after(k) < run.input.parameters.max_tets;
-  const LowBackground low(background, run.input.parameters.h_max, kHighest * thickness);
+  const LowBackground low(background, run.input.parameters.h_max,
+                          std::max(run.input.parameters.h_min, kHighest * thickness));
   Piece piece{remesh_piece(start, run.input.box, low, options), {}};
   piece.nodes = low.values(piece.mesh.points);
   return piece;

@@ -207,8 +207,8 @@ std::int64_t nodes_of_first_grid(const MeshRun& run) {
 }
 
 /// The surface that the slabs have decimated.
-/// @return whether it is one to deliver: where pieces of a dense surface have come to meet, it is
-/// not.
+/// @return whether it is one to deliver: not where pieces of a dense surface have come to meet, or
+///         where points had to be joined that are too far from each other.
 bool take_decimated(const SurfaceRun& run, Result& result) {
   if (!decimates_in_slabs(run)) return false;
   TriMesh surface = decimated_surface(run);
@@ -220,7 +220,8 @@ bool take_decimated(const SurfaceRun& run, Result& result) {
   result.printable.extracted_to_result += rounding.shift;
   result.printable.result_to_extracted += rounding.shift;
   tell_error(run.mesh.input, result);
-  return true;
+  return std::max(result.printable.extracted_to_result, result.printable.result_to_extracted) <=
+         run.parameters.tolerance;
 }
 
 /// The surface as it is delivered, and what is known of it.

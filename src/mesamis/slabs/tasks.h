@@ -18,9 +18,9 @@
 /// after those.
 ///
 /// For each mesh k, from 1: its slabs are cut (MeshRun, plan_next_mesh()); slabs adapt their own
-/// cells up to their borders (first_mesh(), adapt_slab()), then the cells near each border between
-/// two slabs are adapted as a piece of their own (seam()), and the functional is minimised on each
-/// slab and what lies around it (solve(), finish()).
+/// cells up to their borders (first_mesh(), adapt_slab()), then the cells that touch a border
+/// between two slabs are adapted as a piece of their own (seam()), and the functional is minimised
+/// on each slab and what lies around it (solve(), finish()).
 namespace mesamis::detail {
 
 /// What all tasks know.
