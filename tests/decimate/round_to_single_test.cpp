@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "mesamis/base/error.h"
+#include "mesamis/decimate/single_places.h"
 #include "mesamis/surface/self_intersections.h"
 #include "mesamis/surface/triangle_tree.h"
 #include "support/level_set.h"
@@ -133,9 +134,7 @@ TEST(RoundToSingle, JoinsNeedlesThatWouldMeet) {
     const TriMesh surface = cube_with_needles(seed);
     ASSERT_TRUE(find_self_intersections(surface).empty());
     TriMesh simply = surface;
-    for (Vec3& p : simply.points) {
-      for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
-    }
+    for (Vec3& p : simply.points) p = rounded(p);
     if (!find_self_intersections(simply).empty()) ++met;
     RoundReport report;
     const TriMesh result = round_to_single(surface, &report);

@@ -27,6 +27,12 @@ struct TwoSlabs {
     for (Index s = 0; s < 2; ++s) first_mesh(*run, s);
     seam(*run, 1, 0);
   }
+  /// To mesh 2, up to the border.
+  void adapt() {
+    for (Index s = 0; s < 2; ++s) solve(*run, 1, s);
+    plan_next_mesh(*run);
+    for (Index s = 0; s < 2; ++s) adapt_slab(*run, 2, s);
+  }
   Piece read(const std::string& name) const {
     ArchiveReader archive = small.scratch.read(name);
     return next_piece(archive);
@@ -93,9 +99,7 @@ TEST(Seam, ANodeOfTwoPiecesHasTheSameValuesInBoth) {
 
 TEST(Finish, BothSlabsHaveTheSameFieldsAtTheirBorder) {
   TwoSlabs slabs;
-  for (Index s = 0; s < 2; ++s) solve(*slabs.run, 1, s);
-  plan_next_mesh(*slabs.run);
-  for (Index s = 0; s < 2; ++s) adapt_slab(*slabs.run, 2, s);
+  slabs.adapt();
   seam(*slabs.run, 2, 0);
   for (Index s = 0; s < 2; ++s) finish(*slabs.run, 2, s);
   const Piece low = slabs.read("final.2.0"), high = slabs.read("final.2.1");
@@ -104,9 +108,7 @@ TEST(Finish, BothSlabsHaveTheSameFieldsAtTheirBorder) {
 
 TEST(AdaptSlab, MeshesFitAndAreAsLargeAsAsked) {
   TwoSlabs slabs;
-  for (Index s = 0; s < 2; ++s) solve(*slabs.run, 1, s);
-  plan_next_mesh(*slabs.run);
-  for (Index s = 0; s < 2; ++s) adapt_slab(*slabs.run, 2, s);
+  slabs.adapt();
   seam(*slabs.run, 2, 0);
   const Piece whole = slabs.whole("2");
   EXPECT_EQ(find_flaw(whole.mesh, slabs.run->input.box), "");
@@ -121,9 +123,7 @@ TEST(AdaptSlab, MeshesFitAndAreAsLargeAsAsked) {
 TEST(AdaptSlab, WhateverTouchesTheBorderIsAdaptedAgain) {
   // Else faces as they were cut from the mesh before would stay in the next one.
   TwoSlabs slabs;
-  for (Index s = 0; s < 2; ++s) solve(*slabs.run, 1, s);
-  plan_next_mesh(*slabs.run);
-  for (Index s = 0; s < 2; ++s) adapt_slab(*slabs.run, 2, s);
+  slabs.adapt();
   const auto points = [&](const std::vector<std::string>& names) {
     std::set<std::array<double, 3>> places;
     for (const std::string& name : names) {

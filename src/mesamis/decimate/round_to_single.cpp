@@ -44,6 +44,7 @@ class Rounding {
   void run() {
     if (!keeps_points_distinct_and_areas()) repair();
     part_what_meets();
+    if (mesh_.n_vertices() > 0) count_flat_triangles();
   }
 
   TriMesh result() const { return without_unused_points(rounded_); }
@@ -90,10 +91,13 @@ class Rounding {
       std::sort(meeting.begin(), meeting.end());
       meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
       if (!collapse_short_edges(meeting, shortest)) return;
-      report_.flat =
-          std::count_if(rounded_.triangles.begin(), rounded_.triangles.end(),
-                        [this](const Triangle& t) { return !has_area(rounded_.points, t); });
     }
+  }
+
+  void count_flat_triangles() {
+    report_.flat =
+        std::count_if(rounded_.triangles.begin(), rounded_.triangles.end(),
+                      [this](const Triangle& t) { return !has_area(rounded_.points, t); });
   }
 
   /// @param triangles  of the rounded surface.
@@ -162,11 +166,7 @@ class Rounding {
       for (auto h = mesh_.cfh_iter(f); h.is_valid(); ++h) {
         if (length(*h) > length(longest)) longest = *h;
       }
-      if (flip(longest)) {
-        ++report_.flipped;
-      } else {
-        ++report_.flat;
-      }
+      if (flip(longest)) ++report_.flipped;
     }
   }
 

@@ -11,6 +11,8 @@
 /// What the tasks on voxels and on meshes share.
 namespace mesamis::detail {
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 enum class Side { kLow, kHigh };
 inline Side opposite(Side side) { return side == Side::kLow ? Side::kHigh : Side::kLow; }
 
@@ -22,6 +24,14 @@ inline bool has_neighbour(const SlabPlan& plan, Index s, Side side) {
 /// The height of a border of slab s.
 inline double border_of(const SlabPlan& plan, Index s, Side side) {
   return plan.height(side == Side::kLow ? s : s + 1);
+}
+
+/// Below it, what a slab leaves goes to its lower border, above it to the upper one. The first and
+/// the last slab have one border each.
+inline double middle_of(const SlabPlan& plan, Index s) {
+  if (!has_neighbour(plan, s, Side::kLow)) return -kInfinity;
+  if (!has_neighbour(plan, s, Side::kHigh)) return kInfinity;
+  return (plan.height(s) + plan.height(s + 1)) / 2;
 }
 
 /// The file of slab s of mesh k.
@@ -37,8 +47,8 @@ struct Heights {
 struct MeshRecord {
   Iteration iteration;
   Heights heights;
-  double volume = 0;                                      ///< of the slab's cells, length units^3
-  double top = -std::numeric_limits<double>::infinity();  ///< the height of the highest node
+  double volume = 0;        ///< of the slab's cells, length units^3
+  double top = -kInfinity;  ///< the height of the highest node
 };
 
 /// After solve(), and of the last mesh after finish().

@@ -135,12 +135,10 @@ std::vector<Index> border_nodes(const TetMesh& own, const Box& box) {
 /// reaches far from its height: it is the one whose height is nearer.
 std::vector<std::optional<Side>> sides_of_border(const MeshRun& run, int k, Index s,
                                                  const TetMesh& own) {
-  const SlabPlan& plan = run.plan(k);
-  const double middle = (plan.height(s) + plan.height(s + 1)) / 2;
+  const double middle = middle_of(run.plan(k), s);
   std::vector<std::optional<Side>> sides(own.points.size());
   for (const Index node : border_nodes(own, run.input.box)) {
-    const Side nearer = own.points[node].z < middle ? Side::kLow : Side::kHigh;
-    sides[node] = has_neighbour(plan, s, nearer) ? nearer : opposite(nearer);
+    sides[node] = own.points[node].z < middle ? Side::kLow : Side::kHigh;
   }
   return sides;
 }

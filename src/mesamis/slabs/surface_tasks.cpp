@@ -58,14 +58,6 @@ FollowOptions follow_options(const SurfaceRun& run) {
   return {level_of(run), input.error.noise, input.parameters.unit_mm};
 }
 
-/// Below it, what a slab leaves goes to its lower border, above it to the upper one. The first and
-/// the last slab have one border each.
-double middle_of(const SlabPlan& plan, Index s) {
-  if (s == 0) return -kInfinity;
-  if (s + 1 == plan.count()) return kInfinity;
-  return (plan.height(s) + plan.height(s + 1)) / 2;
-}
-
 /// The heights that a slab's own task keeps within: away from rims, which lie at its borders, and
 /// from what is near these.
 HeightRange range_between_rims(const SurfacePiece& piece, const SlabPlan& plan, Index s) {

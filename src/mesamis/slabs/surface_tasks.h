@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "mesamis/method/printable.h"
@@ -22,8 +21,6 @@
 /// decimate_slab(), decimate_border(); measure_slab(), find_grey(). Between them learn_...() reads
 /// what all slabs have left.
 namespace mesamis::detail {
-
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The heights between which something lies, length units.
 struct HeightRange {
