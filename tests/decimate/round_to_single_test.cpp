@@ -105,17 +105,19 @@ TEST(RoundToSingle, TurnsFlatTrianglesAway) {
   EXPECT_TRUE(find_self_intersections(result).empty());
 }
 
-/// A cube with needles along the diagonal of a face: points, each nearer to it than the last, in
-/// the triangles that were left there.
-TriMesh cube_with_needles(unsigned seed) {
+/// A cube with thin triangles along the diagonal of a face: points, each nearer to it than the
+/// last, in the triangles that were left there.
+/// @param spread  of the points along the diagonal, about its middle.
+/// @param shrink  the distance of each from the diagonal, times that of the last.
+TriMesh cube_with_thin_triangles(unsigned seed, double spread, double shrink) {
   TriMesh surface = cube({1000, 0, 0});
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> along(0.5, 0.50001);
+  std::uniform_real_distribution<double> along(0.5 - spread, 0.5 + spread);
   Index third = surface.triangles[1][2];  // of the triangle at the diagonal
   const Index a = surface.triangles[1][0], b = surface.triangles[1][1];
   const std::array<Vec3, 3> corners{surface.points[a], surface.points[b], surface.points[third]};
   Triangle* last = &surface.triangles[1];
-  for (double off = 1e-3; off > 1e-7; off /= 2) {
+  for (double off = 1e-3; off > 1e-7; off *= shrink) {
     const double s = along(random);
     const Vec3 on = corners[0] + s * (corners[1] - corners[0]);
     const auto next = static_cast<Index>(surface.points.size());
@@ -128,10 +130,10 @@ TriMesh cube_with_needles(unsigned seed) {
   return surface;
 }
 
-TEST(RoundToSingle, JoinsNeedlesThatWouldMeet) {
+void expect_parted(double spread, double shrink) {
   int met = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
-    const TriMesh surface = cube_with_needles(seed);
+    const TriMesh surface = cube_with_thin_triangles(seed, spread, shrink);
     ASSERT_TRUE(find_self_intersections(surface).empty());
     TriMesh simply = surface;
     for (Vec3& p : simply.points) p = rounded(p);
@@ -149,6 +151,10 @@ TEST(RoundToSingle, JoinsNeedlesThatWouldMeet) {
   }
   EXPECT_GT(met, 5);
 }
+
+TEST(RoundToSingle, JoinsNeedlesThatWouldMeet) { expect_parted(0.00001, 0.5); }
+
+TEST(RoundToSingle, FlipsCapsThatWouldMeet) { expect_parted(0.4, 0.1); }
 
 TEST(RoundToSingle, LeavesOutWhatCollapsesInAnOpenSurface) {
   TriMesh surface{{{4096, 0, 0}, {4096 + 1e-9, 0, 0}, {4096, 1, 0}, {4097, 1, 0}},

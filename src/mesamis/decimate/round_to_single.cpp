@@ -15,9 +15,10 @@
 namespace mesamis {
 namespace {
 
-/// Shorter edges are collapsed where triangles meet, in distances between floats.
-constexpr double kShortEdge = 128;
-/// So often triangles are sought that meet: few do, and each collapse takes one away.
+/// Where triangles meet, shorter edges than this are collapsed, and the longest edges of less high
+/// triangles are flipped; in distances between floats. It grows while that does not help.
+constexpr double kThinnest = 2, kThickest = 128, kThicker = 4;
+/// So often triangles are sought that meet: few do, and each collapse or flip takes one away.
 constexpr int kMostRounds = 16;
 
 /// The greatest distance between neighbouring floats among the coordinates of the triangles.
@@ -49,7 +50,7 @@ class Rounding {
 
   TriMesh result() const { return without_unused_points(rounded_); }
 
-  /// The farthest that any point of the surface was moved.
+  /// The farthest that any point of the surface was moved, between its corners by flips.
   double shift() const {
     double farthest = 0;
     for (std::size_t p = 0; p < exact_.size(); ++p) {
@@ -57,7 +58,7 @@ class Rounding {
       while (stands_in_[at] != at) at = stands_in_[at];
       farthest = std::max(farthest, norm(rounded_.points[at] - exact_[p]));
     }
-    return farthest;
+    return farthest + bent_;
   }
 
  private:
@@ -79,19 +80,24 @@ class Rounding {
   }
 
   /// Thin triangles may meet once their points have moved. Where they have a short edge, it is
-  /// collapsed.
+  /// collapsed; where they have none, their longest edge is flipped.
   void part_what_meets() {
-    const double shortest = kShortEdge * coarseness(rounded_);
-    for (int round = 0; round < kMostRounds; ++round) {
-      std::vector<Index> meeting;
-      for (const TrianglePair& pair : find_self_intersections(rounded_)) {
-        meeting.insert(meeting.end(), pair.begin(), pair.end());
-      }
+    double thin = kThinnest;
+    for (int round = 0; round < kMostRounds && thin <= kThickest; ++round) {
+      const std::vector<Index> meeting = triangles_that_meet();
       if (meeting.empty()) return;
-      std::sort(meeting.begin(), meeting.end());
-      meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
-      if (!collapse_short_edges(meeting, shortest)) return;
+      if (!mend_thin(meeting, thin * coarseness(rounded_))) thin *= kThicker;
     }
+  }
+
+  std::vector<Index> triangles_that_meet() const {
+    std::vector<Index> meeting;
+    for (const TrianglePair& pair : find_self_intersections(rounded_)) {
+      meeting.insert(meeting.end(), pair.begin(), pair.end());
+    }
+    std::sort(meeting.begin(), meeting.end());
+    meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
+    return meeting;
   }
 
   void count_flat_triangles() {
@@ -101,23 +107,37 @@ class Rounding {
   }
 
   /// @param triangles  of the rounded surface.
-  /// @return whether an edge was collapsed.
-  bool collapse_short_edges(const std::vector<Index>& triangles, double shortest) {
+  /// @return whether anything was done.
+  bool mend_thin(const std::vector<Index>& triangles, double thin) {
     mesh_.clear();
     build_halfedges(rounded_, {0, 0, 0}, mesh_);
-    const std::int64_t before = report_.collapsed;
+    const std::int64_t before = report_.collapsed + report_.flipped;
     for (const Index t : triangles) {
       const auto f = mesh_.face_handle(static_cast<unsigned>(t));
       if (mesh_.status(f).deleted()) continue;
-      std::vector<OpenMesh::HalfedgeHandle> sides(mesh_.cfh_begin(f), mesh_.cfh_end(f));
-      std::sort(sides.begin(), sides.end(),
-                [this](auto a, auto b) { return length(a) < length(b); });
-      for (const auto h : sides) {
-        if (length(h) > shortest || collapse(h)) break;
-      }
+      if (!collapse_short_edge(f, thin)) flip_cap(f, thin);
     }
     rounded_.triangles = remaining_triangles(mesh_);
-    return report_.collapsed > before;
+    return report_.collapsed + report_.flipped > before;
+  }
+
+  bool collapse_short_edge(OpenMesh::FaceHandle f, double shortest) {
+    std::vector<OpenMesh::HalfedgeHandle> sides(mesh_.cfh_begin(f), mesh_.cfh_end(f));
+    std::sort(sides.begin(), sides.end(), [this](auto a, auto b) { return length(a) < length(b); });
+    for (const auto h : sides) {
+      if (length(h) > shortest) return false;
+      if (collapse(h)) return true;
+    }
+    return false;
+  }
+
+  /// Between its corners the surface is moved by the height at most.
+  void flip_cap(OpenMesh::FaceHandle f, double highest) {
+    const auto longest = longest_side(f);
+    const double height = height_over(longest);
+    if (height > highest || !flip(longest)) return;
+    ++report_.flipped;
+    bent_ += height;
   }
 
   /// @return whether the surface stays a manifold; else nothing is done.
@@ -162,12 +182,23 @@ class Rounding {
     for (const auto f : mesh_.faces()) {
       if (mesh_.status(f).deleted() || has_area(rounded_.points, corner_indices(mesh_, f)))
         continue;
-      auto longest = mesh_.halfedge_handle(f);
-      for (auto h = mesh_.cfh_iter(f); h.is_valid(); ++h) {
-        if (length(*h) > length(longest)) longest = *h;
-      }
-      if (flip(longest)) ++report_.flipped;
+      if (flip(longest_side(f))) ++report_.flipped;
     }
+  }
+
+  OpenMesh::HalfedgeHandle longest_side(OpenMesh::FaceHandle f) const {
+    auto longest = mesh_.halfedge_handle(f);
+    for (auto h = mesh_.cfh_iter(f); h.is_valid(); ++h) {
+      if (length(*h) > length(longest)) longest = *h;
+    }
+    return longest;
+  }
+
+  /// Of the triangle at a half-edge.
+  double height_over(OpenMesh::HalfedgeHandle h) const {
+    const Vec3& from = at(mesh_.from_vertex_handle(h));
+    const Vec3& tip = at(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)));
+    return norm(cross(at(mesh_.to_vertex_handle(h)) - from, tip - from)) / length(h);
   }
 
   double length(OpenMesh::HalfedgeHandle h) const {
@@ -191,6 +222,7 @@ class Rounding {
   const std::vector<Vec3>& exact_;
   RoundReport& report_;
   TriMesh rounded_;
+  double bent_ = 0;               // the sum of the heights of flipped triangles
   std::vector<Index> stands_in_;  // of each point, the one that it was collapsed into, or itself
   HalfedgeMesh mesh_;
 };
