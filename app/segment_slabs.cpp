@@ -78,7 +78,7 @@ bool wants_grey(const SegmentRun& run) {
 /// Without a place for checkpoints, scratch files lie beside the first output.
 SlabRunOptions slab_options(const SegmentRun& run, const SlabArguments& slabs) {
   SlabRunOptions options;
-  if (slabs.slabs.value_or(0) > 0) options.slabs = slabs.slabs;
+  if (slabs.slabs.value_or(0) > 0) options.turns = slabs.slabs;
   options.scratch = slabs.checkpoint;
   options.resumable = !slabs.checkpoint.empty();
   options.input = identity_of(run.scan.input);
@@ -239,8 +239,9 @@ void add_slab_options(CLI::App& command, SlabArguments& arguments) {
           throw CLI::ValidationError("--slabs", "expected at least 1, found " + text);
         }
       },
-      "Read and work in so many slabs (or: auto), one after the other, for scans that are larger "
-      "than the memory; scratch files lie beside the first output");
+      "Work on such a part of the scan at a time (auto: of 67 million voxels), for scans that are "
+      "larger than the memory; the surface does not depend on it; scratch files lie beside the "
+      "first output");
   command.add_option("--checkpoint", arguments.checkpoint,
                      "Folder for the scratch files of --slabs: a run that was killed goes on "
                      "there; removed at the end");

@@ -14,7 +14,7 @@ namespace mesamis {
 inline constexpr const char* kPiecesExtension = ".pvtu";
 
 struct SlabArguments {
-  std::optional<Index> slabs;        ///< --slabs; 0: as many as the scan needs
+  std::optional<Index> slabs;        ///< --slabs: the part of the scan at a time; 0: auto
   std::filesystem::path checkpoint;  ///< --checkpoint; may be empty
 
   bool given() const { return slabs.has_value() || !checkpoint.empty(); }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -44,6 +45,24 @@ TEST(Parallel, ThreadsAreLimitedOnlyWithinTheWork) {
   EXPECT_EQ(thread_count(), outside);
   EXPECT_THROW(with_threads(1, [] { throw 1; }), int);
   EXPECT_EQ(thread_count(), outside);
+}
+
+TEST(Parallel, TasksShareTheThreads) {
+  for (const auto& [threads, at_once, each] :
+       std::vector<std::array<int, 3>>{{1, 4, 1}, {6, 1, 6}, {6, 2, 3}, {6, 4, 1}, {3, 9, 1}}) {
+    std::vector<int> visits(7, 0);
+    std::vector<double> sums(7);
+    with_threads(threads, [&, each = each, at_once = at_once] {
+      parallel_tasks(visits.size(), at_once, [&](std::size_t i) {
+        ++visits[i];
+        EXPECT_EQ(thread_count(), each);
+        sums[i] = parallel_sum(100'003, harmonic_sum);
+      });
+    });
+    EXPECT_EQ(visits, std::vector<int>(7, 1));
+    for (const double sum : sums) EXPECT_EQ(sum, sums[0]);
+  }
+  EXPECT_THROW(parallel_tasks(3, 2, [](std::size_t) { throw 1; }), int);
 }
 
 TEST(Parallel, CollectsInTheOrderOfTheItems) {

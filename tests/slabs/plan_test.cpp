@@ -108,13 +108,20 @@ TEST(SlabPlan, RefusesSlabsThatWouldBeTooThin) {
   EXPECT_EQ(plan(10, 1).count(), 1) << "one slab has no borders";
 }
 
-TEST(SlabPlan, MakesSlabsOfBoundedSizeUnlessTold) {
-  EXPECT_EQ(plan_slabs(grid_of({64, 64, 96}), even_work(96), {}).count(), 1);
+TEST(SlabPlan, SlabsAreTwiceAsThickAsTheyMustBeUnlessTold) {
+  const auto count = [](const std::array<Index, 3>& size) {
+    return plan_slabs(grid_of(size), even_work(size[2]), {}).count();
+  };
+  EXPECT_EQ(count({64, 64, 127}), 1);
+  EXPECT_EQ(count({64, 64, 128}), 2);
+  EXPECT_EQ(count({512, 512, 512}), 8);
+  EXPECT_EQ(count({2048, 2048, 2048}), 32);
   const SlabPlan large = plan_slabs(grid_of({1024, 1024, 1024}), even_work(1024), {});
   EXPECT_EQ(large.count(), 16);
   EXPECT_EQ(large.cuts[1], 64);
-  // As many as are thick enough, where they would be too thin.
-  EXPECT_EQ(plan_slabs(grid_of({4096, 4096, 100}), even_work(100), {}).count(), 3);
+  // Thinner ones where they are large; as many as are thick enough.
+  EXPECT_EQ(count({4096, 4096, 4096}), 128);
+  EXPECT_EQ(count({4096, 4096, 100}), 3);
 }
 
 TEST(SlabPlan, LengthsAreInTheUnitOfTheMeshes) {

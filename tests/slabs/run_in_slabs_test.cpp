@@ -315,6 +315,33 @@ TEST(SlabRun, TheSameBitsForAnyNumberOfThreads) {
   expect_same(with_threads(2, [&] { return run_alone(scan, options); }), one);
 }
 
+TEST(SlabRun, TheSameBitsForAnyNumberOfTurns) {
+  const TempFolder folder;
+  const Volume scan = scan_of_rod(96);
+  SlabRunOptions options{.slabs = 3, .scratch = folder / "scratch"};
+  options.turns = 3;
+  const SlabRunResult one_by_one = run_alone(scan, options);
+  for (const Index turns : {1, 2, 1000}) {
+    options.turns = turns;
+    expect_same(with_threads(4, [&] { return run_alone(scan, options); }), one_by_one);
+  }
+  options.turns = 0;
+  EXPECT_REFUSED(run_alone(scan, options), HasSubstr("found 0"));
+}
+
+// What a user asks for is the memory; what comes out is decided by the scan.
+TEST(SlabRun, TheScanDecidesHowManySlabsThereAre) {
+  const TempFolder folder;
+  SlabRunOptions options{.scratch = folder / "scratch", .mesh = false};
+  options.turns = 1;
+  EXPECT_EQ(run_alone(scan_of_rod(128), options).plan.count(), 2);
+  options.turns = 9;
+  const Volume thin = scan_of_rod(127);
+  const SlabRunResult run = run_alone(thin, options);
+  EXPECT_EQ(run.plan.count(), 1);
+  EXPECT_TRUE(run.result.surface.points == mes_amis(thin, quick_settings()).surface.points);
+}
+
 TEST(SlabRun, TheSameBitsForAnyNumberOfRanks) {
   const TempFolder folder;
   const Volume scan = scan_of_rod(96);

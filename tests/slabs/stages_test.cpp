@@ -3,6 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "mesamis/base/parallel.h"
 #include "support/temp_folder.h"
 
 namespace mesamis::detail {
@@ -28,7 +34,7 @@ TEST(Stages, EachTaskIsDoneByOneProcessOnce) {
     for (int rank = 0; rank < 3; ++rank) {
       Rank team(3, rank);
       const Progress progress;
-      Stages stages(scratch, team, progress);
+      Stages stages(scratch, team, progress, 7);
       stages.run("work", 7, [&](Index n) {
         ++done[static_cast<std::size_t>(n)];
         return SlabWork{.rows = 10 + n};
@@ -42,12 +48,41 @@ TEST(Stages, EachTaskIsDoneByOneProcessOnce) {
   EXPECT_EQ(done, std::vector<int>(7, 1));
 }
 
+TEST(Stages, SomeTasksAreDoneAtATime) {
+  const TempFolder folder;
+  const Scratch scratch(folder.path());
+  Alone team;
+  for (const auto& [turns, at_once] : std::vector<std::pair<Index, int>>{{12, 1}, {5, 2}, {1, 4}}) {
+    std::vector<double> told;
+    const Progress progress = [&told](auto, double share) {
+      told.push_back(share);
+      return true;
+    };
+    Stages stages(scratch, team, progress, turns);
+    std::atomic<int> now = 0, most = 0;
+    with_threads(4, [&] {
+      stages.run("turns " + std::to_string(turns), 12, [&](Index) {
+        const int with_me = ++now;
+        for (int seen = most; seen < with_me && !most.compare_exchange_weak(seen, with_me);) {
+        }
+        EXPECT_EQ(thread_count(), 4 / at_once);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        --now;
+        return SlabWork{};
+      });
+    });
+    EXPECT_LE(most, at_once) << "as many as may be in memory";
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_EQ(told.back(), 1);
+  }
+}
+
 TEST(Stages, ATaskThatFailsIsDoneAgain) {
   const TempFolder folder;
   const Scratch scratch(folder.path());
   const Progress progress;
   Alone team;
-  Stages stages(scratch, team, progress);
+  Stages stages(scratch, team, progress, 7);
   int calls = 0;
   const auto fails_once = [&](Index) {
     if (++calls == 2) throw std::runtime_error("no more");

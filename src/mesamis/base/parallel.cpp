@@ -70,6 +70,24 @@ void parallel_blocks(std::size_t n, std::size_t block,
   take_over(finish);
 }
 
+void parallel_tasks(std::size_t n, int at_once, const std::function<void(std::size_t)>& body) {
+  const int threads = thread_count();
+  const int together =
+      std::min({at_once, threads, static_cast<int>(std::min<std::size_t>(n, 1024))});
+  if (together <= 1) {
+    for (std::size_t i = 0; i < n; ++i) body(i);
+    return;
+  }
+  // A task has an arena of its own, so that none of its threads takes up another task as well.
+  tbb::task_arena tasks(together);
+  tasks.execute([&] {
+    parallel_for_each(n, [&](std::size_t i) {
+      tbb::task_arena own(threads / together);
+      own.execute([&] { body(i); });
+    });
+  });
+}
+
 double parallel_sum(std::size_t n, const std::function<double(std::size_t, std::size_t)>& partial) {
   double sum = 0;
   for (const double value : block_values(n, partial)) sum += value;

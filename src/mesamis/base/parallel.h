@@ -63,6 +63,12 @@ void parallel_for_each(std::size_t n, Body&& body) {
   parallel_blocks(n, 1, [&body](std::size_t begin, std::size_t) { body(begin); });
 }
 
+/// Calls body(i) for each i of [0, n), so many at a time, each with its share of the threads that
+/// are allowed here: for long steps that use threads themselves, and take memory.
+/// @param at_once  at least 1; no more are done at a time than there are threads.
+/// @throws what body throws.
+void parallel_tasks(std::size_t n, int at_once, const std::function<void(std::size_t)>& body);
+
 /// Collects what body(begin, end, found) appends to its block's vector `found`, for the blocks of
 /// [0, n), see parallel_blocks().
 /// @param block  at least 1.

@@ -15,9 +15,10 @@
 namespace mesamis {
 namespace {
 
-constexpr double kShortestEdge = 1;  // voxels: shorter ones are not split
-constexpr double kLeastBend = 0.03;  // voxels between an edge and the level set that are worth it
-constexpr int kMostRounds = 8;       // of splitting: about two halve every edge of a triangle
+constexpr double kShortestEdge = 1;    // voxels: shorter ones are not split
+constexpr double kLeastBend = 0.03;    // voxels between an edge and the level set that are worth it
+constexpr double kLeastHeight = 0.01;  // voxels: edges of less high triangles are not split
+constexpr int kMostRounds = 8;         // of splitting: about two halve every edge of a triangle
 
 class Follower {
  public:
@@ -40,9 +41,9 @@ class Follower {
   void run(FollowedPart& part) const {
     TriMesh& surface = part.extracted;
     hold_on_box(part);
-    surface = split_edges(
-        std::move(surface), [this](const Vec3& a, const Vec3& b) { return is_bent(a, b); },
-        kMostRounds, part.held);
+    surface = split_edges(std::move(surface),
+                          [this](const Vec3& a, const Vec3& b) { return is_bent(a, b); },
+                          {kMostRounds, kLeastHeight * space_.voxel(), part.held});
     part.held.resize(surface.points.size(), 0);
     part.moved.insert(part.moved.end(), surface.points.begin() + std::ssize(part.moved),
                       surface.points.end());

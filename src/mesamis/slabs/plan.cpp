@@ -18,10 +18,11 @@ namespace {
 constexpr double kOverlap = 8;
 
 Index default_count(const VoxelGrid& whole, Index thinnest) {
-  constexpr double kMeanVoxels = 1 << 26;
+  constexpr double kMostVoxels = 1 << 28;
   const auto by_memory =
-      static_cast<Index>(std::ceil(static_cast<double>(whole.voxel_count()) / kMeanVoxels));
-  return std::clamp(by_memory, 1, std::max(1, whole.size[2] / thinnest));
+      static_cast<Index>(std::ceil(static_cast<double>(whole.voxel_count()) / kMostVoxels));
+  const Index twice_as_thick = whole.size[2] / (2 * thinnest);
+  return std::clamp(std::max(by_memory, twice_as_thick), 1, std::max(1, whole.size[2] / thinnest));
 }
 
 /// Bounds of slabs, slices.

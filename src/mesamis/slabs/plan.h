@@ -64,8 +64,10 @@ struct SlabPlan {
 struct SlabOptions {
   double unit_mm = 1;
   double beta = 2;  ///< of the functional: its root is the length that influences reach
-  std::optional<Index> slabs{};  ///< default: of 2^26 voxels in the mean
-  bool bounded = true;           ///< no slab has more than twice the mean number of slices
+  /// Default: as many as are twice as thick as they must be, so that borders add a fourth to the
+  /// work; thinner ones where these have more than 2^28 voxels; one of a scan that is too thin.
+  std::optional<Index> slabs{};
+  bool bounded = true;  ///< no slab has more than twice the mean number of slices
   /// Length units. The work so near to a cut is done again, by the slab below.
   double again = 0;
 };

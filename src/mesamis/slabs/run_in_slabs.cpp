@@ -30,6 +30,8 @@ using namespace detail;
 
 /// Voxels of which the parameters are chosen.
 constexpr std::size_t kSample = std::size_t{1} << 27;
+/// Voxels that a process works on at a time, unless it is told.
+constexpr double kVoxelsOfATurn = 1 << 26;
 /// Slices that are looked at together before there is a plan.
 constexpr Index kChunk = 16;
 
@@ -285,8 +287,11 @@ SlabRunResult deliver(const SurfaceRun& run, const Settings& settings,
   return all;
 }
 
-void require_possible(const Settings& settings) {
+void require_possible(const Settings& settings, const SlabRunOptions& options) {
   require_valid(settings);
+  if (options.turns.value_or(1) < 1) {
+    throw InputError("slabs: expected at least 1 turn, found " + std::to_string(*options.turns));
+  }
   if (settings.preview) throw InputError("slabs: expected a run with meshes, found a preview");
   if (!(settings.crop == CropRange{})) {
     throw InputError("slabs: expected the whole scan, found a crop");
@@ -373,7 +378,9 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
     if (team.rank() != 0) return std::nullopt;
     return run_whole(source, settings, even, options);
   }
-  Stages stages(scratch, team, progress);
+  const auto by_memory =
+      static_cast<Index>(std::ceil(static_cast<double>(whole.voxel_count()) / kVoxelsOfATurn));
+  Stages stages(scratch, team, progress, options.turns.value_or(by_memory));
   const SlabRun run = begin_run(source, settings, scratch, stages, options.slabs);
   stages.run("image", 1, [&](Index) {
     make_item_file<float>(scratch.path(kImageFile), run.plan.whole.voxel_count());
@@ -393,7 +400,7 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
 
 std::optional<SlabRunResult> run_in_slabs(const SliceSource& source, const Settings& settings,
                                           const SlabRunOptions& options, Team& team) {
-  require_possible(settings);
+  require_possible(settings, options);
   Stopwatch watch;
   const Scratch scratch(options.scratch);
   require_same_run(scratch, description_of(source, settings, options), team);

@@ -19,7 +19,10 @@ namespace mesamis {
 
 /// How a scan is worked on in slabs.
 struct SlabRunOptions {
-  std::optional<Index> slabs{};   ///< default: as plan_slabs()
+  /// A process works on a slab at a time, or on so many as are such a part of all, in threads;
+  /// default: parts of 2^26 voxels. Nothing depends on it but memory and time.
+  std::optional<Index> turns{};
+  std::optional<Index> slabs{};   ///< default: as plan_slabs(); another number, another result
   std::filesystem::path scratch;  ///< a folder on a disk that all processes see; made where missing
   bool keep_scratch = false;      ///< at the end; else what is in the folder goes
   bool mesh = true;               ///< whether the result has its mesh and fields
@@ -56,8 +59,10 @@ struct SlabRunResult {
 /// and the mesh if that is asked for. Only where a number of triangles is asked for, or no
 /// decimation, rank 0 holds the whole surface as extracted.
 ///
-/// The result depends on the scan, the settings and the number of slabs alone: not on the number of
-/// processes, not on threads, not on whether a run was killed and started again.
+/// The scan alone decides how many slabs there are, unless they are asked for. The result depends
+/// on the scan, the settings and that number: not on how many are worked on at a time, not on the
+/// number of processes, not on threads, not on whether a run was killed and started again. Where
+/// there is one slab, it is that of mes_amis().
 ///
 /// @param source    read by slabs, see SliceSource.
 /// @param settings  valid; no preview, no crop, no band, and until the surface has settled.
@@ -72,8 +77,9 @@ struct SlabRunResult {
 /// @throws Cancelled   if progress says stop; the folder is kept.
 ///
 /// Time as mes_amis(), and what overlaps add. Memory of a process: about that of mes_amis() for the
-/// largest slab; of rank 0 also the surface, and where it is asked for the mesh, about 60 bytes per
-/// cell: also for grey values where the surface is not decimated slab by slab.
+/// slabs that it works on at a time; of rank 0 also the surface, and where it is asked for the
+/// mesh, about 60 bytes per cell: also for grey values where the surface is not decimated slab by
+/// slab.
 std::optional<SlabRunResult> run_in_slabs(const SliceSource& source, const Settings& settings,
                                           const SlabRunOptions& options, Team& team);
 

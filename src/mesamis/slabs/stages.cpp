@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/slabs/stages.h"
 
+#include <algorithm>
+#include <mutex>
+
+#include "mesamis/base/parallel.h"
 #include "mesamis/base/stopwatch.h"
 #include "mesamis/method/passes.h"
 
@@ -19,7 +23,11 @@ void Stages::run(const std::string& name, Index count, const std::function<SlabW
   };
   const Index begin = first(team_.rank()), end = first(team_.rank() + 1);
   const Stage stage(progress_, "slabs: " + name);
-  for (Index n = begin; n < end; ++n) {
+  const auto mine = static_cast<std::size_t>(end - begin);
+  std::mutex one_tells;
+  double done = 0;
+  parallel_tasks(mine, std::max(1, count / turns_), [&](std::size_t i) {
+    const Index n = begin + static_cast<Index>(i);
     if (!scratch_.has(done_file(name, n))) {
       Stopwatch watch;
       SlabWork work = task(n);
@@ -28,8 +36,9 @@ void Stages::run(const std::string& name, Index count, const std::function<SlabW
       archive.add_one(work);
       scratch_.write(done_file(name, n), archive);
     }
-    stage.advance(static_cast<double>(n + 1 - begin) / (end - begin));
-  }
+    const std::scoped_lock lock(one_tells);
+    stage.advance(++done / static_cast<double>(mine));
+  });
   team_.wait_for_all();
 }
 

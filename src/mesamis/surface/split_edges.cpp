@@ -35,8 +35,8 @@ using Edge = std::span<const HalfEdge>;
 
 class Splitter {
  public:
-  Splitter(TriMesh& surface, const SplitRule& rule, std::vector<char> held)
-      : surface_(surface), rule_(rule), held_(std::move(held)) {}
+  Splitter(TriMesh& surface, const SplitRule& rule, const SplitOptions& options)
+      : surface_(surface), rule_(rule), least_height_(options.least_height), held_(options.held) {}
 
   /// Splits every edge that the rule asks for. @return false if there was none.
   bool round() {
@@ -87,6 +87,18 @@ class Splitter {
     return corners;
   }
 
+  /// Over its longest edge.
+  double height(const Triangle& t) const {
+    const Vec3 &a = surface_.points[t[0]], &b = surface_.points[t[1]], &c = surface_.points[t[2]];
+    const double longest = std::max({length(t[0], t[1]), length(t[1], t[2]), length(t[2], t[0])});
+    return longest > 0 ? norm(cross(b - a, c - a)) / longest : 0;
+  }
+  bool may_be_split(Edge edge) const {
+    return std::all_of(edge.begin(), edge.end(), [&](const HalfEdge& h) {
+      return height(surface_.triangles[static_cast<std::size_t>(h.triangle)]) >= least_height_;
+    });
+  }
+
   /// Adds the points and tells the triangles of them; empty if nothing is to be split.
   std::vector<SplitTriangle> find_middles() {
     const auto half_edges = sorted_half_edges(surface_.triangles, surface_.points.size());
@@ -100,7 +112,7 @@ class Splitter {
       const bool asked = std::any_of(edge.begin(), edge.end(), [&](const HalfEdge& h) {
         return corners[static_cast<std::size_t>(h.triangle)] == h.corner;
       });
-      if (!asked) continue;
+      if (!asked || !may_be_split(edge)) continue;
       const auto middle = static_cast<Index>(surface_.points.size());
       surface_.points.push_back(0.5 * (surface_.points[edge[0].lo] + surface_.points[edge[0].hi]));
       for (const HalfEdge& h : edge) {
@@ -136,15 +148,16 @@ class Splitter {
 
   TriMesh& surface_;
   const SplitRule& rule_;
+  double least_height_;
   std::vector<char> held_;
 };
 
 }  // namespace
 
-TriMesh split_edges(TriMesh surface, const SplitRule& rule, int rounds, std::vector<char> held) {
+TriMesh split_edges(TriMesh surface, const SplitRule& rule, const SplitOptions& options) {
   require_sound(surface);
-  Splitter splitter(surface, rule, std::move(held));
-  for (int n = 0; n < rounds && splitter.round(); ++n) {
+  Splitter splitter(surface, rule, options);
+  for (int n = 0; n < options.rounds && splitter.round(); ++n) {
   }
   return surface;
 }
