@@ -239,9 +239,10 @@ void add_slab_options(CLI::App& command, SlabArguments& arguments) {
           throw CLI::ValidationError("--slabs", "expected at least 1, found " + text);
         }
       },
-      "Work on such a part of the scan at a time (auto: of 67 million voxels), for scans that are "
-      "larger than the memory; the surface does not depend on it; scratch files lie beside the "
-      "first output");
+      "Work on an Nth of the scan at a time (auto: on 67 million voxels), for scans that are "
+      "larger "
+      "than the memory; the surface does not depend on N; scratch files lie beside the first "
+      "output");
   command.add_option("--checkpoint", arguments.checkpoint,
                      "Folder for the scratch files of --slabs: a run that was killed goes on "
                      "there; removed at the end");

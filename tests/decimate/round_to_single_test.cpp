@@ -12,8 +12,8 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/decimate/single_places.h"
+#include "mesamis/surface/distance.h"
 #include "mesamis/surface/self_intersections.h"
-#include "mesamis/surface/triangle_tree.h"
 #include "support/level_set.h"
 #include "support/shapes.h"
 
@@ -130,11 +130,13 @@ TriMesh cube_with_thin_triangles(unsigned seed, double spread, double shrink) {
   return surface;
 }
 
-void expect_parted(double spread, double shrink) {
+/// @return what was done to all surfaces.
+RoundReport expect_parted(double spread, double shrink) {
+  RoundReport all;
   int met = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const TriMesh surface = cube_with_thin_triangles(seed, spread, shrink);
-    ASSERT_TRUE(find_self_intersections(surface).empty());
+    EXPECT_TRUE(find_self_intersections(surface).empty());
     TriMesh simply = surface;
     for (Vec3& p : simply.points) p = rounded(p);
     if (!find_self_intersections(simply).empty()) ++met;
@@ -143,18 +145,27 @@ void expect_parted(double spread, double shrink) {
     expect_single_and_closed(result);
     EXPECT_TRUE(find_self_intersections(result).empty()) << "seed " << seed;
     EXPECT_LT(report.shift, 0.01);
-    std::size_t hint = 0;
-    const TriangleTree tree(result);
-    for (const Vec3& p : surface.points) {
-      EXPECT_LE(std::sqrt(tree.squared_distance_to(p, hint)), report.shift);
-    }
+    const double fine = 1e-7, most = 1.004 * report.shift + fine;  // as max_distance() knows it
+    EXPECT_LE(max_distance(surface, result, fine), most);
+    EXPECT_LE(max_distance(result, surface, fine), most);
+    all.collapsed += report.collapsed;
+    all.flipped += report.flipped;
   }
   EXPECT_GT(met, 5);
+  return all;
 }
 
-TEST(RoundToSingle, JoinsNeedlesThatWouldMeet) { expect_parted(0.00001, 0.5); }
+TEST(RoundToSingle, JoinsNeedlesThatWouldMeet) {
+  EXPECT_GT(expect_parted(0.00001, 0.5).collapsed, 20);
+}
 
-TEST(RoundToSingle, FlipsCapsThatWouldMeet) { expect_parted(0.4, 0.1); }
+TEST(RoundToSingle, FlipsCapsThatWouldMeet) { EXPECT_GT(expect_parted(0.4, 0.1).flipped, 20); }
+
+TEST(RoundToSingle, PartsCapsAndNeedlesThatWouldMeet) {
+  const RoundReport done = expect_parted(0.0001, 0.5);
+  EXPECT_GT(done.collapsed, 5);
+  EXPECT_GT(done.flipped, 5);
+}
 
 TEST(RoundToSingle, LeavesOutWhatCollapsesInAnOpenSurface) {
   TriMesh surface{{{4096, 0, 0}, {4096 + 1e-9, 0, 0}, {4096, 1, 0}, {4097, 1, 0}},

@@ -50,6 +50,21 @@ TEST(FollowImage, ComesToTheLevelSetWithoutNoise) {
   EXPECT_TRUE(find_self_intersections(followed).empty());
 }
 
+// Its pieces would be thinner still, down to rounding errors.
+TEST(FollowImage, DoesNotSplitThinTriangles) {
+  TriMesh surface = coarse_ball(kRadius);
+  const auto [a, b, c] = surface.triangles[0];
+  const auto beside = static_cast<Index>(surface.points.size());
+  const Vec3 middle = 0.5 * (surface.points[a] + surface.points[b]);
+  surface.points.push_back(middle + 0.001 * (surface.points[c] - middle));
+  const Triangle thin{a, b, beside};
+  surface.triangles[0] = thin;
+  surface.triangles.insert(surface.triangles.end(), {{b, c, beside}, {c, a, beside}});
+  const TriMesh followed = follow_image(surface, ball_image(0), {.level = kLevel, .noise = 0.1});
+  EXPECT_EQ(std::count(followed.triangles.begin(), followed.triangles.end(), thin), 1);
+  EXPECT_GT(followed.triangles.size(), 2 * surface.triangles.size()) << "others are split";
+}
+
 TEST(FollowImage, LeavesASurfaceThatNoiseExplains) {
   // A surface that is right stays nearly so, though the image's level set is rough.
   const double seen = middle_radius(kRadius, 1);

@@ -124,6 +124,16 @@ TEST(SlabPlan, SlabsAreTwiceAsThickAsTheyMustBeUnlessTold) {
   EXPECT_EQ(count({4096, 4096, 100}), 3);
 }
 
+TEST(SlabPlan, RoundingOfTheVoxelSizeAddsNoSlice) {
+  for (int n = 1; n <= 1000; ++n) {
+    for (const double side : {n / 1000.0, static_cast<double>(static_cast<float>(n / 1000.0))}) {
+      const VoxelGrid grid = grid_of({64, 64, 512}, {side, side, side});
+      ASSERT_EQ(plan_slabs(grid, even_work(512), {.unit_mm = grid.voxel_size()}).count(), 8)
+          << side;
+    }
+  }
+}
+
 TEST(SlabPlan, LengthsAreInTheUnitOfTheMeshes) {
   const VoxelGrid grid = grid_of({41, 41, 101}, {0.5, 0.5, 2});
   SlabOptions options{.unit_mm = 0.5, .slabs = 1};

@@ -163,7 +163,7 @@ case "$*" in *d.nrrd*) [ -e '{self.folder}/cancelled' ] ||
 
     @unittest.skipUnless(MPI_PROGRAM and shutil.which("mpirun"), "mesamis-mpi or mpirun is missing")
     def test_processes_of_a_job_share_a_run(self):
-        subprocess.run([PROGRAM, "phantom", "sphere", "--size=32,32,72", "--quiet",
+        subprocess.run([PROGRAM, "phantom", "sphere", "--size=32,32,128", "--quiet",
                         f"--output={self.folder}/a.nrrd"], check=True, stdout=subprocess.DEVNULL)
         options = "segment a.nrrd --slabs 2 --max-tets 8000 --quiet"
         subprocess.run(f"{PROGRAM} {options} -o alone.stl", shell=True, check=True, cwd=self.folder)
@@ -175,7 +175,7 @@ case "$*" in *d.nrrd*) [ -e '{self.folder}/cancelled' ] ||
         self.assertEqual((self.folder / "together.stl").read_bytes(),
                          (self.folder / "alone.stl").read_bytes())
         report = json.loads((self.folder / "together.json").read_text())
-        self.assertEqual(report["slabs"]["processes"], 2)
+        self.assertEqual((report["slabs"]["count"], report["slabs"]["processes"]), (2, 2))
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@
 #endif
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace mesamis {
@@ -41,10 +42,12 @@ std::vector<double> block_values(std::size_t n,
 
 void run_with_threads(int count, const std::function<void()>& work) {
   if (count <= 0 || count == thread_count()) return work();
-  // TBB has as many workers as the machine has processors, unless it is asked for more.
-  const int most = std::max(count, tbb::info::default_concurrency());
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(most));
+  // TBB has as many workers as the machine has processors, unless it is asked for more. Of several
+  // limits the lowest holds, also for threads elsewhere: none is set that is not needed.
+  std::optional<tbb::global_control> allowed;
+  if (count > tbb::info::default_concurrency()) {
+    allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
+  }
   tbb::task_arena arena(count);
   arena.execute(work);
 }
@@ -82,7 +85,8 @@ void parallel_tasks(std::size_t n, int at_once, const std::function<void(std::si
   tbb::task_arena tasks(together);
   tasks.execute([&] {
     parallel_for_each(n, [&](std::size_t i) {
-      tbb::task_arena own(threads / together);
+      const bool has_one_more = tbb::this_task_arena::current_thread_index() < threads % together;
+      tbb::task_arena own(threads / together + (has_one_more ? 1 : 0));
       own.execute([&] { body(i); });
     });
   });

@@ -8,7 +8,7 @@ namespace mesamis {
 
 /// Called at times by a long computation with the name of its stage and the share of the stage that
 /// is done, 0 to 1. If it returns false, the computation stops, throws Cancelled and leaves nothing
-/// behind.
+/// behind. It may be called from other threads than the computation was, but by one at a time.
 using Progress = std::function<bool(std::string_view stage, double fraction)>;
 
 }  // namespace mesamis

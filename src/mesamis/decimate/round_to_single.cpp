@@ -18,7 +18,7 @@ namespace {
 /// Where triangles meet, shorter edges than this are collapsed, and the longest edges of less high
 /// triangles are flipped; in distances between floats. It grows while that does not help.
 constexpr double kThinnest = 2, kThickest = 128, kThicker = 4;
-/// So often triangles are sought that meet: few do, and each collapse or flip takes one away.
+/// So often triangles are sought that meet; few do.
 constexpr int kMostRounds = 16;
 
 /// The greatest distance between neighbouring floats among the coordinates of the triangles.
@@ -44,22 +44,12 @@ class Rounding {
 
   void run() {
     if (!keeps_points_distinct_and_areas()) repair();
+    report_.shift = farthest_point();
     part_what_meets();
     if (mesh_.n_vertices() > 0) count_flat_triangles();
   }
 
   TriMesh result() const { return without_unused_points(rounded_); }
-
-  /// The farthest that any point of the surface was moved, between its corners by flips.
-  double shift() const {
-    double farthest = 0;
-    for (std::size_t p = 0; p < exact_.size(); ++p) {
-      Index at = stands_in_[p];
-      while (stands_in_[at] != at) at = stands_in_[at];
-      farthest = std::max(farthest, norm(rounded_.points[at] - exact_[p]));
-    }
-    return farthest + bent_;
-  }
 
  private:
   bool keeps_points_distinct_and_areas() const {
@@ -79,15 +69,34 @@ class Rounding {
     rounded_.triangles = remaining_triangles(mesh_);
   }
 
+  /// The farthest that any point of the surface was moved.
+  double farthest_point() const {
+    double farthest = 0;
+    for (std::size_t p = 0; p < exact_.size(); ++p) {
+      Index at = stands_in_[p];
+      while (stands_in_[at] != at) at = stands_in_[at];
+      farthest = std::max(farthest, norm(rounded_.points[at] - exact_[p]));
+    }
+    return farthest;
+  }
+
   /// Thin triangles may meet once their points have moved. Where they have a short edge, it is
   /// collapsed; where they have none, their longest edge is flipped.
   void part_what_meets() {
+    std::vector<Index> meeting = triangles_that_meet();
+    if (meeting.empty()) return;
+    moved_.assign(rounded_.triangles.size(), 0);
     double thin = kThinnest;
-    for (int round = 0; round < kMostRounds && thin <= kThickest; ++round) {
-      const std::vector<Index> meeting = triangles_that_meet();
-      if (meeting.empty()) return;
-      if (!mend_thin(meeting, thin * coarseness(rounded_))) thin *= kThicker;
+    for (int round = 0; round < kMostRounds && thin <= kThickest && !meeting.empty(); ++round) {
+      bool helps = mend_thin(meeting, thin * coarseness(rounded_));
+      if (helps) {
+        std::vector<Index> left = triangles_that_meet();
+        helps = left.size() < meeting.size();
+        meeting = std::move(left);
+      }
+      if (!helps) thin *= kThicker;
     }
+    if (!moved_.empty()) report_.shift += *std::max_element(moved_.begin(), moved_.end());
   }
 
   std::vector<Index> triangles_that_meet() const {
@@ -117,6 +126,11 @@ class Rounding {
       if (mesh_.status(f).deleted()) continue;
       if (!collapse_short_edge(f, thin)) flip_cap(f, thin);
     }
+    std::vector<double> moved;
+    for (const auto f : mesh_.faces()) {
+      if (!mesh_.status(f).deleted()) moved.push_back(moved_[index(f)]);
+    }
+    moved_ = std::move(moved);
     rounded_.triangles = remaining_triangles(mesh_);
     return report_.collapsed + report_.flipped > before;
   }
@@ -125,19 +139,31 @@ class Rounding {
     std::vector<OpenMesh::HalfedgeHandle> sides(mesh_.cfh_begin(f), mesh_.cfh_end(f));
     std::sort(sides.begin(), sides.end(), [this](auto a, auto b) { return length(a) < length(b); });
     for (const auto h : sides) {
-      if (length(h) > shortest) return false;
-      if (collapse(h)) return true;
+      const double way = length(h);
+      if (way > shortest) return false;
+      const auto from = mesh_.from_vertex_handle(h);
+      const std::vector<OpenMesh::FaceHandle> around(mesh_.cvf_begin(from), mesh_.cvf_end(from));
+      if (!collapse(h)) continue;
+      move_by(way, around);
+      return true;
     }
     return false;
   }
 
-  /// Between its corners the surface is moved by the height at most.
   void flip_cap(OpenMesh::FaceHandle f, double highest) {
-    const auto longest = longest_side(f);
-    const double height = height_over(longest);
-    if (height > highest || !flip(longest)) return;
+    const auto side = longest_side(f);
+    const auto beside = mesh_.opposite_face_handle(side);
+    const double way = height(corner_indices(mesh_, f));
+    if (way > highest || !flip(side)) return;
     ++report_.flipped;
-    bent_ += height;
+    move_by(way, {f, beside});
+  }
+
+  /// What was done to some triangles at once moved none of their points farther than so.
+  void move_by(double way, const std::vector<OpenMesh::FaceHandle>& triangles) {
+    double before = 0;
+    for (const auto f : triangles) before = std::max(before, moved_[index(f)]);
+    for (const auto f : triangles) moved_[index(f)] = before + way;
   }
 
   /// @return whether the surface stays a manifold; else nothing is done.
@@ -194,15 +220,14 @@ class Rounding {
     return longest;
   }
 
-  /// Of the triangle at a half-edge.
-  double height_over(OpenMesh::HalfedgeHandle h) const {
-    const Vec3& from = at(mesh_.from_vertex_handle(h));
-    const Vec3& tip = at(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)));
-    return norm(cross(at(mesh_.to_vertex_handle(h)) - from, tip - from)) / length(h);
-  }
-
   double length(OpenMesh::HalfedgeHandle h) const {
     return norm(at(mesh_.to_vertex_handle(h)) - at(mesh_.from_vertex_handle(h)));
+  }
+
+  /// Of a triangle over its longest side.
+  double height(const Triangle& t) const {
+    const Vec3 &a = rounded_.points[t[0]], &b = rounded_.points[t[1]], &c = rounded_.points[t[2]];
+    return norm(cross(b - a, c - a)) / std::max({norm(b - a), norm(c - b), norm(a - c)});
   }
 
   bool flip(OpenMesh::HalfedgeHandle h) {
@@ -222,8 +247,8 @@ class Rounding {
   const std::vector<Vec3>& exact_;
   RoundReport& report_;
   TriMesh rounded_;
-  double bent_ = 0;               // the sum of the heights of flipped triangles
   std::vector<Index> stands_in_;  // of each point, the one that it was collapsed into, or itself
+  std::vector<double> moved_;     // of each triangle at most, by parting it from others that it met
   HalfedgeMesh mesh_;
 };
 
@@ -250,7 +275,6 @@ TriMesh round_to_single(const TriMesh& surface, RoundReport* report) {
   if (!check.closed() || !check.manifold()) return simply_rounded(surface);
   Rounding rounding(surface, counts);
   rounding.run();
-  counts.shift = rounding.shift();
   return rounding.result();
 }
 

@@ -11,9 +11,7 @@ struct RoundReport {
   std::int64_t moved = 0;      ///< points moved because another point had become equal to them
   std::int64_t flipped = 0;    ///< edges flipped in triangles that had lost their area, or that met
   std::int64_t flat = 0;       ///< triangles without area that are left
-  /// The farthest that a point was moved, or joined to another, and what flips may have moved
-  /// between the points of triangles that met, mm.
-  double shift = 0;
+  double shift = 0;            ///< no part of the surface was moved farther than so, mm
 };
 
 /// Rounds the coordinates of a surface to single precision, which STL stores.
@@ -22,8 +20,9 @@ struct RoundReport {
 /// points gets the same triangles back. Points that become equal by rounding are joined if the
 /// surface stays a manifold; otherwise one of them moves to the nearest free place. In triangles
 /// that lose their area the longest edge is flipped where possible. Of triangles that meet then,
-/// edges below 128 distances between floats are collapsed, and of triangles less high than that the
-/// longest edge is flipped: so needles go that rounding bends over each other. Of any other surface
+/// short edges are collapsed, and the longest edges of those without a short one are flipped: so
+/// needles go that rounding bends over each other. Short are 2 distances between floats, and up to
+/// 128 while some meet. Of any other surface
 /// the points are rounded, and triangles with two equal corners are left out.
 ///
 /// @param surface  n triangles, mm.

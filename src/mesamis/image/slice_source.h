@@ -16,7 +16,7 @@ class SliceSource {
   /// @throws nothing
   virtual const VoxelGrid& grid() const = 0;
 
-  /// Reads slices of constant k.
+  /// Reads slices of constant k. Several threads may call it at the same time.
   /// @param first  0 to the grid's number of slices less count.
   /// @param count  at least 1.
   /// @return one sample per voxel of these slices in native units; i runs fastest, then j, k.

@@ -19,9 +19,10 @@ struct FollowOptions {
 ///
 /// Where a scan has little noise, cells of several voxels are the larger error: they cut bends and
 /// fine structures. Edges of more than a voxel are split where the level set leaves them by more
-/// than the noise (and 0.03 voxel); each point's distance d to the level set along the normal is (I
-/// - level) / slope, the noise's share of it N = noise / slope. With the local mean m and variance
-/// V of d along the surface (Lee 1980), the point moves by
+/// than the noise (and 0.03 voxel), unless a triangle of theirs is less high than 0.01 voxel. Each
+/// point's distance d to the level set along the normal is (I - level) / slope, the noise's share
+/// of it N = noise / slope. With the local mean m and variance V of d along the surface (Lee 1980),
+/// the point moves by
 ///   a m + k (d - m),   k = max(0, 1 - N^2 / V),   a = max(0, 1 - 0.2 N^2 / m^2),
 /// by no more than 0.7 voxels, and never out of the image's box. Points where the image is too flat
 /// to tell stay, as do those on the box; edges between two of these are not split. Moves that would

@@ -16,6 +16,7 @@ namespace {
 /// voxel moves the fields by a few thousandths of its change. On meshes the cells count as well:
 /// influences fall by about four from one to the next.
 constexpr double kOverlap = 8;
+constexpr double kRoundOff = 1e-6;  // slices
 
 Index default_count(const VoxelGrid& whole, Index thinnest) {
   constexpr double kMostVoxels = 1 << 28;
@@ -48,8 +49,8 @@ class EqualShares {
       const std::vector<Index> found = cuts_for(share);
       (between(found[found.size() - 2], slices_) > share ? low : high) = share;
     }
-    constexpr double kRoundOff = 1e-9;
-    return cuts_for((1 - kRoundOff) * high);
+    constexpr double kALittleLess = 1 - 1e-9;
+    return cuts_for(kALittleLess * high);
   }
 
  private:
@@ -80,11 +81,10 @@ class EqualShares {
 }  // namespace
 
 Index SlabPlan::slices_in(double length) const noexcept {
-  return static_cast<Index>(std::ceil(length * unit_mm / whole.spacing.z));
+  return static_cast<Index>(std::ceil(length * unit_mm / whole.spacing.z - kRoundOff));
 }
 
 std::size_t SlabPlan::slice_at(double height) const noexcept {
-  constexpr double kRoundOff = 1e-6;
   const double slice = height * unit_mm / whole.spacing.z + kRoundOff;
   return static_cast<std::size_t>(std::clamp(slice, 0.0, whole.size[2] - 1.0));
 }

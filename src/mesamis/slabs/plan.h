@@ -13,7 +13,7 @@ namespace mesamis {
 /// Overlaps in the thinnest slab: those of both borders, and as much between them.
 inline constexpr Index kOverlapsInSlab = 4;
 
-/// How a scan is cut into slabs: blocks of slices that tasks work on one by one.
+/// How a scan is cut into slabs: blocks of slices, one of which a task works on.
 struct SlabPlan {
   VoxelGrid whole;          ///< of the scan
   double unit_mm = 1;       ///< the length unit of the meshes, mm

@@ -316,10 +316,10 @@ std::uint64_t hash_of_slice(const SliceSource& source, Index k) {
 /// What a folder of scratch files belongs to: files of another run would be taken for its own. Of
 /// the samples only those of the middle slice count: the scan is large.
 std::string description_of(const SliceSource& source, const Settings& settings,
-                           const SlabRunOptions& options) {
+                           const SlabRunOptions& options, Index slabs) {
   const VoxelGrid& grid = source.grid();
-  std::string text = std::string(version()) + " " + options.input + " slabs " +
-                     std::to_string(options.slabs.value_or(0));
+  std::string text =
+      std::string(version()) + " " + options.input + " slabs " + std::to_string(slabs);
   for (const Setting& setting : setting_table()) {
     text += " " + setting.name + " " + text_of(setting, setting.get(settings));
   }
@@ -369,11 +369,9 @@ SlabRunResult run_whole(const SliceSource& source, const Settings& settings, Sla
 
 std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSource& source,
                                          const Settings& settings, const SlabRunOptions& options,
-                                         Team& team) {
+                                         const SlabPlan& even, Team& team) {
   const Progress& progress = options.progress;
   const VoxelGrid& whole = source.grid();
-  // How many slabs there are depends on no sample.
-  const SlabPlan even = even_plan(whole, {whole.voxel_size(), settings.beta, options.slabs});
   if (even.count() == 1) {
     if (team.rank() != 0) return std::nullopt;
     return run_whole(source, settings, even, options);
@@ -403,10 +401,13 @@ std::optional<SlabRunResult> run_in_slabs(const SliceSource& source, const Setti
   require_possible(settings, options);
   Stopwatch watch;
   const Scratch scratch(options.scratch);
-  require_same_run(scratch, description_of(source, settings, options), team);
+  const VoxelGrid& whole = source.grid();
+  // How many slabs there are depends on no sample.
+  const SlabPlan even = even_plan(whole, {whole.voxel_size(), settings.beta, options.slabs});
+  require_same_run(scratch, description_of(source, settings, options, even.count()), team);
   std::optional<SlabRunResult> found;
   try {
-    found = run_through(scratch, source, settings, options, team);
+    found = run_through(scratch, source, settings, options, even, team);
   } catch (...) {
     if (!options.resumable) scratch.clear();
     throw;

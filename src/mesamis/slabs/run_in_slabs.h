@@ -19,8 +19,9 @@ namespace mesamis {
 
 /// How a scan is worked on in slabs.
 struct SlabRunOptions {
-  /// A process works on a slab at a time, or on so many as are such a part of all, in threads;
-  /// default: parts of 2^26 voxels. Nothing depends on it but memory and time.
+  /// In how many turns a process would work through all slabs, at least 1: the slabs of a turn, one
+  /// at least, are worked on at a time, in threads. Default: turns of 2^26 voxels. Nothing depends
+  /// on it but memory and time.
   std::optional<Index> turns{};
   std::optional<Index> slabs{};   ///< default: as plan_slabs(); another number, another result
   std::filesystem::path scratch;  ///< a folder on a disk that all processes see; made where missing
@@ -29,7 +30,8 @@ struct SlabRunOptions {
   bool grey = false;              ///< whether to find SlabRunResult::grey
   bool resumable = true;          ///< a run that fails leaves its files, to be gone on with
   std::string input{};            ///< what tells this scan from others, such as a path and a date
-  Progress progress{};            ///< optional; "slabs: ..." and the stages of mes_amis()
+  /// Optional; "slabs: ..." and the stages of mes_amis(). Called from any thread, one at a time.
+  Progress progress{};
   /// Optional: takes the mesh of each slab in turn, with its fields as Result has them of the
   /// whole; called on rank 0. What fields have at nodes of two slabs may differ within the solver's
   /// tolerance, but for u.
@@ -47,7 +49,7 @@ struct SlabRunResult {
   std::int64_t own_cells = 0;   ///< of all meshes, each cell once
 };
 
-/// Segments a scan as mes_amis() does, without ever holding more of it than a slab.
+/// Segments a scan as mes_amis() does, without ever holding more of it than the slabs of a turn.
 ///
 /// The parameters come from the whole scan where it has no more than 2^27 voxels, and then are
 /// those of mes_amis(); else from so many voxels of consecutive slices, those whose samples vary
@@ -64,7 +66,7 @@ struct SlabRunResult {
 /// number of processes, not on threads, not on whether a run was killed and started again. Where
 /// there is one slab, it is that of mes_amis().
 ///
-/// @param source    read by slabs, see SliceSource.
+/// @param source    read by slabs, from several threads at the same time.
 /// @param settings  valid; no preview, no crop, no band, and until the surface has settled.
 /// @param options   how many slabs, and where scratch files go: about 4 bytes per voxel, 16 per
 /// node

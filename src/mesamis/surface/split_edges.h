@@ -30,8 +30,9 @@ struct SplitOptions {
 };
 
 /// Splits edges of a surface at their middles, round by round, where a rule asks for it. Each round
-/// splits the longest edge of every triangle that has an edge to split. The surface stays where it
-/// is: new points lie on its triangles. A closed surface stays closed.
+/// splits the longest edge of every triangle that has an edge to split, where both its triangles
+/// are high enough. The surface stays where it is: new points lie on its triangles. A closed
+/// surface stays closed.
 /// @param surface  n points, mm or any unit.
 /// @param rule     sees the end points in either order.
 /// @param options  held of n points.
