@@ -317,14 +317,12 @@ TEST(SlabRun, TheSameBitsForAnyNumberOfThreads) {
 
 TEST(SlabRun, TheSameBitsForAnyNumberOfTurns) {
   const TempFolder folder;
-  const Volume scan = scan_of_rod(96);
-  SlabRunOptions options{.slabs = 3, .scratch = folder / "scratch"};
-  options.turns = 3;
+  const Volume scan = scan_of_rod(72);
+  SlabRunOptions options{.slabs = 2, .scratch = folder / "scratch"};
+  options.turns = 1000;
   const SlabRunResult one_by_one = run_alone(scan, options);
-  for (const Index turns : {1, 2, 1000}) {
-    options.turns = turns;
-    expect_same(with_threads(4, [&] { return run_alone(scan, options); }), one_by_one);
-  }
+  options.turns = 1;
+  expect_same(with_threads(4, [&] { return run_alone(scan, options); }), one_by_one);
   options.turns = 0;
   EXPECT_REFUSED(run_alone(scan, options), HasSubstr("found 0"));
 }
