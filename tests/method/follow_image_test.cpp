@@ -11,6 +11,7 @@
 #include "mesamis/surface/self_intersections.h"
 #include "support/ball_volume.h"
 #include "support/level_set.h"
+#include "support/shapes.h"
 
 namespace mesamis {
 namespace {
@@ -53,13 +54,7 @@ TEST(FollowImage, ComesToTheLevelSetWithoutNoise) {
 // Its pieces would be thinner still, down to rounding errors.
 TEST(FollowImage, DoesNotSplitThinTriangles) {
   TriMesh surface = coarse_ball(kRadius);
-  const auto [a, b, c] = surface.triangles[0];
-  const auto beside = static_cast<Index>(surface.points.size());
-  const Vec3 middle = 0.5 * (surface.points[a] + surface.points[b]);
-  surface.points.push_back(middle + 0.001 * (surface.points[c] - middle));
-  const Triangle thin{a, b, beside};
-  surface.triangles[0] = thin;
-  surface.triangles.insert(surface.triangles.end(), {{b, c, beside}, {c, a, beside}});
+  const Triangle thin = add_thin_triangle(surface, 0.001);
   const TriMesh followed = follow_image(surface, ball_image(0), {.level = kLevel, .noise = 0.1});
   EXPECT_EQ(std::count(followed.triangles.begin(), followed.triangles.end(), thin), 1);
   EXPECT_GT(followed.triangles.size(), 2 * surface.triangles.size()) << "others are split";

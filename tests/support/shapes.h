@@ -28,6 +28,19 @@ inline TriMesh joined(TriMesh a, const TriMesh& b) {
   return a;
 }
 
+/// Puts a point into the first triangle, beside the middle of its first edge.
+/// @param share  of the way from there to the third corner.
+/// @return the thin triangle at that edge, which becomes the first.
+inline Triangle add_thin_triangle(TriMesh& surface, double share) {
+  const auto [a, b, c] = surface.triangles[0];
+  const auto beside = static_cast<Index>(surface.points.size());
+  const Vec3 middle = 0.5 * (surface.points[a] + surface.points[b]);
+  surface.points.push_back(middle + share * (surface.points[c] - middle));
+  surface.triangles[0] = {a, b, beside};
+  surface.triangles.insert(surface.triangles.end(), {{b, c, beside}, {c, a, beside}});
+  return surface.triangles[0];
+}
+
 /// Triangles that share nothing, with corners in the unit cube stretched by `stretch`.
 inline TriMesh random_triangles(std::size_t count, const Vec3& stretch, unsigned seed = 1) {
   std::mt19937 generator(seed);

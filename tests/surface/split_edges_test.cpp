@@ -88,13 +88,7 @@ TEST(SplitEdges, SameBitsForAnyNumberOfThreads) {
 // A corner just beside the middle of an edge: cut once, its triangle would have an edge of nothing.
 TEST(SplitEdges, LeavesTrianglesThatAreThinAlready) {
   TriMesh surface = cube();
-  const auto [a, b, c] = surface.triangles[0];
-  const auto beside = static_cast<Index>(surface.points.size());
-  const Vec3 middle = 0.5 * (surface.points[a] + surface.points[b]);
-  surface.points.push_back(middle + 0.01 * (surface.points[c] - middle));
-  const Triangle thin{a, b, beside};
-  surface.triangles[0] = thin;
-  surface.triangles.insert(surface.triangles.end(), {{b, c, beside}, {c, a, beside}});
+  const Triangle thin = add_thin_triangle(surface, 0.01);
   const TriMesh cut = split_edges(surface, longer_than(0.3), {kRounds});
   EXPECT_LT(shortest_edge(cut), 0.011);
   const TriMesh left = split_edges(surface, longer_than(0.3), {kRounds, 0.02});
