@@ -15,10 +15,10 @@
 namespace mesamis {
 namespace {
 
-constexpr double kShortestEdge = 1;    // voxels: shorter ones are not split
-constexpr double kLeastBend = 0.03;    // voxels between an edge and the level set that are worth it
-constexpr double kLeastHeight = 0.01;  // voxels: edges of less high triangles are not split
-constexpr int kMostRounds = 8;         // of splitting: about two halve every edge of a triangle
+constexpr double kShortestEdge = 1;  // voxels: shorter ones are not split
+constexpr double kLeastBend = 0.03;  // voxels between an edge and the level set that are worth it
+constexpr double kLeastHeight = 0.005;  // voxels: edges of less high triangles are not split
+constexpr int kMostRounds = 8;          // of splitting: about two halve every edge of a triangle
 
 class Follower {
  public:
