@@ -54,7 +54,7 @@ TEST(FollowImage, ComesToTheLevelSetWithoutNoise) {
 // Its pieces would be thinner still, down to rounding errors.
 TEST(FollowImage, DoesNotSplitThinTriangles) {
   TriMesh surface = coarse_ball(kRadius);
-  const Triangle thin = add_thin_triangle(surface, 0.001);
+  const Triangle thin = add_thin_triangle(surface, 0.0002);
   const TriMesh followed = follow_image(surface, ball_image(0), {.level = kLevel, .noise = 0.1});
   EXPECT_EQ(std::count(followed.triangles.begin(), followed.triangles.end(), thin), 1);
   EXPECT_GT(followed.triangles.size(), 2 * surface.triangles.size()) << "others are split";

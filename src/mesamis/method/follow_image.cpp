@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kShortestEdge = 1;  // voxels: shorter ones are not split
 constexpr double kLeastBend = 0.03;  // voxels between an edge and the level set that are worth it
-constexpr double kLeastHeight = 0.005;  // voxels: edges of less high triangles are not split
+constexpr double kLeastHeight = 0.002;  // voxels: edges of less high triangles are not split
 constexpr int kMostRounds = 8;          // of splitting: about two halve every edge of a triangle
 
 class Follower {

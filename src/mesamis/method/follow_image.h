@@ -19,7 +19,7 @@ struct FollowOptions {
 ///
 /// Where a scan has little noise, cells of several voxels are the larger error: they cut bends and
 /// fine structures. Edges of more than a voxel are split where the level set leaves them by more
-/// than the noise (and 0.03 voxel), unless a triangle of theirs is less high than 0.005 voxel. Each
+/// than the noise (and 0.03 voxel), unless a triangle of theirs is less high than 0.002 voxel. Each
 /// point's distance d to the level set along the normal is (I - level) / slope, the noise's share
 /// of it N = noise / slope. With the local mean m and variance V of d along the surface (Lee 1980),
 /// the point moves by
