@@ -24,6 +24,8 @@ constexpr std::array kTestedElsewhere{
              "the stand-in of itk_level_set where ITK is missing"},
     TestedBy{"method/setting_rows", "method/setting_table_test.cpp",
              "the rows of the table: each is set, read and written there"},
+    TestedBy{"picture/draw_slice", "picture/picture_test.cpp",
+             "draw_slice() of the same door, with the same eyes for pixels"},
     TestedBy{"scan_files/dicom_jpeg12", "scan_files/dicom_jpeg_test.cpp",
              "decode_jpeg() for 9 to 12 bits"},
     TestedBy{"scan_files/dicom_jpeg16", "scan_files/dicom_jpeg_test.cpp",

@@ -86,6 +86,10 @@ void add_label(Scene& scene, const Label& label) {
   scene.renderer().AddActor2D(actor);
 }
 
+void add_corner_label(Scene& scene, const std::string& text) {
+  add_label(scene, {text, {28 * scene.unit(), 24 * scene.unit()}});
+}
+
 void add_scale_bar(Scene& scene) {
   const double unit = scene.unit();
   const double length = round_length(0.22 * scene.rendered_size()[0] * scene.mm_per_pixel());

@@ -21,6 +21,9 @@ struct Label {
 };
 void add_label(Scene& scene, const Label& label);
 
+/// Adds a line of text in the lower left corner.
+void add_corner_label(Scene& scene, const std::string& text);
+
 /// Adds a bar of a round length, labelled in mm, in the lower right corner.
 void add_scale_bar(Scene& scene);
 

@@ -6,6 +6,8 @@
 #include <vtkImageData.h>
 #include <vtkLight.h>
 #include <vtkPNGWriter.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
@@ -188,6 +190,20 @@ void Scene::save(const std::filesystem::path& png) {
     throw InputError(png.string() + ": cannot be drawn: " + messages_.first_error());
   }
   file.commit();
+}
+
+vtkSmartPointer<vtkActor> add_actor(Scene& scene, vtkPolyData* data, const Paint& paint) {
+  const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
+  mapper->SetInputData(data);
+  mapper->ScalarVisibilityOff();
+  const auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  vtkProperty& property = *actor->GetProperty();
+  property.SetAmbient(0.14);
+  property.SetDiffuse(0.88);
+  property.SetColor(paint.r, paint.g, paint.b);
+  scene.renderer().AddActor(actor);
+  return actor;
 }
 
 }  // namespace mesamis::detail

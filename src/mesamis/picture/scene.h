@@ -84,4 +84,11 @@ class Scene {
   CameraAxes axes_;
 };
 
+struct Paint {
+  double r, g, b;  ///< 0 to 1
+};
+
+/// Adds polygons or lines in one colour; scalars that they have are not shown.
+vtkSmartPointer<vtkActor> add_actor(Scene& scene, vtkPolyData* data, const Paint& paint);
+
 }  // namespace mesamis::detail

@@ -5,6 +5,7 @@ set(ROOM_SOURCES
   annotation.cpp
   color_scale.cpp
   display.cpp
+  draw_slice.cpp
   picture.cpp
   scene.cpp
   slice.cpp
