@@ -240,9 +240,8 @@ void add_slab_options(CLI::App& command, SlabArguments& arguments) {
         }
       },
       "Work on an Nth of the scan at a time (auto: on 67 million voxels), for scans that are "
-      "larger "
-      "than the memory; the surface does not depend on N; scratch files lie beside the first "
-      "output");
+      "larger than the memory; the surface does not depend on N; scratch files lie beside the "
+      "first output");
   command.add_option("--checkpoint", arguments.checkpoint,
                      "Folder for the scratch files of --slabs: a run that was killed goes on "
                      "there; removed at the end");

@@ -75,8 +75,8 @@ void parallel_blocks(std::size_t n, std::size_t block,
 
 void parallel_tasks(std::size_t n, int at_once, const std::function<void(std::size_t)>& body) {
   const int threads = thread_count();
-  const int together =
-      std::min({at_once, threads, static_cast<int>(std::min<std::size_t>(n, 1024))});
+  const auto together =
+      static_cast<int>(std::min(n, static_cast<std::size_t>(std::min(at_once, threads))));
   if (together <= 1) {
     for (std::size_t i = 0; i < n; ++i) body(i);
     return;

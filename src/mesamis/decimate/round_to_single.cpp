@@ -8,6 +8,7 @@
 
 #include "mesamis/decimate/openmesh.h"
 #include "mesamis/decimate/single_places.h"
+#include "mesamis/surface/measure.h"
 #include "mesamis/surface/self_intersections.h"
 #include "mesamis/surface/triangle_intersection.h"
 #include "mesamis/surface/unused_points.h"
@@ -150,10 +151,12 @@ class Rounding {
     return false;
   }
 
+  /// Moves the surface by the triangle's height at most.
   void flip_cap(OpenMesh::FaceHandle f, double highest) {
     const auto side = longest_side(f);
     const auto beside = mesh_.opposite_face_handle(side);
-    const double way = height(corner_indices(mesh_, f));
+    const auto [a, b, c] = corner_indices(mesh_, f);
+    const double way = triangle_height(rounded_.points[a], rounded_.points[b], rounded_.points[c]);
     if (way > highest || !flip(side)) return;
     ++report_.flipped;
     move_by(way, {f, beside});
@@ -222,12 +225,6 @@ class Rounding {
 
   double length(OpenMesh::HalfedgeHandle h) const {
     return norm(at(mesh_.to_vertex_handle(h)) - at(mesh_.from_vertex_handle(h)));
-  }
-
-  /// Of a triangle over its longest side.
-  double height(const Triangle& t) const {
-    const Vec3 &a = rounded_.points[t[0]], &b = rounded_.points[t[1]], &c = rounded_.points[t[2]];
-    return norm(cross(b - a, c - a)) / std::max({norm(b - a), norm(c - b), norm(a - c)});
   }
 
   bool flip(OpenMesh::HalfedgeHandle h) {

@@ -19,11 +19,10 @@ constexpr double kOverlap = 8;
 constexpr double kRoundOff = 1e-6;  // slices
 
 Index default_count(const VoxelGrid& whole, Index thinnest) {
-  constexpr double kMostVoxels = 1 << 28;
-  const auto by_memory =
-      static_cast<Index>(std::ceil(static_cast<double>(whole.voxel_count()) / kMostVoxels));
+  constexpr std::size_t kMostVoxels = std::size_t{1} << 28;
   const Index twice_as_thick = whole.size[2] / (2 * thinnest);
-  return std::clamp(std::max(by_memory, twice_as_thick), 1, std::max(1, whole.size[2] / thinnest));
+  return std::clamp(std::max(parts_of(whole, kMostVoxels), twice_as_thick), 1,
+                    std::max(1, whole.size[2] / thinnest));
 }
 
 /// Bounds of slabs, slices.
@@ -79,6 +78,10 @@ class EqualShares {
 };
 
 }  // namespace
+
+Index parts_of(const VoxelGrid& whole, std::size_t voxels) noexcept {
+  return static_cast<Index>(std::max<std::size_t>(1, (whole.voxel_count() + voxels - 1) / voxels));
+}
 
 Index SlabPlan::slices_in(double length) const noexcept {
   return static_cast<Index>(std::ceil(length * unit_mm / whole.spacing.z - kRoundOff));

@@ -60,6 +60,10 @@ struct SlabPlan {
   double least_thickness() const noexcept { return kOverlapsInSlab * overlap; }
 };
 
+/// How many parts of at most so many voxels a scan has, at least 1. O(1).
+/// @throws nothing
+Index parts_of(const VoxelGrid& whole, std::size_t voxels) noexcept;
+
 /// What a plan depends on beside the scan's grid.
 struct SlabOptions {
   double unit_mm = 1;

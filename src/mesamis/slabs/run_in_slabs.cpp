@@ -31,7 +31,7 @@ using namespace detail;
 /// Voxels of which the parameters are chosen.
 constexpr std::size_t kSample = std::size_t{1} << 27;
 /// Voxels that a process works on at a time, unless it is told.
-constexpr double kVoxelsOfATurn = 1 << 26;
+constexpr std::size_t kVoxelsOfATurn = std::size_t{1} << 26;
 /// Slices that are looked at together before there is a plan.
 constexpr Index kChunk = 16;
 
@@ -82,7 +82,7 @@ SlabPlan even_plan(const VoxelGrid& whole, const SlabOptions& options) {
 
 /// Chooses the parameters and cuts the scan: what must be known before slabs can be worked on.
 SlabRun begin_run(const SliceSource& source, const Settings& settings, const Scratch& scratch,
-                  Stages& stages, const std::optional<Index>& slabs) {
+                  Stages& stages, Index slabs) {
   const VoxelGrid& whole = source.grid();
   const SliceRange sample = slices_to_look_at(source, scratch, stages);
   stages.run("choose", 1, [&](Index) {
@@ -376,10 +376,8 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
     if (team.rank() != 0) return std::nullopt;
     return run_whole(source, settings, even, options);
   }
-  const auto by_memory =
-      static_cast<Index>(std::ceil(static_cast<double>(whole.voxel_count()) / kVoxelsOfATurn));
-  Stages stages(scratch, team, progress, options.turns.value_or(by_memory));
-  const SlabRun run = begin_run(source, settings, scratch, stages, options.slabs);
+  Stages stages(scratch, team, progress, options.turns.value_or(parts_of(whole, kVoxelsOfATurn)));
+  const SlabRun run = begin_run(source, settings, scratch, stages, even.count());
   stages.run("image", 1, [&](Index) {
     make_item_file<float>(scratch.path(kImageFile), run.plan.whole.voxel_count());
     return SlabWork{};

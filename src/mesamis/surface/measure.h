@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include "mesamis/surface/tri_mesh.h"
 
 /// What one triangle adds to the measures of its surface.
@@ -17,6 +19,12 @@ inline Vec3 area_vector(const TriMesh& surface, std::size_t t) noexcept {
 /// The area of triangle t, mm^2.
 inline double triangle_area(const TriMesh& surface, std::size_t t) noexcept {
   return 0.5 * norm(area_vector(surface, t));
+}
+
+/// The height of a triangle over its longest side, mm; 0 for one without area.
+inline double triangle_height(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
+  const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
+  return longest > 0 ? norm(cross(b - a, c - a)) / longest : 0;
 }
 
 /// The signed volume of the cone over triangle t with a given apex, mm^3.

@@ -9,6 +9,7 @@
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/half_edges.h"
+#include "mesamis/surface/measure.h"
 
 namespace mesamis {
 namespace {
@@ -35,8 +36,11 @@ using Edge = std::span<const HalfEdge>;
 
 class Splitter {
  public:
-  Splitter(TriMesh& surface, const SplitRule& rule, const SplitOptions& options)
-      : surface_(surface), rule_(rule), least_height_(options.least_height), held_(options.held) {}
+  Splitter(TriMesh& surface, const SplitRule& rule, SplitOptions options)
+      : surface_(surface),
+        rule_(rule),
+        least_height_(options.least_height),
+        held_(std::move(options.held)) {}
 
   /// Splits every edge that the rule asks for. @return false if there was none.
   bool round() {
@@ -87,15 +91,11 @@ class Splitter {
     return corners;
   }
 
-  /// Over its longest edge.
-  double height(const Triangle& t) const {
-    const Vec3 &a = surface_.points[t[0]], &b = surface_.points[t[1]], &c = surface_.points[t[2]];
-    const double longest = std::max({length(t[0], t[1]), length(t[1], t[2]), length(t[2], t[0])});
-    return longest > 0 ? norm(cross(b - a, c - a)) / longest : 0;
-  }
   bool may_be_split(Edge edge) const {
     return std::all_of(edge.begin(), edge.end(), [&](const HalfEdge& h) {
-      return height(surface_.triangles[static_cast<std::size_t>(h.triangle)]) >= least_height_;
+      const auto [a, b, c] = surface_.triangles[static_cast<std::size_t>(h.triangle)];
+      return triangle_height(surface_.points[a], surface_.points[b], surface_.points[c]) >=
+             least_height_;
     });
   }
 
@@ -154,10 +154,11 @@ class Splitter {
 
 }  // namespace
 
-TriMesh split_edges(TriMesh surface, const SplitRule& rule, const SplitOptions& options) {
+TriMesh split_edges(TriMesh surface, const SplitRule& rule, SplitOptions options) {
   require_sound(surface);
-  Splitter splitter(surface, rule, options);
-  for (int n = 0; n < options.rounds && splitter.round(); ++n) {
+  const int rounds = options.rounds;
+  Splitter splitter(surface, rule, std::move(options));
+  for (int n = 0; n < rounds && splitter.round(); ++n) {
   }
   return surface;
 }

@@ -41,6 +41,6 @@ struct SplitOptions {
 /// @throws InputError  as require_sound().
 ///
 /// O(m log m) for m triangles in the end, and one call of the rule per edge and round.
-TriMesh split_edges(TriMesh surface, const SplitRule& rule, const SplitOptions& options);
+TriMesh split_edges(TriMesh surface, const SplitRule& rule, SplitOptions options);
 
 }  // namespace mesamis
