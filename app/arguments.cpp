@@ -37,6 +37,12 @@ std::vector<Number> parse_list(const std::string& text, std::size_t count,
 
 }  // namespace
 
+void refuse_usage(const std::string& message) { throw CLI::ValidationError(message); }
+
+void refuse_usage(const std::string& option, const std::string& message) {
+  throw CLI::ValidationError(option, message);
+}
+
 bool parse_number(const std::string& text, double& value) {
   const auto number = written_number(text);
   value = number.value_or(value);

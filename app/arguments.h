@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
@@ -27,6 +26,12 @@ std::vector<int> parse_integers(const std::string& text, std::size_t count,
 /// @throws CLI::ValidationError  naming the option, if the text is something else.
 std::vector<int> parse_integers(const std::string& text, const std::string& option);
 
+/// Ends the command as one that was used wrongly.
+/// @throws CLI::ValidationError  always; with the option's name in front of the message, if one is
+/// given.
+[[noreturn]] void refuse_usage(const std::string& message);
+[[noreturn]] void refuse_usage(const std::string& option, const std::string& message);
+
 /// Runs a check of options and turns its InputError, which stands for a file, into an error of
 /// usage.
 /// @throws CLI::ValidationError  with the message of the InputError.
@@ -35,7 +40,7 @@ auto as_usage(const Check& check) {
   try {
     return check();
   } catch (const InputError& error) {
-    throw CLI::ValidationError(error.what());
+    refuse_usage(error.what());
   }
 }
 
@@ -47,7 +52,7 @@ auto parsed(const std::string& option, const Parse& parse) {
   try {
     return parse();
   } catch (const InputError& error) {
-    throw CLI::ValidationError(option, error.what());
+    refuse_usage(option, error.what());
   }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -15,6 +14,10 @@
 #include "mesamis/delivery/meshing_surface.h"
 #include "mesamis/method/settings.h"
 #include "progress.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 /// The options of bodies for finite elements, and of surfaces for other meshers, which are their
 /// skins.

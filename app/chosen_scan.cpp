@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "chosen_scan.h"
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "log.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "command_line.h"
 
+#include <CLI/CLI.hpp>
+
 #include "arguments.h"
 #include "mesamis/base/version.h"
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "commands.h"
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
 
 /// The command line of the program: its parser, and what is said where a line is refused.
 namespace mesamis {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,6 +8,10 @@
 #include "mesamis/files/read_limits.h"
 #include "mesamis/record/verdict.h"
 #include "mesamis/slabs/team.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace mesamis {
 

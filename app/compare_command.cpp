@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis compare: distances (14)-(16) between two surfaces, both directions.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "arguments.h"

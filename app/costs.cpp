@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "costs.h"
 
+#include <nlohmann/json.hpp>
+
 #include "process.h"
 
 namespace mesamis {

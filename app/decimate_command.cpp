@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis decimate: any closed surface, with fewer triangles, within a distance.
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "arguments.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "frames_option.h"
 
+#include <CLI/CLI.hpp>
 #include <map>
 #include <string>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis info: what is in a file or a directory, one line each.
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <memory>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,6 +8,10 @@
 
 #include "mesamis/files/read_limits.h"
 #include "mesamis/method/label_surfaces.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 /// The options that say by labels which object is meant.
 namespace mesamis {

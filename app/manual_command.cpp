@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis manual: manual pages and completion for shells, from the parser of the command line.
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "option_facts.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <regex>
 #include <sstream>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +10,10 @@
 #include "mesamis/page/run_page.h"
 #include "mesamis/scan_files/read_volume.h"
 #include "outputs.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 /// A run as a page and as pictures: what `segment` and `report` share.
 namespace mesamis {

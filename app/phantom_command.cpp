@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis phantom: a synthetic scan whose surface is known.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "arguments.h"
 #include "commands.h"

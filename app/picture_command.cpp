@@ -2,6 +2,7 @@
 // mesamis picture: a PNG of a surface, a mesh or a slice of a volume.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <optional>

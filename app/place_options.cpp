@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "place_options.h"
 
+#include <CLI/CLI.hpp>
+
 #include "arguments.h"
 #include "mesamis/object/places.h"
 

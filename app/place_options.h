@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +9,10 @@
 #include "label_options.h"
 #include "mesamis/base/frame.h"
 #include "mesamis/method/chosen_run.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 /// The options that say by a tissue, a place or a mask which object is meant.
 namespace mesamis {

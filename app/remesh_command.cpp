@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis remesh: the box remesher alone, Medit files in and out.
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "costs.h"

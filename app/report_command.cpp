@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis report: the page and the pictures of a run that is done.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 

@@ -2,6 +2,7 @@
 #include "run_plan.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "mesamis/base/error.h"
 #include "mesamis/method/memory.h"

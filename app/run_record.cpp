@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_record.h"
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "costs.h"

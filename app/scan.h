@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "mesamis/scan_files/open_slices.h"
 #include "mesamis/scan_files/read_volume.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace mesamis {
 

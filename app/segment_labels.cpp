@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "segment_labels.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "log.h"

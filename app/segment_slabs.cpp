@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "segment_slabs.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <iterator>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>

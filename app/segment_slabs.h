@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 
 #include "segment_labels.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 /// Runs of `segment` on scans that are larger than the memory.
 namespace mesamis {

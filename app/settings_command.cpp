@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis settings: what every setting means, its default, range and presets.
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "mesamis/method/setting_table.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,6 +8,10 @@
 #include "mesamis/method/setting_table.h"
 #include "mesamis/method/settings.h"
 #include "mesamis/shape_files/surface_files.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 /// The options of every command that runs the method, made from setting_table().
 namespace mesamis {

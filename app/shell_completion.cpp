@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shell_completion.h"
 
+#include <CLI/CLI.hpp>
 #include <vector>
 
 #include "option_facts.h"

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis slice: G-code of a closed surface by a slicer, and what the print takes.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 

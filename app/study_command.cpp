@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis study: how well the surface is found from fewer and fewer slices.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "arguments.h"

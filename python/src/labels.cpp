@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <pybind11/stl.h>
 
+#include <nlohmann/json.hpp>
+
 #include "arrays.h"
 #include "binding.h"
 #include "call.h"

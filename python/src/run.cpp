@@ -3,6 +3,8 @@
 
 #include <pybind11/stl.h>
 
+#include <nlohmann/json.hpp>
+
 #include "arrays.h"
 #include "binding.h"
 #include "call.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <chrono>
+#include <nlohmann/json.hpp>
 
 #include "binding.h"
 #include "mesamis/base/error.h"

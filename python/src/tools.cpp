@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "arrays.h"
 #include "binding.h"

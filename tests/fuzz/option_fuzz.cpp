@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parsers of the command line, a target per command. Lines of the input are arguments. They are
 // parsed and never run: a line sets an action, or is refused in one line of at most 500 characters.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <set>

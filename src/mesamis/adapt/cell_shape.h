@@ -24,20 +24,17 @@ struct CellShape {
 /// Measures the shape of one cell. Source: paper, sec. 3, the singular value decomposition of M_K.
 /// @param points  the vertices of a cell of positive volume, in the unit of the mesh.
 /// @return lengths in the unit of the mesh.
-/// @throws nothing
 ///
 /// O(1), one eigenvalue decomposition.
 CellShape cell_shape(const std::array<Vec3, 4>& points);
 
-/// Computes the three aspect ratios (6): s_i = (lambda_i^2 / (lambda_j lambda_k))^(2/3). O(1).
+/// Computes the three aspect ratios (6): s_i = (lambda_i^2 / (lambda_j lambda_k))^(2/3).
 /// @return s1 >= s2 >= s3 > 0 with s1 s2 s3 = 1, no unit; all 1 for a regular tetrahedron.
-/// @throws nothing
 std::array<double, 3> aspect_ratios(const CellShape& shape);
 
 /// Computes the aspect ratios of all cells.
 /// @param mesh  m cells of positive volume.
 /// @return m values of s1, s2, s3; no unit.
-/// @throws nothing
 ///
 /// O(m), in parallel; the same bits for any number of threads.
 std::vector<std::array<double, 3>> aspect_ratios(const TetMesh& mesh);
@@ -51,7 +48,6 @@ struct AspectSummary {
 /// Computes the maxima and means of aspect_ratios().
 /// @param mesh  m cells of positive volume.
 /// @return no unit; zeros for m = 0.
-/// @throws nothing
 ///
 /// O(m), in parallel, nothing kept per cell. Sums are added in blocks of kBlock cells: the same
 /// bits for any number of threads.

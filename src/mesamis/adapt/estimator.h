@@ -20,10 +20,9 @@ struct PatchSums {
 };
 
 /// Computes the recovered error G^R: int over the patch of (R - grad z)(R - grad z)^T, R the
-/// patch's mean gradient. O(1).
+/// patch's mean gradient.
 /// @param patch  of positive volume.
 /// @return in the unit of z squared times the unit of the mesh.
-/// @throws nothing
 Sym3 recovered_error(const PatchSums& patch);
 
 /// The terms of rho^A and rho^B in the order of Prop. 3.1.
@@ -46,10 +45,9 @@ struct CellData {
   std::array<double, 4> jump_u{}, jump_v{};  ///< |[grad . n]| on it, boundary rule applied
 };
 
-/// Computes the residuals of one cell. Source: Prop. 3.1. O(1).
+/// Computes the residuals of one cell. Source: Prop. 3.1.
 /// @param cell        of positive volume; grey values, lengths in the unit of the mesh.
 /// @param parameters  valid, see require_valid().
-/// @throws nothing
 ResidualTerms residual_terms(const CellData& cell, const AtParameters& parameters);
 
 /// The estimate of one cell.
@@ -59,11 +57,10 @@ struct CellEstimate {
   Sym3 gamma;                     ///< Gamma_K of Prop. 3.2
 };
 
-/// Estimates one cell. Source: (10) and Prop. 3.2. O(1).
+/// Estimates one cell. Source: (10) and Prop. 3.2.
 /// @param cell              of positive volume; grey values, lengths in the unit of the mesh.
 /// @param parameters        valid, see require_valid().
 /// @param error_u, error_v  recovered_error() of u and v on the cell's patch.
-/// @throws nothing
 CellEstimate estimate_cell(const CellData& cell, const AtParameters& parameters,
                            const Sym3& error_u, const Sym3& error_v);
 
@@ -75,10 +72,8 @@ struct EstimateSums {
   /// The estimator, in the unit of its two halves.
   double zeta() const noexcept { return zeta_a + zeta_b; }
   /// Adds the terms of one cell.
-  /// @throws nothing
   void add(const CellEstimate& cell);
   /// Adds the sums over other cells.
-  /// @throws nothing
   void add(const EstimateSums& block);
 };
 

@@ -42,7 +42,6 @@ GridEstimate estimate_on_grid(const KuhnGrid& grid, const AtParameters& paramete
 /// start can miss features one voxel thin.
 /// @param logs    one per node of the grid; changed in place.
 /// @param sweeps  0 or more.
-/// @throws nothing
 ///
 /// O(n) per sweep; copies of an eighth of the logarithms. The same bits for any number of threads.
 void smooth_log_metrics(const KuhnGrid& grid, std::vector<PackedSym3>& logs, int sweeps);

@@ -31,9 +31,6 @@ struct CellMetricOptions {
 /// @param gamma  Gamma_K, symmetric positive semidefinite.
 /// @return symmetric positive definite unless Gamma is zero; in 1 / u^2 for the unit of length u of
 ///         the mesh.
-/// @throws nothing
-///
-/// O(1).
 Sym3 cell_metric(const Sym3& gamma, const CellMetricOptions& options);
 
 /// Predicts the number of cells of a mesh that is ideal in a metric, (11): the sum of
@@ -44,7 +41,7 @@ Sym3 cell_metric(const Sym3& gamma, const CellMetricOptions& options);
 /// @return cells, no unit.
 /// @throws InputError   if the sizes differ; the message gives both.
 ///
-/// O(m). The same bits for any number of threads.
+/// The same bits for any number of threads.
 double predicted_cells(const TetMesh& mesh, std::span<const Sym3> cell_metrics);
 
 /// Averages one metric per cell onto the nodes, ready for the remesher.
@@ -59,7 +56,7 @@ double predicted_cells(const TetMesh& mesh, std::span<const Sym3> cell_metrics);
 /// @return n matrices in the unit of the cells' metrics; edge e is ideal when e'Me = 1.
 /// @throws InputError   if the sizes differ; the message gives both.
 ///
-/// O(m). Summed in cell order: the same bits for any number of threads.
+/// Summed in cell order: the same bits for any number of threads.
 std::vector<Sym3> node_metrics(const TetMesh& mesh, std::span<const Sym3> cell_metrics);
 
 }  // namespace mesamis

@@ -64,9 +64,8 @@ double control_sizes_to_log(const KuhnGrid& grid, std::span<PackedSym3> metrics,
 /// @param log_metrics  logarithms of n metrics in 1 / u^2 for the unit of length u of the grid;
 ///                     changed in place.
 /// @param complexity   > 0, no unit.
-/// @throws nothing
 ///
-/// O(n). The same bits for any number of threads.
+/// The same bits for any number of threads.
 void set_complexity(const KuhnGrid& grid, std::span<PackedSym3> log_metrics, double complexity);
 
 /// Multiplies all sizes of logarithmic metrics by a factor, and clamps them. Those that are at
@@ -74,9 +73,8 @@ void set_complexity(const KuhnGrid& grid, std::span<PackedSym3> log_metrics, dou
 /// @param log_metrics  logarithms of n metrics in 1 / u^2; changed in place.
 /// @param factor       > 0, no unit.
 /// @param size_control  bounds of the sizes, u; its complexity does not count.
-/// @throws nothing
 ///
-/// O(n). The same bits for any number of threads.
+/// The same bits for any number of threads.
 void scale_log_sizes(std::span<PackedSym3> log_metrics, double factor,
                      const SizeControl& size_control);
 

@@ -11,7 +11,6 @@ namespace mesamis {
 class InputError : public std::runtime_error {
  public:
   /// @param message  one line.
-  /// @throws nothing
   explicit InputError(const std::string& message) : std::runtime_error(message) {}
 };
 
@@ -19,7 +18,6 @@ class InputError : public std::runtime_error {
 class NumericalError : public std::runtime_error {
  public:
   /// @param message  one line.
-  /// @throws nothing
   explicit NumericalError(const std::string& message) : std::runtime_error(message) {}
 };
 
@@ -27,7 +25,6 @@ class NumericalError : public std::runtime_error {
 class Cancelled : public std::runtime_error {
  public:
   /// The message is "cancelled".
-  /// @throws nothing
   Cancelled() : std::runtime_error("cancelled") {}
 };
 

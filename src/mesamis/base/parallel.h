@@ -34,7 +34,6 @@ auto with_threads(int count, Work&& work) {
 }
 
 /// The number of threads that are allowed where this is called, at least 1.
-/// @throws nothing
 int thread_count();
 
 /// Items per block of the loops below.

@@ -28,7 +28,6 @@ struct SymEigen {
 /// Decomposes a symmetric matrix. The error of each eigenvalue is relative to the largest.
 /// @param a  finite, of any unit.
 /// @return values in the unit of a; vectors of no unit.
-/// @throws nothing
 ///
 /// O(1), iterative.
 SymEigen eigen_decompose(const Sym3& a);
@@ -37,26 +36,22 @@ SymEigen eigen_decompose(const Sym3& a);
 /// @param values   of any unit.
 /// @param vectors  orthonormal, no unit.
 /// @return in the unit of the values.
-/// @throws nothing
 Sym3 compose(const std::array<double, 3>& values, const std::array<Vec3, 3>& vectors);
 
 /// The matrix logarithm of a symmetric positive definite matrix.
 /// @param a  numbers in any unit; the unit must be known to whoever applies exp_sym().
 /// @return infinite or NaN where an eigenvalue is not positive.
-/// @throws nothing
 Sym3 log_spd(const Sym3& a);
 
 /// The matrix exponential of a symmetric matrix; the inverse of log_spd(). Needs no eigenvectors:
 /// scaling and squaring of a Taylor polynomial, after the trace is taken out.
 /// @param a  finite; no unit.
 /// @return positive definite; numbers in the unit that log_spd() was given.
-/// @throws nothing
 Sym3 exp_sym(const Sym3& a);
 
 /// The inverse of a matrix, by cofactors.
 /// @param a  invertible, of any unit.
 /// @return in the reciprocal of that unit; infinite or NaN where the determinant is zero.
-/// @throws nothing
 Sym3 inverse(const Sym3& a);
 
 }  // namespace mesamis

@@ -3,10 +3,10 @@
 
 namespace mesamis {
 
-/// The version of the library, "0.1.0". Never throws.
+/// The version of the library, "0.1.0".
 const char* version();
 
-/// The commit it was built from, as git describes it; "unknown" outside a checkout. Never throws.
+/// The commit it was built from, as git describes it; "unknown" outside a checkout.
 const char* commit();
 
 }  // namespace mesamis

@@ -10,38 +10,26 @@ namespace mesamis {
 
 /// A finite number, in any unit and any of the usual spellings: 5, +5, .5, 05, 5e3; nothing if the
 /// text is anything else, also with blanks. The decimal point is a point in any locale.
-/// @throws nothing
-///
-/// O(characters).
 std::optional<double> written_number(std::string_view text);
 
 /// Takes a number, in any unit, as written_number() reads it, off the front of a text, as long a
 /// one as possible; nothing, and the text as it was, if it begins otherwise.
-/// @throws nothing
-///
-/// O(characters of the number).
 std::optional<double> take_number(std::string_view& text);
 
 /// Takes a word off the front of a text; false, and the text as it was, if it begins otherwise.
-/// @throws nothing
-///
-/// O(characters of the word).
 bool take(std::string_view& text, std::string_view word);
 
-/// The shortest decimals that read back as the same number. O(1).
+/// The shortest decimals that read back as the same number.
 /// @param value  in any unit.
-/// @throws nothing
 std::string number_text(double value);
 
 /// As many characters of a text go into a message.
 inline constexpr std::size_t kMostQuoted = 60;
 
-/// The beginning of a text as part of a message, in one line: control characters as blanks. O(1).
-/// @throws nothing
+/// The beginning of a text as part of a message, in one line: control characters as blanks.
 std::string quotable(std::string_view text);
 
-/// The beginning of a text in single quotes, others than printable ASCII as '?'. O(1).
-/// @throws nothing
+/// The beginning of a text in single quotes, others than printable ASCII as '?'.
 std::string quoted_text(std::string_view text);
 
 }  // namespace mesamis

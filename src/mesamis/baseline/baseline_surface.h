@@ -31,7 +31,7 @@ struct BaselineSurface {
   std::optional<GeodesicReport> contour;  ///< of kGeodesic
   double seconds = 0;                     ///< wall time of the method, from voxels to triangles
 
-  /// False if the contour did not come to rest. Throws nothing.
+  /// False if the contour did not come to rest.
   bool converged() const { return !contour || contour->converged; }
 };
 

@@ -50,7 +50,6 @@ struct GeodesicContour {
 };
 
 /// Tells whether the library was built with ITK, which geodesic_contour() needs.
-/// @throws nothing
 bool has_geodesic_contour();
 
 /// Segments a scan by a geodesic active contour, the method of ITK-SNAP, to compare with.

@@ -40,21 +40,18 @@ class BodySurface : public BodyShape {
   /// The distance to the surface of one object, negative inside, mm.
   /// @param object  from 1 on.
   /// @param p       mm.
-  /// @throws nothing
   ///
   /// O(log n) for points near the surface.
   double signed_distance(Material object, const Vec3& p) const;
 
-  /// How thick the wall is below each point of a surface, mm; infinite where there is none. O(1).
+  /// How thick the wall is below each point of a surface, mm; infinite where there is none.
   /// @param object  from 1 on.
-  /// @throws nothing
   const std::vector<double>& thickness(Material object) const {
     return parts_[object - 1U]->thickness;
   }
 
-  /// How wide the gap outside each point is, mm; infinite where there is none. O(1).
+  /// How wide the gap outside each point is, mm; infinite where there is none.
   /// @param object  from 1 on.
-  /// @throws nothing
   const std::vector<double>& gap(Material object) const { return parts_[object - 1U]->gap; }
 
  private:

@@ -37,14 +37,9 @@ struct FaceQuery {
 /// or "NAME=inner". Lengths are in mm, with or without the unit.
 /// @param text  the name has letters, digits and underscores, begins with a letter.
 /// @throws InputError  naming the forms there are, and what was found.
-///
-/// O(length).
 FaceQuery parse_face_query(std::string_view text);
 
 /// The query in the world frame (LPS) of one that was written in another: x and y change sign.
-/// @throws nothing
-///
-/// O(1).
 FaceQuery in_lps(FaceQuery query, Frame frame);
 
 /// A face as its cell and the local vertex opposite it.

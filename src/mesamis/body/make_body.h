@@ -45,10 +45,9 @@ struct MeshedBody {
   } seconds;
 };
 
-/// The smallest box around all points of surfaces. O(points).
+/// The smallest box around all points of surfaces.
 /// @param surfaces  mm.
 /// @return mm; as bounding_box() where there are no points.
-/// @throws nothing
 Box bounding_box(std::span<const TriMesh> surfaces);
 
 /// Fills surfaces with well shaped tetrahedra, whose boundary lies within the tolerance of them.

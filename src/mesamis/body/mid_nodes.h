@@ -30,10 +30,9 @@ struct MidNodes {
 MidNodes mid_nodes(const BodyMesh& body, const BodyShape& shape, const Box& box);
 
 /// The least determinant of the Jacobian of a quadratic tetrahedron over its nodes and the
-/// integration points of order two: six times the volume for straight edges, mm^3. O(1).
+/// integration points of order two: six times the volume for straight edges, mm^3.
 /// @param corners  mm.
 /// @param middles  in the order of kMidNodeEdges, mm.
-/// @throws nothing
 double least_jacobian(const std::array<Vec3, 4>& corners, const std::array<Vec3, 6>& middles);
 
 }  // namespace mesamis

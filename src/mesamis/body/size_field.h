@@ -24,7 +24,6 @@ struct SizeRules {
 /// @param surface    n points, closed, 2-manifold, mm.
 /// @param thickness  n, of the wall below each point, mm, see BodySurface::thickness().
 /// @return n sizes, mm.
-/// @throws nothing
 ///
 /// Triangles of size h cut off an edge, which turns by an angle a, by about h / 2 tan(a / 4). A
 /// triangle of size h on a ball of radius r has its middle h^2 / (6 r) below. The radius is that
@@ -37,7 +36,6 @@ std::vector<double> surface_sizes(const TriMesh& surface, std::span<const double
 /// them up to the target inside the objects; outside, where elements are not kept, faster.
 /// @param surfaces  of the shape, mm.
 /// @param box       of the mesh, mm.
-/// @throws nothing
 ///
 /// O(points of the surfaces + nodes of the grid), whose spacing is about the target, but at most
 /// 160 to a side. The same bits for any number of threads.

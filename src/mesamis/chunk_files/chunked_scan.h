@@ -30,22 +30,18 @@ struct ChunkOptions {
 /// the row of chunks is kept for the next call if it takes at most a quarter of the memory allowed.
 class ChunkedScan : public SliceSource {
  public:
-  /// "Zarr", "OME-Zarr" or "HDF5". O(1).
-  /// @throws nothing
+  /// "Zarr", "OME-Zarr" or "HDF5".
   virtual const std::string& format() const = 0;
-  /// One line each: what was assumed or replaced. O(1).
-  /// @throws nothing
+  /// One line each: what was assumed or replaced.
   virtual const std::vector<std::string>& warnings() const = 0;
 };
 
 /// Whether a path is a directory that holds a Zarr array or group (version 2 or 3), or leads to one
 /// within it. O(length of the path) looks at the file system.
-/// @throws nothing
 bool is_zarr(const std::filesystem::path& path) noexcept;
 
 /// Whether a path is an HDF5 file, or leads on into one: "scan.h5/entry/data". O(length of the
 /// path) looks at the file system.
-/// @throws nothing
 bool is_hdf5(const std::filesystem::path& path) noexcept;
 
 /// Opens an array of a Zarr store in a local directory.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/chunk_files/json_value.h"
 
+#include <nlohmann/json.hpp>
+
 #include "mesamis/files/byte_source.h"
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"

@@ -38,7 +38,7 @@ struct DirectedSummary {
 
 /// Summarises the distances of one direction.
 /// @param distances  mm.
-/// @return mm; all zero where there is no distance. Throws nothing. O(n log n) for n distances.
+/// @return mm; all zero where there is no distance.  O(n log n) for n distances.
 DirectedSummary summarize(const DirectedDistances& distances);
 
 /// How many distances lie in each of equal bins from 0 to the longest of all columns.
@@ -53,12 +53,12 @@ struct DistanceHistogram {
 
 /// Counts distances in 100 bins.
 /// @param directions  mm.
-/// @return columns NAME_vertices and NAME_area for each direction. Throws nothing. O(n) for n
+/// @return columns NAME_vertices and NAME_area for each direction.  O(n) for n
 ///         distances.
 DistanceHistogram histogram_of(std::span<const DirectedDistances> directions);
 
 /// Writes a histogram as CSV: the names of the columns, then a row per bin with its bounds in mm,
-/// from_mm and to_mm, and the counts. Throws nothing. O(bins) for each column.
+/// from_mm and to_mm, and the counts.  O(bins) for each column.
 std::string to_csv(const DistanceHistogram& histogram);
 
 }  // namespace mesamis

@@ -26,12 +26,12 @@ struct SurfacePair {
   std::optional<FlipFound> flip;      ///< the surface fits as it is, and better after this
   std::vector<std::string> warnings;  ///< one line each: the surface was turned, a flip fits better
 
-  /// The frame of the surface as it lies here, if it is known. Throws nothing.
+  /// The frame of the surface as it lies here, if it is known.
   std::optional<Frame> frame() const;
 };
 
 /// Whether the surface's x and y must be negated, so that it lies in the reference's frame.
-/// @param reference, surface  frames that the files state, if they do. Throws nothing.
+/// @param reference, surface  frames that the files state, if they do.
 bool must_turn(const std::optional<Frame>& reference, const std::optional<Frame>& surface,
                FrameRule rule);
 

@@ -30,8 +30,6 @@ Sheets cut_into_sheets(const PartitionSurface& partition);
 
 /// The triangles of each sheet, over all points of the sheet.
 /// @param triangles  over the points of the sheets.
-///
-/// O(points + triangles).
 std::vector<TriMesh> split_sheets(const Sheets& sheets, const std::vector<Triangle>& triangles);
 
 }  // namespace mesamis

@@ -35,9 +35,6 @@ struct BodyOutput {
 
 /// What of the promises of a body was missed, on one line: shapes of elements, distances, volume,
 /// objects without an element, sets without a face. Empty: nothing.
-/// @throws nothing
-///
-/// O(elements).
 std::string unmet(const BodyOutput& body);
 
 /// Checks the names of sets, of which solvers do not tell upper case from lower, before any work.

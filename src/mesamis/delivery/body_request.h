@@ -36,9 +36,8 @@ struct BodySource {
 };
 
 /// What is wrong with a least size above the element size, without its name; empty where it is not
-/// or one of both is left open. O(1).
+/// or one of both is left open.
 /// @param options  sizes in mm.
-/// @throws nothing
 std::string wrong_least_size(const BodyOptions& options);
 
 /// Checks numbers: sizes, depths and gaps are finite, in mm and MPa, >= 0 (sizes of 0 are left
@@ -67,11 +66,10 @@ BodyRequest complete_request(const BodyWishes& wishes, std::span<const FoundObje
                              const BodySource& source);
 
 /// A warning of parts that do not touch each other: they have to be held one by one, or a solver
-/// finds no balance. O(1).
+/// finds no balance.
 /// @param parts    connected by faces.
 /// @param objects  that were filled.
 /// @return empty if there are no more parts than objects.
-/// @throws nothing
 std::string loose_parts(std::int64_t parts, std::int64_t objects);
 
 }  // namespace mesamis

@@ -17,7 +17,6 @@ namespace mesamis {
 /// @param points   world frame, mm, finite.
 /// @param objects  closed surfaces.
 /// @return the place among the objects; kNoIndex outside of all.
-/// @throws nothing
 ///
 /// O(points + triangles + pairs of a triangle and a point that its box covers along x), in threads.
 /// The same for any number of them.
@@ -26,7 +25,6 @@ std::vector<Index> objects_at(std::span<const Vec3> points, std::span<const Foun
 /// Gives each cell of a mesh the object that its centroid lies in: a set for what lies outside,
 /// BACKGROUND, and one per object, L and its label and name.
 /// @param mesh  world frame, mm.
-/// @throws nothing
 ///
 /// Cost as objects_at().
 CellSets label_sets(const TetMesh& mesh, std::span<const FoundObject> objects);

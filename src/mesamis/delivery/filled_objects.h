@@ -19,8 +19,7 @@ struct FilledObjects {
 };
 
 /// The element size that is aimed at: the one asked for, or three voxels.
-/// @return mm. O(1).
-/// @throws nothing
+/// @return mm.
 double element_size(const BodyOptions& options, const VoxelGrid& grid);
 
 /// Fills objects with elements in the axes of a scan's grid: where an object ends at the border of

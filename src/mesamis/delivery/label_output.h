@@ -17,8 +17,7 @@ struct FoundObject {
   Segment segment;         ///< the label and layer of its voxels
 };
 
-/// The objects of a run on labels, which must live as long. O(objects).
-/// @throws nothing
+/// The objects of a run on labels, which must live as long.
 std::vector<FoundObject> found_objects(const LabelResult& result);
 
 /// One warning per object that was asked for and of which nothing was found. O(objects squared).
@@ -35,7 +34,6 @@ std::vector<std::string> missing_objects(const LabelResult& result,
 /// @param grid     of the scan.
 /// @param objects  segments with different labels, or layers.
 /// @return as many layers as the segments need.
-/// @throws nothing
 ///
 /// O(voxels * layers + triangles + crossings of the lines, up to a logarithm). Memory: the labels,
 /// and 24 bytes per crossing. The same labels for any number of threads.

@@ -22,9 +22,8 @@ struct LineCrossing {
 };
 
 /// Intersects a triangle, counter-clockwise seen from outside, with the line of all points with
-/// that y and z. A line through an edge or a corner crosses what a line beside it would. O(1).
+/// that y and z. A line through an edge or a corner crosses what a line beside it would.
 /// @return nothing where the line passes beside the triangle or in its plane.
-/// @throws nothing
 std::optional<LineCrossing> line_crossing(const std::array<NumberedCorner, 3>& triangle, double y,
                                           double z);
 

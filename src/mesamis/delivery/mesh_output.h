@@ -49,7 +49,7 @@ struct MeshOutput {
 /// @param options  the region, and the number of bins.
 /// @throws InputError  if no cell belongs to the object, or there is no bin.
 ///
-/// O(voxels + cells). Memory: a copy of the region and of its fields.
+/// Memory: a copy of the region and of its fields.
 MeshOutput make_mesh_output(const Result& result, const VolumeView& volume,
                             const MeshOptions& options);
 
@@ -68,7 +68,6 @@ MeshOutput make_mesh_output(const Result& result, const VolumeView& volume,
 /// that it shares with other pieces are of its own cells.
 /// @param piece   a result with that part of the mesh.
 /// @param volume  the whole scan, native units.
-/// @throws nothing
 ///
 /// O(voxels in the piece's box + cells).
 MeshWithArrays make_mesh_piece(const Result& piece, const VolumeView& volume);
@@ -78,20 +77,15 @@ MeshWithArrays make_mesh_piece(const Result& piece, const VolumeView& volume);
 /// name that holds its fields.
 /// @param frame  of the points, vectors and tensors in the file.
 /// @throws InputError  as write_vtu(), write_medit_mesh(), write_gmsh() or write_abaqus().
-///
-/// O(nodes + cells).
 void write_mesh(const std::filesystem::path& path, const MeshOutput& mesh, Frame frame);
 
 /// The extensions of write_mesh(), with their dots. O(1) time and memory.
-/// @throws nothing
 std::vector<std::string> written_mesh_formats();
 
 /// Writes the cells of the band alone with v as a .vtu: T_h^th and v_h^th.
 /// @param result  of mes_amis().
 /// @param frame   of the points in the file.
 /// @throws InputError  as write_vtu().
-///
-/// O(nodes + cells).
 void write_band_mesh(const std::filesystem::path& path, const Result& result, Frame frame);
 
 }  // namespace mesamis

@@ -22,8 +22,7 @@ struct MeshingQuality {
 };
 
 /// What of the promise was missed, as "least angle of 12.3 degrees, expected 20; ..."; empty: it
-/// was kept. O(1).
-/// @throws nothing
+/// was kept.
 std::string unmet(const MeshingQuality& quality);
 
 /// Compares a surface for meshers with the one that it stands for.

@@ -17,21 +17,18 @@ class GridMass {
   struct Row {
     double first, inside, last;
     Index length;
-    /// Of node i of the line. O(1).
+    /// Of node i of the line.
     /// @return in the cube of the unit of the spacing.
-    /// @throws nothing
     double at(Index i) const noexcept { return i == 0 ? first : i + 1 == length ? last : inside; }
   };
 
-  /// Finds the 27 masses. O(1).
+  /// Finds the 27 masses.
   /// @param grid  at least two nodes along each axis.
-  /// @throws nothing
   explicit GridMass(const KuhnGrid& grid) : size_(grid.size), quarter_(grid.cell_volume() / 4) {
     for (std::size_t side = 0; side < masses_.size(); ++side) masses_[side] = of_side(side);
   }
 
-  /// Of the line of nodes (., j, k), in the cube of the spacing's unit. O(1).
-  /// @throws nothing
+  /// Of the line of nodes (., j, k), in the cube of the spacing's unit.
   Row row(Index j, Index k) const noexcept {
     const std::size_t across = 3 * side_of(j, size_[1]) + 9 * side_of(k, size_[2]);
     return {masses_[across], masses_[across + 1], masses_[across + 2], size_[0]};
@@ -39,7 +36,6 @@ class GridMass {
 
   /// Of node n. O(1), two divisions.
   /// @return in the cube of the unit of the spacing.
-  /// @throws nothing
   double at(std::size_t n) const noexcept {
     const auto [i, j, k] = grid_place(size_, static_cast<unsigned>(n));
     return masses_[side_of(i, size_[0]) + 3 * side_of(j, size_[1]) + 9 * side_of(k, size_[2])];

@@ -43,7 +43,7 @@ struct KuhnGrid {
 /// a 7-point stencil with one conductance per axis edge, and an M-matrix.
 class GridSpace : public P1Space {
  public:
-  /// Computes the lumped mass. O(n).
+  /// Computes the lumped mass.
   /// @param grid  n nodes.
   /// @throws InputError  for fewer than two nodes along an axis.
   explicit GridSpace(const KuhnGrid& grid);

@@ -17,17 +17,15 @@ struct CellGeometry {
   std::array<Vec3, 4> gradients;
 };
 
-/// Computes the geometry of one cell. O(1).
+/// Computes the geometry of one cell.
 /// @param cell  the index of a cell of positive volume.
 /// @return volume in u^3, gradients in 1 / u for the unit of length u of the mesh.
-/// @throws nothing
 CellGeometry cell_geometry(const TetMesh& mesh, Index cell);
 
-/// Computes the constant gradient of u on a cell. O(1).
+/// Computes the constant gradient of u on a cell.
 /// @param geometry  of that cell.
 /// @param u         one value per node of the mesh, any unit.
 /// @return in the unit of u per unit of length of the mesh.
-/// @throws nothing
 Vec3 cell_gradient(const CellGeometry& geometry, const Cell& cell, std::span<const double> u);
 
 /// P1 functions on a tetrahedral mesh. Keeps six stiffness weights per cell, so that each new
@@ -37,7 +35,6 @@ class MeshSpace : public P1Space {
   /// Computes the matrices' graph, the stiffness weights and the lumped mass.
   /// @param mesh  n nodes, m cells of positive volume. The space refers to it: the mesh must live
   ///              longer.
-  /// @throws nothing
   ///
   /// O(m), in parallel.
   explicit MeshSpace(const TetMesh& mesh);
@@ -51,9 +48,6 @@ class MeshSpace : public P1Space {
 
   /// Assembles the consistent mass matrix: |K|/20 (1 + delta_ij) summed over the cells, in the cube
   /// of the unit of length of the mesh.
-  /// @throws nothing
-  ///
-  /// O(m).
   MatrixOperator consistent_mass() const;
 
  private:

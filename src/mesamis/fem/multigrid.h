@@ -16,12 +16,12 @@ namespace mesamis {
 /// Baker, Falgout, Kolev, Yang, Multigrid smoothers for ultraparallel computing, SISC 33, 2011.
 class Multigrid {
  public:
-  /// Builds the levels. O(n).
+  /// Builds the levels.
   /// @param a  n unknowns. The preconditioner refers to it: it must live longer.
   explicit Multigrid(const SpdOperator& a);
   ~Multigrid();
 
-  /// z = B r, one cycle from zero. O(n). Works in memory of the levels: not for two threads at
+  /// z = B r, one cycle from zero. Works in memory of the levels: not for two threads at
   /// once.
   void apply(std::span<const double> r, std::span<double> z) const;
 

@@ -21,12 +21,10 @@ class P1Space {
   virtual ~P1Space() = default;
 
   /// The number of nodes n.
-  /// @throws nothing
   std::size_t node_count() const { return lumped_mass().size(); }
 
   /// The lumped mass, m_n = sum of |K|/4 over the cells around node n: n weights of the integrals
-  /// of P_h, in the cube of the unit of length of the mesh. O(1).
-  /// @throws nothing
+  /// of P_h, in the cube of the unit of length of the mesh.
   virtual const std::vector<double>& lumped_mass() const = 0;
 
   /// Makes the operator diag(d) + K(c), with K(c)_ij = sum_K c_K |K| grad phi_i . grad phi_j and
@@ -36,7 +34,6 @@ class P1Space {
   /// @param scale, offset  such that no c_K is negative; offset in the unit of scale times w.
   /// @param diagonal       d, n positive values, in the unit of c times a length.
   /// @return n unknowns; it does not refer to the arguments.
-  /// @throws nothing
   ///
   /// O(n + m) for m cells.
   virtual std::unique_ptr<SpdOperator> diffusion(std::span<const double> w, double scale,
@@ -46,7 +43,6 @@ class P1Space {
   /// Computes s_n = sum of |K|/4 |grad u|_K^2 over the cells around node n.
   /// @param u  n values of any unit.
   /// @return n values, in the unit of u squared times the unit of length of the mesh.
-  /// @throws nothing
   ///
   /// O(n + m) for m cells.
   virtual std::vector<double> gradient_squares(std::span<const double> u) const = 0;

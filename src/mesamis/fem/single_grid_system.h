@@ -18,24 +18,17 @@ class SingleGridSystem {
  public:
   /// Reserves the memory: 28 bytes per node.
   /// @param grid  at least two nodes along each axis.
-  /// @throws nothing
   explicit SingleGridSystem(const KuhnGrid& grid);
 
   /// d: to be set, n positive values, in the unit of c times a length, before solve() is called.
-  /// O(1).
-  /// @throws nothing
   std::vector<float>& diagonal() noexcept { return diagonal_; }
   /// b: to be set, n values in the unit of d times that of x, before solve() is called, which
-  /// changes them. O(1).
-  /// @throws nothing
+  /// changes them.
   std::vector<float>& right() noexcept { return r_; }
 
   /// Adds K(c) with the cell coefficient c_K = scale * (mean of v^2 over the nodes of K) + offset.
   /// @param v  n values of any unit, or empty: then c_K = offset.
   /// @param scale, offset  such that no c_K is negative; offset in the unit of scale times v^2.
-  /// @throws nothing
-  ///
-  /// O(n).
   void couple(std::span<const float> v, double scale, double offset);
 
   /// Solves the system by conjugate gradients with the Jacobi preconditioner.
@@ -43,7 +36,6 @@ class SingleGridSystem {
   /// @param options  of max_iterations and jacobi_iterations the smaller counts.
   /// @return the residual is that of the recurrence, which round-off may part from the true one by
   ///         about 1e-6.
-  /// @throws nothing
   ///
   /// O(n) per iteration. The same bits for any number of threads.
   SolveReport solve(std::span<float> x, const SolveOptions& options);
@@ -66,7 +58,6 @@ class SingleGridSystem {
 /// Computes P1Space::gradient_squares() on a grid in single precision.
 /// @param u        n values of any unit.
 /// @param squares  n values, overwritten; in the square of that unit times the grid's.
-/// @throws nothing
 ///
 /// O(n), in threads; the same bits for any number of them.
 void find_gradient_squares(const KuhnGrid& grid, std::span<const float> u,
@@ -74,7 +65,6 @@ void find_gradient_squares(const KuhnGrid& grid, std::span<const float> u,
 
 /// Adds up term(n, mass of n) over the nodes of a grid, line by line.
 /// @return in the unit of the terms.
-/// @throws nothing
 ///
 /// O(n), in threads; the same bits for any number of them.
 double sum_over_nodes(const KuhnGrid& grid, const GridMass& mass,

@@ -33,7 +33,6 @@ struct SolveReport {
 /// @param x  in: the first guess, n values; out: the solution, in the unit of b / A. A zero b gives
 ///           a zero x.
 /// @return reaching the iteration limit is no error: the report says so.
-/// @throws nothing
 ///
 /// O(n) per iteration, three vectors besides. The same bits for any number of threads.
 SolveReport solve(const SpdOperator& a, std::span<const double> b, std::span<double> x,

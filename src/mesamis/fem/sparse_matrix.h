@@ -26,7 +26,6 @@ struct Triplet {
 /// Assembles a matrix. Values of the same place are added in the order given.
 /// @param rows      number of rows and columns.
 /// @param triplets  within the matrix; each row should have its diagonal.
-/// @throws nothing
 ///
 /// O(t log t) for t triplets.
 SparseMatrix from_triplets(Index rows, std::vector<Triplet> triplets);

@@ -14,26 +14,21 @@ class SpdOperator {
  public:
   virtual ~SpdOperator() = default;
   /// The number of unknowns n.
-  /// @throws nothing
   virtual std::size_t size() const = 0;
-  /// The n entries a_ii > 0, any unit. O(1).
-  /// @throws nothing
+  /// The n entries a_ii > 0, any unit.
   virtual const std::vector<double>& diagonal() const = 0;
 
   /// Applies the operator: y = A x. O(n) for rows of bounded length.
   /// @param x  n values of any unit.
   /// @param y  n values, overwritten; must not overlap x.
-  /// @throws nothing
   virtual void apply(std::span<const double> x, std::span<double> y) const = 0;
 
   /// Computes the n sums of |a_ij| over a row, in the unit of the entries: the scaling of the
   /// l1-Jacobi smoother. O(n) for rows of bounded length.
-  /// @throws nothing
   virtual std::vector<double> absolute_row_sums() const = 0;
 
   /// Groups the unknowns: the group of each, n numbers from 0 without gaps. A group is a few
   /// strongly coupled unknowns, which are one unknown on the next level of multigrid.
-  /// @throws nothing
   ///
   /// O(n) for rows of bounded length.
   virtual std::vector<Index> aggregates() const = 0;
@@ -41,7 +36,6 @@ class SpdOperator {
   /// Makes the Galerkin operator on the groups: A_IJ = sum of a_ij over i in I, j in J.
   /// @param aggregate  the group of each unknown, n numbers in [0, count).
   /// @param count      number of groups.
-  /// @throws nothing
   ///
   /// O(n log n).
   virtual SparseMatrix coarsen(std::span<const Index> aggregate, Index count) const = 0;
@@ -52,7 +46,6 @@ class MatrixOperator : public SpdOperator {
  public:
   /// Takes over the matrix and copies its diagonal. O(n) for rows of bounded length.
   /// @param matrix  symmetric positive definite, the diagonal stored.
-  /// @throws nothing
   explicit MatrixOperator(SparseMatrix matrix);
   std::size_t size() const override { return diagonal_.size(); }
   const std::vector<double>& diagonal() const override { return diagonal_; }

@@ -39,7 +39,6 @@ struct ProjectedImage {
 /// @param image  grey values.
 /// @param space  on a mesh whose coordinates run along the grid's axes.
 /// @return one grey value per node. At edges it over- and undershoots, as projections do.
-/// @throws nothing
 ///
 /// O(voxels + cells) and one solve with the consistent mass matrix. The same bits for any number of
 /// threads.
@@ -51,7 +50,6 @@ ProjectedImage project_image(const SplineImage& image, const MeshSpace& space,
 /// identity.
 /// @param grid  n nodes, no more than voxels along each axis.
 /// @return n values in the unit of the samples.
-/// @throws nothing
 ///
 /// O(voxels), in parallel.
 std::vector<float> project_image(const VolumeView& image, const KuhnGrid& grid);
@@ -71,9 +69,6 @@ struct ImageMeans {
 /// @param mesh   in the world frame, mm, within the image's box (values beyond are those on it);
 ///               every point belongs to a cell.
 /// @return native units. The same bits for any number of threads.
-/// @throws nothing
-///
-/// O(voxels + cells).
 ImageMeans average_image(const VolumeView& image, const TetMesh& mesh);
 
 /// Evaluates P1 functions of a mesh at points.
@@ -94,9 +89,6 @@ std::vector<std::vector<double>> interpolate_fields(const TetMesh& from,
 /// @param fields  for each field one value per node of `from`, any unit.
 /// @param points  in the grid's own axes; clamped to its box.
 /// @return for each field one value per point, in the unit of the field.
-/// @throws nothing
-///
-/// O(points).
 std::vector<std::vector<double>> interpolate_fields(const KuhnGrid& from,
                                                     std::span<const std::span<const float>> fields,
                                                     std::span<const Vec3> points);

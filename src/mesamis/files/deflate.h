@@ -16,7 +16,7 @@ inline constexpr std::uint64_t kMostDeflateRatio = 1032;
 /// Compresses bytes that come in parts as one gzip stream: the same bytes, however they are cut.
 class Deflater {
  public:
-  /// Starts a stream. O(1).
+  /// Starts a stream.
   /// @param path   the file to be written, for messages.
   /// @param level  zlib's, 1 (fastest) to 9 (smallest).
   /// @throws InputError  if zlib cannot be started.
@@ -27,13 +27,11 @@ class Deflater {
 
   /// Takes the next bytes.
   /// @return what zlib hands out by now; the rest comes later.
-  /// @throws nothing
   ///
   /// Linear in the bytes; memory: what is returned.
   std::string add(std::string_view bytes);
-  /// Ends the stream, once. O(1).
+  /// Ends the stream, once.
   /// @return its last bytes.
-  /// @throws nothing
   std::string finish();
 
  private:

@@ -13,9 +13,8 @@ namespace mesamis::detail {
 /// @throws InputError  naming the path, unless all three are positive and finite.
 void require_positive_spacing(const std::filesystem::path& path, const Vec3& spacing);
 
-/// The warning that another spacing than the file's was given. O(1).
+/// The warning that another spacing than the file's was given.
 /// @param stated  by the file, mm.
-/// @throws nothing
 std::string spacing_is_replaced(const Vec3& stated);
 
 }  // namespace mesamis::detail

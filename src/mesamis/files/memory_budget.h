@@ -24,16 +24,16 @@ class MemoryBudget {
   MemoryBudget(const MemoryBudget&) = delete;
   MemoryBudget& operator=(const MemoryBudget&) = delete;
 
-  /// Asks for memory before it is taken. Products and sums are checked in 64 bits. O(1).
+  /// Asks for memory before it is taken. Products and sums are checked in 64 bits.
   /// @param count  of the things, each of so many bytes.
   /// @param what   the things, for the message: "triangles".
   /// @throws InputError  if it is more than what is left: one line that names the file, what was
   ///                     claimed and what is allowed.
   void claim(std::uint64_t count, std::uint64_t bytes_each, std::string_view what);
-  /// Gives back what was claimed and is free again. O(1).
+  /// Gives back what was claimed and is free again.
   void give_back(std::uint64_t bytes) noexcept { held_ -= std::min(bytes, held_); }
 
-  /// Messages name this file from now on. O(1).
+  /// Messages name this file from now on.
   /// @return the file that they named before.
   std::filesystem::path rename(std::filesystem::path file) {
     return std::exchange(file_, std::move(file));

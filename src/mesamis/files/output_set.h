@@ -27,15 +27,13 @@ class OutputSet {
   };
 
   /// Begins an empty set.
-  /// @throws nothing
   OutputSet();
   /// Removes the files that are not renamed. On the thread of the constructor, sets within first.
   ~OutputSet();
   OutputSet(const OutputSet&) = delete;
   OutputSet& operator=(const OutputSet&) = delete;
 
-  /// Tells which files wait in this set, in the order in which they came. O(files).
-  /// @throws nothing
+  /// Tells which files wait in this set, in the order in which they came.
   std::vector<Member> members() const;
   /// Renames all files, and brings the names to the disk.
   /// @throws InputError  if one cannot be renamed; all are then as they were. On file systems that

@@ -23,7 +23,6 @@ int create_owned(const std::filesystem::path& file) noexcept;
 bool is_abandoned(const std::filesystem::path& file) noexcept;
 
 /// Removes the files with names of new_name() in a folder whose owners are gone. All else stays.
-/// @throws nothing
 void remove_abandoned(const std::filesystem::path& folder) noexcept;
 
 }  // namespace mesamis::detail

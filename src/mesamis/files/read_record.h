@@ -16,7 +16,7 @@ struct FileState {
   bool operator==(const FileState&) const = default;
 };
 
-/// @throws InputError  if there is no such file, or none that may be asked. O(1).
+/// @throws InputError  if there is no such file, or none that may be asked.
 FileState state_of(const std::filesystem::path& file);
 
 struct ReadFile {
@@ -29,7 +29,6 @@ struct ReadFile {
 class ReadRecord {
  public:
   /// Begins an empty record.
-  /// @throws nothing
   ReadRecord();
   ~ReadRecord();
   ReadRecord(const ReadRecord&) = delete;
@@ -46,12 +45,12 @@ class ReadRecord {
   std::vector<ReadFile> files_;
 };
 
-/// For readers: notes a file that was opened, where somebody asks. O(1).
+/// For readers: notes a file that was opened, where somebody asks.
 /// @param before  its state before it was opened.
 /// @throws InputError  if it has changed since.
 void note_read(const std::filesystem::path& file, const FileState& before);
 
-/// @throws InputError  if the file is not in the state any more in which it was opened. O(1).
+/// @throws InputError  if the file is not in the state any more in which it was opened.
 void require_unchanged(const ReadFile& file);
 
 }  // namespace mesamis

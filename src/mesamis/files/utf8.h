@@ -9,19 +9,15 @@
 namespace mesamis {
 
 /// Whether a text is UTF-8 (RFC 3629): no character in more bytes than it needs, no halves of
-/// pairs, none beyond U+10FFFF. O(bytes).
-/// @throws nothing
+/// pairs, none beyond U+10FFFF.
 bool is_utf8(std::string_view text) noexcept;
 
 /// A text of any bytes as a line that a terminal shows as it is: control characters, among them
-/// those of two bytes, and each byte that belongs to no character of UTF-8 become '?'. O(bytes).
-/// @throws nothing
+/// those of two bytes, and each byte that belongs to no character of UTF-8 become '?'.
 std::string as_one_line(std::string_view text);
 
 /// A text, or its beginning and its end where it is longer. Characters of UTF-8 stay whole.
-/// O(bytes).
 /// @param longest  bytes, at least 5.
-/// @throws nothing
 std::string shortened(const std::string& text, std::size_t longest);
 
 }  // namespace mesamis

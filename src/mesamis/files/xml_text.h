@@ -8,8 +8,6 @@ namespace mesamis {
 
 /// Escapes a text for an XML element or attribute, in UTF-8. '?' replaces each byte that XML does
 /// not allow: control characters other than tab and line ends, and bytes that are not UTF-8.
-/// O(bytes).
-/// @throws nothing
 std::string xml_escaped(std::string_view text);
 
 }  // namespace mesamis

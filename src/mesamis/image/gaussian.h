@@ -8,7 +8,6 @@ namespace mesamis {
 /// How many voxels away a voxel still counts in gaussian_smoothed(): four standard deviations,
 /// rounded up.
 /// @param sigma  standard deviation in voxels, 0 to 100.
-/// @throws nothing
 Index gaussian_reach(double sigma);
 
 /// Convolves a volume with a Gaussian, one axis of the grid after the other.

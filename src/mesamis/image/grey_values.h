@@ -29,13 +29,11 @@ struct GreyMap {
 /// Maps all samples to grey values, clamped to [max(0, f(T)), 255].
 /// @param volume  native values; taken over, pass it with std::move() to save the copy.
 /// @throws InputError  unless low < high.
-/// O(voxels).
 Volume apply(const GreyMap& map, Volume volume);
 
 /// Finds the least and the largest of the samples.
 /// @param samples  at least one, all finite, any unit.
 /// @return in that unit, the least first.
-/// @throws nothing
 ///
 /// O(samples), in threads.
 std::pair<float, float> sample_range(std::span<const float> samples);
@@ -44,9 +42,6 @@ std::pair<float, float> sample_range(std::span<const float> samples);
 /// @param volume     at least one sample, all finite; the grid does not count.
 /// @param fractions  0 to 1.
 /// @return native units, one per fraction.
-/// @throws nothing
-///
-/// O(voxels).
 std::vector<double> quantiles(const VolumeView& volume, const std::vector<double>& fractions);
 
 /// Two classes of samples, native units.
@@ -59,16 +54,12 @@ struct OtsuSplit {
 /// Otsu, A threshold selection method from gray-level histograms, IEEE SMC 9, 1979.
 /// @param volume  at least one sample, all finite; the grid does not count.
 /// @param below   native units: only samples below this value count.
-/// @throws nothing
-///
-/// O(voxels).
 OtsuSplit otsu_split(const VolumeView& volume,
                      double below = std::numeric_limits<double>::infinity());
 
 /// Whether the samples are Hounsfield units: the modality is CT or, where it is unknown, the values
 /// begin near those of air (-1000).
 /// @param volume  at least one sample, all finite.
-/// @throws nothing
 ///
 /// O(voxels) where the modality is unknown.
 bool is_hounsfield(const VolumeView& volume);
@@ -89,15 +80,11 @@ struct Window {
 /// @param volume      at least one sample, all finite.
 /// @param background  value around the object, native units, see ObjectContrast.
 /// @return native units; low < high unless all samples are equal.
-/// @throws nothing
-///
-/// O(voxels).
 Window default_window(const VolumeView& volume, double background);
 
 /// Bounds all samples by a window: what lies beyond takes the value of its end.
 /// @param window  native units; low at most high.
 /// @return native units.
-/// @throws nothing
 ///
 /// O(voxels), in threads; a copy of the samples.
 Volume clamped(const VolumeView& volume, const Window& window);
@@ -107,7 +94,6 @@ Volume clamped(const VolumeView& volume, const Window& window);
 /// than twice as long as along the shortest is not smoothed: slices that far apart show different
 /// parts of the object.
 /// @param volume  as many samples as voxels.
-/// @throws nothing
 ///
 /// O(voxels), a copy of the samples. The same bits for any number of threads.
 Volume smoothed(const VolumeView& volume);

@@ -23,8 +23,6 @@ struct GridAxes {
 /// @param steps  from a voxel to the next along i, j, k; mm.
 /// @throws InputError  for cosines above kSkewTolerance, and a step of length 0 or that is not
 ///                     finite.
-///
-/// O(1).
 GridAxes grid_axes(const std::array<Vec3, 3>& steps);
 
 }  // namespace mesamis

@@ -47,23 +47,19 @@ struct Probabilities : VoxelGrid {
 /// @return a copy of the only segment that fits.
 /// @throws InputError  if none or more than one fits; the message names those that come near, or
 ///                     those that fit.
-///
-/// O(segments).
 Segment find_segment(std::span<const Segment> segments, std::string_view name_or_label);
 
 /// Finds the label at a point of the world: that of the nearest voxel centre of the map. On the
-/// face between two voxels (to 1e-6 of a voxel) the one of the greater index counts. O(1).
+/// face between two voxels (to 1e-6 of a voxel) the one of the greater index counts.
 /// @param layer  one of the map's.
 /// @param world  LPS, mm.
 /// @return 0 outside of the map's voxels.
-/// @throws nothing
 Index label_at(const LabelMap& map, Index layer, const Vec3& world);
 
 /// Brings a label map onto another grid, of any spacing, direction and extent: each voxel gets the
 /// labels at the world position of its centre, see label_at().
 /// @param grid  such as that of the scan; its voxels outside of the map are background.
 /// @return the map on the grid, with all its segments.
-/// @throws nothing
 ///
 /// O(voxels of the grid * layers), in threads.
 LabelMap labels_on(const LabelMap& map, const VoxelGrid& grid);
@@ -71,7 +67,6 @@ LabelMap labels_on(const LabelMap& map, const VoxelGrid& grid);
 /// Marks some segments on another grid, as labels_on() would.
 /// @param segments  of the map; together they are the object.
 /// @return 1 for each voxel of the grid in one of the segments, else 0; i runs fastest.
-/// @throws nothing
 ///
 /// O(voxels of the grid * layers), in threads.
 std::vector<std::uint8_t> mask_on(const LabelMap& map, std::span<const Segment> segments,
@@ -88,19 +83,14 @@ std::vector<float> probability_on(const Probabilities& from, Index layer, const 
 /// Gives each voxel the label of the object that is most probable there, the first of several; 0
 /// where the background, of which the objects leave so much, is more probable than each of them.
 /// @return one layer with the segments of the probabilities.
-/// @throws nothing
 ///
 /// O(voxels * objects), in threads.
 LabelMap most_probable(const Probabilities& from);
 
 /// Finds the smallest range of the map's own voxels that holds a segment; none if it has no voxel.
-/// @throws nothing
-///
-/// O(voxels).
 std::optional<CropRange> range_of(const LabelMap& map, const Segment& segment);
 
 /// Finds that range for all segments of the map, in their order, in one walk over the voxels.
-/// @throws nothing
 ///
 /// O(voxels * layers).
 std::vector<std::optional<CropRange>> ranges_of(const LabelMap& map);
@@ -108,30 +98,24 @@ std::vector<std::optional<CropRange>> ranges_of(const LabelMap& map);
 /// Adds a segment for each label that occurs and has none, after the others, by layer and label. It
 /// is called "label N" and has the colour default_colour(N).
 /// @throws InputError  if there are then more than kMaxLabel segments.
-///
-/// O(voxels).
 LabelMap with_all_segments(LabelMap map);
 
 /// Gives the segments the names and colours that a table has for their labels, in every layer. The
 /// rows of the table for other labels are not used.
 /// @param table  as read_label_table() returns it.
-/// @throws nothing
 ///
 /// O(segments + rows), up to a logarithm.
 LabelMap with_names(LabelMap map, std::span<const Segment> table);
 
 /// A colour for a label that a file gives none: the same for the same label, and far apart for
-/// neighbours. O(1).
+/// neighbours.
 /// @return red, green, blue (sRGB).
-/// @throws nothing
 std::array<std::uint8_t, 3> default_colour(Index label);
 
 /// Checks what LabelMap promises: as many labels as voxels in each layer, a segment for each label
 /// that occurs, at most kMaxLabel segments, their labels and layers in range, no two of one layer
 /// and label, no empty name.
 /// @throws InputError  naming the first condition that does not hold.
-///
-/// O(voxels).
 void require_valid(const LabelMap& map);
 
 }  // namespace mesamis

@@ -11,12 +11,10 @@ namespace mesamis {
 /// Finds the body axis nearest to a direction, either way; of equals the first.
 /// @param direction  LPS, not zero, of any unit.
 /// @return 0 x, 1 y, 2 z; no unit.
-/// @throws nothing
 int body_axis(const Vec3& direction) noexcept;
 
 /// Names the side of the body that a direction points to most: L or R, P or A, S or I.
 /// @param direction  LPS, not zero, of any unit.
-/// @throws nothing
 char side_letter(const Vec3& direction) noexcept;
 
 /// The sides of the body that the axes of a grid run towards.
@@ -29,9 +27,6 @@ struct GridOrientation {
 /// Names the axes of a grid. Each body axis names one of them: of the six ways the one with the
 /// largest sum of cosines.
 /// @param direction  orthonormal, see VoxelGrid::direction.
-/// @throws nothing
-///
-/// O(1).
 GridOrientation orientation_of(const Mat3& direction);
 
 }  // namespace mesamis

@@ -12,8 +12,7 @@ class SliceSource {
  public:
   virtual ~SliceSource() = default;
 
-  /// Where the voxels lie, and how many they are. O(1).
-  /// @throws nothing
+  /// Where the voxels lie, and how many they are.
   virtual const VoxelGrid& grid() const = 0;
 
   /// Reads slices of constant k. Several threads may call it at the same time.
@@ -35,22 +34,18 @@ struct SliceRange {
 /// Some slices of a source as a volume: the grid is that of these slices.
 /// @param first, count  as for SliceSource::read().
 /// @throws InputError  as SliceSource::read().
-///
-/// O(voxels of the slices).
 Volume read_slab(const SliceSource& source, Index first, Index count);
 
 /// How many slices are worth reading at once: about 2^26 voxels, but no fewer than are read beside
 /// them, so that these at most double the work.
 /// @param around  slices that are read beside those that are wanted, both ends together, >= 0.
-/// @return at least 1, at most those of the grid. O(1).
-/// @throws nothing
+/// @return at least 1, at most those of the grid.
 Index slab_slices(const VoxelGrid& grid, Index around = 0);
 
 /// A volume in memory as a source.
 class VolumeSlices : public SliceSource {
  public:
   /// @param volume  must live, unchanged, as long as this object.
-  /// @throws nothing
   explicit VolumeSlices(const VolumeView& volume) : volume_(volume) {}
   const VoxelGrid& grid() const override { return volume_; }
   std::vector<float> read(Index first, Index count) const override;

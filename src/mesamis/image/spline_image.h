@@ -32,34 +32,29 @@ struct ImageValue {
 /// @param volume  at least 2 voxels along each axis; taken over, pass it with std::move() to save
 ///                the copy.
 /// @return bounded by the least and the largest sample.
-/// @throws nothing
 /// O(voxels), in threads; the same bits for any number of them.
 SplineImage interpolating_spline(Volume volume);
 
 /// Evaluates the spline and its gradient, unbounded, at one point. O(1): 64 coefficients.
 /// @param p  in the grid's own axes, mm; clamped to the box of the voxel centres.
-/// @throws nothing
 ImageValue spline_at(const SplineImage& image, const Vec3& p);
 
-/// Evaluates the spline alone, unbounded: the value of spline_at() to the bit, in less time. O(1).
+/// Evaluates the spline alone, unbounded: the value of spline_at() to the bit, in less time.
 /// @param p  in the grid's own axes, mm; clamped to the box of the voxel centres.
 /// @return in the image's unit; never beyond the coefficients around.
-/// @throws nothing
 double spline_value_at(const SplineImage& image, const Vec3& p);
 
 /// The bounded spline along one line in the direction of i: what depends on j and k alone is
 /// computed once, and what neighbouring points share is kept.
 class SplineLine {
  public:
-  /// Finds the sixteen rows of coefficients around a line. O(1).
+  /// Finds the sixteen rows of coefficients around a line.
   /// @param image  must live longer than this.
   /// @param y, z   of the line, voxels; clamped to the grid.
-  /// @throws nothing
   SplineLine(const SplineImage& image, double y, double z);
 
-  /// The value at a point of the line, in the image's unit. Fastest for ascending x. O(1).
+  /// The value at a point of the line, in the image's unit. Fastest for ascending x.
   /// @param x  voxels; clamped to the grid.
-  /// @throws nothing
   double at(double x);
 
  private:

@@ -81,13 +81,11 @@ struct Volume : VoxelGrid {
 
   /// The sample of voxel (i, j, k), native units; the voxel must be within the grid.
   float at(Index i, Index j, Index k) const noexcept { return samples[offset(i, j, k)]; }
-  /// The volume as a view, valid until the volume is changed or destroyed. O(1).
-  /// @throws nothing
+  /// The volume as a view, valid until the volume is changed or destroyed.
   operator VolumeView() const { return {*this, samples}; }  // NOLINT(google-explicit-constructor)
 };
 
-/// Copies the scan, which then owns its samples. O(voxels).
-/// @throws nothing
+/// Copies the scan, which then owns its samples.
 Volume copy_volume(const VolumeView& volume);
 
 /// Checks that a volume can be worked on: at least 2 voxels per direction, as many samples as
@@ -95,7 +93,6 @@ Volume copy_volume(const VolumeView& volume);
 /// that are not all equal. A reader may hand on a volume that fails here (one slice of a file
 /// with a third axis, an unknown sample): this is the gate before any method.
 /// @throws InputError  naming the first condition that does not hold.
-/// O(voxels).
 void require_usable(const VolumeView& volume);
 
 /// Half-open voxel ranges [begin, end) per direction; an end of -1 means the volume's.
@@ -105,7 +102,7 @@ struct CropRange {
   friend bool operator==(const CropRange&, const CropRange&) = default;
 };
 
-/// Counts the voxels of the volume that the range keeps along each axis. O(1).
+/// Counts the voxels of the volume that the range keeps along each axis.
 /// @throws InputError  if the volume has fewer than 2 voxels along an axis, or the range leaves it
 ///                     or keeps fewer.
 std::array<Index, 3> cropped_size(const VoxelGrid& volume, const CropRange& range);
@@ -139,12 +136,11 @@ Volume subsample(const VolumeView& volume, const std::array<Index, 3>& stride);
 template <class Number>
 class GridLine {
  public:
-  /// Finds the four rows of nodes around a line. O(1).
+  /// Finds the four rows of nodes around a line.
   /// @param values  one per node, any unit; i runs fastest, then j, k. They must live longer than
   ///                this.
   /// @param size    nodes along i, j, k; at least 2 each.
   /// @param y, z    of the line, in steps of the grid; clamped to it.
-  /// @throws nothing
   GridLine(std::span<const Number> values, const std::array<Index, 3>& size, double y, double z)
       : size_(size[0]) {
     assert(std::min({size[0], size[1], size[2]}) >= 2);
@@ -195,24 +191,22 @@ class GridLine {
   const Number *row_, *first_, *both_;  // after the step of the greater fraction, and after both
 };
 
-/// Evaluates that function at one point. O(1).
+/// Evaluates that function at one point.
 /// @param values, size  as for GridLine.
 /// @param spacing  between nodes, > 0.
 /// @param p        in the grid's own axes, in the unit of the spacing; clamped to the box.
 /// @return in the unit of the values.
-/// @throws nothing
 template <class Number>
 double interpolate(std::span<const Number> values, const std::array<Index, 3>& size,
                    const Vec3& spacing, const Vec3& p) {
   return GridLine<Number>(values, size, p.y / spacing.y, p.z / spacing.z).at(p.x / spacing.x);
 }
 
-/// Evaluates the image as a continuous function (GridLine) at one point. O(1).
+/// Evaluates the image as a continuous function (GridLine) at one point.
 /// @param volume  at least 2 voxels along each axis. Where many points are asked for, pass a view:
 ///                each conversion of a Volume copies its grid.
 /// @param p  in the grid's own axes, mm; clamped to the box.
 /// @return in the unit of the samples.
-/// @throws nothing
 inline double interpolate(const VolumeView& volume, const Vec3& p) {
   return interpolate(volume.samples, volume.size, volume.spacing, p);
 }

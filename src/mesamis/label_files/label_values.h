@@ -21,16 +21,12 @@ struct LayerOrder {
 
 /// Splits samples into layers of labels.
 /// @throws InputError  naming the first voxel whose sample is no whole number of 0 to 65535.
-///
-/// O(samples).
 std::vector<std::vector<std::uint16_t>> label_layers(const std::filesystem::path& file,
                                                      const VoxelGrid& grid, const LayerOrder& order,
                                                      const std::vector<float>& samples);
 
 /// Splits samples into layers of probabilities; values up to 1e-3 beyond 0 and 1 are set to these.
 /// @throws InputError  naming the first voxel whose sample is none.
-///
-/// O(samples).
 std::vector<std::vector<float>> probability_layers(const std::filesystem::path& file,
                                                    const VoxelGrid& grid, const LayerOrder& order,
                                                    const std::vector<float>& samples);

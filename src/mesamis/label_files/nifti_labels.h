@@ -24,15 +24,11 @@ std::vector<Segment> segments_in_extensions(const std::filesystem::path& file,
                                             MemoryBudget& budget);
 
 /// The XML of such an extension.
-///
-/// O(segments).
 std::string caret_extension(std::span<const Segment> segments);
 
 /// A NIfTI-1 file up to its samples, with an extension: sform and qform in RAS, mm, codes 1.
 /// @param sample_bytes  1 or 2: unsigned samples of 8 or 16 bits, little endian.
 /// @param extension     an even number of characters is not needed: it is padded.
-///
-/// O(size of the extension).
 std::string nifti_header(const VoxelGrid& grid, std::size_t sample_bytes,
                          std::string_view extension);
 

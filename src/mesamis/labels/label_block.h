@@ -20,26 +20,20 @@ struct LabelBlock {
 /// @param chosen  of the map.
 /// @param room    mm, >= 0, left to all sides, and four voxels more.
 /// @return at least 2 voxels along each axis; nothing if no chosen segment has a voxel.
-/// @throws nothing
 ///
 /// O(voxels * layers + segments * chosen).
 std::optional<LabelBlock> block_around(const LabelMap& map, std::span<const Segment> chosen,
                                        double room);
 
 /// What of a block lies within a grid, but at least 2 voxels along each axis where the grid has so
-/// many. O(1).
-/// @throws nothing
+/// many.
 LabelBlock clipped(const LabelBlock& block, const VoxelGrid& grid);
 
-/// The grid of a block: where its voxels lie in the world. O(1).
-/// @throws nothing
+/// The grid of a block: where its voxels lie in the world.
 VoxelGrid grid_of(const VoxelGrid& grid, const LabelBlock& block);
 
 /// The labels of a layer in a block, background beyond the map.
 /// @return one per voxel of the block; i runs fastest.
-/// @throws nothing
-///
-/// O(voxels of the block).
 std::vector<std::uint16_t> labels_in(const LabelMap& map, Index layer, const LabelBlock& block);
 
 }  // namespace mesamis

@@ -22,7 +22,7 @@ struct LabelMembership {
   SolveReport solved;
 };
 
-/// What smooth_memberships() says of a label at a node: 0 to 1. O(1).
+/// What smooth_memberships() says of a label at a node: 0 to 1.
 float smooth_membership(const GridMemberships& smooth, std::size_t node, std::uint16_t label);
 
 /// The flow of one label after the other, see flow_memberships(). Labels may be solved at once.

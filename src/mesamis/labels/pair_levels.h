@@ -27,16 +27,14 @@ struct PairLevel {
 /// @param image      any unit.
 /// @return one for each pair of sides that occurs, in increasing order, without the border of the
 ///         box. Points where more than two materials meet are left out.
-/// @throws nothing
 ///
-/// O(points of the partition). The same bits for any number of threads.
+/// The same bits for any number of threads.
 std::vector<PairLevel> measure_pair_levels(const PartitionSurface& partition,
                                            const SplineImage& image);
 
 /// The pair of materials that each point lies between.
 /// @return indices into `pairs`; kNoIndex where more than two materials meet, at the border of the
 ///         box and for other pairs.
-/// @throws nothing
 ///
 /// O(triangles), up to a logarithm.
 std::vector<Index> pairs_of_points(const PartitionSurface& partition,

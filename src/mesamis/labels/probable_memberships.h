@@ -23,8 +23,7 @@ namespace mesamis {
 /// for any number of threads.
 GridMemberships probable_memberships(const Probabilities& from, const VoxelGrid& grid);
 
-/// The label that wins at each node. O(nodes).
-/// @throws nothing
+/// The label that wins at each node.
 std::vector<std::uint16_t> winning_labels(const GridMemberships& memberships);
 
 }  // namespace mesamis

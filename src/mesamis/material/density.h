@@ -14,7 +14,6 @@ enum class DensityKind {
 };
 
 /// The name of a kind of density: "QCT", "ash" or "apparent".
-/// @throws nothing
 const char* density_name(DensityKind kind) noexcept;
 
 /// A density as a linear function of the native value: rho = offset + slope * native.
@@ -33,13 +32,13 @@ struct CalibrationPoint {
   double density = 0;  ///< g/cm^3
 };
 
-/// Finds the line through two points. O(1).
+/// Finds the line through two points.
 /// @param first, second  finite, in native units and g/cm^3.
 /// @throws InputError  unless the density rises with the native value.
 Calibration calibration_through(const CalibrationPoint& first, const CalibrationPoint& second);
 
 /// Reads a calibration: "a,b" for a + b * native, or "HU1:rho1,HU2:rho2" for the line through two
-/// points. O(1).
+/// points.
 /// @param text  native units and g/cm^3; no blanks.
 /// @throws InputError  if the text is neither, or the density does not rise with the native value.
 Calibration parse_calibration(std::string_view text);
@@ -60,7 +59,7 @@ inline constexpr AshRule kAshEqualsQct{};
 /// improves the accuracy of subject-specific finite element models, J Biomech 41, 2008.
 inline constexpr AshRule kSchileoAsh2008{0.079, 0.877};
 
-/// Finds the rule of a name: "equal" or "schileo-2008". O(1).
+/// Finds the rule of a name: "equal" or "schileo-2008".
 /// @throws InputError  naming the names there are.
 AshRule find_ash_rule(std::string_view name);
 
@@ -71,7 +70,7 @@ struct DensityModel {
   double ash_over_apparent = 0.6;  ///< no unit, > 0; the ratio of Schileo 2008
 };
 
-/// Composes the steps from native values to a kind of density: all of them are linear. O(1).
+/// Composes the steps from native values to a kind of density: all of them are linear.
 /// @return g/cm^3 and g/cm^3 per native unit.
 /// @throws InputError  if a slope or the ratio is not positive and finite, or an offset not finite.
 Calibration calibration_to(DensityKind kind, const DensityModel& model);

@@ -32,20 +32,19 @@ struct MaterialLaw {
   std::string doi{};       ///< empty where we are not sure of it
 };
 
-/// The modulus at a density, MPa. O(pieces).
+/// The modulus at a density, MPa.
 /// @param density  g/cm^3, of the kind that the law takes; below 0 it counts as 0.
 double modulus_at(const MaterialLaw& law, double density) noexcept;
 
 /// The laws that have a name. O(1): the table is made once.
-/// @throws nothing
 const std::vector<MaterialLaw>& material_laws();
 
-/// Finds the law of a name. O(laws).
+/// Finds the law of a name.
 /// @throws InputError  naming the names there are.
 MaterialLaw find_material_law(std::string_view name);
 
 /// Reads a law: a name of material_laws(), or a power law "E=c*rho^p" or "E=c*rho^p+d" of the
-/// user's own, whose density is rho or rho_app (apparent), rho_ash or rho_qct. O(length).
+/// user's own, whose density is rho or rho_app (apparent), rho_ash or rho_qct.
 /// @param text  c and d in MPa for densities in g/cm^3; c > 0, p > 0, d >= 0; no blanks.
 /// @return a law of the user's own has the text as its name, and no citation.
 /// @throws InputError  naming the names there are and the form of a power law.

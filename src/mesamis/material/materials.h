@@ -66,9 +66,6 @@ Materials assign_materials(const TetMesh& mesh, const VolumeView& volume,
 /// @param options  by which the materials were assigned: how the apparent density, in g/cm^3,
 ///                 follows from that of the law.
 /// @return one per bin; material_of_cell of FiniteElements is bins.of_cell.
-/// @throws nothing
-///
-/// O(bins).
 std::vector<FiniteElements::Elastic> elastic_materials(const Materials& materials,
                                                        const MaterialOptions& options);
 

@@ -16,7 +16,6 @@ namespace mesamis {
 /// standard deviation of both together, 2 % of the value belong to the surroundings.
 /// @param blur  standard deviation along each axis of the grid, voxels, >= 0.
 /// @return along each axis of the grid, mm.
-/// @throws nothing
 Vec3 rim_depth(const VoxelGrid& grid, const std::array<double, 3>& blur);
 
 /// Undoes at the rim of objects what their surroundings took from them: each voxel there gets the

@@ -15,7 +15,6 @@ using Edge = std::array<Index, 2>;
 ///
 /// @param mesh  m cells; point indices in range.
 /// @return in increasing order; about 1.2 m edges.
-/// @throws nothing
 ///
 /// O(m log d) for at most d cells at a point; 24 bytes per cell beside the result.
 std::vector<Edge> unique_edges(const TetMesh& mesh);

@@ -15,9 +15,8 @@ struct ElementShape {
                                ///< 1 of a regular one, below 0 of one turned inside out
 };
 
-/// Measures a tetrahedron. O(1).
+/// Measures a tetrahedron.
 /// @param corners  of a cell, mm.
-/// @throws nothing
 ElementShape element_shape(const std::array<Vec3, 4>& corners);
 
 /// The shapes of the elements of a mesh, as reports give them.
@@ -32,9 +31,8 @@ struct ElementQuality {
 /// Measures all elements of a mesh.
 /// @param mesh  m cells with indices in range, mm.
 /// @return all zero for a mesh without cells.
-/// @throws nothing
 ///
-/// O(m). The same bits for any number of threads.
+/// The same bits for any number of threads.
 ElementQuality element_quality(const TetMesh& mesh);
 
 }  // namespace mesamis

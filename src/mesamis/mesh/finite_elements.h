@@ -19,7 +19,7 @@ inline constexpr std::array<std::array<int, 2>, 6> kMidNodeEdges{
 inline constexpr std::size_t kLongestSolverName = 60;
 
 /// Whether solvers take a text as a name: letters, digits and underscores, of which the first is a
-/// letter, at most 60. O(length).
+/// letter, at most 60.
 inline bool is_solver_name(std::string_view name) noexcept {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto may_follow = [&](char c) {
@@ -67,7 +67,7 @@ struct FiniteElements {
 
 /// The three corners of a face, then the nodes between the first and the second, the second and the
 /// third, the third and the first; these are kNoIndex for linear elements. The face turns
-/// counter-clockwise seen from outside. O(1).
+/// counter-clockwise seen from outside.
 /// @param cell    an index in range.
 /// @param vertex  0 to 3, opposite the face.
 inline std::array<Index, 6> face_nodes(const FiniteElements& elements, Index cell,

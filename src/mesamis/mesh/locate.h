@@ -33,7 +33,6 @@ enum class MeshExtent {
 /// @param neighbors  m entries, cell_neighbors(mesh).
 /// @param p          mm; outside the box the weights are clamped to those of the nearest cell.
 /// @param start      0 to m - 1.
-/// @throws nothing
 ///
 /// O(m^(1/3)) cells on the way across a mesh, O(1) from a cell nearby; O(m) outside the box.
 Location locate(const TetMesh& mesh, std::span<const std::array<Index, 4>> neighbors, const Vec3& p,
@@ -43,7 +42,6 @@ Location locate(const TetMesh& mesh, std::span<const std::array<Index, 4>> neigh
 /// point may lie outside.
 /// @param mesh, neighbors, start  as for locate(); the cells are a piece of a box, mm.
 /// @param p  mm.
-/// @throws nothing
 ///
 /// O(m^(1/3)), O(1) from a cell nearby.
 Location locate_in_piece(const TetMesh& mesh, std::span<const std::array<Index, 4>> neighbors,

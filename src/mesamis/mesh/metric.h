@@ -19,7 +19,7 @@ namespace mesamis {
 void require_one_per_node(const char* caller, const TetMesh& mesh,
                           std::span<const Sym3> node_metrics);
 
-/// Checks that every metric is finite and positive definite. O(n).
+/// Checks that every metric is finite and positive definite.
 /// @param node_metrics  n matrices in 1/mm^2.
 /// @throws InputError  naming the first node whose metric is not.
 void require_positive_definite(std::span<const Sym3> node_metrics);
@@ -29,7 +29,6 @@ void require_positive_definite(std::span<const Sym3> node_metrics);
 /// @param ma, mb  positive definite, 1/mm^2.
 /// @param e       mm, not zero.
 /// @return no unit: 1 for an ideal edge.
-/// @throws nothing
 double metric_length(const Sym3& ma, const Sym3& mb, const Vec3& e);
 
 /// Mean ratio of a cell in a metric: 12 (3 V)^(2/3) / sum of squared edges, all in the metric.
@@ -37,23 +36,18 @@ double metric_length(const Sym3& ma, const Sym3& mb, const Vec3& e);
 /// @param p  the cell's corners, mm.
 /// @return no unit: 1 for a regular tetrahedron in the metric; 0 if the volume or det m is not
 ///         positive.
-/// @throws nothing
 double metric_quality(const Sym3& m, const std::array<Vec3, 4>& p);
 
 /// Log-Euclidean mean: exp(sum_i weights_i log m_i).
 /// @param metrics  k positive definite matrices, 1/mm^2.
 /// @param weights  k numbers with sum 1, no unit.
 /// @return 1/mm^2.
-/// @throws nothing
-///
-/// O(k).
 Sym3 log_euclidean_mean(std::span<const Sym3> metrics, std::span<const double> weights);
 
 /// Clamps the sizes of a metric, 1/sqrt of its eigenvalues, to [h_min, h_max].
 /// @param m             symmetric, 1/mm^2; directions of a zero eigenvalue get h_max.
 /// @param h_min, h_max  mm, 0 < h_min <= h_max.
 /// @return positive definite, 1/mm^2.
-/// @throws nothing
 Sym3 clamp_sizes(const Sym3& m, double h_min, double h_max);
 
 /// The intersection of two metrics: the coarsest one along the axes of both that is nowhere coarser
@@ -62,7 +56,6 @@ Sym3 clamp_sizes(const Sym3& m, double h_min, double h_max);
 /// Source: F. Alauzet, P. Frey, Estimateur d'erreur geometrique et metriques anisotropes, 2003.
 /// @param a, b  positive definite, 1/mm^2; digits are lost beyond aspects of about 1e5.
 /// @return positive definite, 1/mm^2.
-/// @throws nothing
 Sym3 intersect(const Sym3& a, const Sym3& b);
 
 /// The complexity of a metric: the integral of sqrt(det M) over the mesh, the root linear on each
@@ -72,7 +65,7 @@ Sym3 intersect(const Sym3& a, const Sym3& b);
 /// @return no unit; a unit mesh has about 9 cells per unit of it.
 /// @throws InputError  if the sizes differ.
 ///
-/// O(m). The same bits for any number of threads.
+/// The same bits for any number of threads.
 double complexity(const TetMesh& mesh, std::span<const Sym3> node_metrics);
 
 /// How well a mesh fits a nodal metric. Lengths and qualities have no unit.

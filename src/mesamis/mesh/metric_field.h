@@ -23,7 +23,6 @@ class MetricField {
   ///              nearby points. It speeds the search up and never changes the answer beyond
   ///              round-off: callers that need equal bits must pass equal hints.
   /// @return positive definite, 1/mm^2.
-  /// @throws nothing
   virtual Sym3 at(const Vec3& p, Index& hint) const = 0;
 };
 
@@ -48,7 +47,7 @@ class GridMetricField : public MetricField {
 /// Metrics at the nodes of a mesh, interpolated log-Euclidean and linear on its cells.
 class MeshMetricField : public MetricField {
  public:
-  /// Finds the neighbours of the cells and takes the logarithms of the metrics. O(m).
+  /// Finds the neighbours of the cells and takes the logarithms of the metrics.
   /// @param mesh          the background mesh, n nodes, m cells, mm.
   /// @param node_metrics  n symmetric positive definite matrices, 1/mm^2.
   /// @throws InputError   if the sizes differ, or a metric is not finite or not positive definite;

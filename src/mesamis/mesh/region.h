@@ -13,7 +13,6 @@ namespace mesamis {
 
 /// The volume of all cells, mm^3. O(m) for m cells.
 /// @param mesh  mm.
-/// @throws nothing
 double mesh_volume(const TetMesh& mesh);
 
 /// The mean of a P1 function over each cell, which is its value at the centroid.
@@ -21,14 +20,11 @@ double mesh_volume(const TetMesh& mesh);
 /// @param values       n values of any unit.
 /// @return m values in the same unit.
 /// @throws InputError  if the sizes differ.
-///
-/// O(m).
 std::vector<double> cell_means(const TetMesh& mesh, std::span<const double> values);
 
 /// The share of a cell's volume where a linear function is above zero.
 /// @param values  at the cell's nodes, finite, of any unit.
 /// @return 0 to 1, no unit.
-/// @throws nothing
 double share_above_zero(std::array<double, 4> values);
 
 /// Finds the cells with more than half of their volume where a P1 function is above a level.
@@ -41,8 +37,6 @@ double share_above_zero(std::array<double, 4> values);
 /// @param level        in the same unit, finite.
 /// @return indices in increasing order.
 /// @throws InputError  if the sizes differ or a number is not finite.
-///
-/// O(m).
 std::vector<Index> cells_mostly_above(const TetMesh& mesh, std::span<const double> values,
                                       double level);
 
@@ -88,8 +82,6 @@ struct RestrictedMesh {
 /// @param mesh         n nodes, m cells.
 /// @param cells        k indices in [0, m), each once; the result has their order.
 /// @throws InputError  if an index is out of range.
-///
-/// O(n + m + k).
 RestrictedMesh restrict_mesh(const TetMesh& mesh, std::span<const Index> cells);
 
 }  // namespace mesamis

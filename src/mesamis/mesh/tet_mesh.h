@@ -36,27 +36,23 @@ inline std::array<Vec3, 4> cell_corners(const TetMesh& mesh, const Cell& cell) n
   return {mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]], mesh.points[cell[3]]};
 }
 
-/// The signed volume of a cell, mm^3. O(1).
+/// The signed volume of a cell, mm^3.
 /// @param cell  an index in range.
-/// @throws nothing
 double cell_volume(const TetMesh& mesh, Index cell);
 
 /// The points of the face opposite local point `face`, in increasing order: the same from both its
 /// cells.
 /// @param face  0 to 3.
-/// @throws nothing
 std::array<Index, 3> sorted_face(const Cell& cell, int face);
 
-/// The smallest box around the points. O(n).
+/// The smallest box around the points.
 /// @param points  n points, mm; finite.
 /// @return mm; from +infinity to -infinity if there are no points.
-/// @throws nothing
 Box bounding_box(std::span<const Vec3> points);
 
 /// The planes of a box that hold a point exactly: a bit each, x_lo x_hi y_lo y_hi z_lo z_hi from
-/// the lowest on. O(1).
+/// the lowest on.
 /// @param box, p  mm.
-/// @throws nothing
 inline std::uint8_t planes_of(const Box& box, const Vec3& p) noexcept {
   unsigned mask = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -71,8 +67,6 @@ inline std::uint8_t planes_of(const Box& box, const Vec3& p) noexcept {
 /// @param box  mm.
 /// @param n    bricks along each axis, at least 1.
 /// @throws InputError  if a count is below 1, the box is empty or the mesh exceeds 32-bit indices.
-///
-/// O(bricks).
 TetMesh box_mesh(const Box& box, const std::array<Index, 3>& n);
 
 /// Meshes a box with a few bricks of similar side lengths: a start for the remesher.
@@ -105,7 +99,6 @@ struct PointCells {
 
 /// Lists the cells around each point.
 /// @param mesh  n points, m cells; indices in range.
-/// @throws nothing
 ///
 /// O(n + m); 16 bytes per cell and point.
 PointCells point_cells(const TetMesh& mesh);
@@ -118,7 +111,6 @@ PointCells point_cells(const TetMesh& mesh);
 ///
 /// @param mesh  m cells, mm.
 /// @param box   mm.
-/// @throws nothing
 ///
 /// O(m log d), memory as cell_neighbors().
 std::string find_flaw(const TetMesh& mesh, const Box& box);

@@ -13,18 +13,15 @@ namespace mesamis {
 
 /// Makes the request that belongs to the settings of a run: their crop, their level, and whether a
 /// level is needed.
-/// @throws nothing
 ObjectRequest object_request(const Settings& settings);
 
 /// Makes the settings of mes_amis() for the image of a chosen object: no crop, which has been done;
 /// the object's level; window and T mirrored for a dark object; of one seed the largest island.
 /// @param settings  as the user gave them, units of the scan.
-/// @throws nothing
 Settings settings_for(const ChosenObject& object, Settings settings);
 
 /// Turns what a run on the image used back to the units and the voxels of the scan: the settings of
 /// these parameters repeat the run.
-/// @throws nothing
 Parameters in_scan_units(Parameters parameters, const ChosenObject& object);
 
 /// Runs the method on the image of a chosen object.

@@ -11,7 +11,6 @@ namespace mesamis {
 /// Takes a solid in length units over into a result: it follows the image where that is
 /// more exact than the mesh; then it lies in the world frame, where a left-handed grid turns every
 /// triangle round. Adds the time.
-/// @throws nothing
 void deliver_surface(const RunInput& run, TriMesh extracted, Result& result);
 
 /// Extracts the surface of what the loop leaves, and delivers it and the mesh, see deliver_mesh().
@@ -21,12 +20,10 @@ void deliver_loop(const RunInput& run, Loop loop, const Progress& progress, Resu
 
 /// Turns every triangle of a surface round if the grid is left-handed: in the world it faces
 /// inward.
-/// @throws nothing
 void turn_as_grid(const RunInput& run, TriMesh& surface);
 
-/// The tolerance of decimation where the settings leave it open. O(1).
+/// The tolerance of decimation where the settings leave it open.
 /// @param mean_error  expected of the surface, mm.
-/// @throws nothing
 void choose_tolerance(const RunInput& run, const Settings& settings, double mean_error,
                       Parameters& parameters);
 
@@ -36,8 +33,7 @@ void choose_tolerance(const RunInput& run, const Settings& settings, double mean
 void finish_surface(const RunInput& run, const Settings& settings, const Progress& progress,
                     Result& result);
 
-/// Tells the error of a result's surface, which has been made printable. O(n).
-/// @throws nothing
+/// Tells the error of a result's surface, which has been made printable.
 void tell_error(const RunInput& run, Result& result);
 
 }  // namespace mesamis

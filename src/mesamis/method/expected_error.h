@@ -33,8 +33,6 @@ struct ErrorOptions {
 /// @param image    the restored image, grey values.
 /// @return n values, mm.
 /// @throws InputError  as require_sound().
-///
-/// O(n).
 std::vector<double> expected_error(const TriMesh& surface, const SplineImage& image,
                                    const ErrorOptions& options);
 

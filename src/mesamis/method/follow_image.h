@@ -50,7 +50,7 @@ struct FollowedPart {
 /// @param part  its free points lie where they were extracted.
 void follow_part(FollowedPart& part, const SplineImage& image, const FollowOptions& options);
 
-/// What the image tells at the points of a surface, or of a part of one. O(n).
+/// What the image tells at the points of a surface, or of a part of one.
 FollowCounts look_along(const TriMesh& surface, const SplineImage& image,
                         const FollowOptions& options);
 

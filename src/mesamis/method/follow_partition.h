@@ -12,7 +12,6 @@ namespace mesamis {
 /// Whether the image shows the edge between two materials: a contrast of at least four standard
 /// deviations of the noise, and ten grey values.
 /// @param noise  standard deviation in the image, grey values, >= 0.
-/// @throws nothing
 bool shows_edge(const PairLevel& pair, double noise);
 
 /// What the image shows at a point of a boundary.
@@ -26,7 +25,6 @@ struct BoundaryGuide {
 /// @param pairs  measure_pair_levels() of the partition.
 /// @param noise  as for shows_edge().
 /// @return one per point.
-/// @throws nothing
 ///
 /// O(triangles), up to a logarithm.
 std::vector<BoundaryGuide> guides_of_points(const PartitionSurface& partition,
@@ -37,9 +35,6 @@ std::vector<BoundaryGuide> guides_of_points(const PartitionSurface& partition,
 /// @param guides  of the points; those of points that are left remain, for the sides as they are
 ///                then.
 /// @return triangles and points in their order.
-/// @throws nothing
-///
-/// O(triangles).
 PartitionSurface only_chosen(const PartitionSurface& all, const std::vector<char>& chosen,
                              std::vector<BoundaryGuide>& guides);
 
@@ -55,7 +50,6 @@ PartitionSurface only_chosen(const PartitionSurface& all, const std::vector<char
 /// @param guides     one per point, grey values.
 /// @param noise      standard deviation in the image, grey values, >= 0.
 /// @return the same triangles.
-/// @throws nothing
 ///
 /// O(n log n) for n points. The same bits for any number of threads.
 PartitionSurface follow_image(PartitionSurface partition, const SplineImage& image,

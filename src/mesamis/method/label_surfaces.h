@@ -68,7 +68,6 @@ struct LabelResult {
 /// How far labels may be wrong, if the user does not say: two and a half of their own voxels (the
 /// geometric mean of the spacing), but at least as many of the scan's.
 /// @return mm.
-/// @throws nothing
 double label_margin(const VoxelGrid& scan, const VoxelGrid& labels);
 
 /// Finds the objects of a label map in a scan.

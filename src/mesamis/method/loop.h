@@ -30,7 +30,6 @@ Loop run_loop(const RunInput& run, const Progress& progress, const HasEnough& en
 /// Puts what the loop leaves into a result: mesh, fields, metric and its fit, history, and whether
 /// it has converged. World frame; a left-handed grid turns every cell round. The mesh may be empty,
 /// and then has no fit.
-/// @throws nothing
 void deliver_mesh(const RunInput& run, Loop loop, Result& result);
 
 }  // namespace mesamis

@@ -78,8 +78,6 @@ Result mes_amis(const VolumeView& volume, const Settings& settings, const Progre
 /// @return one grey value per point of the surface: values of u, 0 to 255 but for the overshoot of
 ///         the projection at edges.
 /// @throws InputError  as max_below_surface().
-///
-/// O(cells + points).
 std::vector<double> surface_grey(const Result& result, double voxel);
 
 }  // namespace mesamis

@@ -60,7 +60,6 @@ struct Parameters {
 /// Makes the settings that repeat a run with these parameters: none of them is "auto" but the level
 /// of a band, which has none, the number of cells of a preview, which makes none, and a number of
 /// triangles and an accuracy that the user did not ask for.
-/// @throws nothing
 Settings settings_of(const Parameters& parameters);
 
 /// Bounds of what "auto" chooses for max_tets.
@@ -85,9 +84,6 @@ inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
 /// @param spacing     of the voxels, mm, > 0.
 /// @param accuracy    mean distance to the truth that is asked for, mm, >= 0; 0: the usual.
 /// @return cells.
-/// @throws nothing
-///
-/// O(1).
 std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing,
                               double accuracy = 0);
 
@@ -95,9 +91,6 @@ std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacin
 /// the whole.
 /// @param area, thin_share, spacing, accuracy  as there: mm^2, no unit, mm and mm.
 /// @return a number, no unit.
-/// @throws nothing
-///
-/// O(1).
 double cells_for_surface(double area, double thin_share, const Vec3& spacing, double accuracy = 0);
 
 /// The default of stride: every voxel is a node of the first grid, but in more than a million
@@ -107,26 +100,17 @@ double cells_for_surface(double area, double thin_share, const Vec3& spacing, do
 /// @param voxels   of the volume along each axis.
 /// @param spacing  of the voxels, mm, > 0.
 /// @return voxels per node, 1 or 2.
-/// @throws nothing
-///
-/// O(1).
 std::array<Index, 3> default_stride(const std::array<Index, 3>& voxels, const Vec3& spacing);
 
 /// The default of stride for a preview: along the axes where the steps are shortest every second
 /// voxel, or fewer, until the grid has no more than three million nodes.
 /// @param voxels, spacing  as for default_stride().
 /// @return voxels per node, at least 1.
-/// @throws nothing
-///
-/// O(1).
 std::array<Index, 3> preview_stride(const std::array<Index, 3>& voxels, const Vec3& spacing);
 
 /// The stride of a run: the given one, or the default, that of a preview for a preview.
 /// @param voxels, spacing  as for default_stride().
 /// @return voxels per node, at least 1.
-/// @throws nothing
-///
-/// O(1).
 std::array<Index, 3> stride_of(const Settings& settings, const std::array<Index, 3>& voxels,
                                const Vec3& spacing);
 
@@ -137,9 +121,6 @@ std::array<Index, 3> stride_of(const Settings& settings, const std::array<Index,
 /// @param expected_error  in the mean over the surface, see expected_error(), mm, >= 0.
 /// @param accuracy        mean distance to the truth that is asked for, mm, >= 0; 0: none.
 /// @return mm.
-/// @throws nothing
-///
-/// O(1).
 double default_tolerance(double voxel, double expected_error, double accuracy);
 
 /// The default of gamma, 4 epsilon beta (0.07 c + 0.25 n)^2.
@@ -152,9 +133,6 @@ double default_tolerance(double voxel, double expected_error, double accuracy);
 /// @param contrast  c of the object, grey values, > 0.
 /// @param noise     n left in the image, grey values, >= 0.
 /// @return gamma, grey values squared times length units.
-/// @throws nothing
-///
-/// O(1).
 double default_gamma(double epsilon, double beta, double contrast, double noise);
 
 }  // namespace mesamis

@@ -33,7 +33,6 @@ struct Choice {
 /// Counts the nodes of the first grid along each axis: every stride-th voxel, at least two.
 /// @param voxels  at least 1 along each axis.
 /// @param stride  voxels, at least 1.
-/// @throws nothing
 std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
                                      const std::array<Index, 3>& stride);
 
@@ -64,14 +63,11 @@ Choice choose_parameters(const VolumeView& part, const VoxelGrid& whole, const S
 ///                would be in the whole.
 /// @param choice  of choose_parameters().
 /// @return parameters and measured values as chosen; image and grey of the slab.
-/// @throws nothing
 ///
 /// As choose_parameters().
 Prepared prepare_slab(const VolumeView& slab, const Choice& choice);
 
 /// How much surface at the level of a choice a prepared slab has; of its own grey values.
-/// @throws nothing
-/// O(voxels).
 SurfaceExtent extent_of(const Prepared& slab);
 
 }  // namespace mesamis

@@ -10,8 +10,6 @@ namespace mesamis {
 /// before any mesh is adapted. Records the pass.
 /// @return in the grid's own axes, length units; see extract_cubes().
 /// @throws Cancelled  if progress says stop.
-///
-/// O(nodes of the grid).
 TriMesh preview_surface(const Pass& pass);
 
 }  // namespace mesamis

@@ -37,7 +37,6 @@ struct Setting {
 };
 
 /// Every setting, in the order in which they are written. O(1): the table is built once.
-/// @throws nothing
 const std::vector<Setting>& setting_table();
 
 /// Finds the row of this name, with hyphens or underscores.
@@ -46,7 +45,6 @@ const std::vector<Setting>& setting_table();
 const Setting& find_setting(std::string_view name);
 
 /// What a value may look like: "N|auto".
-/// @throws nothing
 std::string forms_of(const Setting& setting);
 
 /// Reads a value from text: "3", "1e6", "1,1,2", "0:10,,", "auto", "yes".
@@ -57,7 +55,6 @@ std::string forms_of(const Setting& setting);
 SettingValue parse_value(const Setting& setting, std::string_view text);
 
 /// Writes a value as the shortest text that parse_value() reads back.
-/// @throws nothing
 std::string text_of(const Setting& setting, const SettingValue& value);
 
 /// Checks a value against its row.
@@ -82,7 +79,6 @@ enum class Origin {
 /// Tells where a setting's value came from. A value equal to the default counts as the default,
 /// whoever wrote it.
 /// @param setting  a row of setting_table().
-/// @throws nothing
 Origin origin_of(const Setting& setting, const Settings& asked);
 
 /// The settings of a preset: "default" (ours), or "paper" (the method as the paper prints it).
@@ -90,11 +86,9 @@ Origin origin_of(const Setting& setting, const Settings& asked);
 Settings preset_settings(std::string_view name);
 
 /// The names of the presets. O(1) time and memory.
-/// @throws nothing
 std::vector<std::string> preset_names();
 
 /// Writes the table as a page of Markdown: docs/settings.md.
-/// @throws nothing
 std::string settings_page();
 
 }  // namespace mesamis

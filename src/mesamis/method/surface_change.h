@@ -23,9 +23,8 @@ struct LevelSetOptions {
 /// @param before, now  nodal values of the same field on two occasions.
 /// @return the mean distance, in the mesh's unit of length; options.most if there was a level set
 ///         before and is none now, 0 if there was none.
-/// @throws nothing
 ///
-/// O(cells). The same bits for any number of threads.
+/// The same bits for any number of threads.
 double level_set_change(const TetMesh& mesh, std::span<const double> before,
                         std::span<const double> now, const LevelSetOptions& options);
 

@@ -76,8 +76,7 @@ struct Offsets {
 struct FollowCounts {
   std::int64_t told = 0, clear = 0;
 
-  /// Whether noise leaves anything to be told of the surface. O(1).
-  /// @throws nothing
+  /// Whether noise leaves anything to be told of the surface.
   bool is_worthwhile() const noexcept { return 2 * clear > told; }
 };
 FollowCounts count_told(const Offsets& offsets);

@@ -46,7 +46,6 @@ struct Body {
 /// @return nothing unless the scan is in Hounsfield units and half of its largest part is soft
 /// tissue:
 ///         MR, micro-CT and dry bones have none.
-/// @throws nothing
 ///
 /// O(voxels); about 30 bytes per voxel that is looked at, and the mask.
 std::optional<Body> find_body(const VolumeView& volume);

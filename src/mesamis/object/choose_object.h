@@ -108,15 +108,9 @@ std::optional<ChosenObject> choose_in_place(const VolumeView& scan, const Object
 /// nor level were given, or the border of what the scanner measured.
 /// @param level  of the surface, units of the scan, as run_on_object() tells it.
 /// @return one line each.
-/// @throws nothing
-///
-/// O(voxels).
 std::vector<std::string> surface_warnings(const ChosenObject& object, double level);
 
 /// The same where the samples of the object's image lie elsewhere, see choose_in_place().
-/// @throws nothing
-///
-/// O(voxels).
 std::vector<std::string> surface_warnings(const ChosenObject& object, const VolumeView& image,
                                           double level);
 

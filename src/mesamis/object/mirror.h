@@ -11,9 +11,6 @@ namespace mesamis {
 /// mirrored level. Twice gives the volume back.
 /// @param volume  native units; taken over, pass it with std::move() to save the copy.
 /// @return native units, mirrored.
-/// @throws nothing
-///
-/// O(voxels).
 Volume mirrored(Volume volume);
 
 /// The level, native units, that belongs to a mirrored one, and the other way round.
@@ -32,8 +29,6 @@ inline Window mirrored(const Window& window) noexcept { return {-window.high, -w
 /// @param range   native units, low < high.
 /// @return native units.
 /// @throws InputError  unless low < high.
-///
-/// O(voxels).
 Volume within_range(Volume volume, const Window& range);
 
 }  // namespace mesamis

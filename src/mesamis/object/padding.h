@@ -36,7 +36,6 @@ struct Padding {
 /// Air that the scanner clipped (CT, -1100 to -900 HU) is no padding: it is air.
 /// @param volume  finite samples.
 /// @return nothing if there is none, or nothing else.
-/// @throws nothing
 ///
 /// O(voxels); 1 byte per voxel.
 std::optional<Padding> find_padding(const VolumeView& volume);
@@ -46,16 +45,12 @@ std::optional<Padding> find_padding(const VolumeView& volume);
 /// @param mask  one mark per voxel, such as Padding::mask.
 /// @return native units, in the order of the voxels.
 /// @throws InputError  if the mask does not fit the volume.
-///
-/// O(voxels).
 std::vector<float> samples_outside(const VolumeView& volume, std::span<const std::uint8_t> mask);
 
 /// Sets all marked samples to a value: that of the background (air), so that padding looks like it.
 /// @param volume  native units; taken over, pass it with std::move() to save the copy.
 /// @param value   native units.
 /// @throws InputError  if the mask does not fit the volume.
-///
-/// O(voxels).
 Volume filled(Volume volume, std::span<const std::uint8_t> mask, double value);
 
 /// Finds how much of a level's surface is the border of the padding: of all crossings of the grid
@@ -65,8 +60,6 @@ Volume filled(Volume volume, std::span<const std::uint8_t> mask, double value);
 /// @param level  native units.
 /// @return 0 to 1, no unit; 0 if nothing crosses the level.
 /// @throws InputError  if the mask does not fit the volume.
-///
-/// O(voxels).
 double share_at_border(const VolumeView& volume, std::span<const std::uint8_t> mask, double level);
 
 }  // namespace mesamis

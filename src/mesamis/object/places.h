@@ -16,7 +16,7 @@ namespace mesamis {
 /// @throws InputError  if the text is anything else.
 Vec3 parse_point(std::string_view text, Frame frame);
 
-/// Finds the voxel whose centre is nearest to a point of the world. O(1).
+/// Finds the voxel whose centre is nearest to a point of the world.
 /// @param world  LPS, mm.
 /// @return indices along i, j, k.
 /// @throws InputError  if the point is more than half a voxel beyond the outermost centres; the
@@ -39,9 +39,8 @@ Box parse_box(std::string_view text);
 ///                     holds fewer voxels; the message says where the scan is.
 CropRange box_to_range(const VoxelGrid& grid, std::string_view text, Frame frame);
 
-/// Finds the box of the world that holds the centres of a grid, O(1).
+/// Finds the box of the world that holds the centres of a grid,
 /// @return mm, in the frame.
-/// @throws nothing
 Box world_box(const VoxelGrid& grid, Frame frame);
 
 }  // namespace mesamis

@@ -35,24 +35,19 @@ struct Tissue {
 };
 
 /// The presets, in the order in which help lists them: bone, teeth, soft, skin, lung, airway,
-/// vessel, dark. O(1).
+/// vessel, dark.
 std::span<const Tissue> tissue_table() noexcept;
 
 /// Reads a tissue: the name of a preset, or a range of values "LO:HI", of which one end may be left
 /// out. "LO:" is a bright object whose level is LO, ":HI" a dark one whose level is HI.
 /// @param text  native units (HU in CT).
 /// @throws InputError  if the text is neither; the message lists what is possible.
-///
-/// O(1).
 Tissue parse_tissue(std::string_view text);
 
 /// Suggests the tissue that a user of this scan most likely means.
 /// @param volume  at least one sample, all finite.
 /// @return bone for CT with at least a thousandth of the voxels above 200 HU, skin for other CT,
 ///         nothing for other scans.
-/// @throws nothing
-///
-/// O(voxels).
 std::optional<Tissue> suggested_tissue(const VolumeView& volume);
 
 /// Names the tissue that a level shows the surface of, for a word in a report.
@@ -60,9 +55,6 @@ std::optional<Tissue> suggested_tissue(const VolumeView& volume);
 /// @param level   native units.
 /// @return "skin", "soft tissue", "vessels or spongy bone", "bone" or "metal"; empty if the scan is
 ///         not CT, or nothing crosses the level.
-/// @throws nothing
-///
-/// O(voxels).
 std::string surface_at_level(const VolumeView& volume, double level);
 
 }  // namespace mesamis

@@ -13,7 +13,7 @@ namespace mesamis {
 /// A mark per voxel, i fastest: 0 is outside, anything else inside. What mask_on() returns.
 using VoxelMask = std::vector<std::uint8_t>;
 
-/// Checks that a mask has one mark per voxel of a grid. O(1).
+/// Checks that a mask has one mark per voxel of a grid.
 /// @throws InputError  naming both numbers.
 void require_mask_of(std::span<const std::uint8_t> mask, const VoxelGrid& grid);
 
@@ -46,23 +46,14 @@ VoxelMask eroded(std::span<const std::uint8_t> mask, const VoxelGrid& grid, doub
 
 /// Swaps inside and outside.
 /// @return 1 inside, 0 outside.
-/// @throws nothing
-///
-/// O(voxels).
 VoxelMask complement(std::span<const std::uint8_t> mask);
 
 /// Keeps the marks of one mask that another lacks.
 /// @param other  as many marks.
 /// @return 1 inside, 0 outside.
-/// @throws nothing
-///
-/// O(voxels).
 VoxelMask only_in(std::span<const std::uint8_t> mask, std::span<const std::uint8_t> other);
 
 /// Counts the marked voxels.
-/// @throws nothing
-///
-/// O(voxels).
 std::size_t count_marked(std::span<const std::uint8_t> mask);
 
 }  // namespace mesamis

@@ -19,7 +19,7 @@ struct VoxelIslands {
   std::vector<Index> of_voxel;      ///< per voxel the number of its island; 0 outside of the mask
   std::vector<std::size_t> voxels;  ///< of each island; island n is at n - 1
 
-  /// The number of the island with most voxels, the first of those; 0 if there is none. O(islands).
+  /// The number of the island with most voxels, the first of those; 0 if there is none.
   Index largest() const noexcept;
 };
 
@@ -33,17 +33,11 @@ VoxelIslands find_islands(std::span<const std::uint8_t> mask, const VoxelGrid& g
 /// Finds the smallest range of voxels that holds each island.
 /// @param islands  of the grid.
 /// @return one per island; island n is at n - 1.
-/// @throws nothing
-///
-/// O(voxels).
 std::vector<CropRange> ranges_of(const VoxelIslands& islands, const VoxelGrid& grid);
 
 /// Marks the voxels of one island.
 /// @param island  from 1 to the number of islands.
 /// @return 1 inside, 0 outside.
-/// @throws nothing
-///
-/// O(voxels).
 VoxelMask mask_of_island(const VoxelIslands& islands, Index island);
 
 /// Finds the marked voxel nearest to a voxel.
@@ -71,8 +65,6 @@ inline constexpr double kBesideMm = 3;
 /// @param at    within the grid, see voxel_at().
 /// @return 1 inside, 0 outside.
 /// @throws InputError  if no voxel within kBesideMm is marked, or the mask does not fit the grid.
-///
-/// O(voxels).
 VoxelMask island_at(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
                     const std::array<Index, 3>& at);
 
@@ -96,9 +88,6 @@ VoxelMask without_cavities_in_slices(std::span<const std::uint8_t> mask, const V
 /// Marks the samples above a level.
 /// @param level  native units.
 /// @return 1 above, 0 elsewhere.
-/// @throws nothing
-///
-/// O(voxels).
 VoxelMask mask_above(const VolumeView& volume, double level);
 
 }  // namespace mesamis

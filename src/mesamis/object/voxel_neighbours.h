@@ -11,7 +11,7 @@
 namespace mesamis {
 
 /// Calls visit(neighbour, axis) for each voxel that shares a face with a voxel, in the order of
-/// their places among the samples. O(1).
+/// their places among the samples.
 /// @param at  a voxel's place among the samples.
 template <class Visit>
 void for_each_neighbour(const VoxelGrid& grid, std::size_t at, Visit&& visit) {
@@ -28,7 +28,7 @@ void for_each_neighbour(const VoxelGrid& grid, std::size_t at, Visit&& visit) {
 }
 
 /// Whether a voxel lies in an outermost layer of the grid. An axis with a single voxel does not
-/// count: the border of one slice is within its plane. O(1).
+/// count: the border of one slice is within its plane.
 inline bool is_at_border(const VoxelGrid& grid, std::size_t at) {
   for (const Index length : grid.size) {
     const auto count = static_cast<std::size_t>(length);
@@ -39,7 +39,7 @@ inline bool is_at_border(const VoxelGrid& grid, std::size_t at) {
   return false;
 }
 
-/// The first and the last voxel of an axis within a distance of one of them. O(1).
+/// The first and the last voxel of an axis within a distance of one of them.
 /// @param mm  >= 0.
 inline std::array<Index, 2> voxels_around(const VoxelGrid& grid, int axis, Index from, double mm) {
   const auto a = static_cast<std::size_t>(axis);

@@ -6,7 +6,7 @@
 
 namespace mesamis::detail {
 
-/// Bytes as base64 (RFC 4648) with padding, on one line. O(bytes).
+/// Bytes as base64 (RFC 4648) with padding, on one line.
 std::string base64(std::string_view bytes);
 
 }  // namespace mesamis::detail

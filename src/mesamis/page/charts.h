@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "mesamis/image/volume.h"
@@ -13,8 +13,6 @@ namespace mesamis::detail {
 /// and the level of a report's run. Marks beyond single precision, which samples have, are left
 /// out.
 /// @param scan  usable, see require_usable().
-///
-/// O(voxels).
 std::string histogram_svg(const VolumeView& scan, const nlohmann::json& report);
 
 /// The energy of each pass of a run and its parts; empty where the report has fewer than two

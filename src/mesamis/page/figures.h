@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +12,7 @@
 namespace mesamis::detail {
 
 /// A value as people read it: whole numbers in groups of three digits, others with four digits,
-/// lists with commas; a dash for null and "yes" or "no" for a switch. O(length).
+/// lists with commas; a dash for null and "yes" or "no" for a switch.
 std::string figure_text(const nlohmann::json& value);
 
 /// The entry of a report at a JSON pointer; null where there is none.

@@ -11,7 +11,7 @@ namespace mesamis::detail {
 
 /// A text as HTML and SVG take it, between tags and in attributes between double quotes: the five
 /// characters that mean something there are written as entities; control characters and bytes that
-/// are no UTF-8 become '?'. O(bytes).
+/// are no UTF-8 become '?'.
 std::string html_escaped(std::string_view text);
 
 /// An element with what it contains. Names of elements and attributes are the program's own; values

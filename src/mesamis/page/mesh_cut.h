@@ -22,7 +22,7 @@ struct CutRegion {
 };
 
 /// The colour of a grey value: from dark blue by green to light yellow, lighter all the way, so
-/// that a grey print can be read. O(1).
+/// that a grey print can be read.
 /// @param grey  0 to 255; bounded to them.
 Colour map_colour(double grey);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 /// What of a report may be shown to anyone.
@@ -13,16 +13,12 @@ namespace mesamis::detail {
 /// of the verdict with a path or a quoted name is replaced.
 /// @param report  of any shape; what is no object becomes an empty one.
 /// @param names   keep paths, file names and all messages.
-///
-/// O(size of the report).
 nlohmann::json public_report(nlohmann::json report, bool names);
 
 /// The command that repeats the run of a report, quoted for a shell. Without names the scan is
 /// SCAN, and files and what else users name freely are called by their options. Options that do not
 /// change the results are left out.
 /// @param names  keep all words.
-///
-/// O(words).
 std::string repeat_command(const nlohmann::json& report, bool names);
 
 }  // namespace mesamis::detail

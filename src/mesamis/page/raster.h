@@ -29,14 +29,14 @@ struct Raster {
   }
 };
 
-/// A picture in one colour. O(pixels).
+/// A picture in one colour.
 Raster blank(int width, int height, const Colour& colour);
 
 /// Means of blocks of 2 x 2 pixels: what was drawn twice as large gets smooth edges.
-/// @param large  of even width and height. O(pixels).
+/// @param large  of even width and height.
 Raster halved(const Raster& large);
 
-/// A grey picture as a coloured one, each pixel as so many to the right and downwards. O(pixels).
+/// A grey picture as a coloured one, each pixel as so many to the right and downwards.
 Raster enlarged(const Raster& grey, int columns, int rows);
 
 /// Calls visit(x, y, in_b, in_c) for each pixel of a picture whose middle lies in a triangle, with
@@ -75,7 +75,7 @@ void draw_line(Raster& on, std::array<double, 2> from, std::array<double, 2> to,
                const Colour& colour);
 
 /// A PNG file: 8 bits per channel, no interlacing, each row filtered in the way that makes it
-/// smallest, no words. The same picture gives the same bytes. O(pixels).
+/// smallest, no words. The same picture gives the same bytes.
 /// @throws InputError  if zlib cannot be started.
 std::string png_bytes(const Raster& picture);
 

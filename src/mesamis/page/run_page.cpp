@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "mesamis/files/atomic_file.h"
 #include "mesamis/page/base64.h"

@@ -37,8 +37,7 @@ struct RunPage {
   std::size_t most = kLargestPage;      ///< bytes of the page, as a goal
 };
 
-/// Whether the viewer of scans is part of this build. Without it pages have pictures alone. O(1).
-/// @throws nothing
+/// Whether the viewer of scans is part of this build. Without it pages have pictures alone.
 bool has_viewer() noexcept;
 
 /// Makes a page that needs no network: pictures, diagrams and tables of the run and, where the

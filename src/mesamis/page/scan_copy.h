@@ -23,11 +23,9 @@ struct ScanCopy {
 /// @param most   bytes of the copy, as a goal: a copy of 8 voxels along an axis is not made
 /// smaller.
 /// @throws InputError  if zlib cannot be started.
-///
-/// O(voxels), a few times.
 ScanCopy scan_copy(const VolumeView& scan, const Window& shown, std::size_t most);
 
-/// Bytes as one gzip stream, well compressed; the same bytes every time. O(bytes).
+/// Bytes as one gzip stream, well compressed; the same bytes every time.
 /// @throws InputError  if zlib cannot be started.
 std::string well_gzipped(const std::string& bytes);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/page/sections.h"
 
+#include <nlohmann/json.hpp>
+
 #include "mesamis/method/setting_table.h"
 #include "mesamis/page/base64.h"
 #include "mesamis/page/figures.h"

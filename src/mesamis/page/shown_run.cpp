@@ -2,6 +2,7 @@
 #include "mesamis/page/shown_run.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "mesamis/base/error.h"
 #include "mesamis/page/figures.h"

@@ -41,15 +41,13 @@ struct SliceView {
 /// @param axis  0 sagittal, 1 coronal, 2 axial.
 SlicePlane plane_through(const VoxelGrid& grid, std::span<const ShownSurface> surfaces, int axis);
 
-/// The rectangle of a slice of the grid, with the voxels' halves at its border. O(1).
+/// The rectangle of a slice of the grid, with the voxels' halves at its border.
 PageBox box_of(const VoxelGrid& grid, const SlicePlane& plane);
 
 /// Cuts a scan and surfaces.
 /// @param scan    usable, see require_usable().
 /// @param axis    as for plane_through().
 /// @param window  native values that are black and white.
-///
-/// O(voxels of the slice + triangles).
 SliceView slice_view(const VolumeView& scan, std::span<const ShownSurface> surfaces, int axis,
                      const Window& window);
 
@@ -57,8 +55,6 @@ SliceView slice_view(const VolumeView& scan, std::span<const ShownSurface> surfa
 /// ends. No point of the line is farther than the step from the thinned one.
 /// @param step  mm, >= 0.
 /// @return empty for a closed line that is no larger than the step.
-///
-/// O(points).
 PageLine thin_line(const PageLine& line, double step);
 
 /// The slice as an SVG that fits its container, with the sides of the body and a scale bar. Its
@@ -69,7 +65,7 @@ std::string slice_svg(const SliceView& view, std::span<const ShownSurface> surfa
 /// The slice with its outlines as a picture of about so many pixels along its longer side.
 Raster slice_picture(const SliceView& view, std::span<const ShownSurface> surfaces, int pixels);
 
-/// A length for a scale bar: 1, 2 or 5 times a power of ten, about a quarter of the width. O(1).
+/// A length for a scale bar: 1, 2 or 5 times a power of ten, about a quarter of the width.
 /// @param width  mm, > 0.
 double bar_length(double width);
 

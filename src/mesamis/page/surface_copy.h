@@ -19,8 +19,6 @@ TriMesh coarse_surface(const TriMesh& surface, std::int64_t most);
 /// A gzipped MZ3 file of a surface, RAS, points rounded to a 2^14th of its size.
 /// @param surface  LPS, mm; fewer than 2^31 triangles.
 /// @throws InputError  if zlib cannot be started.
-///
-/// O(n).
 std::string mz3_gz(const TriMesh& surface);
 
 }  // namespace mesamis::detail

@@ -10,7 +10,7 @@
 
 namespace mesamis::detail {
 
-/// The names of the views: front, left, top, oblique; anatomical in LPS. O(1).
+/// The names of the views: front, left, top, oblique; anatomical in LPS.
 std::vector<std::string> surface_views();
 
 /// Draws surfaces in parallel projection, shaded, on white. No display and no graphics library is

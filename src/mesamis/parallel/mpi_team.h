@@ -23,7 +23,6 @@ class MpiTeam : public Team {
   void wait_for_all() override;
   /// Ends all processes of the team at once, this one too.
   /// @param status  exit status, above 0.
-  /// @throws nothing
   [[noreturn]] void end_all(int status);
 
  private:

@@ -43,8 +43,7 @@ class DegradedSlices : public SliceSource {
   const VoxelGrid& grid() const override { return sharp_.grid(); }
   /// Reads the slices that the blur reaches on both sides, too: these are the cost of slabs.
   std::vector<float> read(Index first, Index count) const override;
-  /// How many slices are worth reading at once, see slab_slices(). O(1).
-  /// @throws nothing
+  /// How many slices are worth reading at once, see slab_slices().
   Index slab() const;
 
  private:

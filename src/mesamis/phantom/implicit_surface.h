@@ -47,7 +47,7 @@ ImplicitError implicit_error(const TriMesh& surface, const ImplicitField& inside
 /// @throws InputError  if the lines do not ascend or are too many for 32-bit indices, or the
 ///                     tolerance is not positive.
 ///
-/// Only bricks near the zero are evaluated, and one value per 512 bricks elsewhere: O(area).
+/// Only bricks near the zero are evaluated, and one value per 512 bricks elsewhere:
 TriMesh extract_implicit(const GridLines& lines, const ImplicitField& inside, double tolerance);
 
 }  // namespace mesamis

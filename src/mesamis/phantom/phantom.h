@@ -20,7 +20,6 @@ struct PhantomInfo {
 };
 
 /// Lists all phantoms, in the order in which they are documented. O(1) time and memory.
-/// @throws nothing
 std::vector<PhantomInfo> phantom_list();
 
 /// An object in the box [0, size * spacing] of the world (mm). The object is designed for the box

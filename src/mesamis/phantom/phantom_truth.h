@@ -17,9 +17,9 @@ struct PhantomTruth {
   ImplicitError error;     ///< its distance from the phantom's zero, mm
   double error_bound = 0;  ///< kTruthErrorVoxel in mm
 
-  /// Whether the surface is closed and a 2-manifold. Throws nothing.
+  /// Whether the surface is closed and a 2-manifold.
   bool is_closed_manifold() const { return check.closed() && check.manifold(); }
-  /// Whether the error, mm, is at most the bound. Throws nothing.
+  /// Whether the error, mm, is at most the bound.
   bool within_bound() const { return error.max <= error_bound; }
 };
 

@@ -58,7 +58,6 @@ class DisplayError : public InputError {
 /// @param cells    triangles of surfaces or cells of a mesh.
 /// @param options  their pixels count.
 /// @return bytes, a fifth to two fifths above what was measured. O(1) time and memory.
-/// @throws nothing
 double drawing_memory(std::size_t cells, const PictureOptions& options) noexcept;
 
 /// Draws a surface with a scale bar and its size.

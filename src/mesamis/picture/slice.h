@@ -28,13 +28,9 @@ std::array<std::vector<SideTick>, 2> side_ticks(const Volume& volume, const Slic
 /// samples. Of Hounsfield units those of -1500 and less do not count: they are padding, beyond what
 /// the scanner saw.
 /// @param volume  as require_usable() wants it.
-///
-/// O(voxels).
 ValueRange slice_window(const Volume& volume);
 
 /// The line segments in which triangles cross the slice, as pairs of points on the page.
-///
-/// O(triangles).
 std::vector<std::array<Vec3, 2>> outline(const Volume& volume, const SlicePlane& plane,
                                          const TriMesh& surface);
 

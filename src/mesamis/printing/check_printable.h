@@ -31,7 +31,6 @@ PrintCheck check_printable(const TriMesh& surface);
 /// 2-manifold and face outward, and PrusaSlicer, where it checked the surface, must repair nothing.
 /// Self-intersections are no flaw.
 /// @return empty if it can be printed.
-/// @throws nothing
 std::string print_flaws_of(const PrintCheck& check);
 
 }  // namespace mesamis

@@ -24,7 +24,7 @@ struct GcodeFacts {
 /// Reads G-code of PrusaSlicer, or of CuraEngine with its final header (see copy_gcode()).
 ///
 /// @param in  any bytes; read to the end.
-/// @throws nothing, unless the stream itself throws (std::ios::exceptions()).
+/// , unless the stream itself throws (std::ios::exceptions()).
 ///
 /// O(bytes), one pass; memory: the longest line.
 GcodeFacts read_gcode(std::istream& in);
@@ -35,7 +35,7 @@ GcodeFacts read_gcode(std::istream& in);
 /// @param header  lines that replace the comments before ";Generated with". CuraEngine writes its
 ///                header before it knows time and filament, and logs the final one, see
 ///                gcode_header_in(). Empty: the header of the file is kept.
-/// @throws nothing, unless a stream itself throws (std::ios::exceptions()). Errors of the streams
+/// , unless a stream itself throws (std::ios::exceptions()). Errors of the streams
 ///         are left in their states.
 ///
 /// O(bytes), one pass; memory: the longest line.
@@ -44,12 +44,10 @@ void copy_gcode(std::istream& in, std::string_view header, std::ostream& out);
 /// Finds the final header in the log of CuraEngine: the lines between "Gcode header after
 /// slicing:" and "End of gcode header.".
 /// @return the lines with their newlines; empty if they are not there.
-/// @throws nothing
 std::string gcode_header_in(std::string_view log);
 
 /// Parses a duration as PrusaSlicer writes it: "1d 2h 3m 4s"; each part may be missing.
 /// @return seconds; none if the text is no duration.
-/// @throws nothing
 std::optional<double> parse_duration(std::string_view text);
 
 }  // namespace mesamis

@@ -36,16 +36,12 @@ struct PlacedSurface {
 /// @param bed      see require_valid().
 /// @throws InputError  if the surface is empty or unsound (see require_sound()), or the bed is
 ///                     not valid.
-///
-/// O(n).
 PlacedSurface place_on_bed(TriMesh surface, const PrintBed& bed);
 
 /// Whether a print of this size, in mm, is no larger than the bed in any direction.
-/// @throws nothing
 bool fits_on(const PrintBed& bed, const Vec3& size);
 
 /// Writes a size in mm as "250 x 210 x 210 mm".
-/// @throws nothing
 std::string size_text(const Vec3& size);
 
 }  // namespace mesamis

@@ -26,12 +26,10 @@ struct PrusaInfo {
 ///
 /// @param output  lines of "key = value"; others are skipped.
 /// @return manifold is false where the text does not state the contrary.
-/// @throws nothing
 PrusaInfo parse_prusa_info(std::string_view output);
 
 /// Why PrusaSlicer does not print the surface as it is: "open_edges = 3, facets_reversed = 1".
 /// @return empty if it does.
-/// @throws nothing
 std::string flaws_of(const PrusaInfo& info);
 
 }  // namespace mesamis

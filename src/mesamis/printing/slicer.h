@@ -9,7 +9,6 @@ namespace mesamis {
 enum class Slicer { kPrusaSlicer, kCuraEngine };
 
 /// The name of a slicer: "PrusaSlicer" or "CuraEngine".
-/// @throws nothing
 const char* slicer_name(Slicer slicer);
 
 /// A slicer as it is installed on this machine.

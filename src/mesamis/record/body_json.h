@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "mesamis/delivery/body_output.h"
 
@@ -9,9 +9,6 @@ namespace mesamis {
 
 /// The entry "body" of a report, as docs/formats.md lists it: elements and their shapes, sizes,
 /// parts, sets, materials.
-/// @throws nothing
-///
-/// O(elements).
 nlohmann::ordered_json body_json(const BodyOutput& body);
 
 }  // namespace mesamis

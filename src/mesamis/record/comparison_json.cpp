@@ -2,6 +2,7 @@
 #include "mesamis/record/comparison_json.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace mesamis {
 namespace {

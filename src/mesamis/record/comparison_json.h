@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "mesamis/comparison/comparison.h"
 #include "mesamis/comparison/surface_pair.h"
@@ -9,21 +9,21 @@
 namespace mesamis {
 
 /// Distances in one direction, mm: vertices, mean (15), rms, p95, p99, max, and the same by area.
-/// Throws nothing. O(n log n) for n distances.
+///  O(n log n) for n distances.
 nlohmann::ordered_json distances_json(const DirectedDistances& distances);
 
-/// The same of distances that are summarised already. Throws nothing. O(1).
+/// The same of distances that are summarised already.
 nlohmann::ordered_json distances_json(const DirectedSummary& summary);
 
 /// The distances (14)-(16) under the names of the paper, mm: its surface of vertices v is the
 /// reference.
-/// @param reference_to_surface  with one distance from a vertex at least. Throws nothing.
+/// @param reference_to_surface  with one distance from a vertex at least.
 ///
 /// O(n log n) for n distances.
 nlohmann::ordered_json paper_distances_json(const DirectedDistances& reference_to_surface);
 
 /// The entry "frames" of a report: the frames that the files state, and whether the surface was
-/// turned. Throws nothing. O(1).
+/// turned.
 nlohmann::ordered_json frames_json(const SurfacePair& pair);
 
 }  // namespace mesamis

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "mesamis/base/types.h"
 
@@ -13,13 +13,13 @@ namespace mesamis {
 /// @throws InputError  if the file cannot be written.
 void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& value);
 
-/// Reads a JSON file. O(bytes of the file).
+/// Reads a JSON file.
 /// @throws InputError  if the file cannot be read, is not JSON, nests more than 64 lists and
 /// objects
 ///                     or has an object with a key twice; the message says where or which.
 nlohmann::json read_json(const std::filesystem::path& path);
 
-/// A point or vector as [x, y, z], in mm or whatever unit it has. Throws nothing.
+/// A point or vector as [x, y, z], in mm or whatever unit it has.
 nlohmann::ordered_json vec_json(const Vec3& v);
 
 }  // namespace mesamis

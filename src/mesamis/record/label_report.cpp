@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/record/label_report.h"
 
+#include <nlohmann/json.hpp>
+
 #include "mesamis/method/expected_error.h"
 #include "mesamis/record/report.h"
 #include "mesamis/record/run_summary.h"

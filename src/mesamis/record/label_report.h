@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 
 #include "mesamis/method/label_surfaces.h"
@@ -13,7 +13,6 @@ namespace mesamis {
 /// boundaries), quality, seconds_parts; docs/formats.md lists the keys.
 /// @param result  of find_labelled_objects() or surfaces_of_labels().
 /// @param checks  of the surfaces of its objects, in their order.
-/// @throws nothing
 ///
 /// O(points and triangles), up to a logarithm.
 nlohmann::ordered_json label_run_json(const LabelResult& result,
@@ -21,9 +20,6 @@ nlohmann::ordered_json label_run_json(const LabelResult& result,
 
 /// Judges the surfaces of objects: each must be closed, 2-manifold and face outward.
 /// @param checks  as for label_run_json().
-/// @throws nothing
-///
-/// O(objects).
 Verdict judge(const LabelResult& result, std::span<const SurfaceCheck> checks);
 
 }  // namespace mesamis

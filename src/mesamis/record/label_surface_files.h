@@ -14,22 +14,18 @@ namespace mesamis {
 
 /// Gives each object a number of its own: its label, or where layers share labels a running one.
 /// @return in their order, without surfaces.
-/// @throws nothing
 ///
 /// O(n log n) for n segments.
 std::vector<NamedSurface> named_segments(std::span<const Segment> segments);
 
 /// The objects of a run with their surfaces, numbered as named_segments() does. O(points and
 /// triangles), copied.
-/// @throws nothing
 std::vector<NamedSurface> named_surfaces(const LabelResult& result);
 
 /// Whether a file of this name is one of each object: "{label}" in its name stands for the object.
-/// @throws nothing
 bool names_each(const std::filesystem::path& path);
 
 /// Whether a file of this name holds all objects: its format can, and the name is not one of each.
-/// @throws nothing
 bool holds_all(const std::filesystem::path& path);
 
 /// Names the files of objects whose path is not that of all. The object's name stands where {label}

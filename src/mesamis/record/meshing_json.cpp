@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/record/meshing_json.h"
 
+#include <nlohmann/json.hpp>
+
 namespace mesamis {
 
 nlohmann::ordered_json meshing_json(const MeshingQuality& quality) {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "mesamis/delivery/meshing_surface.h"
 
 namespace mesamis {
 
-/// The entry "meshing" of a surface in a report, as docs/formats.md lists it. O(1).
-/// @throws nothing
+/// The entry "meshing" of a surface in a report, as docs/formats.md lists it.
 nlohmann::ordered_json meshing_json(const MeshingQuality& quality);
 
 }  // namespace mesamis

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/record/object_report.h"
 
+#include <nlohmann/json.hpp>
+
 namespace mesamis {
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "mesamis/object/choose_object.h"
 
@@ -11,9 +11,6 @@ namespace mesamis {
 /// it: tissue, level_from, mask, seeds_mm, removed, padding; docs/formats.md lists the keys.
 /// @param request  of choose_object().
 /// @param chosen   what it returned.
-/// @throws nothing
-///
-/// O(seeds).
 nlohmann::ordered_json object_json(const ObjectRequest& request, const ChosenObject& chosen);
 
 }  // namespace mesamis

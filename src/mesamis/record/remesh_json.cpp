@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/record/remesh_json.h"
 
+#include <nlohmann/json.hpp>
+
 #include "mesamis/record/json_file.h"
 
 namespace mesamis {

@@ -2,6 +2,7 @@
 #include "mesamis/record/report.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/version.h"

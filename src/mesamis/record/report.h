@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -42,38 +42,36 @@ struct ScanSource {
 /// Collects the facts of a scan that a report gives.
 /// @param volume  as it was read; native units.
 /// @throws InputError  if a file cannot be read again for its sha256, or has changed meanwhile.
-///                     O(bytes of the files).
 InputFacts facts_of(const ScanSource& source, const Volume& volume);
 
-/// The entry "input" of a report: "path", "format", "sha256", ... of its scan. Throws nothing.
+/// The entry "input" of a report: "path", "format", "sha256", ... of its scan.
 nlohmann::ordered_json input_json(const InputFacts& input);
 
-/// The entry "program" of every report: name, version, commit. Throws nothing.
+/// The entry "program" of every report: name, version, commit.
 nlohmann::ordered_json program_json();
 
-/// The program as the producer of a file: "mesamis VERSION (COMMIT)". Throws nothing. O(1).
+/// The program as the producer of a file: "mesamis VERSION (COMMIT)".
 std::string producer();
 
-/// The entry "output": the frame of the files written, the threads used. Throws nothing.
+/// The entry "output": the frame of the files written, the threads used.
 nlohmann::ordered_json output_json(Frame frame);
 
 /// The entry "files": path, bytes and sha256 of each file of a set. A set of files is whole where
 /// they are those of the report that lies beside them, which belongs to the set and comes last.
-/// @throws InputError  if a file cannot be read again. O(bytes of the files).
+/// @throws InputError  if a file cannot be read again.
 nlohmann::ordered_json files_json(const OutputSet& set);
 
 /// How a solid was made printable: tolerance, triangles before, distances (mm), parts.
-/// @param tolerance  mm; infinite where there was no bound. Throws nothing.
+/// @param tolerance  mm; infinite where there was no bound.
 nlohmann::ordered_json printable_json(const PrintableReport& printable, double tolerance);
 
-/// What was found out about a scan: noise, blur, contrast, as docs/formats.md lists them. O(1).
-/// Throws nothing.
+/// What was found out about a scan: noise, blur, contrast, as docs/formats.md lists them.
 nlohmann::ordered_json image_json(const Parameters& parameters, const MeasuredImage& image);
 
-/// How near to the truth a surface can be expected to be: mean, p95, max, mm. O(1). Throws nothing.
+/// How near to the truth a surface can be expected to be: mean, p95, max, mm.
 nlohmann::ordered_json error_json(const ErrorSummary& error);
 
-/// The counts, volume and area of a surface, and whether it is closed. Throws nothing. O(1).
+/// The counts, volume and area of a surface, and whether it is closed.
 nlohmann::ordered_json check_json(const TriMesh& surface, const SurfaceCheck& check);
 
 /// What a report says of a run itself: settings, chosen, given, grey, image, iterations, mesh,
@@ -83,13 +81,13 @@ nlohmann::ordered_json check_json(const TriMesh& surface, const SurfaceCheck& ch
 nlohmann::ordered_json run_json(const Settings& asked, const Result& result,
                                 const SurfaceCheck& surface);
 
-/// The same of a run whose figures were taken before. Throws nothing. O(passes).
+/// The same of a run whose figures were taken before.
 nlohmann::ordered_json run_json(const Settings& asked, const RunSummary& run);
 
-/// Of those the iterations and the mesh alone. Throws nothing. O(passes).
+/// Of those the iterations and the mesh alone.
 nlohmann::ordered_json loop_json(const RunSummary& run);
 
-/// The region of a mesh that was written, and its sets of cells. Throws nothing. O(bins).
+/// The region of a mesh that was written, and its sets of cells.
 nlohmann::ordered_json region_json(const MeshOutput& mesh);
 
 }  // namespace mesamis

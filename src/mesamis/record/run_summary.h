@@ -27,9 +27,9 @@ struct RunSummary {
   Result::Seconds seconds;
   bool stopped = false;  ///< see Result::stopped
 
-  /// The functional's value after the last minimisation, grey value^2 mm^3. Throws nothing.
+  /// The functional's value after the last minimisation, grey value^2 mm^3.
   double energy_mm3() const;
-  /// How often the mesh was adapted. Throws nothing.
+  /// How often the mesh was adapted.
   std::int64_t adaptations() const { return static_cast<std::int64_t>(iterations.size()) - 1; }
 };
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <nlohmann/json.hpp>
 
 #include "mesamis/base/error.h"
 #include "mesamis/record/report.h"

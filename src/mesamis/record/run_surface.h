@@ -32,8 +32,6 @@ SurfaceWriteOptions surface_options(const Result& result, double voxel,
 /// Refuses a run that found nothing.
 /// @throws InputError  if the surface has no triangle: which bound left nothing is what the user
 ///                     can change.
-///
-/// O(1).
 void require_surface(const Result& result);
 
 }  // namespace mesamis

@@ -2,6 +2,7 @@
 #include "mesamis/record/settings_json.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "mesamis/method/settings.h"
 
 namespace mesamis {
 
-/// Every setting of setting_table() under its name, as read_settings() reads it. Throws nothing.
+/// Every setting of setting_table() under its name, as read_settings() reads it.
 nlohmann::ordered_json to_json(const Settings& settings);
 
 /// Sets the settings that the object names; the others stay as they are.
@@ -21,8 +21,6 @@ void from_json(const nlohmann::json& object, Settings& settings);
 /// @return valid settings.
 /// @throws InputError  one line that begins with the path, if the file cannot be read, as
 ///                     from_json(), or if the settings do not fit together.
-///
-/// O(bytes of the file).
 Settings read_settings(const std::filesystem::path& path, Settings settings);
 
 }  // namespace mesamis

@@ -22,11 +22,11 @@ struct Verdict {
 
 /// Judges a run: whether its surface is closed, within the tolerance, the run converged, and the
 /// expected error is no more than was asked for.
-/// @param check  of the result's surface. Throws nothing. O(n log n) for n triangles.
+/// @param check  of the result's surface.  O(n log n) for n triangles.
 Verdict judge(const Result& result, const SurfaceCheck& check);
 
 /// Why a surface is farther from the extracted one than it should be, on one line.
-/// @param tolerance  mm. Throws nothing.
+/// @param tolerance  mm.
 std::string tolerance_unmet(double tolerance, const PrintableReport& printable);
 
 }  // namespace mesamis

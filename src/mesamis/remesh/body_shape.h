@@ -36,30 +36,25 @@ class BodyShape {
 
   /// The material at a point.
   /// @param p  mm, in the box of the mesh.
-  /// @throws nothing
   virtual Material material_at(const Vec3& p) const = 0;
 
   /// Where the way from a to b, whose materials differ, leaves that of a.
   /// @param a, b  mm.
   /// @return the share of the way, 0 to 1.
-  /// @throws nothing
   virtual double crossing(const Vec3& a, const Vec3& b) const = 0;
 
   /// Where the way from a to b, of one material, lies deepest in another.
   /// @param a, b  mm.
   /// @return the share of the way, 0 to 1; none if it nowhere lies deeper than the tolerance.
-  /// @throws nothing
   virtual std::optional<double> hidden_crossing(const Vec3& a, const Vec3& b) const = 0;
 
   /// The nearest point of the border between materials; faces of the mesh's box do not count.
   /// @param p  mm.
-  /// @throws nothing
   virtual BorderPoint nearest_border(const Vec3& p) const = 0;
 
   /// The nearest point of the line where three materials meet.
   /// @param p  mm.
   /// @return none if they nowhere do.
-  /// @throws nothing
   virtual std::optional<JunctionPoint> nearest_junction(const Vec3& p,
                                                         const MaterialTriple& materials) const = 0;
 };

@@ -45,7 +45,6 @@ struct RemeshReport {
 /// places, times kCellsPerComplexity.
 /// @param metric  in 1/mm^2, defined on the whole box; called in threads.
 /// @param box     mm.
-/// @throws nothing
 ///
 /// O(1) look-ups. The same bits for any number of threads.
 double predicted_cells(const MetricField& metric, const Box& box);

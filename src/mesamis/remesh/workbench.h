@@ -11,7 +11,7 @@
 
 namespace mesamis::remeshing {
 
-/// A set of vertices that is cleared in O(1).
+/// A set of vertices that is cleared in
 class VertexSet {
  public:
   void clear() { ++epoch_; }

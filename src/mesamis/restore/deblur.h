@@ -37,9 +37,6 @@ void require_valid_blur(const std::array<double, 3>& blur);
 /// frequencies of the grid.
 /// @param blur, regularization  as deblurred() takes them.
 /// @return deviation of the noise after it, per deviation before (no unit); > 0.
-/// @throws nothing
-///
-/// O(1).
 double noise_gain(const std::array<double, 3>& blur, double regularization);
 
 inline constexpr double kLargestBlur = 3;  ///< voxels

@@ -22,9 +22,6 @@ namespace mesamis {
 /// @param thickest  see fit_edge_model().
 /// @return native units; nothing if fewer than a hundred points have a normal, or the fit leaves a
 ///         root mean square of more than a fiftieth of the edge's height.
-/// @throws nothing
-///
-/// O(points).
 std::optional<EdgeModel> measure_edge(const VolumeView& volume,
                                       const std::vector<SurfacePoint>& points,
                                       double thickest = kThickestShell);

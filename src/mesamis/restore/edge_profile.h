@@ -28,7 +28,6 @@ Vec3 voxel_step(const VoxelGrid& grid, const Vec3& n);
 
 /// Medians over the points of the image along their normals.
 /// @param points  at least one, with normals.
-/// O(points).
 Profile median_profile(const VolumeView& volume, const PointGroup& points);
 
 /// A blurred edge: background, then a shell, then a core no brighter than the shell. With the depth

@@ -38,7 +38,6 @@ struct HalfMaximumOptions {
 /// @param volume  native values; usable, see require_usable().
 /// @return a contrast of zero if the level has no surface to measure at; the level is then the one
 ///         the iteration started from.
-/// @throws nothing
 ///
 /// O(voxels) per iteration, at most ten; a smoothed copy of the samples.
 HalfMaximumLevel find_half_maximum_level(const VolumeView& volume,

@@ -21,9 +21,8 @@ struct WithoutImpulses {
 ///                     copy.
 /// @param difference   native units, > 0; well above the noise.
 /// @param least_share  of the voxels, 0 to 1: where fewer are found, all stay as they are.
-/// @throws nothing
 ///
-/// O(voxels). The same bits for any number of threads.
+/// The same bits for any number of threads.
 WithoutImpulses remove_impulses(Volume volume, double difference, double least_share = 0);
 
 }  // namespace mesamis

@@ -17,10 +17,9 @@ struct SurfacePoint {
 };
 
 /// Computes the gradient of the samples at a voxel, by central differences, one-sided at the
-/// border. O(1).
+/// border.
 /// @param i, j, k  within the grid, which has at least 2 voxels along each axis.
 /// @return native units per mm.
-/// @throws nothing
 Vec3 gradient_at(const VolumeView& volume, Index i, Index j, Index k);
 
 /// Finds the points where a volume's grid lines cross a level, by linear interpolation, with
@@ -30,7 +29,6 @@ Vec3 gradient_at(const VolumeView& volume, Index i, Index j, Index k);
 /// @param most    >= 1, about how many points are wanted: from more, every n-th is taken, evenly.
 ///                Less than twice as many are returned.
 /// @return in the order of the voxels; empty if nothing crosses the level.
-/// @throws nothing
 ///
 /// O(voxels), two passes.
 std::vector<SurfacePoint> crossing_points(const VolumeView& volume, double level, std::size_t most);
@@ -40,9 +38,6 @@ std::vector<SurfacePoint> crossing_points(const VolumeView& volume, double level
 /// the axis, and a surface whose normals are spread over all directions has two thirds of the three
 /// areas projected along the axes.
 /// @param level  native units.
-/// @throws nothing
-///
-/// O(voxels).
 double level_area(const VolumeView& volume, double level);
 
 }  // namespace mesamis

@@ -22,16 +22,14 @@ class NearbyRange {
   /// @param size    voxels along each axis, at least 1.
   /// @param values  one per voxel, finite, any unit; i runs fastest, then j, k.
   /// @param reach   voxels along each axis, >= 0.
-  /// @throws nothing
   ///
   /// O(voxels), in threads; an eighth of a byte per voxel is kept.
   NearbyRange(const std::array<Index, 3>& size, std::span<const float> values,
               const std::array<double, 3>& reach);
 
   /// Bounds of the values of all voxels within the reach of a voxel along each axis, and of some
-  /// that are up to eight voxels further. O(1).
+  /// that are up to eight voxels further.
   /// @param i, j, k  within the grid.
-  /// @throws nothing
   const Range& at(Index i, Index j, Index k) const noexcept {
     return blocks_[place(i / kSide, j / kSide, k / kSide)];
   }

@@ -23,14 +23,13 @@ struct ObjectContrast {
 };
 
 /// Finds the place at a distance from a point of the surface along its normal, if the way to it
-/// stays on one side of the surface. O(1).
+/// stays on one side of the surface.
 /// @param guide   the image that is looked at on the way: it must stay on that side of the level.
 /// @param point   with a normal.
 /// @param voxels  distance, -2.5 to 2.5; outwards if positive, inwards if negative.
 /// @param level   native units.
 /// @return in the grid's own axes, mm; nothing if the guide crosses the level on the way (looked at
 ///         after 0.75, 1.5 and 2.5 voxels), or the image ends before.
-/// @throws nothing
 std::optional<Vec3> place_along_normal(const VolumeView& guide, const SurfacePoint& point,
                                        double voxels, double level);
 
@@ -44,9 +43,6 @@ std::optional<Vec3> place_along_normal(const VolumeView& guide, const SurfacePoi
 /// @param points  of the surface {guide = level}; those without a normal are left out.
 /// @param level   native units.
 /// @return nothing if fewer than ten points count on a side.
-/// @throws nothing
-///
-/// O(points).
 std::optional<ObjectContrast> measure_contrast(const VolumeView& volume, const VolumeView& guide,
                                                const std::vector<SurfacePoint>& points,
                                                double level);

@@ -14,9 +14,6 @@ namespace mesamis {
 /// @param contrast  of the object, native units.
 /// @param level     native units.
 /// @return native units; low at most high.
-/// @throws nothing
-///
-/// O(voxels).
 Window window_with_room(const VolumeView& volume, const ObjectContrast& contrast, double level);
 
 /// Measures an object's level and contrast where it is thick.
@@ -38,7 +35,6 @@ Window window_with_room(const VolumeView& volume, const ObjectContrast& contrast
 /// @param seen    of this volume: where to start.
 /// @return level and contrast are the edge's (background and shell), or mixed with those seen; all
 ///         as seen where no edge can be fitted.
-/// @throws nothing
 ///
 /// O(voxels) per iteration, at most three; a smoothed copy of the samples.
 HalfMaximumLevel find_object_edge(const VolumeView& volume, const HalfMaximumLevel& seen);

@@ -22,9 +22,6 @@ namespace mesamis {
 /// @param points  of the surface {guide = level}.
 /// @param level   native units.
 /// @return native units, >= 0; 0 if there are fewer than ten places on each side.
-/// @throws nothing
-///
-/// O(points).
 double measure_noise(const VolumeView& volume, const VolumeView& guide,
                      const std::vector<SurfacePoint>& points, double level);
 
@@ -39,9 +36,6 @@ double measure_noise(const VolumeView& volume, const VolumeView& guide,
 /// @param volume, guide, points, level  as measure_noise() takes them.
 /// @return no unit, -1 to 1; 0 for an axis with fewer than ten places on each side, or where
 ///         neighbours do not differ.
-/// @throws nothing
-///
-/// O(points).
 std::array<double, 3> measure_noise_correlation(const VolumeView& volume, const VolumeView& guide,
                                                 const std::vector<SurfacePoint>& points,
                                                 double level);
@@ -61,7 +55,6 @@ std::array<double, 3> measure_noise_correlation(const VolumeView& volume, const 
 /// @param points  thick_places() of the surface: thin walls never show their whole step.
 /// @return voxels, 0.29 to 2; zeros if fewer than a hundred points have a normal, or no axis can be
 ///         told.
-/// @throws nothing
 ///
 /// O(points), and a spline of the volume.
 std::array<double, 3> measure_blur(const VolumeView& volume,

@@ -17,9 +17,6 @@ struct SurfaceExtent {
 /// is long where the spacing is.
 /// @param image  at least 2 voxels along each axis.
 /// @param level  native units.
-/// @throws nothing
-///
-/// O(voxels).
 SurfaceExtent measure_extent(const VolumeView& image, double level);
 
 }  // namespace mesamis

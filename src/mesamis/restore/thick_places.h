@@ -15,9 +15,6 @@ inline constexpr double kLongestWay = 6;
 /// surface, looked at every half voxel from one voxel on.
 /// @param step  the direction, one voxel long (voxel_step()), mm.
 /// @return voxels, 0.5 to kLongestWay; 0 where the image ends before.
-/// @throws nothing
-///
-/// O(1).
 double way_on_one_side(const VolumeView& image, const SurfacePoint& from, const Vec3& step,
                        double level);
 
@@ -39,9 +36,6 @@ struct ThickPlaces {
 /// @param points  of the surface {guide = level}; those without a normal are left out.
 /// @param level   native units.
 /// @return all points, with a thickness of 0, if fewer than a hundred can be judged.
-/// @throws nothing
-///
-/// O(points).
 ThickPlaces thick_places(const VolumeView& guide, const std::vector<SurfacePoint>& points,
                          double level);
 

@@ -34,7 +34,6 @@ struct SheetOptions {
 /// noise may have made, are left alone.
 /// @param restored  native units; changed in place.
 /// @param guide     the scan as it came, smoothed() once, on the same grid, native units.
-/// @throws nothing
 ///
 /// O(voxels); a spline of the guide. The same bits for any number of threads.
 void lift_thin_sheets(Volume& restored, const VolumeView& guide, const SheetOptions& options);

@@ -20,9 +20,6 @@ namespace mesamis {
 /// @param contrast, level  of the object, native units, see HalfMaximumLevel.
 /// @param noise            standard deviation, native units.
 /// @return native units; nothing if no threshold is needed.
-/// @throws nothing
-///
-/// O(voxels).
 std::optional<double> find_tissue_threshold(const VolumeView& volume,
                                             const ObjectContrast& contrast, double level,
                                             double noise);

@@ -18,9 +18,6 @@ namespace mesamis {
 /// @param points  thick_places() of the surface: the blur makes thin walls vary by themselves.
 /// @param noise   of the volume, standard deviation, native units.
 /// @return native units, >= 0; 0 if there are fewer than a hundred points with a normal.
-/// @throws nothing
-///
-/// O(points).
 double measure_variation(const VolumeView& volume, const std::vector<SurfacePoint>& points,
                          double noise);
 

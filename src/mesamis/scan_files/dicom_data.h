@@ -72,7 +72,7 @@ bool begins_like_dicom(Bytes bytes);
 
 /// Reads and parses a file. `problem` describes broken content; elements before it are kept.
 ///
-/// O(bytes). Memory: the file once, deflated files unpacked, and what its elements take: claimed
+/// Memory: the file once, deflated files unpacked, and what its elements take: claimed
 /// before it is taken, and held.
 /// @throws InputError  if the file cannot be read, and as MemoryBudget::claim().
 DicomFile read_dicom_file(const std::filesystem::path& path, MemoryBudget& budget);

@@ -27,7 +27,7 @@ std::optional<PictureHeader> jpeg2000_header(Bytes picture);
 /// millions. Read from all COD and COC segments (ISO/IEC 15444-1, A.6.1 and A.6.2).
 /// @param picture  begins with a SIZ segment, see jpeg2000_header().
 /// @param pixels   of the picture.
-/// @return bytes; the largest number of 64 bits where the segments cannot be followed. O(bytes).
+/// @return bytes; the largest number of 64 bits where the segments cannot be followed.
 std::uint64_t jpeg2000_structure_bytes(Bytes picture, std::uint64_t pixels);
 
 /// Whether JPEG's EOI or JPEG 2000's EOC marker ends the data; up to 16 bytes of padding may

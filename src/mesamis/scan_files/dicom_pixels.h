@@ -42,7 +42,7 @@ struct FrameRescale {
 
 /// Appends the native values of one frame, row by row.
 ///
-/// O(pixels). Memory: one frame more than the output.
+/// Memory: one frame more than the output.
 /// @return whether the data were intact. A damaged JPEG is decoded as far as its data go.
 /// @throws InputError  if the compressed data cannot be decoded.
 bool append_frame(const DicomFile& file, const DicomPixels& pixels, const FrameRescale& rescale,

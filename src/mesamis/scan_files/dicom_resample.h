@@ -30,8 +30,6 @@ struct ResamplePlan {
 /// @param path  begins the message.
 /// @throws InputError  if two slices lie at one place, or the grid has more than 64 voxels per
 ///                     sample of the slices.
-///
-/// O(slices).
 ResamplePlan plan_resampling(const std::filesystem::path& path, const SortedSlices& sorted);
 
 /// Interpolates the samples of a stack onto its grid, linearly within a slice and between slices.
@@ -39,7 +37,6 @@ ResamplePlan plan_resampling(const std::filesystem::path& path, const SortedSlic
 /// @param columns, rows  of each slice.
 /// @param samples        slice by slice, native units.
 /// @return one per voxel of plan.grid.
-/// @throws nothing
 ///
 /// O(voxels of the grid), in threads; the same bits for any number of them.
 std::vector<float> resampled(const ResamplePlan& plan, const std::array<int, 2>& columns_rows,

@@ -22,9 +22,6 @@ struct NrrdContent {
 ///
 /// Space is left-posterior-superior; space directions and space origin are in mm, in decimals that
 /// read back to the same bits, whatever the locale.
-/// @throws nothing
-///
-/// O(keys).
 std::string nrrd_header(const VoxelGrid& grid, const NrrdContent& content);
 
 }  // namespace mesamis::detail

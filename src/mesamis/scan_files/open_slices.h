@@ -13,8 +13,7 @@ namespace mesamis {
 class FileSlices : public SliceSource {
  public:
   /// What read_volume() returns of the same path, but for the samples, which are absent: grid,
-  /// format, warnings, and the files that were opened. O(1).
-  /// @throws nothing
+  /// format, warnings, and the files that were opened.
   virtual const VolumeFile& head() const = 0;
 };
 

@@ -30,7 +30,6 @@ std::vector<std::filesystem::path> slices_without_dicom(const std::filesystem::p
 
 /// Reads pictures of one slice each, only those that are asked for.
 /// @param files  in the order of the slices.
-/// @throws nothing
 SliceReader read_pictures(std::vector<std::filesystem::path> files);
 
 /// The headers of all files, held against each other, as one volume. Its reader opens only the
@@ -50,7 +49,7 @@ OpenSlices open_stack(const std::filesystem::path& directory,
 /// @throws InputError  naming the file, if a picture is of another format, size, type or spacing
 ///                     than the first, or holds more than one slice.
 ///
-/// O(pixels). Memory: 4 bytes per pixel, and one file at a time.
+/// Memory: 4 bytes per pixel, and one file at a time.
 VolumeFile read_slices(const std::filesystem::path& directory,
                        const std::vector<std::filesystem::path>& files, const ReadOptions& options,
                        MemoryBudget& budget);

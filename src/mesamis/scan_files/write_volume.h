@@ -29,7 +29,7 @@ struct NrrdOptions {
 /// @throws InputError  for another extension, samples that are not as many as voxels, samples that
 ///                     do not fit into 16 bits, or a file that cannot be written.
 ///
-/// O(voxels). Memory: a slab's samples, see slab_slices().
+/// Memory: a slab's samples, see slab_slices().
 void write_nrrd(const std::filesystem::path& path, const Volume& volume,
                 const NrrdOptions& options = {});
 
@@ -38,7 +38,7 @@ void write_nrrd(const std::filesystem::path& path, const Volume& volume,
 /// @param source  samples in native units.
 /// @throws InputError  as the function above, and as source.read().
 ///
-/// O(voxels). Memory: a slab's samples.
+/// Memory: a slab's samples.
 void write_nrrd(const std::filesystem::path& path, const SliceSource& source,
                 const NrrdOptions& options = {});
 

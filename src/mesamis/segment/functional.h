@@ -40,9 +40,8 @@ struct Energy {
 /// Evaluates the discrete functional (4). Source: paper, sec. 2.
 /// @param fields  n values each, n the nodes of the space.
 /// @return grey value squared times volume; volumes in the mesh's own unit.
-/// @throws nothing
 ///
-/// O(n). Summed in blocks: the same bits for any number of threads.
+/// Summed in blocks: the same bits for any number of threads.
 Energy energy(const P1Space& space, const AtParameters& parameters, const AtFields& fields);
 
 }  // namespace mesamis

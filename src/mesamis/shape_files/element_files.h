@@ -45,7 +45,7 @@ struct ElementWriteOptions {
 ///                     size, an index, a name, a material or an array does not fit, a coordinate is
 ///                     not finite, or the file cannot be written.
 ///
-/// O(size of the file). Memory: 1 MiB of text, and 4 bytes per cell and part's node.
+/// Memory: 1 MiB of text, and 4 bytes per cell and part's node.
 void write_elements(const std::filesystem::path& path, const FiniteElements& elements,
                     const ElementWriteOptions& options = {});
 

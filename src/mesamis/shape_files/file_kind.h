@@ -17,7 +17,7 @@ enum class FileKind {
 /// Tells what a file holds by its extension, in either case and without a final .gz: .stl .ply .obj
 /// .vtp .3mf .amf .vtk are surfaces, .vtu .mesh are tetrahedra. Anything else, a directory with any
 /// name too, may be a scan.
-/// @param path  need not exist. Throws nothing.
+/// @param path  need not exist.
 FileKind kind_of(const std::filesystem::path& path);
 
 /// Reads tetrahedra by extension, in either case: Medit .mesh, without arrays, or .vtu.

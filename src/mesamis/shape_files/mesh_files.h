@@ -36,7 +36,7 @@ struct VtuOptions {
 /// @throws InputError  if an array's size does not fit, two have the same name, there are more than
 ///                     2^31 / 4 cells, or the file cannot be written.
 ///
-/// O(size of the file). Memory: one block of 32 KiB beside the arguments.
+/// Memory: one block of 32 KiB beside the arguments.
 void write_vtu(const std::filesystem::path& path, const TetMesh& mesh,
                const VtuOptions& options = {});
 
@@ -48,8 +48,6 @@ void write_vtu(const std::filesystem::path& path, const TetMesh& mesh,
 /// are
 ///                      not read.
 /// @throws InputError  if the file cannot be written.
-///
-/// O(pieces).
 void write_pvtu(const std::filesystem::path& path, std::span<const std::string> pieces,
                 std::span<const MeshArray> point_arrays, std::span<const MeshArray> cell_arrays);
 
@@ -67,7 +65,7 @@ struct MeshWithArrays {
 /// @param limits  as read_surface().
 /// @throws InputError  if the file is not such a .vtu, has cells of another type, or is damaged.
 ///
-/// O(size of the file). Memory: the file's bytes and the mesh, within the limits.
+/// Memory: the file's bytes and the mesh, within the limits.
 MeshWithArrays read_vtu(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 /// A partition of the cells of a mesh into named sets, one per material of a finite element model.
@@ -91,7 +89,7 @@ struct CellSets {
 /// @throws InputError  if an array or the sets do not fit, there is no cell, an index is out of
 ///                     range, a value is not finite or the file cannot be written.
 ///
-/// O(n + m). Memory: 1 MiB of text.
+/// Memory: 1 MiB of text.
 void write_gmsh(const std::filesystem::path& path, const MeshWithArrays& grid, const CellSets& sets,
                 Frame frame = Frame::kLps);
 
@@ -116,7 +114,7 @@ void write_abaqus(const std::filesystem::path& path, const TetMesh& mesh, const 
 /// @throws InputError  if the references are neither m nor none, a coordinate is not finite or the
 ///                     file cannot be written.
 ///
-/// O(n + m). Memory: 1 MiB of text.
+/// Memory: 1 MiB of text.
 void write_medit_mesh(const std::filesystem::path& path, const TetMesh& mesh,
                       Frame frame = Frame::kLps, std::span<const Index> references = {});
 
@@ -127,7 +125,7 @@ void write_medit_mesh(const std::filesystem::path& path, const TetMesh& mesh,
 /// @param limits  as read_surface().
 /// @throws InputError  naming file, line and section.
 ///
-/// O(size of the file). Memory: the file's bytes and the mesh, within the limits.
+/// Memory: the file's bytes and the mesh, within the limits.
 TetMesh read_medit_mesh(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 /// Writes scalar fields as Medit ASCII .sol: SolAtVertices, and SolAtTetrahedra if there are fields
@@ -137,7 +135,7 @@ TetMesh read_medit_mesh(const std::filesystem::path& path, const ReadLimits& lim
 /// @param cell_fields  fields of m values each, one per cell, any unit.
 /// @throws InputError  if the sizes differ, a value is not finite or the file cannot be written.
 ///
-/// O(number of values). Memory: 1 MiB of text.
+/// Memory: 1 MiB of text.
 void write_medit_scalars(const std::filesystem::path& path,
                          std::span<const std::vector<double>> fields,
                          std::span<const std::vector<double>> cell_fields = {});
@@ -148,7 +146,7 @@ void write_medit_scalars(const std::filesystem::path& path,
 /// @param metrics  one symmetric matrix per point, in 1/mm^2.
 /// @throws InputError  if a value is not finite or the file cannot be written.
 ///
-/// O(number of points). Memory: 1 MiB of text.
+/// Memory: 1 MiB of text.
 void write_medit_metric(const std::filesystem::path& path, std::span<const Sym3> metrics);
 
 /// Reads a metric of a Medit ASCII .sol at the vertices. A scalar size h in mm becomes 1/h^2 times
@@ -157,8 +155,6 @@ void write_medit_metric(const std::filesystem::path& path, std::span<const Sym3>
 /// @return one matrix per vertex, in 1/mm^2; whether it is positive definite is not checked.
 /// @param limits  as read_surface().
 /// @throws InputError  naming file, line and section.
-///
-/// O(size of the file).
 std::vector<Sym3> read_medit_metric(const std::filesystem::path& path,
                                     const ReadLimits& limits = {});
 

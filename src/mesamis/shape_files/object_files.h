@@ -50,13 +50,11 @@ void write_objects(const std::filesystem::path& path, std::span<const NamedSurfa
                    const SurfaceWriteOptions& options = {});
 
 /// The extensions of write_objects(), with their dots. O(1) time and memory.
-/// @throws nothing
 std::vector<std::string> written_object_formats();
 
 /// Names the file of one object, for formats that hold one surface: "out.stl" becomes
 /// "out-NAME.stl". In NAME each character other than ASCII letters, digits, "-", "_" and "." is
 /// "_"; it has at most 100 characters. A name without letter or digit is "object".
-/// @throws nothing
 std::filesystem::path object_path(const std::filesystem::path& path, const std::string& name);
 
 /// Names one file per object as object_path() does. Names that are equal then, without regard to
@@ -85,7 +83,6 @@ struct JoinedObjects {
 
 /// Joins the surfaces of several objects, one after another.
 /// @param objects  points in mm, at most 2^31 - 1 of all objects.
-/// @throws nothing
 ///
 /// O(points and triangles).
 JoinedObjects joined(std::span<const NamedSurface> objects);
@@ -120,9 +117,6 @@ std::vector<NamedSurface> read_objects(const std::filesystem::path& path,
 ///
 /// @param file  points in mm; taken by value, so that a moved file is not copied.
 /// @return points in LPS; as the file has them where it states no frame.
-/// @throws nothing
-///
-/// O(points).
 std::vector<NamedSurface> in_lps(ObjectFile file);
 
 }  // namespace mesamis

@@ -53,20 +53,17 @@ struct SurfaceWriteOptions {
 ///                     or not finite; an array's name that is not one word, or two arrays of the
 ///                     same name; a file that cannot be written.
 ///
-/// O(n + m). Memory: the file's bytes, and for RAS a copy of the surface.
+/// Memory: the file's bytes, and for RAS a copy of the surface.
 void write_surface(const std::filesystem::path& path, const TriMesh& surface,
                    const SurfaceWriteOptions& options = {});
 
 /// The extensions of write_surface(), with their dots. O(1) time and memory.
-/// @throws nothing
 std::vector<std::string> written_surface_formats();
 
 /// Whether the format of this extension has a place for SurfaceWriteOptions::grey.
-/// @throws nothing
 bool carries_grey(const std::filesystem::path& path);
 
 /// Whether the format of this extension has a place for SurfaceWriteOptions::point_arrays.
-/// @throws nothing
 bool carries_arrays(const std::filesystem::path& path);
 
 /// Reads a surface: .stl .ply .obj (text or binary where there are both), .vtp, .3mf, .amf (not
@@ -100,15 +97,11 @@ SurfaceFile read_surface_file(const std::filesystem::path& path, const ReadLimit
 ///
 /// @param surface  n points; taken by value, so that a moved surface is not copied.
 /// @return the same surface in the other frame.
-/// @throws nothing
-///
-/// O(n).
 TriMesh turned(TriMesh surface);
 
 /// Converts the surface to LPS where its file states a frame.
 ///
 /// @return points in LPS; as the file has them where it states no frame.
-/// @throws nothing
 ///
 /// O(n), a copy of the surface.
 TriMesh in_lps(const SurfaceFile& file);
@@ -120,8 +113,6 @@ TriMesh in_lps(const SurfaceFile& file);
 /// @return one value per point, in the order of read_surface(); any unit, as the file has them.
 /// @throws InputError  if the file is neither .vtp nor .ply, has several pieces, or has no such
 ///                     array of one component; the message names those it has.
-///
-/// O(size of the file).
 std::vector<double> read_point_array(const std::filesystem::path& path, const std::string& name,
                                      const ReadLimits& limits = {});
 

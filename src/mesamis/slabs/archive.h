@@ -29,7 +29,6 @@ class ArchiveWriter {
     add_bytes(&item, 1, sizeof(Item));
   }
   /// All of them, as they lie in a file; valid until something is added.
-  /// @throws nothing
   std::string_view bytes() const noexcept { return bytes_; }
 
  private:
@@ -61,7 +60,6 @@ class ArchiveReader {
     return items[0];
   }
   /// Of the file, bytes.
-  /// @throws nothing
   std::size_t size() const noexcept { return bytes_.size(); }
 
  private:

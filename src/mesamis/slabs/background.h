@@ -57,13 +57,13 @@ struct GridWindow {
   std::vector<std::array<float, 6>> log_metrics;  ///< per node
 };
 
-/// The grid of a window, whose first node is the window's low corner. O(1).
+/// The grid of a window, whose first node is the window's low corner.
 KuhnGrid grid_of(const GridWindow& window);
 
 /// The slices of a window that lie between two heights, and one beyond each where there is one; at
-/// least two. O(1).
+/// least two.
 SliceRange slice_range(const GridWindow& window, double low, double high);
-/// A window of some slices, still without values. O(1).
+/// A window of some slices, still without values.
 GridWindow frame_of(const GridWindow& window, const SliceRange& range);
 /// The slices of slice_range(), with their values.
 GridWindow slices_between(const GridWindow& window, double low, double high);

@@ -22,8 +22,6 @@ void write_nodes(const std::filesystem::path& path, const GridWindow& window);
 /// @param frame  box and size of the window that was written.
 /// @return a window of those slices; of a window that lies elsewhere, its nearest two.
 /// @throws InputError  as map_items().
-///
-/// O(nodes of the slices).
 GridWindow read_nodes(const std::filesystem::path& path, const GridWindow& frame, double low,
                       double high);
 

@@ -37,7 +37,7 @@ void add_piece(ArchiveWriter& archive, const Piece& piece);
 /// @throws InputError  as ArchiveReader::next().
 Piece next_piece(ArchiveReader& archive);
 
-/// One value of each node: values_of(piece, &NodeValues::u). O(nodes).
+/// One value of each node: values_of(piece, &NodeValues::u).
 template <class Value>
 std::vector<Value> values_of(const Piece& piece, Value NodeValues::*which) {
   std::vector<Value> values;

@@ -20,48 +20,37 @@ struct SlabPlan {
   double overlap = 0;       ///< how far a slab looks over its borders, length units
   std::vector<Index> cuts;  ///< slab s owns the slices cuts[s] to cuts[s + 1] - 1
 
-  /// The number of slabs. O(1).
-  /// @throws nothing
+  /// The number of slabs.
   Index count() const noexcept { return static_cast<Index>(cuts.size()) - 1; }
-  /// The box of the voxel centres, length units, in the grid's own axes. O(1).
-  /// @throws nothing
+  /// The box of the voxel centres, length units, in the grid's own axes.
   Box box() const noexcept { return {{0, 0, 0}, (1 / unit_mm) * whole.box().extent()}; }
-  /// The height of a slice. O(1).
+  /// The height of a slice.
   /// @return in units of unit_mm.
-  /// @throws nothing
   double height_of_slice(Index k) const noexcept { return k * whole.spacing.z / unit_mm; }
-  /// The slice at or below a height; the first or the last for one outside. O(1).
+  /// The slice at or below a height; the first or the last for one outside.
   /// @param height  in units of unit_mm.
-  /// @throws nothing
   std::size_t slice_at(double height) const noexcept;
-  /// The height where slab s begins; that of count() is where the last one ends. O(1).
+  /// The height where slab s begins; that of count() is where the last one ends.
   /// @return in units of unit_mm.
-  /// @throws nothing
   double height(Index s) const noexcept {
     return s == 0         ? 0
            : s == count() ? box().hi.z
                           : height_of_slice(cuts[static_cast<std::size_t>(s)]);
   }
-  /// How many slices are at least so thick. O(1).
+  /// How many slices are at least so thick.
   /// @param length  in units of unit_mm.
-  /// @throws nothing
   Index slices_in(double length) const noexcept;
-  /// O(1).
   /// @return in units of unit_mm.
-  /// @throws nothing
   double thickness(Index s) const noexcept { return height(s + 1) - height(s); }
-  /// The thickness of the thinnest slab. O(slabs).
+  /// The thickness of the thinnest slab.
   /// @return in units of unit_mm.
-  /// @throws nothing
   double thinnest() const noexcept;
-  /// How thick slabs are at least, but for a slice at the end of the scan. O(1).
+  /// How thick slabs are at least, but for a slice at the end of the scan.
   /// @return in units of unit_mm.
-  /// @throws nothing
   double least_thickness() const noexcept { return kOverlapsInSlab * overlap; }
 };
 
-/// How many parts of at most so many voxels a scan has, at least 1. O(1).
-/// @throws nothing
+/// How many parts of at most so many voxels a scan has, at least 1.
 Index parts_of(const VoxelGrid& whole, std::size_t voxels) noexcept;
 
 /// What a plan depends on beside the scan's grid.
@@ -79,8 +68,6 @@ struct SlabOptions {
 /// Cuts a scan so that all slabs have about the same work.
 /// @param work  of each slice, any unit, >= 0.
 /// @throws InputError  if the slabs asked for are thinner than four overlaps.
-///
-/// O(slices).
 SlabPlan plan_slabs(const VoxelGrid& whole, std::span<const double> work,
                     const SlabOptions& options);
 

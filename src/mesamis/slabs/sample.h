@@ -13,7 +13,7 @@ struct SliceSums {
   double sum = 0, squares = 0;
 };
 
-/// Of some slices. O(voxels).
+/// Of some slices.
 std::vector<SliceSums> sums_of_slices(const Volume& slab);
 
 /// All slices where they have no more voxels than `most`; else as many as that allows, at least

@@ -27,10 +27,8 @@ class Scratch {
   void write(const std::string& name, const ArchiveWriter& archive) const;
   /// @throws InputError  if there is no such file.
   ArchiveReader read(const std::string& name) const;
-  /// @throws nothing
   void remove(const std::string& name) const;
   /// Removes the run's folder, and the one around it if nothing is left in that.
-  /// @throws nothing
   void clear() const;
 
  private:

@@ -14,8 +14,7 @@ struct SlabWork {
   std::int64_t bytes = 0;   ///< read of what belongs to other slabs
   double seconds = 0;       ///< wall time
 
-  /// Adds the work of other tasks. O(1).
-  /// @throws nothing
+  /// Adds the work of other tasks.
   SlabWork& operator+=(const SlabWork& other) noexcept {
     voxels += other.voxels;
     rows += other.rows;

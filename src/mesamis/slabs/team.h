@@ -10,10 +10,8 @@ class Team {
   virtual ~Team() = default;
 
   /// How many there are, at least 1.
-  /// @throws nothing
   virtual int size() const noexcept = 0;
   /// Which of them this one is, 0 to size() - 1.
-  /// @throws nothing
   virtual int rank() const noexcept = 0;
   /// Returns when all have called it as often as this one.
   /// @throws what the way to the others throws where one of them is gone.
@@ -28,8 +26,7 @@ class Alone : public Team {
   void wait_for_all() override {}
 };
 
-/// The team of a process that was started on its own. O(1).
-/// @throws nothing
+/// The team of a process that was started on its own.
 inline Team& alone() noexcept {
   static Alone team;
   return team;

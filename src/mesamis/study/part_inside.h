@@ -12,7 +12,7 @@ namespace mesamis {
 /// @param volume   gives the box, see Volume::box(); its samples are not used.
 /// @param margin   mm along each axis of the grid, >= 0.
 /// @return LPS mm, in the order of the surface, without unused points; empty if no triangle is
-///         inside. Throws nothing. O(n) for n points and triangles.
+///         inside.  O(n) for n points and triangles.
 TriMesh part_inside(const TriMesh& surface, const Volume& volume, const Vec3& margin);
 
 }  // namespace mesamis

@@ -26,7 +26,7 @@ struct Diagram {
 ///   energy.svg     energy after each minimisation, grey value^2 mm^3, a curve per run
 ///   cells.svg      tetrahedra of the mesh of each minimisation, a curve per run
 ///
-/// @return those that have a point. Throws nothing. O(n) for n distances.
+/// @return those that have a point.  O(n) for n distances.
 std::vector<Diagram> study_diagrams(std::span<const StudyRun> runs);
 
 /// Draws the diagrams into files PREFIXNAME. Each file appears whole or not at all.

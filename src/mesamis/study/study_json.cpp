@@ -2,6 +2,7 @@
 #include "mesamis/study/study_json.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "mesamis/record/comparison_json.h"
 #include "mesamis/record/json_file.h"

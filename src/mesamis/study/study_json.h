@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,7 +33,7 @@ struct StudyRecord {
   std::vector<ExperimentRecord> experiments;
   std::vector<std::string> pictures;  ///< names of the diagrams drawn
 
-  /// The worst outcome of all runs. Throws nothing. O(runs).
+  /// The worst outcome of all runs.
   Outcome outcome() const;
 };
 

@@ -26,7 +26,6 @@ struct RunComparison {
   std::optional<double> variation_percent = std::nullopt;
 
   /// By how much the surface has fewer triangles than the reference, percent; negative if more.
-  /// Throws nothing.
   double triangle_reduction_percent() const;
 };
 
@@ -42,7 +41,7 @@ struct StudyRun {
   std::string remark;   ///< why the outcome is not kKept; else empty
   std::string failure;  ///< why there is no surface to compare; else empty
 
-  /// Whether the method converged and there is a surface to compare. Throws nothing.
+  /// Whether the method converged and there is a surface to compare.
   bool converged() const { return summary && summary->converged && failure.empty(); }
 };
 
@@ -59,7 +58,7 @@ StudyRun segment_planned(const Experiment& experiment, const PlannedRun& plan,
 
 /// Marks a planned run as failed.
 /// @param reason  one line.
-/// @return a run without a surface, whose outcome is kNotConverged. Throws nothing. O(1).
+/// @return a run without a surface, whose outcome is kNotConverged.
 StudyRun failed_run(const PlannedRun& plan, const std::string& reason);
 
 /// Refuses a reference that no run of the experiment could be compared with.
@@ -83,7 +82,6 @@ StudyRun with_comparison(const TriMesh& reference, const Experiment& experiment,
 /// Sets RunComparison::variation_percent of each run that has a comparison: the difference of its
 /// mean distance (15) from that of the baseline among the runs.
 /// @return the runs; without a baseline, or one with a mean distance above 0 mm, as they are.
-///         Throws nothing. O(runs).
 std::vector<StudyRun> with_distance_variations(std::vector<StudyRun> runs);
 
 }  // namespace mesamis

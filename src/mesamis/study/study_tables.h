@@ -12,16 +12,15 @@
 namespace mesamis {
 
 /// Tables 1 and 2 and Figure 6 of the paper: a row per run.
-/// @return the names of the columns, then the rows; lengths in mm. Throws nothing. O(runs).
+/// @return the names of the columns, then the rows; lengths in mm.
 std::string runs_csv(std::span<const StudyRun> runs);
 
 /// Figure 3 of the paper: a row per run and iteration, counted from 1.
 /// @return the names of the columns, then the rows; energies in grey value^2 times length unit^3.
-///         Throws nothing. O(iterations).
 std::string convergence_csv(std::span<const StudyRun> runs);
 
 /// Figure 7 of the paper: the distances from the reference, as histogram_of() counts them.
-/// @return a row per bin, mm; two columns per run that has distances. Throws nothing.
+/// @return a row per bin, mm; two columns per run that has distances.
 ///
 /// O(n) for n distances.
 std::string histogram_csv(std::span<const StudyRun> runs);

@@ -26,14 +26,12 @@ struct AxisFlip {
 inline constexpr AxisFlip kLpsRas{{0, 1, 2}, {-1, -1, 1}};
 
 /// The flip as text: "(-x, -y, z)".
-/// @throws nothing
 std::string to_string(const AxisFlip& flip);
 
 /// How badly two boxes fit: the greater of the distances between their lower and between their
 /// upper corners, divided by the longer diagonal.
 /// @param a, b  mm.
 /// @return no unit; 0 for equal boxes, else > 0.
-/// @throws nothing
 double box_misfit(const Box& a, const Box& b);
 
 /// A surface that lies on the reference after a flip, and not as it is.

@@ -21,7 +21,6 @@ struct SurfaceComponents {
 
 /// The order in which components come: the largest absolute volume first, of equal ones the first.
 /// @return the index of each in `sizes`.
-/// @throws nothing
 ///
 /// O(n log n) for n components.
 std::vector<Index> largest_first(std::span<const SurfaceComponents::Size> sizes);

@@ -37,11 +37,10 @@ std::vector<double> distances_to_surface(std::span<const Vec3> points, const Tri
 double max_distance(const TriMesh& from, const TriMesh& to, double fine);
 
 /// The parameter `fine` of max_distance() that suits a tolerance: a hundredth of it, or a millionth
-/// of the diagonal of the surface's box if the tolerance is infinite. O(n).
+/// of the diagonal of the surface's box if the tolerance is infinite.
 /// @param surface    n points, mm.
 /// @param tolerance  mm, > 0.
 /// @return mm.
-/// @throws nothing
 double fine_enough(const TriMesh& surface, double tolerance);
 
 /// Statistics of distances, mm.
@@ -53,10 +52,9 @@ struct DistanceSummary {
   double max = 0;           ///< (14)
 };
 
-/// Summarizes distances. O(n).
+/// Summarizes distances.
 /// @param distances  n values in mm, finite.
 /// @return all zero for no distances.
-/// @throws nothing
 DistanceSummary summarize(std::vector<double> distances);
 
 }  // namespace mesamis

@@ -45,7 +45,7 @@ inline constexpr double kExactCrossingMargin = 1e-4;
 TriMesh extract_solid(const TetMesh& mesh, std::span<const double> u, double level,
                       const SolidOptions& options = {});
 
-/// Finds the cells whose centroid value of v is below the threshold: the paper's T_h^th. O(m).
+/// Finds the cells whose centroid value of v is below the threshold: the paper's T_h^th.
 /// @param mesh       n nodes, m cells.
 /// @param v          n values, finite, no unit.
 /// @param threshold  finite, no unit.

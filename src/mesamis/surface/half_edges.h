@@ -40,7 +40,7 @@ struct HalfEdge {
 std::vector<HalfEdge> sorted_half_edges(std::span<const Triangle> triangles,
                                         std::size_t point_count);
 
-/// Calls visit(std::span<const HalfEdge>) once per edge. O(n).
+/// Calls visit(std::span<const HalfEdge>) once per edge.
 /// @param half_edges  of sorted_half_edges().
 template <class Visit>
 void for_each_edge(std::span<const HalfEdge> half_edges, Visit&& visit) {

@@ -13,7 +13,7 @@ struct LabelParts {
   std::vector<Index> label;  ///< of each part; parts are numbered in the order of their first nodes
 };
 
-/// Finds the parts. O(nodes).
+/// Finds the parts.
 LabelParts find_label_parts(const LabelGrid& grid);
 
 }  // namespace mesamis

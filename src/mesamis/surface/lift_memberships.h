@@ -9,8 +9,6 @@ namespace mesamis {
 /// material is one node thick, by so much that it stays about as thick. What each node asks for is
 /// averaged along the material, so that its boundaries stay smooth; match_volumes() does the rest.
 /// @param grid  at each node listed, its own material is listed first.
-///
-/// O(nodes).
 void lift_memberships(GridMemberships& grid);
 
 }  // namespace mesamis

@@ -10,7 +10,7 @@ namespace mesamis {
 /// By how much a node's own material wins at least.
 inline constexpr float kLeastLead = 0.02F;
 
-/// The volume of each material's nodes: a voxel each, as far as it lies within the grid. O(nodes).
+/// The volume of each material's nodes: a voxel each, as far as it lies within the grid.
 /// @param grid      its size, spacing and number of materials count.
 /// @param material  of each node.
 /// @return mm^3.

@@ -19,9 +19,6 @@ struct Nesting {
 /// A point of each component: of its first triangle.
 /// @param surface     m triangles, mm.
 /// @param components  of the surface.
-/// @throws nothing
-///
-/// O(m).
 std::vector<Vec3> component_feet(const TriMesh& surface, const SurfaceComponents& components);
 
 /// Of the ray of each component, how often it crosses each of the others.
@@ -32,7 +29,6 @@ using RayCrossings = std::vector<std::map<Index, int>>;
 /// @param feet          n points, one of each component, mm; its ray goes from there towards -x.
 /// @param piece         m triangles, mm.
 /// @param component_of  m components; kNoIndex: none.
-/// @throws nothing
 ///
 /// O(m root n) in the mean.
 RayCrossings ray_crossings(std::span<const Vec3> feet, const TriMesh& piece,
@@ -40,7 +36,6 @@ RayCrossings ray_crossings(std::span<const Vec3> feet, const TriMesh& piece,
 
 /// Finds the nesting by the parity of the crossings with the whole surface.
 /// @param crossings  of n components.
-/// @throws nothing
 ///
 /// O(n log n) for few components around each.
 Nesting nesting_of(RayCrossings crossings);
@@ -48,7 +43,6 @@ Nesting nesting_of(RayCrossings crossings);
 /// Finds the nesting of the components of a surface.
 /// @param surface     m triangles, mm; closed, without self-intersections.
 /// @param components  of the surface.
-/// @throws nothing
 ///
 /// O(m root n) in the mean for n components.
 Nesting find_nesting(const TriMesh& surface, const SurfaceComponents& components);

@@ -11,8 +11,6 @@ namespace mesamis {
 /// @param surface      n points, m triangles, mm.
 /// @return n vectors of length 1 (no unit); zero where there is no triangle or they cancel out.
 /// @throws InputError  as require_sound().
-///
-/// O(n + m).
 std::vector<Vec3> vertex_normals(const TriMesh& surface);
 
 }  // namespace mesamis

@@ -12,8 +12,6 @@ namespace mesamis {
 /// @param part         of each node: where p is 1. The materials of the grid may differ from it.
 /// @param sigma_voxel  of the Gaussian, nodes, along each axis.
 /// @param grid         its size and materials are read; its lists are set.
-///
-/// O(nodes).
 void filter_parts(const std::vector<Index>& part, double sigma_voxel, GridMemberships& grid);
 
 }  // namespace mesamis

@@ -56,7 +56,6 @@ PartitionSurface extract_partition(const TetMesh& mesh,
 /// @param material   one of its sides; others have no triangles.
 /// @return points in mm, those that the material's triangles use, in their order; triangles in
 ///         their order.
-/// @throws nothing
 ///
 /// O(s + t log t) for t triangles of the material.
 TriMesh object_surface(const PartitionSurface& partition, Index material);
@@ -65,7 +64,6 @@ TriMesh object_surface(const PartitionSurface& partition, Index material);
 /// @param partition  s triangles, mm.
 /// @param materials  each once.
 /// @return what object_surface() returns for each material, in their order; mm.
-/// @throws nothing
 ///
 /// O(s + t log t) for t triangles of all these materials.
 std::vector<TriMesh> object_surfaces(const PartitionSurface& partition,
@@ -73,7 +71,6 @@ std::vector<TriMesh> object_surfaces(const PartitionSurface& partition,
 
 /// Lists the materials of a partition. O(s) for s triangles, up to a logarithm.
 /// @return increasing; without kNoIndex.
-/// @throws nothing
 std::vector<Index> materials_of(const PartitionSurface& partition);
 
 }  // namespace mesamis

@@ -33,9 +33,6 @@ struct PartChoice {
 /// Chooses the components that a selection does not keep.
 /// @param parts    n components, the largest absolute volume first.
 /// @param nesting  of them.
-/// @throws nothing
-///
-/// O(n).
 PartChoice choose_parts(std::span<const SurfaceComponents::Size> parts, const Nesting& nesting,
                         const PartSelection& selection);
 

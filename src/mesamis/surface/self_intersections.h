@@ -40,7 +40,6 @@ class SelfIntersections {
 
   /// All pairs, of the points as they were when the search was last told of them.
   /// @return as find_self_intersections().
-  /// @throws nothing
   ///
   /// O(n log n) for a surface that rarely meets itself.
   std::vector<TrianglePair> all() const;
@@ -48,7 +47,6 @@ class SelfIntersections {
   /// The pairs that these triangles, whose points have moved, take part in now.
   /// @param triangles  indices, increasing.
   /// @return each pair once, in ascending order.
-  /// @throws nothing
   ///
   /// O(log n) for each of them where the surface rarely meets itself.
   std::vector<TrianglePair> after_move_of(std::span<const Index> triangles);

@@ -34,7 +34,7 @@ class SignedDistance {
   explicit SignedDistance(const TriMesh& surface);
 
   /// @param p  mm, finite.
-  /// @return the same bits whoever asks, in whatever order. Throws nothing.
+  /// @return the same bits whoever asks, in whatever order.
   ///
   /// O(log n) for points near the surface.
   NearestPoint at(const Vec3& p) const;

@@ -57,22 +57,18 @@ SurfaceCheck check_surface(const TriMesh& surface);
 /// Measures the area of a surface.
 /// @param surface  sound, see require_sound(); mm.
 /// @return mm^2; the bits of SurfaceCheck::area.
-/// @throws nothing
 ///
 /// O(n) for n triangles. The same bits for any number of threads.
 double surface_area(const TriMesh& surface);
 
 /// Why a surface is not closed or not a 2-manifold, as "3 open edges, 1 points ..."; "" if it is.
-/// @throws nothing
 std::string flaws_of(const SurfaceCheck& check);
 
 /// The components in words: "5 components (1 island, 4 cavities)"; of an open surface their number.
-/// @throws nothing
 std::string components_text(const SurfaceCheck& check);
 
 /// Why a surface does not bound a solid: the flaws of flaws_of(), or a volume that is not positive;
 /// "" if it does.
-/// @throws nothing
 std::string solid_flaws_of(const SurfaceCheck& check);
 
 }  // namespace mesamis

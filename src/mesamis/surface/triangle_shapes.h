@@ -15,9 +15,6 @@ struct TriangleShapes {
 /// Measures the angles of all triangles of a surface. A triangle without area has angles of 0.
 /// @param surface  n triangles, sound, mm.
 /// @return the defaults if there is no triangle.
-/// @throws nothing
-///
-/// O(n).
 TriangleShapes triangle_shapes(const TriMesh& surface);
 
 }  // namespace mesamis

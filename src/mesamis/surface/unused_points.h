@@ -7,9 +7,6 @@ namespace mesamis {
 
 /// The surface without the points that no triangle uses; the order stays.
 /// @param surface  n points, m triangles with indices in range.
-/// @throws nothing
-///
-/// O(n + m).
 TriMesh without_unused_points(const TriMesh& surface);
 
 }  // namespace mesamis
