@@ -46,62 +46,53 @@ function(mesamis_instrument target)
   endif()
 endfunction()
 
-# Sources read as one, where MESAMIS_JOIN_SOURCES: what takes the time is headers and templates, which are then
-# compiled once. What is written has no path of this tree in it, so that the compiler cache knows it in any other.
-function(mesamis_join_part result folder)
-  get_property(parts DIRECTORY PROPERTY MESAMIS_JOINED)
-  list(LENGTH parts number)
-  list(TRANSFORM ARGN REPLACE "(.+)" "#include \"${folder}\\1\"\n" OUTPUT_VARIABLE lines)
-  list(JOIN lines "" lines)
-  set(file ${CMAKE_CURRENT_BINARY_DIR}/joined_${number}.cpp)
-  set_property(DIRECTORY APPEND PROPERTY MESAMIS_JOINED ${file})
-  file(CONFIGURE OUTPUT ${file} CONTENT "${lines}")
-  set(${result} ${file} PARENT_SCOPE)
-endfunction()
-
-# Sources in parts, with NEXT between them: no name of one is that of another in its part. FOLDER/ is theirs
-# below an include folder, or empty; absolute paths stay sources of their own.
-function(mesamis_join result folder)
+# Sources compiled as one, where MESAMIS_JOIN_SOURCES: most of the time goes into headers, which are then read once.
+# NEXT begins another part; no name of a source is that of another in its part. ROOT is an include folder of the target,
+# FOLDER/ (or nothing) the place of the sources below it; a part of one source, or an absolute path, stays as it is.
+# Unlike those of CMake's UNITY_BUILD, the files written here hold no absolute path, so that the compiler cache knows them
+# in another copy of the tree (docs/decisions.md).
+function(mesamis_join result root folder)
   set(part)
   set(joined)
   foreach(source IN LISTS ARGN ITEMS NEXT)
-    if(source MATCHES "^/" OR NOT (MESAMIS_JOIN_SOURCES OR source STREQUAL NEXT))
+    if(source MATCHES "^/")
       list(APPEND joined ${source})
     elseif(NOT source STREQUAL NEXT)
-      list(APPEND part ${source})
-    elseif(part)
-      mesamis_join_part(file "${folder}" ${part})
-      list(APPEND joined ${file})
+      list(APPEND part ${folder}${source})
+    endif()
+    list(LENGTH part number)
+    if(number GREATER 1 AND MESAMIS_JOIN_SOURCES AND source STREQUAL NEXT)
+      list(TRANSFORM part REPLACE "(.+)" "#include \"\\1\"\n")
+      list(JOIN part "" lines)
+      get_property(before DIRECTORY PROPERTY MESAMIS_JOINED)
+      list(LENGTH before number)
+      set(part ${CMAKE_CURRENT_BINARY_DIR}/joined_${number}.cpp)
+      set_property(DIRECTORY APPEND PROPERTY MESAMIS_JOINED ${part})
+      file(CONFIGURE OUTPUT ${part} CONTENT "${lines}")
+      # A source may use another's names for its own variables.
+      set_source_files_properties(${part} PROPERTIES
+        COMPILE_OPTIONS "-Wno-shadow;$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>")
+      list(APPEND joined ${part})
+      set(part)
+    elseif(source STREQUAL NEXT OR NOT MESAMIS_JOIN_SOURCES)
+      list(TRANSFORM part PREPEND ${root}/)
+      list(APPEND joined ${part})
       set(part)
     endif()
   endforeach()
   set(${result} ${joined} PARENT_SCOPE)
 endfunction()
 
-# Rooms whose sources have no names in common. Read as one source each, where MESAMIS_JOIN_SOURCES, the headers of the
-# system are read once: half the time of a build with sanitizers, and of clang-tidy (scripts/tidy).
-file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/rooms_as_one.txt MESAMIS_ROOMS_AS_ONE REGEX "^[a-z]")
-if(MESAMIS_SANITIZE MATCHES thread)
-  list(REMOVE_ITEM MESAMIS_ROOMS_AS_ONE base)  # parallel.cpp has options of its own then
-endif()
-
 # Adds a room to a library. Its sources.cmake names its doors (ROOM_HEADERS, which are installed), the
 # headers that other rooms of the project may include as well (ROOM_INNER_HEADERS) and its sources
-# (ROOM_SOURCES); any other header is the room's own.
+# (ROOM_SOURCES, in parts as mesamis_join takes them); any other header is the room's own.
 function(mesamis_add_room target room)
   set(folder ${PROJECT_SOURCE_DIR}/src/mesamis/${room})
   include(${folder}/sources.cmake)
   list(TRANSFORM ROOM_HEADERS PREPEND ${folder}/)
-  if(MESAMIS_JOIN_SOURCES AND room IN_LIST MESAMIS_ROOMS_AS_ONE)
-    mesamis_join_part(ROOM_SOURCES mesamis/${room}/ ${ROOM_SOURCES})
-    # A source may use another's names for its own variables.
-    set_source_files_properties(${ROOM_SOURCES} PROPERTIES
-      COMPILE_OPTIONS "-Wno-shadow;$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>")
-  else()
-    list(TRANSFORM ROOM_SOURCES PREPEND ${folder}/)
-  endif()
+  mesamis_join(sources ${PROJECT_SOURCE_DIR}/src mesamis/${room}/ ${ROOM_SOURCES})
   target_sources(${target}
-    PRIVATE ${ROOM_SOURCES}
+    PRIVATE ${sources}
     PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${ROOM_HEADERS})
 endfunction()
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "mesamis/adapt/metric_from_estimate.h"
 #include "mesamis/adapt/size_control.h"
 #include "mesamis/base/error.h"

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "mesamis/method/memory.h"
 #include "support/run_program.h"
 #include "support/scan_bytes.h"

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "chunk_files/chunk_bytes.h"
 #include "support/throws.h"
 

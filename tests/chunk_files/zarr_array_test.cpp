@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "chunk_files/chunk_bytes.h"
 #include "support/throws.h"

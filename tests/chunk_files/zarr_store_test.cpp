@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "chunk_files/chunk_bytes.h"
 #include "mesamis/chunk_files/chunked_scan.h"
 #include "support/throws.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
 #include "fuzz_seeds.h"
 #include "mesamis/label_files/label_table.h"
 #include "mesamis/label_files/write_labels.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The readers of label maps, probabilities and label tables, and of settings.
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "mesamis/label_files/label_table.h"
 #include "mesamis/label_files/read_labels.h"

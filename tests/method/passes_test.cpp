@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "mesamis/fem/mesh_space.h"
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/method/prepare.h"

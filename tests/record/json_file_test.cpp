@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "support/temp_folder.h"
 #include "support/throws.h"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "mesamis/method/setting_table.h"
 #include "support/ball_volume.h"

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "mesamis/record/report.h"
 #include "support/shapes.h"
 

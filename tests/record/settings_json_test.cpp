@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "mesamis/method/setting_table.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"

@@ -9,7 +9,9 @@
 namespace mesamis::detail {
 namespace {
 
-TEST(DecimateSlab, KeepsThePromisesOfDecimateAndLeavesNoSeams) {
+using DecimateSlab = OnMeshedSlabs;
+
+TEST_F(DecimateSlab, KeepsThePromisesOfDecimateAndLeavesNoSeams) {
   ThreeSlabs slabs;
   slabs.extract();
   slabs.follow();

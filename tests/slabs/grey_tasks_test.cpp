@@ -7,7 +7,9 @@
 namespace mesamis::detail {
 namespace {
 
-TEST(FindGrey, IsThatOfTheWholeMesh) {
+using FindGrey = OnMeshedSlabs;
+
+TEST_F(FindGrey, IsThatOfTheWholeMesh) {
   ThreeSlabs slabs;
   slabs.extract();
   slabs.follow();

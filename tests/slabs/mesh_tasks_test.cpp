@@ -18,15 +18,23 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Two slabs with mesh 1, its border adapted.
-struct TwoSlabs {
-  TwoSlabs() {
+/// Two slabs with mesh 1, its border adapted; made once.
+const SmallRun& two_meshed_slabs() {
+  static const SmallRun small(72, {0, 33, 72});
+  [[maybe_unused]] static const bool made = [] {
     make_item_file<float>(small.scratch.path(kImageFile), small.scan.voxel_count());
     for (Index s = 0; s < 2; ++s) prepare_and_minimise(small.run, s);
-    run.emplace(small.run);
-    for (Index s = 0; s < 2; ++s) first_mesh(*run, s);
-    seam(*run, 1, 0);
-  }
+    const MeshRun run(small.run);
+    for (Index s = 0; s < 2; ++s) first_mesh(run, s);
+    seam(run, 1, 0);
+    return true;
+  }();
+  return small;
+}
+
+/// These slabs, in a folder of their own.
+struct TwoSlabs {
+  TwoSlabs() : small(two_meshed_slabs()) { run.emplace(small.run); }
   /// To mesh 2, up to the border.
   void adapt() {
     for (Index s = 0; s < 2; ++s) solve(*run, 1, s);
@@ -47,7 +55,7 @@ struct TwoSlabs {
     std::transform(pieces.begin(), pieces.end(), all.begin(), [](const Piece& p) { return &p; });
     return join(all);
   }
-  SmallRun small{72, {0, 33, 72}};
+  SmallRun small;
   std::optional<MeshRun> run;
 };
 
@@ -71,7 +79,17 @@ double largest_difference(const Piece& a, const Piece& b) {
   return largest;
 }
 
-TEST(Seam, FitsBetweenTheSlabsAndCrossesTheirBorder) {
+class OnTwoMeshedSlabs : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { two_meshed_slabs(); }
+};
+using Seam = OnTwoMeshedSlabs;
+using Finish = OnTwoMeshedSlabs;
+using AdaptSlab = OnTwoMeshedSlabs;
+using Collect = OnTwoMeshedSlabs;
+using MeshTasks = OnTwoMeshedSlabs;
+
+TEST_F(Seam, FitsBetweenTheSlabsAndCrossesTheirBorder) {
   const TwoSlabs slabs;
   EXPECT_EQ(find_flaw(slabs.whole("1").mesh, slabs.run->input.box), "");
   const Piece middle = slabs.read("seam.1.0");
@@ -89,7 +107,7 @@ TEST(Seam, FitsBetweenTheSlabsAndCrossesTheirBorder) {
       << "the plane of the cut is gone";
 }
 
-TEST(Seam, ANodeOfTwoPiecesHasTheSameValuesInBoth) {
+TEST_F(Seam, ANodeOfTwoPiecesHasTheSameValuesInBoth) {
   // Else the result would depend on which of them is read first.
   const TwoSlabs slabs;
   const Piece low = slabs.read("rim.1.0.high"), middle = slabs.read("seam.1.0");
@@ -97,7 +115,7 @@ TEST(Seam, ANodeOfTwoPiecesHasTheSameValuesInBoth) {
   EXPECT_LT(largest_difference(join(one), join(other)), 1e-3) << "grey values";
 }
 
-TEST(Finish, BothSlabsHaveTheSameFieldsAtTheirBorder) {
+TEST_F(Finish, BothSlabsHaveTheSameFieldsAtTheirBorder) {
   TwoSlabs slabs;
   slabs.adapt();
   seam(*slabs.run, 2, 0);
@@ -106,7 +124,7 @@ TEST(Finish, BothSlabsHaveTheSameFieldsAtTheirBorder) {
   EXPECT_LT(largest_difference(low, high), 2.5) << "a hundredth of the contrast, grey values";
 }
 
-TEST(AdaptSlab, MeshesFitAndAreAsLargeAsAsked) {
+TEST_F(AdaptSlab, MeshesFitAndAreAsLargeAsAsked) {
   TwoSlabs slabs;
   slabs.adapt();
   seam(*slabs.run, 2, 0);
@@ -120,7 +138,7 @@ TEST(AdaptSlab, MeshesFitAndAreAsLargeAsAsked) {
   EXPECT_EQ(read_bytes(slabs.small.scratch.path("core.2.1")), core);
 }
 
-TEST(AdaptSlab, WhateverTouchesTheBorderIsAdaptedAgain) {
+TEST_F(AdaptSlab, WhateverTouchesTheBorderIsAdaptedAgain) {
   // Else faces as they were cut from the mesh before would stay in the next one.
   TwoSlabs slabs;
   slabs.adapt();
@@ -142,7 +160,7 @@ TEST(AdaptSlab, WhateverTouchesTheBorderIsAdaptedAgain) {
   EXPECT_EQ(in_both(low, high), 0);
 }
 
-TEST(Collect, PutsTogetherWhatTheSlabsFinished) {
+TEST_F(Collect, PutsTogetherWhatTheSlabsFinished) {
   const TwoSlabs slabs;
   const SlabWork work = finish(*slabs.run, 1, 0);
   finish(*slabs.run, 1, 1);
@@ -165,7 +183,7 @@ TEST(Collect, PutsTogetherWhatTheSlabsFinished) {
   EXPECT_NEAR(fit.unit_edge_fraction, exact.unit_edge_fraction, 0.01) << "some edges count twice";
 }
 
-TEST(MeshTasks, RefuseFilesThatAreCutOff) {
+TEST_F(MeshTasks, RefuseFilesThatAreCutOff) {
   const TwoSlabs slabs;
   const auto file = slabs.small.scratch.path("seam.1.0");
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);

@@ -6,8 +6,10 @@
 namespace mesamis::detail {
 namespace {
 
+using ListParts = OnMeshedSlabs;
+
 // One rod in three slabs.
-TEST(ListParts, AddUpToThoseOfTheWhole) {
+TEST_F(ListParts, AddUpToThoseOfTheWhole) {
   ThreeSlabs slabs;
   slabs.extract();
   slabs.follow();
@@ -28,7 +30,7 @@ TEST(ListParts, AddUpToThoseOfTheWhole) {
 }
 
 // Slabs work on what lies between the others: what they change cannot meet.
-TEST(ListParts, TellTheHeightsOfTheirPieces) {
+TEST_F(ListParts, TellTheHeightsOfTheirPieces) {
   ThreeSlabs slabs;
   slabs.extract();
   slabs.follow();

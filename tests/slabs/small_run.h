@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <vector>
 
 #include "mesamis/phantom/degrade.h"
 #include "mesamis/slabs/tasks.h"
@@ -60,6 +62,17 @@ struct SmallRun {
     run.plan.cuts = std::move(cuts);
     p.h_max = std::min(p.h_max, run.plan.least_thickness());
   }
+  /// With what the tasks of the other have left so far, in a folder of its own.
+  SmallRun(const SmallRun& other)
+      : scan(other.scan),
+        source(scan),
+        scratch(folder.path()),
+        run{source, scratch, other.run.plan, other.run.choice} {
+    using enum std::filesystem::copy_options;
+    std::filesystem::copy(other.scratch.folder(), scratch.folder(), recursive | overwrite_existing);
+  }
+  SmallRun& operator=(const SmallRun&) = delete;
+
   TempFolder folder;
   Volume scan;
   VolumeSlices source;

@@ -23,7 +23,13 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-TEST(ExtractSlab, PiecesFitAndAreTheSurfaceOfTheWholeMesh) {
+using ExtractSlab = OnMeshedSlabs;
+using FinalMesh = OnMeshedSlabs;
+using FollowSlab = OnMeshedSlabs;
+using FollowBorder = OnMeshedSlabs;
+using SurfaceTasks = OnMeshedSlabs;
+
+TEST_F(ExtractSlab, PiecesFitAndAreTheSurfaceOfTheWholeMesh) {
   ThreeSlabs slabs;
   slabs.extract();
   const SurfacePiece joined = slabs.extracted();
@@ -36,7 +42,7 @@ TEST(ExtractSlab, PiecesFitAndAreTheSurfaceOfTheWholeMesh) {
 }
 
 // Else the surface would have a crack there.
-TEST(FinalMesh, NodesOfTwoSlabsHaveOneValue) {
+TEST_F(FinalMesh, NodesOfTwoSlabsHaveOneValue) {
   ThreeSlabs slabs;
   SlabWork work;
   int common = 0;
@@ -54,7 +60,7 @@ TEST(FinalMesh, NodesOfTwoSlabsHaveOneValue) {
   EXPECT_GT(common, 40);
 }
 
-TEST(FollowSlab, PiecesFitAndLieWhereTheWholeWouldLie) {
+TEST_F(FollowSlab, PiecesFitAndLieWhereTheWholeWouldLie) {
   ThreeSlabs slabs;
   slabs.extract();
   ASSERT_TRUE(slabs.run->follows);
@@ -76,7 +82,7 @@ TEST(FollowSlab, PiecesFitAndLieWhereTheWholeWouldLie) {
 }
 
 // Else a point near a border would be moved by no task, or by two.
-TEST(FollowBorder, MovesWhatTheSlabsHaveLeft) {
+TEST_F(FollowBorder, MovesWhatTheSlabsHaveLeft) {
   ThreeSlabs slabs;
   slabs.extract();
   slabs.follow();
@@ -103,7 +109,7 @@ HeightRange free_heights(const SurfacePiece& piece) {
   return heights;
 }
 
-TEST(FollowSlab, TheTasksOfTwoBordersHaveNoPointInCommon) {
+TEST_F(FollowSlab, TheTasksOfTwoBordersHaveNoPointInCommon) {
   ThreeSlabs slabs;
   slabs.extract();
   slabs.follow();
@@ -116,7 +122,7 @@ TEST(FollowSlab, TheTasksOfTwoBordersHaveNoPointInCommon) {
   EXPECT_LT(low.high, high.low);
 }
 
-TEST(SurfaceTasks, RefuseFilesThatAreCutOff) {
+TEST_F(SurfaceTasks, RefuseFilesThatAreCutOff) {
   ThreeSlabs slabs;
   slabs.extract();
   const auto file = slabs.small.scratch.path(surface_file("extracted", 1));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <functional>
 #include <optional>
 #include <vector>
@@ -12,15 +14,31 @@
 
 namespace mesamis::detail {
 
-/// Three slabs with their last mesh.
-struct ThreeSlabs {
-  ThreeSlabs() {
+/// Three slabs with their last mesh, made once for all tests of a process.
+inline const SmallRun& meshed_slabs() {
+  static const SmallRun small(96, {0, 32, 64, 96});
+  [[maybe_unused]] static const bool made = [] {
     make_item_file<float>(small.scratch.path(kImageFile), small.scan.voxel_count());
-    each([&](Index s) { return prepare_and_minimise(small.run, s); });
+    for (Index s = 0; s < 3; ++s) prepare_and_minimise(small.run, s);
+    const MeshRun mesh(small.run);
+    for (Index s = 0; s < 3; ++s) first_mesh(mesh, s);
+    for (Index s = 0; s < 2; ++s) seam(mesh, 1, s);
+    for (Index s = 0; s < 3; ++s) finish(mesh, 1, s);
+    return true;
+  }();
+  return small;
+}
+
+/// Suites of tests that begin with these slabs.
+class OnMeshedSlabs : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { meshed_slabs(); }
+};
+
+/// These slabs, in a folder of their own.
+struct ThreeSlabs {
+  ThreeSlabs() : small(meshed_slabs()) {
     mesh.emplace(small.run);
-    each([&](Index s) { return first_mesh(*mesh, s); });
-    at_borders([&](Index s) { return seam(*mesh, 1, s); });
-    each([&](Index s) { return finish(*mesh, 1, s); });
     run.emplace(*mesh, 1);
   }
   void each(const std::function<SlabWork(Index)>& task) {
@@ -64,7 +82,7 @@ struct ThreeSlabs {
   }
   double voxel() const { return 1 / mesh->input.parameters.unit_mm; }
 
-  SmallRun small{96, {0, 32, 64, 96}};
+  SmallRun small;
   std::optional<MeshRun> mesh;
   std::optional<SurfaceRun> run;
 };

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "mesamis/study/study_json.h"
 #include "study/made_up_runs.h"
 #include "support/temp_folder.h"

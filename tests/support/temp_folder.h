@@ -10,15 +10,16 @@
 
 namespace mesamis {
 
-/// A folder of the test's own, taken away with everything in it at the end.
+/// A folder of the test's own, or of a suite's, taken away with everything in it at the end.
 class TempFolder {
  public:
   TempFolder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name =
-        "mesamis_" + std::to_string(getpid()) + "_" + test->test_suite_name() + "_" + test->name();
+    std::string name = "mesamis_" + std::to_string(getpid()) + "_" +
+                       (test ? std::string(test->test_suite_name()) + "_" + test->name() : "suite");
     for (char& c : name) c = c == '/' ? '_' : c;
-    path_ = std::filesystem::temp_directory_path() / name;
+    static int count = 0;  // of a test with several, and of what tests share
+    path_ = std::filesystem::temp_directory_path() / (name + "_" + std::to_string(++count));
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

@@ -14,6 +14,6 @@ set(ROOM_HEADERS
   written_number.h)
 set(ROOM_SOURCES
   available_memory.cpp
-  parallel.cpp
   sym3.cpp
-  written_number.cpp)
+  written_number.cpp
+  NEXT parallel.cpp)

@@ -7,5 +7,5 @@ set(ROOM_SOURCES
   baseline_surface.cpp
   geodesic_contour.cpp
   isosurface.cpp
-  itk_absent.cpp
-  itk_level_set.cpp)
+  NEXT itk_absent.cpp
+  NEXT itk_level_set.cpp)

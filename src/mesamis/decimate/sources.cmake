@@ -15,12 +15,12 @@ set(ROOM_SOURCES
   collapse_rules.cpp
   decimate.cpp
   decimate_partition.cpp
-  decimate_pass.cpp
   decimate_patch.cpp
-  decimation.cpp
   fan_distance.cpp
   patch.cpp
   patchwork.cpp
-  round_to_single.cpp
   round_together.cpp
-  sheets.cpp)
+  sheets.cpp
+  NEXT decimation.cpp
+  round_to_single.cpp
+  NEXT decimate_pass.cpp)

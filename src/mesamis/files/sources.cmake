@@ -29,14 +29,14 @@ set(ROOM_SOURCES
   deflate.cpp
   file_list.cpp
   given_spacing.cpp
+  memory_budget.cpp
   output_set.cpp
   owned_file.cpp
   pending_file.cpp
-  memory_budget.cpp
-  read_record.cpp
   refuse.cpp
   sha256.cpp
   utf8.cpp
-  xml.cpp
   xml_text.cpp
-  zip_archive.cpp)
+  zip_archive.cpp
+  NEXT read_record.cpp
+  xml.cpp)

@@ -17,9 +17,9 @@ set(ROOM_SOURCES
   keep.cpp
   mirror.cpp
   padding.cpp
-  places.cpp
   split_at_seeds.cpp
   tissue.cpp
   tissue_level.cpp
-  voxel_distance.cpp
-  voxel_islands.cpp)
+  voxel_islands.cpp
+  NEXT places.cpp
+  NEXT voxel_distance.cpp)

@@ -8,7 +8,6 @@ set(ROOM_SOURCES
   figures.cpp
   html.cpp
   mesh_cut.cpp
-  page_assets.cpp
   public_report.cpp
   raster.cpp
   run_page.cpp
@@ -18,4 +17,5 @@ set(ROOM_SOURCES
   shown_run.cpp
   slice_view.cpp
   surface_copy.cpp
-  surface_view.cpp)
+  surface_view.cpp
+  NEXT page_assets.cpp)

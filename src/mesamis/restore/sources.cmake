@@ -19,11 +19,11 @@ set(ROOM_SOURCES
   level_crossings.cpp
   nearby_range.cpp
   object_contrast.cpp
-  object_edge.cpp
-  restore.cpp
   scan_quality.cpp
   surface_extent.cpp
   thick_places.cpp
-  thin_sheets.cpp
   tissue_threshold.cpp
+  NEXT object_edge.cpp
+  thin_sheets.cpp
+  NEXT restore.cpp
   value_variation.cpp)

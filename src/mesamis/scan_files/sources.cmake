@@ -18,21 +18,16 @@ set(ROOM_SOURCES
   dicom_data.cpp
   dicom_file.cpp
   dicom_jpeg.cpp
-  dicom_jpeg12.cpp
-  dicom_jpeg16.cpp
-  dicom_jpeg8.cpp
   dicom_pixels.cpp
   dicom_resample.cpp
   dicom_rle.cpp
   dicom_series.cpp
   dicom_slice.cpp
   dicom_spacing.cpp
-  gdcm_picture.cpp
   grey_pixels.cpp
   inv3_file.cpp
+  NEXT gdcm_picture.cpp
   meta_file.cpp
-  nifti_file.cpp
-  nrrd_file.cpp
   nrrd_header.cpp
   open_slices.cpp
   png_file.cpp
@@ -42,4 +37,9 @@ set(ROOM_SOURCES
   slice_stack.cpp
   text_header.cpp
   tiff_file.cpp
-  write_volume.cpp)
+  write_volume.cpp
+  NEXT nifti_file.cpp
+  NEXT nrrd_file.cpp
+  NEXT dicom_jpeg8.cpp
+  NEXT dicom_jpeg12.cpp
+  NEXT dicom_jpeg16.cpp)

@@ -10,7 +10,6 @@ set(ROOM_SOURCES
   abaqus_file.cpp
   amf_file.cpp
   element_files.cpp
-  febio_file.cpp
   file_kind.cpp
   frame_note.cpp
   gmsh_elements.cpp
@@ -20,15 +19,16 @@ set(ROOM_SOURCES
   mtl_file.cpp
   obj_file.cpp
   object_files.cpp
+  NEXT febio_file.cpp
   ply_file.cpp
   pvtu_file.cpp
   stl_file.cpp
-  surface_files.cpp
   threemf_file.cpp
   threemf_writer.cpp
-  vtk_file.cpp
   vtk_xml.cpp
   vtk_xml_writer.cpp
   vtp_file.cpp
   vtp_writer.cpp
-  vtu_file.cpp)
+  vtu_file.cpp
+  NEXT surface_files.cpp
+  vtk_file.cpp)
