@@ -1,26 +1,35 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the tables of README.md and docs/results.md from fresh runs on real scans.
+"""Writes the tables and pictures of README.md and docs/ from fresh runs on real scans.
 
-    bench/tables.py --scans FOLDER                     every scan that FOLDER holds
-    bench/tables.py --scan pelvis=ct.nii.gz            one scan, wherever it is
-    bench/tables.py --scans FOLDER --only results      one of the two pages
-    bench/tables.py --list                             the scans and where FOLDER has them
+    bench/tables.py --scans FOLDER --all               every table and picture; goes on where it was stopped
+    bench/tables.py --scans FOLDER --only README       those of one page
+    bench/tables.py --scan pelvis=ct.nii.gz            one scan, wherever it is: its rows
+    bench/tables.py --list                             the scans, and where FOLDER has them
+    bench/tables.py --stale                            what is older than the last change of output bytes, and
+                                                       tables and pictures that no command makes
+    bench/tables.py --prune                            deletes pictures that no command makes and no page shows
 
 A table stands between <!-- table:NAME --> and <!-- /table:NAME -->. A row is replaced if its scan is
 there; the other rows stay as they are, with a note on stderr. Under each table the script names the
 command, and the last column names the version and the commit of the program that made the row.
+docs/figures.json has the commit of each table and picture. The bytes of outputs have changed with the last commit that
+touched tests/output_bytes.txt (scripts/bytes).
 One run at a time, with default settings. Times mean something only on a machine without other work.
---folder keeps surfaces and reports and does not repeat a run whose report is there. `mesamis` is the one
-in build/release, or that of the variable MESAMIS.
+--folder keeps surfaces and reports and does not repeat a run whose report is there (--all: build/tables). `mesamis` is
+the one in build/release, or that of the variable MESAMIS.
 """
 import argparse
+import json
 import os
 import pathlib
+import re
+import subprocess
 import sys
 import tempfile
 
 from mesamis_runs import once
+from pictures import PICTURES
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -215,10 +224,100 @@ def places_of(parser, entries):
     return places
 
 
+RECORD = ROOT / "docs/figures.json"
+IMAGES = ROOT / "docs/images"
+BYTES = "tests/output_bytes.txt"
+
+# Page and rows of each table.
+TABLES = {
+    "readme-scans": ("README.md", lambda runs: scan_rows(runs, README_SCANS, readme_row)),
+    "results-sizes": ("docs/results.md", lambda runs: scan_rows(runs, SIZE_SCANS, size_row)),
+    "results-distances": ("docs/results.md", distance_rows),
+}
+
+
+def git(*words):
+    return subprocess.run(["git", *words], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+
+
+class Record:
+    """Which commit of the program made each table and picture."""
+
+    def __init__(self):
+        self.commits = json.loads(RECORD.read_text()) if RECORD.exists() else {}
+
+    def note(self, name, commit):
+        self.commits[name] = commit
+        RECORD.write_text(json.dumps(self.commits, indent=2, sort_keys=True) + "\n")
+
+
+def commit_of(runs):
+    """The commit that the program says it is."""
+    report = runs.folder / "program.json"
+    made = once(report, "phantom", "sphere", "--size", "8,8,8", "-o", runs.folder / "program.nrrd")
+    return made["program"]["commit"]
+
+
+def make(runs, pages, record):
+    """Tables and pictures of pages; None: of all. What the record has of this commit is not made again."""
+    commit = commit_of(runs)
+    if commit.endswith("-dirty"):
+        note(f"the program is of {commit}: no commit has it")
+    for name, (page, rows) in TABLES.items():
+        if pages is None or page in pages:
+            rewrite(ROOT / page, {name: rows(runs)})
+            record.note(name, commit)
+    for name, (page, scans, draw) in PICTURES.items():
+        if pages is not None and page not in pages:
+            continue
+        if record.commits.get(name) == commit and (IMAGES / name).exists():
+            continue
+        if not all(runs.scan(scan) for scan in scans):
+            note(f"{name}: no scan, the old picture stays")
+            continue
+        draw(runs, IMAGES / name)
+        record.note(name, commit)
+
+
+def pages_of_project():
+    return [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+def stale(record):
+    """One line for each table or picture that is older than the outputs' bytes, or made by no command."""
+    changed = git("log", "-1", "--format=%H", "--", BYTES)
+    for name in [*TABLES, *PICTURES]:
+        commit = record.commits.get(name, "").removesuffix("-dirty")
+        known = commit and subprocess.run(["git", "merge-base", "--is-ancestor", changed or "HEAD", commit], cwd=ROOT,
+                                          check=False, stderr=subprocess.DEVNULL).returncode == 0
+        if not known:
+            yield f"{name}: made by {commit or 'an unknown commit'}, before outputs changed last ({changed[:7]})"
+    for page in pages_of_project():
+        text = re.sub(r"<!-- table:.*?<!-- /table:", "", page.read_text(), flags=re.S)
+        tables = len(re.findall(r"^\|[-| :]+\|$", text, flags=re.M))
+        if tables:
+            yield f"{page.relative_to(ROOT)}: {tables} tables that no command makes"
+    for picture in sorted(IMAGES.iterdir()):
+        if picture.name not in PICTURES:
+            yield f"docs/images/{picture.name}: made by no command"
+
+
+def prune():
+    shown = "".join(page.read_text() for page in pages_of_project())
+    for picture in sorted(IMAGES.iterdir()):
+        if picture.name not in PICTURES and f"images/{picture.name}" not in shown:
+            note(f"deleted {picture.relative_to(ROOT)}")
+            picture.unlink()
+
+
 def arguments_of(parser):
     parser.add_argument("--scans", type=pathlib.Path, metavar="FOLDER")
     parser.add_argument("--scan", action="append", default=[], metavar="NAME=PATH")
-    parser.add_argument("--only", choices=["README", "results"])
+    parser.add_argument("--only", choices=sorted({pathlib.Path(page).stem for page, *_ in
+                                                  [*TABLES.values(), *PICTURES.values()]}))
+    parser.add_argument("--all", action="store_true", help="every table and picture")
+    parser.add_argument("--stale", action="store_true", help="names what is old or made by no command")
+    parser.add_argument("--prune", action="store_true", help="deletes pictures that nothing makes or shows")
     parser.add_argument("--folder", type=pathlib.Path, help="keeps surfaces and reports")
     parser.add_argument("--list", action="store_true", help="names the scans")
     return parser.parse_args()
@@ -231,20 +330,25 @@ def main():
         for name, (_, place) in SCANS.items():
             print(f"{name:12}{place}")
         return
+    record = Record()
+    if arguments.stale:
+        print("\n".join(stale(record)))
+        return
+    if arguments.prune:
+        prune()
+        return
     places = places_of(parser, arguments.scan)
+    if not (arguments.all or arguments.only or places):
+        parser.error("expected --all, --only PAGE or --scan NAME=PATH, found none of them")
     load = os.getloadavg()[0]
     if load > 0.5:
         note(f"the machine has other work (load {load:.1f}): times will be too long")
+    pages = None if not arguments.only else {
+        page for page, *_ in [*TABLES.values(), *PICTURES.values()] if pathlib.Path(page).stem == arguments.only}
     with tempfile.TemporaryDirectory() as temporary:
-        folder = arguments.folder or pathlib.Path(temporary)
+        folder = arguments.folder or (ROOT / "build/tables" if arguments.all else pathlib.Path(temporary))
         folder.mkdir(parents=True, exist_ok=True)
-        runs = Runs(folder, arguments.scans, places)
-        if arguments.only != "results":
-            rewrite(ROOT / "README.md", {"readme-scans": scan_rows(runs, README_SCANS, readme_row)})
-        if arguments.only != "README":
-            rewrite(ROOT / "docs/results.md",
-                    {"results-sizes": scan_rows(runs, SIZE_SCANS, size_row),
-                     "results-distances": distance_rows(runs)})
+        make(Runs(folder, arguments.scans, places), pages, record)
 
 
 if __name__ == "__main__":
