@@ -32,6 +32,9 @@ function(mesamis_compile_options target)
   if(MESAMIS_SANITIZE)
     target_link_options(${target} PRIVATE -fsanitize=${MESAMIS_SANITIZE})
   endif()
+  if(MESAMIS_COVERAGE)
+    target_link_options(${target} PRIVATE --coverage)
+  endif()
 endfunction()
 
 # Instruments what we ship. The tests' own code is only linked with the sanitizer: instrumenting it
@@ -42,6 +45,10 @@ function(mesamis_instrument target)
     # In instrumented code gcc takes members of the standard library for uninitialised.
     target_compile_options(${target} PRIVATE -fsanitize=${MESAMIS_SANITIZE}
                                              -fno-sanitize-recover=all -fno-omit-frame-pointer
+                                             $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  endif()
+  if(MESAMIS_COVERAGE)
+    target_compile_options(${target} PRIVATE --coverage -fprofile-update=atomic -O1
                                              $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   endif()
 endfunction()
