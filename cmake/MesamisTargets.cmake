@@ -48,7 +48,7 @@ function(mesamis_instrument target)
                                              $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   endif()
   if(MESAMIS_COVERAGE)
-    target_compile_options(${target} PRIVATE --coverage -fprofile-update=atomic -O1
+    target_compile_options(${target} PRIVATE --coverage -fprofile-update=single -O1
                                              $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   endif()
 endfunction()
