@@ -30,9 +30,15 @@ void require_memory_for(const VoxelGrid& grid, const CropRange& crop, Settings s
 
 }  // namespace
 
+std::function<VoxelGrid()> grid_of_scan(const ScanArguments& arguments) {
+  if (arguments.input.empty()) return {};
+  return [&arguments] { return read_any_grid(arguments.input, arguments.read); };
+}
+
 ChosenScan read_chosen_scan(const ScanArguments& arguments, const Settings& settings,
                             const std::optional<double>& memory_gb) {
-  ReadRequest asked = read_request(arguments.places, arguments.labels, settings, arguments.frame);
+  ReadRequest asked = read_request(
+      {arguments.places, arguments.labels, arguments.frame, grid_of_scan(arguments)}, settings);
   ObjectRequest& request = asked.object;
   ReadOptions read = arguments.read;
   read.on_grid = [&](const VoxelGrid& grid) {

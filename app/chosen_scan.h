@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -30,6 +31,9 @@ struct ChosenScan {
   nlohmann::ordered_json report;        ///< the report's entry "object"
   std::vector<std::string> warnings{};  ///< of the readers of label files, one line each
 };
+
+/// Reads the grid of the scan when it is called; empty without a scan. Refers to the arguments.
+std::function<VoxelGrid()> grid_of_scan(const ScanArguments& arguments);
 
 /// Reads a scan and makes the image of the object that is meant; logs what was done unasked.
 /// @param memory_gb  limit of the run that follows, see require_memory(); nothing: not checked.

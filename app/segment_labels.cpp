@@ -186,7 +186,7 @@ void require_layers(const SegmentRun& run, const std::vector<Segment>& wanted) {
 int run_labels(const SegmentRun& run, const Settings& settings, const CommonOptions& common) {
   require_error_place(run);
   require_scan_for_mesh(run);
-  const NamedLabels labels = read_labels(run.scan.labels);
+  const NamedLabels labels = read_labels(run.scan.labels, grid_of_scan(run.scan));
   LabelRequest request = label_request(run.scan.labels, labels);
   request.mesh = run.wants_mesh();
   const std::vector<Segment>& wanted =

@@ -96,7 +96,7 @@ Request request_of(const Arguments& a) {
 LabelMap labels_of(const LabelSource& source, double memory_gb,
                    std::vector<std::string>& warnings) {
   if (source.path.empty()) return labels_of_samples(source.scan->view);
-  LabelFile file = read_label_map(source.path, {.memory_gb = memory_gb});
+  LabelFile file = read_label_map(source.path, {.limits = {.memory_gb = memory_gb}});
   warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
   return std::move(file.map);
 }

@@ -40,7 +40,7 @@ template <const char* kName>
 void run_labels(std::string_view bytes) {
   const fs::path file = input_folder().write(kName, bytes);
   read_or_refuse(file,
-                 [](const fs::path& path) { require_labels(read_label_map(path, fuzz_limits())); });
+                 [](const fs::path& path) { require_labels(read_label_map(path, {.limits = fuzz_limits()})); });
   read_or_refuse(file, [](const fs::path& path) {
     require_probabilities(read_probabilities({path}, fuzz_limits()));
   });

@@ -274,10 +274,13 @@ LabelMap with_all_segments(LabelMap map) {
 }
 
 LabelMap with_names(LabelMap map, std::span<const Segment> table) {
-  std::map<Index, const Segment*> rows;
-  for (const Segment& row : table) rows.emplace(row.label, &row);
+  std::map<std::int64_t, const Segment*> rows;
+  const auto number_of = [](const Segment& s) {
+    return s.number_in_file > 0 ? s.number_in_file : std::int64_t{s.label};
+  };
+  for (const Segment& row : table) rows.emplace(number_of(row), &row);
   for (Segment& segment : map.segments) {
-    const auto row = rows.find(segment.label);
+    const auto row = rows.find(number_of(segment));
     if (row == rows.end()) continue;
     segment.name = row->second->name;
     segment.colour = row->second->colour;

@@ -23,6 +23,8 @@ struct Segment {
   Index label = 1;                       ///< 1 to kMaxLabel: the number of the object
   Index layer = 0;                       ///< which of the map's layers
   std::array<std::uint8_t, 3> colour{};  ///< red, green, blue (sRGB)
+  /// The number that the file gives the object where it is above kMaxLabel; 0: the label is it.
+  std::int64_t number_in_file = 0;
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
@@ -42,7 +44,7 @@ struct Probabilities : VoxelGrid {
 
 /// Finds the segment that a user means.
 ///
-/// The text is the whole name of a segment or its label in decimals. If none fits exactly, names
+/// The text is the whole name of a segment, or its label or its number in the file in decimals. If none fits exactly, names
 /// are compared without regard to the case of ASCII letters.
 /// @return a copy of the only segment that fits.
 /// @throws InputError  if none or more than one fits; the message names those that come near, or
@@ -100,8 +102,8 @@ std::vector<std::optional<CropRange>> ranges_of(const LabelMap& map);
 /// @throws InputError  if there are then more than kMaxLabel segments.
 LabelMap with_all_segments(LabelMap map);
 
-/// Gives the segments the names and colours that a table has for their labels, in every layer. The
-/// rows of the table for other labels are not used.
+/// Gives the segments the names and colours that a table has for their labels, in every layer; for
+/// their numbers in the file, where they have such. Other rows of the table are not used.
 /// @param table  as read_label_table() returns it.
 ///
 /// O(segments + rows), up to a logarithm.

@@ -44,7 +44,9 @@ bool is_known_sequence(DicomTag tag) {
                                   dicom::kPlanePosition, dicom::kPlaneOrientation,
                                   dicom::kPixelMeasures, dicom::kPixelTransformation,
                                   dicom::kModalityLut,   dicom::kFrameContent,
-                                  dicom::kSegments,      dicom::kSegmentIdentification};
+                                  dicom::kSegments,      dicom::kSegmentIdentification,
+                                  dicom::kRegions,       dicom::kReferencedFrames,
+                                  dicom::kContours,      dicom::kRegionContours};
   return std::find(kSequences.begin(), kSequences.end(), tag) != kSequences.end();
 }
 

@@ -32,6 +32,7 @@ inline constexpr DicomTag kTransferSyntax = 0x00020010, kCharacterSet = 0x000800
                           kImageType = 0x00080008, kModality = 0x00080060,
                           kSeriesDescription = 0x0008103e, kSeriesUid = 0x0020000e,
                           kPosition = 0x00200032, kOrientation = 0x00200037,
+                          kFrameOfReference = 0x00200052,
                           kSamplesPerPixel = 0x00280002, kPhotometric = 0x00280004,
                           kFrames = 0x00280008, kRows = 0x00280010, kColumns = 0x00280011,
                           kPixelSpacing = 0x00280030, kBitsAllocated = 0x00280100,
@@ -50,6 +51,13 @@ inline constexpr DicomTag kSopClass = 0x00080016, kSegmentationType = 0x00620001
                           kSegmentLabel = 0x00620005, kSegmentIdentification = 0x0062000a,
                           kReferencedSegment = 0x0062000b, kCieLab = 0x0062000d,
                           kMostFraction = 0x0062000e;
+// Structure sets of radiotherapy.
+inline constexpr DicomTag kReferencedFrames = 0x30060010, kRegions = 0x30060020,
+                          kRegionNumber = 0x30060022, kRegionFrame = 0x30060024,
+                          kRegionName = 0x30060026, kRegionColour = 0x3006002a,
+                          kRegionContours = 0x30060039, kContours = 0x30060040,
+                          kContourType = 0x30060042, kContourPoints = 0x30060050,
+                          kReferencedRegion = 0x30060084;
 }  // namespace dicom
 
 /// A file in memory and its elements, which point into its bytes.

@@ -177,6 +177,8 @@ std::optional<ScanFile> detail::open_array(const fs::path& file, const Opening& 
   return format ? std::optional(format->open(file, opening)) : std::nullopt;
 }
 
+bool detail::is_array_file(const fs::path& file) { return array_format_of(file) != nullptr; }
+
 void detail::announce(VoxelGrid grid, const ReadOptions& options) {
   grid.spacing = options.spacing.value_or(grid.spacing);
   if (options.on_grid) options.on_grid(grid);

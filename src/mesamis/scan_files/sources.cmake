@@ -12,7 +12,8 @@ set(ROOM_INNER_HEADERS
   formats.h
   nrrd_header.h
   scan_file.h
-  slice_reader.h)
+  slice_reader.h
+  slice_stack.h)
 set(ROOM_SOURCES
   bmp_file.cpp
   dicom_data.cpp
