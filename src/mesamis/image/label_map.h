@@ -44,8 +44,8 @@ struct Probabilities : VoxelGrid {
 
 /// Finds the segment that a user means.
 ///
-/// The text is the whole name of a segment, or its label or its number in the file in decimals. If none fits exactly, names
-/// are compared without regard to the case of ASCII letters.
+/// The text is the whole name of a segment, or its label or its number in the file in decimals. If
+/// none fits exactly, names are compared without regard to the case of ASCII letters.
 /// @return a copy of the only segment that fits.
 /// @throws InputError  if none or more than one fits; the message names those that come near, or
 ///                     those that fit.
@@ -101,6 +101,21 @@ std::vector<std::optional<CropRange>> ranges_of(const LabelMap& map);
 /// is called "label N" and has the colour default_colour(N).
 /// @throws InputError  if there are then more than kMaxLabel segments.
 LabelMap with_all_segments(LabelMap map);
+
+/// Tells whether samples look like labels: whole numbers from 0 (to 0.01), of which neighbours
+/// along i that are both no background are mostly equal; where there are no such neighbours, one
+/// number beside 0.
+/// @param samples  of the grid; i runs fastest.
+/// @throws nothing
+///
+/// O(voxels).
+bool look_like_labels(const VoxelGrid& grid, std::span<const float> samples);
+
+/// Counts the voxels of the segments of the map, in their order.
+/// @throws nothing
+///
+/// O(voxels * layers).
+std::vector<std::size_t> voxel_counts(const LabelMap& map);
 
 /// Gives the segments the names and colours that a table has for their labels, in every layer; for
 /// their numbers in the file, where they have such. Other rows of the table are not used.

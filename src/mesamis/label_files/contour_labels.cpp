@@ -19,14 +19,15 @@ struct FilledContour {
   std::vector<float> shares;
   double area = 0;  // pixels
   bool exclusive = false;
-  int depth = 0;  // of how many others it lies inside
+  int depth = 0;       // of how many others it lies inside
+  bool again = false;  // the same as another one
 };
 
 float share_at(const FilledContour& contour, Index column, Index row) {
   const PixelWindow& w = contour.window;
-  return contour.shares[static_cast<std::size_t>(row - w.top) *
-                            static_cast<std::size_t>(w.columns) +
-                        static_cast<std::size_t>(column - w.left)];
+  return contour
+      .shares[static_cast<std::size_t>(row - w.top) * static_cast<std::size_t>(w.columns) +
+              static_cast<std::size_t>(column - w.left)];
 }
 
 PixelWindow common_part(const PixelWindow& a, const PixelWindow& b) {
@@ -60,6 +61,7 @@ class PlaneFiller {
         overlap |= relate(contours_[a], contours_[b]);
       }
     }
+    std::erase_if(contours_, [](const FilledContour& c) { return c.again && !c.exclusive; });
     std::stable_sort(contours_.begin(), contours_.end(),
                      [](const auto& a, const auto& b) { return a.depth < b.depth; });
     return overlap;
@@ -101,7 +103,11 @@ class PlaneFiller {
     constexpr double kWithin = 0.98, kSmaller = 0.999;  // of the area
     FilledContour &inner = a.area < b.area ? a : b, &outer = a.area < b.area ? b : a;
     if (common >= kWithin * inner.area) {
-      if (inner.area < kSmaller * outer.area) ++inner.depth;  // else they are the same
+      if (inner.area < kSmaller * outer.area) {
+        ++inner.depth;
+      } else {
+        inner.again = true;
+      }
       return false;
     }
     // Neighbours share the pixels of their border.
@@ -109,7 +115,7 @@ class PlaneFiller {
   }
 
   void spend(std::size_t pixels) {
-    constexpr std::size_t kMost = std::size_t{1} << 28;
+    constexpr std::size_t kMost = std::size_t{1} << 26;
     spent_ += pixels;
     if (spent_ > kMost) {
       refuse(file_, "expected contours of a plane that overlap now and then, found too many");
@@ -144,11 +150,13 @@ class RegionPlanes {
     constexpr double kRounding = 1e-3;
     const auto above = std::lower_bound(slices_.begin(), slices_.end(), slice - kRounding);
     const auto n = static_cast<std::size_t>(above - slices_.begin());
-    const bool is_up = n < slices_.size(), is_down = n > 0;
+    const bool is_up = n<slices_.size(), is_down = n> 0;
     const double up = is_up ? slices_[n] - slice : 0, down = is_down ? slice - slices_[n - 1] : 0;
     const bool take_up = is_up && (!is_down || up < down - kRounding);
     const bool between = is_up && is_down && up + down <= kGap * step_;
-    if (!between && (take_up ? up : down) > step_ / 2 + kRounding) return std::nullopt;
+    // At the ends one of two slices at half the distance counts: the volume is that of the planes.
+    const double half = step_ / 2 + (take_up ? -kRounding : kRounding);
+    if (!between && (take_up ? up : down) > half) return std::nullopt;
     return take_up ? n : n - 1;
   }
 
@@ -169,6 +177,29 @@ class RegionPlanes {
   double step_ = 1;  // the median distance, in voxels
 };
 
+/// The pixels of a region in a plane: those with the largest shares, so many that their area is
+/// that of the contours. Pixels of less than a quarter are none, those of more than three always
+/// are.
+std::vector<std::size_t> pixels_of(const std::vector<float>& shares) {
+  constexpr float kNever = 0.25f, kAlways = 0.75f;
+  std::vector<std::size_t> pixels, open;
+  double area = 0;
+  for (std::size_t n = 0; n < shares.size(); ++n) {
+    area += static_cast<double>(shares[n]);
+    if (shares[n] > kAlways) {
+      pixels.push_back(n);
+    } else if (shares[n] >= kNever) {
+      open.push_back(n);
+    }
+  }
+  std::stable_sort(open.begin(), open.end(),
+                   [&](std::size_t a, std::size_t b) { return shares[a] > shares[b]; });
+  const double missing = std::round(area) - static_cast<double>(pixels.size());
+  const auto count = std::clamp(missing, 0.0, static_cast<double>(open.size()));
+  pixels.insert(pixels.end(), open.begin(), open.begin() + static_cast<std::ptrdiff_t>(count));
+  return pixels;
+}
+
 /// Fills the regions one after another.
 class RegionFiller {
  public:
@@ -186,21 +217,19 @@ class RegionFiller {
     const auto& contours = placed_.contours[region];
     const RegionPlanes planes(contours);
     Notes notes{false, planes.has_gaps()};
-    std::optional<std::size_t> filled;
-    std::vector<float> shares;
+    std::optional<std::size_t> last;
+    std::vector<std::size_t> filled;
     for (Index k = 0; k < grid.size[2]; ++k) {
       const auto plane = planes.plane_of(k);
       if (!plane) continue;
-      if (plane != filled) {
+      if (plane != last) {
         const auto [begin, end] = planes.contours_of(*plane);
-        shares = filled_plane(file_, std::span(contours).subspan(begin, end - begin),
-                              {0, 0, grid.size[0], grid.size[1]}, notes.overlaps);
-        filled = plane;
+        filled = pixels_of(filled_plane(file_, std::span(contours).subspan(begin, end - begin),
+                                        {0, 0, grid.size[0], grid.size[1]}, notes.overlaps));
+        last = plane;
       }
       const std::size_t first = grid.offset(0, 0, k);
-      for (std::size_t n = 0; n < shares.size(); ++n) {
-        if (shares[n] >= 0.5f) visit(first + n);
-      }
+      for (const std::size_t pixel : filled) visit(first + pixel);
     }
     return notes;
   }
@@ -240,9 +269,9 @@ void require_frame(const DicomFile& file, StructureSet& set, const std::optional
   }
   const std::string found = in_quotes(set.regions.front().frame, 64);
   if (!place_contours(file.path, set, scan).on_scan) {
-    refuse(file.path, say("expected the scan's frame of reference, ",
-                          in_quotes(scan->frame_of_reference, 64), ", found ", found,
-                          ", and contours that do not lie on the scan's slices"));
+    refuse(file.path,
+           say("expected the scan's frame of reference, ", in_quotes(scan->frame_of_reference, 64),
+               ", found ", found, ", and contours that do not lie on the scan's slices"));
   }
   set.warnings.push_back(say("the frame of reference ", found, " is not the scan's, ",
                              in_quotes(scan->frame_of_reference, 64),
@@ -276,13 +305,13 @@ LabelFile read_contour_labels(const DicomFile& file, const std::function<VoxelGr
     const Region& region = set.regions[n];
     Segment segment{region.name, region.number, 0, region.colour};
     std::vector<std::size_t> voxels;
-    const auto notes = filler.fill(n, [&](std::size_t voxel) {
-      append_within(budget, voxels, voxel, "voxels of a region");
-    });
+    const auto notes = filler.fill(
+        n, [&](std::size_t voxel) { append_within(budget, voxels, voxel, "voxels of a region"); });
     if (notes.overlaps) overlapping.push_back(region.name);
     if (notes.gaps) open.push_back(region.name);
     if (voxels.empty()) empty.push_back(region.name);
-    stack.add(segment, [&](const auto& visit) { std::for_each(voxels.begin(), voxels.end(), visit); });
+    stack.add(segment,
+              [&](const auto& visit) { std::for_each(voxels.begin(), voxels.end(), visit); });
     free_within(budget, voxels);
     out.map.segments.push_back(std::move(segment));
   }
@@ -294,7 +323,7 @@ LabelFile read_contour_labels(const DicomFile& file, const std::function<VoxelGr
     out.warnings.push_back("planes without a contour stay open between others: " + names_of(open));
   }
   if (!empty.empty()) {
-    out.warnings.push_back("no voxel lies half within the contours: " + names_of(empty));
+    out.warnings.push_back("no voxel lies within the contours: " + names_of(empty));
   }
   if (const std::string note = stack.overlap_note(); !note.empty()) out.warnings.push_back(note);
   return out;

@@ -15,7 +15,8 @@ namespace mesamis::detail {
 
 /// read_label_map() of a DICOM structure set.
 ///
-/// A voxel belongs to a region if at least half of its area in the plane does. A contour is filled
+/// The voxels of a region in a plane are those with the largest share of their area in it, so many
+/// that their area is that of the contours to half a voxel. A contour is filled
 /// where its winding number is not 0; a contour within another one is a hole in it, and one within
 /// that an island again, whatever their directions; contours that overlap partly are united, or, of
 /// the type CLOSEDPLANAR_XOR, take each other out. A plane without a contour of a region belongs to

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "mesamis/base/error.h"
+#include "mesamis/chunk_files/chunked_scan.h"
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/in_one_line.h"
 #include "mesamis/files/refuse.h"
-#include "mesamis/chunk_files/chunked_scan.h"
 #include "mesamis/label_files/chunk_labels.h"
 #include "mesamis/label_files/contour_labels.h"
 #include "mesamis/label_files/dicom_seg.h"
@@ -94,8 +94,9 @@ void take_place_of_scan(const Request& request, LabelFile& file) {
   const VoxelGrid scan = request.how.scan();
   if (scan.size != file.map.size) return;
   static_cast<VoxelGrid&>(file.map) = scan;
-  file.warnings = {"the pictures state no place: they have as many voxels as the scan, and its "
-                   "place is taken"};
+  file.warnings = {
+      "the pictures state no place: they have as many voxels as the scan, and its "
+      "place is taken"};
 }
 
 /// A volume of samples in single precision: pictures, or a folder of them.
@@ -274,6 +275,26 @@ void append_volume(ProbabilityFile& all, const fs::path& path, const fs::path& f
 LabelFile read_label_map(const fs::path& path, const LabelOptions& options) {
   MemoryBudget budget(path, options.limits);
   return detail::in_one_line(path, [&] { return read_map({path, options, budget}); });
+}
+
+bool is_label_file(const fs::path& path, const ReadLimits& limits) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return false;
+  if (detail::lower(path.filename().string()).ends_with(".seg.nrrd")) return true;
+  if (detail::is_array_file(path) || detail::is_picture(path) || !detail::looks_like_dicom(path)) {
+    return false;
+  }
+  MemoryBudget budget(path, limits);
+  return holds_labels(path, budget);
+}
+
+bool is_mask_folder(const fs::path& path, const ReadLimits& limits) {
+  std::error_code error;
+  if (!fs::is_directory(path, error) || is_zarr(path)) return false;
+  MemoryBudget budget(path, limits);
+  const std::vector<fs::path> files = detail::files_below(path);
+  return std::none_of(files.begin(), files.end(), detail::looks_like_dicom) &&
+         !detail::masks_in(path, budget).empty();
 }
 
 ProbabilityFile read_probabilities(const std::vector<fs::path>& paths, const ReadLimits& limits) {

@@ -13,8 +13,9 @@ namespace mesamis {
 
 /// A label map and what its file says beside the labels.
 struct LabelFile {
-  LabelMap map;        ///< valid, see require_valid(); spacing and origin in mm, LPS
-  /// As VolumeFile::format, "Zarr", "OME-Zarr", "HDF5"; of a folder of masks "NIfTI masks" and so on
+  LabelMap map;  ///< valid, see require_valid(); spacing and origin in mm, LPS
+  /// As VolumeFile::format, "Zarr", "OME-Zarr", "HDF5"; of a folder of masks "NIfTI masks" and so
+  /// on
   std::string format;
   std::vector<std::string> warnings;  ///< one line each: what was assumed or left out
 };
@@ -31,8 +32,8 @@ struct LabelOptions {
 /// DICOM segmentation, a DICOM structure set of radiotherapy, Zarr and HDF5, or a directory.
 ///
 /// A directory is one of these: a Zarr store; one with one DICOM segmentation or structure set
-/// (among other DICOM files); one with masks, an object per file, named after it; one with pictures,
-/// which are the slices.
+/// (among other DICOM files); one with masks, an object per file, named after it; one with
+/// pictures, which are the slices.
 ///
 /// Labels are whole numbers of 0 (background) to 65535, of any number type. Values within 0.01 of a
 /// whole number are rounded, NaN is background, and larger numbers, as those of an atlas, get
@@ -64,6 +65,16 @@ struct LabelOptions {
 /// O(voxels * layers). Memory: 2 bytes per voxel and layer and what one file takes, for DICOM at
 /// most 8192 voxels per byte of the file; within the limits.
 LabelFile read_label_map(const std::filesystem::path& path, const LabelOptions& options = {});
+
+/// Whether a path holds nothing but labels, whatever its values: a DICOM segmentation or structure
+/// set, or a .seg.nrrd. O(bytes) of a DICOM file.
+/// @throws InputError  if a DICOM file cannot be read or claims more memory than the limits allow.
+bool is_label_file(const std::filesystem::path& path, const ReadLimits& limits = {});
+
+/// Whether a directory holds masks or label maps and no DICOM: what read_label_map() takes as an
+/// object per file. O(files).
+/// @throws InputError  if the directory cannot be read.
+bool is_mask_folder(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 /// Probabilities and what their files say beside them.
 struct ProbabilityFile {
