@@ -8,6 +8,7 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "label_lines.h"
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/image/grey_values.h"
@@ -123,16 +124,6 @@ LabelFile read_labels(const InfoCommand& command) {
   LabelFile file = read_label_map(command.input, {.limits = command.read.limits});
   for (const std::string& warning : file.warnings) log_warning(warning);
   return file;
-}
-
-/// One line per label: number, name, voxels, volume.
-void print_labels(const LabelMap& map) {
-  const std::vector<std::size_t> counts = voxel_counts(map);
-  for (std::size_t n = 0; n < map.segments.size(); ++n) {
-    const Segment& segment = map.segments[n];
-    std::cout << "  " << segment.label << "  " << one_line(segment.name) << "  " << counts[n]
-              << " voxels  " << static_cast<double>(counts[n]) * map.voxel_volume() << " mm^3\n";
-  }
 }
 
 /// A line for the grid, and one per label.

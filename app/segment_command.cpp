@@ -124,7 +124,7 @@ void require_outputs(const SegmentOptions& options) {
   if (options.body.meshing() && options.surfaces.empty()) {
     throw CLI::ValidationError("--surface-quality", "expected --output for meshing, found none");
   }
-  if (!options.labelmap.empty()) require_labelmap(options.labelmap);
+  if (!options.labelmap.empty()) require_labelmap(options.labelmap, "--labelmap");
   if (!options.report.empty()) require_output(options.report, {".json"}, "--report");
   require_page(options.page);
   require_distinct_files(outputs_of(options), inputs_of(options));

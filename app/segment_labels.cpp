@@ -125,9 +125,9 @@ void deliver_report(const SegmentRun& run, nlohmann::ordered_json& report) {
   if (run.on_report) run.on_report(report);
 }
 
-void require_labelmap(const fs::path& path) {
+void require_labelmap(const fs::path& path, const std::string& option) {
   const bool packed = lower_extension(path) == ".gz" && lower_extension(path.stem()) == ".nii";
-  require_output(path, {".nii", packed ? ".gz" : ".nii.gz", ".nrrd"}, "--labelmap");
+  require_output(path, {".nii", packed ? ".gz" : ".nii.gz", ".nrrd"}, option);
 }
 
 namespace {
