@@ -94,7 +94,7 @@ void add_label_command(CLI::App& app, CommonOptions& common, Action& action) {
       "label", "A label map from closed surfaces, edited elsewhere perhaps, on the grid of a scan");
   command
       ->add_option("surfaces", options->surfaces,
-                   listed("Surfaces, an object each or several in a file:", written_surface_formats()))
+                   listed("Surfaces, an object each or several in a file:", read_surface_formats()))
       ->required();
   command->add_option("--like", options->like, "Scan, or label map, whose grid is taken")
       ->required();

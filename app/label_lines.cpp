@@ -3,7 +3,7 @@
 
 #include <iostream>
 
-#include "log.h"
+#include "arguments.h"
 
 namespace mesamis {
 

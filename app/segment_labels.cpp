@@ -92,7 +92,8 @@ int deliver(const SegmentRun& run, LabelResult& result, const ChosenScan& scan,
   std::optional<MeshOutput> mesh;
   if (!run.meshes.empty()) mesh = mesh_output(run, result, scan.object.volume);
   OutputSet set;
-  write_label_surfaces(run.surfaces, result, {run.scan.frame, run.name, run.error},
+  write_label_surfaces(run.surfaces, result,
+                       {run.scan.frame, run.name, run.error, false, scan.subject},
                        wanted.size() > 1);
   if (elements.body) write_bodies(run.body, *elements.body, run.scan.frame);
   for (const fs::path& path : run.meshes) write_mesh(path, *mesh, run.scan.frame);

@@ -59,10 +59,10 @@ TEST(Label, ComesInAgainAsALabelOfTheSameVolume) {
                                  folder / "m.seg.nrrd"})
                 .status,
             0);
-  ASSERT_EQ(run_program(folder, {"segment", "--labels", folder / "m.seg.nrrd", "-o",
-                                 folder / "b.ply"})
-                .status,
-            0);
+  ASSERT_EQ(
+      run_program(folder, {"segment", "--labels", folder / "m.seg.nrrd", "-o", folder / "b.ply"})
+          .status,
+      0);
   const SurfaceCheck check = check_surface(read_surface(folder / "b.ply"));
   EXPECT_TRUE(check.closed());
   EXPECT_NEAR(check.volume, 1000, 0.5 * 0.87 * 600);  // half a layer of voxels
@@ -106,7 +106,8 @@ TEST(Label, FilesWithoutAFrameAreInTheOneThatIsGiven) {
   grid.direction = {};
   grid.origin = {-13, -14, -16};
   write_label_map(folder / "scan.nrrd", grid);
-  write_bytes(folder / "a.obj", "v 1 1 1\nv 9 1 1\nv 1 9 1\nv 1 1 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  write_bytes(folder / "a.obj",
+              "v 1 1 1\nv 9 1 1\nv 1 9 1\nv 1 1 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
   for (const std::string frame : {"lps", "ras"}) {
     const ProgramRun run =
         run_program(folder, {"label", folder / "a.obj", "--like", folder / "scan.nrrd", "-o",

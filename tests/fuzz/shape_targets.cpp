@@ -135,7 +135,7 @@ void run_sol(std::string_view bytes) {
 
 constexpr char kStl[] = "shape.stl", kPly[] = "shape.ply", kVtp[] = "shape.vtp",
                kVtk[] = "shape.vtk", kThreemf[] = "shape.3mf", kAmf[] = "shape.amf",
-               kVtu[] = "shape.vtu", kMesh[] = "shape.mesh";
+               kVtu[] = "shape.vtu", kMesh[] = "shape.mesh", kDcm[] = "shape.dcm";
 
 constexpr FuzzTarget kTargets[] = {
     {"stl", run_surface<kStl>},
@@ -151,6 +151,7 @@ constexpr FuzzTarget kTargets[] = {
     {"mesh", run_mesh<kMesh>},
     {"sol", run_sol},
     {"threemf_parts", run_threemf_parts},
+    {"encapsulated", run_surface<kDcm>},
 };
 
 }  // namespace

@@ -171,13 +171,15 @@ SurfaceLabels label_surfaces(const VoxelGrid& grid, std::span<const FoundObject>
   }
   const std::vector<std::size_t> counts = voxel_counts(out.map);
   if (std::all_of(counts.begin(), counts.end(), [](std::size_t n) { return n == 0; })) {
-    throw InputError("labels: expected surfaces around voxel centres of the scan, found none inside");
+    throw InputError(
+        "labels: expected surfaces around voxel centres of the scan, found none inside");
   }
   for (std::size_t n = 0; n < counts.size(); ++n) {
     const std::string& name = out.map.segments[n].name;
     if (counts[n] == 0) out.warnings.push_back("'" + name + "' has no voxel centre inside");
     if (out.map.segments[n].layer > 0) {
-      out.warnings.push_back("'" + name + "' overlaps another surface: it lies in a layer of its own");
+      out.warnings.push_back("'" + name +
+                             "' overlaps another surface: it lies in a layer of its own");
     }
   }
   return out;

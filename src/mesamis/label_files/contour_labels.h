@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "mesamis/files/dicom_data.h"
 #include "mesamis/files/memory_budget.h"
 #include "mesamis/label_files/contour_grid.h"
 #include "mesamis/label_files/read_labels.h"
-#include "mesamis/scan_files/dicom_data.h"
 
 namespace mesamis::detail {
 

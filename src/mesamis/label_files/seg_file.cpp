@@ -5,9 +5,9 @@
 #include <set>
 #include <utility>
 
+#include "mesamis/files/dicom_text.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/label_files/cielab.h"
-#include "mesamis/label_files/dicom_text.h"
 
 namespace mesamis::detail {
 namespace {
@@ -18,8 +18,9 @@ constexpr const char* kLabelMap = "1.2.840.10008.5.1.4.1.1.66.7";
 void require_seg(const DicomFile& file) {
   if (!file.problem.empty()) refuse(file.path, "broken DICOM file: " + file.problem);
   if (is_seg(file)) return;
-  refuse(file.path, say("expected a DICOM segmentation (SOP class ", kSegmentation, " or ",
-                        kLabelMap, "), found ", in_quotes(text_of(file.elements, dicom::kSopClass))));
+  refuse(file.path,
+         say("expected a DICOM segmentation (SOP class ", kSegmentation, " or ", kLabelMap,
+             "), found ", in_quotes(text_of(file.elements, dicom::kSopClass))));
 }
 
 SegType type_of(const DicomFile& file) {

@@ -9,7 +9,6 @@ set(ROOM_SOURCES
   contour_grid.cpp
   contour_labels.cpp
   dicom_seg.cpp
-  dicom_text.cpp
   label_table.cpp
   label_values.cpp
   mask_folder.cpp

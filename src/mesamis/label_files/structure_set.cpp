@@ -9,9 +9,9 @@
 #include <string_view>
 #include <utility>
 
+#include "mesamis/files/dicom_text.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/image/label_map.h"
-#include "mesamis/label_files/dicom_text.h"
 
 namespace mesamis::detail {
 namespace {
@@ -184,8 +184,9 @@ StructureSet read_structure_set(const DicomFile& file, MemoryBudget& budget) {
     const auto number = whole_number(item, dicom::kReferencedRegion);
     const auto region = number ? regions.find(*number) : regions.end();
     if (region == regions.end()) {
-      refuse(file.path, say("expected contours of regions of the Structure Set ROI Sequence, found ",
-                            number ? say("the number ", *number) : "no number"));
+      refuse(file.path,
+             say("expected contours of regions of the Structure Set ROI Sequence, found ",
+                 number ? say("the number ", *number) : "no number"));
     }
     if (const auto colour = colour_of(item)) region->second.colour = *colour;
     add_contours(file, item, region->second, left_out, budget);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/files/dicom_data.h"
 #include "mesamis/files/memory_budget.h"
-#include "mesamis/scan_files/dicom_data.h"
 
 /// The regions of a DICOM structure set of radiotherapy (RTSTRUCT).
 namespace mesamis::detail {
@@ -20,11 +20,11 @@ struct Contour {
 };
 
 struct Region {
-  std::string name;                     ///< not empty, UTF-8
-  Index number = 1;                     ///< 1 to kMaxLabel, no two alike
+  std::string name;                      ///< not empty, UTF-8
+  Index number = 1;                      ///< 1 to kMaxLabel, no two alike
   std::array<std::uint8_t, 3> colour{};  ///< red, green, blue (sRGB)
-  std::string frame;                    ///< UID of its frame of reference; empty: not stated
-  std::vector<Contour> contours;        ///< one at least
+  std::string frame;                     ///< UID of its frame of reference; empty: not stated
+  std::vector<Contour> contours;         ///< one at least
 };
 
 struct StructureSet {

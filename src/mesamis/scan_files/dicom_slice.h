@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
-#include "mesamis/scan_files/dicom_data.h"
+#include "mesamis/files/dicom_data.h"
 #include "mesamis/scan_files/dicom_pixels.h"
 
 namespace mesamis::detail {

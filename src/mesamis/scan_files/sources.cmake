@@ -5,7 +5,6 @@ set(ROOM_HEADERS
   write_volume.h)
 # For the rooms above alone: not installed.
 set(ROOM_INNER_HEADERS
-  dicom_data.h
   dicom_pixels.h
   dicom_slice.h
   dicom_spacing.h
@@ -16,7 +15,6 @@ set(ROOM_INNER_HEADERS
   slice_stack.h)
 set(ROOM_SOURCES
   bmp_file.cpp
-  dicom_data.cpp
   dicom_file.cpp
   dicom_jpeg.cpp
   dicom_pixels.cpp

@@ -32,15 +32,18 @@ class Writer {
     write_names();
     old ? write_version_2() : write_version_4();
     for (const MeshArray& array : options_.point_arrays) write_gmsh_data(out_, "NodeData", array);
-    for (const MeshArray& array : material_arrays(e_)) write_element_data(array);
-    for (const MeshArray& array : options_.cell_arrays) write_element_data(array);
+    if (!old || count_faces() == 0) {
+      for (const MeshArray& array : material_arrays(e_)) write_element_data(array);
+      for (const MeshArray& array : options_.cell_arrays) write_element_data(array);
+    }
     write_comments();
     out_.commit();
   }
 
  private:
-  /// A value for every element of the file, in its order, as readers expect that match them by
-  /// their place (meshio): a face of a set has that of its cell.
+  /// A value for every element of the file, in its order, as meshio expects, which goes by their
+  /// place: a face of a set has that of its cell. Of version 2.2 meshio cannot read data beside
+  /// elements of two types (its issue 1257): there, with sets, write() leaves them out.
   void write_element_data(MeshArray array) {
     std::vector<std::size_t> order;
     if (options_.gmsh == GmshVersion::k41) {

@@ -97,6 +97,7 @@ std::vector<Corner> text_corners(const fs::path& file, std::string_view bytes,
   std::string_view line;
   bool ended = false;
   for (std::size_t number = 1; take_line(bytes, line); ++number) {
+    line = trimmed(line);  // of a zero byte, too, that a document in DICOM may end with
     const std::string keyword = lower(take_word(line));
     if (!keyword.empty()) ended = keyword == "endsolid";
     if (keyword == "endloop" && corners.size() % 3 != 0) {

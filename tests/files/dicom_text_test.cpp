@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/label_files/dicom_text.h"
+#include "mesamis/files/dicom_text.h"
 
 #include <gtest/gtest.h>
 
