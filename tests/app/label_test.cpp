@@ -7,7 +7,7 @@
 #include "mesamis/label_files/read_labels.h"
 #include "mesamis/label_files/write_labels.h"
 #include "mesamis/shape_files/object_files.h"
-#include "mesamis/surface/mesh_check.h"
+#include "mesamis/surface/tri_mesh.h"
 #include "support/run_program.h"
 #include "support/scan_bytes.h"
 #include "support/shapes.h"

@@ -104,6 +104,23 @@ TEST(ContourLabels, OverlappingAndRepeatedContoursAreUnited) {
   EXPECT_THAT(both.warnings, Contains(HasSubstr("overlap are united: \"bone\"")));
 }
 
+/// Many programs draw contours through the centres of pixels, of which then half is inside.
+TEST(ContourLabels, ContoursThroughPixelCentresAreNotShifted) {
+  const LabelFile file = read(region_of({rectangle_contour({-5, -4, 0}, 10, 12)}));
+  EXPECT_NEAR(area_of(file), 120, kClose);
+  Vec3 sum;
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < file.map.voxel_count(); ++n) {
+    if (file.map.layers[0][n] == 0) continue;
+    const auto [i, j, k] = file.map.voxel(n);
+    sum = sum + file.map.to_world({i * 0.5, j * 0.6, k * 2.0});
+    ++count;
+  }
+  const Vec3 middle = 1.0 / static_cast<double>(count) * sum;
+  EXPECT_NEAR(middle.x, 0, 0.02);
+  EXPECT_NEAR(middle.y, 2, 0.02);
+}
+
 TEST(ContourLabels, OverlappingRegionsLieInDifferentLayers) {
   StructureBytes bytes = region_of({circle(10)});
   bytes.regions.push_back(region_of({circle(5)}).regions[0]);

@@ -2,7 +2,9 @@
 #include "mesamis/label_files/contour_labels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -177,26 +179,44 @@ class RegionPlanes {
   double step_ = 1;  // the median distance, in voxels
 };
 
+/// A pixel that may belong to a region, and its place in the order in which such pixels are taken:
+/// those with the largest share first, of equal ones every second and in no order of place, so that
+/// contours through the centres of pixels are not shifted to one side.
+struct OpenPixel {
+  std::size_t pixel;
+  std::array<std::uint32_t, 3> order;
+
+  OpenPixel(std::size_t number, std::size_t columns, float share) : pixel(number) {
+    constexpr float kSteps = 1024;                 // shares that differ by rounding are equal
+    constexpr std::uint32_t kSpread = 2654435761;  // Knuth's multiplicative hash
+    order = {static_cast<std::uint32_t>(std::lround(kSteps * (1 - share))),
+             static_cast<std::uint32_t>((number % columns + number / columns) % 2),
+             static_cast<std::uint32_t>(number) * kSpread};
+  }
+};
+
 /// The pixels of a region in a plane: those with the largest shares, so many that their area is
 /// that of the contours. Pixels of less than a quarter are none, those of more than three always
 /// are.
-std::vector<std::size_t> pixels_of(const std::vector<float>& shares) {
+std::vector<std::size_t> pixels_of(const std::vector<float>& shares, Index columns) {
   constexpr float kNever = 0.25f, kAlways = 0.75f;
-  std::vector<std::size_t> pixels, open;
+  std::vector<std::size_t> pixels;
+  std::vector<OpenPixel> open;
   double area = 0;
   for (std::size_t n = 0; n < shares.size(); ++n) {
     area += static_cast<double>(shares[n]);
     if (shares[n] > kAlways) {
       pixels.push_back(n);
     } else if (shares[n] >= kNever) {
-      open.push_back(n);
+      open.emplace_back(n, static_cast<std::size_t>(columns), shares[n]);
     }
   }
-  std::stable_sort(open.begin(), open.end(),
-                   [&](std::size_t a, std::size_t b) { return shares[a] > shares[b]; });
+  std::sort(open.begin(), open.end(),
+            [](const OpenPixel& a, const OpenPixel& b) { return a.order < b.order; });
   const double missing = std::round(area) - static_cast<double>(pixels.size());
-  const auto count = std::clamp(missing, 0.0, static_cast<double>(open.size()));
-  pixels.insert(pixels.end(), open.begin(), open.begin() + static_cast<std::ptrdiff_t>(count));
+  const auto count =
+      static_cast<std::size_t>(std::clamp(missing, 0.0, static_cast<double>(open.size())));
+  for (std::size_t n = 0; n < count; ++n) pixels.push_back(open[n].pixel);
   return pixels;
 }
 
@@ -225,7 +245,8 @@ class RegionFiller {
       if (plane != last) {
         const auto [begin, end] = planes.contours_of(*plane);
         filled = pixels_of(filled_plane(file_, std::span(contours).subspan(begin, end - begin),
-                                        {0, 0, grid.size[0], grid.size[1]}, notes.overlaps));
+                                        {0, 0, grid.size[0], grid.size[1]}, notes.overlaps),
+                           grid.size[0]);
         last = plane;
       }
       const std::size_t first = grid.offset(0, 0, k);

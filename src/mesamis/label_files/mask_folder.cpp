@@ -80,7 +80,7 @@ std::string empty_note(const std::vector<std::string>& names) {
 class MaskCollector {
  public:
   MaskCollector(const fs::path& first, MemoryBudget& budget)
-      : first_(first), budget_(budget), stack_(out_.map, budget) {}
+      : first_(first), stack_(out_.map, budget) {}
 
   void add(const fs::path& file, LabelFile mask) {
     const auto number = static_cast<Index>(out_.map.segments.size() + 1);
@@ -116,7 +116,6 @@ class MaskCollector {
 
  private:
   fs::path first_;
-  MemoryBudget& budget_;
   LabelFile out_;
   LayerStack stack_;
   std::vector<std::string> empty_;

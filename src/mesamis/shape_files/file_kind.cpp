@@ -32,7 +32,7 @@ FileKind kind_of(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, error)) return FileKind::kVolume;
   std::string extension = lower_extension(path);
   if (extension == ".gz") extension = lower_extension(path.stem());
-  constexpr std::array kSurfaces{".stl", ".ply", ".obj", ".vtp", ".3mf", ".amf", ".vtk"};
+  constexpr std::array kSurfaces{".stl", ".ply", ".obj", ".vtp", ".3mf", ".amf", ".glb", ".vtk"};
   const bool surface = std::find(kSurfaces.begin(), kSurfaces.end(), extension) != kSurfaces.end();
   if (surface) return FileKind::kSurface;
   if (extension == ".vtu" || extension == ".mesh") return FileKind::kMesh;
