@@ -31,10 +31,6 @@ set(ROOM_SOURCES
   atomic_file.cpp
   byte_source.cpp
   deflate.cpp
-  dicom_data.cpp
-  dicom_subject.cpp
-  dicom_text.cpp
-  dicom_writer.cpp
   file_list.cpp
   given_spacing.cpp
   memory_budget.cpp
@@ -47,4 +43,8 @@ set(ROOM_SOURCES
   xml_text.cpp
   zip_archive.cpp
   NEXT read_record.cpp
-  xml.cpp)
+  xml.cpp
+  NEXT dicom_data.cpp
+  NEXT dicom_subject.cpp
+  dicom_text.cpp
+  dicom_writer.cpp)
