@@ -225,6 +225,7 @@ int answer_group() {
 
 std::vector<std::string> format_names() {
   std::vector<std::string> names = written_surface_formats();
+  std::erase_if(names, [](const std::string& name) { return name.ends_with(".dcm"); });
   for (std::string& name : names) name.erase(0, 1);
   return names;
 }
@@ -243,7 +244,7 @@ void add_choice_options(CLI::App& c, BidsArguments& a) {
 
 void add_made_options(CLI::App& c, BidsArguments& a) {
   c.add_option("--desc", a.desc, "desc- of the files made (default: the suffix of the image)");
-  c.add_option("--format", a.formats, "Surfaces: stl ply obj vtp 3mf amf (default: stl)")
+  c.add_option("--format", a.formats, "Surfaces: stl ply obj vtp 3mf amf glb (default: stl)")
       ->check(CLI::IsMember(format_names()));
   c.add_flag("--tetrahedra", a.tetrahedra, "Also the adapted mesh: _mesh.vtu");
   c.add_flag("--dseg", a.dseg, "Also what was found, voxel by voxel: _dseg.nii.gz");

@@ -231,7 +231,16 @@ void write_bodies(const BodyArguments& a, const BodyOutput& body, Frame frame) {
   ElementWriteOptions options;
   options.frame = frame;
   options.gmsh = a.gmsh == "4.1" ? GmshVersion::k41 : GmshVersion::k22;
-  for (const fs::path& path : a.files) write_elements(path, body.elements, options);
+  const bool bare = options.gmsh == GmshVersion::k22 && !body.elements.sets.empty() &&
+                    !body.elements.materials.empty();
+  for (const fs::path& path : a.files) {
+    if (bare && lower_extension(path) == ".msh") {
+      log_warning("--body " + path.string() +
+                  ": version 2.2 with --set has no values of the elements; --gmsh-version 4.1 and "
+                  ".vtu have them");
+    }
+    write_elements(path, body.elements, options);
+  }
 }
 
 }  // namespace mesamis

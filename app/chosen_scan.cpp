@@ -28,11 +28,24 @@ void require_memory_for(const VoxelGrid& grid, const CropRange& crop, Settings s
                  sizeof(float) * static_cast<double>(grid.voxel_count()));
 }
 
+/// The files of a DICOM series.
+DicomSubject subject_of(const VolumeFile& file, const ReadLimits& limits) {
+  std::vector<std::filesystem::path> files;
+  for (const ReadFile& read : file.files) files.push_back(read.path);
+  return read_dicom_subject(files, limits);
+}
+
 }  // namespace
+
+std::function<VoxelGrid()> grid_of_scan(const ScanArguments& arguments) {
+  if (arguments.input.empty()) return {};
+  return [&arguments] { return read_any_grid(arguments.input, arguments.read); };
+}
 
 ChosenScan read_chosen_scan(const ScanArguments& arguments, const Settings& settings,
                             const std::optional<double>& memory_gb) {
-  ReadRequest asked = read_request(arguments.places, arguments.labels, settings, arguments.frame);
+  ReadRequest asked = read_request(
+      {arguments.places, arguments.labels, arguments.frame, grid_of_scan(arguments)}, settings);
   ObjectRequest& request = asked.object;
   ReadOptions read = arguments.read;
   read.on_grid = [&](const VoxelGrid& grid) {
@@ -45,6 +58,7 @@ ChosenScan read_chosen_scan(const ScanArguments& arguments, const Settings& sett
   ChosenScan scan;
   scan.grid = file.volume;
   scan.warnings = std::move(asked.warnings);
+  if (arguments.patient) scan.subject = subject_of(file, arguments.read.limits);
   if (arguments.report) {
     scan.facts = facts_of({arguments.input, file.format, file.warnings, file.files}, file.volume);
   }

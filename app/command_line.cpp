@@ -37,6 +37,7 @@ void add_commands(CLI::App& app, CommonOptions& common, Action& action) {
   add_remesh_command(app, common, action);
   add_baseline_command(app, common, action);
   add_compare_command(app, common, action);
+  add_label_command(app, common, action);
   add_study_command(app, common, action);
   add_phantom_command(app, common, action);
   add_picture_command(app, common, action);

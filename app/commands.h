@@ -55,6 +55,7 @@ void add_bids_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_compare_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_decimate_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_info_command(CLI::App& app, CommonOptions& common, Action& action);
+void add_label_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_manual_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_phantom_command(CLI::App& app, CommonOptions& common, Action& action);
 void add_picture_command(CLI::App& app, CommonOptions& common, Action& action);

@@ -117,8 +117,7 @@ void add_decimate_command(CLI::App& app, CommonOptions& common, Action& action) 
   auto command = std::make_shared<DecimateCommand>();
   CLI::App* sub =
       app.add_subcommand("decimate", "Fewer triangles for any closed surface, within a distance");
-  sub->add_option("input", command->input, listed("Surface:", written_surface_formats()))
-      ->required();
+  sub->add_option("input", command->input, listed("Surface:", read_surface_formats()))->required();
   sub->add_option("-o,--output", command->output, listed("Surface:", written_surface_formats()))
       ->required();
   sub->add_option("--tolerance", command->tolerance, "Distance in both directions, mm");

@@ -8,9 +8,13 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "label_lines.h"
+#include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/image/grey_values.h"
+#include "mesamis/image/label_map.h"
 #include "mesamis/image/orientation.h"
+#include "mesamis/label_files/read_labels.h"
 #include "mesamis/scan_files/read_volume.h"
 #include "mesamis/shape_files/file_kind.h"
 #include "mesamis/shape_files/surface_files.h"
@@ -52,15 +56,26 @@ std::string place_text(const VolumeInfo& info) {
   return text.str();
 }
 
-/// What the values tell where the file does not. This is the only reason to read them.
-std::string values_text(const InfoCommand& command) {
+/// What the values of a volume tell where the file does not.
+struct ValuesInfo {
+  std::string text;     ///< behind the line of the volume
+  bool labels = false;  ///< whether they look like labels
+};
+
+/// This is the only reason to read them.
+ValuesInfo values_of(const InfoCommand& command) {
   const VolumeFile scan = read_any_volume(command.input, command.read);
   const auto [least, most] = sample_range(scan.volume.samples);
   std::ostringstream text;
   text << "  values " << least << " to " << most;
   const bool known = std::isfinite(least) && std::isfinite(most) && least < most;
-  if (known && is_hounsfield(scan.volume)) text << ": CT likely (HU)";
-  return text.str();
+  const bool labels = known && look_like_labels(scan.volume, scan.volume.samples);
+  if (labels) {
+    text << ": labels likely (--labels)";
+  } else if (known && is_hounsfield(scan.volume)) {
+    text << ": CT likely (HU)";
+  }
+  return {text.str(), labels};
 }
 
 std::string volume_line(const VolumeInfo& info) {
@@ -105,20 +120,64 @@ std::string mesh_line(const fs::path& path, const ReadLimits& limits) {
   return line.str();
 }
 
-/// One line per volume. A file on its own that does not state its modality is read for what its
-/// values tell; one that cannot be read is not usable.
+LabelFile read_labels(const InfoCommand& command) {
+  LabelFile file = read_label_map(command.input, {.limits = command.read.limits});
+  for (const std::string& warning : file.warnings) log_warning(warning);
+  return file;
+}
+
+/// A line for the grid, and one per label.
+void print_label_file(const InfoCommand& command) {
+  VolumeInfo info;
+  info.description = command.input.filename().string();
+  LabelFile file;
+  try {
+    file = read_labels(command);
+  } catch (const InputError& error) {
+    info.format = "labels";
+    info.problem = error.what();
+    std::cout << volume_line(info) << "\n";
+    return;
+  }
+  info.format = file.format + " labels";
+  info.size = file.map.size;
+  info.spacing = file.map.spacing;
+  info.origin = file.map.origin;
+  info.direction = file.map.direction;
+  std::cout << volume_line(info) << "\n";
+  print_labels(file.map);
+}
+
+/// The objects of a folder of masks; of any other folder nothing.
+void print_masks(const InfoCommand& command) {
+  if (!is_mask_folder(command.input, command.read.limits)) return;
+  LabelMap map;
+  try {
+    map = read_labels(command).map;
+  } catch (const InputError&) {
+    return;  // its files are listed as volumes
+  }
+  std::cout << "as --labels:\n";
+  print_labels(map);
+}
+
+/// One line per volume, and one per label of a label map. A file on its own that does not state its
+/// modality is read for what its values tell; one that cannot be read is not usable.
 void print_volumes(const InfoCommand& command) {
   std::vector<VolumeInfo> all = list_any_volumes(command.input, command.read);
   const bool unknown = all.size() == 1 && all[0].modality.empty() && all[0].problem.empty();
-  std::string values;
-  if (unknown && !fs::is_directory(command.input)) {
+  ValuesInfo values;
+  const bool directory = fs::is_directory(command.input);
+  if (unknown && !directory) {
     try {
-      values = values_text(command);
+      values = values_of(command);
     } catch (const InputError& error) {
       all[0].problem = error.what();
     }
   }
-  for (const VolumeInfo& info : all) std::cout << volume_line(info) << values << "\n";
+  for (const VolumeInfo& info : all) std::cout << volume_line(info) << values.text << "\n";
+  if (values.labels && !command.read.raw) print_labels(read_labels(command).map);
+  if (directory) print_masks(command);
 }
 
 int run_info(const InfoCommand& command) {
@@ -131,7 +190,11 @@ int run_info(const InfoCommand& command) {
       std::cout << mesh_line(input, command.read.limits) << "\n";
       break;
     case FileKind::kVolume:
-      print_volumes(command);
+      if (!command.read.raw && is_label_file(input, command.read.limits)) {
+        print_label_file(command);
+      } else {
+        print_volumes(command);
+      }
       break;
   }
   return kExitDone;
@@ -142,7 +205,8 @@ int run_info(const InfoCommand& command) {
 void add_info_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<InfoCommand>();
   CLI::App* command = app.add_subcommand("info", "List what is in a file or a directory");
-  command->add_option("input", options->input, "Volume, DICOM directory, surface or mesh")
+  command
+      ->add_option("input", options->input, "Volume, DICOM directory, label map, surface or mesh")
       ->required();
   add_read_options(*command, options->read);
   command->callback([options, &common, &action] {

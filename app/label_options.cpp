@@ -8,7 +8,6 @@
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/label_files/label_table.h"
-#include "mesamis/label_files/read_labels.h"
 
 namespace mesamis {
 namespace {
@@ -23,7 +22,8 @@ void add_label_options(CLI::App& command, LabelArguments& a) {
   CLI::Option* const labels =
       command.add_option("--labels", a.file,
                          "Label map that says which objects are meant: NIfTI, NRRD, .seg.nrrd, "
-                         "MetaImage, TIFF, DICOM SEG");
+                         "MetaImage, TIFF, DICOM SEG or RTSTRUCT, Zarr; a folder of masks, one "
+                         "object per file, or of slices");
   command
       .add_option("--probabilities", a.probabilities,
                   "Instead of --labels: one volume of probabilities per object, or one of four "
@@ -38,18 +38,18 @@ void add_label_options(CLI::App& command, LabelArguments& a) {
       ->check(CLI::PositiveNumber);
 }
 
-LabelMap read_marks(const std::filesystem::path& path, const ReadLimits& limits,
+LabelMap read_marks(const std::filesystem::path& path, const LabelOptions& options,
                     std::vector<std::string>& warnings) {
-  LabelFile file = read_label_map(path, limits);
+  LabelFile file = read_label_map(path, options);
   log_all(file.warnings);
   warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
   return std::move(file.map);
 }
 
-NamedLabels read_labels(const LabelArguments& a) {
+NamedLabels read_labels(const LabelArguments& a, const std::function<VoxelGrid()>& scan) {
   NamedLabels labels;
   if (!a.file.empty()) {
-    labels.map = read_marks(a.file, a.limits, labels.warnings);
+    labels.map = read_marks(a.file, {a.limits, scan}, labels.warnings);
   } else {
     ProbabilityFile file = read_probabilities(a.probabilities, a.limits);
     log_all(file.warnings);

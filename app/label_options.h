@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "mesamis/files/read_limits.h"
+#include "mesamis/label_files/read_labels.h"
 #include "mesamis/method/label_surfaces.h"
 
 namespace CLI {
@@ -34,7 +36,7 @@ void add_label_options(CLI::App& command, LabelArguments& arguments);
 /// Reads a label map and logs the reader's warnings.
 /// @param warnings  the reader's are added.
 /// @throws InputError  as read_label_map().
-LabelMap read_marks(const std::filesystem::path& path, const ReadLimits& limits,
+LabelMap read_marks(const std::filesystem::path& path, const LabelOptions& options,
                     std::vector<std::string>& warnings);
 
 /// Labels, and where they come of probabilities those too.
@@ -45,8 +47,9 @@ struct NamedLabels {
 };
 
 /// Reads the label map, logs the reader's warnings, and names its labels.
+/// @param scan  see LabelOptions::scan.
 /// @throws InputError  as the readers.
-NamedLabels read_labels(const LabelArguments& arguments);
+NamedLabels read_labels(const LabelArguments& arguments, const std::function<VoxelGrid()>& scan);
 
 /// The labels that the options choose; refers to them.
 /// @throws InputError  as find_segment().

@@ -78,17 +78,18 @@ TissueKind tissue_kind(const PlaceArguments& places) {
   return places.tissue.empty() ? TissueKind::kBright : parse_tissue(places.tissue).kind;
 }
 
-ReadRequest read_request(const PlaceArguments& places, const LabelArguments& labels,
-                         const Settings& settings, Frame frame) {
+ReadRequest read_request(const RequestArguments& arguments, const Settings& settings) {
+  const auto& [places, labels, frame, scan] = arguments;
+  const LabelOptions how{places.limits, scan};
   ReadRequest read{object_request(settings)};
   ObjectRequest& request = read.object;
   if (!places.tissue.empty()) request.tissue = parse_tissue(places.tissue);
   for (const std::string& seed : places.seeds) request.seeds.push_back(parse_point(seed, frame));
-  if (!places.mask.empty()) request.mask = read_marks(places.mask, places.limits, read.warnings);
+  if (!places.mask.empty()) request.mask = read_marks(places.mask, how, read.warnings);
   request.margin = labels.margin.value_or(request.margin);
   const bool body = places.remove == kBody;
   if (!places.remove.empty() && !body) {
-    request.remove = read_marks(places.remove, places.limits, read.warnings);
+    request.remove = read_marks(places.remove, how, read.warnings);
   }
   if (body) {
     request.surroundings = SurroundingsRule::kRemove;

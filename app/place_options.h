@@ -44,6 +44,14 @@ void require_places(const PlaceArguments& places, const LabelArguments& labels,
 /// @throws InputError  as parse_tissue().
 TissueKind tissue_kind(const PlaceArguments& places);
 
+/// The arguments that say which object of a scan is meant.
+struct RequestArguments {
+  const PlaceArguments& places;
+  const LabelArguments& labels;
+  Frame frame = Frame::kLps;           ///< of the seeds
+  std::function<VoxelGrid()> scan{};  ///< see LabelOptions::scan
+};
+
 /// What is asked for, and what was to be said when its label maps were read.
 struct ReadRequest {
   ObjectRequest object;
@@ -52,9 +60,7 @@ struct ReadRequest {
 
 /// What the arguments ask for; the box is open until the scan is read. Reads the label maps, and
 /// logs their readers' warnings.
-/// @param frame  of the seeds.
 /// @throws InputError  as read_label_map() and parse_point().
-ReadRequest read_request(const PlaceArguments& places, const LabelArguments& labels,
-                         const Settings& settings, Frame frame);
+ReadRequest read_request(const RequestArguments& arguments, const Settings& settings);
 
 }  // namespace mesamis

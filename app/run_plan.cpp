@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mesamis/base/error.h"
+#include "mesamis/label_files/read_labels.h"
 #include "mesamis/method/memory.h"
 #include "mesamis/object/places.h"
 #include "mesamis/record/report.h"
@@ -27,15 +28,16 @@ struct Shares {
   double samples = 0, labels = 0, method = 0;  // bytes
 };
 
-/// Where the file is a map that read_grid() does not know, the scan's grid stands for it.
+/// Where the file is a map that read_grid() does not know, the scan's grid stands for it; without a
+/// scan the labels are read.
 VoxelGrid label_grid(const fs::path& path, const ReadLimits& limits, const VoxelGrid* scan) {
   try {
     ReadOptions read;
     read.limits = limits;
-    return read_grid(path, read);
+    return read_any_grid(path, read);
   } catch (const InputError&) {
-    if (scan == nullptr || !fs::exists(path)) throw;
-    return *scan;
+    if (!fs::exists(path)) throw;
+    return scan != nullptr ? *scan : read_label_map(path, {.limits = limits}).map;
   }
 }
 

@@ -61,9 +61,10 @@ void add_mesh_options(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
 }
 
 SurfaceWriteOptions surface_options_for(const SegmentOptions& options, const Result& result,
-                                        double voxel) {
+                                        const ChosenScan& scan) {
   const bool grey = std::any_of(options.surfaces.begin(), options.surfaces.end(), carries_grey);
-  return surface_options(result, voxel, {options.scan.frame, options.name, options.error, grey});
+  return surface_options(result, scan.object.volume.voxel_size(),
+                         {options.scan.frame, options.name, options.error, grey, scan.subject});
 }
 
 /// A run whose result nobody would see is not started.
@@ -103,6 +104,20 @@ Paths inputs_of(const SegmentOptions& options) {
   return inputs;
 }
 
+/// Only surfaces in DICOM have a place for a patient.
+void require_patient(const SegmentOptions& options) {
+  if (!options.scan.patient) return;
+  const auto is_dicom = [](const fs::path& path) { return lower_extension(path) == ".dcm"; };
+  if (std::none_of(options.surfaces.begin(), options.surfaces.end(), is_dicom)) {
+    throw CLI::ValidationError("--patient", "expected a .dcm among --output, found none");
+  }
+  if (options.scan.input.empty() || options.slabs.given()) {
+    throw CLI::ValidationError("--patient",
+                               "expected a DICOM scan and no --slabs, found " +
+                                   std::string(options.slabs.given() ? "--slabs" : "no scan"));
+  }
+}
+
 void require_outputs(const SegmentOptions& options) {
   require_some_output(options);
   require_utf8(options.name, "--name");
@@ -113,6 +128,7 @@ void require_outputs(const SegmentOptions& options) {
       std::none_of(options.surfaces.begin(), options.surfaces.end(), carries_arrays)) {
     throw CLI::ValidationError("--error", "expected a .vtp or .ply among --output, found none");
   }
+  require_patient(options);
   std::vector<std::string> mesh_formats = written_mesh_formats();
   if (options.slabs.given()) mesh_formats.emplace_back(kPiecesExtension);
   for (const fs::path& path : options.meshes) require_output(path, mesh_formats, "--mesh");
@@ -124,7 +140,7 @@ void require_outputs(const SegmentOptions& options) {
   if (options.body.meshing() && options.surfaces.empty()) {
     throw CLI::ValidationError("--surface-quality", "expected --output for meshing, found none");
   }
-  if (!options.labelmap.empty()) require_labelmap(options.labelmap);
+  if (!options.labelmap.empty()) require_labelmap(options.labelmap, "--labelmap");
   if (!options.report.empty()) require_output(options.report, {".json"}, "--report");
   require_page(options.page);
   require_distinct_files(outputs_of(options), inputs_of(options));
@@ -251,7 +267,7 @@ int run_on_scan(const SegmentOptions& options, const Settings& settings,
   const bool has_mesh = !result.mesh.cells.empty();
   if (has_mesh && !options.meshes.empty()) mesh = make_mesh_output(result, volume, options.mesh);
   if (!options.surfaces.empty()) require_surface(result);
-  const auto surface_as = surface_options_for(options, result, volume.voxel_size());
+  const auto surface_as = surface_options_for(options, result, scan);
   OutputSet set;
   for (const fs::path& path : options.surfaces) write_surface(path, result.surface, surface_as);
   write_meshes(options, result, mesh);
@@ -336,6 +352,9 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   command->add_flag("--error", options->error,
                     "Write the error expected at each point, mm, into --output .vtp and .ply, as "
                     "expected_error");
+  command->add_flag("--patient", options->scan.patient,
+                    "Copy patient, study and frame of reference of the DICOM scan into --output "
+                    ".dcm; without it a .dcm names no patient");
   add_mesh_options(*command, options);
   add_body_options(*command, options->body);
   add_place_options(*command, options->scan.places);

@@ -92,7 +92,8 @@ int deliver(const SegmentRun& run, LabelResult& result, const ChosenScan& scan,
   std::optional<MeshOutput> mesh;
   if (!run.meshes.empty()) mesh = mesh_output(run, result, scan.object.volume);
   OutputSet set;
-  write_label_surfaces(run.surfaces, result, {run.scan.frame, run.name, run.error},
+  write_label_surfaces(run.surfaces, result,
+                       {run.scan.frame, run.name, run.error, false, scan.subject},
                        wanted.size() > 1);
   if (elements.body) write_bodies(run.body, *elements.body, run.scan.frame);
   for (const fs::path& path : run.meshes) write_mesh(path, *mesh, run.scan.frame);
@@ -125,9 +126,9 @@ void deliver_report(const SegmentRun& run, nlohmann::ordered_json& report) {
   if (run.on_report) run.on_report(report);
 }
 
-void require_labelmap(const fs::path& path) {
+void require_labelmap(const fs::path& path, const std::string& option) {
   const bool packed = lower_extension(path) == ".gz" && lower_extension(path.stem()) == ".nii";
-  require_output(path, {".nii", packed ? ".gz" : ".nii.gz", ".nrrd"}, "--labelmap");
+  require_output(path, {".nii", packed ? ".gz" : ".nii.gz", ".nrrd"}, option);
 }
 
 namespace {
@@ -186,7 +187,7 @@ void require_layers(const SegmentRun& run, const std::vector<Segment>& wanted) {
 int run_labels(const SegmentRun& run, const Settings& settings, const CommonOptions& common) {
   require_error_place(run);
   require_scan_for_mesh(run);
-  const NamedLabels labels = read_labels(run.scan.labels);
+  const NamedLabels labels = read_labels(run.scan.labels, grid_of_scan(run.scan));
   LabelRequest request = label_request(run.scan.labels, labels);
   request.mesh = run.wants_mesh();
   const std::vector<Segment>& wanted =

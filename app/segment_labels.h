@@ -44,7 +44,7 @@ void deliver_report(const SegmentRun& run, nlohmann::ordered_json& report);
 
 /// Checks the name of a label map before any work.
 /// @throws CLI::ValidationError, InputError  as require_output().
-void require_labelmap(const std::filesystem::path& path);
+void require_labelmap(const std::filesystem::path& path, const std::string& option);
 
 /// Finds the objects of a label map and writes them.
 /// @return the exit status.

@@ -304,6 +304,9 @@ def decimate(
     progress: _Progress | None = ...,
     threads: int = ...,
 ) -> Surface: ...
+def label(
+    surfaces: Mapping[str, _Surface], like: Any, path: _Path
+) -> list[tuple[int, str, int]]: ...
 def compare(
     reference: _Surface,
     surface: _Surface,

@@ -10,13 +10,13 @@ from ._geometry import Mesh, Surface, mesh_parts, surface_parts
 
 
 def read_surface(path):
-    """Reads .stl .ply .obj .vtp .3mf .amf .vtk; coordinates as in the file, with the frame it states."""
+    """Reads .stl .ply .obj .vtp .3mf .amf .vtk, or STL and OBJ in DICOM; coordinates as in the file, with the frame it states."""
     points, triangles, frame = _core.read_surface(os.fspath(path))
     return Surface(points, triangles, frame)
 
 
 def write_surface(path, surface, *, frame=None, name="mesamis surface", arrays=None):
-    """Writes a surface: .stl .ply .obj .vtp .3mf .amf.
+    """Writes a surface: .stl .ply .obj .vtp .3mf .amf .glb, .dcm (STL in DICOM, without a patient).
 
     `surface` is a Surface, a result or (points, triangles). Its points are written as they are;
     `frame` is what the file states instead of the surface's own. `arrays` is a dict of values per

@@ -2,12 +2,13 @@
 """Decimation, distances, remeshing, phantoms."""
 
 import json
+import os
 
 import numpy as np
 
 from . import _core
 from ._geometry import Mesh, Surface, mesh_parts, surface_parts
-from ._volume import Volume
+from ._volume import Volume, is_path, read_scan, scan_of
 from ._warnings import warn
 
 
@@ -39,6 +40,31 @@ def decimate(surface, *, tolerance=None, triangles=None, min_volume=0, keep_larg
     points, corners, report, flaw = _core.decimate(points, corners, wanted, progress, threads)
     warn([flaw])
     return Surface(points * turn, corners, frame or None, json.loads(report))
+
+
+def label(surfaces, like, path):
+    """Writes closed surfaces as a label map (.nii .nii.gz .nrrd .seg.nrrd) on the grid of a scan.
+
+    `surfaces` is a dict of names and surfaces, each a path, a result, a Surface or (points, triangles);
+    `like` is the scan: a path or an image. A surface whose frame is not known is taken as LPS. Returns
+    label, name and voxels of each.
+
+    >>> import mesamis, os, tempfile
+    >>> scan = mesamis.phantom("sphere", size=(20, 20, 20))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     [row[:2] for row in mesamis.label({"ball": mesamis.phantom_surface("sphere", size=(20, 20, 20))}, scan,
+    ...                                       os.path.join(folder, "mask.nii.gz"))]
+    [(1, 'ball')]
+    """
+    parts = []
+    for name, surface in dict(surfaces).items():
+        points, corners, frame = surface_parts(surface)
+        turn = np.array([-1.0, -1.0, 1.0]) if frame == "ras" else 1.0
+        parts.append((name, np.asarray(points, dtype=float) * turn, corners))
+    scan = read_scan(like) if is_path(like) else scan_of(like)[0]
+    rows, warnings = _core.label(parts, scan, os.fspath(path))
+    warn(warnings)
+    return rows
 
 
 class Comparison:

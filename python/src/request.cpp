@@ -93,12 +93,16 @@ Request request_of(const Arguments& a) {
   return r;
 }
 
-LabelMap labels_of(const LabelSource& source, double memory_gb,
+LabelMap labels_of(const LabelSource& source, const LabelOptions& options,
                    std::vector<std::string>& warnings) {
   if (source.path.empty()) return labels_of_samples(source.scan->view);
-  LabelFile file = read_label_map(source.path, {.memory_gb = memory_gb});
+  LabelFile file = read_label_map(source.path, options);
   warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
   return std::move(file.map);
+}
+
+LabelOptions label_options(const Request& request, const VoxelGrid& scan) {
+  return {{.memory_gb = request.memory_gb}, [&scan] { return scan; }};
 }
 
 ObjectRequest object_request(const Request& r, const VoxelGrid& grid,
@@ -108,9 +112,10 @@ ObjectRequest object_request(const Request& r, const VoxelGrid& grid,
   for (const auto& seed : r.seeds) {
     request.seeds.push_back(in_frame({seed[0], seed[1], seed[2]}, r.frame));
   }
-  if (r.mask) request.mask = labels_of(*r.mask, r.memory_gb, warnings);
+  const LabelOptions how = label_options(r, grid);
+  if (r.mask) request.mask = labels_of(*r.mask, how, warnings);
   request.margin = r.margin.value_or(request.margin);
-  if (r.remove) request.remove = labels_of(*r.remove, r.memory_gb, warnings);
+  if (r.remove) request.remove = labels_of(*r.remove, how, warnings);
   if (r.remove_body) {
     request.surroundings = SurroundingsRule::kRemove;
   } else if (r.keep_surroundings || r.wants_labels()) {

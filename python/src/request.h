@@ -13,6 +13,7 @@
 #include "call.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/frame.h"
+#include "mesamis/label_files/read_labels.h"
 #include "mesamis/method/chosen_run.h"
 #include "volume.h"
 
@@ -102,10 +103,14 @@ struct Request {
 /// @throws InputError  for settings that are refused, and for what does not go together.
 Request request_of(const Arguments& arguments);
 
+/// How labels are read beside a scan, which the options refer to.
+LabelOptions label_options(const Request& request, const VoxelGrid& scan);
+
 /// Reads the labels.
 /// @param warnings  those of the reader are added.
 /// @throws InputError  as read_label_map(), or for samples that are no labels.
-LabelMap labels_of(const LabelSource& source, double memory_gb, std::vector<std::string>& warnings);
+LabelMap labels_of(const LabelSource& source, const LabelOptions& options,
+                   std::vector<std::string>& warnings);
 
 /// What the library is asked for; reads masks.
 /// @param grid  of the scan, for the box.

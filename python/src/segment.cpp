@@ -96,14 +96,17 @@ void finish(LabelRun& run, const std::vector<Segment>& wanted, Clock::time_point
   run.seconds = seconds_since(begin);
 }
 
-LabelMap read_labels(const Request& request, std::vector<std::string>& warnings) {
-  LabelMap map = labels_of(*request.labels, request.memory_gb, warnings);
+/// @param scan  whose grid labels may need; may be null.
+LabelMap read_labels(const Request& request, const Scan* scan, std::vector<std::string>& warnings) {
+  LabelOptions how{.limits = {.memory_gb = request.memory_gb}};
+  if (scan != nullptr) how = label_options(request, scan->view);
+  LabelMap map = labels_of(*request.labels, how, warnings);
   if (!request.names_file.empty()) {
     map = with_names(std::move(map), read_label_table(request.names_file));
   }
   for (const auto& [label, name] : request.names) {
     for (Segment& segment : map.segments) {
-      if (segment.label == label) segment.name = name;
+      if (segment.label == label || segment.number_in_file == label) segment.name = name;
     }
   }
   require_valid(map);
@@ -116,7 +119,7 @@ std::shared_ptr<LabelRun> run_labels(const GivenScan& given, const Request& requ
   const auto run = std::make_shared<LabelRun>();
   start(*run, request, threads);
   std::vector<std::string> warnings;
-  const LabelMap labels = read_labels(request, warnings);
+  const LabelMap labels = read_labels(request, given.scan.get(), warnings);
   LabelRequest wanted{labels};
   wanted.mesh = request.mesh;
   wanted.margin = request.margin;

@@ -10,6 +10,8 @@
 #include "mesamis/base/error.h"
 #include "mesamis/comparison/comparison.h"
 #include "mesamis/comparison/surface_pair.h"
+#include "mesamis/delivery/label_output.h"
+#include "mesamis/label_files/write_labels.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/method/printable.h"
 #include "mesamis/phantom/degrade.h"
@@ -213,12 +215,48 @@ py::list phantom_names() {
   return names;
 }
 
+// ---- label
+
+using NamedParts = std::vector<std::tuple<std::string, Doubles, Indices>>;
+
+/// Writes surfaces as a label map on the grid of a scan.
+/// @param parts  names, points (LPS, mm) and triangles.
+/// @return label, name and voxels of each, and the warnings.
+py::tuple write_labels(const NamedParts& parts, const std::shared_ptr<Scan>& scan,
+                       const std::string& path) {
+  std::vector<TriMesh> surfaces;
+  for (const auto& [name, points, triangles] : parts) {
+    surfaces.push_back(surface_of(points, triangles));
+    if (check_surface(surfaces.back()).closed()) continue;
+    throw InputError("surface: expected a closed one, found '" + name + "' open");
+  }
+  std::vector<FoundObject> objects;
+  for (std::size_t n = 0; n < parts.size(); ++n) {
+    const auto label = static_cast<Index>(n + 1);
+    objects.push_back({surfaces[n], {std::get<0>(parts[n]), label, 0, default_colour(label)}});
+  }
+  SurfaceLabels labels;
+  {
+    const py::gil_scoped_release lock_released;
+    labels = label_surfaces(scan->view, objects);
+    write_label_map(path, labels.map);
+  }
+  const std::vector<std::size_t> counts = voxel_counts(labels.map);
+  py::list rows;
+  for (std::size_t n = 0; n < counts.size(); ++n) {
+    const Segment& segment = labels.map.segments[n];
+    rows.append(py::make_tuple(segment.label, segment.name, counts[n]));
+  }
+  return py::make_tuple(rows, labels.warnings);
+}
+
 }  // namespace
 
 void bind_tools(py::module_& module) {
   module.def("require_frame", [](const std::string& name) { frame_of(name); });
   module.def("decimate", &decimate_surface, "points"_a, "triangles"_a, "wanted"_a, "progress"_a,
              "threads"_a);
+  module.def("label", &write_labels, "parts"_a, "scan"_a, "path"_a);
   module.def("compare", &compare_surfaces, "reference"_a, "surface"_a, "frames"_a, "box"_a,
              "threads"_a);
   module.def("remesh", &remesh_mesh, "nodes"_a, "tets"_a, "metric"_a, "max_tets"_a, "progress"_a,

@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 
 #include "mesamis/shape_files/mesh_files.h"
+#include "support/contour_bytes.h"
 #include "support/run_program.h"
 #include "support/scan_bytes.h"
+#include "support/seg_bytes.h"
 #include "support/test_data.h"
 
 namespace mesamis {
@@ -61,6 +63,50 @@ TEST(Info, TellsWhatTheValuesAreLike) {
   const ProgramRun cut = run_program(folder, {"info", folder / "a.nrrd"});
   EXPECT_EQ(cut.status, 0);
   EXPECT_THAT(cut.out, HasSubstr("not usable: "));
+}
+
+std::string two_labels() { return nrrd_of("(1,0,0) (0,1,0) (0,0,2)", {0, 0, 3, 3, 0, 0, 5, 5}); }
+
+TEST(Info, ListsTheLabelsOfALabelMap) {
+  const TempFolder folder;
+  write_bytes(folder / "a.nrrd", two_labels());
+  const ProgramRun run = run_program(folder, {"info", folder / "a.nrrd"});
+  EXPECT_THAT(run.out, HasSubstr("values 0 to 5: labels likely (--labels)\n"
+                                 "  3  label 3  2 voxels  4 mm^3\n"
+                                 "  5  label 5  2 voxels  4 mm^3\n"));
+}
+
+TEST(Info, ReadsDicomSegmentationsAndStructureSets) {
+  const TempFolder folder;
+  write_bytes(folder / "seg.dcm", small_seg().bytes());
+  EXPECT_THAT(run_program(folder, {"info", folder / "seg.dcm"}).out,
+              HasSubstr("seg.dcm  DICOM labels  3 x 5 x 3 voxels of 0.5 x 1.25 x 2 mm"));
+  StructureBytes set = small_structure_set();
+  write_bytes(folder / "rt.dcm", set.bytes());
+  EXPECT_THAT(run_program(folder, {"info", folder / "rt.dcm"}).out, HasSubstr("  1  bone  "));
+  set.regions[0].contours[0].data = "x";
+  write_bytes(folder / "rt.dcm", set.bytes());
+  const ProgramRun broken = run_program(folder, {"info", folder / "rt.dcm"});
+  EXPECT_EQ(broken.status, 0);
+  EXPECT_THAT(broken.out, HasSubstr("rt.dcm  labels  not usable: "));
+}
+
+TEST(Info, ListsTheObjectsOfAFolderOfMasks) {
+  const TempFolder folder;
+  const std::string axes = "(1,0,0) (0,1,0) (0,0,2)";
+  write_bytes(folder / "masks/left.nrrd", nrrd_of(axes, {0, 1, 1, 0, 0, 0, 0, 0}));
+  write_bytes(folder / "masks/right.nrrd", nrrd_of(axes, {0, 0, 0, 0, 0, 0, 1, 0}));
+  EXPECT_THAT(
+      run_program(folder, {"info", folder / "masks"}).out,
+      HasSubstr("as --labels:\n  1  left  2 voxels  4 mm^3\n  2  right  1 voxels  2 mm^3\n"));
+}
+
+TEST(Info, SaysWhatAFolderHoldsThatIsNoScan) {
+  const TempFolder folder;
+  write_bytes(folder / "case/ct.nrrd", two_labels());
+  const ProgramRun run = run_program(folder, {"segment", folder / "case", "-o", folder / "a.stl"});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_THAT(run.err, HasSubstr("found none but ct.nrrd; name the file itself, as "));
 }
 
 TEST(Info, DescribesAScanInChunks) {

@@ -39,7 +39,7 @@ const std::map<std::string, std::set<std::string>> kSees{
     {"files", {"base"}},
     {"scan_files", {"base", "image", "files"}},
     {"chunk_files", {"base", "image", "files"}},
-    {"label_files", {"base", "image", "files", "scan_files"}},
+    {"label_files", {"base", "image", "files", "scan_files", "chunk_files"}},
     {"shape_files", {"base", "mesh", "surface", "decimate", "files"}},
     {"plot", {"base", "files"}},
     {"picture", {"base", "image", "mesh", "surface", "files", "shape_files", "plot"}},

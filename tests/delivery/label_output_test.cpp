@@ -103,6 +103,26 @@ TEST(LabelOutput, GivesObjectsTheirLabelsAndLayers) {
             8 * std::count(map.layers[1].begin(), map.layers[1].end(), 7));
 }
 
+TEST(LabelSurfaces, KeepOverlappingObjectsWhole) {
+  const TriMesh large = ball(9), small = ball(4);
+  TriMesh beside = ball(2);
+  for (Vec3& p : beside.points) p.x += 100;
+  const std::vector<FoundObject> objects{
+      {large, {"a", 1, 0, {}}}, {small, {"b", 2, 5, {}}}, {beside, {"c", 3, 0, {}}}};
+  const SurfaceLabels labels = label_surfaces(kGrid, objects);
+  EXPECT_NO_THROW(require_valid(labels.map));
+  EXPECT_EQ(labels.map.layers.size(), 2u);
+  const auto counts = voxel_counts(labels.map);
+  const double pi = std::acos(-1.0);
+  EXPECT_NEAR(static_cast<double>(counts[0]), 4 * pi / 3 * 729, 20);
+  EXPECT_NEAR(static_cast<double>(counts[1]), 4 * pi / 3 * 64, 10);
+  EXPECT_EQ(counts[2], 0u);
+  EXPECT_THAT(labels.warnings, testing::ElementsAre(testing::HasSubstr("'b' overlaps"),
+                                                    testing::HasSubstr("'c' has no voxel")));
+  EXPECT_REFUSED(label_surfaces(kGrid, std::span(objects).last(1)),
+                 testing::HasSubstr("found none inside"));
+}
+
 TEST(MissingObjects, AreNamedAndNoneAtAllIsRefused) {
   LabelResult result;
   const Segment hip{"hip", 2, 0, {}}, femur{"femur", 3, 0, {}};

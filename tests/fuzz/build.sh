@@ -40,11 +40,11 @@ done | sort -u | grep -vE '/lib(c|m|dl|rt|pthread|gcc_s|resolv|stdc\+\+)\.so' | 
 dictionary_of() {  # dictionary_of TARGET: that of the target's format
   case $1 in
     fuzz_options_*) echo "$build/options.dict" ;;
-    fuzz_label_dicom) echo tests/fuzz/dictionaries/dicom.dict ;;
-    fuzz_label_nrrd) echo tests/fuzz/dictionaries/nrrd.dict ;;
+    fuzz_label_dicom | fuzz_label_contours | fuzz_encapsulated) echo tests/fuzz/dictionaries/dicom.dict ;;
+    fuzz_label_nrrd | fuzz_label_masks) echo tests/fuzz/dictionaries/nrrd.dict ;;
     fuzz_label_nifti) echo tests/fuzz/dictionaries/nifti.dict ;;
     fuzz_vtu) echo tests/fuzz/dictionaries/vtp.dict ;;
-    fuzz_threemf_model) echo tests/fuzz/dictionaries/threemf.dict ;;
+    fuzz_threemf_model | fuzz_threemf_parts) echo tests/fuzz/dictionaries/threemf.dict ;;
     fuzz_sol) echo tests/fuzz/dictionaries/mesh.dict ;;
     *) echo "tests/fuzz/dictionaries/${1#fuzz_}.dict" ;;
   esac

@@ -7,6 +7,7 @@
 #include "mesamis/method/setting_table.h"
 #include "mesamis/record/json_file.h"
 #include "mesamis/record/settings_json.h"
+#include "support/contour_bytes.h"
 #include "support/scan_bytes.h"
 
 namespace mesamis {
@@ -35,6 +36,25 @@ std::string probabilities() {
          bytes_of_all(values);
 }
 
+void write_contour_seeds(const SeedFolder& seeds) {
+  StructureBytes set = small_structure_set();
+  set.regions.push_back({2, "marrow", "0\\0\\255", "1.2.9", {}});
+  for (int k = 0; k < 3; ++k) {
+    const RegionContour box = rectangle_contour({-2, -1, 3 + 2.0 * k}, 4, 3);
+    const RegionContour hole = rectangle_contour({-1, 0, 3 + 2.0 * k}, 2, 1);
+    set.regions[1].contours.insert(set.regions[1].contours.end(), {box, hole});
+    set.regions[0].contours[static_cast<std::size_t>(k)] =
+        rectangle_contour({0, 0, 3 + 2.0 * k}, 4, 4);
+  }
+  seeds.add("label_contours", "explicit", set.bytes());
+  set.open = true;
+  set.regions[1].contours[0].type = "CLOSEDPLANAR_XOR";
+  set.regions[1].contours[1].type = "POINT";
+  seeds.add("label_contours", "open", set.bytes());
+  set.coding = DicomCoding::kImplicit;
+  seeds.add("label_contours", "implicit", set.bytes());
+}
+
 }  // namespace
 
 void write_label_seeds(const SeedFolder& seeds) {
@@ -51,6 +71,11 @@ void write_label_seeds(const SeedFolder& seeds) {
             "encoding: ascii\nSegment0_ID:=a\nSegment0_Name:=bone\nSegment0_Color:=1 0.5 0\n"
             "Segment0_LabelValue:=1\nSegment0_Layer:=0\nSegment1_LabelValue:=2\n"
             "Segment1_Layer:=1\n\n1 0 0 2 0 0 1 2 0 0 0 0 1 2 1 2\n");
+  write_contour_seeds(seeds);
+  const std::string mask =
+      "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nspace: left-posterior-superior\n"
+      "space directions: (1,0,0) (0,1,0) (0,0,1)\nencoding: ascii\n\n1 0 0 1 0 0 1 0\n";
+  seeds.add("label_masks", "pair", "\x80" + mask + mask);
   const LabelMap map = small_map(1);
   write_label_table(seeds.file("label_table", "itksnap"), map.segments);
   seeds.add("label_table", "slicer", "# Color table\n0 Background 0 0 0 0\n1 bone 255 128 0 255\n");

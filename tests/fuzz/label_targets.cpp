@@ -39,17 +39,51 @@ void require_probabilities(const ProbabilityFile& file) {
 template <const char* kName>
 void run_labels(std::string_view bytes) {
   const fs::path file = input_folder().write(kName, bytes);
-  read_or_refuse(file,
-                 [](const fs::path& path) { require_labels(read_label_map(path, fuzz_limits())); });
+  read_or_refuse(file, [](const fs::path& path) {
+    require_labels(read_label_map(path, {.limits = fuzz_limits()}));
+  });
   read_or_refuse(file, [](const fs::path& path) {
     require_probabilities(read_probabilities({path}, fuzz_limits()));
+  });
+}
+
+/// A structure set, read with a scan and without.
+void run_contours(std::string_view bytes) {
+  const fs::path file = input_folder().write("rt.dcm", bytes);
+  const auto scan = [] {
+    VoxelGrid grid;
+    grid.size = {20, 24, 10};
+    grid.spacing = {0.5, 0.6, 2};
+    grid.origin = {-4, -5, 1};
+    grid.frame_of_reference = "1.2.9";
+    return grid;
+  };
+  for (const bool with_scan : {true, false}) {
+    read_or_refuse(file, [&](const fs::path& path) {
+      LabelOptions options{.limits = fuzz_limits()};
+      if (with_scan) options.scan = scan;
+      require_labels(read_label_map(path, options));
+    });
+  }
+}
+
+/// A folder of two masks; the first byte tells how much of the bytes the first one has, in 256ths.
+void run_masks(std::string_view bytes) {
+  const std::size_t share = bytes.empty() ? 0 : static_cast<unsigned char>(bytes[0]);
+  const std::string_view rest = bytes.substr(std::min<std::size_t>(1, bytes.size()));
+  const std::size_t first = rest.size() * share / 256;
+  const fs::path file = input_folder().write("masks/a.nrrd", rest.substr(0, first));
+  input_folder().write("masks/b.nrrd", rest.substr(first));
+  read_or_refuse(file, [](const fs::path& path) {
+    require_labels(read_label_map(path.parent_path(), {.limits = fuzz_limits()}));
   });
 }
 
 void run_label_table(std::string_view bytes) {
   read_or_refuse(input_folder().write("names.txt", bytes), [](const fs::path& path) {
     for (const Segment& segment : read_label_table(path)) {
-      require_law(segment.label > 0, "the label of the background");
+      require_law(segment.label > 0 || segment.number_in_file > kMaxLabel,
+                  "the label of the background");
     }
   });
 }
@@ -73,6 +107,7 @@ constexpr char kNifti[] = "labels.nii", kNrrd[] = "labels.seg.nrrd", kDicom[] = 
 constexpr FuzzTarget kTargets[] = {
     {"label_nifti", run_labels<kNifti>},  {"label_nrrd", run_labels<kNrrd>},
     {"label_dicom", run_labels<kDicom>},  {"label_table", run_label_table},
+    {"label_contours", run_contours},     {"label_masks", run_masks},
     {"settings_json", run_settings_json},
 };
 

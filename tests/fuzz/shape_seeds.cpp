@@ -91,6 +91,13 @@ void write_xml(const SeedFolder& seeds) {
             xml_grid("UnstructuredGrid", "NumberOfCells=\"1\"",
                      "<Cells>" + array + "\"connectivity\">0 1 2 3</DataArray>" + array +
                          "\"offsets\">4</DataArray>" + array + "\"types\">10</DataArray></Cells>"));
+  write_surface(seeds.file("encapsulated", "stl.dcm"), tetrahedron(), {.name = "hip"});
+  write_surface(seeds.file("encapsulated", "obj.obj.dcm"), tetrahedron(), {.name = "hip"});
+  seeds.add("threemf_parts", "pair",
+            "<model xmlns:p=\"p\"><resources><object id=\"2\"><components><component "
+            "p:path=\"/3D/a.model\" objectid=\"1\"/></components></object></resources><build>"
+            "<item objectid=\"2\"/><item p:path=\"/3D/a.model\" objectid=\"1\"/></build></model>" +
+                std::string(1, '\0') + kModel);
   seeds.add("threemf_model", "components", kModel);
   seeds.add("threemf", "stored",
             zip_bytes({{"_rels/.rels",

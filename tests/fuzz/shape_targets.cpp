@@ -96,6 +96,20 @@ void run_threemf_model(std::string_view bytes) {
                 false)));
 }
 
+/// A model and, behind a zero byte, another one that it may name, in an archive whose sums fit.
+void run_threemf_parts(std::string_view bytes) {
+  const std::size_t end = std::min(bytes.find('\0'), bytes.size());
+  read_surface_in_all_ways(input_folder().write(
+      "shape.3mf",
+      zip_bytes({{"_rels/.rels",
+                  "<Relationships><Relationship Id=\"r\" Target=\"/3D/3dmodel.model\" "
+                  "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>"
+                  "</Relationships>"},
+                 {"3D/3dmodel.model", std::string(bytes.substr(0, end))},
+                 {"3D/a.model", std::string(bytes.substr(std::min(end + 1, bytes.size())))}},
+                false)));
+}
+
 void require_arrays(const std::vector<MeshArray>& arrays, std::size_t count) {
   for (const MeshArray& array : arrays) {
     require_law(array.components >= 1 &&
@@ -121,15 +135,23 @@ void run_sol(std::string_view bytes) {
 
 constexpr char kStl[] = "shape.stl", kPly[] = "shape.ply", kVtp[] = "shape.vtp",
                kVtk[] = "shape.vtk", kThreemf[] = "shape.3mf", kAmf[] = "shape.amf",
-               kVtu[] = "shape.vtu", kMesh[] = "shape.mesh";
+               kVtu[] = "shape.vtu", kMesh[] = "shape.mesh", kDcm[] = "shape.dcm";
 
 constexpr FuzzTarget kTargets[] = {
-    {"stl", run_surface<kStl>}, {"ply", run_surface<kPly>},
-    {"obj", run_obj},           {"mtl", run_mtl},
-    {"vtp", run_surface<kVtp>}, {"vtk", run_surface<kVtk>},
-    {"amf", run_surface<kAmf>}, {"threemf", run_surface<kThreemf>},
-    {"vtu", run_mesh<kVtu>},    {"threemf_model", run_threemf_model},
-    {"mesh", run_mesh<kMesh>},  {"sol", run_sol},
+    {"stl", run_surface<kStl>},
+    {"ply", run_surface<kPly>},
+    {"obj", run_obj},
+    {"mtl", run_mtl},
+    {"vtp", run_surface<kVtp>},
+    {"vtk", run_surface<kVtk>},
+    {"amf", run_surface<kAmf>},
+    {"threemf", run_surface<kThreemf>},
+    {"vtu", run_mesh<kVtu>},
+    {"threemf_model", run_threemf_model},
+    {"mesh", run_mesh<kMesh>},
+    {"sol", run_sol},
+    {"threemf_parts", run_threemf_parts},
+    {"encapsulated", run_surface<kDcm>},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 
@@ -203,6 +204,40 @@ TEST(LabelMap, HasNoMoreSegmentsThanLabels) {
   EXPECT_EQ(with_all_segments(map).segments.size(), 65535u);
   map.layers[1][0] = 25537;
   EXPECT_REFUSED(with_all_segments(map), HasSubstr("at most 65535 segments"));
+}
+
+TEST(LabelMap, CountsTheVoxelsOfEachSegment) {
+  LabelMap map;
+  map.size = {4, 1, 1};
+  map.layers = {{0, 3, 3, 7}, {7, 0, 0, 0}};
+  map.segments = {{"a", 7, 1}, {"b", 3, 0}, {"c", 7, 0}, {"none", 9, 0}};
+  EXPECT_EQ(voxel_counts(map), (std::vector<std::size_t>{1, 2, 1, 0}));
+}
+
+TEST(LabelMap, LabelsAreWholeAndMostlyLikeTheirNeighbours) {
+  const VoxelGrid row{{12, 1, 1}};
+  const auto look = [&](const std::vector<float>& samples) {
+    return look_like_labels(row, samples);
+  };
+  EXPECT_TRUE(look({0, 0, 5, 5, 5, 5, 5, 5, 7, 7, 7, 0}));
+  EXPECT_TRUE(look({0, 0, 3.00005f, 3, 3, 3, -0.001f, 0, 0, 0, 0, 0}));
+  EXPECT_TRUE(look({0, 255, 0, 255, 0, 0, 0, 0, 0, 0, 0, 255}));
+  EXPECT_FALSE(look({0, 1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 6}));
+  EXPECT_FALSE(look({0, 0, 31, 32, 33, 31, 30, 35, 36, 33, 30, 0}));
+  EXPECT_FALSE(look({-1, -1, -1, 5, 5, 5, 5, 5, 5, 5, 5, 5}));
+  EXPECT_FALSE(look({0, 0, 0.5f, 0.5f, 1, 1, 1, 1, 1, 0, 0, 0}));
+  EXPECT_FALSE(look(std::vector<float>(12, 0)));
+  EXPECT_FALSE(look(std::vector<float>(12, std::numeric_limits<float>::quiet_NaN())));
+}
+
+TEST(LabelMap, NumbersInTheFileFindTheirNames) {
+  LabelMap map;
+  map.segments = {{"label 70000", 1, 0, {}, 70000}, {"label 2", 2}};
+  const std::vector<Segment> table{{"liver", 0, 0, {1, 2, 3}, 70000}, {"wrong", 1}, {"hip", 2}};
+  map = with_names(std::move(map), table);
+  EXPECT_EQ(map.segments[0], (Segment{"liver", 1, 0, {1, 2, 3}, 70000}));
+  EXPECT_EQ(map.segments[1].name, "hip");
+  EXPECT_EQ(find_segment(map.segments, "70000").label, 1);
 }
 
 TEST(LabelMap, DefaultColoursDiffer) {

@@ -37,10 +37,17 @@ TEST(LabelTable, OfSlicer) {
                                          {"bone", 13, 0, default_colour(13)}}));
 }
 
+TEST(LabelTable, OfAnAtlasWhoseNumbersAreAboveAllLabels) {
+  const auto table = read("997 1 2 3 1 1 1 \"root\"\n614454277 4 5 6 1 1 1 \"ventricle\"\n");
+  EXPECT_EQ(table, (std::vector<Segment>{{"root", 997, 0, {1, 2, 3}},
+                                         {"ventricle", 0, 0, {4, 5, 6}, 614454277}}));
+}
+
 TEST(LabelTable, RefusesOtherLines) {
   EXPECT_REFUSED(read("1 a\nliver\n"), HasSubstr("line 2: expected IDX R G B A VIS MSH"));
   EXPECT_REFUSED(read("-1 a 1 2 3\n"), HasSubstr("found \"-1 a 1 2 3\""));
-  EXPECT_REFUSED(read("65536 a 1 2 3\n"), HasSubstr("IDX of 0 to 65535"));
+  EXPECT_REFUSED(read("9007199254740992 a 1 2 3\n"), HasSubstr("a whole IDX from 0"));
+  EXPECT_REFUSED(read("614454277 a\n614454277 b\n"), HasSubstr("found 614454277 again"));
   EXPECT_REFUSED(read("1 a 1 2 256\n"), HasSubstr("line 1"));
   EXPECT_REFUSED(read("1 a 1 2\n"), HasSubstr("line 1"));
   EXPECT_REFUSED(read("1 a b 1 2 3 4 5 6\n"), HasSubstr("line 1"));

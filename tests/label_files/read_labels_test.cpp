@@ -13,6 +13,7 @@ namespace mesamis {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::ElementsAreArray;
 using testing::HasSubstr;
@@ -141,9 +142,96 @@ TEST(ReadLabels, OfADicomSegmentation) {
   EXPECT_EQ(read_label_map(folder / "seg").map.layers, file.map.layers);
   write_bytes(folder / "seg" / "2.dcm", small_seg().bytes());
   EXPECT_REFUSED(read_label_map(folder / "seg"),
-                 AllOf(StartsWith((folder / "seg").string()), HasSubstr("found 2 DICOM files")));
+                 AllOf(StartsWith((folder / "seg").string()), HasSubstr("found 2: 1.dcm, 2.dcm")));
   write_bytes(folder / "scan.dcm", SliceBytes{}.bytes());
   EXPECT_REFUSED(read_label_map(folder / "scan.dcm"), HasSubstr("a DICOM segmentation"));
+}
+
+std::string mask(const std::vector<std::int16_t>& values) {
+  NiftiBytes nifti;
+  nifti.dim = {3, 4, 2, 1, 1, 1, 1, 1};
+  return nifti.header() + bytes_of_all(values);
+}
+
+TEST(ReadLabels, OfAFolderOfMasksNamedAfterTheirFiles) {
+  const TempFolder folder;
+  write_bytes(folder / "hip_left.nii.gz", packed(mask({0, 1, 1, 0, 0, 0, 0, 0})));
+  write_bytes(folder / "liver.nii", mask({0, 0, 0, 0, 255, 0, 0, 0}));
+  write_bytes(folder / "spleen.nii", mask({0, 0, 0, 0, 0, 0, 0, 0}));
+  write_bytes(folder / "._liver.nii", "no mask");
+  write_bytes(folder / "statistics.json", "{}");
+  const LabelFile file = read_label_map(folder.path());
+  EXPECT_EQ(file.format, "NIfTI masks");
+  EXPECT_THAT(file.map.layers, ElementsAre(ElementsAre(0, 1, 1, 0, 2, 0, 0, 0)));
+  ASSERT_THAT(file.map.segments, SizeIs(3));
+  EXPECT_EQ(file.map.segments[0], (Segment{"hip_left", 1, 0, default_colour(1)}));
+  EXPECT_EQ(file.map.segments[2].name, "spleen");
+  EXPECT_THAT(file.warnings, Contains(HasSubstr("1 mask is empty: spleen")));
+  EXPECT_NO_THROW(require_valid(file.map));
+}
+
+TEST(ReadLabels, OverlappingMasksStayWholeWithAWarning) {
+  const TempFolder folder;
+  write_bytes(folder / "a.nii", mask({1, 1, 1, 0, 0, 0, 0, 0}));
+  write_bytes(folder / "b.nii", mask({0, 1, 1, 1, 0, 0, 0, 0}));
+  write_bytes(folder / "c.nii", mask({0, 0, 0, 1, 1, 0, 0, 0}));
+  const LabelFile file = read_label_map(folder.path());
+  EXPECT_THAT(file.map.layers, ElementsAre(ElementsAre(1, 1, 1, 3, 3, 0, 0, 0),
+                                           ElementsAre(0, 2, 2, 2, 0, 0, 0, 0)));
+  EXPECT_THAT(file.warnings,
+              Contains(HasSubstr("2 objects overlap others: each stays whole. The first is \"b\" "
+                                 "with 2 voxels of \"a\"")));
+}
+
+TEST(ReadLabels, MasksOfDifferentGridsAndOfSeveralObjectsAreRefused) {
+  const TempFolder folder;
+  write_bytes(folder / "a.nii", mask({1, 1, 1, 0, 0, 0, 0, 0}));
+  write_bytes(folder / "b.nii", NiftiBytes{}.header() + bytes_of_all(kLabels));
+  EXPECT_REFUSED(read_label_map(folder.path()),
+                 AllOf(StartsWith((folder / "b.nii").string()),
+                       HasSubstr("expected the grid of a.nii, 4 x 2 x 1 voxels, found 4 x 3 x 5")));
+  write_bytes(folder / "b.nii", mask({1, 2, 1, 0, 0, 0, 0, 0}));
+  EXPECT_REFUSED(read_label_map(folder.path()),
+                 HasSubstr("one object in each file of a folder, found the labels 1 and 2"));
+  std::filesystem::remove(folder / "a.nii");  // one file may hold all objects
+  EXPECT_THAT(read_label_map(folder.path()).map.segments, SizeIs(2));
+}
+
+TEST(ReadLabels, OfAFolderOfSlices) {
+  const TempFolder folder;
+  const std::string data = bytes_of_all(kLabels);
+  for (std::size_t k = 0; k < 5; ++k) {
+    TiffPage page;
+    page.pixels = data.substr(24 * k, 24);
+    write_bytes(folder / ("s" + std::to_string(9 + k) + ".tif"), tiff_bytes({page}));
+  }
+  const LabelFile file = read_label_map(folder.path());
+  expect_counted(file, "TIFF slices");
+  VoxelGrid scan;
+  scan.size = {4, 3, 5};
+  scan.spacing = {0.5, 0.5, 2};
+  scan.origin = {1, 2, 3};
+  const LabelFile placed = read_label_map(folder.path(), {{}, [&] { return scan; }});
+  EXPECT_EQ(placed.map.to_world({0, 0, 0}), scan.origin);
+  EXPECT_EQ(placed.map.spacing, scan.spacing);
+  EXPECT_THAT(placed.warnings, ElementsAre(HasSubstr("its place is taken")));
+  scan.size = {4, 3, 6};
+  EXPECT_EQ(read_label_map(folder.path(), {{}, [&] { return scan; }}).map.origin, (Vec3{}));
+}
+
+TEST(ReadLabels, OfADicomFolderTheOneFileThatHoldsLabels) {
+  const TempFolder folder;
+  write_bytes(folder / "1.dcm", SliceBytes{}.bytes());
+  EXPECT_REFUSED(read_label_map(folder.path()), HasSubstr("found 1 DICOM files of other kinds"));
+  write_bytes(folder / "2.dcm", small_seg().bytes());
+  EXPECT_EQ(find_segment(read_label_map(folder.path()).map.segments, "bone").label, 1);
+}
+
+TEST(ReadLabels, AFolderWithoutLabelsSaysWhatIsThere) {
+  const TempFolder folder;
+  write_bytes(folder / "notes.txt", "x");
+  std::filesystem::create_directory(folder / "masks");
+  EXPECT_REFUSED(read_label_map(folder.path()), HasSubstr("found notes.txt, the folder masks"));
 }
 
 TEST(ReadLabels, RefusesWhatIsNoLabelMap) {

@@ -43,7 +43,13 @@ TEST(GmshElements, OfVersionTwoAreThisText) {
                          "$Nodes\n5\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 0 0 2\n5 2 2 2.5\n$EndNodes\n"
                          "$Elements\n3\n1 4 2 1 1 1 2 3 4\n2 4 2 3 3 2 5 3 4\n3 2 2 4 4 1 3 2\n"
                          "$EndElements\n"
-                         "$ElementData\n1\n\"part\"\n1\n0\n3\n0\n1\n2\n1 1\n2 3\n"));
+                         "$Comments\n"));
+  FiniteElements without_sets = two_elements(false);
+  without_sets.sets.clear();
+  write_elements(folder / "m.msh", without_sets);
+  EXPECT_THAT(read_bytes(folder / "m.msh"),
+              HasSubstr("$ElementData\n1\n\"part\"\n1\n0\n3\n0\n1\n2\n1 1\n2 3\n"));
+  write_elements(folder / "m.msh", two_elements(false));
   EXPECT_THAT(read_bytes(folder / "m.msh"),
               HasSubstr("SPACE=LPS LengthUnit=mm\nHEAD: near\nNECK: \nSHAFT: far\n"
                         "STIFF: 17000 MPa, 0.3, 1.9 g/cm^3\n"));
@@ -62,6 +68,21 @@ TEST(GmshElements, OfVersionFourAreThisText) {
                          "0 0 0\n2 0 0\n0 2 0\n0 0 2\n2 2 2.5\n$EndNodes\n"
                          "$Elements\n3 3 1 3\n3 1 4 1\n1 1 2 3 4\n3 3 4 1\n2 2 5 3 4\n"
                          "2 4 2 1\n3 1 3 2\n$EndElements\n"));
+}
+
+/// meshio matches values by their place: it needs one for each element, faces of sets included.
+TEST(GmshElements, EveryElementHasAValueInTheOrderOfTheFile) {
+  const TempFolder folder;
+  FiniteElements e = two_elements(false);
+  e.part_of_cell = {2, 0};  // parts are no longer in the order of the cells
+  write_elements(folder / "m.msh", e, {.gmsh = GmshVersion::k41});
+  EXPECT_THAT(section(folder / "m.msh", "Elements"),
+              testing::ElementsAre("3 3 1 3", "3 1 4 1", "2 2 5 3 4", "3 3 4 1", "1 1 2 3 4",
+                                   "2 4 2 1", "3 1 3 2"));
+  const auto lines = section(folder / "m.msh", "ElementData");
+  ASSERT_EQ(lines.size(), 11u);
+  EXPECT_THAT(std::vector(lines.begin() + 8, lines.end()),
+              testing::ElementsAre("2 1", "1 3", "3 3"));
 }
 
 /// Gmsh's second order: tetrahedra 1-2, 2-3, 1-3, 1-4, 3-4, 2-4, triangles 1-2, 2-3, 3-1.
@@ -94,7 +115,9 @@ TEST(GmshElements, TakeArraysOfOneComponentAlone) {
   EXPECT_REFUSED(write_elements(folder / "m.msh", two_elements(false), {.point_arrays = good}),
                  HasSubstr("expected 5 scalars"));
   EXPECT_EQ(folder.file_count(), 0);
-  write_elements(folder / "m.msh", two_elements(false), {.cell_arrays = good});
+  FiniteElements without_sets = two_elements(false);
+  without_sets.sets.clear();
+  write_elements(folder / "m.msh", without_sets, {.cell_arrays = good});
   EXPECT_THAT(read_bytes(folder / "m.msh"), HasSubstr("\"u\"\n1\n0\n3\n0\n1\n2\n1 1.5\n2 2.5\n"));
 }
 

@@ -6,6 +6,7 @@
 
 #include "mesamis/shape_files/surface_files.h"
 #include "support/level_set.h"
+#include "support/scan_bytes.h"
 #include "support/shapes.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
@@ -60,6 +61,35 @@ TEST(Stl, ReadsText) {
   EXPECT_REFUSED(read_surface(folder / "b.stl"), HasSubstr("endsolid"));
   write_bytes(folder / "c.stl", "solid x\nvertex 1 2\nendsolid\n");
   EXPECT_REFUSED(read_surface(folder / "c.stl"), HasSubstr("line 2"));
+}
+
+TEST(Stl, ReadsTextInAnyCaseAndBehindAMark) {
+  const std::string text =
+      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1e0 0 0\nvertex 0 1 0\n"
+      "endloop\nendfacet\nendsolid a\n";
+  std::string upper = text;
+  for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  for (const std::string& bytes : {text, upper, "\xef\xbb\xbf" + text, "\r\n  " + upper}) {
+    const TempFolder folder;
+    write_bytes(folder / "a.stl", bytes);
+    EXPECT_EQ(read_surface(folder / "a.stl").triangles.size(), 1u) << bytes;
+  }
+}
+
+TEST(Stl, BinaryThatBeginsWithSolidMayHaveBytesBehind) {
+  const TempFolder folder;
+  for (const std::string start : {"solid made elsewhere", "SOLID", "solid\n"}) {
+    for (const char fill : {'\0', ' '}) {
+      std::string bytes = start;
+      bytes.resize(80, fill);
+      bytes += bytes_of(std::uint32_t{1}) + std::string(12, '\0');
+      bytes += bytes_of_all(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}) + std::string(2, '\0');
+      write_bytes(folder / "a.stl", bytes + "colours of another program");
+      EXPECT_EQ(read_surface(folder / "a.stl").triangles.size(), 1u) << start;
+      write_bytes(folder / "a.stl", bytes.substr(0, bytes.size() - 1));
+      EXPECT_ANY_THROW(read_surface(folder / "a.stl"));
+    }
+  }
 }
 
 TEST(Stl, LeavesOutWhatSinglePrecisionCollapses) {

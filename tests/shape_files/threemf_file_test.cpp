@@ -7,6 +7,7 @@
 #include "shape_files/threemf_model.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
+#include "support/zip_bytes.h"
 
 namespace mesamis {
 namespace {
@@ -133,6 +134,77 @@ TEST(ThreeMf, EachMeshOfTheBuildIsAnObject) {
   EXPECT_EQ(file.objects[1].surface.points.at(0), (Vec3{0, 0, 5}));
   EXPECT_EQ(file.objects[2].name, "object 3");
   EXPECT_FALSE(file.coloured) << "the last one has no colour";
+}
+
+using Parts = std::vector<std::pair<std::string, std::string>>;
+
+/// Parts of an archive that a model of its own makes a package.
+std::string package_of(Parts parts) {
+  parts.insert(parts.begin(),
+               {"_rels/.rels",
+                "<Relationships><Relationship Id=\"r\" Target=\"/3D/3dmodel.model\" "
+                "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>"
+                "</Relationships>"});
+  return zip_bytes(parts, true);
+}
+
+std::string model_of(const std::string& resources, const std::string& build,
+                     const std::string& unit = "millimeter") {
+  return "<model unit=\"" + unit +
+         "\" requiredextensions=\"p\" xmlns:p=\"http://schemas."
+         "microsoft.com/3dmanufacturing/production/2015/06\"><resources>" +
+         resources + "</resources><build>" + build + "</build></model>";
+}
+
+std::string tetrahedron(const std::string& id, const std::string& name = "") {
+  return "<object id=\"" + id + "\" name=\"" + name +
+         "\"><mesh><vertices>"
+         "<vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/>"
+         "<vertex x=\"0\" y=\"1\" z=\"0\"/><vertex x=\"0\" y=\"0\" z=\"1\"/></vertices><triangles>"
+         "<triangle v1=\"0\" v2=\"2\" v3=\"1\"/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/>"
+         "<triangle v1=\"1\" v2=\"2\" v3=\"3\"/><triangle v1=\"0\" v2=\"3\" v3=\"2\"/>"
+         "</triangles></mesh></object>";
+}
+
+std::string placed(const std::string& id, const std::string& path, const std::string& x) {
+  return "<object id=\"" + id + "\"><components><component p:path=\"" + path +
+         "\" objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 " + x + " 0 0\"/></components></object>";
+}
+
+TEST(ThreeMf, PartsInModelsOfTheirOwnAreBuilt) {
+  const TempFolder folder;
+  // An item may name another model as well; that one is in inches.
+  const std::string root = model_of(placed("2", "/3D/Objects/a.model", "10"),
+                                    "<item objectid=\"2\" transform=\"1 0 0 0 1 0 0 0 1 0 5 0\"/>"
+                                    "<item objectid=\"1\" p:path=\"/3D/Objects/b.model\"/>");
+  write_bytes(folder / "a.3mf",
+              package_of({{"3D/3dmodel.model", root},
+                          {"3D/Objects/a.model", model_of(tetrahedron("1", "a"), "")},
+                          {"3D/Objects/b.model", model_of(tetrahedron("1", "b"), "", "inch")}}));
+  const ObjectFile file = read_object_file(folder / "a.3mf");
+  ASSERT_EQ(file.objects.size(), 2u);
+  EXPECT_EQ(file.objects[0].name, "a");
+  EXPECT_EQ(file.objects[0].surface.points[1], (Vec3{11, 5, 0}));
+  EXPECT_EQ(file.objects[1].surface.points[1], (Vec3{25.4, 0, 0}));
+  EXPECT_NEAR(check_surface(read_surface(folder / "a.3mf")).volume, (1 + std::pow(25.4, 3)) / 6,
+              1e-6);
+}
+
+TEST(ThreeMf, PartsThatAreMissingOrPlaceEachOtherAreRefused) {
+  const TempFolder folder;
+  const std::string item = "<item objectid=\"2\"/>";
+  const auto refused = [&](const Parts& parts, const char* why) {
+    write_bytes(folder / "a.3mf", package_of(parts));
+    EXPECT_REFUSED(read_surface(folder / "a.3mf"), HasSubstr(why));
+  };
+  const std::string root = model_of(placed("2", "/3D/b.model", "0"), item);
+  refused({{"3D/3dmodel.model", root}}, "expected the model \"3D/b.model\" in the archive");
+  refused({{"3D/3dmodel.model", root}, {"3D/b.model", model_of(tetrahedron("7"), "")}},
+          "an object of the model that path names");
+  refused({{"3D/3dmodel.model", root},
+           {"3D/b.model", model_of(placed("1", "/3D/c.model", "0"), "")},
+           {"3D/c.model", model_of(placed("1", "/3D/b.model", "0"), "")}},
+          "models that do not place each other");
 }
 
 TEST(ThreeMf, ThatBuildsNothingIsRefused) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "mesamis/base/error.h"
@@ -129,6 +130,59 @@ LabelMap label_map_of(const VoxelGrid& grid, std::span<const FoundObject> object
     mark(grid, object, map.layers[static_cast<std::size_t>(object.segment.layer)]);
   }
   return map;
+}
+
+namespace {
+
+/// The first layer that has no label where an object has one.
+std::size_t free_layer(const LabelMap& map, const std::vector<std::uint16_t>& object) {
+  const auto overlaps = [&](const std::vector<std::uint16_t>& layer) {
+    for (std::size_t n = 0; n < object.size(); ++n) {
+      if (object[n] != 0 && layer[n] != 0) return true;
+    }
+    return false;
+  };
+  const auto free = std::find_if_not(map.layers.begin(), map.layers.end(), overlaps);
+  return static_cast<std::size_t>(free - map.layers.begin());
+}
+
+void add_object(LabelMap& map, Segment segment, std::vector<std::uint16_t> object) {
+  const std::size_t layer = free_layer(map, object);
+  segment.layer = static_cast<Index>(layer);
+  map.segments.push_back(std::move(segment));
+  if (layer == map.layers.size()) {
+    map.layers.push_back(std::move(object));
+    return;
+  }
+  for (std::size_t n = 0; n < object.size(); ++n) {
+    if (object[n] != 0) map.layers[layer][n] = object[n];
+  }
+}
+
+}  // namespace
+
+SurfaceLabels label_surfaces(const VoxelGrid& grid, std::span<const FoundObject> objects) {
+  SurfaceLabels out;
+  static_cast<VoxelGrid&>(out.map) = grid;
+  for (const FoundObject& object : objects) {
+    FoundObject alone{object.surface, object.segment};
+    alone.segment.layer = 0;
+    add_object(out.map, object.segment, std::move(label_map_of(grid, {&alone, 1}).layers[0]));
+  }
+  const std::vector<std::size_t> counts = voxel_counts(out.map);
+  if (std::all_of(counts.begin(), counts.end(), [](std::size_t n) { return n == 0; })) {
+    throw InputError(
+        "labels: expected surfaces around voxel centres of the scan, found none inside");
+  }
+  for (std::size_t n = 0; n < counts.size(); ++n) {
+    const std::string& name = out.map.segments[n].name;
+    if (counts[n] == 0) out.warnings.push_back("'" + name + "' has no voxel centre inside");
+    if (out.map.segments[n].layer > 0) {
+      out.warnings.push_back("'" + name +
+                             "' overlaps another surface: it lies in a layer of its own");
+    }
+  }
+  return out;
 }
 
 }  // namespace mesamis

@@ -39,4 +39,20 @@ std::vector<std::string> missing_objects(const LabelResult& result,
 /// and 24 bytes per crossing. The same labels for any number of threads.
 LabelMap label_map_of(const VoxelGrid& grid, std::span<const FoundObject> objects);
 
+/// Closed surfaces as labels, and what is to be said of it.
+struct SurfaceLabels {
+  LabelMap map;
+  std::vector<std::string> warnings;  ///< one line each: objects that overlap, or have no voxel
+};
+
+/// Marks the voxels inside of surfaces as label_map_of() does, but keeps each object whole: it lies
+/// in the first layer where it overlaps no other.
+/// @param grid     of the scan; directions of any kind.
+/// @param objects  segments with different labels; their layers are not used.
+/// @return the map, with a segment per object.
+/// @throws InputError  if no voxel centre of the grid lies inside of any object.
+///
+/// As label_map_of(), and a copy of the labels of one layer.
+SurfaceLabels label_surfaces(const VoxelGrid& grid, std::span<const FoundObject> objects);
+
 }  // namespace mesamis

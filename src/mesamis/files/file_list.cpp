@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "mesamis/files/refuse.h"
+#include "mesamis/files/utf8.h"
 
 namespace mesamis::detail {
 namespace {
@@ -83,6 +84,27 @@ std::vector<fs::path> files_below(const fs::path& directory) {
 
 std::vector<fs::path> files_in(const fs::path& directory) {
   return collect<fs::directory_iterator>(directory);
+}
+
+std::string contents_of(const fs::path& directory) {
+  constexpr std::size_t kMostNamed = 4, kLongestName = 60;
+  std::error_code error;
+  std::vector<std::string> names;
+  fs::directory_iterator entry(directory, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    std::error_code ignored;
+    const std::string name = shortened(entry->path().filename().string(), kLongestName);
+    if (name.starts_with('.')) continue;
+    names.push_back((entry->is_directory(ignored) ? "the folder " : "") + shown(name));
+  }
+  if (error) refuse(directory, "cannot be read: " + reason_of(error));
+  if (names.empty()) return "nothing";
+  std::sort(names.begin(), names.end());
+  std::string text;
+  for (std::size_t n = 0; n < std::min(names.size(), kMostNamed); ++n) {
+    text += (n > 0 ? ", " : "") + names[n];
+  }
+  return names.size() > kMostNamed ? say(text, " and ", names.size() - kMostNamed, " more") : text;
 }
 
 }  // namespace mesamis::detail

@@ -38,4 +38,9 @@ std::vector<std::filesystem::path> files_below(const std::filesystem::path& dire
 /// @throws InputError  as files_below().
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& directory);
 
+/// Names what a directory holds, for messages: "ct.nii.gz, notes.txt, the folder masks and 3 more",
+/// "nothing". Names that begin with a dot are left out.
+/// @throws InputError  as files_below().
+std::string contents_of(const std::filesystem::path& directory);
+
 }  // namespace mesamis::detail

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   atomic_file.h
+  dicom_subject.h
   output_set.h
   read_limits.h
   read_record.h
@@ -12,6 +13,9 @@ set(ROOM_INNER_HEADERS
   byte_source.h
   bytes.h
   deflate.h
+  dicom_data.h
+  dicom_text.h
+  dicom_writer.h
   file_list.h
   given_spacing.h
   in_one_line.h
@@ -39,4 +43,8 @@ set(ROOM_SOURCES
   xml_text.cpp
   zip_archive.cpp
   NEXT read_record.cpp
-  xml.cpp)
+  xml.cpp
+  NEXT dicom_data.cpp
+  NEXT dicom_subject.cpp
+  dicom_text.cpp
+  dicom_writer.cpp)

@@ -85,8 +85,8 @@ std::vector<Segment> those_that(std::span<const Segment> segments, Fits fits) {
 }
 
 /// The number that fills the text; 0 if there is none.
-Index number_in(std::string_view text) {
-  Index number = 0;
+std::int64_t number_in(std::string_view text) {
+  std::int64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size() ? number : 0;
 }
@@ -94,9 +94,10 @@ Index number_in(std::string_view text) {
 }  // namespace
 
 Segment find_segment(std::span<const Segment> segments, std::string_view name_or_label) {
-  const Index label = number_in(name_or_label);
+  const std::int64_t number = number_in(name_or_label);
   auto found = those_that(segments, [&](const Segment& s) {
-    return s.name == name_or_label || (label > 0 && s.label == label);
+    return s.name == name_or_label ||
+           (number > 0 && (s.label == number || s.number_in_file == number));
   });
   if (found.empty()) {
     const std::string name = lower(name_or_label);

@@ -266,6 +266,43 @@ std::vector<std::optional<CropRange>> ranges_of(const LabelMap& map) {
   return ranges;
 }
 
+bool look_like_labels(const VoxelGrid& grid, std::span<const float> samples) {
+  constexpr double kMostlyEqual = 0.8;
+  constexpr float kNear = 0.01f;  // of a whole number
+  std::size_t pairs = 0, equal = 0;
+  float only = 0, last = 0;
+  bool several = false;
+  for (std::size_t n = 0; n < samples.size(); ++n) {
+    const float label = std::round(samples[n]);
+    if (!(std::abs(samples[n] - label) <= kNear) || label < 0) return false;
+    if (n % static_cast<std::size_t>(grid.size[0]) == 0) last = 0;
+    if (label != 0) {
+      several |= only != 0 && label != only;
+      only = label;
+      if (last != 0) ++pairs;
+      if (last == label) ++equal;
+    }
+    last = label;
+  }
+  if (pairs == 0) return only != 0 && !several;
+  return static_cast<double>(equal) >= kMostlyEqual * static_cast<double>(pairs);
+}
+
+std::vector<std::size_t> voxel_counts(const LabelMap& map) {
+  std::vector<std::vector<std::size_t>> counts(map.layers.size());
+  for (std::size_t n = 0; n < map.layers.size(); ++n) {
+    counts[n].resize(std::size_t{kMaxLabel} + 1);
+    for (const std::uint16_t label : map.layers[n]) ++counts[n][label];
+  }
+  std::vector<std::size_t> out;
+  out.reserve(map.segments.size());
+  for (const Segment& segment : map.segments) {
+    out.push_back(
+        counts[static_cast<std::size_t>(segment.layer)][static_cast<std::size_t>(segment.label)]);
+  }
+  return out;
+}
+
 LabelMap with_all_segments(LabelMap map) {
   for (const auto& [layer, label] : labels_without_segment(map)) {
     map.segments.push_back({"label " + std::to_string(label), label, layer, default_colour(label)});
@@ -274,10 +311,13 @@ LabelMap with_all_segments(LabelMap map) {
 }
 
 LabelMap with_names(LabelMap map, std::span<const Segment> table) {
-  std::map<Index, const Segment*> rows;
-  for (const Segment& row : table) rows.emplace(row.label, &row);
+  std::map<std::int64_t, const Segment*> rows;
+  const auto number_of = [](const Segment& s) {
+    return s.number_in_file > 0 ? s.number_in_file : std::int64_t{s.label};
+  };
+  for (const Segment& row : table) rows.emplace(number_of(row), &row);
   for (Segment& segment : map.segments) {
-    const auto row = rows.find(segment.label);
+    const auto row = rows.find(number_of(segment));
     if (row == rows.end()) continue;
     segment.name = row->second->name;
     segment.colour = row->second->colour;

@@ -23,6 +23,8 @@ struct Segment {
   Index label = 1;                       ///< 1 to kMaxLabel: the number of the object
   Index layer = 0;                       ///< which of the map's layers
   std::array<std::uint8_t, 3> colour{};  ///< red, green, blue (sRGB)
+  /// The number that the file gives the object where it is above kMaxLabel; 0: the label is it.
+  std::int64_t number_in_file = 0;
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
@@ -42,8 +44,8 @@ struct Probabilities : VoxelGrid {
 
 /// Finds the segment that a user means.
 ///
-/// The text is the whole name of a segment or its label in decimals. If none fits exactly, names
-/// are compared without regard to the case of ASCII letters.
+/// The text is the whole name of a segment, or its label or its number in the file in decimals. If
+/// none fits exactly, names are compared without regard to the case of ASCII letters.
 /// @return a copy of the only segment that fits.
 /// @throws InputError  if none or more than one fits; the message names those that come near, or
 ///                     those that fit.
@@ -100,8 +102,23 @@ std::vector<std::optional<CropRange>> ranges_of(const LabelMap& map);
 /// @throws InputError  if there are then more than kMaxLabel segments.
 LabelMap with_all_segments(LabelMap map);
 
-/// Gives the segments the names and colours that a table has for their labels, in every layer. The
-/// rows of the table for other labels are not used.
+/// Tells whether samples look like labels: whole numbers from 0 (to 0.01), of which neighbours
+/// along i that are both no background are mostly equal; where there are no such neighbours, one
+/// number beside 0.
+/// @param samples  of the grid; i runs fastest.
+/// @throws nothing
+///
+/// O(voxels).
+bool look_like_labels(const VoxelGrid& grid, std::span<const float> samples);
+
+/// Counts the voxels of the segments of the map, in their order.
+/// @throws nothing
+///
+/// O(voxels * layers).
+std::vector<std::size_t> voxel_counts(const LabelMap& map);
+
+/// Gives the segments the names and colours that a table has for their labels, in every layer; for
+/// their numbers in the file, where they have such. Other rows of the table are not used.
 /// @param table  as read_label_table() returns it.
 ///
 /// O(segments + rows), up to a logarithm.

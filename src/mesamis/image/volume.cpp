@@ -90,6 +90,7 @@ Volume select(const VolumeView& volume, const Selection& kept) {
   out.size = kept.count;
   out.direction = volume.direction;
   out.modality = volume.modality;
+  out.frame_of_reference = volume.frame_of_reference;
   Vec3 corner;
   for (int a = 0; a < 3; ++a) {
     const auto s = static_cast<std::size_t>(a);

@@ -28,6 +28,7 @@ struct VoxelGrid {
   Mat3 direction{};                    ///< orthonormal; column k is the LPS direction of axis k.
                                        ///< Its determinant may be -1: a left-handed grid
   std::string modality{};              ///< "CT", "MR", ... as the file says; empty: unknown
+  std::string frame_of_reference{};    ///< its UID in DICOM; empty: the file states none
 
   /// The number of voxels.
   std::size_t voxel_count() const noexcept {

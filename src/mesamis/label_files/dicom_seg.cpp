@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mesamis/files/refuse.h"
+#include "mesamis/label_files/layer_stack.h"
 #include "mesamis/label_files/seg_file.h"
 
 namespace mesamis::detail {
@@ -24,30 +25,21 @@ std::map<Index, std::vector<std::size_t>> frames_by_segment(const SegFile& seg) 
   return frames;
 }
 
-void add_layer(LabelMap& map, MemoryBudget& budget) {
-  budget.claim(map.voxel_count(), sizeof(std::uint16_t), "labels");
-  map.layers.emplace_back(map.voxel_count());
-}
-
 /// Puts one segment after another into layers.
 class LayerBuilder {
  public:
   LayerBuilder(const SegFile& seg, LabelMap& map, MemoryBudget& budget)
-      : seg_(seg), map_(map), budget_(budget) {}
+      : seg_(seg),
+        budget_(budget),
+        stack_(map, budget,
+               [&](std::size_t layers) { require_voxels(seg.file, map, layers); }) {}
 
-  /// @return the segment's layer.
-  Index add(Index label, const std::vector<std::size_t>& frames) {
+  /// Sets the segment's layer.
+  void add(Segment& segment, const std::vector<std::size_t>& frames) {
     decode(frames);
-    const std::size_t layer = free_layer(frames);
-    if (layer == map_.layers.size()) {
-      require_voxels(seg_.file, map_, layer + 1);
-      add_layer(map_, budget_);
-    }
-    for_each_marked(frames, [&](std::size_t voxel) {
-      map_.layers[layer][voxel] = static_cast<std::uint16_t>(label);
-    });
-    return static_cast<Index>(layer);
+    stack_.add(segment, [&](const auto& visit) { for_each_marked(frames, visit); });
   }
+  void add_layer() { stack_.add_layer(); }
 
  private:
   /// Marks which pixels of the frames belong to their segment.
@@ -64,18 +56,6 @@ class LayerBuilder {
     }
   }
 
-  /// The first layer where no marked voxel of the frames is taken; one behind the last if there is
-  /// none.
-  std::size_t free_layer(const std::vector<std::size_t>& frames) {
-    std::vector<bool> taken(map_.layers.size());
-    for_each_marked(frames, [&](std::size_t voxel) {
-      for (std::size_t n = 0; n < taken.size(); ++n) {
-        if (map_.layers[n][voxel] != 0) taken[n] = true;
-      }
-    });
-    return static_cast<std::size_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
-  }
-
   /// Calls visit(offset) for each marked voxel of the frames that were decoded.
   template <class Visit>
   void for_each_marked(const std::vector<std::size_t>& frames, Visit visit) {
@@ -89,8 +69,8 @@ class LayerBuilder {
   }
 
   const SegFile& seg_;
-  LabelMap& map_;
   MemoryBudget& budget_;
+  LayerStack stack_;
   std::vector<float> pixels_;  // of one frame
   std::vector<bool> marks_;    // frame by frame
 };
@@ -100,15 +80,15 @@ void fill_layers(const SegFile& seg, LabelMap& map, MemoryBudget& budget) {
   const auto frames = frames_by_segment(seg);
   for (Segment& segment : map.segments) {
     const auto found = frames.find(segment.label);
-    if (found != frames.end()) segment.layer = builder.add(segment.label, found->second);
+    if (found != frames.end()) builder.add(segment, found->second);
   }
-  if (map.layers.empty()) add_layer(map, budget);
+  if (map.layers.empty()) builder.add_layer();
 }
 
 void fill_labels(const SegFile& seg, LabelMap& map, MemoryBudget& budget) {
   std::set<Index> known{0};
   for (const Segment& segment : map.segments) known.insert(segment.label);
-  add_layer(map, budget);
+  LayerStack(map, budget).add_layer();
   std::vector<float> pixels;
   for (std::size_t frame = 0; frame < seg.grid.slice.size(); ++frame) {
     read_frame(seg, frame, pixels, budget);

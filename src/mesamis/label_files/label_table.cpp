@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/label_files/label_table.h"
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <string>
@@ -64,20 +65,21 @@ std::optional<std::array<std::uint8_t, 3>> bytes_in(const std::vector<Word>& wor
 std::optional<Segment> segment_in(std::string_view line) {
   const auto words = words_of(line);
   if (!words || words->size() < 2) return std::nullopt;
-  const auto label = detail::label_in((*words)[0].text);
-  if (!label) return std::nullopt;
+  Segment segment;
+  if (!detail::set_number(segment, (*words)[0].text)) return std::nullopt;
   const bool snap = words->size() == 8 && (*words)[7].quoted;
   const std::size_t count = words->size();
   if (!snap && count != 2 && count != 5 && count != 6) return std::nullopt;
-  const auto colour = count == 2 ? default_colour(*label) : bytes_in(*words, snap ? 1 : 2);
-  const std::string_view name = (*words)[snap ? 7 : 1].text;
-  if (!colour || (name.empty() && *label > 0)) return std::nullopt;
-  return Segment{std::string(name), *label, 0, *colour};
+  const auto colour = count == 2 ? default_colour(segment.label) : bytes_in(*words, snap ? 1 : 2);
+  segment.name = (*words)[snap ? 7 : 1].text;
+  if (!colour || (segment.name.empty() && detail::number_of(segment) > 0)) return std::nullopt;
+  segment.colour = *colour;
+  return segment;
 }
 
 std::vector<Segment> parse_table(const fs::path& path, std::string_view text) {
   std::vector<Segment> table;
-  std::set<Index> seen;
+  std::set<std::int64_t> seen;
   std::string_view line;
   for (std::size_t number = 1; detail::take_line(text, line); ++number) {
     const std::string_view content = detail::trimmed(line);
@@ -86,12 +88,12 @@ std::vector<Segment> parse_table(const fs::path& path, std::string_view text) {
     if (!segment) {
       refuse(path,
              say("line ", number, ": expected IDX R G B A VIS MSH \"NAME\" or IDX NAME R G B A",
-                 " with an IDX of 0 to ", kMaxLabel, ", found ", in_quotes(content)));
+                 " with a whole IDX from 0, found ", in_quotes(content)));
     }
-    if (segment->label == 0) continue;
-    if (!seen.insert(segment->label).second) {
-      refuse(path,
-             say("line ", number, ": expected each label once, found ", segment->label, " again"));
+    const std::int64_t label = detail::number_of(*segment);
+    if (label == 0) continue;
+    if (!seen.insert(label).second) {
+      refuse(path, say("line ", number, ": expected each label once, found ", label, " again"));
     }
     table.push_back(*segment);
   }

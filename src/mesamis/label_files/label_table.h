@@ -16,9 +16,10 @@ namespace mesamis {
 /// Lines that begin with # and the label 0 are left out. A name is one word or stands in quotes.
 /// The colour of the second form is optional, and so is its opacity; colours are whole numbers of 0
 /// to 255.
-/// @return one segment per line, all of layer 0.
-/// @throws InputError  naming the line, for anything else, for a label above 65535 and for a label
-///                     that comes twice; for a file above 16 MiB.
+/// @return one segment per line, all of layer 0. A number above 65535, as atlases have them, is the
+///         segment's number_in_file, and its label is 0: with_names() finds it.
+/// @throws InputError  naming the line, for anything else and for a label that comes twice; for a
+///                     file above 16 MiB.
 ///
 /// O(bytes), up to a logarithm.
 std::vector<Segment> read_label_table(const std::filesystem::path& path);

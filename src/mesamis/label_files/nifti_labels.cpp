@@ -27,15 +27,18 @@ void collect_labels(const XmlElement& element, std::vector<const XmlElement*>& l
 
 Segment segment_of(const std::filesystem::path& file, const XmlElement& element) {
   const std::string key = element.attribute("Key");
-  const auto label = label_in(key);
-  if (!label) {
-    refuse(file, say("expected a label's Key of 0 to ", kMaxLabel,
-                     " in the header extension, found ", in_quotes(key)));
+  Segment segment;
+  if (!set_number(segment, key)) {
+    refuse(file, say("expected a whole number from 0 as a label's Key in the header extension, "
+                     "found ",
+                     in_quotes(key)));
   }
   const std::string red = element.attribute("Red"), green = element.attribute("Green"),
                     blue = element.attribute("Blue");
   const auto colour = colour_in({red, green, blue});
-  return {std::string(trimmed(element.text)), *label, 0, colour.value_or(default_colour(*label))};
+  segment.name = trimmed(element.text);
+  segment.colour = colour.value_or(default_colour(segment.label));
+  return segment;
 }
 
 /// The rotation of a quaternion's imaginary part b, c, d; its real part is not negative.
@@ -114,10 +117,11 @@ std::vector<Segment> segments_in_extensions(const std::filesystem::path& file,
   std::vector<const XmlElement*> elements;
   collect_labels(document.root, elements);
   std::vector<Segment> segments;
-  std::set<Index> seen;
+  std::set<std::int64_t> seen;
   for (const XmlElement* element : elements) {
     Segment segment = segment_of(file, *element);
-    if (segment.label == 0 || segment.name.empty() || !seen.insert(segment.label).second) continue;
+    const std::int64_t number = number_of(segment);
+    if (number == 0 || segment.name.empty() || !seen.insert(number).second) continue;
     segments.push_back(std::move(segment));
   }
   return segments;

@@ -2,24 +2,31 @@
 #include "mesamis/label_files/read_labels.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
+#include <utility>
 
 #include "mesamis/base/error.h"
+#include "mesamis/chunk_files/chunked_scan.h"
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/in_one_line.h"
 #include "mesamis/files/refuse.h"
+#include "mesamis/label_files/chunk_labels.h"
+#include "mesamis/label_files/contour_labels.h"
 #include "mesamis/label_files/dicom_seg.h"
 #include "mesamis/label_files/label_values.h"
+#include "mesamis/label_files/mask_folder.h"
 #include "mesamis/label_files/nifti_labels.h"
 #include "mesamis/label_files/nrrd_segments.h"
+#include "mesamis/label_files/seg_file.h"
 #include "mesamis/scan_files/formats.h"
 #include "mesamis/scan_files/read_volume.h"
+#include "mesamis/scan_files/slice_stack.h"
 
 namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
+using detail::LabelBuilder;
 using detail::MemoryBudget;
 using detail::refuse;
 using detail::say;
@@ -28,13 +35,16 @@ using detail::ScanFile;
 /// A file, and what it is read with.
 struct Request {
   fs::path path;
-  const ReadLimits& limits;
+  const LabelOptions& how;
   MemoryBudget& budget;
 
-  detail::Opening opening() const { return {budget, limits.allow_outside, detail::Values::kMany}; }
+  Request at(const fs::path& other) const { return {other, how, budget}; }
+  detail::Opening opening() const {
+    return {budget, how.limits.allow_outside, detail::Values::kMany};
+  }
   ReadOptions options() const {
     ReadOptions all;
-    all.limits = limits;
+    all.limits = how.limits;
     return all;
   }
   /// Makes room for what samples become, of so many bytes each.
@@ -53,7 +63,7 @@ detail::LayerOrder order_of(const ScanFile& scan) {
 /// are well.
 std::vector<Segment> named_segments(const Request& request, const ScanFile& scan,
                                     std::vector<std::string>& warnings) {
-  const auto& [path, limits, budget] = request;
+  const auto& [path, how, budget] = request;
   const auto layers = static_cast<std::size_t>(scan.inner) * static_cast<std::size_t>(scan.outer);
   if (scan.format == "NRRD") return detail::segments_in_keys(path, scan.keys, layers);
   if (scan.format != "NIfTI") return {};
@@ -72,41 +82,110 @@ LabelFile labels_of_array(const Request& request, const ScanFile& scan) {
   }
   LabelFile out{{scan.grid, {}, {}}, scan.format, scan.warnings};
   out.map.segments = named_segments(request, scan, out.warnings);
-  const std::vector<float> samples = detail::read_samples(scan, request.budget);
-  request.claim(scan, sizeof(std::uint16_t), "labels");
-  out.map.layers = detail::label_layers(path, scan.grid, order_of(scan), samples);
-  out.map = with_all_segments(std::move(out.map));
+  LabelBuilder builder(path, scan.grid, order_of(scan), request.budget);
+  detail::visit_samples(scan, [&](std::span<const double> samples) { builder.add(samples); });
+  out.map = builder.finish(std::move(out.map), out.warnings);
   return out;
 }
 
+/// Pictures state no place: that of a scan of as many voxels is theirs.
+void take_place_of_scan(const Request& request, LabelFile& file) {
+  if (!request.how.scan) return;
+  const VoxelGrid scan = request.how.scan();
+  if (scan.size != file.map.size) return;
+  static_cast<VoxelGrid&>(file.map) = scan;
+  file.warnings = {
+      "the pictures state no place: they have as many voxels as the scan, and its "
+      "place is taken"};
+}
+
+/// A volume of samples in single precision: pictures, or a folder of them.
 LabelFile labels_of_volume(const Request& request) {
   const fs::path& path = request.path;
   const VolumeFile file = read_volume(path, request.options());
   LabelFile out{{file.volume, {}, {}}, file.format, file.warnings};
-  out.map.layers = detail::label_layers(path, file.volume, {}, file.volume.samples);
-  out.map = with_all_segments(std::move(out.map));
+  LabelBuilder builder(path, file.volume, {}, request.budget);
+  builder.add(file.volume.samples);
+  out.map = builder.finish(std::move(out.map), out.warnings);
+  if (fs::is_directory(path) || detail::is_picture(path)) take_place_of_scan(request, out);
   return out;
 }
 
-/// The path itself, or the only DICOM file of a directory.
-fs::path file_of(const fs::path& path) {
-  if (!fs::is_directory(path)) return path;
-  std::vector<fs::path> files = detail::files_in(path);
-  std::erase_if(files, [](const fs::path& file) { return !detail::looks_like_dicom(file); });
-  if (files.size() != 1) {
-    refuse(path, say("expected one DICOM segmentation in the directory, found ", files.size(),
-                     " DICOM files"));
+/// Whether the file is a DICOM segmentation or a structure set.
+bool holds_labels(const fs::path& file, MemoryBudget& budget) {
+  const detail::ScopedFile scope(budget, file);
+  const auto dicom = detail::read_dicom_file(file, budget);
+  return detail::is_seg(dicom) || detail::is_structure_set(dicom);
+}
+
+/// The DICOM files of a folder that hold labels.
+struct DicomFolder {
+  std::size_t files = 0;
+  std::vector<fs::path> labels;
+};
+
+DicomFolder dicom_in(const fs::path& folder, MemoryBudget& budget) {
+  DicomFolder found;
+  for (const fs::path& file : detail::files_in(folder)) {
+    if (!detail::looks_like_dicom(file)) continue;
+    ++found.files;
+    if (holds_labels(file, budget)) found.labels.push_back(file);
   }
-  return files[0];
+  return found;
+}
+
+[[noreturn]] void refuse_several(const fs::path& folder, const std::vector<fs::path>& files) {
+  constexpr std::size_t kMostNamed = 4;
+  std::string text;
+  for (std::size_t n = 0; n < std::min(files.size(), kMostNamed); ++n) {
+    text += (n > 0 ? ", " : "") + detail::shown(files[n].filename().string());
+  }
+  refuse(folder, say("expected one DICOM segmentation or structure set in the directory, found ",
+                     files.size(), ": ", text, files.size() > kMostNamed ? ", ..." : "",
+                     "; name one of them"));
+}
+
+LabelFile read_map(const Request& request);
+
+LabelFile read_folder(const Request& request) {
+  const auto& [folder, how, budget] = request;
+  const DicomFolder dicom = dicom_in(folder, budget);
+  if (dicom.labels.size() > 1) refuse_several(folder, dicom.labels);
+  if (dicom.labels.size() == 1) return read_map(request.at(dicom.labels[0]));
+  const std::vector<fs::path> masks = detail::masks_in(folder, budget);
+  if (!masks.empty()) {
+    return detail::read_masks(
+        masks, [&](const fs::path& file) { return read_map(request.at(file)); }, budget);
+  }
+  if (dicom.files == 0 && !detail::slices_in(folder, budget).empty()) {
+    return labels_of_volume(request);
+  }
+  refuse(folder, say("expected masks, slices of labels or one DICOM segmentation or structure set "
+                     "in the directory, found ",
+                     dicom.files > 0 ? say(dicom.files, " DICOM files of other kinds")
+                                     : detail::contents_of(folder)));
+}
+
+LabelFile labels_of_dicom(const Request& request) {
+  {
+    const detail::ScopedFile scope(request.budget, request.path);
+    const auto file = detail::read_dicom_file(request.path, request.budget);
+    if (detail::is_structure_set(file)) {
+      return detail::read_contour_labels(file, request.how.scan, request.budget);
+    }
+  }
+  return detail::read_dicom_labels(request.path, request.budget);
 }
 
 LabelFile read_map(const Request& request) {
-  const fs::path& file = request.path;
-  if (const auto scan = detail::open_array(file, request.opening())) {
+  const fs::path& path = request.path;
+  if (is_zarr(path) || is_hdf5(path)) return detail::read_chunk_labels(path, request.how.limits);
+  if (fs::is_directory(path)) return read_folder(request);
+  if (const auto scan = detail::open_array(path, request.opening())) {
     return labels_of_array(request, *scan);
   }
-  if (detail::looks_like_dicom(file)) return detail::read_dicom_labels(file, request.budget);
-  return labels_of_volume(request);
+  if (detail::is_picture(path) || !detail::looks_like_dicom(path)) return labels_of_volume(request);
+  return labels_of_dicom(request);
 }
 
 // --- Probabilities -----------------------------------------------------------------------------
@@ -154,52 +233,29 @@ ProbabilityFile probabilities_of_file(const Request& request) {
   return out;
 }
 
-/// The largest distance of corresponding corners of two grids of one size, in voxels.
-double shift_between(const VoxelGrid& a, const VoxelGrid& b) {
-  double shift = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    Vec3 pa, pb;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double steps = (corner >> axis & 1) ? a.size[static_cast<std::size_t>(axis)] - 1 : 0;
-      pa[axis] = steps * a.spacing[axis];
-      pb[axis] = steps * b.spacing[axis];
-    }
-    shift = std::max(shift, norm(a.to_world(pa) - b.to_world(pb)));
+/// The path itself, or the only DICOM file of a directory.
+fs::path file_of(const fs::path& path) {
+  if (!fs::is_directory(path)) return path;
+  std::vector<fs::path> files = detail::files_in(path);
+  std::erase_if(files, [](const fs::path& file) { return !detail::looks_like_dicom(file); });
+  if (files.size() != 1) {
+    refuse(path, say("expected one DICOM segmentation in the directory, found ", files.size(),
+                     " DICOM files"));
   }
-  return shift / a.shortest_side();
-}
-
-void require_same_grid(const fs::path& path, const VoxelGrid& found, const VoxelGrid& expected) {
-  constexpr double kMostShift = 1e-3;
-  const auto text = [](const std::array<Index, 3>& n) {
-    return say(n[0], " x ", n[1], " x ", n[2], " voxels");
-  };
-  if (found.size != expected.size) {
-    refuse(path, say("expected the grid of the first file, ", text(expected.size), ", found ",
-                     text(found.size)));
-  }
-  const double shift = shift_between(expected, found);
-  if (!(shift <= kMostShift)) {
-    refuse(path,
-           say("expected the grid of the first file, found one that lies ", shift, " voxels away"));
-  }
-}
-
-std::string name_of(const fs::path& path) {
-  const fs::path stem = path.stem();
-  return (stem.extension() == ".nii" ? stem.stem() : stem).string();
+  return files[0];
 }
 
 /// The claims for one file are given back when it is read; what stays of it is claimed again.
 ProbabilityFile read_one(const fs::path& path, const ReadLimits& limits, MemoryBudget& budget) {
   return detail::in_one_line(path, [&] {
     const detail::ScopedFile scope(budget, path);
-    return probabilities_of_file({file_of(path), limits, budget});
+    return probabilities_of_file({file_of(path), {.limits = limits}, budget});
   });
 }
 
-void append_volume(ProbabilityFile& all, const fs::path& path, const ReadLimits& limits,
-                   MemoryBudget& budget) {
+/// @param first  the file of the grid.
+void append_volume(ProbabilityFile& all, const fs::path& path, const fs::path& first,
+                   MemoryBudget& budget, const ReadLimits& limits) {
   ProbabilityFile one = read_one(path, limits, budget);
   budget.claim(one.probabilities.layers.size() * one.probabilities.voxel_count(), sizeof(float),
                "probabilities");
@@ -209,16 +265,36 @@ void append_volume(ProbabilityFile& all, const fs::path& path, const ReadLimits&
                      one.probabilities.layers.size()));
   }
   if (to.layers.empty()) static_cast<VoxelGrid&>(to) = one.probabilities;
-  require_same_grid(path, one.probabilities, to);
+  detail::require_same_grid(path, one.probabilities, first, to);
   to.layers.push_back(std::move(one.probabilities.layers[0]));
   all.warnings.insert(all.warnings.end(), one.warnings.begin(), one.warnings.end());
 }
 
 }  // namespace
 
-LabelFile read_label_map(const fs::path& path, const ReadLimits& limits) {
+LabelFile read_label_map(const fs::path& path, const LabelOptions& options) {
+  MemoryBudget budget(path, options.limits);
+  return detail::in_one_line(path, [&] { return read_map({path, options, budget}); });
+}
+
+bool is_label_file(const fs::path& path, const ReadLimits& limits) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return false;
+  if (detail::lower(path.filename().string()).ends_with(".seg.nrrd")) return true;
+  if (detail::is_array_file(path) || detail::is_picture(path) || !detail::looks_like_dicom(path)) {
+    return false;
+  }
   MemoryBudget budget(path, limits);
-  return detail::in_one_line(path, [&] { return read_map({file_of(path), limits, budget}); });
+  return holds_labels(path, budget);
+}
+
+bool is_mask_folder(const fs::path& path, const ReadLimits& limits) {
+  std::error_code error;
+  if (!fs::is_directory(path, error) || is_zarr(path)) return false;
+  MemoryBudget budget(path, limits);
+  const std::vector<fs::path> files = detail::files_below(path);
+  return std::none_of(files.begin(), files.end(), detail::looks_like_dicom) &&
+         !detail::masks_in(path, budget).empty();
 }
 
 ProbabilityFile read_probabilities(const std::vector<fs::path>& paths, const ReadLimits& limits) {
@@ -226,10 +302,10 @@ ProbabilityFile read_probabilities(const std::vector<fs::path>& paths, const Rea
   MemoryBudget budget(paths[0], limits);
   if (paths.size() == 1) return read_one(paths[0], limits, budget);
   ProbabilityFile all;
-  for (const fs::path& path : paths) append_volume(all, path, limits, budget);
+  for (const fs::path& path : paths) append_volume(all, path, paths[0], budget, limits);
   all.probabilities.segments = numbered_segments(paths.size());
   for (std::size_t n = 0; n < paths.size(); ++n) {
-    all.probabilities.segments[n].name = name_of(paths[n]);
+    all.probabilities.segments[n].name = detail::object_name(paths[n]);
   }
   return all;
 }

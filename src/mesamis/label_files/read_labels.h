@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,15 +13,31 @@ namespace mesamis {
 
 /// A label map and what its file says beside the labels.
 struct LabelFile {
-  LabelMap map;        ///< valid, see require_valid(); spacing and origin in mm, LPS
-  std::string format;  ///< "NIfTI", "NRRD", "MetaImage", "TIFF", "InVesalius", "DICOM"
+  LabelMap map;  ///< valid, see require_valid(); spacing and origin in mm, LPS
+  /// As VolumeFile::format, "Zarr", "OME-Zarr", "HDF5"; of a folder of masks "NIfTI masks" and so
+  /// on
+  std::string format;
   std::vector<std::string> warnings;  ///< one line each: what was assumed or left out
 };
 
+/// How a label map is read.
+struct LabelOptions {
+  ReadLimits limits{};  ///< memory, and other folders, as for read_volume()
+  /// The grid of the scan that the labels belong to, with its frame of reference. Asked once, and
+  /// only where the labels need it: contours, and pictures, which state no place. May be empty.
+  std::function<VoxelGrid()> scan{};
+};
+
 /// Reads a label map: .nii .nii.gz .nrrd .nhdr .mha .mhd .tif .tiff .inv3, 3D Slicer's .seg.nrrd, a
-/// DICOM segmentation, or a directory that holds one DICOM file, a segmentation.
+/// DICOM segmentation, a DICOM structure set of radiotherapy, Zarr and HDF5, or a directory.
 ///
-/// Labels are whole numbers of 0 (background) to 65535, of any number type. The world frame is LPS
+/// A directory is one of these: a Zarr store; one with one DICOM segmentation or structure set
+/// (among other DICOM files); one with masks, an object per file, named after it; one with
+/// pictures, which are the slices.
+///
+/// Labels are whole numbers of 0 (background) to 65535, of any number type. Values within 0.01 of a
+/// whole number are rounded, NaN is background, and larger numbers, as those of an atlas, get
+/// labels that are free, see Segment::number_in_file: each with a warning. The world frame is LPS
 /// and the place of the grid is that of read_volume(). Every label that occurs gets a segment; what
 /// a file does not name is called "label N".
 ///
@@ -30,6 +47,10 @@ struct LabelFile {
 /// where a segment has no label, it is 1, and where it has no layer, one layer per segment or the
 /// only one.
 ///
+/// Masks: 0, and one other value for the object. Those that overlap lie in different layers, with a
+/// warning. OME-Zarr: of an image with labels in it, these. Pictures that have as many voxels as
+/// the scan lie on its grid, with a warning.
+///
 /// DICOM segmentations (SOP classes Segmentation Storage and Label Map Segmentation Storage): the
 /// label is the segment number. Binary and fractional ones (at least half of the maximum) get as
 /// many layers as overlapping segments need. Frames may be missing where a segment is absent; their
@@ -37,13 +58,23 @@ struct LabelFile {
 /// where there is none, the least distance of two frames. Single bits must be coded natively or
 /// deflated; other pixels also as the scans are.
 ///
-/// @param path    file or directory; the extension decides, DICOM is known by its content.
-/// @param limits  memory, and other folders, as for read_volume().
+/// @param path     file or directory; the extension decides, DICOM is known by its content.
+/// @param options  see there.
 /// @throws InputError  one line that begins with the path: what, where, expected, found.
 ///
-/// O(voxels * layers). Memory: 6 bytes per voxel and layer, for DICOM at most 8192 voxels per byte
-/// of the file; within the limits.
-LabelFile read_label_map(const std::filesystem::path& path, const ReadLimits& limits = {});
+/// O(voxels * layers). Memory: 2 bytes per voxel and layer and what one file takes, for DICOM at
+/// most 8192 voxels per byte of the file; within the limits.
+LabelFile read_label_map(const std::filesystem::path& path, const LabelOptions& options = {});
+
+/// Whether a path holds nothing but labels, whatever its values: a DICOM segmentation or structure
+/// set, or a .seg.nrrd. O(bytes) of a DICOM file.
+/// @throws InputError  if a DICOM file cannot be read or claims more memory than the limits allow.
+bool is_label_file(const std::filesystem::path& path, const ReadLimits& limits = {});
+
+/// Whether a directory holds masks or label maps and no DICOM: what read_label_map() takes as an
+/// object per file. O(files).
+/// @throws InputError  if the directory cannot be read.
+bool is_mask_folder(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 /// Probabilities and what their files say beside them.
 struct ProbabilityFile {

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "mesamis/files/dicom_text.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/label_files/cielab.h"
 
@@ -16,10 +17,10 @@ constexpr const char* kLabelMap = "1.2.840.10008.5.1.4.1.1.66.7";
 
 void require_seg(const DicomFile& file) {
   if (!file.problem.empty()) refuse(file.path, "broken DICOM file: " + file.problem);
-  const std::string sop_class = text_of(file.elements, dicom::kSopClass);
-  if (sop_class == kSegmentation || sop_class == kLabelMap) return;
-  refuse(file.path, say("expected a DICOM segmentation (SOP class ", kSegmentation, " or ",
-                        kLabelMap, "), found ", in_quotes(sop_class)));
+  if (is_seg(file)) return;
+  refuse(file.path,
+         say("expected a DICOM segmentation (SOP class ", kSegmentation, " or ", kLabelMap,
+             "), found ", in_quotes(text_of(file.elements, dicom::kSopClass))));
 }
 
 SegType type_of(const DicomFile& file) {
@@ -51,23 +52,6 @@ void require_pixels(const SegFile& seg) {
     refuse(seg.file.path, say("expected Per-frame Functional Groups (5200,9230) of ", p.frames,
                               " frames, found ", found));
   }
-}
-
-/// A text of the file in UTF-8. Of the other character sets Latin-1 is converted; ASCII is UTF-8.
-std::string utf8_text(const DicomFile& file, const DicomSet& item, DicomTag tag) {
-  const std::string text = text_of(item, tag);
-  if (text_of(file.elements, dicom::kCharacterSet) != "ISO_IR 100") return text;
-  std::string out;
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code < 0x80) {
-      out += c;
-    } else {
-      out += static_cast<char>(0xc0 | code >> 6);
-      out += static_cast<char>(0x80 | (code & 0x3f));
-    }
-  }
-  return out;
 }
 
 Segment segment_of(const DicomFile& file, const DicomSet& item) {
@@ -146,6 +130,11 @@ void require_one_frame_each(const SegFile& seg) {
 }
 
 }  // namespace
+
+bool is_seg(const DicomFile& file) {
+  const std::string sop_class = text_of(file.elements, dicom::kSopClass);
+  return sop_class == kSegmentation || sop_class == kLabelMap;
+}
 
 SegFile open_seg(const std::filesystem::path& path, MemoryBudget& budget) {
   SegFile seg;

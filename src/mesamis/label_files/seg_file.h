@@ -27,6 +27,10 @@ struct SegFile {
   std::vector<Index> number;      ///< of each frame, a label of the segments; empty for kLabels
 };
 
+/// Whether a file is of one of the SOP classes Segmentation Storage and Label Map Segmentation
+/// Storage.
+bool is_seg(const DicomFile& file);
+
 /// Opens a file of the SOP classes Segmentation Storage and Label Map Segmentation Storage.
 ///
 /// @throws InputError  for another file or a broken one, frames without a place or with a segment

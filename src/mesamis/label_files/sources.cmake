@@ -4,13 +4,19 @@ set(ROOM_HEADERS
   read_labels.h
   write_labels.h)
 set(ROOM_SOURCES
+  chunk_labels.cpp
   cielab.cpp
+  contour_grid.cpp
+  contour_labels.cpp
   dicom_seg.cpp
   label_table.cpp
   label_values.cpp
+  mask_folder.cpp
   nifti_labels.cpp
   nrrd_segments.cpp
+  polygon_area.cpp
   read_labels.cpp
   seg_file.cpp
   seg_grid.cpp
+  structure_set.cpp
   write_labels.cpp)

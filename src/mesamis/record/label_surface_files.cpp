@@ -20,6 +20,7 @@ SurfaceWriteOptions write_options(const RunSurfaceOptions& options, const std::s
   as.frame = options.frame;
   as.name = name;
   as.metadata = {{"producer", producer()}};
+  as.subject = options.subject;
   return as;
 }
 
@@ -85,7 +86,7 @@ void write_label_surfaces(std::span<const fs::path> paths, const LabelResult& re
       write_objects(path, objects, write_options(options, options.name));
       continue;
     }
-    const bool single = extension_of(path) == ".stl";
+    const bool single = extension_of(path) == ".stl" || extension_of(path) == ".dcm";
     if (single && rounded.empty()) rounded = rounded_together(objects);
     const auto files = label_paths(path, objects, several);
     for (std::size_t n = 0; n < objects.size(); ++n) {

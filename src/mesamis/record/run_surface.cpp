@@ -31,6 +31,7 @@ SurfaceWriteOptions surface_options(const Result& result, double voxel,
       options.name + (result.parameters.preview ? " (preview)" : ""),
       grey ? surface_grey(result, voxel) : std::vector<double>{},
       {{"producer", producer()}, {"settings", to_json(settings_of(result.parameters)).dump()}}};
+  as.subject = options.subject;
   if (options.error && !result.expected_error.empty()) {
     as.point_arrays.push_back({"expected_error", result.expected_error});
   }

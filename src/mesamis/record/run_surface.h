@@ -18,6 +18,7 @@ struct RunSurfaceOptions {
   std::string name = kSurfaceName;  ///< of the object
   bool error = false;               ///< add the expected error at each point, mm
   bool grey = false;                ///< some file carries_grey(): find grey values
+  DicomSubject subject{};           ///< of files in DICOM
 };
 
 /// Collects what the files of a run's surface hold beside it: the name, marked where the run was a

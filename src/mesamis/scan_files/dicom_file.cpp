@@ -62,6 +62,7 @@ ScanFile grid_of(const fs::path& path, const DicomSeries& series, const SortedSl
   set_axes(scan, grid_steps(first, mean_spacing(stack) * stack.normal));
   set_origin(scan, first.position);
   scan.grid.modality = series.modality;
+  scan.grid.frame_of_reference = series.frame_of_reference;
   return scan;
 }
 
@@ -93,6 +94,7 @@ Stack plan(const fs::path& path, const DicomSeries& series, bool resample) {
   if (!stack.resampling.needed()) return stack;
   static_cast<VoxelGrid&>(stack.scan.grid) = stack.resampling.grid;
   stack.scan.grid.modality = series.modality;
+  stack.scan.grid.frame_of_reference = series.frame_of_reference;
   for (const std::string& note : stack.resampling.notes) stack.scan.warnings.push_back(note);
   return stack;
 }

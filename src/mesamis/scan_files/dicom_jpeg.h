@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "mesamis/scan_files/dicom_data.h"
+#include "mesamis/files/dicom_data.h"
 
 /// Compressed pictures inside DICOM files: what their headers state, and JPEG's samples.
 namespace mesamis::detail {

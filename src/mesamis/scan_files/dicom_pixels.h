@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mesamis/scan_files/dicom_data.h"
+#include "mesamis/files/dicom_data.h"
 
 /// The pixels of a DICOM file: how they are coded, and their values.
 namespace mesamis::detail {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mesamis/scan_files/dicom_data.h"
+#include "mesamis/files/dicom_data.h"
 
 namespace mesamis::detail {
 

@@ -42,6 +42,7 @@ void add_slice(DicomSeries& series, const DicomSlice& slice) {
 void add_image(DicomSeries& series, const DicomImage& image) {
   series.description = series.description.empty() ? image.description : series.description;
   series.modality = series.modality.empty() ? image.modality : series.modality;
+  if (series.frame_of_reference.empty()) series.frame_of_reference = image.frame_of_reference;
   if (!image.problem.empty()) {
     ++series.frames;
     if (series.problem.empty()) series.problem = image.problem;
@@ -107,7 +108,7 @@ std::vector<DicomSeries> group_by_series(const std::vector<DicomImage>& images) 
   for (const DicomImage& image : images) {
     if (!image.has_pixels) continue;
     const auto [entry, is_new] = index.emplace(image.series, all.size());
-    if (is_new) all.push_back({image.series, "", "", {}, 0, "", {}});
+    if (is_new) all.push_back({image.series, "", "", "", {}, 0, "", {}});
     add_image(all[entry->second], image);
   }
   for (DicomSeries& series : all) drop_localizers(series);

@@ -15,7 +15,7 @@ namespace mesamis::detail {
 using DicomStack = std::vector<DicomSlice>;
 
 struct DicomSeries {
-  std::string uid, description, modality;
+  std::string uid, description, modality, frame_of_reference;
   std::vector<DicomStack> stacks;  ///< one, unless there is a problem; without localizers
   std::size_t frames = 0;          ///< of all stacks, localizers and broken files included
   std::string problem;             ///< of a file or of the stacks, a whole line; empty: none

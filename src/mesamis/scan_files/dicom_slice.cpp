@@ -134,6 +134,7 @@ DicomImage describe_image(const DicomFile& file, MemoryBudget& budget) {
   image.series = text_of(set, dicom::kSeriesUid);
   image.description = shown(text_of(set, dicom::kSeriesDescription));
   image.modality = shown(text_of(set, dicom::kModality));
+  image.frame_of_reference = shown(text_of(set, dicom::kFrameOfReference));
   image.has_pixels = !file.problem.empty() || set.count(dicom::kRows) ||
                      set.count(dicom::kPixelData) || set.count(dicom::kFloatPixelData) ||
                      set.count(dicom::kDoublePixelData);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
-#include "mesamis/scan_files/dicom_data.h"
+#include "mesamis/files/dicom_data.h"
 #include "mesamis/scan_files/dicom_pixels.h"
 
 namespace mesamis::detail {
@@ -33,7 +33,7 @@ struct MacroTag {
 /// The slices of one file and the series they belong to.
 struct DicomImage {
   std::filesystem::path file;
-  std::string series, description, modality;
+  std::string series, description, modality, frame_of_reference;
   bool has_pixels = false;         ///< false: a report, a plan, a structure set
   std::vector<DicomSlice> slices;  ///< empty if there is a problem
   std::string problem;             ///< the whole line; empty: none

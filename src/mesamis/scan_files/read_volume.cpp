@@ -100,11 +100,23 @@ VolumeFile read_one_picture(const Request& request) {
   return detail::read_picture(request.path, request.budget);
 }
 
+/// A directory without DICOM may hold volumes that are files of their own.
+void require_dicom(const fs::path& directory) {
+  const std::vector<fs::path> files = detail::files_below(directory);
+  if (std::any_of(files.begin(), files.end(), detail::looks_like_dicom)) return;
+  const std::vector<fs::path> here = detail::files_in(directory);
+  const auto volume = std::find_if(here.begin(), here.end(), has_known_extension);
+  refuse(directory,
+         detail::say("expected DICOM images, found none but ", detail::contents_of(directory),
+                     volume == here.end() ? "" : "; name the file itself, as " + volume->string()));
+}
+
 VolumeFile read_directory(const Request& request) {
   const auto& [path, options, budget] = request;
   const std::vector<fs::path> slices = detail::slices_without_dicom(path, budget);
-  return slices.empty() ? detail::read_dicom(path, options, budget)
-                        : detail::read_slices(path, slices, options, budget);
+  if (!slices.empty()) return detail::read_slices(path, slices, options, budget);
+  require_dicom(path);
+  return detail::read_dicom(path, options, budget);
 }
 
 VolumeFile read_file(const Request& request) {
@@ -153,7 +165,9 @@ std::vector<VolumeInfo> list_directory(const Request& request) {
     const bool slice = std::find(slices.begin(), slices.end(), file) != slices.end();
     if (has_known_extension(file) && !slice) all.push_back(describe({file, options, budget}));
   }
-  if (all.empty()) refuse(path, "expected DICOM series, slices or volume files, found none");
+  if (all.empty())
+    refuse(path,
+           "expected DICOM series, slices or volume files, found " + detail::contents_of(path));
   return all;
 }
 
@@ -176,6 +190,8 @@ std::optional<ScanFile> detail::open_array(const fs::path& file, const Opening& 
   const ArrayFormat* format = array_format_of(file);
   return format ? std::optional(format->open(file, opening)) : std::nullopt;
 }
+
+bool detail::is_array_file(const fs::path& file) { return array_format_of(file) != nullptr; }
 
 void detail::announce(VoxelGrid grid, const ReadOptions& options) {
   grid.spacing = options.spacing.value_or(grid.spacing);

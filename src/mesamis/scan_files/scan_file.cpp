@@ -32,8 +32,8 @@ std::string size_text(const ScanFile& scan) {
   return values == 1 ? voxels : say(voxels, " x ", values);
 }
 
-template <class Stored>
-void convert(std::span<const unsigned char> bytes, const SampleSource& source, float* out) {
+template <class Stored, class Number>
+void convert(std::span<const unsigned char> bytes, const SampleSource& source, Number* out) {
   const bool plain = source.slope == 1 && source.intercept == 0;
   std::array<unsigned char, sizeof(Stored)> raw;
   for (std::size_t n = 0; n * sizeof(Stored) < bytes.size(); ++n) {
@@ -42,12 +42,13 @@ void convert(std::span<const unsigned char> bytes, const SampleSource& source, f
     Stored stored;
     std::memcpy(&stored, raw.data(), sizeof(Stored));
     out[n] =
-        plain ? static_cast<float>(stored)
-              : static_cast<float>(source.slope * static_cast<double>(stored) + source.intercept);
+        plain ? static_cast<Number>(stored)
+              : static_cast<Number>(source.slope * static_cast<double>(stored) + source.intercept);
   }
 }
 
-void convert_any(std::span<const unsigned char> bytes, const SampleSource& source, float* out) {
+template <class Number>
+void convert_any(std::span<const unsigned char> bytes, const SampleSource& source, Number* out) {
   with_number_type(source.type, [&](auto zero) { convert<decltype(zero)>(bytes, source, out); });
 }
 
@@ -58,9 +59,9 @@ template <class Found>
                                " samples, found ", found));
 }
 
-/// Appends the next `count` samples.
-void read_binary(const ScanFile& scan, ByteSource& bytes, std::size_t count,
-                 std::vector<float>& out) {
+/// Calls visit(bytes) for the next `count` samples, block by block.
+template <class Visit>
+void read_binary(const ScanFile& scan, ByteSource& bytes, std::size_t count, Visit visit) {
   const auto width = byte_size(scan.source.type);
   std::vector<unsigned char> block(std::min(kSamplesAtOnce, count) * width);
   for (std::size_t done = 0; done < count;) {
@@ -70,37 +71,40 @@ void read_binary(const ScanFile& scan, ByteSource& bytes, std::size_t count,
       refuse_short(scan, std::uint64_t{count} * width, done * width + got, "bytes");
     }
     done += samples;
-    append_samples({block.data(), got}, scan.source, out);
+    visit(std::span<const unsigned char>(block.data(), got));
   }
 }
 
-void append_number(const ScanFile& scan, std::string_view word, std::vector<float>& out) {
+double number_of(const ScanFile& scan, std::string_view word, std::size_t sample) {
   double value = 0;
   if (!parse_number(word, value)) {
     refuse(scan.source.file,
-           say("expected a number as sample ", out.size(), ", found ", in_quotes(word)));
+           say("expected a number as sample ", sample, ", found ", in_quotes(word)));
   }
-  out.push_back(static_cast<float>(scan.source.slope * value + scan.source.intercept));
+  return scan.source.slope * value + scan.source.intercept;
 }
 
-void read_text(const ScanFile& scan, ByteSource& bytes, std::vector<float>& out) {
+/// Calls visit(number) for each sample.
+template <class Visit>
+void read_text(const ScanFile& scan, ByteSource& bytes, Visit visit) {
   constexpr std::size_t kLongestNumber = 64;
   const std::size_t count = sample_count(scan);
+  std::size_t done = 0;
   std::vector<char> block(kSamplesAtOnce);
   std::string word;
-  for (bool more = true; more && out.size() < count;) {
+  for (bool more = true; more && done < count;) {
     const std::size_t got = bytes.read(block.data(), block.size());
     more = got == block.size();
     if (!more) block[got] = ' ';  // the end of the data ends the last number
-    for (std::size_t n = 0; n < (more ? got : got + 1) && out.size() < count; ++n) {
+    for (std::size_t n = 0; n < (more ? got : got + 1) && done < count; ++n) {
       const bool blank = block[n] == ' ' || (block[n] >= '\t' && block[n] <= '\r');
       if (!blank && word.size() < kLongestNumber) word += block[n];
       if (!blank || word.empty()) continue;
-      append_number(scan, word, out);
+      visit(number_of(scan, word, done++));
       word.clear();
     }
   }
-  if (out.size() < count) refuse_short(scan, count, out.size(), "numbers");
+  if (done < count) refuse_short(scan, count, done, "numbers");
 }
 
 /// Fewest bytes (unpacked) that the samples take; a number in text needs one and a blank.
@@ -184,10 +188,12 @@ void append_samples(std::span<const unsigned char> bytes, const SampleSource& so
   convert_any(bytes, source, out.data() + begin);
 }
 
-std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget) {
+namespace {
+
+/// Skips what lies before the samples.
+void go_to_samples(const ScanFile& scan, ByteSource& bytes) {
   const SampleSource& source = scan.source;
   const std::uint64_t skip = source.at_end ? bytes_before_last_samples(scan) : source.skip;
-  ByteSource bytes(source.file, source.packing, source.offset);
   const std::uint64_t needed = fewest_bytes(scan);
   if (needed > bytes.most_bytes()) {
     refuse_short(scan, needed,
@@ -195,13 +201,46 @@ std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget) {
                  "bytes");
   }
   bytes.skip(skip);
+}
+
+void require_end(const ScanFile& scan, ByteSource& bytes) {
+  char beyond = 0;
+  if (scan.source.exact && !scan.source.text && bytes.read(&beyond, 1) > 0) refuse_long(scan);
+}
+
+}  // namespace
+
+std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget) {
+  ByteSource bytes(scan.source.file, scan.source.packing, scan.source.offset);
+  go_to_samples(scan, bytes);
   std::vector<float> samples;
   reserve_within(budget, samples, sample_count(scan), "samples");
-  source.text ? read_text(scan, bytes, samples)
-              : read_binary(scan, bytes, sample_count(scan), samples);
-  char beyond = 0;
-  if (source.exact && !source.text && bytes.read(&beyond, 1) > 0) refuse_long(scan);
+  if (scan.source.text) {
+    read_text(scan, bytes, [&](double value) { samples.push_back(static_cast<float>(value)); });
+  } else {
+    read_binary(scan, bytes, sample_count(scan), [&](std::span<const unsigned char> block) {
+      append_samples(block, scan.source, samples);
+    });
+  }
+  require_end(scan, bytes);
   return samples;
+}
+
+void visit_samples(const ScanFile& scan,
+                   const std::function<void(std::span<const double>)>& visit) {
+  ByteSource bytes(scan.source.file, scan.source.packing, scan.source.offset);
+  go_to_samples(scan, bytes);
+  std::vector<double> numbers;
+  if (scan.source.text) {
+    read_text(scan, bytes, [&](double value) { visit({&value, 1}); });
+  } else {
+    read_binary(scan, bytes, sample_count(scan), [&](std::span<const unsigned char> block) {
+      numbers.resize(block.size() / byte_size(scan.source.type));
+      convert_any(block, scan.source, numbers.data());
+      visit(numbers);
+    });
+  }
+  require_end(scan, bytes);
 }
 
 std::uint64_t find_plain_samples(const ScanFile& scan) {
@@ -223,7 +262,10 @@ void append_slices(const ScanFile& scan, std::uint64_t begin, const SliceRange& 
                    std::vector<float>& out) {
   const std::uint64_t before = scan.grid.offset(0, 0, slices.first);
   ByteSource bytes(scan.source.file, Packing::kPlain, begin + before * byte_size(scan.source.type));
-  read_binary(scan, bytes, scan.grid.offset(0, 0, slices.count), out);
+  read_binary(scan, bytes, scan.grid.offset(0, 0, slices.count),
+              [&](std::span<const unsigned char> block) {
+                append_samples(block, scan.source, out);
+              });
 }
 
 }  // namespace mesamis::detail

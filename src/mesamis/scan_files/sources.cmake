@@ -5,17 +5,16 @@ set(ROOM_HEADERS
   write_volume.h)
 # For the rooms above alone: not installed.
 set(ROOM_INNER_HEADERS
-  dicom_data.h
   dicom_pixels.h
   dicom_slice.h
   dicom_spacing.h
   formats.h
   nrrd_header.h
   scan_file.h
-  slice_reader.h)
+  slice_reader.h
+  slice_stack.h)
 set(ROOM_SOURCES
   bmp_file.cpp
-  dicom_data.cpp
   dicom_file.cpp
   dicom_jpeg.cpp
   dicom_pixels.cpp

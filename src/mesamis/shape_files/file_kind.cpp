@@ -5,13 +5,24 @@
 #include <array>
 #include <string>
 
+#include "mesamis/base/error.h"
 #include "mesamis/files/refuse.h"
+#include "mesamis/shape_files/surface_formats.h"
 
 namespace mesamis {
 namespace {
 
 std::string lower_extension(const std::filesystem::path& path) {
   return detail::lower(path.extension().string());
+}
+
+/// DICOM holds images, labels and surfaces. What cannot be read may be a scan.
+bool is_surface_in_dicom(const std::filesystem::path& path) {
+  try {
+    return detail::is_encapsulated(path);
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 }  // namespace
@@ -21,10 +32,11 @@ FileKind kind_of(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, error)) return FileKind::kVolume;
   std::string extension = lower_extension(path);
   if (extension == ".gz") extension = lower_extension(path.stem());
-  constexpr std::array kSurfaces{".stl", ".ply", ".obj", ".vtp", ".3mf", ".amf", ".vtk"};
+  constexpr std::array kSurfaces{".stl", ".ply", ".obj", ".vtp", ".3mf", ".amf", ".glb", ".vtk"};
   const bool surface = std::find(kSurfaces.begin(), kSurfaces.end(), extension) != kSurfaces.end();
   if (surface) return FileKind::kSurface;
-  return extension == ".vtu" || extension == ".mesh" ? FileKind::kMesh : FileKind::kVolume;
+  if (extension == ".vtu" || extension == ".mesh") return FileKind::kMesh;
+  return is_surface_in_dicom(path) ? FileKind::kSurface : FileKind::kVolume;
 }
 
 MeshWithArrays read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {

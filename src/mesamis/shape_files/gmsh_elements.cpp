@@ -32,15 +32,32 @@ class Writer {
     write_names();
     old ? write_version_2() : write_version_4();
     for (const MeshArray& array : options_.point_arrays) write_gmsh_data(out_, "NodeData", array);
-    for (const MeshArray& array : material_arrays(e_)) write_gmsh_data(out_, "ElementData", array);
-    for (const MeshArray& array : options_.cell_arrays) {
-      write_gmsh_data(out_, "ElementData", array);
+    if (!old || count_faces() == 0) {
+      for (const MeshArray& array : material_arrays(e_)) write_element_data(array);
+      for (const MeshArray& array : options_.cell_arrays) write_element_data(array);
     }
     write_comments();
     out_.commit();
   }
 
  private:
+  /// A value for every element of the file, in its order, as meshio expects, which goes by their
+  /// place: a face of a set has that of its cell. Of version 2.2 meshio cannot read data beside
+  /// elements of two types (its issue 1257): there, with sets, write() leaves them out.
+  void write_element_data(MeshArray array) {
+    std::vector<std::size_t> order;
+    if (options_.gmsh == GmshVersion::k41) {
+      for (const auto& cells : cells_) order.insert(order.end(), cells.begin(), cells.end());
+    }
+    for (const auto& set : e_.sets) {
+      for (const auto& face : set.faces) {
+        if (!order.empty()) order.push_back(array.values.size());
+        array.values.push_back(array.values[static_cast<std::size_t>(face[0])]);
+      }
+    }
+    write_gmsh_data(out_, "ElementData", array, order);
+  }
+
   std::size_t surface_number(std::size_t set) const { return e_.parts.size() + set + 1; }
 
   std::size_t count_parts() const {

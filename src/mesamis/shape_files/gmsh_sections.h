@@ -32,11 +32,14 @@ inline void write_gmsh_nodes(TextWriter& out, std::span<const Vec3> points, Fram
 }
 
 /// $NodeData or $ElementData, the same in all versions.
-inline void write_gmsh_data(TextWriter& out, const char* section, const MeshArray& array) {
+/// @param order  places of the values in the order in which they are written; empty: as they are.
+inline void write_gmsh_data(TextWriter& out, const char* section, const MeshArray& array,
+                            std::span<const std::size_t> order = {}) {
   // One string (the name), one real (the time), three integers (step, components, entries).
   out << "$" << section << "\n1\n\"" << array.name << "\"\n1\n0\n3\n0\n1\n"
       << array.values.size() << "\n";
-  for (std::size_t i = 0; i < array.values.size(); ++i) {
+  for (std::size_t n = 0; n < array.values.size(); ++n) {
+    const std::size_t i = order.empty() ? n : order[n];
     out << i + 1 << " ";
     out.number(array.values[i]);
     out << "\n";

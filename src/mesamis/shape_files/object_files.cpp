@@ -27,7 +27,7 @@ using Formatter = std::string (*)(Objects, const SurfaceWriteOptions&);
 
 struct Format {
   const char* extension;
-  Parser parse;
+  Parser parse;     // null: not read
   Formatter bytes;  // null: two files
   bool single = false;
 };
@@ -35,7 +35,8 @@ struct Format {
 constexpr Format kFormats[] = {{".3mf", parse_threemf_objects, threemf_object_bytes, true},
                                {".vtp", parse_vtp_objects, vtp_object_bytes},
                                {".obj", parse_obj_objects, nullptr},
-                               {".amf", parse_amf_objects, amf_object_bytes}};
+                               {".amf", parse_amf_objects, amf_object_bytes},
+                               {".glb", nullptr, glb_object_bytes}};
 
 /// Null if files of this extension hold one object.
 const Format* format_named(const std::string& extension) {
@@ -122,6 +123,13 @@ std::string safe_name(const std::string& name) {
   return std::any_of(safe.begin(), safe.end(), is_letter_or_digit) ? safe : "object";
 }
 
+/// "out-NAME.stl", "out-NAME.obj.dcm".
+fs::path with_name(const fs::path& path, const std::string& name) {
+  const std::string file = path.filename().string();
+  const std::size_t end = file.size() - std::min(file.size(), format_extension(path).size());
+  return fs::path(path).replace_filename(file.substr(0, end) + "-" + name + file.substr(end));
+}
+
 // ---------------------------------------------------------------- reading
 
 /// What read_object_file() makes of them: of each object its triangles, and its points, of which a
@@ -138,7 +146,7 @@ void claim_parts(MemoryBudget& budget, const ParsedObjects& parsed) {
 
 ParsedObjects parse(const fs::path& path, const ReadLimits& limits) {
   const Format* format = format_named(extension_of(path));
-  if (format != nullptr) {
+  if (format != nullptr && format->parse != nullptr) {
     MemoryBudget budget(path, limits);
     ParsedObjects parsed = format->parse(path, read_all(path, budget), budget);
     require_surface(path, parsed.file.surface);
@@ -244,7 +252,7 @@ std::vector<std::string> written_object_formats() {
 void write_objects(const fs::path& path, std::span<const NamedSurface> objects,
                    const SurfaceWriteOptions& options) {
   const Format* format = format_named(lower(path.extension().string()));
-  if (format == nullptr) refuse_extension(path, ".3mf .vtp .obj .amf");
+  if (format == nullptr) refuse_extension(path, ".3mf .vtp .obj .amf .glb");
   require_writable(path, objects);
   const std::vector<NamedSurface> ready = prepared(objects, *format, options.frame);
   const SurfaceWriteOptions clean = as_written(options);
@@ -256,15 +264,13 @@ void write_objects(const fs::path& path, std::span<const NamedSurface> objects,
 }
 
 fs::path object_path(const fs::path& path, const std::string& name) {
-  const std::string file = path.stem().string() + "-" + safe_name(name) + path.extension().string();
-  return fs::path(path).replace_filename(file);
+  return with_name(path, safe_name(name));
 }
 
 std::vector<fs::path> object_paths(const fs::path& path, std::span<const NamedSurface> objects) {
   std::vector<fs::path> paths;
   for (const std::string& name : safe_names(objects)) {
-    const std::string file = path.stem().string() + "-" + name + path.extension().string();
-    paths.push_back(fs::path(path).replace_filename(file));
+    paths.push_back(with_name(path, name));
   }
   return paths;
 }

@@ -43,6 +43,8 @@ std::string threemf_object_bytes(std::span<const NamedSurface> objects,
                                  const SurfaceWriteOptions& options);
 std::string vtp_object_bytes(std::span<const NamedSurface> objects,
                              const SurfaceWriteOptions& options);
+std::string glb_object_bytes(std::span<const NamedSurface> objects,
+                             const SurfaceWriteOptions& options);
 std::string amf_object_bytes(std::span<const NamedSurface> objects,
                              const SurfaceWriteOptions& options);
 /// @param materials  the name of the file of the materials, which have the safe names.

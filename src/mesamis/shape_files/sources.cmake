@@ -31,4 +31,6 @@ set(ROOM_SOURCES
   vtp_writer.cpp
   vtu_file.cpp
   NEXT surface_files.cpp
-  vtk_file.cpp)
+  vtk_file.cpp
+  NEXT encapsulated_file.cpp
+  NEXT glb_file.cpp)

@@ -97,6 +97,7 @@ std::vector<Corner> text_corners(const fs::path& file, std::string_view bytes,
   std::string_view line;
   bool ended = false;
   for (std::size_t number = 1; take_line(bytes, line); ++number) {
+    line = trimmed(line);  // of a zero byte, too, that a document in DICOM may end with
     const std::string keyword = lower(take_word(line));
     if (!keyword.empty()) ended = keyword == "endsolid";
     if (keyword == "endloop" && corners.size() % 3 != 0) {
@@ -115,16 +116,33 @@ std::vector<Corner> text_corners(const fs::path& file, std::string_view bytes,
   return corners;
 }
 
-bool begins_like_text(std::string_view bytes) {
-  return trimmed(bytes.substr(0, kHeader)).starts_with("solid");
+/// Some editors put the mark of UTF-8 before a text.
+std::string_view without_mark(std::string_view bytes) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  return bytes.starts_with(kMark) ? bytes.substr(kMark.size()) : bytes;
 }
 
-/// Some binary files, too, begin with "solid": the size decides.
+bool begins_like_text(std::string_view bytes) {
+  return lower(trimmed(without_mark(bytes.substr(0, kHeader)))).starts_with("solid");
+}
+
+/// Whether bytes come early that no text has, as those of small numbers.
+bool has_control_bytes(std::string_view bytes) {
+  constexpr std::size_t kEarly = 512;
+  const std::string_view early = bytes.substr(0, kEarly);
+  return std::any_of(early.begin(), early.end(), [](char c) {
+    return static_cast<unsigned char>(c) < ' ' && (c < '\t' || c > '\r');
+  });
+}
+
+/// Some binary files, too, begin with "solid": their size tells, and where there are bytes behind
+/// the triangles, that they are no text.
 bool is_binary(std::string_view bytes) {
   if (bytes.size() < kBegin) return false;
   const std::uint64_t count = load<std::uint32_t>(bytes.data() + kHeader);
-  if (bytes.size() == kBegin + count * kRecord) return true;
-  return !begins_like_text(bytes);
+  const std::uint64_t size = kBegin + count * kRecord;
+  if (bytes.size() == size || !begins_like_text(bytes)) return true;
+  return count > 0 && bytes.size() > size && has_control_bytes(bytes);
 }
 
 }  // namespace
@@ -158,11 +176,11 @@ std::uint64_t most_stl_bytes(std::string_view first_bytes) {
 
 SurfaceFile parse_stl(const fs::path& file, std::string_view bytes, MemoryBudget& budget) {
   const bool binary = is_binary(bytes);
-  if (!binary && !lower(trimmed(bytes.substr(0, kHeader))).starts_with("solid")) {
+  if (!binary && !begins_like_text(bytes)) {
     refuse(file, "is not an STL file: neither begins with solid nor holds a binary header");
   }
-  const auto corners =
-      binary ? binary_corners(file, bytes, budget) : text_corners(file, bytes, budget);
+  const auto corners = binary ? binary_corners(file, bytes, budget)
+                              : text_corners(file, without_mark(bytes), budget);
   require_finite(file, corners);
   const std::string_view head = bytes.substr(0, kHeader);
   return {weld(file, corners, budget),

@@ -28,9 +28,14 @@ void refuse_extension(const fs::path& path, const std::string& known) {
                    (found.empty() ? "no extension" : "the extension " + in_quotes(found)));
 }
 
+std::string format_extension(const fs::path& path) {
+  const std::string last = path.extension().string(), inner = path.stem().extension().string();
+  return lower(last) == ".dcm" && lower(inner) == ".obj" ? inner + last : last;
+}
+
 std::string extension_of(const fs::path& path) {
   const bool packed = lower(path.extension().string()) == ".gz";
-  return lower((packed ? path.stem() : path).extension().string());
+  return lower(format_extension(packed ? path.stem() : path));
 }
 
 std::string one_line(std::string text) {
@@ -75,7 +80,7 @@ using Formatter = std::string (*)(const TriMesh&, const SurfaceWriteOptions&);
 
 struct Format {
   const char* extension;
-  Parser parse;
+  Parser parse;     // null: not read
   Formatter bytes;  // null: not written
   bool grey = false;
   ArrayParser parse_array = nullptr;  // null: no arrays
@@ -88,6 +93,9 @@ constexpr Format kFormats[] = {{".stl", parse_stl, stl_bytes, false, nullptr, mo
                                {".vtp", parse_vtp, vtp_bytes, true, parse_vtp_array},
                                {".3mf", parse_threemf, threemf_bytes, true},
                                {".amf", parse_amf, amf_bytes, true},
+                               {".glb", nullptr, glb_bytes, true},
+                               {".dcm", parse_encapsulated, encapsulated_stl_bytes},
+                               {".obj.dcm", parse_encapsulated, encapsulated_obj_bytes},
                                {".vtk", parse_vtk, nullptr}};
 
 /// Null if there is none; all formats are read.
@@ -99,14 +107,16 @@ const Format* format_named(const std::string& extension) {
 
 /// Null if no format of this extension is written; .gz is none.
 const Format* written_format(const fs::path& path) {
-  const Format* format = format_named(lower(path.extension().string()));
+  const Format* format = format_named(lower(format_extension(path)));
   return format != nullptr && format->bytes != nullptr ? format : nullptr;
 }
 
+/// Files of DICOM often have no extension.
 const Format& format_of(const fs::path& path) {
   const Format* format = format_named(extension_of(path));
-  if (format != nullptr) return *format;
-  refuse_extension(path, ".stl .ply .obj .vtp .3mf .amf .vtk, each also with .gz");
+  if (format == nullptr && is_encapsulated(path)) format = format_named(".dcm");
+  if (format != nullptr && format->parse != nullptr) return *format;
+  refuse_extension(path, ".stl .ply .obj .vtp .3mf .amf .vtk, each also with .gz, or DICOM");
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -145,6 +155,14 @@ std::vector<std::string> written_surface_formats() {
   return extensions;
 }
 
+std::vector<std::string> read_surface_formats() {
+  std::vector<std::string> extensions;
+  for (const Format& format : kFormats) {
+    if (format.parse != nullptr) extensions.emplace_back(format.extension);
+  }
+  return extensions;
+}
+
 bool carries_grey(const fs::path& path) {
   const Format* format = written_format(path);
   return format != nullptr && format->grey;
@@ -166,8 +184,9 @@ void write_surface(const fs::path& path, const TriMesh& surface,
     require_values(path, "an array's value", array.values, surface);
     require_one_word(path, array.name);
   }
-  const bool as_given = options.frame != Frame::kRas;
-  write_file(path, format->bytes(as_given ? surface : turned(surface), as_written(options)));
+  SurfaceWriteOptions as = as_written(options);
+  if (format->parse == parse_encapsulated) as.frame = Frame::kLps;  // that of DICOM
+  write_file(path, format->bytes(as.frame != Frame::kRas ? surface : turned(surface), as));
 }
 
 SurfaceFile read_surface_file(const fs::path& path, const ReadLimits& limits) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesamis/base/frame.h"
+#include "mesamis/files/dicom_subject.h"
 #include "mesamis/files/read_limits.h"
 #include "mesamis/surface/tri_mesh.h"
 
@@ -30,6 +31,7 @@ struct SurfaceWriteOptions {
   /// belongs here.
   std::vector<std::pair<std::string, std::string>> metadata{};
   std::vector<PointArray> point_arrays{};  ///< .vtp, .ply: arrays to colour by; names differ
+  DicomSubject subject{};  ///< .dcm: patient, study and frame of reference; empty: none, made up
 };
 
 /// Writes a surface in the format of the extension. The file appears whole or not at all.
@@ -42,6 +44,10 @@ struct SurfaceWriteOptions {
 ///         values are colours of the triangles' corners
 ///   .amf  AMF 1.1 (ISO/ASTM 52915), text, double precision, millimetres; grey values are colours
 ///         of the points
+///   .glb  binary glTF 2.0, single precision, with normals; a node turns it from mm with z up to
+///         metres with y up; grey values are colours of the points
+///   .dcm  Encapsulated STL in DICOM, and for names that end with .obj.dcm Encapsulated OBJ, always
+///         in LPS; UIDs that the options lack are made of the content
 ///
 /// Frame and name are stated in the header (.stl, cut at 80 bytes), in comments (.ply, .obj), in
 /// field data (.vtp) or in metadata (.3mf, .amf).
@@ -60,6 +66,10 @@ void write_surface(const std::filesystem::path& path, const TriMesh& surface,
 /// The extensions of write_surface(), with their dots. O(1) time and memory.
 std::vector<std::string> written_surface_formats();
 
+/// The extensions of read_surface(), with their dots. O(1) time and memory.
+/// @throws nothing
+std::vector<std::string> read_surface_formats();
+
 /// Whether the format of this extension has a place for SurfaceWriteOptions::grey.
 bool carries_grey(const std::filesystem::path& path);
 
@@ -67,8 +77,8 @@ bool carries_grey(const std::filesystem::path& path);
 bool carries_arrays(const std::filesystem::path& path);
 
 /// Reads a surface: .stl .ply .obj (text or binary where there are both), .vtp, .3mf, .amf (not
-/// zipped), legacy .vtk, each also compressed by gzip (.gz). Equal points of an STL become one;
-/// polygons are cut into fans.
+/// zipped), legacy .vtk, each also compressed by gzip (.gz), and Encapsulated STL and OBJ in DICOM,
+/// whatever their names are. Equal points of an STL become one; polygons are cut into fans.
 ///
 /// @return n points and m >= 1 triangles; indices in [0, n), coordinates finite. Coordinates are as
 ///         in the file, in mm where the format states a unit; the frame is neither assumed nor

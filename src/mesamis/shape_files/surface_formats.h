@@ -16,6 +16,8 @@ namespace mesamis::detail {
 
 /// The extension in lower case, without a final .gz.
 std::string extension_of(const std::filesystem::path& path);
+/// The extension of a file that is written, as it stands: the last one, or ".obj.dcm".
+std::string format_extension(const std::filesystem::path& path);
 /// @throws InputError  naming the path's extension and those known.
 [[noreturn]] void refuse_extension(const std::filesystem::path& path, const std::string& known);
 /// The options as headers and comments take them: names and facts in one line each, and always a
@@ -82,5 +84,19 @@ std::string threemf_bytes(const TriMesh& surface, const SurfaceWriteOptions& opt
 /// The meshes of the build items, each at its place, in mm.
 SurfaceFile parse_threemf(const std::filesystem::path& file, std::string_view bytes,
                           MemoryBudget& budget);
+
+/// Binary glTF: single precision. Not read.
+std::string glb_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+
+/// Encapsulated STL and OBJ in DICOM. A surface belongs to the patient and the study of the
+/// options, or else to those that its content names.
+std::string encapsulated_stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+std::string encapsulated_obj_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
+/// The frame is that of DICOM, LPS, unless the document states another one.
+SurfaceFile parse_encapsulated(const std::filesystem::path& file, std::string_view bytes,
+                               MemoryBudget& budget);
+/// Whether a file is one of these, by its first bytes.
+/// @throws InputError  if it cannot be read.
+bool is_encapsulated(const std::filesystem::path& path);
 
 }  // namespace mesamis::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// 3MF (core specification 1.3, materials extension) read by our own parser: what a file of a few
-// kilobytes makes of memory is counted before it is made.
+// 3MF (core specification 1.3, materials and production extensions) read by our own parser: what a
+// file of a few kilobytes makes of memory is counted before it is made.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -70,11 +70,65 @@ std::string local_path(std::string_view path) {
   return local;
 }
 
-/// Gathers the resources and the build as their elements end; the tree keeps neither.
+/// The name of a part of the archive, without the slash that it may begin with.
+std::string part_name(std::string_view name) {
+  return std::string(name.starts_with('/') ? name.substr(1) : name);
+}
+
+/// The objects of all models of an archive. Models may place objects of others (production
+/// extension), which are read when they are named.
+class Package {
+ public:
+  Package(const fs::path& file, ZipArchive& archive, MemoryBudget& budget)
+      : file_(file), archive_(archive), budget_(budget) {}
+
+  /// An object of another model; none if that has no such object.
+  /// @throws InputError  if there is no such model, or if models place each other.
+  std::optional<std::size_t> find(const std::string& part, const std::string& id);
+
+  /// The text of a part. @throws InputError  if there is none.
+  std::string text_of(const std::string& part) {
+    if (auto model = archive_.part(part)) return std::move(*model);
+    refuse(file_, say("expected the model ", in_quotes(part), " in the archive, found none"));
+  }
+
+  const fs::path& file() const { return file_; }
+  MemoryBudget& budget() { return budget_; }
+
+  std::vector<Resource> resources{};  ///< lengths in mm once their model is read
+
+ private:
+  using Numbers = std::map<std::string, std::size_t>;
+
+  const fs::path& file_;
+  ZipArchive& archive_;
+  MemoryBudget& budget_;
+  std::map<std::string, std::optional<Numbers>> read_;  // none: being read
+};
+
+double unit_in_mm(const fs::path& file, const std::string& name);
+
+/// Gathers the resources and the build of a model as their elements end; the tree keeps neither.
 class ModelReader {
  public:
-  ModelReader(const fs::path& file, MemoryBudget& budget) : file_(file), budget_(budget) {
+  explicit ModelReader(Package& package)
+      : package_(package), file_(package.file()), budget_(package.budget()) {
     begin_object();
+  }
+
+  /// Reads a whole model; then all its lengths are in mm.
+  void read(std::string_view model) {
+    const auto consume_one = [&](const XmlElement& e, std::string_view path) {
+      return consume(e, path);
+    };
+    const XmlElement root = parse_xml(file_, model, budget_, {.consume = consume_one}).root;
+    if (local_name(root.name) != "model") {
+      refuse(file_, "expected <model>, found " + in_quotes(root.name));
+    }
+    const double unit = unit_in_mm(file_, root.attribute("unit"));
+    if (unit == 1) return;
+    for (const auto& [id, number] : numbers_) to_mm(package_.resources[number], unit);
+    for (Component& item : items) item.transform[3] = unit * item.transform[3];
   }
 
   bool consume(const XmlElement& element, std::string_view path) {
@@ -83,11 +137,16 @@ class ModelReader {
     return true;
   }
 
-  std::vector<Resource> resources{};
   std::vector<Component> items{};  ///< of the build
   std::optional<Frame> frame{};
+  const std::map<std::string, std::size_t>& numbers() const { return numbers_; }
 
  private:
+  static void to_mm(Resource& object, double unit) {
+    for (Vec3& p : object.mesh.points) p = unit * p;
+    for (Component& part : object.components) part.transform[3] = unit * part.transform[3];
+  }
+
   void take(const XmlElement& element, std::string_view path) {
     if (path == "model/resources/object/mesh/vertices/vertex") {
       const Vec3 p{number(element, "x"), number(element, "y"), number(element, "z")};
@@ -158,14 +217,16 @@ class ModelReader {
     return t;
   }
 
-  /// Objects stand before those that hold them: none can hold itself.
-  Component component_in(const XmlElement& element) const {
-    for (const auto& [name, value] : element.attributes) {
-      if (local_name(name) == "path") {
-        refuse(file_, "expected all objects in one model, found one in " + in_quotes(value));
-      }
+  /// Objects stand before those that hold them, or in another model: none can hold itself.
+  Component component_in(const XmlElement& element) {
+    const std::string id = element.attribute("objectid");
+    for (const auto& [name, part] : element.attributes) {
+      if (local_name(name) != "path") continue;
+      const auto found = package_.find(part_name(part), id);
+      if (!found) refuse_value(element, "objectid", "an object of the model that path names");
+      return {*found, transform_in(element)};
     }
-    const auto found = numbers_.find(element.attribute("objectid"));
+    const auto found = numbers_.find(id);
     if (found == numbers_.end()) refuse_value(element, "objectid", "an object that stands before");
     return {found->second, transform_in(element)};
   }
@@ -177,7 +238,7 @@ class ModelReader {
 
   void end_object(const XmlElement& element) {
     const std::string id = element.attribute("id");
-    if (!numbers_.emplace(id, resources.size()).second) {
+    if (!numbers_.emplace(id, package_.resources.size()).second) {
       refuse_value(element, "id", "a number of its own");
     }
     object_.facts.name = xml_unescaped(element.attribute("name"));  // lib3mf escapes names twice
@@ -185,7 +246,7 @@ class ModelReader {
     object_.facts.colour = colour_named(element.attribute("pid"), element.attribute("pindex"));
     count();
     budget_.claim(3, object_.facts.name.size() + id.size() + sizeof(std::string), "names");
-    append_within(budget_, resources, std::move(object_), "objects");
+    append_within(budget_, package_.resources, std::move(object_), "objects");
     begin_object();
   }
 
@@ -200,7 +261,8 @@ class ModelReader {
     object_.triangles = object_.mesh.triangles.size();
     object_.objects = object_.triangles > 0 ? 1 : 0;
     object_.name_bytes = object_.facts.name.size();
-    for (const Component& component : object_.components) add_counts(resources[component.object]);
+    for (const Component& component : object_.components)
+      add_counts(package_.resources[component.object]);
   }
 
   void add_counts(const Resource& part) {
@@ -227,6 +289,7 @@ class ModelReader {
     return found->second[static_cast<std::size_t>(n)];
   }
 
+  Package& package_;
   const fs::path& file_;
   MemoryBudget& budget_;
   Resource object_;                             // that is read
@@ -236,11 +299,30 @@ class ModelReader {
   std::map<std::string, std::size_t> numbers_;  // of the objects
 };
 
+std::optional<std::size_t> Package::find(const std::string& part, const std::string& id) {
+  constexpr std::size_t kMostModels = 10'000;
+  const auto [model, is_new] = read_.emplace(part, std::nullopt);
+  if (is_new) {
+    if (read_.size() > kMostModels) {
+      refuse(file_, say("expected at most ", kMostModels, " models, found more"));
+    }
+    budget_.claim(1, part.size() + 256, "models");
+    const std::string text = text_of(part);
+    ModelReader reader(*this);
+    reader.read(text);
+    model->second = reader.numbers();
+  }
+  if (!model->second)
+    refuse(file_, "expected models that do not place each other, found " + in_quotes(part));
+  const auto found = model->second->find(id);
+  return found == model->second->end() ? std::nullopt : std::optional(found->second);
+}
+
 /// The build: every mesh at each of its places.
 class Builder {
  public:
-  Builder(const fs::path& file, const std::vector<Resource>& resources, double unit)
-      : file_(file), resources_(resources), unit_(unit) {}
+  Builder(const fs::path& file, const std::vector<Resource>& resources)
+      : file_(file), resources_(resources) {}
 
   /// Counts what the items make, and claims it.
   /// @param most_items  copies of components may not multiply the file without limit.
@@ -283,7 +365,7 @@ class Builder {
     TriMesh& surface = result_.file.surface;
     const auto base = static_cast<Index>(surface.points.size());
     for (const Vec3& p : object.mesh.points) {
-      surface.points.push_back(unit_ * moved(transform, p));
+      surface.points.push_back(moved(transform, p));
     }
     const bool mirrored = mirrors(transform);
     for (const auto& [a, b, c] : object.mesh.triangles) {
@@ -295,7 +377,6 @@ class Builder {
 
   const fs::path& file_;
   const std::vector<Resource>& resources_;
-  double unit_;
   ParsedObjects result_;
 };
 
@@ -309,17 +390,14 @@ double unit_in_mm(const fs::path& file, const std::string& name) {
   refuse(file, "expected a unit of 3MF, found " + in_quotes(name));
 }
 
-/// The model that the package names as its first.
-std::string model_in(const fs::path& file, ZipArchive& archive, MemoryBudget& budget) {
+/// The part that the package names as its first model.
+std::string first_model(const fs::path& file, ZipArchive& archive, MemoryBudget& budget) {
   const auto relations = archive.part("_rels/.rels");
   if (!relations) refuse(file, "is not a 3MF file: expected the part \"_rels/.rels\", found none");
   const XmlElement root = parse_xml(file, *relations, budget).root;
   for (const XmlElement& relation : root.children) {
     if (!relation.attribute("Type").ends_with("/3dmanufacturing/2013/01/3dmodel")) continue;
-    std::string target = relation.attribute("Target");
-    if (target.starts_with('/')) target.erase(0, 1);
-    if (auto model = archive.part(target)) return std::move(*model);
-    refuse(file, say("expected the model ", in_quotes(target), " in the archive, found none"));
+    return part_name(relation.attribute("Target"));
   }
   refuse(file, "is not a 3MF file: its package names no model");
 }
@@ -329,16 +407,10 @@ std::string model_in(const fs::path& file, ZipArchive& archive, MemoryBudget& bu
 ParsedObjects parse_threemf_objects(const fs::path& file, std::string_view bytes,
                                     MemoryBudget& budget) {
   ZipArchive archive(file, bytes, budget);
-  const std::string model = model_in(file, archive, budget);
-  ModelReader reader(file, budget);
-  const auto consume = [&](const XmlElement& e, std::string_view path) {
-    return reader.consume(e, path);
-  };
-  const XmlElement root = parse_xml(file, model, budget, {.consume = consume}).root;
-  if (local_name(root.name) != "model") {
-    refuse(file, "expected <model>, found " + in_quotes(root.name));
-  }
-  Builder builder(file, reader.resources, unit_in_mm(file, root.attribute("unit")));
+  Package package(file, archive, budget);
+  ModelReader reader(package);
+  reader.read(package.text_of(first_model(file, archive, budget)));
+  Builder builder(file, package.resources);
   constexpr std::uint64_t kMost = std::numeric_limits<Index>::max();
   const std::uint64_t most_items = std::min(kMost, 1'000'000 + 50 * std::uint64_t{bytes.size()});
   builder.claim(reader.items, most_items, budget);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesamis/files/memory_budget.h"
@@ -32,13 +33,14 @@ inline constexpr DicomTag kTransferSyntax = 0x00020010, kCharacterSet = 0x000800
                           kImageType = 0x00080008, kModality = 0x00080060,
                           kSeriesDescription = 0x0008103e, kSeriesUid = 0x0020000e,
                           kPosition = 0x00200032, kOrientation = 0x00200037,
-                          kSamplesPerPixel = 0x00280002, kPhotometric = 0x00280004,
-                          kFrames = 0x00280008, kRows = 0x00280010, kColumns = 0x00280011,
-                          kPixelSpacing = 0x00280030, kBitsAllocated = 0x00280100,
-                          kBitsStored = 0x00280101, kHighBit = 0x00280102,
-                          kPixelRepresentation = 0x00280103, kIntercept = 0x00281052,
-                          kSlope = 0x00281053, kModalityLut = 0x00283000, kPixelData = 0x7fe00010,
-                          kFloatPixelData = 0x7fe00008, kDoublePixelData = 0x7fe00009;
+                          kFrameOfReference = 0x00200052, kSamplesPerPixel = 0x00280002,
+                          kPhotometric = 0x00280004, kFrames = 0x00280008, kRows = 0x00280010,
+                          kColumns = 0x00280011, kPixelSpacing = 0x00280030,
+                          kBitsAllocated = 0x00280100, kBitsStored = 0x00280101,
+                          kHighBit = 0x00280102, kPixelRepresentation = 0x00280103,
+                          kIntercept = 0x00281052, kSlope = 0x00281053, kModalityLut = 0x00283000,
+                          kPixelData = 0x7fe00010, kFloatPixelData = 0x7fe00008,
+                          kDoublePixelData = 0x7fe00009;
 inline constexpr DicomTag kSharedGroups = 0x52009229, kFrameGroups = 0x52009230,
                           kFrameContent = 0x00209111, kPlanePosition = 0x00209113,
                           kPlaneOrientation = 0x00209116, kPixelMeasures = 0x00289110,
@@ -50,6 +52,13 @@ inline constexpr DicomTag kSopClass = 0x00080016, kSegmentationType = 0x00620001
                           kSegmentLabel = 0x00620005, kSegmentIdentification = 0x0062000a,
                           kReferencedSegment = 0x0062000b, kCieLab = 0x0062000d,
                           kMostFraction = 0x0062000e;
+// Structure sets of radiotherapy.
+inline constexpr DicomTag kReferencedFrames = 0x30060010, kRegions = 0x30060020,
+                          kRegionNumber = 0x30060022, kRegionFrame = 0x30060024,
+                          kRegionName = 0x30060026, kRegionColour = 0x3006002a,
+                          kRegionContours = 0x30060039, kContours = 0x30060040,
+                          kContourType = 0x30060042, kContourPoints = 0x30060050,
+                          kReferencedRegion = 0x30060084;
 }  // namespace dicom
 
 /// A file in memory and its elements, which point into its bytes.
@@ -76,6 +85,11 @@ bool begins_like_dicom(Bytes bytes);
 /// before it is taken, and held.
 /// @throws InputError  if the file cannot be read, and as MemoryBudget::claim().
 DicomFile read_dicom_file(const std::filesystem::path& path, MemoryBudget& budget);
+
+/// Parses the bytes of a file that are in memory already; else as read_dicom_file(). Memory: they
+/// are copied.
+DicomFile parse_dicom(const std::filesystem::path& path, std::string_view bytes,
+                      MemoryBudget& budget);
 
 /// Text without padding, 64 KiB at most; empty if the element is not there.
 std::string text_of(const DicomSet& set, DicomTag tag);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/scan_files/dicom_data.h"
+#include "mesamis/files/dicom_data.h"
 
 #include <zlib.h>
 
@@ -44,7 +44,9 @@ bool is_known_sequence(DicomTag tag) {
                                   dicom::kPlanePosition, dicom::kPlaneOrientation,
                                   dicom::kPixelMeasures, dicom::kPixelTransformation,
                                   dicom::kModalityLut,   dicom::kFrameContent,
-                                  dicom::kSegments,      dicom::kSegmentIdentification};
+                                  dicom::kSegments,      dicom::kSegmentIdentification,
+                                  dicom::kRegions,       dicom::kReferencedFrames,
+                                  dicom::kContours,      dicom::kRegionContours};
   return std::find(kSequences.begin(), kSequences.end(), tag) != kSequences.end();
 }
 
@@ -269,6 +271,14 @@ void parse(DicomFile& file, MemoryBudget& budget) {
   Parser(file, begin, explicit_vr, budget).parse_all(file.elements);
 }
 
+void parse_or_note(DicomFile& file, MemoryBudget& budget) {
+  try {
+    parse(file, budget);
+  } catch (const Broken& broken) {
+    file.problem = broken.why;
+  }
+}
+
 }  // namespace
 
 bool begins_like_dicom(Bytes bytes) {
@@ -284,11 +294,17 @@ DicomFile read_dicom_file(const std::filesystem::path& path, MemoryBudget& budge
   reserve_within(budget, file.bytes, source.most_bytes(), "bytes of the file");
   file.bytes.resize(source.most_bytes());
   file.bytes.resize(source.read(file.bytes.data(), file.bytes.size()));
-  try {
-    parse(file, budget);
-  } catch (const Broken& broken) {
-    file.problem = broken.why;
-  }
+  parse_or_note(file, budget);
+  return file;
+}
+
+DicomFile parse_dicom(const std::filesystem::path& path, std::string_view bytes,
+                      MemoryBudget& budget) {
+  DicomFile file;
+  file.path = path;
+  reserve_within(budget, file.bytes, bytes.size(), "bytes of the file");
+  file.bytes.assign(bytes.begin(), bytes.end());
+  parse_or_note(file, budget);
   return file;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/scan_files/dicom_data.h"
+#include "mesamis/files/dicom_data.h"
 
 #include <gmock/gmock.h>
 
