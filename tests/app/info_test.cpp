@@ -98,7 +98,7 @@ TEST(Info, ListsTheObjectsOfAFolderOfMasks) {
   write_bytes(folder / "masks/right.nrrd", nrrd_of(axes, {0, 0, 0, 0, 0, 0, 1, 0}));
   EXPECT_THAT(
       run_program(folder, {"info", folder / "masks"}).out,
-      HasSubstr("as --labels:\n  1  left  2 voxels  4 mm^3\n  2  right  1 voxels  2 mm^3\n"));
+      HasSubstr("as --labels:\n  1  left  2 voxels  4 mm^3\n  2  right  1 voxel  2 mm^3\n"));
 }
 
 TEST(Info, SaysWhatAFolderHoldsThatIsNoScan) {
