@@ -72,8 +72,8 @@ void run_masks(std::string_view bytes) {
   const std::size_t share = bytes.empty() ? 0 : static_cast<unsigned char>(bytes[0]);
   const std::string_view rest = bytes.substr(std::min<std::size_t>(1, bytes.size()));
   const std::size_t first = rest.size() * share / 256;
-  const fs::path file = input_folder().write("masks/a.nrrd", rest.substr(0, first));
-  input_folder().write("masks/b.nrrd", rest.substr(first));
+  const fs::path file = input_folder().write("a.nrrd", rest.substr(0, first));
+  input_folder().write("b.nrrd", rest.substr(first));
   read_or_refuse(file, [](const fs::path& path) {
     require_labels(read_label_map(path.parent_path(), {.limits = fuzz_limits()}));
   });
