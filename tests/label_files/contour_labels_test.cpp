@@ -164,6 +164,18 @@ TEST(ContourLabels, ContoursBetweenTheSlicesOfTheScanKeepTheirPlace) {
   EXPECT_NEAR(static_cast<double>(voxel_counts(on_scan)[0]) * 0.5 * 0.6 / 7, kPi * 100, kClose);
 }
 
+TEST(ContourLabels, ARegionAcrossTheOthersHasNoVoxel) {
+  StructureBytes bytes = region_of({circle(10)});
+  RegionBytes across;
+  across.number = 2;
+  across.name = "across";
+  across.contours = {{{{0, 2, 5}, {3, 2, 5}, {3, 2, 8}}}};
+  bytes.regions.push_back(across);
+  const LabelFile file = read(bytes);
+  EXPECT_EQ(voxel_counts(file.map)[1], 0u);
+  EXPECT_THAT(file.warnings, Contains(HasSubstr("no voxel lies within the contours: \"across\"")));
+}
+
 TEST(ContourLabels, TheFrameOfReferenceIsTheScans) {
   StructureBytes bytes = region_of({circle(10)});
   bytes.frame = bytes.regions[0].frame = "1.2.10";

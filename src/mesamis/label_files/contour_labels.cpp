@@ -149,6 +149,7 @@ class RegionPlanes {
 
   /// The plane that a slice belongs to; none if it is too far away.
   std::optional<std::size_t> plane_of(double slice) const {
+    if (slices_.empty()) return std::nullopt;  // all contours of the region were left out
     constexpr double kRounding = 1e-3;
     const auto above = std::lower_bound(slices_.begin(), slices_.end(), slice - kRounding);
     const auto n = static_cast<std::size_t>(above - slices_.begin());
