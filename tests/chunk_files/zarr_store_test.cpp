@@ -166,7 +166,8 @@ TEST(ZarrStore, ReadsAnImageOfVersion3WithTimeAndChannel) {
   EXPECT_EQ(open_zarr(folder.path())->grid().spacing, (Vec3{1, 2, 4}));
   text.replace(text.find("[1, 1, 7, 6, 5]"), 15, "[1, 3, 7, 6, 5]");
   write_bytes(folder / "s0/zarr.json", text);
-  EXPECT_REFUSED(open_zarr(folder.path()), HasSubstr("1 along axis 1 (c), found 3"));
+  EXPECT_REFUSED(open_zarr(folder.path()), HasSubstr("3 channels (--channel 0 to 2)"));
+  EXPECT_EQ(open_zarr(folder.path(), {.channel = 0})->grid().size[0], 5);
 }
 
 TEST(ZarrStore, FindsTheOnlyArrayOfAGroup) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesamis/chunk_files/chunk_array.h"
-#include "mesamis/chunk_files/json_value.h"
+#include "mesamis/files/json_value.h"
 
 /// The metadata of one array in a Zarr store.
 namespace mesamis::detail {

@@ -204,6 +204,18 @@ ZarrArray read_array(const fs::path& folder, MemoryBudget& budget) {
   return node.v3 ? detail::read_zarr_v3(metadata) : detail::read_zarr_v2(metadata);
 }
 
+/// The attributes by which CF conventions scale values are told: they are not applied.
+void warn_of_scale(const fs::path& folder, MemoryBudget& budget,
+                   std::vector<std::string>& warnings) {
+  const Document own = read_document(folder / kAttributes2, budget);
+  const Document v3 = read_document(folder / kNode3, budget);
+  const auto attributes = v3.value().find("attributes");
+  for (const char* name : {"scale_factor", "add_offset"}) {
+    if (!own.value().has(name) && !(attributes && attributes->has(name))) continue;
+    warnings.push_back(say("the attribute ", name, " is not applied: values are kept as stored"));
+  }
+}
+
 OpenedArray opened(const fs::path& path, const Found& found, const ChunkOptions& options,
                    MemoryBudget& budget) {
   ZarrArray array = read_array(found.folder, budget);
@@ -211,12 +223,14 @@ OpenedArray opened(const fs::path& path, const Found& found, const ChunkOptions&
   out.path = path;
   out.format = found.level ? "OME-Zarr" : "Zarr";
   const auto axes = found.level ? found.level->axes : std::vector<std::string>{};
-  out.grid.size = detail::require_layout(found.folder, array.layout, axes);
+  out.grid.size =
+      detail::require_layout(found.folder, array.layout, axes, {options.volume, options.channel});
   if (!axes.empty() && axes.size() != array.layout.shape.size()) {
     refuse(found.folder, say("expected as many axes as the image states, ", axes.size(), ", found ",
                              array.layout.shape.size()));
   }
   detail::require_chain(found.folder, array.layout.codecs);
+  warn_of_scale(found.folder, budget, out.warnings);
   if (found.level && !options.spacing) out.warnings = found.level->warnings;
   if (found.level) out.grid.origin = found.level->origin;
   detail::set_spacing(out, found.level ? found.level->spacing : std::nullopt, options.spacing);
