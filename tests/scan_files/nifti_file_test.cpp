@@ -172,7 +172,7 @@ TEST(Nifti, HasManyVolumesForThoseWhoAsk) {
   write_bytes(folder / "a.nii", nifti.header() + bytes_of_all(kRamp));
   WideBudget budget;
   EXPECT_REFUSED(detail::open_nifti(folder / "a.nii", {budget, false, detail::Values::kMany}),
-                 HasSubstr("5 values along dimension 5"));
+                 HasSubstr("2 volumes of 5 channels"));
 }
 
 TEST(Nifti, ExtensionsAreRead) {
@@ -197,6 +197,89 @@ TEST(Nifti, ExtensionsAreRead) {
   EXPECT_REFUSED(of(extension(-1, "x"), 361), HasSubstr("found -1"));
   EXPECT_REFUSED(of(extension(64, "x"), 361), HasSubstr("found 64"));
   EXPECT_REFUSED(of(extension(1 << 30, "x"), 2e9f), HasSubstr("found 1073741824"));
+}
+
+/// The qform where the sform is marked valid but has no axes, as some converters leave it.
+TEST(Nifti, AnSformWithoutAxesLeavesTheQform) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.qform_code = 1;
+  nifti.quatern = {0, 0, 0, 5, 6, 7};
+  for (const float bad : {0.F, NAN}) {
+    nifti.srow.fill(bad);
+    const VolumeFile file = read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp));
+    expect_near(file.volume.spacing, {0.5, 1.25, 2});
+    expect_near(file.volume.origin, {-5, -6, 7});
+    EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("the qform is used")));
+  }
+}
+
+TEST(Nifti, WarnsWhereQformAndSformTurnTheAxesDifferently) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.qform_code = 1;
+  EXPECT_THAT(read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).warnings, IsEmpty());
+  const float half = std::sqrt(0.5F);
+  nifti.quatern = {0, 0, half, 0, 0, 0};  // a quarter turn about z
+  const VolumeFile file = read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp));
+  ASSERT_THAT(file.warnings, ElementsAre(HasSubstr("differently, by 90")));
+  expect_near(file.volume.direction * Vec3{1, 0, 0}, {-1, 0, 0});
+  nifti.quatern = {0, 0, 0, 0, 0, 0};
+  nifti.pixdim[0] = -1;  // the third axis the other way round
+  EXPECT_THAT(read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).warnings,
+              ElementsAre(HasSubstr("differently, by 180")));
+}
+
+TEST(Nifti, AGivenSpacingTakesThePlaceOfWhatCannotBeUsed) {
+  const TempFolder folder;
+  const auto with = [&](const NiftiBytes& nifti) {
+    write_bytes(folder / "a.nii", nifti.header() + bytes_of_all(kRamp));
+    EXPECT_NE(complaint(folder / "a.nii"), "");
+    return read_volume(folder / "a.nii", {.spacing = Vec3{1, 1.2, 2}});
+  };
+  NiftiBytes form;  // a sform without axes, and no qform
+  form.srow.fill(0);
+  EXPECT_EQ(with(form).volume.spacing, (Vec3{1, 1.2, 2}));
+  NiftiBytes turned;  // a qform keeps its directions
+  turned.sform_code = 0;
+  turned.qform_code = 1;
+  turned.quatern = {0, 0, std::sqrt(0.5F), 0, 0, 0};
+  turned.pixdim = {1, 0, 0, NAN, 1, 1, 1, 1};
+  const VolumeFile file = with(turned);
+  EXPECT_EQ(file.volume.spacing, (Vec3{1, 1.2, 2}));
+  expect_near(file.volume.direction * Vec3{1, 0, 0}, {0, -1, 0}, 1e-6);
+}
+
+TEST(Nifti, WarnsOfUnitsAndScalesThatItCannotUse) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.units = 5;
+  EXPECT_THAT(read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).warnings,
+              ElementsAre(HasSubstr("unit of length 5")));
+  nifti.units = 2;
+  for (const auto& [slope, intercept] : {std::pair{NAN, 0.F}, {2.F, NAN}, {INFINITY, 0.F}}) {
+    nifti.slope = slope;
+    nifti.intercept = intercept;
+    const VolumeFile file = read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp));
+    expect_ramp(file.volume);
+    EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("kept as stored")));
+  }
+}
+
+TEST(Nifti, TakesOneOfSeveralVolumesAndComponents) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.dim = {5, 2, 3, 1, 2, 5, 1, 1};
+  write_bytes(folder / "a.nii.gz", packed(nifti.header() + bytes_of_all(kRamp)));
+  const auto first = [&](Index volume, Index channel) {
+    return read_volume(folder / "a.nii.gz", {.volume = volume, .channel = channel})
+        .volume.samples[0];
+  };
+  EXPECT_EQ(first(0, 0), -40);
+  EXPECT_EQ(first(1, 0), -40 + 6);
+  EXPECT_EQ(first(0, 4), -40 + 48);
+  EXPECT_THAT(complaint(folder / "a.nii.gz"),
+              HasSubstr("2 volumes (--volume 0 to 1) of 5 channels"));
 }
 
 }  // namespace

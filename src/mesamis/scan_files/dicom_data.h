@@ -38,7 +38,10 @@ inline constexpr DicomTag kTransferSyntax = 0x00020010, kCharacterSet = 0x000800
                           kBitsStored = 0x00280101, kHighBit = 0x00280102,
                           kPixelRepresentation = 0x00280103, kIntercept = 0x00281052,
                           kSlope = 0x00281053, kModalityLut = 0x00283000, kPixelData = 0x7fe00010,
-                          kFloatPixelData = 0x7fe00008, kDoublePixelData = 0x7fe00009;
+                          kFloatPixelData = 0x7fe00008, kDoublePixelData = 0x7fe00009,
+                          kSopInstance = 0x00080018, kInstanceNumber = 0x00200013,
+                          kSliceLocation = 0x00201041, kFrameIncrement = 0x00280009,
+                          kFrameOffsets = 0x3004000c;
 inline constexpr DicomTag kSharedGroups = 0x52009229, kFrameGroups = 0x52009230,
                           kFrameContent = 0x00209111, kPlanePosition = 0x00209113,
                           kPlaneOrientation = 0x00209116, kPixelMeasures = 0x00289110,

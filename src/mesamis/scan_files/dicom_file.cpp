@@ -8,6 +8,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
+#include "mesamis/scan_files/dicom_phases.h"
 #include "mesamis/scan_files/dicom_pixels.h"
 #include "mesamis/scan_files/dicom_resample.h"
 #include "mesamis/scan_files/dicom_series.h"
@@ -19,9 +20,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-DicomImage image_in(const fs::path& file, MemoryBudget& budget) {
+/// What decides how a series becomes a volume.
+struct Reading {
+  const ReadOptions& options;
+  MemoryBudget& budget;
+};
+
+DicomImage image_in(const fs::path& file, const Reading& reading) {
+  const auto& [options, budget] = reading;
   const ScopedFile scope(budget, file);
-  return describe_image(read_dicom_file(file, budget), budget);
+  return describe_image(read_dicom_file(file, budget), budget, options.spacing);
 }
 
 /// The images of a folder, or of that of a file, and the files that cannot be opened.
@@ -37,7 +45,8 @@ struct FolderImages {
   }
 };
 
-FolderImages read_images(const fs::path& path, MemoryBudget& budget) {
+FolderImages read_images(const fs::path& path, const Reading& reading) {
+  MemoryBudget& budget = reading.budget;
   constexpr std::size_t kCopies = 4;  // as images, as series, sorted, and while these grow
   const bool directory = fs::is_directory(path);
   const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
@@ -46,7 +55,7 @@ FolderImages read_images(const fs::path& path, MemoryBudget& budget) {
     if (const std::string why = why_unreadable(file); !why.empty()) {
       found.unreadable.push_back(say(shown(file.filename().string()), ": ", why));
     } else if (looks_like_dicom(file)) {
-      DicomImage image = image_in(file, budget);
+      DicomImage image = image_in(file, reading);
       budget.claim(kCopies * image.slices.size(), sizeof(DicomSlice) + file.native().size(),
                    "DICOM slices");
       append_within(budget, found.images, std::move(image), "DICOM images");
@@ -74,7 +83,7 @@ struct Stack {
 
 /// Everything but the samples.
 /// @throws InputError  why the series is no volume.
-Stack plan(const fs::path& path, const DicomSeries& series, bool resample) {
+Stack plan(const fs::path& path, const DicomSeries& series, const ReadOptions& options) {
   if (!series.problem.empty()) throw InputError(series.problem);
   if (series.stacks[0].size() < 2) {
     const DicomSlice& only = series.stacks[0][0];
@@ -82,14 +91,17 @@ Stack plan(const fs::path& path, const DicomSeries& series, bool resample) {
            "one slice is not a volume: expected at least 2 slices in the series, "
            "found 1");
   }
-  Stack stack{sort_along_normal(series.stacks[0]), {}, {}};
-  if (resample) {
+  PhaseChoice phase = choose_phase(path, series.stacks[0], {options.volume, options.channel});
+  if (phase.stack.size() < 2) refuse(path, "expected at least 2 slices of each phase, found 1");
+  Stack stack{sort_along_normal(std::move(phase.stack)), {}, {}};
+  if (options.resample) {
     stack.resampling = plan_resampling(path, stack.sorted);
   } else {
     require_even_spacing(path, stack.sorted);
     require_no_tilt(path, stack.sorted);
   }
   stack.scan = grid_of(path, series, stack.sorted);
+  if (!phase.note.empty()) stack.scan.warnings.push_back(phase.note);
   if (!stack.resampling.needed()) return stack;
   static_cast<VoxelGrid&>(stack.scan.grid) = stack.resampling.grid;
   stack.scan.grid.modality = series.modality;
@@ -132,10 +144,10 @@ std::vector<float> decode(const SortedSlices& stack, std::size_t voxels, MemoryB
   return samples;
 }
 
-VolumeInfo info_of(const fs::path& path, const DicomSeries& series, bool resample) {
+VolumeInfo info_of(const fs::path& path, const DicomSeries& series, const ReadOptions& options) {
   VolumeInfo info{series.uid, series.description, "DICOM", series.modality, {}, {}, ""};
   try {
-    set_grid(info, plan(path, series, resample).scan.grid);
+    set_grid(info, plan(path, series, options).scan.grid);
   } catch (const InputError& error) {
     info.problem = error.what();
   }
@@ -156,17 +168,17 @@ VolumeFile read_dicom(const fs::path& path, const ReadOptions& options, MemoryBu
   std::string wanted = options.series;
   const bool directory = fs::is_directory(path);
   if (!directory) {
-    const DicomImage named = image_in(path, budget);
+    const DicomImage named = image_in(path, {options, budget});
     if (!named.has_pixels) {
       refuse(path, "expected a DICOM image, found " + in_quotes(named.modality));
     }
     if (!named.problem.empty()) throw InputError(named.problem);
     if (wanted.empty()) wanted = named.series;
   }
-  const FolderImages found = read_images(path, budget);
+  const FolderImages found = read_images(path, {options, budget});
   const std::vector<DicomSeries> all = group_by_series(found.images);
   const DicomSeries& series = choose_series(path, all, wanted);
-  Stack stack = plan(path, series, options.resample);
+  Stack stack = plan(path, series, options);
   ScanFile& scan = stack.scan;
   found.warn(scan.warnings);
   announce(scan.grid, options);
@@ -189,8 +201,9 @@ VolumeFile read_dicom(const fs::path& path, const ReadOptions& options, MemoryBu
 std::vector<VolumeInfo> list_dicom(const fs::path& path, const ReadOptions& options,
                                    MemoryBudget& budget) {
   std::vector<VolumeInfo> infos;
-  for (const DicomSeries& series : group_by_series(read_images(path, budget).images))
-    infos.push_back(info_of(path, series, options.resample));
+  for (const DicomSeries& series : group_by_series(read_images(path, {options, budget}).images)) {
+    infos.push_back(info_of(path, series, options));
+  }
   return infos;
 }
 

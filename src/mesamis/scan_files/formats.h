@@ -51,40 +51,42 @@ ScanFile open_raw(const std::filesystem::path& file, const RawLayout& layout);
 
 /// A TIFF whose pages are the slices; x to the left, y to the back, z to the head. Spacing from
 /// the resolution tags and from ImageJ's description (unit, spacing), 1 mm with a warning else.
-VolumeFile read_tiff(const std::filesystem::path& file, MemoryBudget& budget);
-ScanFile open_tiff_header(const std::filesystem::path& file, MemoryBudget& budget);
-OpenSlices open_tiff_slices(const std::filesystem::path& file, MemoryBudget& budget);
+VolumeFile read_tiff(const std::filesystem::path& file, const Opening& opening);
+ScanFile open_tiff_header(const std::filesystem::path& file, const Opening& opening);
+OpenSlices open_tiff_slices(const std::filesystem::path& file, const Opening& opening);
 
 /// A PNG, one slice as above; 1 to 16 bits, grey, or colours that are. Spacing along x and y from
 /// its resolution (pHYs). Not interlaced. What it claims is compared with its bytes before memory
 /// is taken for it.
-VolumeFile read_png(const std::filesystem::path& file, MemoryBudget& budget);
-ScanFile open_png(const std::filesystem::path& file, MemoryBudget& budget);
+VolumeFile read_png(const std::filesystem::path& file, const Opening& opening);
+ScanFile open_png(const std::filesystem::path& file, const Opening& opening);
 
 /// An uncompressed BMP of 8, 24 or 32 bits, as a PNG.
-VolumeFile read_bmp(const std::filesystem::path& file, MemoryBudget& budget);
-ScanFile open_bmp(const std::filesystem::path& file, MemoryBudget& budget);
+VolumeFile read_bmp(const std::filesystem::path& file, const Opening& opening);
+ScanFile open_bmp(const std::filesystem::path& file, const Opening& opening);
 
 /// Whether the file's name is that of a picture: .tif .tiff .png .bmp.
 bool is_picture(const std::filesystem::path& file);
 /// One of them, as the name says.
-VolumeFile read_picture(const std::filesystem::path& file, MemoryBudget& budget);
+VolumeFile read_picture(const std::filesystem::path& file, const Opening& opening);
 /// Its grid and the type of its samples; they are not read.
-ScanFile open_picture(const std::filesystem::path& file, MemoryBudget& budget);
+ScanFile open_picture(const std::filesystem::path& file, const Opening& opening);
 /// The same, and how to read its slices: of a .tif some of its pages, else the one slice.
-OpenSlices open_picture_slices(const std::filesystem::path& file, MemoryBudget& budget);
+OpenSlices open_picture_slices(const std::filesystem::path& file, const Opening& opening);
 
 /// Refuses a file of no format that is read.
 [[noreturn]] void refuse_unknown(const std::filesystem::path& file);
 
-/// @throws InputError  for a spacing that was asked for and is none.
-void require_spacing(const std::filesystem::path& path, const ReadOptions& options);
-/// The spacing that was asked for, if one was, takes the place of the file's, with a warning, and
-/// of what was assumed.
-void apply_spacing(const ReadOptions& options, VolumeFile& file);
+/// @throws InputError  for a spacing or a modality that was asked for and is none.
+void require_options(const std::filesystem::path& path, const ReadOptions& options);
+/// What a reader of headers is given.
+Opening opening_of(const ReadOptions& options, MemoryBudget& budget);
+/// The spacing and the modality that were asked for, if any were, take the place of the file's: the
+/// spacing with a warning, and also of what was assumed.
+void apply_options(const ReadOptions& options, VolumeFile& file);
 
-/// Tells the caller of the grid whose samples are about to be read, with the spacing that was asked
-/// for.
+/// Tells the caller of the grid whose samples are about to be read, with the spacing and the
+/// modality that were asked for.
 /// @throws InputError  as options.on_grid.
 void announce(VoxelGrid grid, const ReadOptions& options);
 

@@ -12,6 +12,7 @@
 #include "mesamis/files/in_one_line.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
+#include "mesamis/scan_files/sidecar.h"
 #include "mesamis/scan_files/slice_stack.h"
 
 namespace mesamis {
@@ -51,14 +52,14 @@ const ArrayFormat* array_format_of(const fs::path& file) {
 /// A format of pictures.
 struct PictureFormat {
   std::string_view extension;
-  ScanFile (*open)(const fs::path&, MemoryBudget&);
-  VolumeFile (*read)(const fs::path&, MemoryBudget&);
-  OpenSlices (*slices)(const fs::path&, MemoryBudget&);
+  ScanFile (*open)(const fs::path&, const Opening&);
+  VolumeFile (*read)(const fs::path&, const Opening&);
+  OpenSlices (*slices)(const fs::path&, const Opening&);
 };
 
 /// A picture that holds one slice.
-OpenSlices open_one_slice(const fs::path& file, MemoryBudget& budget) {
-  return {detail::open_picture(file, budget), detail::read_pictures({file})};
+OpenSlices open_one_slice(const fs::path& file, const Opening& opening) {
+  return {detail::open_picture(file, opening), detail::read_pictures({file})};
 }
 
 constexpr std::array<PictureFormat, 4> kPictureFormats{
@@ -85,7 +86,7 @@ struct Request {
   const ReadOptions& options;
   MemoryBudget& budget;
 
-  Opening opening() const { return {budget, options.limits.allow_outside}; }
+  Opening opening() const { return detail::opening_of(options, budget); }
 };
 
 VolumeFile read_array(const Request& request, const ScanFile& scan) {
@@ -96,8 +97,8 @@ VolumeFile read_array(const Request& request, const ScanFile& scan) {
 }
 
 VolumeFile read_one_picture(const Request& request) {
-  detail::announce(detail::open_picture(request.path, request.budget).grid, request.options);
-  return detail::read_picture(request.path, request.budget);
+  detail::announce(detail::open_picture(request.path, request.opening()).grid, request.options);
+  return detail::read_picture(request.path, request.opening());
 }
 
 VolumeFile read_directory(const Request& request) {
@@ -123,7 +124,7 @@ VolumeFile read_file(const Request& request) {
 ScanFile open_header(const Request& request) {
   const fs::path& file = request.path;
   if (request.options.raw) return detail::open_raw(file, *request.options.raw);
-  return detail::is_picture(file) ? detail::open_picture(file, request.budget)
+  return detail::is_picture(file) ? detail::open_picture(file, request.opening())
                                   : *detail::open_array(file, request.opening());
 }
 
@@ -146,9 +147,9 @@ VolumeInfo describe(const Request& request) {
 std::vector<VolumeInfo> list_directory(const Request& request) {
   const auto& [path, options, budget] = request;
   const std::vector<fs::path> slices = detail::slices_without_dicom(path, budget);
-  std::vector<VolumeInfo> all = slices.empty()
-                                    ? detail::list_dicom(path, options, budget)
-                                    : std::vector{detail::describe_slices(path, slices, budget)};
+  std::vector<VolumeInfo> all =
+      slices.empty() ? detail::list_dicom(path, options, budget)
+                     : std::vector{detail::describe_slices(path, slices, request.opening())};
   for (const fs::path& file : detail::files_in(path)) {
     const bool slice = std::find(slices.begin(), slices.end(), file) != slices.end();
     if (has_known_extension(file) && !slice) all.push_back(describe({file, options, budget}));
@@ -174,11 +175,25 @@ struct GridFound {
 
 std::optional<ScanFile> detail::open_array(const fs::path& file, const Opening& opening) {
   const ArrayFormat* format = array_format_of(file);
-  return format ? std::optional(format->open(file, opening)) : std::nullopt;
+  if (format == nullptr) return std::nullopt;
+  ScanFile scan = format->open(file, opening);
+  if (scan.grid.modality.empty()) {
+    scan.grid.modality = modality_in_sidecar(file, opening.budget, scan.warnings);
+  }
+  return scan;
+}
+
+detail::Opening detail::opening_of(const ReadOptions& options, MemoryBudget& budget) {
+  return {budget,
+          options.limits.allow_outside,
+          Values::kOne,
+          options.spacing,
+          {options.volume, options.channel}};
 }
 
 void detail::announce(VoxelGrid grid, const ReadOptions& options) {
   grid.spacing = options.spacing.value_or(grid.spacing);
+  if (!options.modality.empty()) grid.modality = options.modality;
   if (options.on_grid) options.on_grid(grid);
 }
 
@@ -189,11 +204,15 @@ void detail::refuse_unknown(const fs::path& file) {
       "layout of a raw file, found none of them");
 }
 
-void detail::require_spacing(const fs::path& path, const ReadOptions& options) {
+void detail::require_options(const fs::path& path, const ReadOptions& options) {
   if (options.spacing) require_positive_spacing(path, *options.spacing);
+  const std::string& modality = options.modality;
+  if (modality.empty() || modality == "CT" || modality == "MR" || modality == "other") return;
+  refuse(path, "expected the modality CT, MR or other, found " + in_quotes(modality));
 }
 
-void detail::apply_spacing(const ReadOptions& options, VolumeFile& file) {
+void detail::apply_options(const ReadOptions& options, VolumeFile& file) {
+  if (!options.modality.empty()) file.volume.modality = options.modality;
   if (!options.spacing) return;
   const auto assumed = std::erase_if(file.warnings, [](const std::string& warning) {
     return warning.find(": 1 mm taken") != std::string::npos;
@@ -206,18 +225,18 @@ void detail::apply_spacing(const ReadOptions& options, VolumeFile& file) {
 
 bool detail::is_picture(const fs::path& file) { return picture_format_of(file) != nullptr; }
 
-VolumeFile detail::read_picture(const fs::path& file, MemoryBudget& budget) {
-  return picture_format_of(file)->read(file, budget);
+VolumeFile detail::read_picture(const fs::path& file, const Opening& opening) {
+  return picture_format_of(file)->read(file, opening);
 }
 
-ScanFile detail::open_picture(const fs::path& file, MemoryBudget& budget) {
-  const ScopedFile scope(budget, file);
-  return picture_format_of(file)->open(file, budget);
+ScanFile detail::open_picture(const fs::path& file, const Opening& opening) {
+  const ScopedFile scope(opening.budget, file);
+  return picture_format_of(file)->open(file, opening);
 }
 
-detail::OpenSlices detail::open_picture_slices(const fs::path& file, MemoryBudget& budget) {
-  const ScopedFile scope(budget, file);
-  return picture_format_of(file)->slices(file, budget);
+detail::OpenSlices detail::open_picture_slices(const fs::path& file, const Opening& opening) {
+  const ScopedFile scope(opening.budget, file);
+  return picture_format_of(file)->slices(file, opening);
 }
 
 void detail::set_grid(VolumeInfo& info, const VoxelGrid& grid) {
@@ -231,9 +250,9 @@ VolumeFile read_volume(const fs::path& path, const ReadOptions& options) {
   MemoryBudget budget(path, options.limits);
   const ReadRecord record;
   return in_one_line(path, [&] {
-    detail::require_spacing(path, options);
+    detail::require_options(path, options);
     VolumeFile file = read_file({path, options, budget});
-    detail::apply_spacing(options, file);
+    detail::apply_options(options, file);
     file.files = record.files();
     return file;
   });
@@ -252,7 +271,10 @@ VoxelGrid read_grid(const fs::path& path, const ReadOptions& options) {
 std::vector<VolumeInfo> list_volumes(const fs::path& path, const ReadOptions& options) {
   MemoryBudget budget(path, options.limits);
   std::vector<VolumeInfo> all = in_one_line(path, [&] { return list({path, options, budget}); });
-  for (VolumeInfo& info : all) info.spacing = options.spacing.value_or(info.spacing);
+  for (VolumeInfo& info : all) {
+    info.spacing = options.spacing.value_or(info.spacing);
+    if (!options.modality.empty()) info.modality = options.modality;
+  }
   return all;
 }
 

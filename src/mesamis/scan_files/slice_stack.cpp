@@ -81,7 +81,8 @@ void require_like(const ScanFile& first, const ScanFile& slice) {
     return say(scan.format, " of ", g.size[0], " x ", g.size[1], " x ", g.size[2], " pixels of ",
                8 * byte_size(scan.source.type), " bits, ", g.spacing.x, " x ", g.spacing.y, " mm");
   };
-  if (first.format == slice.format && a.size == b.size && a.spacing == b.spacing &&
+  const bool same_spacing = first.given_spacing || a.spacing == b.spacing;
+  if (first.format == slice.format && a.size == b.size && same_spacing &&
       first.source.type == slice.source.type) {
     return;
   }
@@ -90,13 +91,14 @@ void require_like(const ScanFile& first, const ScanFile& slice) {
 
 /// The headers of all files, checked, as one volume without samples.
 ScanFile open_headers(const fs::path& directory, const std::vector<fs::path>& files,
-                      MemoryBudget& budget) {
-  ScanFile first = open_picture(files[0], budget);
+                      const Opening& opening) {
+  ScanFile first = open_picture(files[0], opening);
+  first.given_spacing = opening.spacing;
   if (first.grid.size[2] != 1) {
     refuse(files[0], say("expected one slice per file, found ", first.grid.size[2]));
   }
   for (std::size_t n = 1; n < files.size(); ++n)
-    require_like(first, open_picture(files[n], budget));
+    require_like(first, open_picture(files[n], opening));
   ScanFile scan = first;
   scan.file = directory;
   scan.format += " slices";
@@ -104,6 +106,9 @@ ScanFile open_headers(const fs::path& directory, const std::vector<fs::path>& fi
   warn_of_gaps(files, scan.warnings);
   return scan;
 }
+
+/// Other systems leave files such as ._s1.png beside those that they copy.
+bool is_hidden(const fs::path& file) { return file.filename().native().starts_with('.'); }
 
 bool holds_dicom(const fs::path& directory) {
   const std::vector<fs::path> files = files_below(directory);
@@ -119,13 +124,13 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 std::vector<fs::path> slices_in(const fs::path& directory, MemoryBudget& budget) {
   std::vector<fs::path> files = files_in(directory);
-  std::erase_if(files, [](const fs::path& file) { return !is_picture(file); });
+  std::erase_if(files, [](const fs::path& file) { return !is_picture(file) || is_hidden(file); });
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().string(), b.filename().string());
   });
   if (files.size() < 2) return {};
   try {
-    if (open_picture(files[0], budget).grid.size[2] != 1) return {};
+    if (open_picture(files[0], {budget}).grid.size[2] != 1) return {};
   } catch (const InputError&) {
     return files;  // the reader says what is wrong with it
   }
@@ -144,20 +149,20 @@ SliceReader read_pictures(std::vector<fs::path> files) {
                                                 static_cast<std::size_t>(slices.count));
     for (const fs::path& file : asked) {
       const ScopedFile scope(budget, file);
-      const std::vector<float> slice = read_picture(file, budget).volume.samples;
+      const std::vector<float> slice = read_picture(file, {budget}).volume.samples;
       out.insert(out.end(), slice.begin(), slice.end());
     }
   };
 }
 
 OpenSlices open_stack(const fs::path& directory, const std::vector<fs::path>& files,
-                      MemoryBudget& budget) {
-  return {open_headers(directory, files, budget), read_pictures(files)};
+                      const Opening& opening) {
+  return {open_headers(directory, files, opening), read_pictures(files)};
 }
 
 VolumeFile read_slices(const fs::path& directory, const std::vector<fs::path>& files,
                        const ReadOptions& options, MemoryBudget& budget) {
-  const OpenSlices stack = open_stack(directory, files, budget);
+  const OpenSlices stack = open_stack(directory, files, opening_of(options, budget));
   const ScanFile& scan = stack.scan;
   announce(scan.grid, options);
   VolumeFile out{scan.grid, scan.format, scan.warnings};
@@ -167,12 +172,12 @@ VolumeFile read_slices(const fs::path& directory, const std::vector<fs::path>& f
 }
 
 VolumeInfo describe_slices(const fs::path& directory, const std::vector<fs::path>& files,
-                           MemoryBudget& budget) {
+                           const Opening& opening) {
   VolumeInfo info;
   info.description = (directory / "").parent_path().filename().string();
   info.format = "slices";
   try {
-    const ScanFile scan = open_headers(directory, files, budget);
+    const ScanFile scan = open_headers(directory, files, opening);
     info.format = scan.format;
     set_grid(info, scan.grid);
   } catch (const InputError& error) {

@@ -38,6 +38,9 @@ set(ROOM_SOURCES
   text_header.cpp
   tiff_file.cpp
   write_volume.cpp
+  NEXT dicom_phases.cpp
+  sidecar.cpp
+  NEXT tiff_layout.cpp
   NEXT nifti_file.cpp
   NEXT nrrd_file.cpp
   NEXT dicom_jpeg8.cpp
