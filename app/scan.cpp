@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scan.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <limits>
@@ -10,6 +12,7 @@
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/chunk_files/chunked_scan.h"
+#include "mesamis/image/not_numbers.h"
 
 namespace mesamis {
 namespace {
@@ -142,6 +145,10 @@ void add_read_options(CLI::App& command, ReadOptions& options) {
 
 VolumeFile read_scan(const std::filesystem::path& path, const ReadOptions& options) {
   VolumeFile file = read_any_volume(path, options);
+  if (const NotNumbers nan = fill_not_numbers(file.volume.samples); nan.voxels > 0) {
+    file.warnings.push_back(fmt::format(
+        "{} voxels are no numbers (NaN): they count as background, {}", nan.voxels, nan.filled));
+  }
   for (const std::string& warning : file.warnings) log_warning(warning);
   try {
     require_usable(file.volume);

@@ -12,6 +12,7 @@
 #include "call.h"
 #include "mesamis/base/error.h"
 #include "mesamis/image/grid_axes.h"
+#include "mesamis/image/not_numbers.h"
 #include "mesamis/image/orientation.h"
 #include "mesamis/scan_files/read_volume.h"
 #include "mesamis/scan_files/write_volume.h"
@@ -91,6 +92,11 @@ std::shared_ptr<Scan> scan_of_array(const py::array& samples, const Place& place
 std::shared_ptr<Scan> read(const std::string& path, const ReadOptions& options) {
   VolumeFile file =
       released({py::none(), 0}, [&](const Progress&) { return read_volume(path, options); });
+  const NotNumbers nan = fill_not_numbers(file.volume.samples);
+  if (nan.voxels > 0) {
+    file.warnings.push_back(std::to_string(nan.voxels) +
+                            " voxels are no numbers (NaN): they count as background");
+  }
   const auto scan = scan_of(std::move(file.volume));
   scan->path = path;
   scan->format = file.format;

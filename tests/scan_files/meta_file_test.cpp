@@ -132,5 +132,20 @@ TEST(Meta, AGivenSpacingTakesThePlaceOfWhatCannotBeUsed) {
   }
 }
 
+TEST(Meta, ReadsListsOfDataFiles) {
+  const TempFolder folder;
+  const std::string data = bytes_of_all(kRamp);
+  std::string list = "LIST\n";
+  for (int k = 0; k < 5; ++k) {
+    const std::string name = "s0" + std::to_string(k + 1) + ".raw";
+    write_bytes(folder / name, data.substr(24 * static_cast<std::size_t>(k), 24));
+    list += name + "\n";
+  }
+  expect_ramp(read(folder, "a.mhd", meta_bytes("", "s%02d.raw 1 5 1")).volume);
+  expect_ramp(read(folder, "b.mhd", meta_bytes("", list)).volume);
+  EXPECT_THAT(complaint(folder, "c.mhd", meta_bytes("", "LIST")), HasSubstr("an empty one"));
+  EXPECT_THAT(complaint(folder, "d.mhd", meta_bytes("", "s%02x.raw 1 5 1")), HasSubstr("pattern"));
+}
+
 }  // namespace
 }  // namespace mesamis

@@ -282,5 +282,63 @@ TEST(Nifti, TakesOneOfSeveralVolumesAndComponents) {
               HasSubstr("2 volumes (--volume 0 to 1) of 5 channels"));
 }
 
+TEST(Nifti, PairsOfHeaderAndSamplesAreRead) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.magic = std::string("ni1\0", 4);
+  nifti.vox_offset = 0;
+  write_bytes(folder / "a.hdr", nifti.header().substr(0, 348));
+  EXPECT_THAT(complaint(folder / "a.hdr"), HasSubstr("a.img"));
+  write_bytes(folder / "a.img", bytes_of_all(kRamp));
+  write_bytes(folder / "b.hdr.gz", packed(nifti.header()));
+  write_bytes(folder / "b.img.gz", packed(bytes_of_all(kRamp)));
+  for (const char* name : {"a.hdr", "a.img", "b.hdr.gz", "b.img.gz"}) {
+    const VolumeFile file = read_volume(folder / name);
+    expect_ramp(file.volume);
+    expect_near(file.volume.origin, {-10, -20, 30});
+    EXPECT_THAT(file.warnings, IsEmpty()) << name;
+  }
+  EXPECT_EQ(list_volumes(folder / "").size(), 2u) << "each pair once";
+}
+
+TEST(Nifti, AnalyzeHasNoOrientation) {
+  const TempFolder folder;
+  NiftiBytes analyze;
+  analyze.magic = std::string(4, '\0');
+  analyze.vox_offset = 0;
+  analyze.sform_code = 77;  // no form: other fields lie there
+  write_bytes(folder / "a.hdr", analyze.header().substr(0, 348));
+  write_bytes(folder / "a.img", bytes_of_all(kRamp));
+  const VolumeFile file = read_volume(folder / "a.img");
+  expect_ramp(file.volume);
+  EXPECT_EQ(file.format, "Analyze");
+  expect_near(file.volume.spacing, {0.5, 1.25, 2});
+  expect_near(file.volume.direction * Vec3{1, 0, 0}, {1, 0, 0});
+  expect_near(file.volume.direction * Vec3{0, 1, 0}, {0, -1, 0});
+  EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("no orientation")));
+}
+
+/// The volume of a sheared grid is that of its voxels, and each keeps its place.
+TEST(Nifti, AShearedSformIsResampledWhereItIsAskedFor) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.srow = {0.5F, 0,  1, 10, 0, 1.25F,
+                0,    20, 0, 0,  2, 30};  // slices shifted by two columns each
+  EXPECT_THAT(complaint(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)),
+              HasSubstr("--resample"));
+  const VolumeFile file = read_volume(folder / "a.nii", {.resample = true});
+  EXPECT_EQ(file.volume.size, (std::array<Index, 3>{4 + 2 * 4, 3, 5}));
+  expect_near(file.volume.spacing, {0.5, 1.25, 2});
+  EXPECT_NO_THROW(require_usable(file.volume));
+  EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("sheared")));
+  for (Index k = 0; k < 5; ++k) {
+    for (Index i = 0; i < 4; ++i) {
+      EXPECT_EQ(file.volume.at(i + 2 * k, 1, k), static_cast<float>(-40 + i + 4 + 12 * k));
+    }
+  }
+  EXPECT_EQ(file.volume.at(0, 0, 4), -40) << "what no voxel covers has the least value";
+  EXPECT_EQ(read_grid(folder / "a.nii", {.resample = true}).size, file.volume.size);
+}
+
 }  // namespace
 }  // namespace mesamis

@@ -225,5 +225,33 @@ TEST(Nrrd, TakesOneOfSeveralValues) {
   EXPECT_EQ(first("sizes: 5 3 2 2\nkinds: vector domain domain domain\n", 3), -40 + 3);
 }
 
+TEST(Nrrd, ReadsListsOfDataFiles) {
+  const TempFolder folder;
+  const std::string data = bytes_of_all(kRamp), little = "endian: little\n";
+  for (int k = 0; k < 5; ++k) {
+    write_bytes(folder / ("s" + std::to_string(k + 8) + ".raw"), data.substr(24 * k, 24));
+    write_bytes(folder / ("z0" + std::to_string(k) + ".gz"), packed(data.substr(24 * k, 24)));
+  }
+  expect_ramp(
+      read(folder, "a.nhdr", nrrd_bytes(little + "encoding: raw\ndata file: s%d.raw 8 12 1\n", ""))
+          .volume);
+  expect_ramp(read(folder, "b.nhdr",
+                   nrrd_bytes(little + "encoding: gzip\ndata file: z%02d.gz 0 4 1 2\n", ""))
+                  .volume);
+  expect_ramp(read(folder, "c.nhdr",
+                   nrrd_bytes(little + "encoding: raw\ndata file: LIST\ns8.raw\ns9.raw\ns10.raw\n"
+                                       "s11.raw\ns12.raw",
+                              ""))
+                  .volume);
+  const auto refused = [&](const std::string& list) {
+    return complaint(folder, "d.nhdr",
+                     nrrd_bytes(little + "encoding: raw\ndata file: " + list, ""));
+  };
+  EXPECT_THAT(refused("LIST\ns8.raw\ns9.raw\n"), HasSubstr("equal numbers of slices"));
+  EXPECT_THAT(refused("s%d.raw 8 13 1\n"), HasSubstr("equal numbers"));
+  EXPECT_THAT(refused("s%d.raw 9 13 1\n"), HasSubstr("s13.raw"));
+  EXPECT_THAT(refused("../s%d.raw 8 12 1\n"), HasSubstr("--allow-outside"));
+}
+
 }  // namespace
 }  // namespace mesamis

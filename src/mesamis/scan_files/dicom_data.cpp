@@ -278,12 +278,19 @@ bool begins_like_dicom(Bytes bytes) {
 }
 
 DicomFile read_dicom_file(const std::filesystem::path& path, MemoryBudget& budget) {
+  std::vector<unsigned char> bytes;
+  ByteSource source(path, Packing::kPlain);
+  reserve_within(budget, bytes, source.most_bytes(), "bytes of the file");
+  bytes.resize(source.most_bytes());
+  bytes.resize(source.read(bytes.data(), bytes.size()));
+  return parse_dicom_file(path, std::move(bytes), budget);
+}
+
+DicomFile parse_dicom_file(const std::filesystem::path& path, std::vector<unsigned char> bytes,
+                           MemoryBudget& budget) {
   DicomFile file;
   file.path = path;
-  ByteSource source(path, Packing::kPlain);
-  reserve_within(budget, file.bytes, source.most_bytes(), "bytes of the file");
-  file.bytes.resize(source.most_bytes());
-  file.bytes.resize(source.read(file.bytes.data(), file.bytes.size()));
+  file.bytes = std::move(bytes);
   try {
     parse(file, budget);
   } catch (const Broken& broken) {

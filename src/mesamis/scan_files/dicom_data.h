@@ -79,6 +79,10 @@ bool begins_like_dicom(Bytes bytes);
 /// before it is taken, and held.
 /// @throws InputError  if the file cannot be read, and as MemoryBudget::claim().
 DicomFile read_dicom_file(const std::filesystem::path& path, MemoryBudget& budget);
+/// The same of bytes in memory, which were claimed.
+/// @param path  for messages.
+DicomFile parse_dicom_file(const std::filesystem::path& path, std::vector<unsigned char> bytes,
+                           MemoryBudget& budget);
 
 /// Text without padding, 64 KiB at most; empty if the element is not there.
 std::string text_of(const DicomSet& set, DicomTag tag);

@@ -13,6 +13,7 @@
 #include "mesamis/scan_files/dicom_resample.h"
 #include "mesamis/scan_files/dicom_series.h"
 #include "mesamis/scan_files/dicom_spacing.h"
+#include "mesamis/scan_files/dicom_store.h"
 #include "mesamis/scan_files/formats.h"
 
 namespace mesamis::detail {
@@ -26,10 +27,10 @@ struct Reading {
   MemoryBudget& budget;
 };
 
-DicomImage image_in(const fs::path& file, const Reading& reading) {
+DicomImage image_in(const DicomStore& store, const fs::path& file, const Reading& reading) {
   const auto& [options, budget] = reading;
   const ScopedFile scope(budget, file);
-  return describe_image(read_dicom_file(file, budget), budget, options.spacing);
+  return describe_image(store.read(file), budget, options.spacing);
 }
 
 /// The images of a folder, or of that of a file, and the files that cannot be opened.
@@ -45,21 +46,15 @@ struct FolderImages {
   }
 };
 
-FolderImages read_images(const fs::path& path, const Reading& reading) {
-  MemoryBudget& budget = reading.budget;
+FolderImages read_images(const DicomStore& store, const Reading& reading) {
   constexpr std::size_t kCopies = 4;  // as images, as series, sorted, and while these grow
-  const bool directory = fs::is_directory(path);
-  const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  FolderImages found;
-  for (const fs::path& file : directory ? files_below(path) : files_in(parent)) {
-    if (const std::string why = why_unreadable(file); !why.empty()) {
-      found.unreadable.push_back(say(shown(file.filename().string()), ": ", why));
-    } else if (looks_like_dicom(file)) {
-      DicomImage image = image_in(file, reading);
-      budget.claim(kCopies * image.slices.size(), sizeof(DicomSlice) + file.native().size(),
-                   "DICOM slices");
-      append_within(budget, found.images, std::move(image), "DICOM images");
-    }
+  MemoryBudget& budget = reading.budget;
+  FolderImages found{{}, store.unreadable()};
+  for (const fs::path& file : store.files()) {
+    DicomImage image = image_in(store, file, reading);
+    budget.claim(kCopies * image.slices.size(), sizeof(DicomSlice) + file.native().size(),
+                 "DICOM slices");
+    append_within(budget, found.images, std::move(image), "DICOM images");
   }
   return found;
 }
@@ -111,8 +106,8 @@ Stack plan(const fs::path& path, const DicomSeries& series, const ReadOptions& o
 
 /// A file that is decoded, as long as it is.
 struct OpenFile {
-  OpenFile(const fs::path& path, MemoryBudget& budget)
-      : scope(budget, path), file(read_dicom_file(path, budget)), pixels(pixels_of(file)) {}
+  OpenFile(const DicomStore& store, const fs::path& path, MemoryBudget& budget)
+      : scope(budget, path), file(store.read(path)), pixels(pixels_of(file)) {}
 
   ScopedFile scope;
   DicomFile file;
@@ -121,8 +116,11 @@ struct OpenFile {
 
 /// Decodes file by file, in the order of the slices. A file of many frames is read once as long as
 /// its frames follow one another.
-std::vector<float> decode(const SortedSlices& stack, std::size_t voxels, MemoryBudget& budget,
+std::vector<float> decode(const DicomStore& store, const SortedSlices& stack, MemoryBudget& budget,
                           std::vector<std::string>& warnings) {
+  const DicomSlice& first = stack.slices.front();
+  const std::size_t voxels = static_cast<std::size_t>(first.columns) *
+                             static_cast<std::size_t>(first.rows) * stack.slices.size();
   std::vector<float> samples;
   reserve_within(budget, samples, voxels, "samples");
   std::unique_ptr<OpenFile> open;
@@ -130,7 +128,7 @@ std::vector<float> decode(const SortedSlices& stack, std::size_t voxels, MemoryB
   for (const DicomSlice& slice : stack.slices) {
     if (open == nullptr || open->file.path != slice.file) {
       open.reset();
-      open = std::make_unique<OpenFile>(slice.file, budget);
+      open = std::make_unique<OpenFile>(store, slice.file, budget);
     }
     const auto& [scope, file, pixels] = *open;
     const FrameRescale rescale{slice.frame, slice.slope, slice.intercept};
@@ -165,17 +163,17 @@ bool looks_like_dicom(const fs::path& file) {
 }
 
 VolumeFile read_dicom(const fs::path& path, const ReadOptions& options, MemoryBudget& budget) {
+  const DicomStore store(path, budget);
   std::string wanted = options.series;
-  const bool directory = fs::is_directory(path);
-  if (!directory) {
-    const DicomImage named = image_in(path, {options, budget});
+  if (!fs::is_directory(path) && !is_zip(path)) {
+    const DicomImage named = image_in(store, path, {options, budget});
     if (!named.has_pixels) {
       refuse(path, "expected a DICOM image, found " + in_quotes(named.modality));
     }
     if (!named.problem.empty()) throw InputError(named.problem);
     if (wanted.empty()) wanted = named.series;
   }
-  const FolderImages found = read_images(path, {options, budget});
+  const FolderImages found = read_images(store, {options, budget});
   const std::vector<DicomSeries> all = group_by_series(found.images);
   const DicomSeries& series = choose_series(path, all, wanted);
   Stack stack = plan(path, series, options);
@@ -186,11 +184,9 @@ VolumeFile read_dicom(const fs::path& path, const ReadOptions& options, MemoryBu
     scan.warnings.push_back("taken as the only volume among the series " + titles_of(all));
   }
   VolumeFile out{std::move(scan.grid), "DICOM", scan.warnings};
-  const DicomSlice& first = stack.sorted.slices.front();
-  const std::size_t stored = static_cast<std::size_t>(first.columns) *
-                             static_cast<std::size_t>(first.rows) * stack.sorted.slices.size();
-  out.volume.samples = decode(stack.sorted, stored, budget, out.warnings);
+  out.volume.samples = decode(store, stack.sorted, budget, out.warnings);
   if (stack.resampling.needed()) {
+    const DicomSlice& first = stack.sorted.slices.front();
     budget.claim(out.volume.voxel_count(), sizeof(float), "samples between slices");
     out.volume.samples =
         resampled(stack.resampling, {first.columns, first.rows}, out.volume.samples);
@@ -200,8 +196,9 @@ VolumeFile read_dicom(const fs::path& path, const ReadOptions& options, MemoryBu
 
 std::vector<VolumeInfo> list_dicom(const fs::path& path, const ReadOptions& options,
                                    MemoryBudget& budget) {
+  const DicomStore store(path, budget);
   std::vector<VolumeInfo> infos;
-  for (const DicomSeries& series : group_by_series(read_images(path, {options, budget}).images)) {
+  for (const DicomSeries& series : group_by_series(read_images(store, {options, budget}).images)) {
     infos.push_back(info_of(path, series, options));
   }
   return infos;

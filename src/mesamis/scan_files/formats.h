@@ -19,10 +19,11 @@ struct OpenSlices {
   SliceReader read;
 };
 
-/// NIfTI-1 and -2, one file, plain or gzip'd, either byte order. World frame: the sform if its
-/// code is above 0, else the qform, else (with a warning) method 1 of the standard: axes along
-/// RAS, origin 0. RAS is turned into LPS; lengths in m or um into mm.
-/// Of many values the fourth or the fifth axis may hold more than one volume.
+/// NIfTI-1 and -2, one file or .hdr and .img, plain or gzip'd, either byte order; Analyze 7.5,
+/// whose axes are taken as LAS with a warning. World frame: the sform if its code is above 0, else
+/// the qform, else (with a warning) method 1 of the standard: axes along RAS, origin 0. RAS is
+/// turned into LPS; lengths in m or um into mm. Of many values the fourth or the fifth axis may
+/// hold more than one volume.
 ScanFile open_nifti(const std::filesystem::path& file, const Opening& opening);
 
 /// The header extensions of a NIfTI file, without size and code: none if there are none.
@@ -41,6 +42,19 @@ ScanFile open_meta(const std::filesystem::path& file, const Opening& opening);
 /// stores x to the left, y to the front and z to the head (checked on the distribution's
 /// Cranium.inv3; the file itself does not say), and no origin: the first voxel is put at 0.
 ScanFile open_inv3(const std::filesystem::path& file, const Opening& opening);
+
+/// FreeSurfer's .mgh, and .mgz in gzip: RAS, turned into LPS; several frames are volumes.
+ScanFile open_mgh(const std::filesystem::path& file, const Opening& opening);
+
+/// Scanco's .isq: 16 bits, values as stored, axes taken as LPS, origin 0.
+ScanFile open_isq(const std::filesystem::path& file, const Opening& opening);
+
+/// Scanco's .aim of versions 020 and 030, uncompressed; values as stored, axes taken as LPS, origin
+/// as the file has it.
+ScanFile open_aim(const std::filesystem::path& file, const Opening& opening);
+
+/// VGSTUDIO's .vgi, or the .vol beside it: one file of bare samples; axes taken as LPS, origin 0.
+ScanFile open_vgi(const std::filesystem::path& file, const Opening& opening);
 
 /// Opens one of the formats above, as the file's name says; none for any other name.
 std::optional<ScanFile> open_array(const std::filesystem::path& file, const Opening& opening);
@@ -65,7 +79,11 @@ ScanFile open_png(const std::filesystem::path& file, const Opening& opening);
 VolumeFile read_bmp(const std::filesystem::path& file, const Opening& opening);
 ScanFile open_bmp(const std::filesystem::path& file, const Opening& opening);
 
-/// Whether the file's name is that of a picture: .tif .tiff .png .bmp.
+/// A grey JPEG, as a PNG, with a warning: it is lossy.
+VolumeFile read_jpeg(const std::filesystem::path& file, const Opening& opening);
+ScanFile open_jpeg(const std::filesystem::path& file, const Opening& opening);
+
+/// Whether the file's name is that of a picture: .tif .tiff .png .bmp .jpg .jpeg.
 bool is_picture(const std::filesystem::path& file);
 /// One of them, as the name says.
 VolumeFile read_picture(const std::filesystem::path& file, const Opening& opening);

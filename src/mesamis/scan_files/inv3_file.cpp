@@ -187,8 +187,7 @@ void place(ScanFile& scan, const Plist& plist) {
 }  // namespace
 
 ScanFile open_inv3(const std::filesystem::path& file, const Opening& opening) {
-  ScanFile scan{file, "InVesalius", {}, {}, {}};
-  scan.given_spacing = opening.spacing;
+  ScanFile scan = begin_scan(file, "InVesalius", opening);
   const auto plist = find_main_plist(file, opening.budget);
   if (!plist) refuse(file, "expected an InVesalius project, found no main.plist in it");
   const auto shape = three<std::int64_t>(file, *plist, "matrix/shape");

@@ -15,7 +15,8 @@ namespace {
 struct MetaHeader {
   std::filesystem::path file;
   HeaderFields fields;
-  std::uint64_t size = 0;  // bytes up to the local data
+  std::vector<std::string> listed{};  // data files, behind "ElementDataFile = LIST"
+  std::uint64_t size = 0;             // bytes up to the local data
 
   /// The value of the first of these names that is there, else the fallback.
   std::string get(std::initializer_list<const char*> names, const std::string& fallback) const {
@@ -41,9 +42,13 @@ struct MetaHeader {
 
 /// ElementDataFile ends the header; local data follow it.
 MetaHeader read_header(const std::filesystem::path& file) {
-  MetaHeader header{file, {}, 0};
+  MetaHeader header{file, {}, {}, 0};
   HeaderLines lines(file);
   for (std::string line; lines.next(line);) {
+    if (header.fields.count("elementdatafile")) {
+      if (!trimmed(line).empty()) header.listed.emplace_back(trimmed(line));
+      continue;
+    }
     const auto equals = line.find('=');
     if (trimmed(line).empty()) continue;
     if (equals == std::string::npos) {
@@ -52,7 +57,7 @@ MetaHeader read_header(const std::filesystem::path& file) {
     }
     const std::string name = lower(trimmed(std::string_view(line).substr(0, equals)));
     header.fields.emplace(name, std::string(trimmed(std::string_view(line).substr(equals + 1))));
-    if (name == "elementdatafile") break;
+    if (name == "elementdatafile" && !header.fields.at(name).starts_with("LIST")) break;
   }
   header.size = lines.position();
   return header;
@@ -190,13 +195,27 @@ void set_scale(ScanFile& scan, const MetaHeader& header) {
   scan.source.intercept = offset;
 }
 
-void find_data(SampleSource& source, const MetaHeader& header, bool allow_outside) {
+/// The data files of a header that names several, one after the other.
+std::vector<std::filesystem::path> listed_files(const MetaHeader& header, const std::string& name,
+                                                bool allow_outside) {
+  const std::vector<std::string> names =
+      name.starts_with("LIST") ? header.listed : numbered_names(header.file, name);
+  if (names.empty()) refuse(header.file, "expected a list of data files, found an empty one");
+  std::vector<std::filesystem::path> files;
+  for (const std::string& one : names) files.push_back(data_path(header.file, one, allow_outside));
+  return files;
+}
+
+void find_data(ScanFile& scan, const MetaHeader& header, bool allow_outside) {
+  SampleSource& source = scan.source;
   const std::string name = header.need("elementdatafile");
   if (name == "LIST" || name.starts_with("LIST ") || name.find('%') != std::string::npos) {
-    refuse(header.file, say("expected one ElementDataFile, found ", in_quotes(name)));
+    scan.parts = listed_files(header, name, allow_outside);
   }
   const bool local = lower(name) == "local";
-  source.file = local ? header.file : data_path(header.file, name, allow_outside);
+  source.file = local                 ? header.file
+                : !scan.parts.empty() ? scan.parts.front()
+                                      : data_path(header.file, name, allow_outside);
   source.offset = local ? header.size : 0;
   source.text = header.fields.count("binarydata") && !header.is_true({"binarydata"});
   source.big_endian = header.is_true({"binarydatabyteordermsb", "elementbyteordermsb"});
@@ -222,15 +241,14 @@ std::string modality(const MetaHeader& header) {
 
 ScanFile open_meta(const std::filesystem::path& file, const Opening& opening) {
   const MetaHeader header = read_header(file);
-  ScanFile scan{file, "MetaImage", {}, {}, {}};
-  scan.given_spacing = opening.spacing;
+  ScanFile scan = begin_scan(file, "MetaImage", opening);
   const std::size_t axes = axis_count(header);
   set_sizes(scan, header, axes, opening);
   place(scan, header, axes);
   warn_of_orientation(scan, header);
   scan.source.type = sample_type(header);
   set_scale(scan, header);
-  find_data(scan.source, header, opening.allow_outside);
+  find_data(scan, header, opening.allow_outside);
   scan.grid.modality = modality(header);
   return scan;
 }

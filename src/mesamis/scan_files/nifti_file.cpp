@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <system_error>
 
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
@@ -21,6 +22,7 @@ struct NiftiHeader {
   double vox_offset = 0, slope = 0, intercept = 0;
   std::array<double, 6> quatern{};  // b c d, then the offsets x y z
   std::array<double, 12> srow{};
+  bool analyze = false;  // 7.5: no magic, and no forms
 };
 
 /// Fields at byte positions, in the file's byte order.
@@ -84,8 +86,15 @@ NiftiHeader parse_version_2(const Fields& f) {
   return h;
 }
 
+/// What a header says that it is: "n+1" and "n+2" in one file with the samples, "ni1" and "ni2"
+/// beside them, anything else beside them Analyze.
+std::string magic_of(const std::vector<unsigned char>& header, bool first_version) {
+  return std::string(reinterpret_cast<const char*>(header.data()) + (first_version ? 344 : 4), 3);
+}
+
 /// Finds version and byte order by the header's own size, its first field.
-NiftiHeader read_header(const std::filesystem::path& file) {
+/// @param pair  whether the samples lie in a file beside it.
+NiftiHeader read_header(const std::filesystem::path& file, bool pair) {
   ByteSource bytes(file, Packing::kSniffed);
   std::vector<unsigned char> header(kSize2);
   header.resize(bytes.read(header.data(), header.size()));
@@ -95,19 +104,50 @@ NiftiHeader read_header(const std::filesystem::path& file) {
   for (const bool big_endian : {false, true}) {
     const Fields fields(header, big_endian);
     const auto declared = fields.at<std::int32_t>(0);
-    const std::size_t magic = declared == kSize1 ? 344 : 4;
-    if (declared != kSize1 && (declared != kSize2 || header.size() < kSize2)) continue;
-    const std::string found(reinterpret_cast<const char*>(header.data()) + magic, 3);
-    if (found != (declared == kSize1 ? "n+1" : "n+2")) {
-      refuse(file, say("expected the NIfTI magic n+1 or n+2, found ", in_quotes(found)));
+    const bool first = declared == kSize1;
+    if (!first && (declared != kSize2 || header.size() < kSize2)) continue;
+    const std::string found = magic_of(header, first), wanted = pair ? "ni" : "n+";
+    const bool analyze = pair && first && !found.starts_with("n");
+    if (!analyze && found != wanted + (first ? "1" : "2")) {
+      refuse(file, say("expected the NIfTI magic ", wanted, first ? "1" : "2", ", found ",
+                       in_quotes(found)));
     }
-    NiftiHeader h = declared == kSize1 ? parse_version_1(fields) : parse_version_2(fields);
+    NiftiHeader h = first ? parse_version_1(fields) : parse_version_2(fields);
     h.big_endian = big_endian;
+    h.analyze = analyze;
     h.size = static_cast<std::size_t>(declared);
-    h.vox_offset = h.vox_offset == 0 ? (declared == kSize1 ? 352 : 544) : h.vox_offset;
+    if (h.vox_offset == 0 && !pair) h.vox_offset = first ? 352 : 544;
     return h;
   }
   refuse(file, "expected a NIfTI header (first field 348 or 540), found neither");
+}
+
+/// Where header and samples lie.
+struct NiftiFiles {
+  std::filesystem::path header, samples;
+  bool pair() const { return header != samples; }
+};
+
+/// The name with another extension in place of .hdr, .img, .hdr.gz or .img.gz; gzip'd if that alone
+/// is there.
+std::filesystem::path beside(std::filesystem::path file, const char* extension) {
+  if (lower(file.extension().string()) == ".gz") file.replace_extension();
+  file.replace_extension(extension);
+  std::filesystem::path packed = file;
+  packed += ".gz";
+  std::error_code ignored;
+  return !std::filesystem::exists(file, ignored) && std::filesystem::exists(packed, ignored)
+             ? packed
+             : file;
+}
+
+NiftiFiles files_of(const std::filesystem::path& file) {
+  std::filesystem::path plain = file;
+  if (lower(plain.extension().string()) == ".gz") plain.replace_extension();
+  const std::string extension = lower(plain.extension().string());
+  if (extension == ".hdr") return {file, beside(file, ".img")};
+  if (extension == ".img") return {beside(file, ".hdr"), file};
+  return {file, file};
 }
 
 NumberType sample_type(const std::filesystem::path& file, std::int64_t code) {
@@ -208,6 +248,13 @@ double angle_between_deg(const Placement& a, const Placement& b) {
 /// The sform where its code is above 0 and it has axes, else the qform.
 Placement choose_placement(ScanFile& scan, const NiftiHeader& h) {
   constexpr double kSameDeg = 0.1;
+  if (h.analyze) {
+    scan.warnings.push_back(
+        "Analyze 7.5 states no orientation: axes taken as LAS; sides may be exchanged");
+    Placement placed = without_form(h);
+    placed.axes.direction[0] = {-1, 0, 0};
+    return placed;
+  }
   const bool has_sform = h.sform_code > 0, has_qform = h.qform_code > 0;
   if (!has_sform && !has_qform) {
     scan.warnings.push_back("no orientation (sform and qform codes are 0): axes taken as RAS");
@@ -246,7 +293,7 @@ void place(ScanFile& scan, const NiftiHeader& h) {
   p.axes.spacing = mm * p.axes.spacing;
   set_stated_axes(scan, p.axes);
   set_origin(scan, mm * to_lps(p.origin));
-  warn_of_spacing(scan, mm * stated_spacing(h));
+  if (!scan.sheared) warn_of_spacing(scan, mm * stated_spacing(h));
 }
 
 /// Native values; a slope of 0 says that there is none.
@@ -264,15 +311,16 @@ void set_scale(ScanFile& scan, const NiftiHeader& h) {
 }  // namespace
 
 ScanFile open_nifti(const std::filesystem::path& file, const Opening& opening) {
-  const NiftiHeader h = read_header(file);
-  ScanFile scan{file, "NIfTI", {}, {}, {}};
-  scan.given_spacing = opening.spacing;
+  const NiftiFiles files = files_of(file);
+  const NiftiHeader h = read_header(files.header, files.pair());
+  ScanFile scan = begin_scan(file, h.analyze ? "Analyze" : "NIfTI", opening);
   set_dimensions(scan, h, opening);
-  if (!(h.vox_offset >= static_cast<double>(kSize1)) || h.vox_offset > 1e15) {
+  const double least = files.pair() ? 0 : static_cast<double>(kSize1);
+  if (!(h.vox_offset >= least) || h.vox_offset > 1e15) {
     refuse(file, say("expected the samples behind the header, found vox_offset ", h.vox_offset));
   }
   place(scan, h);
-  scan.source.file = file;
+  scan.source.file = files.samples;
   scan.source.type = sample_type(file, h.datatype);
   scan.source.big_endian = h.big_endian;
   scan.source.packing = Packing::kSniffed;
@@ -283,7 +331,8 @@ ScanFile open_nifti(const std::filesystem::path& file, const Opening& opening) {
 
 std::vector<std::string> nifti_extensions(const std::filesystem::path& file, MemoryBudget& budget) {
   constexpr std::uint64_t kMostBytes = 1 << 24;
-  const NiftiHeader h = read_header(file);
+  if (files_of(file).pair()) return {};
+  const NiftiHeader h = read_header(file, false);
   ByteSource bytes(file, Packing::kSniffed);
   std::array<char, 8> begin{};  // first the flag of four bytes, then size and code of each
   bytes.skip(h.size);

@@ -15,7 +15,8 @@ namespace {
 struct NrrdHeader {
   std::filesystem::path file;
   HeaderFields fields, keys;
-  std::uint64_t size = 0;  // bytes up to the attached data
+  std::vector<std::string> listed;  // data files, behind "data file: LIST"
+  std::uint64_t size = 0;           // bytes up to the attached data
 
   bool has(const std::string& name) const { return fields.count(name) > 0; }
   const std::string& need(const std::string& name) const {
@@ -68,13 +69,17 @@ void parse_line(NrrdHeader& header, const std::string& line) {
 }
 
 NrrdHeader read_header(const std::filesystem::path& file) {
-  NrrdHeader header{file, {}, {}, 0};
+  NrrdHeader header{file, {}, {}, {}, 0};
   HeaderLines lines(file);
   std::string line;
   if (!lines.next(line) || !line.starts_with("NRRD000") || line.size() != 8) {
     refuse(file, say("expected the NRRD magic NRRD000x, found ", in_quotes(line)));
   }
-  while (lines.next(line) && !line.empty()) parse_line(header, line);
+  bool lists = false;
+  while (lines.next(line) && !line.empty()) {
+    lists ? header.listed.push_back(std::string(trimmed(line))) : parse_line(header, line);
+    lists = header.or_else("data file", "").starts_with("LIST");
+  }
   header.size = lines.position();
   return header;
 }
@@ -392,12 +397,26 @@ std::uint64_t offset_behind_lines(const std::filesystem::path& file, std::uint64
   return offset;
 }
 
-void find_data(SampleSource& source, const NrrdHeader& header, bool allow_outside) {
+/// The data files of a header that names several, one after the other.
+std::vector<std::filesystem::path> listed_files(const NrrdHeader& header, const std::string& name,
+                                                bool allow_outside) {
+  const std::vector<std::string> names =
+      name.starts_with("LIST") ? header.listed : numbered_names(header.file, name);
+  if (names.empty()) refuse(header.file, "expected a list of data files, found an empty one");
+  std::vector<std::filesystem::path> files;
+  for (const std::string& one : names) files.push_back(data_path(header.file, one, allow_outside));
+  return files;
+}
+
+void find_data(ScanFile& scan, const NrrdHeader& header, bool allow_outside) {
+  SampleSource& source = scan.source;
   const std::string name = header.or_else("data file", "");
   if (name == "LIST" || name.starts_with("LIST ") || name.find('%') != std::string::npos) {
-    refuse(header.file, "expected one data file, found a list of them");
+    scan.parts = listed_files(header, name, allow_outside);
   }
-  source.file = name.empty() ? header.file : data_path(header.file, name, allow_outside);
+  source.file = name.empty()          ? header.file
+                : !scan.parts.empty() ? scan.parts.front()
+                                      : data_path(header.file, name, allow_outside);
   source.offset = name.empty() ? header.size : 0;
   source.exact = !name.empty();
   const auto skip = [&header](const std::string& field) {
@@ -417,15 +436,14 @@ void find_data(SampleSource& source, const NrrdHeader& header, bool allow_outsid
 
 ScanFile open_nrrd(const std::filesystem::path& file, const Opening& opening) {
   NrrdHeader header = read_header(file);
-  ScanFile scan{file, "NRRD", {}, {}, {}};
-  scan.given_spacing = opening.spacing;
+  ScanFile scan = begin_scan(file, "NRRD", opening);
   const ValueAxis axis = require_axes(header);
   set_sizes(scan, header, axis, opening);
   place(scan, header, axis);
   warn_of_values(scan, header);
   scan.source.type = sample_type(header);
   set_encoding(scan.source, header);
-  find_data(scan.source, header, opening.allow_outside);
+  find_data(scan, header, opening.allow_outside);
   scan.keys = std::move(header.keys);
   return scan;
 }

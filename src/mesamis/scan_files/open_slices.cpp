@@ -25,6 +25,11 @@ using detail::say;
 using detail::ScanFile;
 
 OpenSlices open_plain(ScanFile scan) {
+  if (scan.sheared) {
+    refuse(scan.file,
+           "expected orthogonal axes, which can be read a slice at a time, found sheared ones; run "
+           "without --slabs");
+  }
   const std::uint64_t begin = detail::find_plain_samples(scan);
   return {scan, [scan, begin](const SliceRange& slices, MemoryBudget&, std::vector<float>& out) {
             detail::append_slices(scan, begin, slices, out);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "mesamis/base/error.h"
@@ -11,7 +12,9 @@
 #include "mesamis/files/given_spacing.h"
 #include "mesamis/files/in_one_line.h"
 #include "mesamis/files/refuse.h"
+#include "mesamis/scan_files/dicom_store.h"
 #include "mesamis/scan_files/formats.h"
+#include "mesamis/scan_files/sheared_grid.h"
 #include "mesamis/scan_files/sidecar.h"
 #include "mesamis/scan_files/slice_stack.h"
 
@@ -33,20 +36,56 @@ struct ArrayFormat {
   ScanFile (*open)(const fs::path&, const Opening&);
 };
 
-constexpr std::array<ArrayFormat, 7> kArrayFormats{{{".nii", detail::open_nifti},
-                                                    {".nii.gz", detail::open_nifti},
-                                                    {".nrrd", detail::open_nrrd},
-                                                    {".nhdr", detail::open_nrrd},
-                                                    {".mha", detail::open_meta},
-                                                    {".mhd", detail::open_meta},
-                                                    {".inv3", detail::open_inv3}}};
+constexpr std::array kArrayFormats{
+    ArrayFormat{".nii", detail::open_nifti}, ArrayFormat{".nii.gz", detail::open_nifti},
+    ArrayFormat{".hdr", detail::open_nifti}, ArrayFormat{".hdr.gz", detail::open_nifti},
+    ArrayFormat{".img", detail::open_nifti}, ArrayFormat{".img.gz", detail::open_nifti},
+    ArrayFormat{".nrrd", detail::open_nrrd}, ArrayFormat{".nhdr", detail::open_nrrd},
+    ArrayFormat{".mha", detail::open_meta},  ArrayFormat{".mhd", detail::open_meta},
+    ArrayFormat{".inv3", detail::open_inv3}, ArrayFormat{".mgh", detail::open_mgh},
+    ArrayFormat{".mgz", detail::open_mgh},   ArrayFormat{".isq", detail::open_isq},
+    ArrayFormat{".aim", detail::open_aim},   ArrayFormat{".vgi", detail::open_vgi},
+    ArrayFormat{".vol", detail::open_vgi},
+};
+
+/// The name in lower case, without the version that VMS puts behind it: "a.aim;1".
+std::string plain_name(const fs::path& file) {
+  const std::string name = detail::lower(file.filename().string());
+  const auto mark = name.find(';');
+  const bool version = mark != std::string::npos &&
+                       name.find_first_not_of("0123456789", mark + 1) == std::string::npos;
+  return version ? name.substr(0, mark) : name;
+}
+
+/// Some programs call DICOM files .img, and much else .vol.
+bool needs_header_beside(std::string_view extension) {
+  return extension == ".img" || extension == ".img.gz" || extension == ".vol";
+}
+
+bool has_header_beside(fs::path file) {
+  if (detail::lower(file.extension().string()) == ".gz") file.replace_extension();
+  const bool vol = detail::lower(file.extension().string()) == ".vol";
+  std::error_code ignored;
+  for (const char* extension : {vol ? ".vgi" : ".hdr", vol ? ".VGI" : ".hdr.gz"}) {
+    if (fs::is_regular_file(fs::path(file).replace_extension(extension), ignored)) return true;
+  }
+  return false;
+}
 
 const ArrayFormat* array_format_of(const fs::path& file) {
-  const std::string name = detail::lower(file.filename().string());
+  const std::string name = plain_name(file);
   for (const ArrayFormat& format : kArrayFormats) {
-    if (name.ends_with(format.extension)) return &format;
+    if (!name.ends_with(format.extension)) continue;
+    if (needs_header_beside(format.extension) && !has_header_beside(file)) continue;
+    return &format;
   }
   return nullptr;
+}
+
+/// Data files whose header is listed itself.
+bool is_data_of_header(const fs::path& file) {
+  const ArrayFormat* format = array_format_of(file);
+  return format != nullptr && needs_header_beside(format->extension);
 }
 
 /// A format of pictures.
@@ -62,8 +101,10 @@ OpenSlices open_one_slice(const fs::path& file, const Opening& opening) {
   return {detail::open_picture(file, opening), detail::read_pictures({file})};
 }
 
-constexpr std::array<PictureFormat, 4> kPictureFormats{
-    {{".tif", detail::open_tiff_header, detail::read_tiff, detail::open_tiff_slices},
+constexpr std::array<PictureFormat, 6> kPictureFormats{
+    {{".jpg", detail::open_jpeg, detail::read_jpeg, open_one_slice},
+     {".jpeg", detail::open_jpeg, detail::read_jpeg, open_one_slice},
+     {".tif", detail::open_tiff_header, detail::read_tiff, detail::open_tiff_slices},
      {".tiff", detail::open_tiff_header, detail::read_tiff, detail::open_tiff_slices},
      {".png", detail::open_png, detail::read_png, open_one_slice},
      {".bmp", detail::open_bmp, detail::read_bmp, open_one_slice}}};
@@ -89,7 +130,19 @@ struct Request {
   Opening opening() const { return detail::opening_of(options, budget); }
 };
 
+VolumeFile read_sheared(const Request& request, const ScanFile& scan) {
+  const auto plan = detail::plan_unsheared(scan.file, scan.grid, *scan.sheared);
+  detail::announce(plan.grid, request.options);
+  VolumeFile out{{plan.grid, {}}, scan.format, scan.warnings};
+  out.warnings.push_back(plan.note);
+  const std::vector<float> samples = detail::read_samples(scan, request.budget);
+  request.budget.claim(plan.grid.voxel_count(), sizeof(float), "samples between voxels");
+  out.volume.samples = detail::unsheared(plan, samples);
+  return out;
+}
+
 VolumeFile read_array(const Request& request, const ScanFile& scan) {
+  if (scan.sheared) return read_sheared(request, scan);
   detail::announce(scan.grid, request.options);
   VolumeFile out{scan.grid, scan.format, scan.warnings};
   out.volume.samples = detail::read_samples(scan, request.budget);
@@ -101,9 +154,34 @@ VolumeFile read_one_picture(const Request& request) {
   return detail::read_picture(request.path, request.opening());
 }
 
+/// Says what a directory without DICOM and slices holds instead.
+[[noreturn]] void refuse_directory(const fs::path& directory) {
+  constexpr std::size_t kMostListed = 8;
+  std::string names;
+  std::size_t volumes = 0;
+  const std::vector<fs::path> files = detail::files_in(directory);
+  for (const fs::path& file : files) {
+    if (!has_known_extension(file) || is_data_of_header(file)) continue;
+    if (++volumes > kMostListed) continue;
+    names += (names.empty() ? "" : ", ") + detail::shown(file.filename().string());
+  }
+  if (volumes > 0) {
+    refuse(directory, detail::say("expected DICOM images or slices, found ", volumes,
+                                  volumes == 1 ? " volume file" : " volume files",
+                                  ", whose path is needed: ", names,
+                                  volumes > kMostListed ? " and more" : ""));
+  }
+  refuse(directory,
+         detail::say("expected DICOM images, slices or volume files, found ",
+                     files.empty() ? "none"
+                                   : detail::say(files.size(), " other files, the first ",
+                                                 detail::shown(files[0].filename().string()))));
+}
+
 VolumeFile read_directory(const Request& request) {
   const auto& [path, options, budget] = request;
   const std::vector<fs::path> slices = detail::slices_without_dicom(path, budget);
+  if (slices.empty() && !detail::holds_dicom(path)) refuse_directory(path);
   return slices.empty() ? detail::read_dicom(path, options, budget)
                         : detail::read_slices(path, slices, options, budget);
 }
@@ -116,7 +194,9 @@ VolumeFile read_file(const Request& request) {
     return read_array(request, *scan);
   }
   if (detail::is_picture(path)) return read_one_picture(request);
-  if (detail::looks_like_dicom(path)) return detail::read_dicom(path, options, budget);
+  if (detail::is_zip(path) || detail::looks_like_dicom(path)) {
+    return detail::read_dicom(path, options, budget);
+  }
   refuse_unknown(path);
 }
 
@@ -136,7 +216,9 @@ VolumeInfo describe(const Request& request) {
     const ScanFile scan = open_header(request);
     info.format = scan.format;
     info.modality = scan.grid.modality;
-    detail::set_grid(info, scan.grid);
+    detail::set_grid(info, scan.sheared
+                               ? detail::plan_unsheared(scan.file, scan.grid, *scan.sheared).grid
+                               : static_cast<const VoxelGrid&>(scan.grid));
   } catch (const InputError& error) {
     info.problem = error.what();
   }
@@ -152,7 +234,8 @@ std::vector<VolumeInfo> list_directory(const Request& request) {
                      : std::vector{detail::describe_slices(path, slices, request.opening())};
   for (const fs::path& file : detail::files_in(path)) {
     const bool slice = std::find(slices.begin(), slices.end(), file) != slices.end();
-    if (has_known_extension(file) && !slice) all.push_back(describe({file, options, budget}));
+    if (has_known_extension(file) && !slice && !is_data_of_header(file))
+      all.push_back(describe({file, options, budget}));
   }
   if (all.empty()) refuse(path, "expected DICOM series, slices or volume files, found none");
   return all;
@@ -162,7 +245,9 @@ std::vector<VolumeInfo> list(const Request& request) {
   const auto& [path, options, budget] = request;
   if (fs::is_directory(path) && !options.raw) return list_directory(request);
   if (options.raw || has_known_extension(path)) return {describe(request)};
-  if (detail::looks_like_dicom(path)) return detail::list_dicom(path, options, budget);
+  if (detail::is_zip(path) || detail::looks_like_dicom(path)) {
+    return detail::list_dicom(path, options, budget);
+  }
   refuse_unknown(path);
 }
 
@@ -184,11 +269,8 @@ std::optional<ScanFile> detail::open_array(const fs::path& file, const Opening& 
 }
 
 detail::Opening detail::opening_of(const ReadOptions& options, MemoryBudget& budget) {
-  return {budget,
-          options.limits.allow_outside,
-          Values::kOne,
-          options.spacing,
-          {options.volume, options.channel}};
+  return {budget,           options.limits.allow_outside,     Values::kOne, options.spacing,
+          options.resample, {options.volume, options.channel}};
 }
 
 void detail::announce(VoxelGrid grid, const ReadOptions& options) {
@@ -198,10 +280,10 @@ void detail::announce(VoxelGrid grid, const ReadOptions& options) {
 }
 
 void detail::refuse_unknown(const fs::path& file) {
-  refuse(
-      file,
-      "expected .nii .nii.gz .nrrd .nhdr .mha .mhd .tif .png .bmp .inv3, DICOM, or --raw with the "
-      "layout of a raw file, found none of them");
+  refuse(file,
+         "expected .nii .nii.gz .hdr .mgz .nrrd .nhdr .mha .mhd .tif .png .bmp .jpg .inv3 .isq "
+         ".aim .vgi, "
+         "DICOM, or --raw with the layout of a raw file, found none of them");
 }
 
 void detail::require_options(const fs::path& path, const ReadOptions& options) {

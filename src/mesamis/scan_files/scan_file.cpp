@@ -220,7 +220,45 @@ std::uint64_t bytes_before_last_samples(const ScanFile& scan) {
   return total - needed;
 }
 
+/// The scan of one file of a list: some slices, or one of several volumes.
+ScanFile scan_of_part(const ScanFile& scan, const std::filesystem::path& file) {
+  const auto count = static_cast<Index>(std::min<std::size_t>(scan.parts.size(), kMostValues));
+  ScanFile part = scan;
+  part.parts.clear();
+  part.source.file = part.file = file;
+  part.outer = 1;
+  if (part.picked) part.picked->outer = 0;
+  if (scan.outer == 1 && scan.grid.size[2] % count == 0) {
+    part.grid.size[2] /= count;
+  } else if (scan.outer != count) {
+    refuse(scan.file, say("expected files with equal numbers of slices, or one per volume, found ",
+                          scan.parts.size(), " files for ", size_text(scan), " samples"));
+  }
+  return part;
+}
+
+std::vector<float> read_parts(const ScanFile& scan, MemoryBudget& budget) {
+  const bool volumes = scan.outer > 1;
+  std::vector<float> samples;
+  reserve_within(budget, samples, kept_count(scan), "samples");
+  for (std::size_t n = 0; n < scan.parts.size(); ++n) {
+    if (volumes && scan.picked && n != static_cast<std::size_t>(scan.picked->outer)) continue;
+    const ScopedFile scope(budget, scan.parts[n]);
+    const std::vector<float> part = read_samples(scan_of_part(scan, scan.parts[n]), budget);
+    samples.insert(samples.end(), part.begin(), part.end());
+  }
+  return samples;
+}
+
 }  // namespace
+
+ScanFile begin_scan(const std::filesystem::path& file, const std::string& format,
+                    const Opening& opening) {
+  ScanFile scan{file, format, {}, {}, {}};
+  scan.given_spacing = opening.spacing;
+  scan.resample = opening.resample;
+  return scan;
+}
 
 void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts) {
   std::int64_t left = kMostSamples;
@@ -275,9 +313,14 @@ void set_stated_axes(ScanFile& scan, const StatedAxes& stated) {
   try {
     axes = grid_axes(usable.direction);
   } catch (const InputError& error) {
-    refuse(scan.file, error.what());
+    if (!scan.resample)
+      refuse(scan.file, say(error.what(), " (--resample interpolates such grids)"));
+    scan.sheared.emplace();
+    for (std::size_t a = 0; a < 3; ++a) {
+      (*scan.sheared)[a] = usable.spacing[static_cast<int>(a)] * unit_or_zero(usable.direction[a]);
+    }
   }
-  if (axes.skew > kRoundingSkew) {
+  if (!scan.sheared && axes.skew > kRoundingSkew) {
     scan.warnings.push_back(
         say("the voxel axes are not orthogonal (cosine ", axes.skew, "): made orthonormal"));
   }
@@ -306,6 +349,7 @@ void append_samples(std::span<const unsigned char> bytes, const SampleSource& so
 }
 
 std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget) {
+  if (!scan.parts.empty()) return read_parts(scan, budget);
   const SampleSource& source = scan.source;
   const std::uint64_t skip = source.at_end ? bytes_before_last_samples(scan) : source.skip;
   ByteSource bytes(source.file, source.packing, source.offset);
@@ -325,6 +369,7 @@ std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget) {
 std::uint64_t find_plain_samples(const ScanFile& scan) {
   const SampleSource& source = scan.source;
   if (source.text) refuse_unplain(scan, "numbers in text");
+  if (!scan.parts.empty()) refuse_unplain(scan, "a list of files");
   const ByteSource bytes(source.file, source.packing, source.offset);
   if (bytes.is_packed()) {
     refuse_unplain(scan, source.packing == Packing::kSniffed ? "gzip" : "gzip or zlib");

@@ -53,7 +53,12 @@ struct ScanFile {
   Index outer = 1;                            ///< volumes, one after another
   std::optional<PickedValue> picked{};        ///< none: all values are read
   std::map<std::string, std::string> keys{};  ///< NRRD: "key:=value"
-  std::optional<Vec3> given_spacing{};  ///< mm: for what the file lacks, see set_stated_axes()
+  std::optional<Vec3> given_spacing{};        ///< mm: for what the file lacks, see begin_scan()
+  bool resample = false;                      ///< sheared axes are taken, see set_stated_axes()
+  /// Steps along the axes of a grid that is to be resampled, LPS, mm.
+  std::optional<std::array<Vec3, 3>> sheared{};
+  /// The samples lie in these files in turn, with equal numbers of slices, or one volume each.
+  std::vector<std::filesystem::path> parts{};
 };
 
 /// How many values per voxel a reader accepts.
@@ -65,6 +70,7 @@ struct Opening {
   bool allow_outside = false;  ///< see ReadLimits
   Values values = Values::kOne;
   std::optional<Vec3> spacing{};  ///< mm, given by the user
+  bool resample = false;          ///< see ReadOptions
   ValueChoice choice{};           ///< of Values::kOne
 };
 
@@ -76,6 +82,11 @@ struct StatedAxes {
   /// Of steps from voxel to voxel along each axis, LPS, mm.
   static StatedAxes of_steps(const std::array<Vec3, 3>& steps) noexcept;
 };
+
+/// A scan whose header is about to be read.
+/// @param format  as VolumeFile::format.
+ScanFile begin_scan(const std::filesystem::path& file, const std::string& format,
+                    const Opening& opening);
 
 /// Sets the grid's size. @throws InputError  if a count is below 1 or the product out of bounds.
 void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts);
@@ -97,6 +108,8 @@ void set_values(ScanFile& scan, const ValueAxes& axes, ValueOrder order, const O
 /// Axes whose cosines are below 1e-5 are made orthonormal; up to kSkewTolerance with a warning.
 /// A spacing that is not positive and finite, and a missing direction, are replaced by
 /// scan.given_spacing and the direction across the others, with a warning, if a spacing is given.
+/// Axes of larger cosines are kept in scan.sheared if scan.resample; the grid then has no
+/// direction.
 /// @throws InputError  for larger cosines, and a spacing or direction that cannot be used.
 void set_stated_axes(ScanFile& scan, const StatedAxes& axes);
 /// The same of one step along each axis, LPS, mm.

@@ -11,6 +11,7 @@
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
+#include "mesamis/scan_files/skyscan_log.h"
 
 namespace mesamis::detail {
 namespace {
@@ -102,6 +103,14 @@ ScanFile open_headers(const fs::path& directory, const std::vector<fs::path>& fi
   ScanFile scan = first;
   scan.file = directory;
   scan.format += " slices";
+  if (const auto log = opening.spacing ? std::nullopt : find_skyscan_log(directory)) {
+    scan.grid.spacing = log->spacing;
+    std::erase_if(scan.warnings, [](const std::string& warning) {
+      return warning.find(": 1 mm taken") != std::string::npos;
+    });
+    scan.warnings.push_back(
+        say("the spacing is that of SkyScan's log ", shown(log->file.filename().string())));
+  }
   set_size(scan, {first.grid.size[0], first.grid.size[1], std::ssize(files)});
   warn_of_gaps(files, scan.warnings);
   return scan;
@@ -109,11 +118,6 @@ ScanFile open_headers(const fs::path& directory, const std::vector<fs::path>& fi
 
 /// Other systems leave files such as ._s1.png beside those that they copy.
 bool is_hidden(const fs::path& file) { return file.filename().native().starts_with('.'); }
-
-bool holds_dicom(const fs::path& directory) {
-  const std::vector<fs::path> files = files_below(directory);
-  return std::any_of(files.begin(), files.end(), looks_like_dicom);
-}
 
 }  // namespace
 
@@ -125,6 +129,7 @@ bool natural_less(const std::string& a, const std::string& b) {
 std::vector<fs::path> slices_in(const fs::path& directory, MemoryBudget& budget) {
   std::vector<fs::path> files = files_in(directory);
   std::erase_if(files, [](const fs::path& file) { return !is_picture(file) || is_hidden(file); });
+  if (find_skyscan_log(directory)) std::erase_if(files, is_scout);
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().string(), b.filename().string());
   });
@@ -135,6 +140,11 @@ std::vector<fs::path> slices_in(const fs::path& directory, MemoryBudget& budget)
     return files;  // the reader says what is wrong with it
   }
   return files;
+}
+
+bool holds_dicom(const fs::path& directory) {
+  const std::vector<fs::path> files = files_below(directory);
+  return std::any_of(files.begin(), files.end(), looks_like_dicom);
 }
 
 std::vector<fs::path> slices_without_dicom(const fs::path& directory, MemoryBudget& budget) {

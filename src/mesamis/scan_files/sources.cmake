@@ -39,8 +39,15 @@ set(ROOM_SOURCES
   tiff_file.cpp
   write_volume.cpp
   NEXT dicom_phases.cpp
+  dicom_store.cpp
+  jpeg_file.cpp
+  mgh_file.cpp
+  sheared_grid.cpp
   sidecar.cpp
-  NEXT tiff_layout.cpp
+  skyscan_log.cpp
+  NEXT scanco_file.cpp
+  tiff_layout.cpp
+  vgi_file.cpp
   NEXT nifti_file.cpp
   NEXT nrrd_file.cpp
   NEXT dicom_jpeg8.cpp

@@ -93,7 +93,8 @@ std::optional<NumberType> sample_type(const Page& page) {
 
 NumberType require_grey(const std::filesystem::path& file, const Page& page) {
   const bool grey = page.channels == 1 && (page.photometric == PHOTOMETRIC_MINISBLACK ||
-                                           page.photometric == PHOTOMETRIC_MINISWHITE);
+                                           page.photometric == PHOTOMETRIC_MINISWHITE ||
+                                           page.photometric == PHOTOMETRIC_PALETTE);
   const auto type = sample_type(page);
   if (!grey || !type) {
     refuse(file, say("expected grey pages of 8, 16, 32 or 64 bits, found ", page.channels,
@@ -414,6 +415,9 @@ TiffPages open_pages(const std::filesystem::path& file, TIFF* tiff, const Openin
   set_size(scan, {page.width, page.height, layout.slices});
   place(scan, tiff, layout);
   warn_of_page_place(tiff, scan.warnings);
+  if (page.photometric == PHOTOMETRIC_PALETTE) {
+    scan.warnings.push_back("the pages have a table of colours: the values are its indices");
+  }
   if (page.photometric == PHOTOMETRIC_MINISWHITE) {
     scan.warnings.push_back("small values are meant to be shown white; they are kept as stored");
   }
