@@ -253,5 +253,20 @@ TEST(Nrrd, ReadsListsOfDataFiles) {
   EXPECT_THAT(refused("../s%d.raw 8 12 1\n"), HasSubstr("--allow-outside"));
 }
 
+/// As ITK writes images of four axes.
+TEST(Nrrd, AFourthAxisMayHaveADirectionOfItsOwn) {
+  const TempFolder folder;
+  write_bytes(folder / "a.nrrd",
+              "NRRD0004\ntype: short\ndimension: 4\nspace dimension: 4\nsizes: 4 3 1 5\n"
+              "space directions: (0.5,0,0,0) (0,1.25,0,0) (0,0,2,0) (0,0,0,1)\n"
+              "kinds: domain domain domain domain\nspace origin: (1,2,3,0)\nencoding: raw\n"
+              "endian: little\n\n" +
+                  bytes_of_all(kRamp));
+  const Volume volume = read_volume(folder / "a.nrrd", {.volume = 2}).volume;
+  expect_near(volume.spacing, {0.5, 1.25, 2});
+  expect_near(volume.origin, {1, 2, 3});
+  EXPECT_EQ(volume.samples[0], -40 + 24);
+}
+
 }  // namespace
 }  // namespace mesamis

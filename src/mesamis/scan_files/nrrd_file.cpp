@@ -203,6 +203,11 @@ Vec3 signs_to_lps(const NrrdHeader& header, std::vector<std::string>& warnings) 
   refuse(header.file, say("expected the space LPS, RAS or LAS, found ", in_quotes(space)));
 }
 
+/// How many numbers a vector has: a fourth one, of time, does not count.
+std::size_t space_dimension(const NrrdHeader& header) {
+  return trimmed(header.or_else("space dimension", "3")) == "4" ? 4 : 3;
+}
+
 /// "(a,b,c)" as a vector of the file's frame.
 Vec3 parse_vector(const NrrdHeader& header, const std::string& field, const std::string& text) {
   std::string numbers = text;
@@ -212,7 +217,7 @@ Vec3 parse_vector(const NrrdHeader& header, const std::string& field, const std:
   }
   std::replace_if(
       numbers.begin(), numbers.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
-  const auto v = numbers_of(header.file, field, numbers, 3);
+  const auto v = numbers_of(header.file, field, numbers, space_dimension(header));
   return {v[0], v[1], v[2]};
 }
 
@@ -285,9 +290,10 @@ struct Placement {
 /// Axes with directions in space.
 Placement place_in_space(ScanFile& scan, const NrrdHeader& header, const ValueAxis& values) {
   std::string_view text = trimmed(header.need("space directions"));
-  // The axis of the values has no direction.
+  // The axis of the values has no direction, or one of time.
   if (values.axis == 0 && text.starts_with("none")) text.remove_prefix(4);
   if (values.axis == 3 && values.is_there() && text.ends_with("none")) text.remove_suffix(4);
+  const std::size_t count = space_dimension(header) == 4 && values.axis == 3 ? 4 : 3;
   const Vec3 mm = units_in_mm(scan, header, "space units", {});
   if (!header.has("space units") && header.has("units")) {
     const Vec3 other = units_in_mm(scan, header, "units", values);
@@ -298,7 +304,8 @@ Placement place_in_space(ScanFile& scan, const NrrdHeader& header, const ValueAx
   }
   const auto scaled = [&mm](const Vec3& v) { return Vec3{mm.x * v.x, mm.y * v.y, mm.z * v.z}; };
   const auto v = stated_or(
-      scan, [&] { return vectors_of(header, "space directions", text, 3); }, std::vector<Vec3>(3));
+      scan, [&] { return vectors_of(header, "space directions", text, count); },
+      std::vector<Vec3>(3));
   Placement placed{StatedAxes::of_steps({scaled(v[0]), scaled(v[1]), scaled(v[2])}), {}};
   if (header.has("space origin")) {
     placed.origin = scaled(vectors_of(header, "space origin", header.need("space origin"), 1)[0]);

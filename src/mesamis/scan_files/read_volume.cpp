@@ -121,6 +121,12 @@ bool has_known_extension(const fs::path& file) {
   return array_format_of(file) || detail::is_picture(file);
 }
 
+/// Whether a file of a directory is listed: not what a header lists, nor what is hidden.
+bool is_listed(const fs::path& file) {
+  return has_known_extension(file) && !is_data_of_header(file) &&
+         !file.filename().native().starts_with('.');
+}
+
 /// A path, and what it is read with.
 struct Request {
   const fs::path& path;
@@ -161,7 +167,7 @@ VolumeFile read_one_picture(const Request& request) {
   std::size_t volumes = 0;
   const std::vector<fs::path> files = detail::files_in(directory);
   for (const fs::path& file : files) {
-    if (!has_known_extension(file) || is_data_of_header(file)) continue;
+    if (!is_listed(file)) continue;
     if (++volumes > kMostListed) continue;
     names += (names.empty() ? "" : ", ") + detail::shown(file.filename().string());
   }
@@ -234,8 +240,7 @@ std::vector<VolumeInfo> list_directory(const Request& request) {
                      : std::vector{detail::describe_slices(path, slices, request.opening())};
   for (const fs::path& file : detail::files_in(path)) {
     const bool slice = std::find(slices.begin(), slices.end(), file) != slices.end();
-    if (has_known_extension(file) && !slice && !is_data_of_header(file))
-      all.push_back(describe({file, options, budget}));
+    if (is_listed(file) && !slice) all.push_back(describe({file, options, budget}));
   }
   if (all.empty()) refuse(path, "expected DICOM series, slices or volume files, found none");
   return all;
