@@ -63,7 +63,7 @@ const std::map<std::string, std::set<std::string>> kOnlyIn{
     {"lib3mf", {"shape_files"}}, {"gdcm", {"scan_files"}},
     {"tiff", {"scan_files"}},    {"hdf5", {"chunk_files"}},
     {"blosc", {"chunk_files"}},  {"zstd", {"chunk_files"}},
-    {"X11", {"picture"}},        {"nlohmann", {"record", "study", "page", "files"}},
+    {"X11", {"picture"}},        {"nlohmann", {"record", "study", "page", "files", "chunk_files"}},
     {"oneapi/tbb", {"base"}},    {"tbb", {"base"}},
     {"OpenMesh", {"decimate"}},  {"expat", {"files"}},
     {"openssl", {"files"}},      {"mpi.h", {"parallel"}},

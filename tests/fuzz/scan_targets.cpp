@@ -186,8 +186,8 @@ void run_zarr(std::string_view bytes) {
 void run_text_beside(std::string_view bytes) {
   const fs::path folder = input_folder().path() / "beside";
   fs::create_directories(folder);
-  for (const char* name : {"a_1.png", "a_2.png", "a_spr.png"}) {
-    input_folder().write(std::string("beside/") + name, png_bytes(2, 2, "abcd"));
+  for (const char* name : {"beside/a_1.png", "beside/a_2.png", "beside/a_spr.png"}) {
+    input_folder().write(name, png_bytes(2, 2, "abcd"));
   }
   input_folder().write("beside/a.log", bytes);
   input_folder().write("beside/b.json", bytes);
