@@ -49,8 +49,8 @@ bool is_hdf5(const std::filesystem::path& path) noexcept;
 
 /// Opens an array of a Zarr store in a local directory.
 ///
-/// Version 2, and version 3, also with shards. Numbers: whole ones of 8 to 64 bits, floating point of
-/// 32 or 64, either byte order. Chunks in any order of axes, packed by zlib, gzip, Blosc or
+/// Version 2, and version 3, also with shards. Numbers: whole ones of 8 to 64 bits, floating point
+/// of 32 or 64, either byte order. Chunks in any order of axes, packed by zlib, gzip, Blosc or
 /// Zstandard, shuffled, with CRC-32C. A chunk that is missing has the fill value (0 if there is
 /// none). Groups with OME-Zarr multiscales (0.4, 0.5) give spacing and origin, in the units of
 /// their axes; mm are taken where an axis has no unit. Other arrays get 1 mm. Warnings say so.

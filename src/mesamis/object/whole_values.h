@@ -16,8 +16,8 @@ struct FewValues {
 };
 
 /// Finds out whether an image is likely a label map: all values are whole and none is negative, at
-/// most 1000 of them differ, and of the neighbours along i that are not both the most frequent value half are equal.
-/// A single value is none.
+/// most 1000 of them differ, and of the neighbours along i that are not both the most frequent
+/// value half are equal. A single value is none.
 /// @param volume  finite samples.
 /// @return the values; nothing for any other image.
 /// @throws nothing
