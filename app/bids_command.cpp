@@ -26,6 +26,7 @@
 #include "outputs.h"
 #include "process.h"
 #include "run_action.h"
+#include "scan.h"
 #include "segment_run.h"
 
 namespace mesamis {
@@ -55,6 +56,8 @@ nlohmann::ordered_json asked_of(const BidsArguments& a) {
   return {{"settings", to_json(settings_of(a.segment.settings))},
           {"tissue", a.segment.scan.places.tissue},
           {"keep_surroundings", a.segment.scan.places.keep_surroundings},
+          {"padding", a.segment.scan.places.padding},
+          {"modality", a.segment.scan.read.modality},
           {"time_limit", a.segment.time_limit.value_or(0)},
           {"formats", a.formats},
           {"tetrahedra", a.tetrahedra},
@@ -253,6 +256,8 @@ void add_made_options(CLI::App& c, BidsArguments& a) {
   c.add_option("--tissue", places.tissue, "What is meant, in native units, as of segment");
   c.add_flag("--keep-surroundings", places.keep_surroundings,
              "Leave table and head rest, which go where a patient is found in CT");
+  add_padding_option(c, places);
+  add_modality_option(c, a.segment.scan.read);
   add_frame_option(c, a.segment.scan.frame);
   c.add_option("--time-limit", a.segment.time_limit,
                "Seconds per image after which no further mesh is begun")

@@ -24,6 +24,14 @@ std::string tissue_names() {
 
 }  // namespace
 
+void add_padding_option(CLI::App& command, PlaceArguments& a) {
+  command
+      .add_option("--padding", a.padding,
+                  "Voxels that the scanner did not measure, which are filled: auto (default), "
+                  "found by their signs; none; or all of a value, native units")
+      ->group(kGroup);
+}
+
 void add_place_options(CLI::App& command, PlaceArguments& a) {
   command.add_option("--tissue", a.tissue, "What is meant, in native units: " + tissue_names())
       ->group(kGroup);
@@ -51,6 +59,7 @@ void add_place_options(CLI::App& command, PlaceArguments& a) {
       .add_flag("--keep-surroundings", a.keep_surroundings,
                 "Leave table and head rest, which go where a patient is found in CT")
       ->group(kGroup);
+  add_padding_option(command, a);
 }
 
 void require_places(const PlaceArguments& places, const LabelArguments& labels,
@@ -63,6 +72,7 @@ void require_places(const PlaceArguments& places, const LabelArguments& labels,
     parsed("--box", [&] { return parse_box(places.box); });
     if (!(settings.crop == CropRange{})) refuse_pair("--box", "--crop");
   }
+  if (!places.padding.empty()) parsed("--padding", [&] { return parse_padding(places.padding); });
   if (places.remove == kBody && places.keep_surroundings) {
     refuse_pair("--remove body", "--keep-surroundings");
   }
@@ -86,6 +96,7 @@ ReadRequest read_request(const RequestArguments& arguments, const Settings& sett
   if (!places.tissue.empty()) request.tissue = parse_tissue(places.tissue);
   for (const std::string& seed : places.seeds) request.seeds.push_back(parse_point(seed, frame));
   if (!places.mask.empty()) request.mask = read_marks(places.mask, how, read.warnings);
+  if (!places.padding.empty()) request.padding = parse_padding(places.padding);
   request.margin = labels.margin.value_or(request.margin);
   const bool body = places.remove == kBody;
   if (!places.remove.empty() && !body) {

@@ -24,13 +24,19 @@ struct PlaceArguments {
   std::string remove;              ///< --remove, a file or "body"; may be empty
   std::string tissue;              ///< --tissue, may be empty
   bool keep_surroundings = false;  ///< --keep-surroundings
+  std::string padding;             ///< --padding, may be empty
   ReadLimits limits{};             ///< of the label maps
 
   /// Whether they say which object is meant, as labels do.
   bool choose() const { return !mask.empty() || !seeds.empty() || !tissue.empty(); }
   /// Whether they say anything about a scan.
-  bool given() const { return choose() || !box.empty() || !remove.empty() || keep_surroundings; }
+  bool given() const {
+    return choose() || !box.empty() || !remove.empty() || keep_surroundings || !padding.empty();
+  }
 };
+
+/// Adds --padding alone.
+void add_padding_option(CLI::App& command, PlaceArguments& arguments);
 
 /// Adds the options. `arguments` must outlive the parsing.
 void add_place_options(CLI::App& command, PlaceArguments& arguments);

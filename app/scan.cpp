@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scan.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "arguments.h"
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/chunk_files/chunked_scan.h"
+#include "mesamis/image/not_numbers.h"
 
 namespace mesamis {
 namespace {
@@ -16,14 +20,16 @@ namespace {
 /// A scan in chunks, as scans in other files are told of.
 class ChunkSlices : public FileSlices {
  public:
-  ChunkSlices(std::unique_ptr<ChunkedScan> scan, std::vector<ReadFile> files)
+  ChunkSlices(std::unique_ptr<ChunkedScan> scan, std::vector<ReadFile> files,
+              const std::string& modality)
       : scan_(std::move(scan)) {
     static_cast<VoxelGrid&>(head_.volume) = scan_->grid();
+    head_.volume.modality = modality;
     head_.format = scan_->format();
     head_.warnings = scan_->warnings();
     head_.files = std::move(files);
   }
-  const VoxelGrid& grid() const override { return scan_->grid(); }
+  const VoxelGrid& grid() const override { return head_.volume; }
   const VolumeFile& head() const override { return head_; }
   std::vector<float> read(Index first, Index count) const override {
     return scan_->read(first, count);
@@ -39,10 +45,14 @@ std::unique_ptr<FileSlices> open_chunks(const std::filesystem::path& path,
                                         const ReadOptions& options) {
   if (options.raw || !(is_zarr(path) || is_hdf5(path))) return nullptr;
   const ReadRecord record;
-  const ChunkOptions chunks{.limits = options.limits, .spacing = options.spacing};
+  const ChunkOptions chunks{.limits = options.limits,
+                            .spacing = options.spacing,
+                            .volume = options.volume,
+                            .channel = options.channel};
   auto scan = is_zarr(path) ? open_zarr(path, chunks) : open_hdf5(path, chunks);
-  if (options.on_grid) options.on_grid(scan->grid());
-  return std::make_unique<ChunkSlices>(std::move(scan), record.files());
+  auto slices = std::make_unique<ChunkSlices>(std::move(scan), record.files(), options.modality);
+  if (options.on_grid) options.on_grid(slices->grid());
+  return slices;
 }
 
 }  // namespace
@@ -90,6 +100,13 @@ std::vector<VolumeInfo> list_any_volumes(const std::filesystem::path& path,
   return {info};
 }
 
+void add_modality_option(CLI::App& command, ReadOptions& options) {
+  command
+      .add_option("--modality", options.modality,
+                  "What the scan is, where its file does not say or says it wrongly: CT, MR, other")
+      ->check(CLI::IsMember({"CT", "MR", "other"}, CLI::ignore_case));
+}
+
 void add_read_options(CLI::App& command, ReadOptions& options) {
   command.add_option("--series", options.series, "DICOM series UID");
   command.add_option_function<std::string>(
@@ -108,14 +125,30 @@ void add_read_options(CLI::App& command, ReadOptions& options) {
         }
         options.spacing = Vec3{mm[0], mm[1], mm[2]};
       },
-      "X,Y,Z: distance of voxels, mm, for raw files, slices and whatever does not state it");
-  command.add_flag("--resample", options.resample,
-                   "Interpolate DICOM slices of a tilted gantry or at uneven distances onto a "
-                   "regular grid, instead of refusing them");
+      "X,Y,Z: distance of voxels, mm, for raw files, slices and whatever does not state it or "
+      "states it wrongly");
+  command.add_flag(
+      "--resample", options.resample,
+      "Interpolate DICOM slices of a tilted gantry or at uneven distances, and sheared "
+      "grids of NIfTI, NRRD and MetaImage, onto a regular grid, instead of refusing "
+      "them");
+  const CLI::Range whole(0, std::numeric_limits<Index>::max());
+  command
+      .add_option("--volume", options.volume,
+                  "N, from 0: which volume of a 4-D file, time of a hyperstack or phase of a DICOM "
+                  "series; info lists them")
+      ->check(whole);
+  command.add_option("--channel", options.channel, "N, from 0: which of several values per voxel")
+      ->check(whole);
+  add_modality_option(command, options);
 }
 
 VolumeFile read_scan(const std::filesystem::path& path, const ReadOptions& options) {
   VolumeFile file = read_any_volume(path, options);
+  if (const NotNumbers nan = fill_not_numbers(file.volume.samples); nan.voxels > 0) {
+    file.warnings.push_back(fmt::format(
+        "{} voxels are no numbers (NaN): they count as background, {}", nan.voxels, nan.filled));
+  }
   for (const std::string& warning : file.warnings) log_warning(warning);
   try {
     require_usable(file.volume);

@@ -12,9 +12,11 @@ class App;
 
 namespace mesamis {
 
-/// Adds the options of every command that reads a scan: --series, --raw, --spacing,
-/// --resample. `options` must
-/// outlive the parsing.
+/// Adds --modality alone. `options` must outlive the parsing.
+void add_modality_option(CLI::App& command, ReadOptions& options);
+
+/// Adds the options of every command that reads a scan: --series, --raw, --spacing, --resample,
+/// --volume, --channel, --modality. `options` must outlive the parsing.
 void add_read_options(CLI::App& command, ReadOptions& options);
 
 /// Reads a volume as read_volume() does, and scans in chunks too: Zarr and HDF5, whole.

@@ -257,7 +257,7 @@ void require_slabs(const SegmentRun& run, const Settings& settings) {
                                    option);
   };
   if (run.scan.labels.given()) refuse("labels");
-  if (run.scan.places.given()) refuse("--tissue, --seed, --box, --mask or --remove");
+  if (run.scan.places.given()) refuse("--tissue, --seed, --box, --mask, --remove or --padding");
   if (!run.band_meshes.empty()) refuse("--band-mesh");
   require_room_for_pieces(run);
   if (run.mesh.region == MeshRegion::kObject &&

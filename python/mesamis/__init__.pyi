@@ -221,6 +221,9 @@ def segment(
     settings_file: _Path | None = ...,
     series: str | None = ...,
     resample: bool = ...,
+    volume_number: int | None = ...,
+    channel: int | None = ...,
+    padding: Literal["auto", "none"] | float | None = ...,
     progress: _Progress | None = ...,
     threads: int = ...,
     memory: float = ...,
@@ -273,6 +276,9 @@ def read_volume(
     series: str | None = ...,
     spacing: Sequence[float] | None = ...,
     resample: bool = ...,
+    volume_number: int | None = ...,
+    channel: int | None = ...,
+    modality: Literal["CT", "MR", "other"] | None = ...,
     memory: float = ...,
 ) -> Volume: ...
 def write_volume(path: _Path, volume: Volume, *, gzip: bool = ...) -> None: ...

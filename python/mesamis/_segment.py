@@ -57,20 +57,23 @@ def segment(
     volume=None, *, affine=None, spacing=None, origin=None, direction=None, order=None, modality=None,
     labels=None, label=None, label_names=None, margin=None, mesh=False, tissue=None, mask=None, seeds=None,
     box=None, remove=None, keep_surroundings=False, frame="lps", preset="default", settings_file=None,
-    series=None, resample=False, progress=None, threads=0, memory=0, time_limit=None, **settings,
+    series=None, resample=False, volume_number=None, channel=None, padding=None, progress=None, threads=0, memory=0, time_limit=None, **settings,
 ):
     marks_scan, ours = None, False
-    place = {"origin": origin, "direction": direction, "order": order, "modality": modality}
-    of_paths = {"series": series or None, "resample": resample or None}
+    place = {"origin": origin, "direction": direction, "order": order}
+    numbers = {"volume_number": volume_number, "channel": channel}
+    of_paths = {"series": series or None, "resample": resample or None, **numbers}
     if is_path(volume):
         refuse("a path", {"affine": affine, **place})
-        marks_scan = read_scan(volume, series, spacing, resample, memory)
+        marks_scan = read_scan(volume, series=series, spacing=spacing, resample=resample, modality=modality,
+                               memory=memory, **numbers)
         axes, ours = "ijk", labels is None and mask is None and remove is None
     elif volume is not None:
         refuse("an array or an image", of_paths)
         marks_scan, axes = scan_of(volume, affine, spacing, origin, direction, order, modality)
     else:
-        refuse("labels alone", {"affine": affine, "spacing": spacing, **place, **of_paths})
+        refuse("labels alone", {"affine": affine, "spacing": spacing, **place, "modality": modality,
+                                **of_paths})
         axes = "ijk"
     arguments = {
         "settings": to_json(settings),
@@ -88,6 +91,7 @@ def segment(
         "margin": margin,
         "mesh": bool(mesh),
         "keep_surroundings": bool(keep_surroundings),
+        "padding": None if padding is None else str(padding),
         "memory": float(memory),
         "time_limit": time_limit,
     }
@@ -115,7 +119,12 @@ spacing, origin, direction
 order
     "ijk" or "zyx": the order of the array's axes, where it is not the one above.
 modality
-    "CT", "MR": what an array is; CT is also recognised by its values.
+    "CT", "MR": what an array is; CT is also recognised by its values. Of a path also "other"; it is
+    taken instead of the file's.
+series, resample, volume_number, channel
+    Of a path, as `read_volume` has them.
+padding
+    What the scanner did not measure, which is filled: "auto" (found by its signs), "none", or a value.
 labels, label, label_names, margin, mesh
     A label map (path, image, or array of the scan's shape) that says which objects are meant;
     which of them, by name or number; their names, {{number: name}} or a path; how far they may be

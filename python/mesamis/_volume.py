@@ -84,18 +84,24 @@ def is_path(value):
     return isinstance(value, (str, os.PathLike))
 
 
-def read_scan(path, series=None, spacing=None, resample=False, memory=0):
+def read_scan(path, *, spacing=None, resample=False, memory=0, **others):
+    """`others`: series, volume_number, channel, modality."""
     spacing = None if spacing is None else [float(s) for s in spacing]
-    return _core.read_scan(os.fspath(path), series or "", spacing, bool(resample), float(memory))
+    return _core.read_scan(os.fspath(path), {"spacing": spacing, "resample": bool(resample),
+                                             "memory": float(memory), **others})
 
 
-def read_volume(path, *, series=None, spacing=None, resample=False, memory=0):
+def read_volume(path, *, series=None, spacing=None, resample=False, volume_number=None, channel=None,
+                modality=None, memory=0):
     """Reads a scan: NIfTI, NRRD, MetaImage, TIFF, InVesalius, DICOM, a folder of slices.
 
     `series` is the UID of a DICOM series, `spacing` (x, y, z in mm) is taken instead of the file's,
-    `resample` brings uneven DICOM slices onto a regular grid, `memory` limits it (GB).
+    `resample` brings uneven DICOM slices and sheared grids onto a regular grid. `volume_number` and
+    `channel`, both from 0, take one of several values per voxel: of a 4-D file, a hyperstack, a series
+    of phases. `modality` ("CT", "MR", "other") is taken instead of the file's. `memory` limits it (GB).
     """
-    scan = read_scan(path, series, spacing, resample, memory)
+    scan = read_scan(path, series=series, spacing=spacing, resample=resample, volume_number=volume_number,
+                     channel=channel, modality=modality, memory=memory)
     warn(scan.warnings)
     return Volume(scan)
 

@@ -87,6 +87,7 @@ Request request_of(const Arguments& a) {
   r.margin = a.find<double>("margin");
   r.time_limit = a.find<double>("time_limit");
   r.keep_surroundings = a.get<bool>("keep_surroundings");
+  r.padding = parse_padding(a.get<std::string>("padding", "auto"));
   r.mesh = a.get<bool>("mesh");
   r.memory_gb = a.get<double>("memory");
   require_consistent(r, a);
@@ -114,6 +115,7 @@ ObjectRequest object_request(const Request& r, const VoxelGrid& grid,
   }
   const LabelOptions how = label_options(r, grid);
   if (r.mask) request.mask = labels_of(*r.mask, how, warnings);
+  request.padding = r.padding;
   request.margin = r.margin.value_or(request.margin);
   if (r.remove) request.remove = labels_of(*r.remove, how, warnings);
   if (r.remove_body) {

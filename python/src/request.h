@@ -95,6 +95,7 @@ struct Request {
   std::string names_file;
   std::optional<double> margin, time_limit;
   bool remove_body = false, keep_surroundings = false, mesh = false;
+  PaddingRule padding{};
   double memory_gb = 0;
 
   bool wants_labels() const { return labels.has_value(); }

@@ -12,9 +12,11 @@
 #include "call.h"
 #include "mesamis/base/error.h"
 #include "mesamis/image/grid_axes.h"
+#include "mesamis/image/not_numbers.h"
 #include "mesamis/image/orientation.h"
 #include "mesamis/scan_files/read_volume.h"
 #include "mesamis/scan_files/write_volume.h"
+#include "request.h"
 
 namespace mesamis::python {
 namespace {
@@ -90,6 +92,11 @@ std::shared_ptr<Scan> scan_of_array(const py::array& samples, const Place& place
 std::shared_ptr<Scan> read(const std::string& path, const ReadOptions& options) {
   VolumeFile file =
       released({py::none(), 0}, [&](const Progress&) { return read_volume(path, options); });
+  const NotNumbers nan = fill_not_numbers(file.volume.samples);
+  if (nan.voxels > 0) {
+    file.warnings.push_back(std::to_string(nan.voxels) +
+                            " voxels are no numbers (NaN): they count as background");
+  }
   const auto scan = scan_of(std::move(file.volume));
   scan->path = path;
   scan->format = file.format;
@@ -98,14 +105,17 @@ std::shared_ptr<Scan> read(const std::string& path, const ReadOptions& options) 
   return scan;
 }
 
-std::shared_ptr<Scan> read_scan(const std::string& path, const std::string& series,
-                                const std::optional<Vector>& spacing, bool resample,
-                                double memory_gb) {
+/// @param a  keywords of read_volume(); None and absent ones say nothing.
+std::shared_ptr<Scan> read_scan(const std::string& path, const py::dict& keywords) {
+  const Arguments a(keywords);
   ReadOptions options;
-  options.series = series;
-  if (spacing) options.spacing = vec(*spacing);
-  options.resample = resample;
-  options.limits.memory_gb = memory_gb;
+  options.series = a.get<std::string>("series");
+  if (const auto spacing = a.find<Vector>("spacing")) options.spacing = vec(*spacing);
+  options.resample = a.get<bool>("resample");
+  options.volume = a.find<Index>("volume_number");
+  options.channel = a.find<Index>("channel");
+  options.modality = a.get<std::string>("modality");
+  options.limits.memory_gb = a.get<double>("memory");
   return read(path, options);
 }
 
@@ -194,8 +204,7 @@ void bind_volume(py::module_& module) {
         return scan_of_array(samples, place_of_axes(spacing, origin, direction), modality);
       },
       "samples"_a, "spacing"_a, "origin"_a, "direction"_a, "modality"_a);
-  module.def("read_scan", &read_scan, "path"_a, "series"_a, "spacing"_a, "resample"_a,
-             "memory_gb"_a);
+  module.def("read_scan", &read_scan, "path"_a, "keywords"_a);
   module.def("write_scan", &write, "path"_a, "scan"_a, "gzip"_a);
 }
 

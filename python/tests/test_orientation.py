@@ -199,9 +199,8 @@ def test_a_place_beside_what_has_one_is_refused(name, value, samples, nifti):
 
 def test_what_is_of_files_or_of_arrays_is_refused_elsewhere(samples, nifti):
     path = nifti(AFFINES["plain"])
-    for scan in (path, mesamis.read_volume(path)):
-        with pytest.raises(mesamis.InputError, match="without modality"):
-            mesamis.segment(scan, modality="CT", preview=True)
-    for name, value in [("series", "1.2.3"), ("resample", True)]:
+    with pytest.raises(mesamis.InputError, match="without modality"):
+        mesamis.segment(mesamis.read_volume(path), modality="CT", preview=True)
+    for name, value in [("series", "1.2.3"), ("resample", True), ("volume_number", 0), ("channel", 0)]:
         with pytest.raises(mesamis.InputError, match=f"without {name}"):
             mesamis.segment(samples, spacing=1, **{name: value}, preview=True)

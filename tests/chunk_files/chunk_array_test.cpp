@@ -93,14 +93,41 @@ TEST(ChunkArray, RefusesLayoutsThatAreNoVolume) {
     EXPECT_REFUSED(require_layout("f", layout, {"t", "c"}), HasSubstr(message));
   };
   refused({4, 4}, {4, 4}, "expected an array of 3 axes, found 2");
-  refused({2, 1, 4, 4, 4}, {1, 1, 4, 4, 4}, "1 along axis 0 (t), found 2");
-  refused({1, 3, 4, 4, 4}, {1, 1, 4, 4, 4}, "1 along axis 1 (c), found 3");
+  refused({2, 1, 4, 4, 4}, {1, 1, 4, 4, 4}, "2 volumes (--volume 0 to 1)");
+  refused({1, 3, 4, 4, 4}, {1, 1, 4, 4, 4}, "3 channels (--channel 0 to 2)");
+  refused({2, 3, 2, 4, 4, 4}, {1, 1, 1, 4, 4, 4}, "along axis 2 too");
   refused({4, 0, 4}, {4, 4, 4}, "found 0");
   refused({4, 4, 4}, {4, 0, 4}, "expected chunks of 1 to");
   refused({1u << 20, 1u << 20, 1u << 20}, {1, 1, 1}, "at most 2^40 elements");
   refused({4, 4, 4}, {1u << 20, 1u << 20, 1u << 20}, "at most 2^40 elements");
   refused({4, 4, std::uint64_t{1} << 63}, {4, 4, 4}, "found 9223372036854775808");
-  EXPECT_THAT(require_layout("f", small_layout()), ElementsAre(5, 6, 7));
+  ChunkLayout layout = small_layout();
+  EXPECT_THAT(require_layout("f", layout), ElementsAre(5, 6, 7));
+}
+
+/// Two times of three channels, chunks of two channels: sample = 100 t + 10 c + i.
+TEST(ChunkArray, TakesOneVolumeAndChannel) {
+  for (Index t = 0; t < 2; ++t) {
+    for (Index c = 0; c < 3; ++c) {
+      OpenedArray array;
+      array.path = ".";
+      array.layout.shape = {2, 3, 1, 1, 4};
+      array.layout.chunk = {1, 2, 1, 1, 4};
+      array.layout.order = {0, 1, 2, 3, 4};
+      array.limits = {.memory_gb = 0.1};
+      array.grid.size = require_layout(".", array.layout, {"t", "c", "z", "y", "x"}, {t, c});
+      array.fetch = [](const std::vector<std::uint64_t>& place, MemoryBudget&) {
+        std::string bytes;
+        for (std::uint64_t n = 0; n < 8; ++n) {
+          bytes += static_cast<char>(100 * place[0] + 10 * (2 * place[1] + n / 4) + n % 4);
+        }
+        return std::optional(StoredChunk{".", bytes, {}});
+      };
+      const auto first = static_cast<float>(100 * t + 10 * c);
+      EXPECT_THAT(make_chunked_scan(std::move(array))->read(0, 1),
+                  ElementsAre(first, first + 1, first + 2, first + 3));
+    }
+  }
 }
 
 TEST(ChunkArray, SetsTheSpacingAndSaysWhereFrom) {

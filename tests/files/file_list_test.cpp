@@ -22,11 +22,22 @@ TEST(FileList, GivesRegularFilesInTheOrderOfTheirPaths) {
   for (const char* name : {"b", "a10", "a2", "sub/c", "sub/deep/d"}) {
     write_bytes(folder / name, name);
   }
-  std::filesystem::create_directory_symlink(folder / "sub", folder / "link");
   EXPECT_THAT(files_in(folder.path()), ElementsAre(folder / "a10", folder / "a2", folder / "b"));
   EXPECT_THAT(files_below(folder.path()),
               ElementsAre(folder / "a10", folder / "a2", folder / "b", folder / "sub" / "c",
                           folder / "sub" / "deep" / "d"));
+}
+
+/// A link to a folder elsewhere is followed; links in a circle are entered once.
+TEST(FileList, FollowsLinksToFoldersOnce) {
+  const TempFolder folder, other;
+  write_bytes(folder / "scan/a", "a");
+  write_bytes(other / "b", "b");
+  std::filesystem::create_directory_symlink(other.path(), folder / "scan/elsewhere");
+  std::filesystem::create_directory_symlink(folder / "scan", folder / "scan/itself");
+  std::filesystem::create_directory_symlink(other.path(), other / "itself");
+  EXPECT_THAT(files_below(folder / "scan"),
+              ElementsAre(folder / "scan" / "a", folder / "scan" / "elsewhere" / "b"));
 }
 
 TEST(FileList, AMissingFolderIsRefused) {

@@ -3,6 +3,7 @@
 
 #include "fuzz_seeds.h"
 #include "mesamis/scan_files/write_volume.h"
+#include "support/jpeg_bytes.h"
 #include "support/picture_bytes.h"
 #include "support/scan_bytes.h"
 
@@ -134,6 +135,88 @@ void write_zarr(const SeedFolder& seeds) {
             R"(3{"zarr_format": 3, "node_type": "group", "attributes": {"ome": {)" + image + "}}}");
 }
 
+/// Formats whose samples follow a header of fixed places.
+void write_binary_headers(const SeedFolder& seeds) {
+  NiftiBytes pair;
+  pair.magic = std::string("ni1\0", 4);
+  pair.vox_offset = 0;
+  seeds.add("hdr", "pair", pair.header());
+  pair.magic = std::string(4, '\0');
+  seeds.add("hdr", "analyze", pair.header());
+  std::string mgh;
+  for (const std::int32_t n : {1, 4, 3, 5, 1, 4, 0}) mgh += bytes_of(n, true);
+  mgh += bytes_of(std::int16_t{1}, true);
+  for (const float x :
+       {0.5F, 1.25F, 2.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 9.F, 8.F, 7.F}) {
+    mgh += bytes_of(x, true);
+  }
+  mgh.resize(284);
+  seeds.add("mgh", "short", mgh + kSwapped);
+  seeds.add("mgh", "gzip", packed(mgh + kSwapped));
+  std::string isq = "CTDATA-HEADER_V1" + bytes_of(std::int32_t{3});
+  isq.resize(44);
+  for (const std::int32_t n : {4, 3, 5, 2000, 3750, 10000}) isq += bytes_of(n);
+  isq.resize(512);
+  seeds.add("isq", "short", isq + kSamples);
+  std::string aim;
+  for (const std::int32_t n : {20, 140, 8, 120, 0, 16, 0, 0, 0, 0, 0x20002, 1, 2, 3, 4, 3, 5}) {
+    aim += bytes_of(n);
+  }
+  aim.resize(20 + 24 + 21 * 4);
+  for (int n = 0; n < 3; ++n) aim += std::string("\x80\x40\0\0", 4);  // 1, as VAX has it
+  aim.resize(160);
+  seeds.add("aim", "v020", aim + "Site  4\n" + kSamples);
+  std::string wide = std::string("AIMDATA_V030   \0", 16);
+  for (const std::int64_t n : {40, 224, 8, 120, 0}) wide += bytes_of(n);
+  wide += std::string(12, '\0') + bytes_of(std::int32_t{0x20002});
+  for (const std::int64_t n : {1, 2, 3, 4, 3, 5}) wide += bytes_of(n);
+  wide += std::string(120, '\0');
+  for (int n = 0; n < 3; ++n) wide += bytes_of(std::int64_t{1000000});
+  wide.resize(16 + 40 + 224);
+  seeds.add("aim", "v030", wide + "Site  4\n" + kSamples);
+}
+
+void write_texts(const SeedFolder& seeds) {
+  seeds.add("vgi", "one",
+            "{volume1}\n[representation]\nsize = 4 3 5\n[file1]\nFileFormat = raw\nSize = 4 3 5\n"
+            "Name = data.raw\nDatatype = signed integer\nBitsPerElement = 16\nSkipHeader = 0\n"
+            "[geometry]\nresolution = 0.5 1.25 2\nunit = mm\n");
+  seeds.add("jpeg", "flat", flat_jpeg(8, 77));
+  seeds.add("jpeg", "lossless", lossless_jpeg(12, 4, {1, 2, 3, 4, 5, 6, 7, 8}));
+  seeds.add("beside", "log", "[Reconstruction]\nPixel Size (um)=17,5\nSection to Section Step=2\n");
+  seeds.add("beside", "json", R"({"Modality": "CT", "KVP": 120})");
+  seeds.add(
+      "nrrd", "list",
+      nrrd_bytes("endian: little\nencoding: raw\ndata file: LIST\ns1.raw\ns2.raw\ns3.raw\n", ""));
+  seeds.add("nrrd", "pattern",
+            nrrd_bytes("endian: little\nencoding: raw\ndata file: s%d.raw 1 3 1 2\n", ""));
+  seeds.add("meta", "list", meta_bytes("", "LIST\ns1.raw\ns2.raw\ns3.raw"));
+  seeds.add("meta", "pattern", meta_bytes("DistanceUnits = um\n", "s%d.raw 1 3 1"));
+  seeds.add("meta", "channels",
+            "NDims = 4\nDimSize = 2 2 1 5\nElementNumberOfChannels = 3\nElementType = MET_SHORT\n"
+            "ElementSpacing = 1 1 1 1\nElementDataFile = LOCAL\n" +
+                kSamples);
+}
+
+void write_descriptions(const SeedFolder& seeds) {
+  const std::string page = kSamples.substr(0, 24);
+  for (const auto& [name, text] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"hyperstack",
+            "ImageJ=1.53\nimages=4\nchannels=2\nslices=2\nunit=um\ncf=0\nc0=1\nc1=2\n"},
+           {"ome",
+            "<?xml version=\"1.0\"?><OME><Image><Pixels SizeZ=\"2\" SizeC=\"2\" SizeT=\"1\" "
+            "DimensionOrder=\"XYCZT\" PhysicalSizeX=\"2\" PhysicalSizeXUnit=\"nm\">"
+            "<Channel SamplesPerPixel=\"1\"/><TiffData IFD=\"0\" FirstZ=\"1\" PlaneCount=\"2\">"
+            "<UUID FileName=\"scan.tif\">u</UUID></TiffData></Pixels></Image></OME>"},
+           {"shape", "{\"shape\": [2, 2, 3, 4]}"}}) {
+    std::vector<TiffPage> pages(4, TiffPage{.pixels = page});
+    pages[0].description = text;
+    seeds.add("tiff", name, tiff_bytes(pages));
+  }
+  TiffPage all{.description = "ImageJ=1.53\nimages=5\nslices=5\n", .pixels = kSamples};
+  seeds.add("tiff", "behind_one", tiff_bytes({all}));
+}
+
 }  // namespace
 
 void write_scan_seeds(const SeedFolder& seeds) {
@@ -141,6 +224,9 @@ void write_scan_seeds(const SeedFolder& seeds) {
   write_nifti(seeds);
   write_nrrd_and_meta(seeds);
   write_pictures(seeds);
+  write_binary_headers(seeds);
+  write_texts(seeds);
+  write_descriptions(seeds);
   const std::string project = inv3_bytes(4, 3, 5, kSamples);
   seeds.add("inv3", "tar", project);
   seeds.add("inv3", "gzip", packed(project));

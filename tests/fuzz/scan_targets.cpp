@@ -8,6 +8,7 @@
 #include "mesamis/scan_files/read_volume.h"
 #include "reader_targets.h"
 #include "support/dicom_bytes.h"
+#include "support/picture_bytes.h"
 
 namespace mesamis {
 namespace {
@@ -66,13 +67,18 @@ void read_scan(const fs::path& file, ReadOptions options = {}) {
   list(file, options);
   read_or_refuse(file, [&](const fs::path& path) { require_scan(read_volume(path, options)); });
   read_or_refuse(file, [&](const fs::path& path) { require_slices(path, options); });
+  options.spacing = Vec3{0.5, 1, 2};
+  options.resample = true;
+  options.volume = options.channel = 0;
+  read_or_refuse(file, [&](const fs::path& path) { require_scan(read_volume(path, options)); });
 }
 
 /// Beside the case lie files that it may name as its data.
 void with_data_files() {
   static const bool written = [] {
     const std::string data = bytes_of_all(ramp<std::int16_t>(60));
-    input_folder().write("data.raw", data);
+    for (const char* name : {"data.raw", "scan.img", "s1.raw"}) input_folder().write(name, data);
+    for (const char* name : {"s2.raw", "s3.raw"}) input_folder().write(name, data.substr(0, 24));
     input_folder().write("data.raw.gz", packed(data));
     return true;
   }();
@@ -176,14 +182,35 @@ void run_zarr(std::string_view bytes) {
   });
 }
 
+/// Slices beside a log; a text beside an image.
+void run_text_beside(std::string_view bytes) {
+  const fs::path folder = input_folder().path() / "beside";
+  fs::create_directories(folder);
+  for (const char* name : {"beside/a_1.png", "beside/a_2.png", "beside/a_spr.png"}) {
+    input_folder().write(name, png_bytes(2, 2, "abcd"));
+  }
+  input_folder().write("beside/a.log", bytes);
+  input_folder().write("beside/b.json", bytes);
+  const fs::path image =
+      input_folder().write("beside/b.mha", meta_bytes("") + std::string(120, 'x'));
+  const ReadOptions options{.limits = fuzz_limits()};
+  for (const fs::path& path : {folder, image}) {
+    read_or_refuse(path, [&](const fs::path& read) { require_scan(read_volume(read, options)); });
+  }
+}
+
 constexpr char kNifti[] = "scan.nii", kNrrd[] = "scan.nrrd", kMeta[] = "scan.mha",
-               kTiff[] = "scan.tif", kInv3[] = "scan.inv3", kBmp[] = "scan.bmp";
+               kTiff[] = "scan.tif", kInv3[] = "scan.inv3", kBmp[] = "scan.bmp",
+               kPair[] = "scan.hdr", kMgh[] = "scan.mgz", kIsq[] = "scan.isq", kAim[] = "scan.aim",
+               kVgi[] = "scan.vgi", kJpeg[] = "scan.jpg";
 
 constexpr FuzzTarget kTargets[] = {
     {"dicom", run_dicom},      {"nifti", run_scan<kNifti>}, {"nrrd", run_scan<kNrrd>},
     {"meta", run_scan<kMeta>}, {"tiff", run_scan<kTiff>},   {"inv3", run_scan<kInv3>},
     {"png", run_png},          {"bmp", run_scan<kBmp>},     {"raw", run_raw},
-    {"zarr", run_zarr},
+    {"zarr", run_zarr},        {"hdr", run_scan<kPair>},    {"mgh", run_scan<kMgh>},
+    {"isq", run_scan<kIsq>},   {"aim", run_scan<kAim>},     {"vgi", run_scan<kVgi>},
+    {"jpeg", run_scan<kJpeg>}, {"beside", run_text_beside},
 };
 
 }  // namespace

@@ -75,6 +75,59 @@ TEST(DefaultWindow, GivesBoneItsContrastInHounsfieldUnits) {
   EXPECT_NEAR(default_window(ct, 0).high, 2996, 5);
 }
 
+/// Values of a body in air, with a rod of metal.
+Volume body_scan(double air, double metal, std::uint32_t seed = 1) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> noise(0, 12);
+  return sampled_volume({40, 36, 30}, {1, 1, 1}, [&](const Vec3& p) {
+    const Vec3 q = p - Vec3{20, 18, 15};
+    const double r = std::hypot(q.x, q.y), rod = std::hypot(q.x - 6, q.y);
+    const double tissue = rod < 2 ? metal : r < 3 ? 700 : r < 11 ? 40 : r < 13 ? -90 : air;
+    return std::clamp(tissue + noise(generator), -1024.0, 1e6);
+  });
+}
+
+TEST(IsHounsfield, WhateverMetalIsAsBrightAs) {
+  for (const double metal : {700.0, 3071.0, 20000.0, 65000.0}) {
+    EXPECT_TRUE(is_hounsfield(body_scan(-1000, metal))) << metal;
+  }
+}
+
+/// Of a body that fills the scan nothing is air: fat and soft tissue tell it.
+TEST(IsHounsfield, WhereAPartOfAScanHasNoAir) {
+  for (const double metal : {700.0, 20000.0}) {
+    EXPECT_TRUE(is_hounsfield(body_scan(-100, metal))) << metal;
+    EXPECT_TRUE(is_hounsfield(body_scan(50, metal))) << metal;
+  }
+}
+
+TEST(IsHounsfield, IsNoImageOfOtherValues) {
+  const auto changed = [](double slope, double offset, bool size = false) {
+    Volume scan = body_scan(-1000, 3071);
+    for (float& x : scan.samples) {
+      const double value = slope * (static_cast<double>(x) + offset);
+      x = static_cast<float>(size ? std::abs(value) : value);
+    }
+    return scan;
+  };
+  EXPECT_FALSE(is_hounsfield(changed(1, 1024))) << "MR, CT without its rescale";
+  EXPECT_FALSE(is_hounsfield(changed(0.05, 1024))) << "8 bits";
+  EXPECT_FALSE(is_hounsfield(changed(0.01, 0))) << "normalised";
+  EXPECT_FALSE(is_hounsfield(changed(16, 500))) << "micro-CT";
+  std::mt19937 generator(7);
+  for (const double most : {3.2, 180.0, 4096.0}) {
+    std::uniform_real_distribution<double> uniform(-most, most);
+    EXPECT_FALSE(is_hounsfield(
+        sampled_volume({40, 36, 30}, {1, 1, 1}, [&](const Vec3&) { return uniform(generator); })))
+        << "phases up to " << most;
+  }
+  std::normal_distribution<double> noise(0, 30);
+  const Volume difference = sampled_volume({40, 36, 30}, {1, 1, 1}, [&](const Vec3& p) {
+    return p.x < 8 ? 0 : noise(generator) + (p.x > 30 ? 300 : 0);
+  });
+  EXPECT_FALSE(is_hounsfield(difference)) << "a difference of two images";
+}
+
 TEST(DefaultWindow, IsNeverEmpty) {
   Volume rare = ramp(0, 0);
   rare.samples[17] = 1;  // beyond every percentile

@@ -126,6 +126,66 @@ TEST(Padding, IsNotWhatAMaskTookAway) {
   EXPECT_FALSE(find_padding(filled(volume, outside, 0)));
 }
 
+/// An object of one value, or of few, that fills a part of an even background: a mask, a cylinder.
+/// What it leaves out is convex, as around a field of view.
+TEST(Padding, IsNotTheBackgroundOfAnObjectOfFewValues) {
+  const auto scene = [](double rim, double core) {
+    return sampled_volume({40, 36, 30}, {1, 1, 1}, [=](const Vec3& p) {
+      const Vec3 q = p - Vec3{20, 18, 15};
+      const double r = norm(Vec3{q.x / 10, q.y / 9, q.z / 8});
+      return r < 0.5 ? core : r < 1 ? rim : 0;
+    });
+  };
+  for (const auto& [rim, core] : {std::pair{1.0, 1.0},
+                                  {255.0, 255.0},
+                                  {1.0, 2.0},
+                                  {2.0, 1.0},
+                                  {1.0, 10.0},
+                                  {100.0, 3000.0}}) {
+    EXPECT_FALSE(find_padding(scene(rim, core))) << rim << " around " << core;
+  }
+  for (const double noise : {0.02, 0.5, 2.0}) {
+    for (const double core : {100.0, 200.0}) {
+      Volume volume = scene(100, core);
+      Volume noisy = volume;
+      add_noise(noisy, noise);
+      for (std::size_t n = 0; n < volume.samples.size(); ++n) {
+        if (volume.samples[n] != 0) volume.samples[n] = noisy.samples[n];
+      }
+      EXPECT_FALSE(find_padding(volume)) << core << ", noise " << noise;
+      for (float& x : volume.samples) x = std::round(x);
+      EXPECT_FALSE(find_padding(volume)) << core << ", noise " << noise << ", rounded";
+    }
+  }
+}
+
+/// A sample that is larger than the field of view: its texture is cut through.
+TEST(Padding, AroundATextureThatIsCutThroughIsFound) {
+  Volume volume = sampled_volume(kGrid.size, kGrid.spacing, [](const Vec3& p) {
+    const double rock = std::sin(p.x / 2) * std::cos(p.y / 2.5) * std::cos(p.z / 3);
+    return rock > 0 ? 30000 : 12000;
+  });
+  add_noise(volume, 900);
+  const VoxelMask outside = complement(mask_where(kGrid, is_seen));
+  const auto padding = find_padding(filled(volume, outside, 0));
+  ASSERT_TRUE(padding);
+  EXPECT_EQ(padding->mask, outside);
+}
+
+TEST(Padding, IsWhatTheRuleSays) {
+  const Volume scan = ct(-3024);
+  EXPECT_FALSE(find_padding(scan, parse_padding("none")));
+  EXPECT_EQ(find_padding(scan, parse_padding("auto"))->mask, find_padding(scan)->mask);
+  const auto given = find_padding(scan, parse_padding("-3024"));
+  ASSERT_TRUE(given);
+  EXPECT_EQ(given->mask, complement(mask_where(kGrid, is_seen)));
+  EXPECT_EQ(given->value, -3024);
+  EXPECT_FALSE(find_padding(scan, parse_padding("17")));
+  for (const char* text : {"", "Auto", "1e", "nan", "inf", "1 2"}) {
+    EXPECT_REFUSED(parse_padding(text), HasSubstr("expected auto, none or a number")) << text;
+  }
+}
+
 /// A cross is no field of view.
 TEST(Padding, LeavesSomethingConvex) {
   const VoxelMask outside = mask_where(

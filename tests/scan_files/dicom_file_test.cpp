@@ -330,5 +330,137 @@ TEST(Dicom, SurvivesDeepNesting) {
   EXPECT_THAT(complaint(folder / "a.dcm"), HasSubstr("nested"));
 }
 
+/// Slices at 0, 2, 4 and so on, each with some change.
+template <class Change>
+std::filesystem::path changed_series(const TempFolder& folder, const Change& change) {
+  for (int k = 0; k < 4; ++k) {
+    SliceBytes slice;
+    slice.position = {0, 0, 2.0 * k};
+    slice.pixels = ramp<std::int16_t>(12, 12 * k);
+    change(slice, k);
+    write_bytes(folder / (std::to_string(k) + ".dcm"), slice.bytes());
+  }
+  return folder / "";
+}
+
+TEST(Dicom, AGivenSpacingTakesThePlaceOfAPixelSpacing) {
+  const std::vector<std::pair<std::string, std::string>> spoilt{
+      {"", "found none"}, {"1,2\\1", "\"1,2"}, {"0\\0", "found 0 x 0"}, {"-1\\1", "found -1 x 1"}};
+  for (const auto& [text, found] : spoilt) {
+    const TempFolder folder;
+    const auto path = changed_series(folder, [&text = text](SliceBytes& slice, int) {
+      slice.spacing.clear();
+      if (!text.empty()) slice.more[0x00280030] = {"DS", text};
+    });
+    EXPECT_THAT(complaint(path), testing::AllOf(HasSubstr(found), HasSubstr("--spacing"))) << text;
+    const Volume volume = read_volume(path, {.spacing = Vec3{1, 1.2, 3}}).volume;
+    EXPECT_EQ(volume.spacing, (Vec3{1, 1.2, 3})) << text;
+    EXPECT_EQ(volume.size[2], 4);
+  }
+}
+
+TEST(Dicom, SliceLocationAlonePlacesSlices) {
+  const TempFolder folder;
+  const auto path = changed_series(folder, [](SliceBytes& slice, int k) {
+    slice.position.clear();
+    slice.orientation.clear();
+    slice.more[0x00201041] = {"DS", std::to_string(30 - 2.5 * k)};
+  });
+  const VolumeFile file = read_volume(path);
+  EXPECT_NEAR(file.volume.spacing.z, 2.5, 1e-9);
+  EXPECT_EQ(file.volume.samples[0], 36) << "the lowest comes first";
+  EXPECT_THAT(file.warnings, testing::ElementsAre(HasSubstr("placed by Slice Location")));
+}
+
+TEST(Dicom, InstanceNumbersPlaceSlicesByAGivenSpacing) {
+  const TempFolder folder;
+  const auto path = changed_series(folder, [](SliceBytes& slice, int k) {
+    slice.position.clear();
+    slice.orientation.clear();
+    slice.more[0x00200013] = {"IS", std::to_string(9 - k)};
+  });
+  EXPECT_THAT(complaint(path), HasSubstr("Image Position"));
+  const VolumeFile file = read_volume(path, {.spacing = Vec3{1, 1, 3}});
+  EXPECT_EQ(file.volume.spacing, (Vec3{1, 1, 3}));
+  EXPECT_EQ(file.volume.samples[0], 36);
+}
+
+TEST(Dicom, PlacesOfTwoKindsAreNotMixed) {
+  const TempFolder folder;
+  const auto path = changed_series(folder, [](SliceBytes& slice, int k) {
+    slice.more[0x00201041] = {"DS", std::to_string(2 * k)};
+    if (k != 2) return;
+    slice.position.clear();
+    slice.orientation.clear();
+  });
+  EXPECT_THAT(complaint(path), HasSubstr("2.dcm: expected Image Position"));
+}
+
+TEST(Dicom, CopiesOfAFileCountOnce) {
+  const TempFolder folder;
+  const auto path = changed_series(folder, [](SliceBytes& slice, int k) {
+    slice.more[0x00080018] = {"UI", "1.2." + std::to_string(k)};
+  });
+  std::filesystem::copy_file(folder / "1.dcm", folder / "1 (copy).dcm");
+  std::filesystem::copy_file(folder / "3.dcm", folder / "z.dcm");
+  const VolumeFile file = read_volume(path);
+  EXPECT_EQ(file.volume.size[2], 4);
+  EXPECT_THAT(file.warnings, testing::ElementsAre(HasSubstr("2 files left out: copies")));
+}
+
+/// Another picture at the same place, or the same UID elsewhere, is no copy.
+TEST(Dicom, OtherFilesOfAUidAreNoCopies) {
+  const TempFolder folder;
+  const auto path = changed_series(folder, [](SliceBytes& slice, int) {
+    slice.more[0x00080018] = {"UI", "1.2"};
+  });
+  EXPECT_EQ(read_volume(path).volume.size[2], 4) << "one UID for all slices";
+  SliceBytes other;
+  other.position = {0, 0, 2};
+  other.pixels = ramp<std::int16_t>(12, 500);
+  other.more[0x00080018] = {"UI", "1.2"};
+  write_bytes(folder / "other.dcm", other.bytes());
+  EXPECT_THAT(complaint(path), HasSubstr("found two at the same"));
+}
+
+/// Cone-beam CT in one file: frames without groups of their own.
+std::string frames_without_groups(const std::map<std::uint32_t, std::string>& more) {
+  SliceBytes frames;
+  frames.position = {1, 2, 3};
+  frames.orientation = {1, 0, 0, 0, 0, -1};  // the normal runs along y
+  frames.pixels = ramp<std::int16_t>(48);
+  frames.more[0x00280008] = {"IS", "4"};
+  for (const auto& [tag, text] : more) frames.more[tag] = {"DS", text};
+  return frames.bytes();
+}
+
+TEST(Dicom, FramesWithoutGroupsAreStackedAlongTheirNormal) {
+  const TempFolder folder;
+  const std::vector<std::pair<std::uint32_t, std::string>> steps{
+      {0x00180088, "0.25"}, {0x00180050, "0.25"}, {0x3004000c, "0\\0.25\\0.5\\0.75"}};
+  for (const auto& step : steps) {
+    const VolumeFile file = read(folder, "a.dcm", frames_without_groups({step}));
+    EXPECT_EQ(file.volume.size[2], 4);
+    EXPECT_NEAR(file.volume.spacing.z, 0.25, 1e-12);
+    expect_near(file.volume.origin, {1, 2, 3});
+    expect_near(file.volume.direction * Vec3{0, 0, 1}, {0, 1, 0});
+    EXPECT_EQ(file.volume.samples[12], -40 + 12);
+    EXPECT_THAT(file.warnings, testing::ElementsAre(HasSubstr("stacked in their order")));
+  }
+  EXPECT_THAT(complaint(folder, "a.dcm", frames_without_groups({})),
+              testing::AllOf(HasSubstr("4 frames"), HasSubstr("--spacing")));
+  EXPECT_EQ(read_volume(folder / "a.dcm", {.spacing = Vec3{1, 1, 3}}).volume.spacing.z, 3);
+}
+
+TEST(Dicom, FramesAtDifferentTimesAreNoStack) {
+  const TempFolder folder;
+  SliceBytes frames;
+  frames.pixels = ramp<std::int16_t>(48);
+  frames.more[0x00280008] = {"IS", "4"};
+  frames.more[0x00180088] = {"DS", "1"};
+  frames.more[0x00280009] = {"AT", std::string("\x18\0\x63\x10", 4)};
+  EXPECT_THAT(complaint(folder, "a.dcm", frames.bytes()), HasSubstr("different times"));
+}
+
 }  // namespace
 }  // namespace mesamis

@@ -176,6 +176,8 @@ const std::set<std::string> kReadable{
     "pynrrd/BallBinary30x30x30_gz.nrrd",
     "pynrrd/BallBinary30x30x30_gz_byteskip_minus_one.nrrd",
     "pynrrd/BallBinary30x30x30_gz_lineskip.nrrd",
+    // One volume of one voxel, which every method refuses.
+    "pynrrd/test_simple4d_raw.nrrd",
 };
 
 TEST(OddFiles, AreReadOrRefusedInOneLineAndInSilence) {
@@ -220,7 +222,7 @@ TEST(OddFiles, TheBallIsTheSameInEveryEncoding) {
   MESAMIS_REQUIRE_DATA(folder);
   const auto plain = read_volume(folder / "BallBinary30x30x30.nrrd").volume.samples;
   for (const std::string& name : kReadable) {
-    if (!name.starts_with("pynrrd/")) continue;
+    if (!name.starts_with("pynrrd/Ball")) continue;
     EXPECT_EQ(read_volume(folder.parent_path() / name).volume.samples, plain) << name;
   }
 }

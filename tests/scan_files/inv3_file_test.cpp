@@ -65,5 +65,15 @@ TEST(InVesalius, ReadsTheDistributionsCranium) {
   EXPECT_EQ(file.volume.direction, other.direction);
 }
 
+TEST(Inv3, AGivenSpacingTakesThePlaceOfWhatCannotBeUsed) {
+  const TempFolder folder;
+  std::string bytes = inv3_bytes(4, 3, 5, bytes_of_all(kRamp));
+  bytes.replace(bytes.find("<real>0.5</real>"), 16, "<real>0.0</real>");
+  EXPECT_NE(complaint(folder, "a.inv3", bytes), "");
+  const VolumeFile file = read_volume(folder / "a.inv3", {.spacing = Vec3{1, 1.2, 2}});
+  EXPECT_EQ(file.volume.spacing, (Vec3{1, 1.2, 2}));
+  EXPECT_EQ(file.volume.direction * (Vec3{0, 1, 0}), (Vec3{0, -1, 0}));
+}
+
 }  // namespace
 }  // namespace mesamis

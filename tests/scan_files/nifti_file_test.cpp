@@ -172,7 +172,7 @@ TEST(Nifti, HasManyVolumesForThoseWhoAsk) {
   write_bytes(folder / "a.nii", nifti.header() + bytes_of_all(kRamp));
   WideBudget budget;
   EXPECT_REFUSED(detail::open_nifti(folder / "a.nii", {budget, false, detail::Values::kMany}),
-                 HasSubstr("5 values along dimension 5"));
+                 HasSubstr("2 volumes of 5 channels"));
 }
 
 TEST(Nifti, ExtensionsAreRead) {
@@ -197,6 +197,147 @@ TEST(Nifti, ExtensionsAreRead) {
   EXPECT_REFUSED(of(extension(-1, "x"), 361), HasSubstr("found -1"));
   EXPECT_REFUSED(of(extension(64, "x"), 361), HasSubstr("found 64"));
   EXPECT_REFUSED(of(extension(1 << 30, "x"), 2e9f), HasSubstr("found 1073741824"));
+}
+
+/// The qform where the sform is marked valid but has no axes, as some converters leave it.
+TEST(Nifti, AnSformWithoutAxesLeavesTheQform) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.qform_code = 1;
+  nifti.quatern = {0, 0, 0, 5, 6, 7};
+  for (const float bad : {0.F, NAN}) {
+    nifti.srow.fill(bad);
+    const VolumeFile file = read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp));
+    expect_near(file.volume.spacing, {0.5, 1.25, 2});
+    expect_near(file.volume.origin, {-5, -6, 7});
+    EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("the qform is used")));
+  }
+}
+
+TEST(Nifti, WarnsWhereQformAndSformTurnTheAxesDifferently) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.qform_code = 1;
+  EXPECT_THAT(read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).warnings, IsEmpty());
+  const float half = std::sqrt(0.5F);
+  nifti.quatern = {0, 0, half, 0, 0, 0};  // a quarter turn about z
+  const VolumeFile file = read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp));
+  ASSERT_THAT(file.warnings, ElementsAre(HasSubstr("differently, by 90")));
+  expect_near(file.volume.direction * Vec3{1, 0, 0}, {-1, 0, 0});
+  nifti.quatern = {0, 0, 0, 0, 0, 0};
+  nifti.pixdim[0] = -1;  // the third axis the other way round
+  EXPECT_THAT(read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).warnings,
+              ElementsAre(HasSubstr("differently, by 180")));
+}
+
+TEST(Nifti, AGivenSpacingTakesThePlaceOfWhatCannotBeUsed) {
+  const TempFolder folder;
+  const auto with = [&](const NiftiBytes& nifti) {
+    write_bytes(folder / "a.nii", nifti.header() + bytes_of_all(kRamp));
+    EXPECT_NE(complaint(folder / "a.nii"), "");
+    return read_volume(folder / "a.nii", {.spacing = Vec3{1, 1.2, 2}});
+  };
+  NiftiBytes form;  // a sform without axes, and no qform
+  form.srow.fill(0);
+  EXPECT_EQ(with(form).volume.spacing, (Vec3{1, 1.2, 2}));
+  NiftiBytes turned;  // a qform keeps its directions
+  turned.sform_code = 0;
+  turned.qform_code = 1;
+  turned.quatern = {0, 0, std::sqrt(0.5F), 0, 0, 0};
+  turned.pixdim = {1, 0, 0, NAN, 1, 1, 1, 1};
+  const VolumeFile file = with(turned);
+  EXPECT_EQ(file.volume.spacing, (Vec3{1, 1.2, 2}));
+  expect_near(file.volume.direction * Vec3{1, 0, 0}, {0, -1, 0}, 1e-6);
+}
+
+TEST(Nifti, WarnsOfUnitsAndScalesThatItCannotUse) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.units = 5;
+  EXPECT_THAT(read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).warnings,
+              ElementsAre(HasSubstr("unit of length 5")));
+  nifti.units = 2;
+  for (const auto& [slope, intercept] : {std::pair{NAN, 0.F}, {2.F, NAN}, {INFINITY, 0.F}}) {
+    nifti.slope = slope;
+    nifti.intercept = intercept;
+    const VolumeFile file = read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp));
+    expect_ramp(file.volume);
+    EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("kept as stored")));
+  }
+}
+
+TEST(Nifti, TakesOneOfSeveralVolumesAndComponents) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.dim = {5, 2, 3, 1, 2, 5, 1, 1};
+  write_bytes(folder / "a.nii.gz", packed(nifti.header() + bytes_of_all(kRamp)));
+  const auto first = [&](Index volume, Index channel) {
+    return read_volume(folder / "a.nii.gz", {.volume = volume, .channel = channel})
+        .volume.samples[0];
+  };
+  EXPECT_EQ(first(0, 0), -40);
+  EXPECT_EQ(first(1, 0), -40 + 6);
+  EXPECT_EQ(first(0, 4), -40 + 48);
+  EXPECT_THAT(complaint(folder / "a.nii.gz"),
+              HasSubstr("2 volumes (--volume 0 to 1) of 5 channels"));
+}
+
+TEST(Nifti, PairsOfHeaderAndSamplesAreRead) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.magic = std::string("ni1\0", 4);
+  nifti.vox_offset = 0;
+  write_bytes(folder / "a.hdr", nifti.header().substr(0, 348));
+  EXPECT_THAT(complaint(folder / "a.hdr"), HasSubstr("a.img"));
+  write_bytes(folder / "a.img", bytes_of_all(kRamp));
+  write_bytes(folder / "b.hdr.gz", packed(nifti.header()));
+  write_bytes(folder / "b.img.gz", packed(bytes_of_all(kRamp)));
+  for (const char* name : {"a.hdr", "a.img", "b.hdr.gz", "b.img.gz"}) {
+    const VolumeFile file = read_volume(folder / name);
+    expect_ramp(file.volume);
+    expect_near(file.volume.origin, {-10, -20, 30});
+    EXPECT_THAT(file.warnings, IsEmpty()) << name;
+  }
+  EXPECT_EQ(list_volumes(folder / "").size(), 2u) << "each pair once";
+}
+
+TEST(Nifti, AnalyzeHasNoOrientation) {
+  const TempFolder folder;
+  NiftiBytes analyze;
+  analyze.magic = std::string(4, '\0');
+  analyze.vox_offset = 0;
+  analyze.sform_code = 77;  // no form: other fields lie there
+  write_bytes(folder / "a.hdr", analyze.header().substr(0, 348));
+  write_bytes(folder / "a.img", bytes_of_all(kRamp));
+  const VolumeFile file = read_volume(folder / "a.img");
+  expect_ramp(file.volume);
+  EXPECT_EQ(file.format, "Analyze");
+  expect_near(file.volume.spacing, {0.5, 1.25, 2});
+  expect_near(file.volume.direction * Vec3{1, 0, 0}, {1, 0, 0});
+  expect_near(file.volume.direction * Vec3{0, 1, 0}, {0, -1, 0});
+  EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("no orientation")));
+}
+
+/// The volume of a sheared grid is that of its voxels, and each keeps its place.
+TEST(Nifti, AShearedSformIsResampledWhereItIsAskedFor) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.srow = {0.5F, 0,  1, 10, 0, 1.25F,
+                0,    20, 0, 0,  2, 30};  // slices shifted by two columns each
+  EXPECT_THAT(complaint(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)),
+              HasSubstr("--resample"));
+  const VolumeFile file = read_volume(folder / "a.nii", {.resample = true});
+  EXPECT_EQ(file.volume.size, (std::array<Index, 3>{4 + 2 * 4, 3, 5}));
+  expect_near(file.volume.spacing, {0.5, 1.25, 2});
+  EXPECT_NO_THROW(require_usable(file.volume));
+  EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("sheared")));
+  for (Index k = 0; k < 5; ++k) {
+    for (Index i = 0; i < 4; ++i) {
+      EXPECT_EQ(file.volume.at(i + 2 * k, 1, k), static_cast<float>(-40 + i + 4 + 12 * k));
+    }
+  }
+  EXPECT_EQ(file.volume.at(0, 0, 4), -40) << "what no voxel covers has the least value";
+  EXPECT_EQ(read_grid(folder / "a.nii", {.resample = true}).size, file.volume.size);
 }
 
 }  // namespace

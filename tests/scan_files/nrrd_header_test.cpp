@@ -42,7 +42,7 @@ TEST(NrrdHeader, ReadsBackToTheSameBits) {
   EXPECT_EQ(scan.outer, 1);
   EXPECT_THAT(scan.keys, ElementsAre(Pair("Name", " x: y := z"), Pair("a\\b", "two\nlines")));
   EXPECT_EQ(read_samples(scan, budget), std::vector<float>(24, 3));
-  EXPECT_REFUSED(open_nrrd(folder / "a.nrrd", {budget}), HasSubstr("4 dimensions"));
+  EXPECT_REFUSED(open_nrrd(folder / "a.nrrd", {budget}), HasSubstr("4 channels"));
 }
 
 }  // namespace

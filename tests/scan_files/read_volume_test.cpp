@@ -193,5 +193,17 @@ TEST(ReadVolume, ListsTheFilesThatItRead) {
   EXPECT_REFUSED(sha256(detached.files), HasSubstr("a.raw: expected a file that stays"));
 }
 
+/// A folder that holds neither DICOM nor slices says what it holds.
+TEST(ReadVolume, AFolderSaysWhatItHolds) {
+  const TempFolder folder;
+  EXPECT_THAT(complaint(folder.path()), testing::HasSubstr("found none"));
+  write_bytes(folder / "notes.txt", "hello");
+  EXPECT_THAT(complaint(folder.path()), testing::HasSubstr("found none but notes.txt"));
+  write_bytes(folder / "ct.nii.gz", "x");
+  EXPECT_THAT(complaint(folder.path()), testing::HasSubstr("name the file itself, as "));
+  write_bytes(folder / "seg.nrrd", "x");
+  EXPECT_THAT(complaint(folder.path()), testing::HasSubstr("ct.nii.gz, notes.txt, seg.nrrd"));
+}
+
 }  // namespace
 }  // namespace mesamis

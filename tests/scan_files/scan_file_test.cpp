@@ -146,15 +146,94 @@ TEST(ScanFile, SamplesAreAppended) {
 
 TEST(ScanFile, ManyValuesPerVoxelAreReadInTheOrderOfTheFile) {
   const TempFolder folder;
+  WideBudget budget;
+  const Opening many{budget, false, Values::kMany};
+  constexpr ValueOrder kMixed = ValueOrder::kChannelsFirst, kApart = ValueOrder::kVolumesFirst;
   ScanFile scan = two_samples(folder, "abcdef", NumberType::kUint8);
-  set_values(scan, 3, 1);
+  set_values(scan, {1, 3}, kMixed, many);
   EXPECT_THAT(samples_of(scan), ElementsAre('a', 'b', 'c', 'd', 'e', 'f'));
-  set_values(scan, 1, 4);
+  set_values(scan, {4, 1}, kApart, many);
   EXPECT_REFUSED(samples_of(scan), HasSubstr("expected 8 bytes for 2 x 1 x 1 x 4 samples"));
-  EXPECT_REFUSED(set_values(scan, 0, 1), HasSubstr("values per voxel, found 0"));
-  EXPECT_REFUSED(set_values(scan, 1, 65536), HasSubstr("expected 1 to 65535"));
+  EXPECT_REFUSED(set_values(scan, {0, 1}, kApart, many), HasSubstr("values per voxel, found 0"));
+  EXPECT_REFUSED(set_values(scan, {65536, 1}, kApart, many), HasSubstr("expected 1 to 65535"));
+  EXPECT_REFUSED(set_values(scan, {2, 2}, kApart, many), HasSubstr("one axis of values"));
   set_size(scan, {1 << 20, 1 << 19, 1});
-  EXPECT_REFUSED(set_values(scan, 3, 1), HasSubstr("expected 1 to 2 values per voxel, found 3"));
+  EXPECT_REFUSED(set_values(scan, {1, 3}, kMixed, many),
+                 HasSubstr("expected 1 to 2 values per voxel, found 3"));
+}
+
+/// Each value of 2 voxels, 2 volumes and 3 channels, in both orders, stored plain, packed, in text.
+TEST(ScanFile, OneOfManyValuesIsRead) {
+  const TempFolder folder;
+  WideBudget budget;
+  const std::string stored = "abcdefghijkl";
+  std::string text;
+  for (const char c : stored) text += std::to_string(static_cast<int>(c)) + " ";
+  for (const ValueOrder order : {ValueOrder::kChannelsFirst, ValueOrder::kVolumesFirst}) {
+    for (Index v = 0; v < 2; ++v) {
+      for (Index c = 0; c < 3; ++c) {
+        const bool mixed = order == ValueOrder::kChannelsFirst;
+        const auto at = [&](Index voxel) {
+          const Index n = mixed ? (v * 2 + voxel) * 3 + c : (c * 2 + v) * 2 + voxel;
+          return static_cast<float>(stored[static_cast<std::size_t>(n)]);
+        };
+        for (const int way : {0, 1, 2}) {
+          ScanFile scan = two_samples(folder,
+                                      way == 0   ? stored
+                                      : way == 1 ? packed(stored)
+                                                 : text,
+                                      NumberType::kUint8);
+          scan.source.packing = way == 1 ? Packing::kDeflated : Packing::kPlain;
+          scan.source.text = way == 2;
+          scan.source.exact = true;
+          Opening one{budget};
+          one.choice = {v, c};
+          set_values(scan, {2, 3}, order, one);
+          EXPECT_THAT(samples_of(scan), ElementsAre(at(0), at(1))) << v << c << way << mixed;
+          if (way > 0) continue;
+          std::vector<float> slice;
+          append_slices(scan, find_plain_samples(scan), {0, 1}, slice);
+          EXPECT_THAT(slice, ElementsAre(at(0), at(1))) << v << c << mixed;
+        }
+      }
+    }
+  }
+}
+
+/// What lies around the value that is read is held against the file all the same.
+TEST(ScanFile, OneOfManyValuesNeedsAllOfThem) {
+  const TempFolder folder;
+  WideBudget budget;
+  Opening one{budget};
+  one.choice.volume = 0;
+  for (const std::string& stored : {std::string("abc"), std::string("abcde")}) {
+    ScanFile scan = two_samples(folder, stored, NumberType::kUint8);
+    scan.source.exact = true;
+    set_values(scan, {2, 1}, ValueOrder::kVolumesFirst, one);
+    EXPECT_REFUSED(samples_of(scan), HasSubstr("expected"));
+  }
+}
+
+/// What is missing or cannot be used comes from the spacing that is given, and is told.
+TEST(ScanFile, AGivenSpacingTakesThePlaceOfWhatIsMissing) {
+  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  for (const double bad : {0.0, -1.0, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+    ScanFile scan;
+    EXPECT_REFUSED(set_stated_axes(scan, {{x, y, z}, {1, 2, bad}}), HasSubstr("--spacing"));
+    scan.given_spacing = Vec3{4, 5, 6};
+    set_stated_axes(scan, {{x, y, z}, {1, 2, bad}});
+    EXPECT_EQ(scan.grid.spacing, (Vec3{1, 2, 6}));
+    EXPECT_THAT(scan.warnings, ElementsAre(HasSubstr("axis 2")));
+  }
+  ScanFile scan;
+  scan.given_spacing = Vec3{4, 5, 6};
+  set_axes(scan, {y, x, Vec3{}});
+  EXPECT_EQ(scan.grid.spacing, (Vec3{1, 1, 6}));
+  EXPECT_EQ(scan.grid.direction * z, (Vec3{0, 0, -1})) << "across the others";
+  ScanFile none;
+  none.given_spacing = Vec3{4, 5, 6};
+  set_axes(none, {Vec3{}, Vec3{}, Vec3{}});
+  EXPECT_EQ(none.grid.direction * y, y);
 }
 
 }  // namespace

@@ -147,5 +147,47 @@ TEST(SliceStack, VolumesAndSeriesAreNoSlices) {
       << "the pictures beside it are previews";
 }
 
+/// macOS leaves ._s1.png beside s1.png on foreign disks.
+TEST(SliceStack, FilesWithALeadingDotAreNoSlices) {
+  const TempFolder folder;
+  for (const char* name : {"s1.png", "s2.png"}) {
+    write_bytes(folder / name, slice_of(name[1]));
+    write_bytes(folder / ("._" + std::string(name)), "Mac OS X");
+  }
+  EXPECT_EQ(read_volume(folder / "").volume.size[2], 2);
+}
+
+TEST(SliceStack, SpacingIsThatOfSkyscansLog) {
+  const TempFolder folder;
+  for (const char* name : {"a_rec0001.png", "a_rec0002.png", "a_rec0003.png"}) {
+    write_bytes(folder / name, slice_of(name[8]));
+  }
+  write_bytes(folder / "a_rec_spr.png", png_bytes(7, 5, std::string(35, 'x')));
+  EXPECT_NE(complaint(folder / ""), "") << "a scout of another size";
+  write_bytes(folder / "a.log",
+              "[System]\r\nScanner=1172\r\n[Acquisition]\r\nPixel Size (um)=99\r\n");
+  write_bytes(folder / "a_rec.log",
+              "[System]\r\nScanner=1172\r\n[Reconstruction]\r\nPixel Size (um)= 17,50\r\n"
+              "Section to Section Step=2\r\n[File name convention]\r\n");
+  const VolumeFile file = read_volume(folder / "");
+  expect_near(file.volume.spacing, {0.0175, 0.0175, 0.035});
+  EXPECT_EQ(file.volume.size[2], 3);
+  EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("a_rec.log")));
+  EXPECT_EQ(read_volume(folder / "", {.spacing = Vec3{1, 2, 3}}).volume.spacing, (Vec3{1, 2, 3}));
+}
+
+TEST(SliceStack, AGivenSpacingCountsBeforeResolutionsThatDiffer) {
+  const TempFolder folder;
+  for (const char* name : {"s1.png", "s2.png"}) {
+    PngBytes png;
+    png.width = png.height = 2;
+    png.lines = {std::string("\0ab", 3), std::string("\0cd", 3)};
+    png.pixels_per_metre = name[1] == '1' ? 2000 : 4000;
+    write_bytes(folder / name, png.bytes());
+  }
+  EXPECT_THAT(complaint(folder / ""), HasSubstr("s2.png"));
+  EXPECT_EQ(read_volume(folder / "", {.spacing = Vec3{1, 2, 3}}).volume.spacing, (Vec3{1, 2, 3}));
+}
+
 }  // namespace
 }  // namespace mesamis::detail

@@ -78,5 +78,18 @@ TEST(TextHeader, NumbersThatAreNoneAreNamedWithTheirField) {
   EXPECT_REFUSED(whole_numbers_of("a", "sizes", "4 2.5", 2), HasSubstr("\"2.5\""));
 }
 
+TEST(NumberedNames, AreThoseOfAPattern) {
+  using testing::ElementsAre;
+  EXPECT_THAT(numbered_names("f", "a%03d.raw 9 11 1"),
+              ElementsAre("a009.raw", "a010.raw", "a011.raw"));
+  EXPECT_THAT(numbered_names("f", "%d 5 1 -2 2"), ElementsAre("5", "3", "1"));
+  EXPECT_THAT(numbered_names("f", "a%d 1 2"), ElementsAre("a1", "a2"));
+  for (const char* text :
+       {"a%d", "a 1 2 1", "a%s 1 2 1", "a%d 1 2 0", "a%d 2 1 1", "a%d 1 9999999 1", "a%999d 1 2 1",
+        "a%d -1 2 1", "a%d 1 99999999999 99999999999"}) {
+    EXPECT_REFUSED(numbered_names("f", text), testing::HasSubstr("pattern")) << text;
+  }
+}
+
 }  // namespace
 }  // namespace mesamis::detail

@@ -125,5 +125,106 @@ TEST(Tiff, RefusesColourMixedPagesAndCutOffFiles) {
   EXPECT_THAT(complaint(folder, "e.tif", whole.substr(0, 9)), HasSubstr("TIFF"));
 }
 
+/// A stack of five pages with a description, and how long their pixels are.
+VolumeFile described(const TempFolder& folder, const std::string& text,
+                     const ReadOptions& options = {}) {
+  auto pages = five_pages();
+  pages[0].description = text;
+  write_bytes(folder / "a.tif", tiff_bytes(pages));
+  return read_volume(folder / "a.tif", options);
+}
+
+TEST(Tiff, KnowsTheUnitsThatImageJWrites) {
+  const TempFolder folder;
+  const std::vector<std::pair<std::string, double>> units{
+      {"microns", 1e-3}, {"\\u00B5m", 1e-3}, {"inch", 25.4}, {"nm", 1e-6}, {"meter", 1e3}};
+  for (const auto& [name, mm] : units) {
+    const VolumeFile file =
+        described(folder, "ImageJ=1.54f\nimages=5\nslices=5\nunit=" + name + "\nspacing=20\n");
+    expect_near(file.volume.spacing, {mm / 20, mm / 20, 20 * mm});
+    EXPECT_THAT(file.warnings, IsEmpty()) << name;
+  }
+}
+
+TEST(Tiff, SaysThatAResolutionHasNoUnit) {
+  const TempFolder folder;
+  auto pages = five_pages();
+  pages[0].description = "ImageJ=1.54f\nimages=5\nslices=5\nspacing=20\n";
+  std::string bytes = tiff_bytes(pages);
+  // The tag of the unit, of the first page: centimetre becomes none.
+  const std::string unit = bytes_of(std::uint16_t{296}) + bytes_of(std::uint16_t{3}) +
+                           bytes_of(std::uint32_t{1}) + bytes_of(std::uint32_t{3});
+  bytes[bytes.find(unit) + 8] = 1;
+  const VolumeFile file = read(folder, "a.tif", bytes);
+  expect_near(file.volume.spacing, {1, 1, 1});
+  EXPECT_THAT(file.warnings,
+              ElementsAre(HasSubstr("resolution has no unit"), HasSubstr("slices has no unit")));
+}
+
+TEST(Tiff, ValuesOfImageJAreCalibrated) {
+  const TempFolder folder;
+  const VolumeFile file = described(
+      folder, "ImageJ=1.11a\nimages=5\nslices=5\nunit=mm\nspacing=1\ncf=0\nc0=-7\nc1=0.5\n");
+  expect_ramp(file.volume, 5, 0.5, -7);
+}
+
+TEST(Tiff, TheOriginOfImageJIsAPixel) {
+  const TempFolder folder;
+  const VolumeFile file = described(
+      folder, "ImageJ=1.54f\nimages=5\nslices=5\nunit=mm\nspacing=2\nxorigin=4\nzorigin=-1\n");
+  expect_near(file.volume.origin, {-0.2, 0, 2});
+}
+
+TEST(Tiff, TakesOneChannelOfAHyperstack) {
+  const TempFolder folder;
+  auto pages = five_pages();
+  pages.push_back(pages[0]);
+  pages[0].description = "ImageJ=1.54f\nimages=6\nchannels=2\nslices=3\nunit=mm\nspacing=2\n";
+  EXPECT_THAT(complaint(folder, "a.tif", tiff_bytes(pages)), HasSubstr("2 channels"));
+  const Volume second = read_volume(folder / "a.tif", {.channel = 1}).volume;
+  EXPECT_EQ(second.size[2], 3);
+  EXPECT_EQ(second.samples[0], -40 + 12);
+  EXPECT_EQ(second.samples[12], -40 + 36);
+  const auto listed = list_volumes(folder / "a.tif");
+  EXPECT_THAT(listed[0].problem, HasSubstr("--channel 0 to 1"));
+}
+
+/// As ImageJ writes stacks of more than 4 GB.
+TEST(Tiff, ReadsTheImagesBehindOneDirectory) {
+  const TempFolder folder;
+  TiffPage page;
+  page.description = "ImageJ=1.54f\nimages=5\nslices=5\nunit=mm\nspacing=2\n";
+  page.pixels = bytes_of_all(kRamp);
+  const std::string bytes = tiff_bytes({page});
+  expect_ramp(read(folder, "a.tif", bytes).volume);
+  page.description = "ImageJ=1.54f\nimages=12\nslices=12\n";
+  EXPECT_THAT(complaint(folder, "b.tif", tiff_bytes({page})), HasSubstr("bytes for 12 images"));
+}
+
+TEST(Tiff, OmeHasItsOwnSizesAndOrder) {
+  const TempFolder folder;
+  const std::string text =
+      "<?xml version=\"1.0\"?><OME><Image><Pixels SizeX=\"4\" SizeY=\"3\" SizeZ=\"5\" SizeC=\"1\" "
+      "SizeT=\"1\" DimensionOrder=\"XYZCT\" PhysicalSizeX=\"500\" PhysicalSizeY=\"1250\" "
+      "PhysicalSizeZ=\"2\" PhysicalSizeZUnit=\"mm\"><TiffData IFD=\"4\" FirstZ=\"0\"/>"
+      "<TiffData IFD=\"0\" FirstZ=\"1\" PlaneCount=\"4\"/></Pixels></Image></OME>";
+  const VolumeFile file = described(folder, text);
+  expect_near(file.volume.spacing, {0.5, 1.25, 2});
+  EXPECT_THAT(file.warnings, IsEmpty());
+  EXPECT_EQ(file.volume.samples[0], -40 + 48);
+  EXPECT_EQ(file.volume.samples[12], -40);
+}
+
+TEST(Tiff, WarnsOfPagesThatAreMeantToBeTurned) {
+  const TempFolder folder;
+  std::string bytes = tiff_bytes(five_pages());
+  // The tag of the samples' count becomes that of the orientation, on the first page.
+  const std::string samples = bytes_of(std::uint16_t{277}) + bytes_of(std::uint16_t{3});
+  const std::string turned = bytes_of(std::uint16_t{274}) + bytes_of(std::uint16_t{3}) +
+                             bytes_of(std::uint32_t{1}) + bytes_of(std::uint32_t{4});
+  bytes.replace(bytes.find(samples), 12, turned);
+  EXPECT_THAT(read(folder, "a.tif", bytes).warnings, testing::Contains(HasSubstr("Orientation 4")));
+}
+
 }  // namespace
 }  // namespace mesamis

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesamis/base/types.h"
@@ -91,6 +93,8 @@ struct SliceBytes {
   double slope = 1, intercept = 0;
   std::vector<std::int16_t> pixels = ramp<std::int16_t>(12);
   std::string patient{};  ///< name and number, where there is one
+  /// Elements beside those above: value representation and text.
+  std::map<std::uint32_t, std::pair<std::string, std::string>> more{};
 
   std::string bytes() const {
     DicomWriter set(coding);
@@ -103,14 +107,15 @@ struct SliceBytes {
     }
     set.text(0x0020000e, "UI", series);
     if (!position.empty()) set.decimals(0x00200032, position);
-    set.decimals(0x00200037, orientation);
+    if (!orientation.empty()) set.decimals(0x00200037, orientation);
     set.number(0x00280002, 1);
     set.text(0x00280004, "CS", photometric);
     set.number(0x00280010, rows), set.number(0x00280011, columns);
-    set.decimals(0x00280030, spacing);
+    if (!spacing.empty()) set.decimals(0x00280030, spacing);
     set.number(0x00280100, allocated), set.number(0x00280101, stored);
     set.number(0x00280102, high_bit), set.number(0x00280103, is_signed);
     set.decimals(0x00281052, {intercept}), set.decimals(0x00281053, {slope});
+    for (const auto& [tag, element] : more) set.text(tag, element.first, element.second);
     set.raw(0x7fe00010, "OW", bytes_of_all(pixels, coding == DicomCoding::kBigEndian));
     return file(set.bytes(), coding);
   }

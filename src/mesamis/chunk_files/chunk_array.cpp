@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -67,16 +68,47 @@ Piece piece_of(const ChunkLayout& layout, const std::array<std::uint64_t, 3>& ch
   return piece;
 }
 
-/// Elements of a chunk between neighbours along the last three axes.
-std::array<std::size_t, 3> strides_of(const ChunkLayout& layout) {
+/// Elements of a chunk between neighbours along each axis.
+std::vector<std::size_t> strides_of(const ChunkLayout& layout) {
   std::vector<std::size_t> strides(layout.shape.size());
   std::size_t stride = 1;
   for (std::size_t n = layout.order.size(); n-- > 0;) {
     strides[layout.order[n]] = stride;
     stride *= layout.chunk[layout.order[n]];
   }
-  const std::size_t lead = strides.size() - 3;
-  return {strides[lead], strides[lead + 1], strides[lead + 2]};
+  return strides;
+}
+
+/// The element of a chunk that the leading axes begin at.
+std::size_t lead_element(const ChunkLayout& layout, const std::vector<std::size_t>& strides) {
+  std::size_t element = 0;
+  for (std::size_t a = 0; a < layout.lead.size(); ++a) {
+    element += layout.lead[a] % layout.chunk[a] * strides[a];
+  }
+  return element;
+}
+
+/// Which of the leading axes hold volumes and channels; those of length 1 hold nothing.
+struct LeadAxes {
+  std::optional<std::size_t> volume, channel;
+};
+
+LeadAxes lead_axes(const fs::path& file, const ChunkLayout& layout,
+                   const std::vector<std::string>& names) {
+  const auto is = [&](std::size_t axis, const char* name) {
+    return axis < names.size() && lower(names[axis]) == name;
+  };
+  LeadAxes lead;
+  for (std::size_t a = 0; a + 3 < layout.shape.size(); ++a) {
+    if (layout.shape[a] == 1) continue;
+    auto& place = is(a, "c") || (lead.volume && !is(a, "t")) ? lead.channel : lead.volume;
+    if (place) {
+      refuse(file, say("expected volumes and channels along two axes at most, found ",
+                       layout.shape[a], " along ", axis_name(names, a), " too"));
+    }
+    place = a;
+  }
+  return lead;
 }
 
 template <class Number>
@@ -88,10 +120,14 @@ void convert_line(const char* bytes, std::size_t stride, ByteOrder order, std::s
 
 class ChunkArray : public ChunkedScan {
  public:
-  explicit ChunkArray(OpenedArray array)
-      : array_(std::move(array)), strides_(strides_of(array_.layout)) {
+  explicit ChunkArray(OpenedArray array) : array_(std::move(array)) {
     const std::size_t lead = array_.layout.shape.size() - 3;
-    for (std::size_t a = 0; a < 3; ++a) length_[a] = array_.layout.chunk[lead + a];
+    const std::vector<std::size_t> strides = strides_of(array_.layout);
+    first_element_ = lead_element(array_.layout, strides);
+    for (std::size_t a = 0; a < 3; ++a) {
+      length_[a] = array_.layout.chunk[lead + a];
+      strides_[a] = strides[lead + a];
+    }
   }
 
   const VoxelGrid& grid() const override { return array_.grid; }
@@ -133,7 +169,8 @@ class ChunkArray : public ChunkedScan {
            std::span<float> out) const;
 
   OpenedArray array_;
-  std::array<std::size_t, 3> strides_;
+  std::array<std::size_t, 3> strides_{};
+  std::size_t first_element_ = 0;          // of a chunk, in the volume and channel that are read
   std::array<std::uint64_t, 3> length_{};  // of a chunk along k, j, i
   mutable std::mutex mutex_;
   mutable std::optional<std::uint64_t> kept_row_;
@@ -155,7 +192,7 @@ void ChunkArray::put(const Piece& piece, const std::string* bytes, const SliceRa
         std::fill(target.begin(), target.end(), static_cast<float>(layout.fill));
         continue;
       }
-      const std::size_t element = (in_chunk[0] + k) * strides_[0] +
+      const std::size_t element = first_element_ + (in_chunk[0] + k) * strides_[0] +
                                   (in_chunk[1] + j) * strides_[1] + in_chunk[2] * strides_[2];
       const char* first = bytes->data() + element * byte_size(layout.type);
       with_number_type(layout.type, [&](auto zero) {
@@ -168,7 +205,10 @@ void ChunkArray::put(const Piece& piece, const std::string* bytes, const SliceRa
 void ChunkArray::decode_chunk(const std::array<std::uint64_t, 3>& place, const SliceRange& slices,
                               MemoryBudget& budget, std::span<float> out) const {
   const Piece piece = piece_of(array_.layout, place, slices);
-  std::vector<std::uint64_t> index(array_.layout.shape.size() - 3, 0);
+  std::vector<std::uint64_t> index;
+  for (std::size_t a = 0; a < array_.layout.lead.size(); ++a) {
+    index.push_back(array_.layout.lead[a] / array_.layout.chunk[a]);
+  }
   index.insert(index.end(), place.begin(), place.end());
   const ScopedFile scope(budget, array_.path);
   std::optional<StoredChunk> chunk = array_.fetch(index, budget);
@@ -248,19 +288,23 @@ std::vector<float> ChunkArray::read(Index first, Index count) const {
 
 }  // namespace
 
-std::array<Index, 3> require_layout(const fs::path& file, const ChunkLayout& layout,
-                                    const std::vector<std::string>& axes) {
+std::array<Index, 3> require_layout(const fs::path& file, ChunkLayout& layout,
+                                    const std::vector<std::string>& axes,
+                                    const ValueChoice& choice) {
   const std::size_t count = layout.shape.size();
   if (count < 3 || count > kMostAxes) {
     refuse(file, say("expected an array of 3 axes, found ", count));
   }
   require_product(file, layout.shape, "an array");
   require_product(file, layout.chunk, "chunks");
-  for (std::size_t a = 0; a + 3 < count; ++a) {
-    if (layout.shape[a] == 1) continue;
-    refuse(file,
-           say("expected one volume, 1 along ", axis_name(axes, a), ", found ", layout.shape[a]));
-  }
+  const LeadAxes lead = lead_axes(file, layout, axes);
+  const auto length = [&](const std::optional<std::size_t>& axis) {
+    return axis ? static_cast<std::int64_t>(layout.shape[*axis]) : 1;
+  };
+  const TakenValue taken = take_value(file, {length(lead.volume), length(lead.channel)}, choice);
+  layout.lead.assign(count - 3, 0);
+  if (lead.volume) layout.lead[*lead.volume] = static_cast<std::uint64_t>(taken.volume);
+  if (lead.channel) layout.lead[*lead.channel] = static_cast<std::uint64_t>(taken.channel);
   const auto voxels = [&](std::size_t a) {
     return static_cast<Index>(layout.shape[count - 1 - a]);
   };

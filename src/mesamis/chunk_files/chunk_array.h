@@ -14,6 +14,7 @@
 #include "mesamis/chunk_files/chunked_scan.h"
 #include "mesamis/files/memory_budget.h"
 #include "mesamis/files/number_type.h"
+#include "mesamis/files/value_axes.h"
 
 /// What Zarr and HDF5 share: an array in chunks, read as the slices of a scan.
 namespace mesamis::detail {
@@ -27,14 +28,16 @@ struct ChunkLayout {
   ByteOrder byte_order = ByteOrder::kLittle;
   double fill = 0;  ///< of chunks that are missing
   std::vector<ChunkCodec> codecs;
+  std::vector<std::uint64_t> lead{};  ///< which element of each axis before the last three is read
 };
 
-/// Checks a layout: numbers of axes, lengths, products, leading axes of length 1.
-/// @param axes  names of the axes for messages; may be empty.
+/// Checks a layout: numbers of axes, lengths, products. Chooses one element of each leading axis.
+/// @param axes  names of the axes; may be empty.
 /// @return voxels along i, j, k.
-/// @throws InputError  naming the file.
-std::array<Index, 3> require_layout(const std::filesystem::path& file, const ChunkLayout& layout,
-                                    const std::vector<std::string>& axes = {});
+/// @throws InputError  naming the file; as take_value().
+std::array<Index, 3> require_layout(const std::filesystem::path& file, ChunkLayout& layout,
+                                    const std::vector<std::string>& axes = {},
+                                    const ValueChoice& choice = {});
 
 /// Names for a message: the first eight, and that there are more.
 std::string first_of(const std::vector<std::string>& names);

@@ -18,13 +18,16 @@ struct ChunkOptions {
   std::string dataset{};
   ReadLimits limits{};            ///< memory for chunks and for the slices of one read()
   std::optional<Vec3> spacing{};  ///< mm, positive, along i, j, k: taken instead of the file's
+  /// From 0: where axes before the last three hold several times and channels, which is read.
+  std::optional<Index> volume{}, channel{};
 };
 
 /// A scan in chunks, open for reading.
 ///
 /// The last axis of the array is i, the one before it j, then k. x runs to the left, y to the
-/// back, z to the head. Axes of length 1 before these three are left out. Several threads may read
-/// at the same time; they wait for each other.
+/// back, z to the head. Axes of length 1 before these three are left out; of
+/// longer ones, one called t (or the only one, or the first) holds volumes, another one channels.
+/// Several threads may read at the same time; they wait for each other.
 ///
 /// A read() decodes the chunks that the slices touch, each once. Where slices end within a chunk,
 /// the row of chunks is kept for the next call if it takes at most a quarter of the memory allowed.
@@ -46,8 +49,8 @@ bool is_hdf5(const std::filesystem::path& path) noexcept;
 
 /// Opens an array of a Zarr store in a local directory.
 ///
-/// Version 2, and version 3 without shards. Numbers: whole ones of 8 to 64 bits, floating point of
-/// 32 or 64, either byte order. Chunks in any order of axes, packed by zlib, gzip, Blosc or
+/// Version 2, and version 3, also with shards. Numbers: whole ones of 8 to 64 bits, floating point
+/// of 32 or 64, either byte order. Chunks in any order of axes, packed by zlib, gzip, Blosc or
 /// Zstandard, shuffled, with CRC-32C. A chunk that is missing has the fill value (0 if there is
 /// none). Groups with OME-Zarr multiscales (0.4, 0.5) give spacing and origin, in the units of
 /// their axes; mm are taken where an axis has no unit. Other arrays get 1 mm. Warnings say so.

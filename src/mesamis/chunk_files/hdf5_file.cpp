@@ -285,7 +285,7 @@ void set_chunks(const Dataset& dataset, ChunkLayout& layout) {
     }
   } else if (kind == H5D_CONTIGUOUS || kind == H5D_COMPACT) {
     layout.chunk = layout.shape;
-    layout.chunk[rank - 3] = 1;
+    std::fill(layout.chunk.begin(), layout.chunk.end() - 2, 1);
   } else {
     dataset.refuse_it("expected samples in the file itself, found a virtual dataset");
   }
@@ -389,7 +389,13 @@ OpenedArray opened(Dataset dataset, const ChunkOptions& options) {
   out.path = dataset.path;
   out.format = "HDF5";
   out.layout = layout_of(dataset);
-  out.grid.size = detail::require_layout(dataset.path, out.layout);
+  out.grid.size =
+      detail::require_layout(dataset.path, out.layout, {}, {options.volume, options.channel});
+  for (const char* name : {"scale_factor", "add_offset"}) {
+    if (H5Aexists(dataset.id, name) <= 0) continue;
+    out.warnings.push_back(
+        say("the attribute ", name, " is not applied: values are kept as stored"));
+  }
   detail::require_chain(dataset.path, out.layout.codecs);
   detail::set_spacing(out, spacing_of(dataset), options.spacing);
   out.limits = options.limits;

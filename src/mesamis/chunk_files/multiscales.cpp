@@ -7,24 +7,11 @@
 #include <string_view>
 #include <utility>
 
+#include "mesamis/files/length_unit.h"
 #include "mesamis/files/refuse.h"
 
 namespace mesamis::detail {
 namespace {
-
-struct LengthUnit {
-  std::string_view name;
-  double mm;
-};
-
-constexpr std::array kUnits{
-    LengthUnit{"millimeter", 1},   LengthUnit{"mm", 1},          LengthUnit{"micrometer", 1e-3},
-    LengthUnit{"um", 1e-3},        LengthUnit{"micron", 1e-3},   LengthUnit{"\xc2\xb5m", 1e-3},
-    LengthUnit{"nanometer", 1e-6}, LengthUnit{"nm", 1e-6},       LengthUnit{"angstrom", 1e-7},
-    LengthUnit{"picometer", 1e-9}, LengthUnit{"centimeter", 10}, LengthUnit{"cm", 10},
-    LengthUnit{"decimeter", 100},  LengthUnit{"meter", 1000},    LengthUnit{"m", 1000},
-    LengthUnit{"inch", 25.4},
-};
 
 struct Axis {
   std::string name, unit;
@@ -55,16 +42,6 @@ void require_space_last(const JsonValue& image, const std::vector<Axis>& axes) {
     fits = lower(axes[axes.size() - 3 + a].name) == kSpace[a];
   }
   if (!fits) refuse(image.file(), "expected axes that end with z, y, x, found " + found);
-}
-
-/// mm per unit; none if the axis tells none that is a length.
-std::optional<double> mm_per(const std::string& unit) {
-  std::string name = lower(unit);
-  const auto british = name.find("metre");
-  if (british != std::string::npos) name.replace(british, 5, "meter");
-  const auto found = std::find_if(kUnits.begin(), kUnits.end(),
-                                  [&](const LengthUnit& known) { return known.name == name; });
-  return found == kUnits.end() ? std::nullopt : std::optional(found->mm);
 }
 
 /// scale * index + translation, along each axis.
@@ -123,7 +100,7 @@ void set_lengths(const std::vector<Axis>& axes, const Transform& transform, Scal
   for (std::size_t a = 0; a < 3; ++a) {
     const std::size_t axis = count - 1 - a;
     const std::string unit = axis < axes.size() ? axes[axis].unit : std::string();
-    const auto mm = mm_per(unit);
+    const auto mm = mm_per_unit(unit);
     if (!mm) {
       level.warnings.push_back(say("axis ", "xyz"[a], " has ",
                                    unit.empty() ? "no unit" : "the unit " + in_quotes(unit),

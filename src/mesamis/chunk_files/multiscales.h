@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
-#include "mesamis/chunk_files/json_value.h"
+#include "mesamis/files/json_value.h"
 
 /// The metadata by which OME-Zarr groups arrays of one image (NGFF 0.1 to 0.5).
 namespace mesamis::detail {

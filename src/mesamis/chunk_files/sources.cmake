@@ -5,7 +5,6 @@ set(ROOM_SOURCES
   chunk_array.cpp
   chunk_codec.cpp
   hdf5_file.cpp
-  json_value.cpp
   multiscales.cpp
   zarr_array.cpp
   zarr_store.cpp)

@@ -118,11 +118,6 @@ void read_codecs(const JsonValue& codecs, ChunkLayout& layout) {
   bool in_bytes = false;
   for (const JsonValue& codec : codecs.list()) {
     const std::string name = codec.is_text() ? codec.text() : codec.at("name").text();
-    if (name == "sharding_indexed") {
-      refuse(codecs.file(),
-             "expected chunks in files of their own, found shards "
-             "(sharding_indexed), which are not supported");
-    }
     if (name == "bytes" && !in_bytes) {
       layout.byte_order = order_of(codec, byte_size(layout.type));
       in_bytes = true;
@@ -139,6 +134,59 @@ void read_codecs(const JsonValue& codecs, ChunkLayout& layout) {
   if (!in_bytes) codecs.refuse_as("a list with the codec bytes");
 }
 
+std::string name_of_codec(const JsonValue& codec) {
+  return codec.is_text() ? codec.text() : codec.at("name").text();
+}
+
+/// The table of a shard is in little endian, perhaps with a sum.
+void read_index_codecs(const JsonValue& codecs, ZarrShard& shard) {
+  const std::vector<JsonValue> list = codecs.list();
+  const bool good =
+      (list.size() == 1 || (list.size() == 2 && name_of_codec(list[1]) == "crc32c")) &&
+      name_of_codec(list[0]) == "bytes" && order_of(list[0], 8) == ByteOrder::kLittle;
+  if (!good) codecs.refuse_as("bytes in little endian, then crc32c or nothing");
+  shard.index_has_sum = list.size() == 2;
+}
+
+/// Shards hold chunks: the array's chunks are then those within.
+/// @return the codecs of the chunks.
+JsonValue read_shards(const JsonValue& codec, ZarrArray& array) {
+  constexpr std::uint64_t kMostChunks = 1 << 24;
+  ChunkLayout& layout = array.layout;
+  const JsonValue configuration = codec.at("configuration"),
+                  shape = configuration.at("chunk_shape");
+  const std::vector<std::uint64_t> inner = shape.counts();
+  ZarrShard shard;
+  std::uint64_t all = 1;
+  for (std::size_t a = 0; a < layout.chunk.size(); ++a) {
+    if (inner.size() != layout.chunk.size() || inner[a] < 1 || layout.chunk[a] % inner[a] != 0) {
+      shape.refuse_as("lengths that divide those of the shards");
+    }
+    shard.chunks.push_back(layout.chunk[a] / inner[a]);
+    if (shard.chunks.back() < 1 || shard.chunks.back() > kMostChunks / all) {
+      shape.refuse_as(say("1 to ", kMostChunks, " chunks in a shard"));
+    }
+    all *= shard.chunks.back();
+  }
+  read_index_codecs(configuration.at("index_codecs"), shard);
+  if (const auto place = configuration.find("index_location")) {
+    if (place->text() != "start" && place->text() != "end") place->refuse_as("start or end");
+    shard.index_at_end = place->text() == "end";
+  }
+  layout.chunk = inner;
+  array.shard = std::move(shard);
+  return configuration.at("codecs");
+}
+
+/// The codecs of an array: of its shards, and then of the chunks in them, or of chunks alone.
+void read_codecs_of_array(const JsonValue& codecs, ZarrArray& array) {
+  const std::vector<JsonValue> list = codecs.list();
+  const bool shards = !list.empty() && name_of_codec(list[0]) == "sharding_indexed";
+  if (!shards) return read_codecs(codecs, array.layout);
+  if (list.size() > 1) codecs.refuse_as("sharding_indexed alone");
+  read_codecs(read_shards(list[0], array), array.layout);
+}
+
 void read_encoding(const JsonValue& metadata, ZarrArray& array) {
   const JsonValue encoding = metadata.at("chunk_key_encoding");
   const std::string name = encoding.at("name").text();
@@ -152,6 +200,12 @@ void read_encoding(const JsonValue& metadata, ZarrArray& array) {
 }
 
 }  // namespace
+
+std::uint64_t ZarrShard::index_bytes() const noexcept {
+  std::uint64_t count = 1;
+  for (const std::uint64_t n : chunks) count *= n;
+  return 16 * count + (index_has_sum ? 4 : 0);
+}
 
 ZarrArray read_zarr_v2(const JsonValue& metadata) {
   if (metadata.at("zarr_format").count() != 2) metadata.at("zarr_format").refuse_as("2");
@@ -202,7 +256,7 @@ ZarrArray read_zarr_v3(const JsonValue& metadata) {
   set_order(layout, false);
   set_fill(metadata, layout);
   read_encoding(metadata, array);
-  read_codecs(metadata.at("codecs"), layout);
+  read_codecs_of_array(metadata.at("codecs"), array);
   const auto transformers = metadata.find("storage_transformers");
   if (transformers && !transformers->list().empty()) transformers->refuse_as("an empty list");
   return array;

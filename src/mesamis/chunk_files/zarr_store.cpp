@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
@@ -8,6 +9,7 @@
 #include "mesamis/chunk_files/multiscales.h"
 #include "mesamis/chunk_files/zarr_array.h"
 #include "mesamis/files/byte_source.h"
+#include "mesamis/files/bytes.h"
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/in_one_line.h"
 #include "mesamis/files/refuse.h"
@@ -185,6 +187,64 @@ Found find_array(const fs::path& path, const std::string& dataset, MemoryBudget&
   return search.found.front();
 }
 
+/// The table of the shard that was read last.
+struct ShardIndex {
+  fs::path file;
+  std::string table;
+};
+
+std::string read_bytes_of(const fs::path& file, std::uint64_t begin, std::uint64_t size,
+                          MemoryBudget& budget) {
+  const std::uint64_t there = detail::size_of(file);
+  if (begin > there || size > there - begin) {
+    refuse(file,
+           say("expected ", size, " bytes from byte ", begin, " on, found a file of ", there));
+  }
+  budget.claim(size, 1, "a chunk as stored");
+  std::string bytes(size, '\0');
+  detail::ByteSource source(file, detail::Packing::kPlain, begin);
+  bytes.resize(source.read(bytes.data(), size));
+  return bytes;
+}
+
+void read_index(const fs::path& file, const detail::ZarrShard& shard, MemoryBudget& budget,
+                ShardIndex& index) {
+  if (index.file == file) return;
+  const std::uint64_t size = shard.index_bytes(), all = detail::size_of(file);
+  if (size > all) {
+    refuse(file, say("expected a table of ", size, " bytes in the shard, found ", all));
+  }
+  index.file.clear();
+  std::string table = read_bytes_of(file, shard.index_at_end ? all - size : 0, size, budget);
+  if (shard.index_has_sum) {
+    table = detail::unpack_chunk(file, std::move(table), {{detail::ChunkCodec::Kind::kCrc32c}},
+                                 size - 4);
+  }
+  index.table = std::move(table);
+  index.file = file;
+}
+
+/// A chunk within a shard, by its place among all chunks.
+std::optional<StoredChunk> read_chunk_in_shard(const fs::path& folder, const ZarrArray& array,
+                                               std::vector<std::uint64_t> place,
+                                               MemoryBudget& budget, ShardIndex& index) {
+  constexpr std::uint64_t kMissing = ~std::uint64_t{0};
+  const detail::ZarrShard& shard = *array.shard;
+  std::uint64_t within = 0;
+  for (std::size_t a = 0; a < place.size(); ++a) {
+    within = within * shard.chunks[a] + place[a] % shard.chunks[a];
+    place[a] /= shard.chunks[a];
+  }
+  const fs::path file = folder / detail::chunk_name(array, place);
+  if (!is_there(file)) return {};
+  detail::require_file(file);
+  read_index(file, shard, budget, index);
+  const auto begin = detail::load<std::uint64_t>(index.table.data() + 16 * within);
+  const auto size = detail::load<std::uint64_t>(index.table.data() + 16 * within + 8);
+  if (begin == kMissing && size == kMissing) return {};
+  return StoredChunk{file, read_bytes_of(file, begin, size, budget), array.layout.codecs};
+}
+
 std::optional<StoredChunk> read_chunk(const fs::path& file, const detail::ChunkLayout& layout,
                                       MemoryBudget& budget) {
   if (!is_there(file)) return {};
@@ -204,6 +264,18 @@ ZarrArray read_array(const fs::path& folder, MemoryBudget& budget) {
   return node.v3 ? detail::read_zarr_v3(metadata) : detail::read_zarr_v2(metadata);
 }
 
+/// The attributes by which CF conventions scale values are told: they are not applied.
+void warn_of_scale(const fs::path& folder, MemoryBudget& budget,
+                   std::vector<std::string>& warnings) {
+  const Document own = read_document(folder / kAttributes2, budget);
+  const Document v3 = read_document(folder / kNode3, budget);
+  const auto attributes = v3.value().find("attributes");
+  for (const char* name : {"scale_factor", "add_offset"}) {
+    if (!own.value().has(name) && !(attributes && attributes->has(name))) continue;
+    warnings.push_back(say("the attribute ", name, " is not applied: values are kept as stored"));
+  }
+}
+
 OpenedArray opened(const fs::path& path, const Found& found, const ChunkOptions& options,
                    MemoryBudget& budget) {
   ZarrArray array = read_array(found.folder, budget);
@@ -211,19 +283,24 @@ OpenedArray opened(const fs::path& path, const Found& found, const ChunkOptions&
   out.path = path;
   out.format = found.level ? "OME-Zarr" : "Zarr";
   const auto axes = found.level ? found.level->axes : std::vector<std::string>{};
-  out.grid.size = detail::require_layout(found.folder, array.layout, axes);
+  out.grid.size =
+      detail::require_layout(found.folder, array.layout, axes, {options.volume, options.channel});
   if (!axes.empty() && axes.size() != array.layout.shape.size()) {
     refuse(found.folder, say("expected as many axes as the image states, ", axes.size(), ", found ",
                              array.layout.shape.size()));
   }
   detail::require_chain(found.folder, array.layout.codecs);
+  warn_of_scale(found.folder, budget, out.warnings);
   if (found.level && !options.spacing) out.warnings = found.level->warnings;
   if (found.level) out.grid.origin = found.level->origin;
   detail::set_spacing(out, found.level ? found.level->spacing : std::nullopt, options.spacing);
   out.layout = array.layout;
   out.limits = options.limits;
-  out.fetch = [array = std::move(array), folder = found.folder](
-                  const std::vector<std::uint64_t>& place, MemoryBudget& memory) {
+  // One read() at a time fetches chunks.
+  out.fetch = [array = std::move(array), folder = found.folder,
+               index = std::make_shared<ShardIndex>()](const std::vector<std::uint64_t>& place,
+                                                       MemoryBudget& memory) {
+    if (array.shard) return read_chunk_in_shard(folder, array, place, memory, *index);
     return read_chunk(folder / detail::chunk_name(array, place), array.layout, memory);
   };
   return out;

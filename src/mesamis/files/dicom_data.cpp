@@ -271,14 +271,6 @@ void parse(DicomFile& file, MemoryBudget& budget) {
   Parser(file, begin, explicit_vr, budget).parse_all(file.elements);
 }
 
-void parse_or_note(DicomFile& file, MemoryBudget& budget) {
-  try {
-    parse(file, budget);
-  } catch (const Broken& broken) {
-    file.problem = broken.why;
-  }
-}
-
 }  // namespace
 
 bool begins_like_dicom(Bytes bytes) {
@@ -288,24 +280,33 @@ bool begins_like_dicom(Bytes bytes) {
 }
 
 DicomFile read_dicom_file(const std::filesystem::path& path, MemoryBudget& budget) {
+  std::vector<unsigned char> bytes;
+  ByteSource source(path, Packing::kPlain);
+  reserve_within(budget, bytes, source.most_bytes(), "bytes of the file");
+  bytes.resize(source.most_bytes());
+  bytes.resize(source.read(bytes.data(), bytes.size()));
+  return parse_dicom_file(path, std::move(bytes), budget);
+}
+
+DicomFile parse_dicom_file(const std::filesystem::path& path, std::vector<unsigned char> bytes,
+                           MemoryBudget& budget) {
   DicomFile file;
   file.path = path;
-  ByteSource source(path, Packing::kPlain);
-  reserve_within(budget, file.bytes, source.most_bytes(), "bytes of the file");
-  file.bytes.resize(source.most_bytes());
-  file.bytes.resize(source.read(file.bytes.data(), file.bytes.size()));
-  parse_or_note(file, budget);
+  file.bytes = std::move(bytes);
+  try {
+    parse(file, budget);
+  } catch (const Broken& broken) {
+    file.problem = broken.why;
+  }
   return file;
 }
 
 DicomFile parse_dicom(const std::filesystem::path& path, std::string_view bytes,
                       MemoryBudget& budget) {
-  DicomFile file;
-  file.path = path;
-  reserve_within(budget, file.bytes, bytes.size(), "bytes of the file");
-  file.bytes.assign(bytes.begin(), bytes.end());
-  parse_or_note(file, budget);
-  return file;
+  std::vector<unsigned char> copy;
+  reserve_within(budget, copy, bytes.size(), "bytes of the file");
+  copy.assign(bytes.begin(), bytes.end());
+  return parse_dicom_file(path, std::move(copy), budget);
 }
 
 std::string text_of(const DicomSet& set, DicomTag tag) {

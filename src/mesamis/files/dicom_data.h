@@ -40,7 +40,9 @@ inline constexpr DicomTag kTransferSyntax = 0x00020010, kCharacterSet = 0x000800
                           kHighBit = 0x00280102, kPixelRepresentation = 0x00280103,
                           kIntercept = 0x00281052, kSlope = 0x00281053, kModalityLut = 0x00283000,
                           kPixelData = 0x7fe00010, kFloatPixelData = 0x7fe00008,
-                          kDoublePixelData = 0x7fe00009;
+                          kDoublePixelData = 0x7fe00009, kSopInstance = 0x00080018,
+                          kInstanceNumber = 0x00200013, kSliceLocation = 0x00201041,
+                          kFrameIncrement = 0x00280009, kFrameOffsets = 0x3004000c;
 inline constexpr DicomTag kSharedGroups = 0x52009229, kFrameGroups = 0x52009230,
                           kFrameContent = 0x00209111, kPlanePosition = 0x00209113,
                           kPlaneOrientation = 0x00209116, kPixelMeasures = 0x00289110,
@@ -85,6 +87,10 @@ bool begins_like_dicom(Bytes bytes);
 /// before it is taken, and held.
 /// @throws InputError  if the file cannot be read, and as MemoryBudget::claim().
 DicomFile read_dicom_file(const std::filesystem::path& path, MemoryBudget& budget);
+/// The same of bytes in memory, which were claimed.
+/// @param path  for messages.
+DicomFile parse_dicom_file(const std::filesystem::path& path, std::vector<unsigned char> bytes,
+                           MemoryBudget& budget);
 
 /// Parses the bytes of a file that are in memory already; else as read_dicom_file(). Memory: they
 /// are copied.

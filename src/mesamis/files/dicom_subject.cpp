@@ -20,7 +20,7 @@ struct Place {
   DicomTag tag;
 };
 
-constexpr DicomTag kStudyUid = 0x0020000d, kSopInstance = 0x00080018;
+constexpr DicomTag kStudyUid = 0x0020000d;
 
 constexpr std::array<Place, 12> kPlaces{
     {{&DicomSubject::patient_name, 0x00100010},
@@ -67,7 +67,7 @@ DicomSubject read_dicom_subject(std::span<const fs::path> files, const ReadLimit
     const DicomFile file = read_dicom_file(path, budget);
     if (subject.study_uid.empty()) take_subject(file, subject);
     subject.sources.emplace_back(text_of(file.elements, dicom::kSopClass),
-                                 text_of(file.elements, kSopInstance));
+                                 text_of(file.elements, dicom::kSopInstance));
   }
   if (subject.study_uid.empty()) {
     refuse(files.front(), "expected a file of a DICOM scan, found another one");

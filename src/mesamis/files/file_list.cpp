@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/files/file_list.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <set>
 #include <system_error>
+#include <utility>
 
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/utf8.h"
@@ -14,6 +18,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The directories that were entered, so that links in a circle are entered once.
+class Entered {
+ public:
+  bool add(const fs::path& directory) {
+    struct stat info {};
+    return ::stat(directory.c_str(), &info) == 0 && seen_.emplace(info.st_dev, info.st_ino).second;
+  }
+
+ private:
+  std::set<std::pair<dev_t, ino_t>> seen_;
+};
+
+/// Enters a directory once, whatever links lead to it.
+void choose_recursion(fs::recursive_directory_iterator& entry, Entered& entered) {
+  std::error_code ignored;
+  if (entry->is_directory(ignored) && !entered.add(entry->path())) {
+    entry.disable_recursion_pending();
+  }
+}
+void choose_recursion(const fs::directory_iterator&, const Entered&) {}
+
 template <class Iterator>
 std::vector<fs::path> collect(const fs::path& directory) {
   constexpr std::size_t kMostFiles = 100'000;
@@ -21,9 +46,15 @@ std::vector<fs::path> collect(const fs::path& directory) {
   std::error_code error;
   const fs::directory_iterator itself(directory, error);  // this one is not skipped
   if (error) refuse(directory, "cannot be read: " + reason_of(error));
-  Iterator entry(directory, fs::directory_options::skip_permission_denied, error);
+  Entered entered;
+  entered.add(directory);
+  Iterator entry(directory,
+                 fs::directory_options::skip_permission_denied |
+                     fs::directory_options::follow_directory_symlink,
+                 error);
   for (; !error && entry != Iterator(); entry.increment(error)) {
     std::error_code ignored;
+    choose_recursion(entry, entered);
     if (!entry->is_regular_file(ignored)) continue;
     files.push_back(entry->path());
     if (files.size() > kMostFiles) {

@@ -30,7 +30,7 @@ std::string why_unreadable(const std::filesystem::path& file);
 std::uint64_t size_of(const std::filesystem::path& file);
 
 /// @return  the regular files of a directory and of those below it, in the order of their paths.
-///          Links to directories are not followed.
+///          Links to directories are followed; each directory is entered once.
 /// @throws InputError  if it cannot be read or holds more than 100 000 files.
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& directory);
 

@@ -19,12 +19,15 @@ set(ROOM_INNER_HEADERS
   file_list.h
   given_spacing.h
   in_one_line.h
+  json_value.h
+  length_unit.h
   memory_budget.h
   number_type.h
   owned_file.h
   refuse.h
   text_scan.h
   text_writer.h
+  value_axes.h
   xml.h
   zip_archive.h)
 set(ROOM_SOURCES
@@ -33,6 +36,8 @@ set(ROOM_SOURCES
   deflate.cpp
   file_list.cpp
   given_spacing.cpp
+  json_value.cpp
+  length_unit.cpp
   memory_budget.cpp
   output_set.cpp
   owned_file.cpp
@@ -40,6 +45,7 @@ set(ROOM_SOURCES
   refuse.cpp
   sha256.cpp
   utf8.cpp
+  value_axes.cpp
   xml_text.cpp
   zip_archive.cpp
   NEXT read_record.cpp

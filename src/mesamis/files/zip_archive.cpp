@@ -127,6 +127,13 @@ std::string ZipArchive::inflated(const Part& part, std::string_view stored) cons
   return plain;
 }
 
+std::vector<std::string> ZipArchive::names() const {
+  std::vector<std::string> names;
+  names.reserve(parts_.size());
+  for (const Part& part : parts_) names.push_back(part.name);
+  return names;
+}
+
 std::optional<std::string> ZipArchive::part(std::string_view name) {
   const auto found = std::find_if(parts_.begin(), parts_.end(),
                                   [key = lower(name)](const Part& p) { return p.name == key; });

@@ -23,6 +23,10 @@ class ZipArchive {
   ///                     parts.
   ZipArchive(std::filesystem::path file, std::string_view bytes, MemoryBudget& budget);
 
+  /// The names of all parts in the order of the directory, in lower case. O(parts).
+  /// @throws nothing
+  std::vector<std::string> names() const;
+
   /// Unpacks a part. What the directory claims of its size is compared with what its bytes can
   /// hold, and claimed, before anything is unpacked; it stays claimed.
   /// @param name  as in the directory, without regard to case.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -132,6 +133,63 @@ class LayerSmoother {
   std::array<bool, 3> along_{};
 };
 
+/// How many samples lie in bins of 20 units around those of air and tissue.
+class HounsfieldCounts {
+ public:
+  explicit HounsfieldCounts(std::span<const float> samples) : all_(samples.size()) {
+    std::vector<std::vector<std::size_t>> parts((samples.size() + kPart - 1) / kPart);
+    parallel_blocks(samples.size(), kPart, [&](std::size_t begin, std::size_t end) {
+      std::vector<std::size_t>& counts = parts[begin / kPart];
+      counts.assign(kBins, 0);
+      for (std::size_t n = begin; n < end; ++n) ++counts[bin_of(samples[n])];
+    });
+    counts_.assign(kBins, 0);
+    for (const auto& counts : parts) {
+      for (std::size_t bin = 0; bin < kBins; ++bin) counts_[bin] += counts[bin];
+    }
+    zeros_ = static_cast<std::size_t>(std::count(samples.begin(), samples.end(), 0.0F));
+  }
+
+  /// A peak at that of air, with hardly anything just below.
+  bool has_air() const {
+    const std::size_t air = within(-1100, -840), below = within(-1500, -1100);
+    return 200 * air >= all_ && air > 0 && air >= 2 * below && within(0, kHigh) > 0;
+  }
+
+  /// Fat, soft tissue and something brighter, above a floor that is air's or none.
+  bool has_tissue() const {
+    const std::size_t dark = within(-1500, -1100), bright = within(200, kHigh);
+    return is_of_tissue() && 4 * within(-200, 300) >= all_ && 200 * within(-140, -20) >= all_ &&
+           1000 * dark <= all_ && 2000 * bright >= all_ && 20 * zeros_ < all_;
+  }
+
+ private:
+  // The first and the last bin hold all beyond.
+  static constexpr int kLow = -1520, kHigh = 1520, kWidth = 20;
+  static constexpr std::size_t kBins = (kHigh - kLow) / kWidth + 1;
+
+  static std::size_t bin_of(float sample) {
+    const double bin = std::floor((static_cast<double>(sample) - kLow) / kWidth);
+    return static_cast<std::size_t>(std::clamp(bin, 0.0, static_cast<double>(kBins - 1)));
+  }
+  /// Samples from `low` on and below `high`; up to kHigh: all that are brighter too.
+  std::size_t within(int low, int high) const {
+    const auto begin = counts_.begin() + (low - kLow) / kWidth;
+    const auto end = high == kHigh ? counts_.end() : counts_.begin() + (high - kLow) / kWidth;
+    return std::accumulate(begin, end, std::size_t{0});
+  }
+  /// Whether the fullest bin is one of fat or soft tissue, or the least samples are air.
+  bool is_of_tissue() const {
+    const auto fullest = std::max_element(counts_.begin() + 1, counts_.end() - 1);
+    const int mode = kLow + kWidth * static_cast<int>(fullest - counts_.begin());
+    const bool ends_at_air = within(kLow, -1100) == 0 && within(-1100, -840) > 0;
+    return (mode >= -140 && mode < 140) || ends_at_air;
+  }
+
+  std::size_t all_, zeros_ = 0;
+  std::vector<std::size_t> counts_;
+};
+
 }  // namespace
 
 std::pair<float, float> sample_range(std::span<const float> samples) {
@@ -205,8 +263,8 @@ OtsuSplit otsu_split(const VolumeView& volume, double limit) {
 bool is_hounsfield(const VolumeView& volume) {
   if (volume.modality == "CT") return true;
   if (!volume.modality.empty()) return false;
-  const auto q = quantiles(volume, {0.01, 0.999});
-  return q[0] <= -800 && q[0] >= -3100 && q[1] > 0 && q[1] < 5000;
+  const HounsfieldCounts counts(volume.samples);
+  return counts.has_air() || counts.has_tissue();
 }
 
 Window default_window(const VolumeView& volume, double background) {

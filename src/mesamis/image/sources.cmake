@@ -4,6 +4,7 @@ set(ROOM_HEADERS
   grid_axes.h
   grey_values.h
   label_map.h
+  not_numbers.h
   orientation.h
   slice_source.h
   spline_image.h
@@ -17,6 +18,7 @@ set(ROOM_SOURCES
   grid_axes.cpp
   grey_values.cpp
   label_map.cpp
+  not_numbers.cpp
   orientation.cpp
   slice_plane.cpp
   slice_source.cpp

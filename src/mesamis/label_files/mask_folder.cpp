@@ -37,7 +37,7 @@ bool is_page_stack(const fs::path& file, MemoryBudget& budget) {
   if (extension != ".tif" && extension != ".tiff") return false;
   const ScopedFile scope(budget, file);
   try {
-    return open_picture(file, budget).grid.size[2] > 1;
+    return open_picture(file, Opening{budget}).grid.size[2] > 1;
   } catch (const InputError&) {
     return false;  // what cannot be read is no mask
   }

@@ -12,11 +12,11 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/object/keep.h"
 #include "mesamis/object/mirror.h"
-#include "mesamis/object/padding.h"
 #include "mesamis/object/places.h"
 #include "mesamis/object/split_at_seeds.h"
 #include "mesamis/object/tissue_level.h"
 #include "mesamis/object/voxel_islands.h"
+#include "mesamis/object/whole_values.h"
 
 namespace mesamis {
 namespace {
@@ -54,6 +54,16 @@ double value_around(const VolumeView& volume, const VoxelMask& grown) {
   throw InputError("remove: expected a patient's body in a CT scan, found none");
 }
 
+/// A label map that is read as a scan has no grey values: its surface follows the voxels.
+void warn_of_labels(const VolumeView& scan, std::vector<std::string>& warnings) {
+  if (const auto found = find_few_whole_values(scan)) {
+    warnings.push_back(
+        line("the scan holds %zu whole values alone, %g to %g: likely a label map, which --labels "
+             "takes",
+             found->count, found->least, found->most));
+  }
+}
+
 /// The steps of choose_object().
 class Choice {
  public:
@@ -71,6 +81,7 @@ class Choice {
   ChosenObject run() {
     cropped_size(chosen_.volume, request_.crop);  // refused before any work
     for (const Vec3& seed : request_.seeds) voxel_at(chosen_.volume, seed);
+    warn_of_labels(chosen_.volume, chosen_.warnings);
     fill_padding();
     remove_surroundings();
     if (chosen_.kind == TissueKind::kBright) remove_marked();
@@ -86,7 +97,11 @@ class Choice {
 
  private:
   void fill_padding() {
-    auto padding = find_padding(chosen_.volume);
+    auto padding = find_padding(chosen_.volume, request_.padding);
+    if (!padding && request_.padding.value) {
+      chosen_.warnings.push_back(
+          line("padding: expected voxels of %g and others, found none", *request_.padding.value));
+    }
     if (!padding) return;
     const double value =
         in_hounsfield_ ? kAirHu
@@ -96,7 +111,7 @@ class Choice {
     chosen_.unmeasured = std::move(padding->mask);
     chosen_.notes.push_back(
         line("padding: %zu voxels of %g, which the scanner did not measure, "
-             "are filled with %g",
+             "are filled with %g; --padding none leaves them",
              padding->voxels, padding->value, value));
   }
 
@@ -274,7 +289,9 @@ ChosenObject choose_object(Volume scan, const ObjectRequest& request) {
 
 std::optional<ChosenObject> choose_in_place(const VolumeView& scan, const ObjectRequest& request) {
   const bool asked = request.tissue || request.remove || request.mask || !request.seeds.empty();
-  if (asked || !(request.crop == CropRange{}) || find_padding(scan)) return std::nullopt;
+  if (asked || !(request.crop == CropRange{}) || find_padding(scan, request.padding)) {
+    return std::nullopt;
+  }
   if (request.surroundings != SurroundingsRule::kKeep) {
     const std::optional<Body> body = find_body(scan);
     if (body && !body->removed.empty()) return std::nullopt;
@@ -283,6 +300,7 @@ std::optional<ChosenObject> choose_in_place(const VolumeView& scan, const Object
   ChosenObject chosen;
   static_cast<VoxelGrid&>(chosen.volume) = scan;
   if (is_hounsfield(scan)) chosen.volume.modality = "CT";
+  warn_of_labels(scan, chosen.warnings);
   chosen.level = request.level;
   if (request.level) chosen.level_from = LevelSource::kUser;
   return chosen;

@@ -8,6 +8,7 @@
 #include "mesamis/image/label_map.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/object/body.h"
+#include "mesamis/object/padding.h"
 #include "mesamis/object/tissue.h"
 #include "mesamis/object/voxel_distance.h"
 
@@ -28,6 +29,7 @@ struct ObjectRequest {
   std::optional<double> level{};   ///< native units of the scan; comes before the tissue's
   bool measure_level = true;       ///< false: nobody needs one but tissues and seeds
   SurroundingsRule surroundings = SurroundingsRule::kRemoveIfBody;
+  PaddingRule padding{};             ///< which voxels were not measured
   std::optional<LabelMap> remove{};  ///< what is marked in any of its segments goes
   std::optional<LabelMap> mask{};    ///< what is marked in any of its segments stays
   double margin = 2;                 ///< mm, >= 0, around the mask; see KeepOptions

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <map>
 
+#include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/base/written_number.h"
 #include "mesamis/image/grey_values.h"
 #include "mesamis/object/voxel_neighbours.h"
 
@@ -151,23 +153,37 @@ std::vector<Inward> rows_inward(const VolumeView& volume, const VoxelMask& marke
   return rows;
 }
 
+/// Whether the second voxels lie far from the marked value and close together: the value and they
+/// are then the two sides of an object's surface.
+bool is_edge(const std::vector<Inward>& rows, float value, double range) {
+  constexpr double kFar = 0.3, kClose = 0.5;  // of the range; of the step
+  std::vector<float> second;
+  for (const Inward& row : rows) second.push_back(row[1]);
+  const auto q = quantiles(VolumeView{{}, second}, {0.05, 0.5, 0.95});
+  const double step = std::abs(q[1] - static_cast<double>(value));
+  return step > kFar * range && q[2] - q[0] < kClose * step;
+}
+
 /// Whether the field of view ends at the marked voxels, rather than an object: it begins in the
-/// dark, at another value, and does not get brighter inwards.
+/// dark, at another value, does not get brighter inwards, and has noise.
 bool is_cut(const VolumeView& volume, const VoxelMask& marked, float value) {
   constexpr double kDark = 0.3, kAway = 0.02;  // of the range
-  constexpr double kLeastDiffer = 0.05, kLeastDark = 0.25, kMostRise = 0.75;
+  constexpr double kLeastDiffer = 0.05, kLeastDark = 0.25, kMostRise = 0.75, kLeastNoise = 0.1;
   const std::vector<float> seen = samples_outside(volume, marked);
   const auto ends = quantiles(VolumeView{{}, seen}, {0.001, 0.999});
   const double range = ends[1] - ends[0];
-  double rows = 0, differ = 0, dark = 0, rise = 0;
-  for (const Inward& row : rows_inward(volume, marked)) {
+  const std::vector<Inward> rows = rows_inward(volume, marked);
+  double differ = 0, dark = 0, rise = 0, change = 0;
+  for (const Inward& row : rows) {
     const bool is_dark = row[1] <= ends[0] + kDark * range;
-    ++rows;
     differ += std::abs(row[0] - value) > kAway * range;
     dark += is_dark;
     rise += is_dark && row[2] > row[1];
+    change += is_dark && row[2] != row[1];
   }
-  return differ > kLeastDiffer * rows && dark > kLeastDark * rows && rise < kMostRise * dark;
+  const auto all = static_cast<double>(rows.size());
+  return differ > kLeastDiffer * all && dark > kLeastDark * all && rise < kMostRise * dark &&
+         change > kLeastNoise * dark && !is_edge(rows, value, range);
 }
 
 /// Marks the even value around a field of view; empty if there is none.
@@ -194,17 +210,40 @@ double common_value(const VolumeView& volume, const VoxelMask& mask) {
       ->first;
 }
 
+VoxelMask of_value(const VolumeView& volume, float value) {
+  VoxelMask mask(volume.samples.size());
+  for (std::size_t n = 0; n < mask.size(); ++n) mask[n] = volume.samples[n] == value;
+  return mask;
+}
+
+/// Both signs of padding.
+VoxelMask searched(const VolumeView& volume) {
+  VoxelMask mask = darker_than_air(volume);
+  VoxelMask around = around_field_of_view(volume);
+  if (mask.empty()) return around;
+  for (std::size_t n = 0; n < around.size(); ++n) mask[n] |= around[n];
+  return mask;
+}
+
 }  // namespace
 
-std::optional<Padding> find_padding(const VolumeView& volume) {
+PaddingRule parse_padding(std::string_view text) {
+  if (text == "auto") return {};
+  if (text == "none") return {.search = false};
+  const auto value = written_number(text);
+  if (!value) {
+    throw InputError("padding: expected auto, none or a number, found " + quoted_text(text));
+  }
+  return {.search = false, .value = value};
+}
+
+std::optional<Padding> find_padding(const VolumeView& volume, const PaddingRule& rule) {
   if (volume.samples.empty()) return std::nullopt;
   Padding padding;
-  padding.mask = darker_than_air(volume);
-  const VoxelMask around = around_field_of_view(volume);
-  if (padding.mask.empty()) {
-    padding.mask = around;
-  } else if (!around.empty()) {
-    for (std::size_t n = 0; n < around.size(); ++n) padding.mask[n] |= around[n];
+  if (rule.value) {
+    padding.mask = of_value(volume, static_cast<float>(*rule.value));
+  } else if (rule.search) {
+    padding.mask = searched(volume);
   }
   padding.voxels = count_marked(padding.mask);
   if (padding.voxels == 0 || padding.voxels == volume.samples.size()) return std::nullopt;

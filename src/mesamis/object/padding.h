@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "mesamis/image/volume.h"
@@ -20,25 +21,42 @@ struct Padding {
   std::size_t voxels = 0;  ///< how many are padding, at least 1
 };
 
+/// Which voxels count as padding.
+struct PaddingRule {
+  bool search = true;             ///< as find_padding() does; false: none is padding
+  std::optional<double> value{};  ///< native units: all voxels of this value, without a search
+};
+
+/// Reads "auto" (the search), "none" or a number.
+/// @return native units.
+/// @throws InputError  for any other text.
+///
+/// O(1).
+PaddingRule parse_padding(std::string_view text);
+
 /// Finds the padding of a scan.
 ///
-/// Two signs count. In CT nothing is darker than air: samples of -1500 HU or less are padding if
-/// they are at least a thousandth of the voxels, and so are samples below -1100 HU next to them
+/// Where the rule is to search, two signs count. In CT nothing is darker than air: samples of -1500
+/// HU or less are padding if they are at least a thousandth of the voxels, and so are samples below
+/// -1100 HU next to them
 /// (-3024, -2048, -2000, and what interpolation made of them). In any scan, a single value that
 /// holds at least two corners and reaches in from the border is padding if what it leaves is convex
 /// like a field of view (a cylinder, a turned box: one run of voxels on all but 0.5 % of the grid
 /// lines and diagonals) and was cut, not faded out. At a cut the voxels next to the padding differ
 /// from it (a twentieth by more than 0.02 of the range of the samples), the second ones are dark (a
-/// quarter of them), and the third ones are brighter than these in less than three of four cases. A
-/// masked object, whose rim is its own surface, and the even background of a synthetic scan have
-/// not all of this.
+/// quarter of them), and the third ones are brighter than these in less than three of four cases.
+/// What was measured has noise: the dark ones differ from the third ones in a tenth of the cases at
+/// least. The step from the padding to it is no edge of an object: the second voxels do not lie
+/// close together (within half of the step) and far away (0.3 of the range of the samples). A
+/// masked object, whose rim is its own surface, the even background of a synthetic scan, and images
+/// of one or few values have not all of this.
 ///
 /// Air that the scanner clipped (CT, -1100 to -900 HU) is no padding: it is air.
 /// @param volume  finite samples.
 /// @return nothing if there is none, or nothing else.
 ///
 /// O(voxels); 1 byte per voxel.
-std::optional<Padding> find_padding(const VolumeView& volume);
+std::optional<Padding> find_padding(const VolumeView& volume, const PaddingRule& rule = {});
 
 /// Copies the samples that are not marked: what statistics of the scan are made of. As a view
 /// without a grid, VolumeView{{}, samples}, quantiles() and otsu_split() take them.

@@ -10,7 +10,8 @@ set(ROOM_HEADERS
   tissue.h
   tissue_level.h
   voxel_distance.h
-  voxel_islands.h)
+  voxel_islands.h
+  whole_values.h)
 set(ROOM_SOURCES
   body.cpp
   choose_object.cpp
@@ -21,5 +22,6 @@ set(ROOM_SOURCES
   tissue.cpp
   tissue_level.cpp
   voxel_islands.cpp
+  whole_values.cpp
   NEXT places.cpp
   NEXT voxel_distance.cpp)

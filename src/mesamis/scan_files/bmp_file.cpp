@@ -105,11 +105,13 @@ std::array<unsigned, 3> pixel_color(const std::filesystem::path& file, const Bmp
 
 }  // namespace
 
-ScanFile open_bmp(const std::filesystem::path& file, MemoryBudget& budget) {
+ScanFile open_bmp(const std::filesystem::path& file, const Opening& opening) {
+  MemoryBudget& budget = opening.budget;
   return scan_of(file, parse(file, budget));
 }
 
-VolumeFile read_bmp(const std::filesystem::path& file, MemoryBudget& budget) {
+VolumeFile read_bmp(const std::filesystem::path& file, const Opening& opening) {
+  MemoryBudget& budget = opening.budget;
   const Bmp bmp = parse(file, budget);
   ScanFile scan = scan_of(file, bmp);
   budget.claim(scan.grid.voxel_count(), sizeof(float), "samples");

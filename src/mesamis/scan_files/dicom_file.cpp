@@ -8,10 +8,12 @@
 #include "mesamis/base/error.h"
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
+#include "mesamis/scan_files/dicom_phases.h"
 #include "mesamis/scan_files/dicom_pixels.h"
 #include "mesamis/scan_files/dicom_resample.h"
 #include "mesamis/scan_files/dicom_series.h"
 #include "mesamis/scan_files/dicom_spacing.h"
+#include "mesamis/scan_files/dicom_store.h"
 #include "mesamis/scan_files/formats.h"
 
 namespace mesamis::detail {
@@ -19,9 +21,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-DicomImage image_in(const fs::path& file, MemoryBudget& budget) {
+/// What decides how a series becomes a volume.
+struct Reading {
+  const ReadOptions& options;
+  MemoryBudget& budget;
+};
+
+DicomImage image_in(const DicomStore& store, const fs::path& file, const Reading& reading) {
+  const auto& [options, budget] = reading;
   const ScopedFile scope(budget, file);
-  return describe_image(read_dicom_file(file, budget), budget);
+  return describe_image(store.read(file), budget, options.spacing);
 }
 
 /// The images of a folder, or of that of a file, and the files that cannot be opened.
@@ -37,20 +46,15 @@ struct FolderImages {
   }
 };
 
-FolderImages read_images(const fs::path& path, MemoryBudget& budget) {
+FolderImages read_images(const DicomStore& store, const Reading& reading) {
   constexpr std::size_t kCopies = 4;  // as images, as series, sorted, and while these grow
-  const bool directory = fs::is_directory(path);
-  const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  FolderImages found;
-  for (const fs::path& file : directory ? files_below(path) : files_in(parent)) {
-    if (const std::string why = why_unreadable(file); !why.empty()) {
-      found.unreadable.push_back(say(shown(file.filename().string()), ": ", why));
-    } else if (looks_like_dicom(file)) {
-      DicomImage image = image_in(file, budget);
-      budget.claim(kCopies * image.slices.size(), sizeof(DicomSlice) + file.native().size(),
-                   "DICOM slices");
-      append_within(budget, found.images, std::move(image), "DICOM images");
-    }
+  MemoryBudget& budget = reading.budget;
+  FolderImages found{{}, store.unreadable()};
+  for (const fs::path& file : store.files()) {
+    DicomImage image = image_in(store, file, reading);
+    budget.claim(kCopies * image.slices.size(), sizeof(DicomSlice) + file.native().size(),
+                 "DICOM slices");
+    append_within(budget, found.images, std::move(image), "DICOM images");
   }
   return found;
 }
@@ -75,7 +79,7 @@ struct Stack {
 
 /// Everything but the samples.
 /// @throws InputError  why the series is no volume.
-Stack plan(const fs::path& path, const DicomSeries& series, bool resample) {
+Stack plan(const fs::path& path, const DicomSeries& series, const ReadOptions& options) {
   if (!series.problem.empty()) throw InputError(series.problem);
   if (series.stacks[0].size() < 2) {
     const DicomSlice& only = series.stacks[0][0];
@@ -83,14 +87,17 @@ Stack plan(const fs::path& path, const DicomSeries& series, bool resample) {
            "one slice is not a volume: expected at least 2 slices in the series, "
            "found 1");
   }
-  Stack stack{sort_along_normal(series.stacks[0]), {}, {}};
-  if (resample) {
+  PhaseChoice phase = choose_phase(path, series.stacks[0], {options.volume, options.channel});
+  if (phase.stack.size() < 2) refuse(path, "expected at least 2 slices of each phase, found 1");
+  Stack stack{sort_along_normal(std::move(phase.stack)), {}, {}};
+  if (options.resample) {
     stack.resampling = plan_resampling(path, stack.sorted);
   } else {
     require_even_spacing(path, stack.sorted);
     require_no_tilt(path, stack.sorted);
   }
   stack.scan = grid_of(path, series, stack.sorted);
+  if (!phase.note.empty()) stack.scan.warnings.push_back(phase.note);
   if (!stack.resampling.needed()) return stack;
   static_cast<VoxelGrid&>(stack.scan.grid) = stack.resampling.grid;
   stack.scan.grid.modality = series.modality;
@@ -101,8 +108,8 @@ Stack plan(const fs::path& path, const DicomSeries& series, bool resample) {
 
 /// A file that is decoded, as long as it is.
 struct OpenFile {
-  OpenFile(const fs::path& path, MemoryBudget& budget)
-      : scope(budget, path), file(read_dicom_file(path, budget)), pixels(pixels_of(file)) {}
+  OpenFile(const DicomStore& store, const fs::path& path, MemoryBudget& budget)
+      : scope(budget, path), file(store.read(path)), pixels(pixels_of(file)) {}
 
   ScopedFile scope;
   DicomFile file;
@@ -111,8 +118,11 @@ struct OpenFile {
 
 /// Decodes file by file, in the order of the slices. A file of many frames is read once as long as
 /// its frames follow one another.
-std::vector<float> decode(const SortedSlices& stack, std::size_t voxels, MemoryBudget& budget,
+std::vector<float> decode(const DicomStore& store, const SortedSlices& stack, MemoryBudget& budget,
                           std::vector<std::string>& warnings) {
+  const DicomSlice& first = stack.slices.front();
+  const std::size_t voxels = static_cast<std::size_t>(first.columns) *
+                             static_cast<std::size_t>(first.rows) * stack.slices.size();
   std::vector<float> samples;
   reserve_within(budget, samples, voxels, "samples");
   std::unique_ptr<OpenFile> open;
@@ -120,7 +130,7 @@ std::vector<float> decode(const SortedSlices& stack, std::size_t voxels, MemoryB
   for (const DicomSlice& slice : stack.slices) {
     if (open == nullptr || open->file.path != slice.file) {
       open.reset();
-      open = std::make_unique<OpenFile>(slice.file, budget);
+      open = std::make_unique<OpenFile>(store, slice.file, budget);
     }
     const auto& [scope, file, pixels] = *open;
     const FrameRescale rescale{slice.frame, slice.slope, slice.intercept};
@@ -134,10 +144,10 @@ std::vector<float> decode(const SortedSlices& stack, std::size_t voxels, MemoryB
   return samples;
 }
 
-VolumeInfo info_of(const fs::path& path, const DicomSeries& series, bool resample) {
+VolumeInfo info_of(const fs::path& path, const DicomSeries& series, const ReadOptions& options) {
   VolumeInfo info{series.uid, series.description, "DICOM", series.modality, {}, {}, ""};
   try {
-    set_grid(info, plan(path, series, resample).scan.grid);
+    set_grid(info, plan(path, series, options).scan.grid);
   } catch (const InputError& error) {
     info.problem = error.what();
   }
@@ -155,20 +165,20 @@ bool looks_like_dicom(const fs::path& file) {
 }
 
 VolumeFile read_dicom(const fs::path& path, const ReadOptions& options, MemoryBudget& budget) {
+  const DicomStore store(path, budget);
   std::string wanted = options.series;
-  const bool directory = fs::is_directory(path);
-  if (!directory) {
-    const DicomImage named = image_in(path, budget);
+  if (!fs::is_directory(path) && !is_zip(path)) {
+    const DicomImage named = image_in(store, path, {options, budget});
     if (!named.has_pixels) {
       refuse(path, "expected a DICOM image, found " + in_quotes(named.modality));
     }
     if (!named.problem.empty()) throw InputError(named.problem);
     if (wanted.empty()) wanted = named.series;
   }
-  const FolderImages found = read_images(path, budget);
+  const FolderImages found = read_images(store, {options, budget});
   const std::vector<DicomSeries> all = group_by_series(found.images);
   const DicomSeries& series = choose_series(path, all, wanted);
-  Stack stack = plan(path, series, options.resample);
+  Stack stack = plan(path, series, options);
   ScanFile& scan = stack.scan;
   found.warn(scan.warnings);
   announce(scan.grid, options);
@@ -176,11 +186,9 @@ VolumeFile read_dicom(const fs::path& path, const ReadOptions& options, MemoryBu
     scan.warnings.push_back("taken as the only volume among the series " + titles_of(all));
   }
   VolumeFile out{std::move(scan.grid), "DICOM", scan.warnings};
-  const DicomSlice& first = stack.sorted.slices.front();
-  const std::size_t stored = static_cast<std::size_t>(first.columns) *
-                             static_cast<std::size_t>(first.rows) * stack.sorted.slices.size();
-  out.volume.samples = decode(stack.sorted, stored, budget, out.warnings);
+  out.volume.samples = decode(store, stack.sorted, budget, out.warnings);
   if (stack.resampling.needed()) {
+    const DicomSlice& first = stack.sorted.slices.front();
     budget.claim(out.volume.voxel_count(), sizeof(float), "samples between slices");
     out.volume.samples =
         resampled(stack.resampling, {first.columns, first.rows}, out.volume.samples);
@@ -190,9 +198,11 @@ VolumeFile read_dicom(const fs::path& path, const ReadOptions& options, MemoryBu
 
 std::vector<VolumeInfo> list_dicom(const fs::path& path, const ReadOptions& options,
                                    MemoryBudget& budget) {
+  const DicomStore store(path, budget);
   std::vector<VolumeInfo> infos;
-  for (const DicomSeries& series : group_by_series(read_images(path, budget).images))
-    infos.push_back(info_of(path, series, options.resample));
+  for (const DicomSeries& series : group_by_series(read_images(store, {options, budget}).images)) {
+    infos.push_back(info_of(path, series, options));
+  }
   return infos;
 }
 

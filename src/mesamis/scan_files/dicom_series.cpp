@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "mesamis/files/refuse.h"
+#include "mesamis/scan_files/dicom_spacing.h"
 
 namespace mesamis::detail {
 namespace {
@@ -37,6 +39,59 @@ void add_slice(DicomSeries& series, const DicomSlice& slice) {
     }
   }
   series.stacks.push_back({slice});
+}
+
+bool same_frames(const DicomImage& a, const DicomImage& b) {
+  const auto same = [](const DicomSlice& x, const DicomSlice& y) {
+    return norm(x.position - y.position) <= kDuplicateDistance && x.slope == y.slope &&
+           x.intercept == y.intercept;
+  };
+  return std::equal(a.slices.begin(), a.slices.end(), b.slices.begin(), b.slices.end(), same);
+}
+
+/// Files of one SOP Instance UID, place and content: one is enough.
+class Copies {
+ public:
+  bool holds(const DicomImage& image) {
+    if (image.instance.empty() || !image.problem.empty()) return false;
+    const auto [first, is_new] = first_.emplace(std::pair(image.series, image.instance), &image);
+    const DicomImage& other = *first->second;
+    if (is_new || other.content != image.content || !same_frames(other, image)) return false;
+    auto& [count, copy] = found_[image.series];
+    if (count++ == 0) copy = &image;
+    return true;
+  }
+  void warn(DicomSeries& series) const {
+    const auto found = found_.find(series.uid);
+    if (found == found_.end()) return;
+    const auto& [count, copy] = found->second;
+    series.warnings.push_back(say(count, count == 1 ? " file" : " files",
+                                  " left out: copies with the same SOP Instance UID, the first ",
+                                  shown(copy->file.filename().string())));
+  }
+
+ private:
+  std::map<std::pair<std::string, std::string>, const DicomImage*> first_;
+  std::map<std::string, std::pair<std::size_t, const DicomImage*>> found_;
+};
+
+/// Slices that are placed in different ways do not lie in one frame.
+void check_places(DicomSeries& series) {
+  std::map<PlacedBy, const DicomSlice*> ways;
+  for (const DicomStack& stack : series.stacks) {
+    for (const DicomSlice& slice : stack) ways.emplace(slice.placed_by, &slice);
+  }
+  if (ways.empty() || !series.problem.empty()) return;
+  const auto& [way, slice] = *ways.rbegin();
+  if (ways.size() > 1) {
+    series.problem =
+        say(slice->file.string(), ": expected Image Position (0020,0032) as in other slices ",
+            "of the series, found none");
+  } else if (way != PlacedBy::kPosition) {
+    series.warnings.push_back(say("the slices have no Image Position: placed by ",
+                                  way == PlacedBy::kLocation ? "Slice Location" : "Instance Number",
+                                  ", axes taken as LPS; whether sides are exchanged is not known"));
+  }
 }
 
 void add_image(DicomSeries& series, const DicomImage& image) {
@@ -105,13 +160,18 @@ std::string titles(const std::vector<DicomSeries>& all, bool volumes_only) {
 std::vector<DicomSeries> group_by_series(const std::vector<DicomImage>& images) {
   std::vector<DicomSeries> all;
   std::map<std::string, std::size_t> index;
+  Copies copies;
   for (const DicomImage& image : images) {
-    if (!image.has_pixels) continue;
+    if (!image.has_pixels || copies.holds(image)) continue;
     const auto [entry, is_new] = index.emplace(image.series, all.size());
     if (is_new) all.push_back({image.series, "", "", "", {}, 0, "", {}});
     add_image(all[entry->second], image);
   }
-  for (DicomSeries& series : all) drop_localizers(series);
+  for (DicomSeries& series : all) {
+    copies.warn(series);
+    drop_localizers(series);
+    check_places(series);
+  }
   return all;
 }
 

@@ -13,6 +13,13 @@
 
 namespace mesamis::detail {
 
+/// What tells where a slice lies.
+enum class PlacedBy {
+  kPosition,  ///< Image Position
+  kLocation,  ///< Slice Location alone: heights in axes that are not known
+  kNumber,    ///< Instance Number alone: its order, one step of the given spacing each
+};
+
 /// One frame: where its samples are and where it lies in space. LPS, mm.
 struct DicomSlice {
   std::filesystem::path file;
@@ -23,6 +30,8 @@ struct DicomSlice {
   double column_step = 1, row_step = 1;
   double slope = 1, intercept = 0;
   bool localizer = false;  ///< its Image Type says LOCALIZER
+  PlacedBy placed_by = PlacedBy::kPosition;
+  std::string phase{};  ///< by what slices at one place may differ, see phase_marks()
 };
 
 /// A tag and the functional group of an enhanced file in which it lies.
@@ -38,12 +47,23 @@ struct DicomImage {
   std::vector<DicomSlice> slices;  ///< empty if there is a problem
   std::string problem;             ///< the whole line; empty: none
   std::string warning;
+  std::string instance{};   ///< SOP Instance UID
+  std::size_t content = 0;  ///< a hash of the pixel data, equal for copies
 };
 
-/// Places one frame, from 0, of a file of pixels: all of a DicomSlice but rescale and localizer.
-/// @param pixels  pixels_of(file).
+/// Places one frame, from 0, of a file of pixels: all of a DicomSlice but rescale, localizer and
+/// phase.
+///
+/// A file that has neither position nor orientation lies at its Slice Location, or, where a spacing
+/// is given, at its Instance Number, in axes along LPS.
+/// @param pixels   pixels_of(file).
+/// @param spacing  mm, given by the user: taken where the file's cannot be used.
 /// @throws InputError  if position, orientation or spacing are missing or cannot be used.
-DicomSlice place_frame(const DicomFile& file, const DicomPixels& pixels, std::size_t frame);
+DicomSlice place_frame(const DicomFile& file, const DicomPixels& pixels, std::size_t frame,
+                       const std::optional<Vec3>& spacing = {});
+
+/// The text of a tag that lies in the group `macro`, found as frame_decimals() finds it.
+std::string frame_text(const DicomFile& file, std::size_t frame, const MacroTag& tag);
 
 /// `count` decimals of a tag that lies in the group `macro`: of the frame's own functional groups,
 /// else of those shared by all frames, else of the top level of the file.
@@ -52,8 +72,10 @@ std::optional<std::vector<double>> frame_decimals(const DicomFile& file, std::si
 
 /// Reads everything but the samples. `problem` describes content that cannot be used; nothing is
 /// thrown for it.
-/// @param budget  the slices are claimed, and held.
-DicomImage describe_image(const DicomFile& file, MemoryBudget& budget);
+/// @param budget   the slices are claimed, and held.
+/// @param spacing  as place_frame().
+DicomImage describe_image(const DicomFile& file, MemoryBudget& budget,
+                          const std::optional<Vec3>& spacing = {});
 
 /// The steps from column to column, from row to row and from slice to slice, LPS, mm: what
 /// set_axes() takes.

@@ -19,10 +19,11 @@ struct OpenSlices {
   SliceReader read;
 };
 
-/// NIfTI-1 and -2, one file, plain or gzip'd, either byte order. World frame: the sform if its
-/// code is above 0, else the qform, else (with a warning) method 1 of the standard: axes along
-/// RAS, origin 0. RAS is turned into LPS; lengths in m or um into mm.
-/// Of many values the fourth or the fifth axis may hold more than one volume.
+/// NIfTI-1 and -2, one file or .hdr and .img, plain or gzip'd, either byte order; Analyze 7.5,
+/// whose axes are taken as LAS with a warning. World frame: the sform if its code is above 0, else
+/// the qform, else (with a warning) method 1 of the standard: axes along RAS, origin 0. RAS is
+/// turned into LPS; lengths in m or um into mm. Of many values the fourth or the fifth axis may
+/// hold more than one volume.
 ScanFile open_nifti(const std::filesystem::path& file, const Opening& opening);
 
 /// The header extensions of a NIfTI file, without size and code: none if there are none.
@@ -42,6 +43,19 @@ ScanFile open_meta(const std::filesystem::path& file, const Opening& opening);
 /// Cranium.inv3; the file itself does not say), and no origin: the first voxel is put at 0.
 ScanFile open_inv3(const std::filesystem::path& file, const Opening& opening);
 
+/// FreeSurfer's .mgh, and .mgz in gzip: RAS, turned into LPS; several frames are volumes.
+ScanFile open_mgh(const std::filesystem::path& file, const Opening& opening);
+
+/// Scanco's .isq: 16 bits, values as stored, axes taken as LPS, origin 0.
+ScanFile open_isq(const std::filesystem::path& file, const Opening& opening);
+
+/// Scanco's .aim of versions 020 and 030, uncompressed; values as stored, axes taken as LPS, origin
+/// as the file has it.
+ScanFile open_aim(const std::filesystem::path& file, const Opening& opening);
+
+/// VGSTUDIO's .vgi, or the .vol beside it: one file of bare samples; axes taken as LPS, origin 0.
+ScanFile open_vgi(const std::filesystem::path& file, const Opening& opening);
+
 /// Opens one of the formats above, as the file's name says; none for any other name.
 std::optional<ScanFile> open_array(const std::filesystem::path& file, const Opening& opening);
 
@@ -54,40 +68,46 @@ ScanFile open_raw(const std::filesystem::path& file, const RawLayout& layout);
 
 /// A TIFF whose pages are the slices; x to the left, y to the back, z to the head. Spacing from
 /// the resolution tags and from ImageJ's description (unit, spacing), 1 mm with a warning else.
-VolumeFile read_tiff(const std::filesystem::path& file, MemoryBudget& budget);
-ScanFile open_tiff_header(const std::filesystem::path& file, MemoryBudget& budget);
-OpenSlices open_tiff_slices(const std::filesystem::path& file, MemoryBudget& budget);
+VolumeFile read_tiff(const std::filesystem::path& file, const Opening& opening);
+ScanFile open_tiff_header(const std::filesystem::path& file, const Opening& opening);
+OpenSlices open_tiff_slices(const std::filesystem::path& file, const Opening& opening);
 
 /// A PNG, one slice as above; 1 to 16 bits, grey, or colours that are. Spacing along x and y from
 /// its resolution (pHYs). Not interlaced. What it claims is compared with its bytes before memory
 /// is taken for it.
-VolumeFile read_png(const std::filesystem::path& file, MemoryBudget& budget);
-ScanFile open_png(const std::filesystem::path& file, MemoryBudget& budget);
+VolumeFile read_png(const std::filesystem::path& file, const Opening& opening);
+ScanFile open_png(const std::filesystem::path& file, const Opening& opening);
 
 /// An uncompressed BMP of 8, 24 or 32 bits, as a PNG.
-VolumeFile read_bmp(const std::filesystem::path& file, MemoryBudget& budget);
-ScanFile open_bmp(const std::filesystem::path& file, MemoryBudget& budget);
+VolumeFile read_bmp(const std::filesystem::path& file, const Opening& opening);
+ScanFile open_bmp(const std::filesystem::path& file, const Opening& opening);
 
-/// Whether the file's name is that of a picture: .tif .tiff .png .bmp.
+/// A grey JPEG, as a PNG, with a warning: it is lossy.
+VolumeFile read_jpeg(const std::filesystem::path& file, const Opening& opening);
+ScanFile open_jpeg(const std::filesystem::path& file, const Opening& opening);
+
+/// Whether the file's name is that of a picture: .tif .tiff .png .bmp .jpg .jpeg.
 bool is_picture(const std::filesystem::path& file);
 /// One of them, as the name says.
-VolumeFile read_picture(const std::filesystem::path& file, MemoryBudget& budget);
+VolumeFile read_picture(const std::filesystem::path& file, const Opening& opening);
 /// Its grid and the type of its samples; they are not read.
-ScanFile open_picture(const std::filesystem::path& file, MemoryBudget& budget);
+ScanFile open_picture(const std::filesystem::path& file, const Opening& opening);
 /// The same, and how to read its slices: of a .tif some of its pages, else the one slice.
-OpenSlices open_picture_slices(const std::filesystem::path& file, MemoryBudget& budget);
+OpenSlices open_picture_slices(const std::filesystem::path& file, const Opening& opening);
 
 /// Refuses a file of no format that is read.
 [[noreturn]] void refuse_unknown(const std::filesystem::path& file);
 
-/// @throws InputError  for a spacing that was asked for and is none.
-void require_spacing(const std::filesystem::path& path, const ReadOptions& options);
-/// The spacing that was asked for, if one was, takes the place of the file's, with a warning, and
-/// of what was assumed.
-void apply_spacing(const ReadOptions& options, VolumeFile& file);
+/// @throws InputError  for a spacing or a modality that was asked for and is none.
+void require_options(const std::filesystem::path& path, const ReadOptions& options);
+/// What a reader of headers is given.
+Opening opening_of(const ReadOptions& options, MemoryBudget& budget);
+/// The spacing and the modality that were asked for, if any were, take the place of the file's: the
+/// spacing with a warning, and also of what was assumed.
+void apply_options(const ReadOptions& options, VolumeFile& file);
 
-/// Tells the caller of the grid whose samples are about to be read, with the spacing that was asked
-/// for.
+/// Tells the caller of the grid whose samples are about to be read, with the spacing and the
+/// modality that were asked for.
 /// @throws InputError  as options.on_grid.
 void announce(VoxelGrid grid, const ReadOptions& options);
 

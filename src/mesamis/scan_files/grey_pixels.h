@@ -9,7 +9,7 @@
 #include "mesamis/scan_files/read_volume.h"
 #include "mesamis/scan_files/scan_file.h"
 
-/// Shared by the readers of pictures that hold one slice: PNG and BMP.
+/// Shared by the readers of pictures that hold one slice: PNG, BMP and JPEG.
 namespace mesamis::detail {
 
 /// Sets the grid of one slice; x to the left, y to the back, z to the head. Where the spacing is

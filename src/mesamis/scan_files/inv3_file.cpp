@@ -174,18 +174,20 @@ std::optional<TarEntry> find_entry(const std::filesystem::path& file, const std:
 }
 
 void place(ScanFile& scan, const Plist& plist) {
-  const auto s = three<double>(scan.file, plist, "spacing");
+  const auto s = stated_or(
+      scan, [&] { return three<double>(scan.file, plist, "spacing"); }, std::array<double, 3>{});
   for (const double step : s) {
-    if (!(step > 0))
-      refuse(scan.file, say("main.plist: expected a positive spacing, found ", step));
+    if (step > 0 || scan.given_spacing) continue;
+    refuse(scan.file, say("main.plist: expected a positive spacing, found ", step,
+                          " (--spacing X,Y,Z replaces it)"));
   }
-  set_axes(scan, {Vec3{s[0], 0, 0}, Vec3{0, -s[1], 0}, Vec3{0, 0, s[2]}});
+  set_stated_axes(scan, {{Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}}, {s[0], s[1], s[2]}});
 }
 
 }  // namespace
 
 ScanFile open_inv3(const std::filesystem::path& file, const Opening& opening) {
-  ScanFile scan{file, "InVesalius", {}, {}, {}};
+  ScanFile scan = begin_scan(file, "InVesalius", opening);
   const auto plist = find_main_plist(file, opening.budget);
   if (!plist) refuse(file, "expected an InVesalius project, found no main.plist in it");
   const auto shape = three<std::int64_t>(file, *plist, "matrix/shape");

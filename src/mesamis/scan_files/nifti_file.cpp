@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <system_error>
 
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
@@ -21,6 +22,7 @@ struct NiftiHeader {
   double vox_offset = 0, slope = 0, intercept = 0;
   std::array<double, 6> quatern{};  // b c d, then the offsets x y z
   std::array<double, 12> srow{};
+  bool analyze = false;  // 7.5: no magic, and no forms
 };
 
 /// Fields at byte positions, in the file's byte order.
@@ -84,8 +86,15 @@ NiftiHeader parse_version_2(const Fields& f) {
   return h;
 }
 
+/// What a header says that it is: "n+1" and "n+2" in one file with the samples, "ni1" and "ni2"
+/// beside them, anything else beside them Analyze.
+std::string magic_of(const std::vector<unsigned char>& header, bool first_version) {
+  return std::string(reinterpret_cast<const char*>(header.data()) + (first_version ? 344 : 4), 3);
+}
+
 /// Finds version and byte order by the header's own size, its first field.
-NiftiHeader read_header(const std::filesystem::path& file) {
+/// @param pair  whether the samples lie in a file beside it.
+NiftiHeader read_header(const std::filesystem::path& file, bool pair) {
   ByteSource bytes(file, Packing::kSniffed);
   std::vector<unsigned char> header(kSize2);
   header.resize(bytes.read(header.data(), header.size()));
@@ -95,19 +104,50 @@ NiftiHeader read_header(const std::filesystem::path& file) {
   for (const bool big_endian : {false, true}) {
     const Fields fields(header, big_endian);
     const auto declared = fields.at<std::int32_t>(0);
-    const std::size_t magic = declared == kSize1 ? 344 : 4;
-    if (declared != kSize1 && (declared != kSize2 || header.size() < kSize2)) continue;
-    const std::string found(reinterpret_cast<const char*>(header.data()) + magic, 3);
-    if (found != (declared == kSize1 ? "n+1" : "n+2")) {
-      refuse(file, say("expected the NIfTI magic n+1 or n+2, found ", in_quotes(found)));
+    const bool first = declared == kSize1;
+    if (!first && (declared != kSize2 || header.size() < kSize2)) continue;
+    const std::string found = magic_of(header, first), wanted = pair ? "ni" : "n+";
+    const bool analyze = pair && first && !found.starts_with("n");
+    if (!analyze && found != wanted + (first ? "1" : "2")) {
+      refuse(file, say("expected the NIfTI magic ", wanted, first ? "1" : "2", ", found ",
+                       in_quotes(found)));
     }
-    NiftiHeader h = declared == kSize1 ? parse_version_1(fields) : parse_version_2(fields);
+    NiftiHeader h = first ? parse_version_1(fields) : parse_version_2(fields);
     h.big_endian = big_endian;
+    h.analyze = analyze;
     h.size = static_cast<std::size_t>(declared);
-    h.vox_offset = h.vox_offset == 0 ? (declared == kSize1 ? 352 : 544) : h.vox_offset;
+    if (h.vox_offset == 0 && !pair) h.vox_offset = first ? 352 : 544;
     return h;
   }
   refuse(file, "expected a NIfTI header (first field 348 or 540), found neither");
+}
+
+/// Where header and samples lie.
+struct NiftiFiles {
+  std::filesystem::path header, samples;
+  bool pair() const { return header != samples; }
+};
+
+/// The name with another extension in place of .hdr, .img, .hdr.gz or .img.gz; gzip'd if that alone
+/// is there.
+std::filesystem::path beside(std::filesystem::path file, const char* extension) {
+  if (lower(file.extension().string()) == ".gz") file.replace_extension();
+  file.replace_extension(extension);
+  std::filesystem::path packed = file;
+  packed += ".gz";
+  std::error_code ignored;
+  return !std::filesystem::exists(file, ignored) && std::filesystem::exists(packed, ignored)
+             ? packed
+             : file;
+}
+
+NiftiFiles files_of(const std::filesystem::path& file) {
+  std::filesystem::path plain = file;
+  if (lower(plain.extension().string()) == ".gz") plain.replace_extension();
+  const std::string extension = lower(plain.extension().string());
+  if (extension == ".hdr") return {file, beside(file, ".img")};
+  if (extension == ".img") return {beside(file, ".hdr"), file};
+  return {file, file};
 }
 
 NumberType sample_type(const std::filesystem::path& file, std::int64_t code) {
@@ -126,28 +166,28 @@ NumberType sample_type(const std::filesystem::path& file, std::int64_t code) {
                    known == kRefused.end() ? "" : say(" (", known->second, ")")));
 }
 
-void set_dimensions(ScanFile& scan, const NiftiHeader& h, Values values) {
-  const std::filesystem::path& file = scan.file;
+/// Volumes lie along the fourth axis, the components of a voxel along the fifth.
+void set_dimensions(ScanFile& scan, const NiftiHeader& h, const Opening& opening) {
   if (h.dim[0] < 3 || h.dim[0] > 7) {
-    refuse(file, say("expected a 3-D image, found ", h.dim[0], " dimensions"));
+    refuse(scan.file, say("expected a 3-D image, found ", h.dim[0], " dimensions"));
   }
   const auto dimensions = static_cast<std::size_t>(h.dim[0]);
-  // Probabilities lie along the fourth axis, or along the fifth, the standard's for vectors.
-  std::int64_t volumes = 1;
-  for (std::size_t d = 4; d <= dimensions; ++d) {
-    if (values == Values::kMany && volumes == 1 && d <= 5) {
-      volumes = h.dim[d];
-    } else if (h.dim[d] != 1) {
-      refuse(file, say("expected a 3-D image, found ", h.dim[0], "-D with ", h.dim[d],
-                       " values along dimension ", d));
-    }
+  const auto count = [&](std::size_t axis) { return axis <= dimensions ? h.dim[axis] : 1; };
+  for (std::size_t axis = 6; axis <= dimensions; ++axis) {
+    if (h.dim[axis] == 1) continue;
+    refuse(scan.file, say("expected a 3-D image, found ", h.dim[0], "-D with ", h.dim[axis],
+                          " values along dimension ", axis));
   }
   set_size(scan, {h.dim[1], h.dim[2], h.dim[3]});
-  set_values(scan, 1, volumes);
+  set_values(scan, {count(4), count(5)}, ValueOrder::kVolumesFirst, opening);
 }
 
-double unit_in_mm(std::int64_t units) {
+/// Lengths of a unit that is not stated are mm, as other readers take them.
+double unit_in_mm(ScanFile& scan, std::int64_t units) {
   const auto length = units & 7;
+  if (length > 3) {
+    scan.warnings.push_back(say("the unit of length ", length, " is unknown: mm taken"));
+  }
   return length == 1 ? 1000 : length == 3 ? 0.001 : 1;
 }
 
@@ -164,77 +204,135 @@ std::array<Vec3, 3> quaternion_columns(double b, double c, double d) {
           Vec3{2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - b * b - c * c}};
 }
 
-/// Steps along the axes and origin, in the file's frame (RAS) and unit.
+/// Axes and origin, in the file's frame (RAS) and unit.
 struct Placement {
-  std::array<Vec3, 3> steps;
+  StatedAxes axes;
   Vec3 origin;
 };
 
 Placement from_sform(const NiftiHeader& h) {
   const auto column = [&h](std::size_t c) { return Vec3{h.srow[c], h.srow[4 + c], h.srow[8 + c]}; };
-  return {{column(0), column(1), column(2)}, column(3)};
+  return {StatedAxes::of_steps({column(0), column(1), column(2)}), column(3)};
+}
+
+Vec3 stated_spacing(const NiftiHeader& h) {
+  return {std::abs(h.pixdim[1]), std::abs(h.pixdim[2]), std::abs(h.pixdim[3])};
 }
 
 Placement from_qform(const NiftiHeader& h) {
-  auto steps = quaternion_columns(h.quatern[0], h.quatern[1], h.quatern[2]);
-  const double qfac = h.pixdim[0] < 0 ? -1 : 1;
-  for (std::size_t a = 0; a < 3; ++a) {
-    steps[a] = (std::abs(h.pixdim[a + 1]) * (a == 2 ? qfac : 1)) * steps[a];
-  }
-  return {steps, {h.quatern[3], h.quatern[4], h.quatern[5]}};
+  auto columns = quaternion_columns(h.quatern[0], h.quatern[1], h.quatern[2]);
+  if (h.pixdim[0] < 0) columns[2] = -1 * columns[2];
+  return {{columns, stated_spacing(h)}, {h.quatern[3], h.quatern[4], h.quatern[5]}};
 }
 
 Placement without_form(const NiftiHeader& h) {
-  return {{Vec3{std::abs(h.pixdim[1]), 0, 0}, Vec3{0, std::abs(h.pixdim[2]), 0},
-           Vec3{0, 0, std::abs(h.pixdim[3])}},
-          {}};
+  return {{{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}, stated_spacing(h)}, {}};
+}
+
+bool is_length(double length) { return length > 0 && std::isfinite(length); }
+
+bool has_axes(const Placement& p) {
+  return is_length(p.axes.spacing.x) && is_length(p.axes.spacing.y) && is_length(p.axes.spacing.z);
+}
+
+/// The largest angle between an axis and the same one of the other placement.
+double angle_between_deg(const Placement& a, const Placement& b) {
+  double angle = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Vec3 &u = a.axes.direction[axis], &v = b.axes.direction[axis];
+    angle = std::max(angle, std::atan2(norm(cross(u, v)), dot(u, v)));
+  }
+  return angle * 45 / std::atan(1);
+}
+
+/// The sform where its code is above 0 and it has axes, else the qform.
+Placement choose_placement(ScanFile& scan, const NiftiHeader& h) {
+  constexpr double kSameDeg = 0.1;
+  if (h.analyze) {
+    scan.warnings.push_back(
+        "Analyze 7.5 states no orientation: axes taken as LAS; sides may be exchanged");
+    Placement placed = without_form(h);
+    placed.axes.direction[0] = {-1, 0, 0};
+    return placed;
+  }
+  const bool has_sform = h.sform_code > 0, has_qform = h.qform_code > 0;
+  if (!has_sform && !has_qform) {
+    scan.warnings.push_back("no orientation (sform and qform codes are 0): axes taken as RAS");
+    return without_form(h);
+  }
+  if (!has_sform) return from_qform(h);
+  const Placement sform = from_sform(h), qform = from_qform(h);
+  if (!has_qform) return sform;
+  if (!has_axes(sform)) {
+    scan.warnings.push_back("the sform has an axis of length 0 or none: the qform is used");
+    return qform;
+  }
+  const double angle = angle_between_deg(sform, qform);
+  if (angle > kSameDeg) {
+    scan.warnings.push_back(say("qform and sform turn the axes differently, by ", angle,
+                                " degrees: the sform is used"));
+  }
+  return sform;
+}
+
+/// Where the axes are not those of pixdim.
+void warn_of_spacing(ScanFile& scan, const Vec3& declared) {
+  for (int a = 0; a < 3; ++a) {
+    const double used = scan.grid.spacing[a];
+    if (!is_length(declared[a]) || std::abs(used - declared[a]) <= 0.01 * used) continue;
+    scan.warnings.push_back(say("pixdim says ", declared[a], " mm along axis ", a, ", the sform ",
+                                used, ": the sform is used"));
+  }
 }
 
 void place(ScanFile& scan, const NiftiHeader& h) {
-  const bool placed = h.sform_code > 0 || h.qform_code > 0;
-  Placement p = h.sform_code > 0 ? from_sform(h) : placed ? from_qform(h) : without_form(h);
-  if (!placed) {
-    scan.warnings.push_back("no orientation (sform and qform codes are 0): axes taken as RAS");
+  Placement p = choose_placement(scan, h);
+  const double mm = unit_in_mm(scan, h.units);
+  const auto to_lps = [](const Vec3& v) { return Vec3{-v.x, -v.y, v.z}; };
+  for (Vec3& direction : p.axes.direction) direction = to_lps(direction);
+  p.axes.spacing = mm * p.axes.spacing;
+  set_stated_axes(scan, p.axes);
+  set_origin(scan, mm * to_lps(p.origin));
+  if (!scan.sheared) warn_of_spacing(scan, mm * stated_spacing(h));
+}
+
+/// Native values; a slope of 0 says that there is none.
+void set_scale(ScanFile& scan, const NiftiHeader& h) {
+  if (h.slope == 0) return;
+  if (!std::isfinite(h.slope) || !std::isfinite(h.intercept)) {
+    scan.warnings.push_back(say("the scale of the values cannot be used (slope ", h.slope,
+                                ", intercept ", h.intercept, "): they are kept as stored"));
+    return;
   }
-  const double mm = unit_in_mm(h.units);
-  const auto to_lps = [mm](const Vec3& v) { return Vec3{-mm * v.x, -mm * v.y, mm * v.z}; };
-  for (Vec3& step : p.steps) step = to_lps(step);
-  set_axes(scan, p.steps);
-  set_origin(scan, to_lps(p.origin));
-  for (int a = 0; a < 3; ++a) {
-    const double declared = mm * std::abs(h.pixdim[static_cast<std::size_t>(a) + 1]);
-    if (std::abs(scan.grid.spacing[a] - declared) > 0.01 * scan.grid.spacing[a]) {
-      scan.warnings.push_back(say("pixdim says ", declared, " mm along axis ", a, ", the sform ",
-                                  scan.grid.spacing[a], ": the sform is used"));
-    }
-  }
+  scan.source.slope = h.slope;
+  scan.source.intercept = h.intercept;
 }
 
 }  // namespace
 
 ScanFile open_nifti(const std::filesystem::path& file, const Opening& opening) {
-  const NiftiHeader h = read_header(file);
-  ScanFile scan{file, "NIfTI", {}, {}, {}};
-  set_dimensions(scan, h, opening.values);
-  if (!(h.vox_offset >= static_cast<double>(kSize1)) || h.vox_offset > 1e15) {
+  const NiftiFiles files = files_of(file);
+  const NiftiHeader h = read_header(files.header, files.pair());
+  ScanFile scan = begin_scan(file, h.analyze ? "Analyze" : "NIfTI", opening);
+  set_dimensions(scan, h, opening);
+  const double least = files.pair() ? 0 : static_cast<double>(kSize1);
+  if (!(h.vox_offset >= least) || h.vox_offset > 1e15) {
     refuse(file, say("expected the samples behind the header, found vox_offset ", h.vox_offset));
   }
   place(scan, h);
-  scan.source.file = file;
+  scan.source.file = files.samples;
   scan.source.type = sample_type(file, h.datatype);
   scan.source.big_endian = h.big_endian;
   scan.source.packing = Packing::kSniffed;
   scan.source.skip = static_cast<std::uint64_t>(h.vox_offset);
-  if (h.slope != 0 && std::isfinite(h.slope)) {
-    scan.source.slope = h.slope;
-    scan.source.intercept = std::isfinite(h.intercept) ? h.intercept : 0;
-  }
+  set_scale(scan, h);
   return scan;
 }
 
 std::vector<std::string> nifti_extensions(const std::filesystem::path& file, MemoryBudget& budget) {
   constexpr std::uint64_t kMostBytes = 1 << 24;
-  const NiftiHeader h = read_header(file);
+  if (files_of(file).pair()) return {};
+  const NiftiHeader h = read_header(file, false);
   ByteSource bytes(file, Packing::kSniffed);
   std::array<char, 8> begin{};  // first the flag of four bytes, then size and code of each
   bytes.skip(h.size);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
+#include "mesamis/files/length_unit.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
 #include "mesamis/scan_files/text_header.h"
@@ -13,7 +15,8 @@ namespace {
 struct NrrdHeader {
   std::filesystem::path file;
   HeaderFields fields, keys;
-  std::uint64_t size = 0;  // bytes up to the attached data
+  std::vector<std::string> listed;  // data files, behind "data file: LIST"
+  std::uint64_t size = 0;           // bytes up to the attached data
 
   bool has(const std::string& name) const { return fields.count(name) > 0; }
   const std::string& need(const std::string& name) const {
@@ -60,17 +63,23 @@ void parse_line(NrrdHeader& header, const std::string& line) {
   if (name == "datafile") name = "data file";
   if (name == "lineskip") name = "line skip";
   if (name == "byteskip") name = "byte skip";
+  if (name == "axismins") name = "axis mins";
+  if (name == "axismaxs") name = "axis maxs";
   header.fields.emplace(name, std::string(trimmed(std::string_view(line).substr(end + 1))));
 }
 
 NrrdHeader read_header(const std::filesystem::path& file) {
-  NrrdHeader header{file, {}, {}, 0};
+  NrrdHeader header{file, {}, {}, {}, 0};
   HeaderLines lines(file);
   std::string line;
   if (!lines.next(line) || !line.starts_with("NRRD000") || line.size() != 8) {
     refuse(file, say("expected the NRRD magic NRRD000x, found ", in_quotes(line)));
   }
-  while (lines.next(line) && !line.empty()) parse_line(header, line);
+  bool lists = false;
+  while (lines.next(line) && !line.empty()) {
+    lists ? header.listed.push_back(std::string(trimmed(line))) : parse_line(header, line);
+    lists = header.or_else("data file", "").starts_with("LIST");
+  }
   header.size = lines.position();
   return header;
 }
@@ -144,9 +153,9 @@ std::size_t find_value_axis(const NrrdHeader& header, const std::vector<std::str
   return kinds.size() == 4 && !is_domain(kinds[0]) ? 0 : 3;
 }
 
-ValueAxis require_axes(const NrrdHeader& header, Values values) {
+ValueAxis require_axes(const NrrdHeader& header) {
   const auto dimension = whole_numbers_of(header.file, "dimension", header.need("dimension"), 1)[0];
-  if (dimension != 3 && (dimension != 4 || values == Values::kOne)) {
+  if (dimension != 3 && dimension != 4) {
     refuse(header.file, say("expected a 3-D image, found ", dimension, " dimensions"));
   }
   const auto kinds = words_of(header.or_else("kinds", ""));
@@ -161,7 +170,8 @@ ValueAxis require_axes(const NrrdHeader& header, Values values) {
   return found;
 }
 
-void set_sizes(ScanFile& scan, const NrrdHeader& header, const ValueAxis& values) {
+void set_sizes(ScanFile& scan, const NrrdHeader& header, const ValueAxis& values,
+               const Opening& opening) {
   auto sizes = whole_numbers_of(scan.file, "sizes", header.need("sizes"), values.dimension);
   std::int64_t count = 1;
   if (values.is_there()) {
@@ -169,7 +179,11 @@ void set_sizes(ScanFile& scan, const NrrdHeader& header, const ValueAxis& values
     sizes.erase(sizes.begin() + static_cast<std::ptrdiff_t>(values.axis));
   }
   set_size(scan, {sizes[0], sizes[1], sizes[2]});
-  values.axis == 0 ? set_values(scan, count, 1) : set_values(scan, 1, count);
+  if (values.axis == 0) {
+    set_values(scan, {1, count}, ValueOrder::kChannelsFirst, opening);
+  } else {
+    set_values(scan, {count, 1}, ValueOrder::kVolumesFirst, opening);
+  }
 }
 
 /// +1 or -1 per world axis: converts the file's frame to LPS.
@@ -182,7 +196,16 @@ Vec3 signs_to_lps(const NrrdHeader& header, std::vector<std::string>& warnings) 
     warnings.push_back("the header names no anatomical space: axes taken as LPS");
     return {1, 1, 1};
   }
+  if (space == "3d-left-handed") {
+    warnings.push_back("the header names no anatomical space: axes taken as left, back and feet");
+    return {1, 1, -1};
+  }
   refuse(header.file, say("expected the space LPS, RAS or LAS, found ", in_quotes(space)));
+}
+
+/// How many numbers a vector has: a fourth one, of time, does not count.
+std::size_t space_dimension(const NrrdHeader& header) {
+  return trimmed(header.or_else("space dimension", "3")) == "4" ? 4 : 3;
 }
 
 /// "(a,b,c)" as a vector of the file's frame.
@@ -194,7 +217,7 @@ Vec3 parse_vector(const NrrdHeader& header, const std::string& field, const std:
   }
   std::replace_if(
       numbers.begin(), numbers.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
-  const auto v = numbers_of(header.file, field, numbers, 3);
+  const auto v = numbers_of(header.file, field, numbers, space_dimension(header));
   return {v[0], v[1], v[2]};
 }
 
@@ -215,24 +238,119 @@ std::vector<Vec3> vectors_of(const NrrdHeader& header, const std::string& field,
   return vectors;
 }
 
-std::array<Vec3, 3> axis_steps(const NrrdHeader& header, const ValueAxis& values,
-                               std::vector<std::string>& warnings) {
-  if (header.has("space directions")) {
-    std::string_view text = trimmed(header.need("space directions"));
-    // The axis of the values has no direction.
-    if (values.axis == 0 && text.starts_with("none")) text.remove_prefix(4);
-    if (values.axis == 3 && values.is_there() && text.ends_with("none")) text.remove_suffix(4);
-    const auto v = vectors_of(header, "space directions", text, 3);
-    return {v[0], v[1], v[2]};
+/// The texts of a field, in quotes or between white space.
+std::vector<std::string> quoted_words(std::string_view text) {
+  std::vector<std::string> words;
+  while (!(text = trimmed(text)).empty()) {
+    const bool quoted = text.front() == '"';
+    const std::size_t begin = quoted ? 1 : 0;
+    const std::size_t end =
+        std::min(quoted ? text.find('"', 1) : text.find_first_of(" \t"), text.size());
+    words.emplace_back(text.substr(begin, end - begin));
+    text.remove_prefix(std::min(end + begin, text.size()));
   }
-  std::vector<double> spacing{1, 1, 1};
-  if (header.has("spacings")) {
-    spacing = numbers_of(header.file, "spacings", header.need("spacings"), values.dimension);
-    if (values.axis == 0) spacing.erase(spacing.begin());
-  } else {
-    warnings.push_back("the header gives no spacing: 1 mm taken");
+  return words;
+}
+
+/// mm per unit along three axes, as a field names them; 1, with a warning, for what is no length.
+Vec3 units_in_mm(ScanFile& scan, const NrrdHeader& header, const std::string& field,
+                 const ValueAxis& values) {
+  std::vector<std::string> names = quoted_words(header.or_else(field, ""));
+  if (names.size() == 4 && values.is_there()) {
+    names.erase(names.begin() + static_cast<std::ptrdiff_t>(values.axis));
   }
-  return {Vec3{spacing[0], 0, 0}, Vec3{0, spacing[1], 0}, Vec3{0, 0, spacing[2]}};
+  Vec3 mm{1, 1, 1};
+  for (int a = 0; a < std::min<int>(3, static_cast<int>(names.size())); ++a) {
+    const std::string& name = names[static_cast<std::size_t>(a)];
+    const auto unit = mm_per_unit(name);
+    if (!unit && !name.empty() && name != "???") {
+      scan.warnings.push_back(
+          say("the ", field, " ", in_quotes(name), " of axis ", a, " is no length: mm taken"));
+    }
+    mm[a] = unit.value_or(1);
+  }
+  return mm;
+}
+
+/// A field of one number per axis; NaN where there is none.
+Vec3 axis_numbers(const NrrdHeader& header, const std::string& field, const ValueAxis& values) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (!header.has(field)) return {kNone, kNone, kNone};
+  auto n = numbers_of(header.file, field, header.need(field), values.dimension);
+  if (values.is_there()) n.erase(n.begin() + static_cast<std::ptrdiff_t>(values.axis));
+  return {n[0], n[1], n[2]};
+}
+
+/// Axes and first voxel in the file's own frame, mm.
+struct Placement {
+  StatedAxes axes;
+  Vec3 origin;
+};
+
+/// Axes with directions in space.
+Placement place_in_space(ScanFile& scan, const NrrdHeader& header, const ValueAxis& values) {
+  std::string_view text = trimmed(header.need("space directions"));
+  // The axis of the values has no direction, or one of time.
+  if (values.axis == 0 && text.starts_with("none")) text.remove_prefix(4);
+  if (values.axis == 3 && values.is_there() && text.ends_with("none")) text.remove_suffix(4);
+  const std::size_t count = space_dimension(header) == 4 && values.axis == 3 ? 4 : 3;
+  const Vec3 mm = units_in_mm(scan, header, "space units", {});
+  if (!header.has("space units") && header.has("units")) {
+    const Vec3 other = units_in_mm(scan, header, "units", values);
+    if (other != Vec3{1, 1, 1}) {
+      scan.warnings.push_back(
+          "units of axes do not count where the header has space directions: mm taken");
+    }
+  }
+  const auto scaled = [&mm](const Vec3& v) { return Vec3{mm.x * v.x, mm.y * v.y, mm.z * v.z}; };
+  const auto v = stated_or(
+      scan, [&] { return vectors_of(header, "space directions", text, count); },
+      std::vector<Vec3>(3));
+  Placement placed{StatedAxes::of_steps({scaled(v[0]), scaled(v[1]), scaled(v[2])}), {}};
+  if (header.has("space origin")) {
+    placed.origin = scaled(vectors_of(header, "space origin", header.need("space origin"), 1)[0]);
+  }
+  return placed;
+}
+
+/// Whether the ends of an axis are the outer sides of its voxels: unless it says otherwise.
+bool is_cell_centred(const NrrdHeader& header, const ValueAxis& values, std::size_t axis) {
+  auto words = words_of(header.or_else("centerings", header.or_else("centers", "")));
+  if (words.size() == 4 && values.is_there()) {
+    words.erase(words.begin() + static_cast<std::ptrdiff_t>(values.axis));
+  }
+  return axis >= words.size() || lower(words[axis]) != "node";
+}
+
+/// Axes that have spacings and ends alone: along those of the frame.
+Placement place_along_axes(ScanFile& scan, const NrrdHeader& header, const ValueAxis& values) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const auto stated = [&](const char* field) {
+    return stated_or(
+        scan, [&] { return axis_numbers(header, field, values); }, Vec3{kNone, kNone, kNone});
+  };
+  const Vec3 mm = units_in_mm(scan, header, "units", values);
+  Vec3 spacing = stated("spacings");
+  const Vec3 least = stated("axis mins"), most = stated("axis maxs");
+  Placement placed{{{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}, {}}, {}};
+  bool any = header.has("spacings");
+  for (int a = 0; a < 3; ++a) {
+    const auto axis = static_cast<std::size_t>(a);
+    const bool cells = is_cell_centred(header, values, axis);
+    if (!header.has("spacings") && std::isfinite(most[a] - least[a])) {
+      spacing[a] = (most[a] - least[a]) / std::max(scan.grid.size[axis] - (cells ? 0 : 1), 1);
+      any = true;
+    }
+    if (std::isfinite(least[a]) && std::isfinite(spacing[a])) {
+      placed.origin[a] = mm[a] * (least[a] + (cells ? spacing[a] / 2 : 0));
+    }
+    if (spacing[a] < 0) placed.axes.direction[axis] = -1 * placed.axes.direction[axis];
+    placed.axes.spacing[a] = mm[a] * std::abs(spacing[a]);
+  }
+  if (any) return placed;
+  scan.warnings.push_back("the header gives no spacing: 1 mm taken");
+  placed.axes.spacing = {1, 1, 1};
+  return placed;
 }
 
 void place(ScanFile& scan, const NrrdHeader& header, const ValueAxis& values) {
@@ -240,12 +358,23 @@ void place(ScanFile& scan, const NrrdHeader& header, const ValueAxis& values) {
   const auto to_lps = [&sign](const Vec3& v) {
     return Vec3{sign.x * v.x, sign.y * v.y, sign.z * v.z};
   };
-  auto steps = axis_steps(header, values, scan.warnings);
-  for (Vec3& step : steps) step = to_lps(step);
-  set_axes(scan, steps);
-  if (header.has("space origin")) {
-    set_origin(scan, to_lps(vectors_of(header, "space origin", header.need("space origin"), 1)[0]));
+  Placement placed = header.has("space directions") ? place_in_space(scan, header, values)
+                                                    : place_along_axes(scan, header, values);
+  for (Vec3& direction : placed.axes.direction) direction = to_lps(direction);
+  if (!header.has("space directions") && header.has("space origin")) {
+    placed.origin = vectors_of(header, "space origin", header.need("space origin"), 1)[0];
   }
+  set_stated_axes(scan, placed.axes);
+  set_origin(scan, to_lps(placed.origin));
+}
+
+/// What was done to the values before they were stored is told: it cannot be undone exactly.
+void warn_of_values(ScanFile& scan, const NrrdHeader& header) {
+  const std::string low = header.or_else("old min", header.or_else("oldmin", ""));
+  const std::string high = header.or_else("old max", header.or_else("oldmax", ""));
+  if (low.empty() || high.empty() || lower(low) == "nan") return;
+  scan.warnings.push_back(say("the values were quantised from a range of ", in_quotes(low), " to ",
+                              in_quotes(high), ": they are kept as stored"));
 }
 
 void set_encoding(SampleSource& source, const NrrdHeader& header) {
@@ -275,12 +404,26 @@ std::uint64_t offset_behind_lines(const std::filesystem::path& file, std::uint64
   return offset;
 }
 
-void find_data(SampleSource& source, const NrrdHeader& header, bool allow_outside) {
+/// The data files of a header that names several, one after the other.
+std::vector<std::filesystem::path> listed_files(const NrrdHeader& header, const std::string& name,
+                                                bool allow_outside) {
+  const std::vector<std::string> names =
+      name.starts_with("LIST") ? header.listed : numbered_names(header.file, name);
+  if (names.empty()) refuse(header.file, "expected a list of data files, found an empty one");
+  std::vector<std::filesystem::path> files;
+  for (const std::string& one : names) files.push_back(data_path(header.file, one, allow_outside));
+  return files;
+}
+
+void find_data(ScanFile& scan, const NrrdHeader& header, bool allow_outside) {
+  SampleSource& source = scan.source;
   const std::string name = header.or_else("data file", "");
   if (name == "LIST" || name.starts_with("LIST ") || name.find('%') != std::string::npos) {
-    refuse(header.file, "expected one data file, found a list of them");
+    scan.parts = listed_files(header, name, allow_outside);
   }
-  source.file = name.empty() ? header.file : data_path(header.file, name, allow_outside);
+  source.file = name.empty()          ? header.file
+                : !scan.parts.empty() ? scan.parts.front()
+                                      : data_path(header.file, name, allow_outside);
   source.offset = name.empty() ? header.size : 0;
   source.exact = !name.empty();
   const auto skip = [&header](const std::string& field) {
@@ -300,13 +443,14 @@ void find_data(SampleSource& source, const NrrdHeader& header, bool allow_outsid
 
 ScanFile open_nrrd(const std::filesystem::path& file, const Opening& opening) {
   NrrdHeader header = read_header(file);
-  ScanFile scan{file, "NRRD", {}, {}, {}};
-  const ValueAxis axis = require_axes(header, opening.values);
-  set_sizes(scan, header, axis);
+  ScanFile scan = begin_scan(file, "NRRD", opening);
+  const ValueAxis axis = require_axes(header);
+  set_sizes(scan, header, axis, opening);
   place(scan, header, axis);
+  warn_of_values(scan, header);
   scan.source.type = sample_type(header);
   set_encoding(scan.source, header);
-  find_data(scan.source, header, opening.allow_outside);
+  find_data(scan, header, opening.allow_outside);
   scan.keys = std::move(header.keys);
   return scan;
 }

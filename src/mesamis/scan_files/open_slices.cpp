@@ -18,12 +18,18 @@ namespace {
 namespace fs = std::filesystem;
 using detail::in_one_line;
 using detail::MemoryBudget;
+using detail::Opening;
 using detail::OpenSlices;
 using detail::refuse;
 using detail::say;
 using detail::ScanFile;
 
 OpenSlices open_plain(ScanFile scan) {
+  if (scan.sheared) {
+    refuse(scan.file,
+           "expected orthogonal axes, which can be read a slice at a time, found sheared ones; run "
+           "without --slabs");
+  }
   const std::uint64_t begin = detail::find_plain_samples(scan);
   return {scan, [scan, begin](const SliceRange& slices, MemoryBudget&, std::vector<float>& out) {
             detail::append_slices(scan, begin, slices, out);
@@ -36,9 +42,9 @@ OpenSlices open_plain(ScanFile scan) {
          "found DICOM; convert it, or run without --slabs");
 }
 
-OpenSlices open_directory(const fs::path& directory, MemoryBudget& budget) {
-  const std::vector<fs::path> slices = detail::slices_without_dicom(directory, budget);
-  if (!slices.empty()) return detail::open_stack(directory, slices, budget);
+OpenSlices open_directory(const fs::path& directory, const Opening& opening) {
+  const std::vector<fs::path> slices = detail::slices_without_dicom(directory, opening.budget);
+  if (!slices.empty()) return detail::open_stack(directory, slices, opening);
   const std::vector<fs::path> files = detail::files_below(directory);
   if (std::any_of(files.begin(), files.end(), detail::looks_like_dicom)) refuse_dicom(directory);
   refuse(directory, "expected slices as .tif, .png or .bmp, one per file, found none");
@@ -46,11 +52,12 @@ OpenSlices open_directory(const fs::path& directory, MemoryBudget& budget) {
 
 OpenSlices open_any(const fs::path& path, const ReadOptions& options, MemoryBudget& budget) {
   if (options.raw) return open_plain(detail::open_raw(path, *options.raw));
-  if (fs::is_directory(path)) return open_directory(path, budget);
-  if (auto scan = detail::open_array(path, {budget, options.limits.allow_outside})) {
+  const Opening opening = detail::opening_of(options, budget);
+  if (fs::is_directory(path)) return open_directory(path, opening);
+  if (auto scan = detail::open_array(path, opening)) {
     return open_plain(std::move(*scan));
   }
-  if (detail::is_picture(path)) return detail::open_picture_slices(path, budget);
+  if (detail::is_picture(path)) return detail::open_picture_slices(path, opening);
   if (detail::looks_like_dicom(path)) refuse_dicom(path);
   detail::refuse_unknown(path);
 }
@@ -108,11 +115,11 @@ std::unique_ptr<FileSlices> open_slices(const fs::path& path, const ReadOptions&
   MemoryBudget budget(path, options.limits);
   const ReadRecord record;
   return in_one_line(path, [&] {
-    detail::require_spacing(path, options);
+    detail::require_options(path, options);
     OpenSlices slices = open_any(path, options, budget);
     detail::announce(slices.scan.grid, options);
     VolumeFile head{slices.scan.grid, slices.scan.format, slices.scan.warnings};
-    detail::apply_spacing(options, head);
+    detail::apply_options(options, head);
     head.files = record.files();
     return std::make_unique<OpenedSlices>(path, options.limits, std::move(head),
                                           std::move(slices.read));

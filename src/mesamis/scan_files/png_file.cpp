@@ -196,11 +196,13 @@ ScanFile scan_of(const std::filesystem::path& file, const Png& png) {
 
 }  // namespace
 
-ScanFile open_png(const std::filesystem::path& file, MemoryBudget& budget) {
+ScanFile open_png(const std::filesystem::path& file, const Opening& opening) {
+  MemoryBudget& budget = opening.budget;
   return scan_of(file, parse(file, budget));
 }
 
-VolumeFile read_png(const std::filesystem::path& file, MemoryBudget& budget) {
+VolumeFile read_png(const std::filesystem::path& file, const Opening& opening) {
+  MemoryBudget& budget = opening.budget;
   const Png png = parse(file, budget);
   ScanFile scan = scan_of(file, png);
   std::string lines = unpack(file, png, budget);

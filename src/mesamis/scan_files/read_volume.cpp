@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "mesamis/base/error.h"
@@ -11,7 +12,10 @@
 #include "mesamis/files/given_spacing.h"
 #include "mesamis/files/in_one_line.h"
 #include "mesamis/files/refuse.h"
+#include "mesamis/scan_files/dicom_store.h"
 #include "mesamis/scan_files/formats.h"
+#include "mesamis/scan_files/sheared_grid.h"
+#include "mesamis/scan_files/sidecar.h"
 #include "mesamis/scan_files/slice_stack.h"
 
 namespace mesamis {
@@ -32,37 +36,75 @@ struct ArrayFormat {
   ScanFile (*open)(const fs::path&, const Opening&);
 };
 
-constexpr std::array<ArrayFormat, 7> kArrayFormats{{{".nii", detail::open_nifti},
-                                                    {".nii.gz", detail::open_nifti},
-                                                    {".nrrd", detail::open_nrrd},
-                                                    {".nhdr", detail::open_nrrd},
-                                                    {".mha", detail::open_meta},
-                                                    {".mhd", detail::open_meta},
-                                                    {".inv3", detail::open_inv3}}};
+constexpr std::array kArrayFormats{
+    ArrayFormat{".nii", detail::open_nifti}, ArrayFormat{".nii.gz", detail::open_nifti},
+    ArrayFormat{".hdr", detail::open_nifti}, ArrayFormat{".hdr.gz", detail::open_nifti},
+    ArrayFormat{".img", detail::open_nifti}, ArrayFormat{".img.gz", detail::open_nifti},
+    ArrayFormat{".nrrd", detail::open_nrrd}, ArrayFormat{".nhdr", detail::open_nrrd},
+    ArrayFormat{".mha", detail::open_meta},  ArrayFormat{".mhd", detail::open_meta},
+    ArrayFormat{".inv3", detail::open_inv3}, ArrayFormat{".mgh", detail::open_mgh},
+    ArrayFormat{".mgz", detail::open_mgh},   ArrayFormat{".isq", detail::open_isq},
+    ArrayFormat{".aim", detail::open_aim},   ArrayFormat{".vgi", detail::open_vgi},
+    ArrayFormat{".vol", detail::open_vgi},
+};
+
+/// The name in lower case, without the version that VMS puts behind it: "a.aim;1".
+std::string plain_name(const fs::path& file) {
+  const std::string name = detail::lower(file.filename().string());
+  const auto mark = name.find(';');
+  const bool version = mark != std::string::npos &&
+                       name.find_first_not_of("0123456789", mark + 1) == std::string::npos;
+  return version ? name.substr(0, mark) : name;
+}
+
+/// Some programs call DICOM files .img, and much else .vol.
+bool needs_header_beside(std::string_view extension) {
+  return extension == ".img" || extension == ".img.gz" || extension == ".vol";
+}
+
+bool has_header_beside(fs::path file) {
+  if (detail::lower(file.extension().string()) == ".gz") file.replace_extension();
+  const bool vol = detail::lower(file.extension().string()) == ".vol";
+  std::error_code ignored;
+  for (const char* extension : {vol ? ".vgi" : ".hdr", vol ? ".VGI" : ".hdr.gz"}) {
+    if (fs::is_regular_file(fs::path(file).replace_extension(extension), ignored)) return true;
+  }
+  return false;
+}
 
 const ArrayFormat* array_format_of(const fs::path& file) {
-  const std::string name = detail::lower(file.filename().string());
+  const std::string name = plain_name(file);
   for (const ArrayFormat& format : kArrayFormats) {
-    if (name.ends_with(format.extension)) return &format;
+    if (!name.ends_with(format.extension)) continue;
+    if (needs_header_beside(format.extension) && !has_header_beside(file)) continue;
+    return &format;
   }
   return nullptr;
+}
+
+/// Data files whose header is listed itself.
+bool is_data_of_header(const fs::path& file) {
+  const ArrayFormat* format = array_format_of(file);
+  return format != nullptr && needs_header_beside(format->extension);
 }
 
 /// A format of pictures.
 struct PictureFormat {
   std::string_view extension;
-  ScanFile (*open)(const fs::path&, MemoryBudget&);
-  VolumeFile (*read)(const fs::path&, MemoryBudget&);
-  OpenSlices (*slices)(const fs::path&, MemoryBudget&);
+  ScanFile (*open)(const fs::path&, const Opening&);
+  VolumeFile (*read)(const fs::path&, const Opening&);
+  OpenSlices (*slices)(const fs::path&, const Opening&);
 };
 
 /// A picture that holds one slice.
-OpenSlices open_one_slice(const fs::path& file, MemoryBudget& budget) {
-  return {detail::open_picture(file, budget), detail::read_pictures({file})};
+OpenSlices open_one_slice(const fs::path& file, const Opening& opening) {
+  return {detail::open_picture(file, opening), detail::read_pictures({file})};
 }
 
-constexpr std::array<PictureFormat, 4> kPictureFormats{
-    {{".tif", detail::open_tiff_header, detail::read_tiff, detail::open_tiff_slices},
+constexpr std::array<PictureFormat, 6> kPictureFormats{
+    {{".jpg", detail::open_jpeg, detail::read_jpeg, open_one_slice},
+     {".jpeg", detail::open_jpeg, detail::read_jpeg, open_one_slice},
+     {".tif", detail::open_tiff_header, detail::read_tiff, detail::open_tiff_slices},
      {".tiff", detail::open_tiff_header, detail::read_tiff, detail::open_tiff_slices},
      {".png", detail::open_png, detail::read_png, open_one_slice},
      {".bmp", detail::open_bmp, detail::read_bmp, open_one_slice}}};
@@ -79,16 +121,34 @@ bool has_known_extension(const fs::path& file) {
   return array_format_of(file) || detail::is_picture(file);
 }
 
+/// Whether a file of a directory is listed: not what a header lists, nor what is hidden.
+bool is_listed(const fs::path& file) {
+  return has_known_extension(file) && !is_data_of_header(file) &&
+         !file.filename().native().starts_with('.');
+}
+
 /// A path, and what it is read with.
 struct Request {
   const fs::path& path;
   const ReadOptions& options;
   MemoryBudget& budget;
 
-  Opening opening() const { return {budget, options.limits.allow_outside}; }
+  Opening opening() const { return detail::opening_of(options, budget); }
 };
 
+VolumeFile read_sheared(const Request& request, const ScanFile& scan) {
+  const auto plan = detail::plan_unsheared(scan.file, scan.grid, *scan.sheared);
+  detail::announce(plan.grid, request.options);
+  VolumeFile out{{plan.grid, {}}, scan.format, scan.warnings};
+  out.warnings.push_back(plan.note);
+  const std::vector<float> samples = detail::read_samples(scan, request.budget);
+  request.budget.claim(plan.grid.voxel_count(), sizeof(float), "samples between voxels");
+  out.volume.samples = detail::unsheared(plan, samples);
+  return out;
+}
+
 VolumeFile read_array(const Request& request, const ScanFile& scan) {
+  if (scan.sheared) return read_sheared(request, scan);
   detail::announce(scan.grid, request.options);
   VolumeFile out{scan.grid, scan.format, scan.warnings};
   out.volume.samples = detail::read_samples(scan, request.budget);
@@ -96,16 +156,15 @@ VolumeFile read_array(const Request& request, const ScanFile& scan) {
 }
 
 VolumeFile read_one_picture(const Request& request) {
-  detail::announce(detail::open_picture(request.path, request.budget).grid, request.options);
-  return detail::read_picture(request.path, request.budget);
+  detail::announce(detail::open_picture(request.path, request.opening()).grid, request.options);
+  return detail::read_picture(request.path, request.opening());
 }
 
 /// A directory without DICOM may hold volumes that are files of their own.
 void require_dicom(const fs::path& directory) {
-  const std::vector<fs::path> files = detail::files_below(directory);
-  if (std::any_of(files.begin(), files.end(), detail::looks_like_dicom)) return;
+  if (detail::holds_dicom(directory)) return;
   const std::vector<fs::path> here = detail::files_in(directory);
-  const auto volume = std::find_if(here.begin(), here.end(), has_known_extension);
+  const auto volume = std::find_if(here.begin(), here.end(), is_listed);
   refuse(directory,
          detail::say("expected DICOM images, found none but ", detail::contents_of(directory),
                      volume == here.end() ? "" : "; name the file itself, as " + volume->string()));
@@ -127,7 +186,9 @@ VolumeFile read_file(const Request& request) {
     return read_array(request, *scan);
   }
   if (detail::is_picture(path)) return read_one_picture(request);
-  if (detail::looks_like_dicom(path)) return detail::read_dicom(path, options, budget);
+  if (detail::is_zip(path) || detail::looks_like_dicom(path)) {
+    return detail::read_dicom(path, options, budget);
+  }
   refuse_unknown(path);
 }
 
@@ -135,7 +196,7 @@ VolumeFile read_file(const Request& request) {
 ScanFile open_header(const Request& request) {
   const fs::path& file = request.path;
   if (request.options.raw) return detail::open_raw(file, *request.options.raw);
-  return detail::is_picture(file) ? detail::open_picture(file, request.budget)
+  return detail::is_picture(file) ? detail::open_picture(file, request.opening())
                                   : *detail::open_array(file, request.opening());
 }
 
@@ -147,7 +208,9 @@ VolumeInfo describe(const Request& request) {
     const ScanFile scan = open_header(request);
     info.format = scan.format;
     info.modality = scan.grid.modality;
-    detail::set_grid(info, scan.grid);
+    detail::set_grid(info, scan.sheared
+                               ? detail::plan_unsheared(scan.file, scan.grid, *scan.sheared).grid
+                               : static_cast<const VoxelGrid&>(scan.grid));
   } catch (const InputError& error) {
     info.problem = error.what();
   }
@@ -158,12 +221,12 @@ VolumeInfo describe(const Request& request) {
 std::vector<VolumeInfo> list_directory(const Request& request) {
   const auto& [path, options, budget] = request;
   const std::vector<fs::path> slices = detail::slices_without_dicom(path, budget);
-  std::vector<VolumeInfo> all = slices.empty()
-                                    ? detail::list_dicom(path, options, budget)
-                                    : std::vector{detail::describe_slices(path, slices, budget)};
+  std::vector<VolumeInfo> all =
+      slices.empty() ? detail::list_dicom(path, options, budget)
+                     : std::vector{detail::describe_slices(path, slices, request.opening())};
   for (const fs::path& file : detail::files_in(path)) {
     const bool slice = std::find(slices.begin(), slices.end(), file) != slices.end();
-    if (has_known_extension(file) && !slice) all.push_back(describe({file, options, budget}));
+    if (is_listed(file) && !slice) all.push_back(describe({file, options, budget}));
   }
   if (all.empty())
     refuse(path,
@@ -175,7 +238,9 @@ std::vector<VolumeInfo> list(const Request& request) {
   const auto& [path, options, budget] = request;
   if (fs::is_directory(path) && !options.raw) return list_directory(request);
   if (options.raw || has_known_extension(path)) return {describe(request)};
-  if (detail::looks_like_dicom(path)) return detail::list_dicom(path, options, budget);
+  if (detail::is_zip(path) || detail::looks_like_dicom(path)) {
+    return detail::list_dicom(path, options, budget);
+  }
   refuse_unknown(path);
 }
 
@@ -188,28 +253,43 @@ struct GridFound {
 
 std::optional<ScanFile> detail::open_array(const fs::path& file, const Opening& opening) {
   const ArrayFormat* format = array_format_of(file);
-  return format ? std::optional(format->open(file, opening)) : std::nullopt;
+  if (format == nullptr) return std::nullopt;
+  ScanFile scan = format->open(file, opening);
+  if (scan.grid.modality.empty()) {
+    scan.grid.modality = modality_in_sidecar(file, opening.budget, scan.warnings);
+  }
+  return scan;
+}
+
+detail::Opening detail::opening_of(const ReadOptions& options, MemoryBudget& budget) {
+  return {budget,           options.limits.allow_outside,     Values::kOne, options.spacing,
+          options.resample, {options.volume, options.channel}};
 }
 
 bool detail::is_array_file(const fs::path& file) { return array_format_of(file) != nullptr; }
 
 void detail::announce(VoxelGrid grid, const ReadOptions& options) {
   grid.spacing = options.spacing.value_or(grid.spacing);
+  if (!options.modality.empty()) grid.modality = options.modality;
   if (options.on_grid) options.on_grid(grid);
 }
 
 void detail::refuse_unknown(const fs::path& file) {
-  refuse(
-      file,
-      "expected .nii .nii.gz .nrrd .nhdr .mha .mhd .tif .png .bmp .inv3, DICOM, or --raw with the "
-      "layout of a raw file, found none of them");
+  refuse(file,
+         "expected .nii .nii.gz .hdr .mgz .nrrd .nhdr .mha .mhd .tif .png .bmp .jpg .inv3 .isq "
+         ".aim .vgi, "
+         "DICOM, or --raw with the layout of a raw file, found none of them");
 }
 
-void detail::require_spacing(const fs::path& path, const ReadOptions& options) {
+void detail::require_options(const fs::path& path, const ReadOptions& options) {
   if (options.spacing) require_positive_spacing(path, *options.spacing);
+  const std::string& modality = options.modality;
+  if (modality.empty() || modality == "CT" || modality == "MR" || modality == "other") return;
+  refuse(path, "expected the modality CT, MR or other, found " + in_quotes(modality));
 }
 
-void detail::apply_spacing(const ReadOptions& options, VolumeFile& file) {
+void detail::apply_options(const ReadOptions& options, VolumeFile& file) {
+  if (!options.modality.empty()) file.volume.modality = options.modality;
   if (!options.spacing) return;
   const auto assumed = std::erase_if(file.warnings, [](const std::string& warning) {
     return warning.find(": 1 mm taken") != std::string::npos;
@@ -222,18 +302,18 @@ void detail::apply_spacing(const ReadOptions& options, VolumeFile& file) {
 
 bool detail::is_picture(const fs::path& file) { return picture_format_of(file) != nullptr; }
 
-VolumeFile detail::read_picture(const fs::path& file, MemoryBudget& budget) {
-  return picture_format_of(file)->read(file, budget);
+VolumeFile detail::read_picture(const fs::path& file, const Opening& opening) {
+  return picture_format_of(file)->read(file, opening);
 }
 
-ScanFile detail::open_picture(const fs::path& file, MemoryBudget& budget) {
-  const ScopedFile scope(budget, file);
-  return picture_format_of(file)->open(file, budget);
+ScanFile detail::open_picture(const fs::path& file, const Opening& opening) {
+  const ScopedFile scope(opening.budget, file);
+  return picture_format_of(file)->open(file, opening);
 }
 
-detail::OpenSlices detail::open_picture_slices(const fs::path& file, MemoryBudget& budget) {
-  const ScopedFile scope(budget, file);
-  return picture_format_of(file)->slices(file, budget);
+detail::OpenSlices detail::open_picture_slices(const fs::path& file, const Opening& opening) {
+  const ScopedFile scope(opening.budget, file);
+  return picture_format_of(file)->slices(file, opening);
 }
 
 void detail::set_grid(VolumeInfo& info, const VoxelGrid& grid) {
@@ -247,9 +327,9 @@ VolumeFile read_volume(const fs::path& path, const ReadOptions& options) {
   MemoryBudget budget(path, options.limits);
   const ReadRecord record;
   return in_one_line(path, [&] {
-    detail::require_spacing(path, options);
+    detail::require_options(path, options);
     VolumeFile file = read_file({path, options, budget});
-    detail::apply_spacing(options, file);
+    detail::apply_options(options, file);
     file.files = record.files();
     return file;
   });
@@ -268,7 +348,10 @@ VoxelGrid read_grid(const fs::path& path, const ReadOptions& options) {
 std::vector<VolumeInfo> list_volumes(const fs::path& path, const ReadOptions& options) {
   MemoryBudget budget(path, options.limits);
   std::vector<VolumeInfo> all = in_one_line(path, [&] { return list({path, options, budget}); });
-  for (VolumeInfo& info : all) info.spacing = options.spacing.value_or(info.spacing);
+  for (VolumeInfo& info : all) {
+    info.spacing = options.spacing.value_or(info.spacing);
+    if (!options.modality.empty()) info.modality = options.modality;
+  }
   return all;
 }
 

@@ -38,7 +38,10 @@ struct ReadOptions {
   std::string series{};  ///< DICOM: UID of the series to take; empty: the only volume there is
   std::optional<RawLayout> raw{};  ///< the path is a raw file of this layout, whatever its name
   std::optional<Vec3> spacing{};   ///< mm, positive: taken instead of the file's
-  bool resample = false;           ///< DICOM: stacks that are no regular grid are interpolated
+  bool resample = false;           ///< stacks that are no regular grid are interpolated
+  std::optional<Index> volume{};   ///< from 0: which one of a 4-D file or a series of phases
+  std::optional<Index> channel{};  ///< from 0: which one of the values of each voxel
+  std::string modality{};          ///< "CT", "MR" or "other": taken instead of the file's
   ReadLimits limits{};             ///< memory, and other folders
   /// Called with the volume's grid when the headers are read and no sample is: it may throw, as
   /// where there is no memory for what comes afterwards. list_volumes() does not call it.

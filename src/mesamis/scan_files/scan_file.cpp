@@ -20,6 +20,7 @@ static_assert(std::endian::native == std::endian::little, "samples are swapped f
 constexpr std::int64_t kMostSamples = std::int64_t{1} << 40;
 constexpr std::int64_t kMostValues = 65535;  // per voxel
 
+/// Of all values.
 std::uint64_t sample_count(const ScanFile& scan) {
   return std::uint64_t{scan.grid.voxel_count()} * static_cast<std::uint64_t>(scan.inner) *
          static_cast<std::uint64_t>(scan.outer);
@@ -59,18 +60,35 @@ template <class Found>
                                " samples, found ", found));
 }
 
-/// Calls visit(bytes) for the next `count` samples, block by block.
+/// How many samples lie together of which one is kept.
+std::size_t group_size(const ScanFile& scan) {
+  return static_cast<std::size_t>(scan.picked ? scan.inner : 1);
+}
+
+/// Keeps the sample that is picked of each group, from `begin` on.
+template <class Number>
+void keep_picked(const ScanFile& scan, std::vector<Number>& out, std::size_t begin) {
+  if (group_size(scan) == 1) return;
+  std::size_t kept = begin;
+  const std::size_t first = begin + static_cast<std::size_t>(scan.picked->inner);
+  for (std::size_t n = first; n < out.size(); n += group_size(scan)) out[kept++] = out[n];
+  out.resize(kept);
+}
+
+/// Calls visit(bytes) for the next `count` groups, block by block.
 template <class Visit>
-void read_binary(const ScanFile& scan, ByteSource& bytes, std::size_t count, Visit visit) {
-  const auto width = byte_size(scan.source.type);
-  std::vector<unsigned char> block(std::min(kSamplesAtOnce, count) * width);
+void read_binary(const ScanFile& scan, ByteSource& bytes, std::size_t count, const Visit& visit) {
+  const std::size_t group = group_size(scan);
+  const auto width = byte_size(scan.source.type) * group;
+  std::vector<unsigned char> block(
+      std::min(std::max<std::size_t>(kSamplesAtOnce / group, 1), count) * width);
   for (std::size_t done = 0; done < count;) {
-    const std::size_t samples = std::min(kSamplesAtOnce, count - done);
-    const std::size_t got = bytes.read(block.data(), samples * width);
-    if (got < samples * width) {
+    const std::size_t groups = std::min(block.size() / width, count - done);
+    const std::size_t got = bytes.read(block.data(), groups * width);
+    if (got < groups * width) {
       refuse_short(scan, std::uint64_t{count} * width, done * width + got, "bytes");
     }
-    done += samples;
+    done += groups;
     visit(std::span<const unsigned char>(block.data(), got));
   }
 }
@@ -84,27 +102,49 @@ double number_of(const ScanFile& scan, std::string_view word, std::size_t sample
   return scan.source.slope * value + scan.source.intercept;
 }
 
-/// Calls visit(number) for each sample.
+/// Which numbers of a text are read.
+class TextPick {
+ public:
+  explicit TextPick(const ScanFile& scan)
+      : all_(!scan.picked),
+        picked_(scan.picked.value_or(PickedValue{})),
+        inner_(static_cast<std::size_t>(scan.inner)),
+        volume_(scan.grid.voxel_count() * inner_) {}
+
+  bool takes(std::size_t n) const {
+    return all_ || (n / volume_ == static_cast<std::size_t>(picked_.outer) &&
+                    n % inner_ == static_cast<std::size_t>(picked_.inner));
+  }
+
+ private:
+  bool all_;
+  PickedValue picked_;
+  std::size_t inner_, volume_;
+};
+
+/// Calls visit(number) for each sample that is kept.
 template <class Visit>
-void read_text(const ScanFile& scan, ByteSource& bytes, Visit visit) {
+void read_text(const ScanFile& scan, ByteSource& bytes, const Visit& visit) {
   constexpr std::size_t kLongestNumber = 64;
   const std::size_t count = sample_count(scan);
-  std::size_t done = 0;
+  const TextPick pick(scan);
+  std::size_t seen = 0;
   std::vector<char> block(kSamplesAtOnce);
   std::string word;
-  for (bool more = true; more && done < count;) {
+  for (bool more = true; more && seen < count;) {
     const std::size_t got = bytes.read(block.data(), block.size());
     more = got == block.size();
     if (!more) block[got] = ' ';  // the end of the data ends the last number
-    for (std::size_t n = 0; n < (more ? got : got + 1) && done < count; ++n) {
+    for (std::size_t n = 0; n < (more ? got : got + 1) && seen < count; ++n) {
       const bool blank = block[n] == ' ' || (block[n] >= '\t' && block[n] <= '\r');
       if (!blank && word.size() < kLongestNumber) word += block[n];
       if (!blank || word.empty()) continue;
-      visit(number_of(scan, word, done++));
+      if (pick.takes(seen)) visit(number_of(scan, word, seen));
+      ++seen;
       word.clear();
     }
   }
-  if (done < count) refuse_short(scan, count, done, "numbers");
+  if (seen < count) refuse_short(scan, count, seen, "numbers");
 }
 
 /// Fewest bytes (unpacked) that the samples take; a number in text needs one and a blank.
@@ -123,6 +163,64 @@ std::uint64_t fewest_bytes(const ScanFile& scan) {
                         found, "; unpack it, or run without --slabs"));
 }
 
+bool is_usable(double length) { return length > 0 && std::isfinite(length); }
+
+/// The direction of an axis that a file leaves open: across the others, else along the world's.
+Vec3 direction_across(const std::array<Vec3, 3>& all, std::size_t axis) {
+  const Vec3 across = unit_or_zero(cross(all[(axis + 1) % 3], all[(axis + 2) % 3]));
+  if (is_usable(norm(across))) return across;
+  Vec3 along;
+  along[static_cast<int>(axis)] = 1;
+  return along;
+}
+
+/// What a file lacks, from the spacing that is given.
+StatedAxes completed(ScanFile& scan, StatedAxes axes) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    double& length = axes.spacing[static_cast<int>(a)];
+    if (!is_usable(length)) {
+      scan.warnings.push_back(say("the file's spacing along axis ", a, ", ", length,
+                                  " mm, cannot be used: the one given is taken"));
+      length = (*scan.given_spacing)[static_cast<int>(a)];
+    }
+    if (is_usable(norm(axes.direction[a]))) continue;
+    axes.direction[a] = direction_across(axes.direction, a);
+    scan.warnings.push_back(say("the file gives axis ", a, " no direction: across the others"));
+  }
+  return axes;
+}
+
+/// The samples that are kept.
+std::uint64_t kept_count(const ScanFile& scan) {
+  return scan.picked ? std::uint64_t{scan.grid.voxel_count()} : sample_count(scan);
+}
+
+/// Bytes from the first sample to that of the volume that is picked.
+std::uint64_t bytes_before_picked(const ScanFile& scan) {
+  if (!scan.picked) return 0;
+  return std::uint64_t{scan.grid.voxel_count()} * static_cast<std::uint64_t>(scan.inner) *
+         static_cast<std::uint64_t>(scan.picked->outer) * byte_size(scan.source.type);
+}
+
+/// Calls visit(bytes) for the groups that are kept, and skips what lies around them.
+template <class Visit>
+void read_picked(const ScanFile& scan, ByteSource& bytes, const Visit& visit) {
+  const std::uint64_t before = bytes_before_picked(scan);
+  if (const std::uint64_t there = bytes.skip(before); there < before) {
+    refuse_short(scan, fewest_bytes(scan), there, "bytes");
+  }
+  read_binary(scan, bytes, kept_count(scan), visit);
+  if (!scan.source.exact) return;
+  const std::uint64_t read =
+      before + kept_count(scan) * byte_size(scan.source.type) * group_size(scan);
+  const std::uint64_t left = fewest_bytes(scan) - read;
+  char beyond = 0;
+  if (const std::uint64_t there = bytes.skip(left); there < left) {
+    refuse_short(scan, fewest_bytes(scan), read + there, "bytes");
+  }
+  if (bytes.read(&beyond, 1) > 0) refuse_long(scan);
+}
+
 std::uint64_t bytes_before_last_samples(const ScanFile& scan) {
   ByteSource all(scan.source.file, scan.source.packing, scan.source.offset);
   const std::uint64_t total = all.skip(std::numeric_limits<std::uint64_t>::max());
@@ -131,7 +229,45 @@ std::uint64_t bytes_before_last_samples(const ScanFile& scan) {
   return total - needed;
 }
 
+/// The scan of one file of a list: some slices, or one of several volumes.
+ScanFile scan_of_part(const ScanFile& scan, const std::filesystem::path& file) {
+  const auto count = static_cast<Index>(std::min<std::size_t>(scan.parts.size(), kMostValues));
+  ScanFile part = scan;
+  part.parts.clear();
+  part.source.file = part.file = file;
+  part.outer = 1;
+  if (part.picked) part.picked->outer = 0;
+  if (scan.outer == 1 && scan.grid.size[2] % count == 0) {
+    part.grid.size[2] /= count;
+  } else if (scan.outer != count) {
+    refuse(scan.file, say("expected files with equal numbers of slices, or one per volume, found ",
+                          scan.parts.size(), " files for ", size_text(scan), " samples"));
+  }
+  return part;
+}
+
+std::vector<float> read_parts(const ScanFile& scan, MemoryBudget& budget) {
+  const bool volumes = scan.outer > 1;
+  std::vector<float> samples;
+  reserve_within(budget, samples, kept_count(scan), "samples");
+  for (std::size_t n = 0; n < scan.parts.size(); ++n) {
+    if (volumes && scan.picked && n != static_cast<std::size_t>(scan.picked->outer)) continue;
+    const ScopedFile scope(budget, scan.parts[n]);
+    const std::vector<float> part = read_samples(scan_of_part(scan, scan.parts[n]), budget);
+    samples.insert(samples.end(), part.begin(), part.end());
+  }
+  return samples;
+}
+
 }  // namespace
+
+ScanFile begin_scan(const std::filesystem::path& file, const std::string& format,
+                    const Opening& opening) {
+  ScanFile scan{file, format, {}, {}, {}};
+  scan.given_spacing = opening.spacing;
+  scan.resample = opening.resample;
+  return scan;
+}
 
 void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts) {
   std::int64_t left = kMostSamples;
@@ -146,30 +282,63 @@ void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts) {
   if (left < 1) refuse(scan.file, say("more voxels than can be read: ", size_text(scan)));
 }
 
-void set_values(ScanFile& scan, std::int64_t inner, std::int64_t outer) {
-  const std::int64_t values = std::max(inner, outer);
-  const auto most = kMostSamples / static_cast<std::int64_t>(scan.grid.voxel_count());
-  if (std::min(inner, outer) < 1 || values > std::min<std::int64_t>(most, kMostValues)) {
-    refuse(scan.file, say("expected 1 to ", std::min<std::int64_t>(most, kMostValues),
-                          " values per voxel, found ", inner == 1 ? outer : inner));
+void set_values(ScanFile& scan, const ValueAxes& axes, ValueOrder order, const Opening& opening) {
+  const auto [volumes, channels] = axes;
+  const auto most =
+      std::min(kMostSamples / static_cast<std::int64_t>(scan.grid.voxel_count()), kMostValues);
+  if (std::min(volumes, channels) < 1 || volumes > most || channels > most / volumes) {
+    refuse(scan.file, say("expected 1 to ", most, " values per voxel, found ",
+                          volumes == 1 ? channels : volumes,
+                          volumes == 1 || channels == 1 ? "" : say(" x ", channels)));
   }
-  scan.inner = static_cast<Index>(inner);
-  scan.outer = static_cast<Index>(outer);
+  if (opening.values == Values::kMany && volumes > 1 && channels > 1) {
+    refuse(scan.file, say("expected one axis of values beside space, found ", volumes,
+                          " volumes of ", channels, " channels"));
+  }
+  const bool interleaved = order == ValueOrder::kChannelsFirst;
+  scan.inner = static_cast<Index>(interleaved ? channels : 1);
+  scan.outer = static_cast<Index>(interleaved ? volumes : volumes * channels);
+  if (opening.values == Values::kMany) return;
+  const TakenValue taken = take_value(scan.file, axes, opening.choice);
+  const std::int64_t outer = interleaved ? taken.volume : taken.channel * volumes + taken.volume;
+  scan.picked =
+      PickedValue{static_cast<Index>(interleaved ? taken.channel : 0), static_cast<Index>(outer)};
 }
 
-void set_axes(ScanFile& scan, const std::array<Vec3, 3>& steps) {
+StatedAxes StatedAxes::of_steps(const std::array<Vec3, 3>& steps) noexcept {
+  return {steps, {norm(steps[0]), norm(steps[1]), norm(steps[2])}};
+}
+
+void set_stated_axes(ScanFile& scan, const StatedAxes& stated) {
+  const StatedAxes usable = scan.given_spacing ? completed(scan, stated) : stated;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double length = usable.spacing[static_cast<int>(a)];
+    if (!is_usable(length) || !is_usable(norm(usable.direction[a]))) {
+      refuse(scan.file, say("expected a positive voxel spacing along axis ", a, ", found ",
+                            is_usable(length) ? 0 : length, " mm (--spacing X,Y,Z replaces it)"));
+    }
+  }
   GridAxes axes;
   try {
-    axes = grid_axes(steps);
+    axes = grid_axes(usable.direction);
   } catch (const InputError& error) {
-    refuse(scan.file, error.what());
+    if (!scan.resample)
+      refuse(scan.file, say(error.what(), " (--resample interpolates such grids)"));
+    scan.sheared.emplace();
+    for (std::size_t a = 0; a < 3; ++a) {
+      (*scan.sheared)[a] = usable.spacing[static_cast<int>(a)] * unit_or_zero(usable.direction[a]);
+    }
   }
-  if (axes.skew > kRoundingSkew) {
+  if (!scan.sheared && axes.skew > kRoundingSkew) {
     scan.warnings.push_back(
         say("the voxel axes are not orthogonal (cosine ", axes.skew, "): made orthonormal"));
   }
-  scan.grid.spacing = axes.spacing;
+  scan.grid.spacing = usable.spacing;
   scan.grid.direction = axes.direction;
+}
+
+void set_axes(ScanFile& scan, const std::array<Vec3, 3>& steps) {
+  set_stated_axes(scan, StatedAxes::of_steps(steps));
 }
 
 void set_origin(ScanFile& scan, const Vec3& origin) {
@@ -203,49 +372,53 @@ void go_to_samples(const ScanFile& scan, ByteSource& bytes) {
   bytes.skip(skip);
 }
 
-void require_end(const ScanFile& scan, ByteSource& bytes) {
-  char beyond = 0;
-  if (scan.source.exact && !scan.source.text && bytes.read(&beyond, 1) > 0) refuse_long(scan);
+/// Appends the samples of a block that are kept.
+void append_picked(const ScanFile& scan, std::span<const unsigned char> block,
+                   std::vector<float>& out) {
+  const std::size_t begin = out.size();
+  append_samples(block, scan.source, out);
+  keep_picked(scan, out, begin);
 }
 
 }  // namespace
 
 std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget) {
+  if (!scan.parts.empty()) return read_parts(scan, budget);
   ByteSource bytes(scan.source.file, scan.source.packing, scan.source.offset);
   go_to_samples(scan, bytes);
   std::vector<float> samples;
-  reserve_within(budget, samples, sample_count(scan), "samples");
+  reserve_within(budget, samples, kept_count(scan), "samples");
   if (scan.source.text) {
     read_text(scan, bytes, [&](double value) { samples.push_back(static_cast<float>(value)); });
   } else {
-    read_binary(scan, bytes, sample_count(scan), [&](std::span<const unsigned char> block) {
-      append_samples(block, scan.source, samples);
-    });
+    read_picked(scan, bytes, [&](auto block) { append_picked(scan, block, samples); });
   }
-  require_end(scan, bytes);
   return samples;
 }
 
 void visit_samples(const ScanFile& scan,
                    const std::function<void(std::span<const double>)>& visit) {
+  for (const auto& part : scan.parts) visit_samples(scan_of_part(scan, part), visit);
+  if (!scan.parts.empty()) return;
   ByteSource bytes(scan.source.file, scan.source.packing, scan.source.offset);
   go_to_samples(scan, bytes);
   std::vector<double> numbers;
   if (scan.source.text) {
     read_text(scan, bytes, [&](double value) { visit({&value, 1}); });
   } else {
-    read_binary(scan, bytes, sample_count(scan), [&](std::span<const unsigned char> block) {
+    read_picked(scan, bytes, [&](std::span<const unsigned char> block) {
       numbers.resize(block.size() / byte_size(scan.source.type));
       convert_any(block, scan.source, numbers.data());
+      keep_picked(scan, numbers, 0);
       visit(numbers);
     });
   }
-  require_end(scan, bytes);
 }
 
 std::uint64_t find_plain_samples(const ScanFile& scan) {
   const SampleSource& source = scan.source;
   if (source.text) refuse_unplain(scan, "numbers in text");
+  if (!scan.parts.empty()) refuse_unplain(scan, "a list of files");
   const ByteSource bytes(source.file, source.packing, source.offset);
   if (bytes.is_packed()) {
     refuse_unplain(scan, source.packing == Packing::kSniffed ? "gzip" : "gzip or zlib");
@@ -253,19 +426,19 @@ std::uint64_t find_plain_samples(const ScanFile& scan) {
   const std::uint64_t there = bytes.most_bytes(), needed = fewest_bytes(scan);
   const std::uint64_t skip = std::min(source.skip, there);
   if (there - skip < needed) refuse_short(scan, needed, there - skip, "bytes");
-  if (source.at_end) return source.offset + there - needed;
+  const std::uint64_t before = bytes_before_picked(scan);
+  if (source.at_end) return source.offset + there - needed + before;
   if (source.exact && there - skip > needed) refuse_long(scan);
-  return source.offset + skip;
+  return source.offset + skip + before;
 }
 
 void append_slices(const ScanFile& scan, std::uint64_t begin, const SliceRange& slices,
                    std::vector<float>& out) {
   const std::uint64_t before = scan.grid.offset(0, 0, slices.first);
-  ByteSource bytes(scan.source.file, Packing::kPlain, begin + before * byte_size(scan.source.type));
+  const std::uint64_t group = byte_size(scan.source.type) * static_cast<std::uint64_t>(scan.inner);
+  ByteSource bytes(scan.source.file, Packing::kPlain, begin + before * group);
   read_binary(scan, bytes, scan.grid.offset(0, 0, slices.count),
-              [&](std::span<const unsigned char> block) {
-                append_samples(block, scan.source, out);
-              });
+              [&](auto block) { append_picked(scan, block, out); });
 }
 
 }  // namespace mesamis::detail

@@ -6,13 +6,16 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "mesamis/base/error.h"
 #include "mesamis/files/byte_source.h"
 #include "mesamis/files/memory_budget.h"
 #include "mesamis/files/number_type.h"
+#include "mesamis/files/value_axes.h"
 #include "mesamis/image/grid_axes.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/scan_files/slice_reader.h"
@@ -35,6 +38,11 @@ struct SampleSource {
   double slope = 1, intercept = 0;  ///< native value = slope * stored + intercept
 };
 
+/// The one value of each voxel that is read, where a file has more.
+struct PickedValue {
+  Index inner = 0, outer = 0;  ///< see ScanFile
+};
+
 /// A header that was read and checked.
 struct ScanFile {
   std::filesystem::path file;
@@ -44,7 +52,14 @@ struct ScanFile {
   std::vector<std::string> warnings;
   Index inner = 1;                            ///< values per voxel, one after another
   Index outer = 1;                            ///< volumes, one after another
+  std::optional<PickedValue> picked{};        ///< none: all values are read
   std::map<std::string, std::string> keys{};  ///< NRRD: "key:=value"
+  std::optional<Vec3> given_spacing{};        ///< mm: for what the file lacks, see begin_scan()
+  bool resample = false;                      ///< sheared axes are taken, see set_stated_axes()
+  /// Steps along the axes of a grid that is to be resampled, LPS, mm.
+  std::optional<std::array<Vec3, 3>> sheared{};
+  /// The samples lie in these files in turn, with equal numbers of slices, or one volume each.
+  std::vector<std::filesystem::path> parts{};
 };
 
 /// How many values per voxel a reader accepts.
@@ -55,26 +70,72 @@ struct Opening {
   MemoryBudget& budget;
   bool allow_outside = false;  ///< see ReadLimits
   Values values = Values::kOne;
+  std::optional<Vec3> spacing{};  ///< mm, given by the user
+  bool resample = false;          ///< see ReadOptions
+  ValueChoice choice{};           ///< of Values::kOne
 };
+
+/// How a file places its voxels: directions and distances may each be missing or unusable.
+struct StatedAxes {
+  std::array<Vec3, 3> direction{};  ///< LPS; of any length, 0 where it is not known
+  Vec3 spacing{};                   ///< mm
+
+  /// Of steps from voxel to voxel along each axis, LPS, mm.
+  static StatedAxes of_steps(const std::array<Vec3, 3>& steps) noexcept;
+};
+
+/// A scan whose header is about to be read.
+/// @param format  as VolumeFile::format.
+ScanFile begin_scan(const std::filesystem::path& file, const std::string& format,
+                    const Opening& opening);
 
 /// Sets the grid's size. @throws InputError  if a count is below 1 or the product out of bounds.
 void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts);
 
-/// Sets the number of values per voxel; inner or outer is 1. Call it after set_size().
-/// @throws InputError  if a count is below 1 or the number of samples out of bounds.
-void set_values(ScanFile& scan, std::int64_t inner, std::int64_t outer);
+/// Where the values of a voxel lie.
+enum class ValueOrder {
+  kChannelsFirst,  ///< the channels of a voxel one after another, then the voxels, the volumes
+  kVolumesFirst,   ///< all voxels of a volume, then the volumes, then the channels
+};
 
-/// Sets spacing and direction from one step along each axis (LPS, mm).
+/// Sets the number of values per voxel and, for Values::kOne, which of them is read. Call it after
+/// set_size().
+/// @throws InputError  if a count is below 1 or the number of samples out of bounds; as
+///                     take_value(); for Values::kMany, if there are volumes and channels.
+void set_values(ScanFile& scan, const ValueAxes& axes, ValueOrder order, const Opening& opening);
+
+/// Sets spacing and direction.
 ///
 /// Axes whose cosines are below 1e-5 are made orthonormal; up to kSkewTolerance with a warning.
-/// @throws InputError  for larger cosines, and a step of length 0 or that is not finite.
+/// A spacing that is not positive and finite, and a missing direction, are replaced by
+/// scan.given_spacing and the direction across the others, with a warning, if a spacing is given.
+/// Axes of larger cosines are kept in scan.sheared if scan.resample; the grid then has no
+/// direction.
+/// @throws InputError  for larger cosines, and a spacing or direction that cannot be used.
+void set_stated_axes(ScanFile& scan, const StatedAxes& axes);
+/// The same of one step along each axis, LPS, mm.
 void set_axes(ScanFile& scan, const std::array<Vec3, 3>& steps);
+
+/// What a file states, or, where a spacing is given and the file's text cannot be read, a fallback
+/// with a warning.
+/// @param read  returns it; throws InputError.
+template <class Read, class Stated>
+Stated stated_or(ScanFile& scan, const Read& read, const Stated& fallback) {
+  if (!scan.given_spacing) return read();
+  try {
+    return read();
+  } catch (const InputError& error) {
+    scan.warnings.push_back(error.what());
+    return fallback;
+  }
+}
 
 /// Sets the origin. @throws InputError  if it is not finite.
 void set_origin(ScanFile& scan, const Vec3& origin);
 
-/// Reads the samples of all values, in the order of the file. A header that promises more than the
-/// file can hold is refused before anything is claimed; then the samples are, and stay so.
+/// Reads the samples: of the value that is picked, or of all values, in the order of the file. A
+/// header that promises more than the file can hold is refused before anything is claimed; then the
+/// samples are, and stay so.
 /// @throws InputError  if the data are too short, broken or (source.exact) too long; as
 ///                     MemoryBudget::claim().
 std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget);

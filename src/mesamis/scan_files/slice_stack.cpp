@@ -11,6 +11,7 @@
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
+#include "mesamis/scan_files/skyscan_log.h"
 
 namespace mesamis::detail {
 namespace {
@@ -81,7 +82,8 @@ void require_like(const ScanFile& first, const ScanFile& slice) {
     return say(scan.format, " of ", g.size[0], " x ", g.size[1], " x ", g.size[2], " pixels of ",
                8 * byte_size(scan.source.type), " bits, ", g.spacing.x, " x ", g.spacing.y, " mm");
   };
-  if (first.format == slice.format && a.size == b.size && a.spacing == b.spacing &&
+  const bool same_spacing = first.given_spacing || a.spacing == b.spacing;
+  if (first.format == slice.format && a.size == b.size && same_spacing &&
       first.source.type == slice.source.type) {
     return;
   }
@@ -90,25 +92,32 @@ void require_like(const ScanFile& first, const ScanFile& slice) {
 
 /// The headers of all files, checked, as one volume without samples.
 ScanFile open_headers(const fs::path& directory, const std::vector<fs::path>& files,
-                      MemoryBudget& budget) {
-  ScanFile first = open_picture(files[0], budget);
+                      const Opening& opening) {
+  ScanFile first = open_picture(files[0], opening);
+  first.given_spacing = opening.spacing;
   if (first.grid.size[2] != 1) {
     refuse(files[0], say("expected one slice per file, found ", first.grid.size[2]));
   }
   for (std::size_t n = 1; n < files.size(); ++n)
-    require_like(first, open_picture(files[n], budget));
+    require_like(first, open_picture(files[n], opening));
   ScanFile scan = first;
   scan.file = directory;
   scan.format += " slices";
+  if (const auto log = opening.spacing ? std::nullopt : find_skyscan_log(directory)) {
+    scan.grid.spacing = log->spacing;
+    std::erase_if(scan.warnings, [](const std::string& warning) {
+      return warning.find(": 1 mm taken") != std::string::npos;
+    });
+    scan.warnings.push_back(
+        say("the spacing is that of SkyScan's log ", shown(log->file.filename().string())));
+  }
   set_size(scan, {first.grid.size[0], first.grid.size[1], std::ssize(files)});
   warn_of_gaps(files, scan.warnings);
   return scan;
 }
 
-bool holds_dicom(const fs::path& directory) {
-  const std::vector<fs::path> files = files_below(directory);
-  return std::any_of(files.begin(), files.end(), looks_like_dicom);
-}
+/// Other systems leave files such as ._s1.png beside those that they copy.
+bool is_hidden(const fs::path& file) { return file.filename().native().starts_with('.'); }
 
 }  // namespace
 
@@ -119,17 +128,23 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 std::vector<fs::path> slices_in(const fs::path& directory, MemoryBudget& budget) {
   std::vector<fs::path> files = files_in(directory);
-  std::erase_if(files, [](const fs::path& file) { return !is_picture(file); });
+  std::erase_if(files, [](const fs::path& file) { return !is_picture(file) || is_hidden(file); });
+  if (find_skyscan_log(directory)) std::erase_if(files, is_scout);
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().string(), b.filename().string());
   });
   if (files.size() < 2) return {};
   try {
-    if (open_picture(files[0], budget).grid.size[2] != 1) return {};
+    if (open_picture(files[0], {budget}).grid.size[2] != 1) return {};
   } catch (const InputError&) {
     return files;  // the reader says what is wrong with it
   }
   return files;
+}
+
+bool holds_dicom(const fs::path& directory) {
+  const std::vector<fs::path> files = files_below(directory);
+  return std::any_of(files.begin(), files.end(), looks_like_dicom);
 }
 
 std::vector<fs::path> slices_without_dicom(const fs::path& directory, MemoryBudget& budget) {
@@ -144,20 +159,20 @@ SliceReader read_pictures(std::vector<fs::path> files) {
                                                 static_cast<std::size_t>(slices.count));
     for (const fs::path& file : asked) {
       const ScopedFile scope(budget, file);
-      const std::vector<float> slice = read_picture(file, budget).volume.samples;
+      const std::vector<float> slice = read_picture(file, {budget}).volume.samples;
       out.insert(out.end(), slice.begin(), slice.end());
     }
   };
 }
 
 OpenSlices open_stack(const fs::path& directory, const std::vector<fs::path>& files,
-                      MemoryBudget& budget) {
-  return {open_headers(directory, files, budget), read_pictures(files)};
+                      const Opening& opening) {
+  return {open_headers(directory, files, opening), read_pictures(files)};
 }
 
 VolumeFile read_slices(const fs::path& directory, const std::vector<fs::path>& files,
                        const ReadOptions& options, MemoryBudget& budget) {
-  const OpenSlices stack = open_stack(directory, files, budget);
+  const OpenSlices stack = open_stack(directory, files, opening_of(options, budget));
   const ScanFile& scan = stack.scan;
   announce(scan.grid, options);
   VolumeFile out{scan.grid, scan.format, scan.warnings};
@@ -167,12 +182,12 @@ VolumeFile read_slices(const fs::path& directory, const std::vector<fs::path>& f
 }
 
 VolumeInfo describe_slices(const fs::path& directory, const std::vector<fs::path>& files,
-                           MemoryBudget& budget) {
+                           const Opening& opening) {
   VolumeInfo info;
   info.description = (directory / "").parent_path().filename().string();
   info.format = "slices";
   try {
-    const ScanFile scan = open_headers(directory, files, budget);
+    const ScanFile scan = open_headers(directory, files, opening);
     info.format = scan.format;
     set_grid(info, scan.grid);
   } catch (const InputError& error) {

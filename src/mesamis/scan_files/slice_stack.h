@@ -17,13 +17,18 @@ namespace mesamis::detail {
 bool natural_less(const std::string& a, const std::string& b);
 
 /// The pictures that are the slices of a directory, in natural order of their names: its .tif,
-/// .tiff, .png and .bmp files, if there are two at least and the first holds one slice. Else none.
+/// .tiff, .png, .bmp, .jpg and .jpeg files without those whose names begin with a dot and SkyScan's
+/// scout view, if there are two at least and the first holds one slice. Else none.
 /// @throws InputError  as files_in().
 std::vector<std::filesystem::path> slices_in(const std::filesystem::path& directory,
                                              MemoryBudget& budget);
 
-/// The same, but none where the directory, or one below it, holds DICOM: pictures beside a series
-/// are previews.
+/// Whether a directory, or one below it, holds a file that looks like DICOM.
+/// @throws InputError  as files_below().
+bool holds_dicom(const std::filesystem::path& directory);
+
+/// The same as slices_in(), but none where the directory, or one below it, holds DICOM: pictures
+/// beside a series are previews.
 /// @throws InputError  as files_below().
 std::vector<std::filesystem::path> slices_without_dicom(const std::filesystem::path& directory,
                                                         MemoryBudget& budget);
@@ -39,15 +44,16 @@ SliceReader read_pictures(std::vector<std::filesystem::path> files);
 ///
 /// O(bytes) of the headers, for PNG and BMP of whole files.
 OpenSlices open_stack(const std::filesystem::path& directory,
-                      const std::vector<std::filesystem::path>& files, MemoryBudget& budget);
+                      const std::vector<std::filesystem::path>& files, const Opening& opening);
 
-/// Reads the pictures as slices, the first at z = 0. Spacing along x and y as the first file has
-/// it, 1 mm between slices with a warning. Numbers in the names that do not go up in equal steps
-/// are a warning: a slice may be missing.
+/// Reads the pictures as slices, the first at z = 0. Spacing as SkyScan's log beside them has it;
+/// else along x and y as the first file has it, 1 mm between slices with a warning. Numbers in the
+/// names that do not go up in equal steps are a warning: a slice may be missing.
 /// @param files    at least one.
 /// @param options  to announce() the grid to.
-/// @throws InputError  naming the file, if a picture is of another format, size, type or spacing
-///                     than the first, or holds more than one slice.
+/// @throws InputError  naming the file, if a picture is of another format, size, type or (where
+/// none
+///                     is given) spacing than the first, or holds more than one slice.
 ///
 /// Memory: 4 bytes per pixel, and one file at a time.
 VolumeFile read_slices(const std::filesystem::path& directory,
@@ -56,6 +62,6 @@ VolumeFile read_slices(const std::filesystem::path& directory,
 
 /// The same without the samples; what read_slices() would refuse for is the problem.
 VolumeInfo describe_slices(const std::filesystem::path& directory,
-                           const std::vector<std::filesystem::path>& files, MemoryBudget& budget);
+                           const std::vector<std::filesystem::path>& files, const Opening& opening);
 
 }  // namespace mesamis::detail

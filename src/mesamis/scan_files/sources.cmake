@@ -37,6 +37,16 @@ set(ROOM_SOURCES
   text_header.cpp
   tiff_file.cpp
   write_volume.cpp
+  NEXT dicom_phases.cpp
+  dicom_store.cpp
+  jpeg_file.cpp
+  mgh_file.cpp
+  sheared_grid.cpp
+  sidecar.cpp
+  skyscan_log.cpp
+  NEXT scanco_file.cpp
+  tiff_layout.cpp
+  vgi_file.cpp
   NEXT nifti_file.cpp
   NEXT nrrd_file.cpp
   NEXT dicom_jpeg8.cpp

@@ -2,6 +2,8 @@
 #include "mesamis/scan_files/text_header.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <sstream>
 
 #include "mesamis/files/file_list.h"
@@ -67,6 +69,38 @@ std::filesystem::path data_path(const std::filesystem::path& header, const std::
                        " (--allow-outside allows it)"));
   }
   return header.parent_path() / path;
+}
+
+std::vector<std::string> numbered_names(const std::filesystem::path& file, std::string_view text) {
+  constexpr std::int64_t kMost = 100'000, kMostNumber = 1'000'000'000;
+  const std::vector<std::string> words = words_of(text);
+  std::array<std::int64_t, 3> range{0, 0, 1};  // first, last, step
+  bool good = words.size() >= 3;
+  for (std::size_t n = 0; good && n < 3 && n + 1 < words.size(); ++n) {
+    good = parse_number(std::string_view(words[n + 1]), range[n]);
+  }
+  const auto [first, last, step] = range;
+  const std::string name = words.empty() ? "" : words[0];
+  const auto mark = name.find('%'), end = name.find('d', std::min(mark, name.size()));
+  std::int64_t width = 0;
+  const std::string_view digits =
+      end == std::string::npos ? "" : std::string_view(name).substr(mark + 1, end - mark - 1);
+  good = good && end != std::string::npos && (digits.empty() || parse_number(digits, width)) &&
+         width >= 0 && width <= 20 && step != 0 && std::abs(step) <= kMost && first >= 0 &&
+         last >= 0 && first <= kMostNumber && last <= kMostNumber &&
+         std::abs(last - first) / std::abs(step) < kMost && (last >= first) == (step > 0);
+  if (!good) {
+    refuse(file, say("expected a pattern of data files, such as slice%03d.raw 1 20 1, found ",
+                     in_quotes(text)));
+  }
+  std::vector<std::string> names;
+  for (std::int64_t n = first; step > 0 ? n <= last : n >= last; n += step) {
+    std::string number = std::to_string(n);
+    const auto wanted = static_cast<std::size_t>(width);
+    if (number.size() < wanted) number.insert(0, wanted - number.size(), '0');
+    names.push_back(name.substr(0, mark) + number + name.substr(end + 1));
+  }
+  return names;
 }
 
 std::vector<std::string> words_of(std::string_view text) {

@@ -40,6 +40,12 @@ using HeaderFields = std::map<std::string, std::string>;
 std::filesystem::path data_path(const std::filesystem::path& header, const std::string& name,
                                 bool allow_outside);
 
+/// The names that a pattern stands for: "slice%03d.raw 1 20 1" is slice001.raw to slice020.raw.
+/// @param text  a name with one %d, %03d or the like, the first and the last number, and the step
+///              (1 where it is not given); what follows is ignored.
+/// @throws InputError  for any other text, and for more than 100 000 names.
+std::vector<std::string> numbered_names(const std::filesystem::path& file, std::string_view text);
+
 /// Words between white space.
 std::vector<std::string> words_of(std::string_view text);
 

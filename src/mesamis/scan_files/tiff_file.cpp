@@ -8,11 +8,14 @@
 #include <optional>
 #include <span>
 
+#include "mesamis/files/bytes.h"
 #include "mesamis/files/deflate.h"
 #include "mesamis/files/file_list.h"
+#include "mesamis/files/length_unit.h"
 #include "mesamis/files/read_record.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
+#include "mesamis/scan_files/tiff_layout.h"
 
 namespace mesamis::detail {
 namespace {
@@ -90,7 +93,8 @@ std::optional<NumberType> sample_type(const Page& page) {
 
 NumberType require_grey(const std::filesystem::path& file, const Page& page) {
   const bool grey = page.channels == 1 && (page.photometric == PHOTOMETRIC_MINISBLACK ||
-                                           page.photometric == PHOTOMETRIC_MINISWHITE);
+                                           page.photometric == PHOTOMETRIC_MINISWHITE ||
+                                           page.photometric == PHOTOMETRIC_PALETTE);
   const auto type = sample_type(page);
   if (!grey || !type) {
     refuse(file, say("expected grey pages of 8, 16, 32 or 64 bits, found ", page.channels,
@@ -122,8 +126,12 @@ struct PagePlace {
 struct TiffPages {
   ScanFile scan;
   Page page;
-  std::vector<PagePlace> places;  ///< of the slices
-  std::optional<tdir_t> cut_off;  ///< the first page that goes on behind the end of the file
+  std::vector<PagePlace> places;     ///< of the slices
+  std::optional<tdir_t> cut_off;     ///< the first page that goes on behind the end of the file
+  std::vector<std::int64_t> planes;  ///< of the slices, where all lie behind one directory
+  std::uint64_t plane_bytes() const {
+    return std::uint64_t{page.width} * page.height * page.bits / 8;
+  }
 };
 
 void require_like(const std::filesystem::path& file, const Page& common, const Page& page,
@@ -176,55 +184,90 @@ void find_slices(TiffPages& in, TIFF* tiff, MemoryBudget& budget) {
   });
 }
 
-/// The number behind "key=" at the start of a line of ImageJ's description.
-std::optional<double> described(const std::string& text, const std::string& key) {
-  const auto at = ('\n' + text).find('\n' + key + '=');
-  if (at == std::string::npos) return std::nullopt;
-  const auto begin = at + key.size() + 1;
-  double value = 0;
-  const std::string line = text.substr(begin, text.find('\n', begin) - begin);
-  return parse_number(trimmed(line), value) ? std::optional(value) : std::nullopt;
-}
-
 std::string description_of(TIFF* tiff) {
   char* text = nullptr;
   TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &text);
   return text ? text : "";
 }
 
-/// mm per resolution unit: ImageJ's unit, else that of the tag; 0 if it is none.
-double unit_in_mm(TIFF* tiff, const std::string& description) {
-  const bool image_j = description.starts_with("ImageJ");
-  const auto says = [&description](const std::string& unit) {
-    return (description + '\n').find("\nunit=" + unit + '\n') != std::string::npos;
-  };
-  if (image_j && says("mm")) return 1;
-  if (image_j && says("cm")) return 10;
-  if (image_j && (says("micron") || says("um") || says("\\u00B5m"))) return 0.001;
+/// mm per unit of the resolution: that of the description, else that of the tag; 0 if it is none.
+double unit_in_mm(TIFF* tiff, const std::string& named, std::vector<std::string>& warnings) {
+  if (const auto mm = mm_per_unit(named)) return *mm;
+  if (!named.empty()) {
+    warnings.push_back(say("the unit ", in_quotes(named),
+                           " of the description is no length: that of the tag is taken"));
+  }
   std::uint16_t unit = RESUNIT_INCH;
   TIFFGetFieldDefaulted(tiff, TIFFTAG_RESOLUTIONUNIT, &unit);
   return unit == RESUNIT_INCH ? 25.4 : unit == RESUNIT_CENTIMETER ? 10 : 0;
 }
 
-Vec3 spacing_of(TIFF* tiff, std::vector<std::string>& warnings) {
-  const std::string description = description_of(tiff);
-  const double unit = unit_in_mm(tiff, description);
+/// mm along x, y and z; 0 where the file states no length.
+Vec3 stated_spacing(TIFF* tiff, const TiffLayout& layout, double unit) {
   float x = 0, y = 0;
   TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &x);
   TIFFGetField(tiff, TIFFTAG_YRESOLUTION, &y);
-  Vec3 spacing{1, 1, 1};
-  if (unit > 0 && x > 0 && y > 0 && std::isfinite(x) && std::isfinite(y)) {
-    spacing = {unit / static_cast<double>(x), unit / static_cast<double>(y), 1};
-  } else {
-    warnings.push_back("the file gives no resolution: 1 mm taken along x and y");
-  }
-  const auto between = described(description, "spacing");
-  if (unit > 0 && between && *between > 0) {
-    spacing.z = unit * *between;
-  } else {
-    warnings.push_back("the file gives no distance between slices: 1 mm taken");
+  const auto per = [unit](float resolution) {
+    return resolution > 0 && std::isfinite(resolution) ? unit / static_cast<double>(resolution) : 0;
+  };
+  Vec3 spacing{per(x), per(y), unit * layout.between};
+  for (int a = 0; a < 3; ++a) {
+    if (layout.spacing[a] > 0) spacing[a] = layout.spacing[a];
   }
   return spacing;
+}
+
+Vec3 spacing_of(TIFF* tiff, const TiffLayout& layout, std::vector<std::string>& warnings) {
+  const double unit = unit_in_mm(tiff, layout.unit, warnings);
+  Vec3 spacing = stated_spacing(tiff, layout, unit);
+  const bool has_resolution = stated_spacing(tiff, layout, 1).x > 0;
+  if (!(spacing.x > 0 && spacing.y > 0)) {
+    spacing.x = spacing.y = 1;
+    warnings.push_back(has_resolution
+                           ? "the file's resolution has no unit: 1 mm taken along x and y"
+                           : "the file gives no resolution: 1 mm taken along x and y");
+  }
+  if (!(spacing.z > 0)) {
+    spacing.z = 1;
+    warnings.push_back(layout.between > 0
+                           ? "the file's distance between slices has no unit: 1 mm taken"
+                           : "the file gives no distance between slices: 1 mm taken");
+  }
+  return spacing;
+}
+
+/// The tag of Zeiss LSM files: voxels in metres, and how many times there are.
+void take_lsm(TIFF* tiff, TiffLayout& layout) {
+  constexpr std::uint32_t kTag = 34412, kLeast = 64;
+  constexpr double kMetre = 1000;
+  std::uint32_t count = 0;
+  const char* bytes = nullptr;
+  if (TIFFGetField(tiff, kTag, &count, &bytes) != 1 || bytes == nullptr || count < kLeast) return;
+  const ByteOrder order = TIFFIsBigEndian(tiff) ? ByteOrder::kBig : ByteOrder::kLittle;
+  for (int a = 0; a < 3; ++a) {
+    const double metres = load<double>(bytes + 40 + 8 * a, order);
+    if (metres > 0 && std::isfinite(metres)) layout.spacing[a] = kMetre * metres;
+  }
+}
+
+/// Stacks of MetaMorph have planes behind one directory that no other tag counts.
+void refuse_metamorph(const std::filesystem::path& file, TIFF* tiff) {
+  constexpr std::uint32_t kTag = 33629;
+  std::uint32_t count = 0;
+  const void* values = nullptr;
+  if (TIFFGetField(tiff, kTag, &count, &values) == 1 && count > 1) {
+    refuse(file, say("expected a page per slice, found a MetaMorph stack (STK) of ", count,
+                     " planes behind one page; save it as TIFF"));
+  }
+}
+
+void warn_of_page_place(TIFF* tiff, std::vector<std::string>& warnings) {
+  std::uint16_t orientation = ORIENTATION_TOPLEFT;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &orientation);
+  if (orientation != ORIENTATION_TOPLEFT) {
+    warnings.push_back(say("the pages are meant to be shown turned or mirrored (Orientation ",
+                           orientation, "): rows and columns are kept as stored"));
+  }
 }
 
 /// Width and height of the tiles, checked against what the file can hold.
@@ -285,17 +328,96 @@ void read_strips(const PageRead& read, std::vector<unsigned char>& out) {
   }
 }
 
-TiffPages open_pages(const std::filesystem::path& file, TIFF* tiff, MemoryBudget& budget) {
+/// All planes of the layout behind the only directory, as ImageJ writes files above 4 GB.
+void take_planes_behind(TiffPages& in, TIFF* tiff, const std::vector<std::int64_t>& planes) {
+  std::uint16_t compression = COMPRESSION_NONE;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &compression);
+  const std::filesystem::path& file = in.scan.file;
+  if (compression != COMPRESSION_NONE || TIFFIsTiled(tiff)) {
+    refuse(file, "expected a page per image, found one page of compressed or tiled pixels");
+  }
+  in.planes = planes;
+  in.scan.source.file = file;
+  in.scan.source.offset = TIFFGetStrileOffset(tiff, 0);
+  in.scan.source.big_endian = TIFFIsBigEndian(tiff) != 0;
+  const std::int64_t last = *std::max_element(planes.begin(), planes.end());
+  const std::uint64_t needed =
+      in.scan.source.offset + (static_cast<std::uint64_t>(last) + 1) * in.plane_bytes();
+  const std::uint64_t directory = TIFFCurrentDirOffset(tiff), begin = in.scan.source.offset;
+  const std::uint64_t end = directory > begin ? directory : size_of(file);
+  if (begin > end || needed > end) {
+    refuse(file, say("expected ", needed, " bytes for ", last + 1, " images, found ", end));
+  }
+}
+
+/// The pages of the planes that are read.
+void take_pages(TiffPages& in, const std::vector<std::int64_t>& planes, bool with_thumbnails) {
+  std::vector<PagePlace> places;
+  for (const std::int64_t plane : planes) {
+    const auto found = with_thumbnails
+                           ? std::find_if(in.places.begin(), in.places.end(),
+                                          [plane](const PagePlace& p) { return p.number == plane; })
+                       : plane < std::ssize(in.places) ? in.places.begin() + plane
+                                                       : in.places.end();
+    if (plane < 0 || found == in.places.end()) {
+      refuse(in.scan.file, say("expected slice ", places.size(), " in this file, found none ",
+                               plane < 0 ? "(it lies in another one)" : "of its pages"));
+    }
+    places.push_back(*found);
+  }
+  in.places = std::move(places);
+}
+
+/// Which planes are read, in the order of the slices.
+void choose_planes(TiffPages& in, TIFF* tiff, const TiffLayout& layout, const ValueChoice& choice) {
+  const TakenValue taken = take_value(in.scan.file, layout.axes, choice);
+  const auto begin =
+      layout.planes.begin() + (taken.channel * layout.axes.volumes + taken.volume) * layout.slices;
+  const std::vector<std::int64_t> planes(begin, begin + layout.slices);
+  if (layout.one_directory && in.places.size() == 1 && layout.planes.size() > 1) {
+    take_planes_behind(in, tiff, planes);
+  } else {
+    take_pages(in, planes, layout.with_thumbnails);
+  }
+}
+
+TiffLayout layout_of(const TiffPages& in, TIFF* tiff, MemoryBudget& budget) {
+  const std::uint64_t most = size_of(in.scan.file) / std::max<std::uint64_t>(in.plane_bytes(), 1);
+  TiffLayout layout = read_tiff_layout(in.scan.file, description_of(tiff), std::ssize(in.places),
+                                       static_cast<std::int64_t>(most), budget);
+  refuse_metamorph(in.scan.file, tiff);
+  take_lsm(tiff, layout);
+  return layout;
+}
+
+void place(ScanFile& scan, TIFF* tiff, const TiffLayout& layout) {
+  const Vec3 s = spacing_of(tiff, layout, scan.warnings);
+  set_axes(scan, {Vec3{s.x, 0, 0}, Vec3{0, s.y, 0}, Vec3{0, 0, s.z}});
+  const Vec3 zero = layout.zero_pixel;
+  set_origin(scan, {-zero.x * s.x, -zero.y * s.y, -zero.z * s.z});
+}
+
+TiffPages open_pages(const std::filesystem::path& file, TIFF* tiff, const Opening& opening) {
   TiffPages in;
   ScanFile& scan = in.scan;
   scan.file = file;
   scan.format = "TIFF";
-  const Vec3 spacing = spacing_of(tiff, scan.warnings);
-  find_slices(in, tiff, budget);
-  const Page& page = in.page;
+  scan.given_spacing = opening.spacing;
+  find_slices(in, tiff, opening.budget);
+  const Page page = in.page;
   scan.source.type = require_grey(file, page);
-  set_size(scan, {page.width, page.height, std::ssize(in.places)});
-  set_axes(scan, {Vec3{spacing.x, 0, 0}, Vec3{0, spacing.y, 0}, Vec3{0, 0, spacing.z}});
+  if (!TIFFSetDirectory(tiff, in.places.front().number)) refuse_page(file, in.places[0].number);
+  const TiffLayout layout = layout_of(in, tiff, opening.budget);
+  choose_planes(in, tiff, layout, opening.choice);
+  scan.warnings.insert(scan.warnings.end(), layout.warnings.begin(), layout.warnings.end());
+  scan.source.slope = layout.slope;
+  scan.source.intercept = layout.intercept;
+  set_size(scan, {page.width, page.height, layout.slices});
+  place(scan, tiff, layout);
+  warn_of_page_place(tiff, scan.warnings);
+  if (page.photometric == PHOTOMETRIC_PALETTE) {
+    scan.warnings.push_back("the pages have a table of colours: the values are its indices");
+  }
   if (page.photometric == PHOTOMETRIC_MINISWHITE) {
     scan.warnings.push_back("small values are meant to be shown white; they are kept as stored");
   }
@@ -307,9 +429,26 @@ TiffPages open_pages(const std::filesystem::path& file, TIFF* tiff, MemoryBudget
   return in;
 }
 
+/// Appends planes that lie behind one directory.
+void append_planes(const TiffPages& in, const SliceRange& slices, std::vector<float>& out,
+                   MemoryBudget& budget) {
+  const ScopedClaim claim(budget, in.plane_bytes(), 1, "a page");
+  std::vector<unsigned char> bytes(in.plane_bytes());
+  for (Index k = slices.first; k < slices.first + slices.count; ++k) {
+    const auto plane = static_cast<std::uint64_t>(in.planes[static_cast<std::size_t>(k)]);
+    ByteSource source(in.scan.file, Packing::kPlain,
+                      in.scan.source.offset + plane * in.plane_bytes());
+    if (source.read(bytes.data(), bytes.size()) < bytes.size()) {
+      refuse(in.scan.file, say("image ", plane, " is cut off"));
+    }
+    append_samples(bytes, in.scan.source, out);
+  }
+}
+
 /// Appends the samples of some slices.
 void append_pages(PageRead read, const SliceRange& slices, std::vector<float>& out) {
   const TiffPages& in = read.in;
+  if (!in.planes.empty()) return append_planes(in, slices, out, read.budget);
   const std::size_t pixels = std::size_t{in.page.width} * in.page.height;
   const ScopedClaim claim(read.budget, pixels, in.page.bits / 8u, "a page");
   std::vector<unsigned char> page(pixels * (in.page.bits / 8u));
@@ -325,22 +464,23 @@ void append_pages(PageRead read, const SliceRange& slices, std::vector<float>& o
 
 }  // namespace
 
-VolumeFile read_tiff(const std::filesystem::path& file, MemoryBudget& budget) {
+VolumeFile read_tiff(const std::filesystem::path& file, const Opening& opening) {
+  MemoryBudget& budget = opening.budget;
   const TiffHandle tiff = open(file, budget);
-  const TiffPages in = open_pages(file, tiff.get(), budget);
+  const TiffPages in = open_pages(file, tiff.get(), opening);
   VolumeFile out{in.scan.grid, in.scan.format, in.scan.warnings};
   reserve_within(budget, out.volume.samples, out.volume.voxel_count(), "samples");
   append_pages({in, tiff.get(), budget}, {0, out.volume.size[2]}, out.volume.samples);
   return out;
 }
 
-ScanFile open_tiff_header(const std::filesystem::path& file, MemoryBudget& budget) {
-  return open_pages(file, open(file, budget).get(), budget).scan;
+ScanFile open_tiff_header(const std::filesystem::path& file, const Opening& opening) {
+  return open_pages(file, open(file, opening.budget).get(), opening).scan;
 }
 
-OpenSlices open_tiff_slices(const std::filesystem::path& file, MemoryBudget& budget) {
-  const TiffHandle header = open(file, budget);
-  const auto in = std::make_shared<const TiffPages>(open_pages(file, header.get(), budget));
+OpenSlices open_tiff_slices(const std::filesystem::path& file, const Opening& opening) {
+  const TiffHandle header = open(file, opening.budget);
+  const auto in = std::make_shared<const TiffPages>(open_pages(file, header.get(), opening));
   return {in->scan, [in](const SliceRange& slices, MemoryBudget& of_read, std::vector<float>& out) {
             const TiffHandle tiff = open(in->scan.file, of_read);
             append_pages({*in, tiff.get(), of_read}, slices, out);

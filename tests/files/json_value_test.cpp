@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/chunk_files/json_value.h"
+#include "mesamis/files/json_value.h"
 
 #include <gtest/gtest.h>
 
