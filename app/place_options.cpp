@@ -107,7 +107,8 @@ ReadRequest read_request(const RequestArguments& arguments, const Settings& sett
   } else if (places.keep_surroundings || labels.given()) {
     request.surroundings = SurroundingsRule::kKeep;
   }
-  if (labels.given()) request.measure_level = false;
+  request.has_labels = labels.given();
+  if (request.has_labels) request.measure_level = false;
   return read;
 }
 

@@ -123,7 +123,8 @@ ObjectRequest object_request(const Request& r, const VoxelGrid& grid,
   } else if (r.keep_surroundings || r.wants_labels()) {
     request.surroundings = SurroundingsRule::kKeep;
   }
-  if (r.wants_labels()) request.measure_level = false;
+  request.has_labels = r.wants_labels();
+  if (request.has_labels) request.measure_level = false;
   if (!r.box.empty()) request.crop = box_to_range(grid, r.box, r.frame);
   return request;
 }

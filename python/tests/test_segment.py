@@ -270,7 +270,8 @@ def test_settings_may_be_numpy_none_or_text(ball):
 def test_objects_of_seeds_and_labels():
     array = np.zeros((20, 20, 40), dtype=np.float32)
     array[5:15, 5:15, 5:15] = array[5:15, 5:15, 22:34] = 100
-    two = mesamis.segment(array, affine=np.eye(4), frame="ras", seeds=[(10, 10, 10), (10, 10, 28)], blur=0)
+    with pytest.warns(mesamis.MesamisWarning, match="likely a label map"):
+        two = mesamis.segment(array, affine=np.eye(4), frame="ras", seeds=[(10, 10, 10), (10, 10, 28)], blur=0)
     assert len(two) == 2 and all(len(o.triangles) for o in two)
     labels = (array > 50).astype(int)
     labels[:, :, 20:] *= 7

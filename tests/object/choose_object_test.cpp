@@ -13,6 +13,7 @@
 #include "mesamis/object/voxel_islands.h"
 #include "object/object_scenes.h"
 #include "support/ball_volume.h"
+#include "support/sampled_volume.h"
 #include "support/throws.h"
 
 namespace mesamis {
@@ -285,6 +286,18 @@ TEST(ChooseObject, IsTheSameForAnyNumberOfThreads) {
   const ChosenObject one = with_threads(1, run), two = with_threads(2, run);
   EXPECT_EQ(one.volume.samples, two.volume.samples);
   EXPECT_EQ(one.level, two.level);
+}
+
+/// A scan of two values is likely a label map, but not where labels are beside it.
+TEST(ChooseObject, SaysThatAScanIsLikelyALabelMap) {
+  const Volume mask = sampled_volume({20, 20, 20}, {1, 1, 1}, [](const Vec3& p) {
+    return norm(p - Vec3{10, 10, 10}) < 6 ? 1.0 : 0.0;
+  });
+  EXPECT_THAT(choose_object(mask, {}).warnings,
+              testing::Contains(testing::HasSubstr("likely a label map, which --labels takes")));
+  ObjectRequest beside_labels;
+  beside_labels.has_labels = true;
+  EXPECT_THAT(choose_object(mask, beside_labels).warnings, testing::IsEmpty());
 }
 
 TEST(ChooseObject, RefusesInOneLineWhatDoesNotFit) {

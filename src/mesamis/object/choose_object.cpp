@@ -81,7 +81,7 @@ class Choice {
   ChosenObject run() {
     cropped_size(chosen_.volume, request_.crop);  // refused before any work
     for (const Vec3& seed : request_.seeds) voxel_at(chosen_.volume, seed);
-    warn_of_labels(chosen_.volume, chosen_.warnings);
+    if (!request_.has_labels) warn_of_labels(chosen_.volume, chosen_.warnings);
     fill_padding();
     remove_surroundings();
     if (chosen_.kind == TissueKind::kBright) remove_marked();
@@ -300,7 +300,7 @@ std::optional<ChosenObject> choose_in_place(const VolumeView& scan, const Object
   ChosenObject chosen;
   static_cast<VoxelGrid&>(chosen.volume) = scan;
   if (is_hounsfield(scan)) chosen.volume.modality = "CT";
-  warn_of_labels(scan, chosen.warnings);
+  if (!request.has_labels) warn_of_labels(scan, chosen.warnings);
   chosen.level = request.level;
   if (request.level) chosen.level_from = LevelSource::kUser;
   return chosen;

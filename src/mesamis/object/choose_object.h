@@ -28,6 +28,7 @@ struct ObjectRequest {
   std::optional<Tissue> tissue{};  ///< nothing: whatever is bright
   std::optional<double> level{};   ///< native units of the scan; comes before the tissue's
   bool measure_level = true;       ///< false: nobody needs one but tissues and seeds
+  bool has_labels = false;         ///< labels choose the objects: the scan is no label map itself
   SurroundingsRule surroundings = SurroundingsRule::kRemoveIfBody;
   PaddingRule padding{};             ///< which voxels were not measured
   std::optional<LabelMap> remove{};  ///< what is marked in any of its segments goes
