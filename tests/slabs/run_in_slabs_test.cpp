@@ -9,6 +9,7 @@
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/edges.h"
+#include "mesamis/surface/components.h"
 #include "mesamis/surface/self_intersections.h"
 #include "slabs/small_run.h"
 #include "support/throws.h"
@@ -59,6 +60,35 @@ SlabRunResult run_alone(const Volume& scan, SlabRunOptions options,
   return *run_in_slabs(VolumeSlices(scan), settings, options, alone);
 }
 
+/// A rod in two slabs, made by one thread, with all that a run can give: for all tests that compare
+/// with it. Its scratch files are kept.
+struct TwoSlabs {
+  TempFolder folder;
+  Volume scan = scan_of_rod(72);
+  SlabRunOptions options{
+      .turns = 1000, .slabs = 2, .scratch = folder.path(), .keep_scratch = true, .grey = true};
+  int progress_calls = 0;
+  SlabRunResult run = with_threads(1, [this] {
+    return run_alone(scan, options, quick_settings(), [this](auto, double) {
+      ++progress_calls;
+      return true;
+    });
+  });
+
+  /// Another run of the same scan, elsewhere.
+  SlabRunOptions options_in(const TempFolder& other) const {
+    SlabRunOptions its = options;
+    its.scratch = other / "scratch";
+    its.keep_scratch = false;
+    return its;
+  }
+};
+
+const TwoSlabs& two_slabs() {
+  static const TwoSlabs run;
+  return run;
+}
+
 void expect_same(const SlabRunResult& a, const SlabRunResult& b) {
   EXPECT_TRUE(a.result.surface.points == b.result.surface.points);
   EXPECT_TRUE(a.result.surface.triangles == b.result.surface.triangles);
@@ -103,14 +133,13 @@ void expect_counted(const SlabRunResult& run, const Volume& scan, Index slabs) {
   EXPECT_GE(sum.cells, run.own_cells);
 }
 
-class RunInSlabs : public testing::TestWithParam<Index> {};
-
-TEST_P(RunInSlabs, FindsWhatMesAmisFinds) {
+// The slab in the middle has two borders; of two processes, one has two slabs.
+TEST(SlabRun, FindsWhatMesAmisFinds) {
   const TempFolder folder;
   const Volume scan = scan_of_rod(96);
-  const SlabRunResult run = run_alone(scan, {.slabs = GetParam(), .scratch = folder / "scratch"});
+  const SlabRunResult run = run_with_ranks(scan, {.slabs = 3, .scratch = folder / "scratch"}, 2);
   expect_sound(run, scan);
-  expect_counted(run, scan, GetParam());
+  expect_counted(run, scan, 3);
   const Result whole = mes_amis(scan, quick_settings());
   EXPECT_EQ(run.result.parameters.level, whole.parameters.level);
   EXPECT_EQ(run.result.parameters.functional.gamma, whole.parameters.functional.gamma);
@@ -122,8 +151,6 @@ TEST_P(RunInSlabs, FindsWhatMesAmisFinds) {
   EXPECT_LT(mean_distance(run.result, rod), 1.3 * mean_distance(whole, rod));
   EXPECT_FALSE(fs::exists(folder / "scratch"));
 }
-
-INSTANTIATE_TEST_SUITE_P(Slabs, RunInSlabs, testing::Values(2, 3));
 
 // Large scans have a grid of every second voxel: slabs need not begin at one.
 TEST(SlabRun, TheGridMayBeCoarserThanTheVoxels) {
@@ -138,9 +165,10 @@ TEST(SlabRun, TheGridMayBeCoarserThanTheVoxels) {
 }
 
 // Where nothing is to be seen, cells are as large as a slab, and belong to pieces of its
-// neighbours.
-void expect_ball_at(const Vec3& middle) {
+// neighbours. Here one slab below the ball is empty, and three above.
+TEST(SlabRun, MostSlabsMayBeEmpty) {
   const TempFolder folder;
+  const Vec3 middle{15, 14, 60};
   constexpr double kRadius = 8;
   const Volume scan = degrade(sampled_volume({32, 30, 200}, {1, 1, 1},
                                              [&](const Vec3& p) {
@@ -161,11 +189,6 @@ void expect_ball_at(const Vec3& middle) {
   EXPECT_GT(largest, 20) << "few cells fill what is empty";
 }
 
-TEST(SlabRun, MostSlabsMayBeEmpty) {
-  expect_ball_at({15, 14, 20});
-  expect_ball_at({15, 14, 90});
-}
-
 /// A hollow ball across the border between two slabs, a ball in the hollow, and one beside.
 Volume scan_of_parts() {
   const auto depth = [](const Vec3& p) {
@@ -179,6 +202,13 @@ Volume scan_of_parts() {
                  {.blur = 0.7, .noise = 2});
 }
 
+/// The grid is left-handed: in the world, what is seen from outside turns the other way.
+Volume left_handed_scan_of_parts() {
+  Volume scan = scan_of_parts();
+  scan.direction.rows[0] = {-1, 0, 0};
+  return scan;
+}
+
 Settings settings_for_parts() {
   Settings settings = quick_settings();
   settings.max_tets = 12000;
@@ -186,44 +216,50 @@ Settings settings_for_parts() {
   return settings;
 }
 
-/// @return the parts found.
-SelectionReport expect_the_parts_of_a_whole_run(const Volume& scan, const Settings& settings) {
-  const TempFolder folder;
-  const SlabRunResult run = run_alone(scan, {.slabs = 2, .scratch = folder / "s"}, settings);
-  const Result whole = mes_amis(scan, settings);
-  const SurfaceCheck check = check_surface(run.result.surface),
-                     expected = check_surface(whole.surface);
+/// All parts, found in two slabs.
+const Result& all_parts() {
+  static const SlabRunResult run = [] {
+    const TempFolder folder;
+    return run_alone(left_handed_scan_of_parts(), {.slabs = 2, .scratch = folder / "s"},
+                     settings_for_parts());
+  }();
+  return run.result;
+}
+
+TEST(SlabRun, KeepsAllPartsOfALeftHandedGrid) {
+  const Result& result = all_parts();
+  const Result whole = mes_amis(left_handed_scan_of_parts(), settings_for_parts());
+  const SurfaceCheck check = check_surface(result.surface);
   EXPECT_EQ(solid_flaws_of(check), "");
-  EXPECT_EQ(check.islands, expected.islands);
-  EXPECT_EQ(check.cavities, expected.cavities);
-  EXPECT_NEAR(check.volume / expected.volume, 1, 0.01);
-  const SelectionReport found = *run.result.printable.parts, parts = *whole.printable.parts;
-  EXPECT_EQ(found.islands, parts.islands);
-  EXPECT_EQ(found.cavities, parts.cavities);
-  EXPECT_EQ(found.islands_dropped, parts.islands_dropped);
-  EXPECT_EQ(found.cavities_filled, parts.cavities_filled);
-  EXPECT_NEAR(found.volume_dropped, parts.volume_dropped, 0.02 * parts.volume_dropped);
-  EXPECT_NEAR(found.volume_filled, parts.volume_filled, 0.02 * parts.volume_filled);
-  EXPECT_NEAR(run.result.parameters.tolerance / whole.parameters.tolerance, 1, 0.1);
-  return found;
+  EXPECT_EQ(check.islands, 3);
+  EXPECT_EQ(check.cavities, 1);
+  EXPECT_NEAR(check.volume / check_surface(whole.surface).volume, 1, 0.01);
+  EXPECT_EQ(result.printable.parts->islands, 3);
+  EXPECT_EQ(result.printable.parts->cavities, 1);
+  EXPECT_NEAR(result.parameters.tolerance / whole.parameters.tolerance, 1, 0.1);
 }
 
 TEST(SlabRun, ChoosesPartsThatReachOverBorders) {
+  const TempFolder folder;
   Settings settings = settings_for_parts();
   settings.keep_largest = 1;
   settings.fill_cavities = true;
-  const SelectionReport parts = expect_the_parts_of_a_whole_run(scan_of_parts(), settings);
-  EXPECT_EQ(parts.islands_dropped, 2);
-  EXPECT_EQ(parts.cavities_filled, 1);
-}
-
-// In the world, what is seen from outside turns the other way in a left-handed grid.
-TEST(SlabRun, KeepsAllPartsOfALeftHandedGrid) {
-  Volume scan = scan_of_parts();
-  scan.direction.rows[0] = {-1, 0, 0};
-  const SelectionReport parts = expect_the_parts_of_a_whole_run(scan, settings_for_parts());
-  EXPECT_EQ(parts.islands, 3);
-  EXPECT_EQ(parts.cavities, 1);
+  const SlabRunResult run =
+      run_alone(left_handed_scan_of_parts(), {.slabs = 2, .scratch = folder / "s"}, settings);
+  const SurfaceCheck check = check_surface(run.result.surface);
+  EXPECT_EQ(solid_flaws_of(check), "");
+  EXPECT_EQ(check.islands, 1);
+  EXPECT_EQ(check.cavities, 0);
+  const SelectionReport found = *run.result.printable.parts;
+  EXPECT_EQ(found.islands_dropped, 2);
+  EXPECT_EQ(found.cavities_filled, 1);
+  // The hollow ball, the wall of its cavity, the ball beside it and the one in the hollow.
+  const auto sizes = find_components(all_parts().surface).sizes;
+  ASSERT_EQ(sizes.size(), 4U);
+  EXPECT_NEAR(check.volume / sizes[0].volume, 1, 0.01);
+  const double dropped = sizes[2].volume + sizes[3].volume, filled = -sizes[1].volume;
+  EXPECT_NEAR(found.volume_dropped, dropped, 0.02 * dropped);
+  EXPECT_NEAR(found.volume_filled, filled, 0.02 * filled);
 }
 
 /// An upright prism, blurred, without noise: on its walls cells, and so triangles, are as long as a
@@ -241,7 +277,7 @@ TEST(SlabRun, LongTrianglesReachOverBorders) {
   Settings settings = quick_settings();
   settings.noise = 0;
   for (const auto& [slices, slabs, cells, follow] :
-       {std::tuple{66, 2, 1500, true}, {66, 2, 1500, false}, {132, 4, 2000, true}}) {
+       {std::tuple{66, 2, 1500, false}, {132, 4, 2000, true}}) {
     settings.max_tets = cells;
     settings.follow = follow;
     const SlabRunResult run = run_alone(
@@ -257,11 +293,10 @@ TEST(SlabRun, LongTrianglesReachOverBorders) {
 
 TEST(SlabRun, TheMeshIsKeptForThoseWhoWantIt) {
   const TempFolder folder;
-  const Volume scan = scan_of_rod(72);
-  SlabRunOptions options{.slabs = 2, .scratch = folder / "scratch", .grey = true};
-  const SlabRunResult with = run_alone(scan, options);
+  SlabRunOptions options = two_slabs().options_in(folder);
   options.mesh = false;
-  const SlabRunResult without = run_alone(scan, options);
+  const SlabRunResult without = run_alone(two_slabs().scan, options);
+  const SlabRunResult& with = two_slabs().run;
   EXPECT_TRUE(without.result.surface.points == with.result.surface.points);
   EXPECT_TRUE(without.result.surface.triangles == with.result.surface.triangles);
   EXPECT_TRUE(without.grey == with.grey);
@@ -279,10 +314,11 @@ TEST(SlabRun, DecimatesAsIsAskedFor) {
   const SlabRunOptions options{
       .slabs = 2, .scratch = folder / "scratch", .mesh = false, .grey = true};
   Settings settings = quick_settings();
+  settings.adaptations = 1;
   settings.triangles = 600;
   const SlabRunResult few = run_alone(scan, options, settings);
   EXPECT_EQ(few.result.surface.triangles.size(), 600u);
-  settings = quick_settings();
+  settings.triangles = {};
   settings.tolerance = 0;
   const SlabRunResult all = run_alone(scan, options, settings);
   EXPECT_EQ(std::ssize(all.result.surface.triangles), all.result.printable.triangles_extracted);
@@ -307,45 +343,19 @@ TEST(SlabRun, OneSlabIsARunLikeAnyOther) {
   EXPECT_EQ(run.slabs[0].bytes, 0);
 }
 
-TEST(SlabRun, TheSameBitsForAnyNumberOfThreads) {
+TEST(SlabRun, TheSameBitsForAnyNumberOfThreadsAndTurns) {
   const TempFolder folder;
-  const Volume scan = scan_of_rod(72);
-  const SlabRunOptions options{.slabs = 2, .scratch = folder / "scratch"};
-  const SlabRunResult one = with_threads(1, [&] { return run_alone(scan, options); });
-  expect_same(with_threads(2, [&] { return run_alone(scan, options); }), one);
-}
-
-TEST(SlabRun, TheSameBitsForAnyNumberOfTurns) {
-  const TempFolder folder;
-  const Volume scan = scan_of_rod(72);
-  SlabRunOptions options{.slabs = 2, .scratch = folder / "scratch"};
-  options.turns = 1000;
-  const SlabRunResult one_by_one = run_alone(scan, options);
-  options.turns = 1;
-  expect_same(with_threads(4, [&] { return run_alone(scan, options); }), one_by_one);
+  SlabRunOptions options = two_slabs().options_in(folder);
+  options.turns = 1;  // both slabs at a time; the other run has them one by one
+  expect_same(with_threads(4, [&] { return run_alone(two_slabs().scan, options); }),
+              two_slabs().run);
   options.turns = 0;
-  EXPECT_REFUSED(run_alone(scan, options), HasSubstr("found 0"));
+  EXPECT_REFUSED(run_alone(two_slabs().scan, options), HasSubstr("found 0"));
 }
 
-// What a user asks for is the memory; what comes out is decided by the scan.
-TEST(SlabRun, TheScanDecidesHowManySlabsThereAre) {
+TEST(SlabRun, TheSameBitsForMoreRanksThanSlabs) {
   const TempFolder folder;
-  SlabRunOptions options{.scratch = folder / "scratch", .mesh = false};
-  options.turns = 1;
-  EXPECT_EQ(run_alone(scan_of_rod(128), options).plan.count(), 2);
-  options.turns = 9;
-  const Volume thin = scan_of_rod(127);
-  const SlabRunResult run = run_alone(thin, options);
-  EXPECT_EQ(run.plan.count(), 1);
-  EXPECT_TRUE(run.result.surface.points == mes_amis(thin, quick_settings()).surface.points);
-}
-
-TEST(SlabRun, TheSameBitsForAnyNumberOfRanks) {
-  const TempFolder folder;
-  const Volume scan = scan_of_rod(96);
-  const SlabRunOptions options{.slabs = 3, .scratch = folder / "scratch"};
-  const SlabRunResult one = run_alone(scan, options);
-  for (const int ranks : {2, 4}) expect_same(run_with_ranks(scan, options, ranks), one);
+  expect_same(run_with_ranks(two_slabs().scan, two_slabs().options_in(folder), 3), two_slabs().run);
 }
 
 TEST(SlabRun, OneMeshIsEnough) {
@@ -372,14 +382,9 @@ std::optional<fs::path> newest_done_file(const fs::path& folder) {
 
 TEST(SlabRun, GoesOnWhereItWasStopped) {
   const TempFolder folder;
-  const Volume scan = scan_of_rod(72);
-  const SlabRunOptions options{.slabs = 2, .scratch = folder / "scratch", .grey = true};
-  int calls = 0;
-  const SlabRunResult expected = run_alone(scan, options, quick_settings(), [&](auto, double) {
-    ++calls;
-    return true;
-  });
-  EXPECT_GT(calls, 20);
+  const Volume& scan = two_slabs().scan;
+  const SlabRunOptions options = two_slabs().options_in(folder);
+  EXPECT_GT(two_slabs().progress_calls, 20);
   std::optional<SlabRunResult> found;
   int stops = 0;
   for (int last = 2; !found; last += 5) {
@@ -395,7 +400,7 @@ TEST(SlabRun, GoesOnWhereItWasStopped) {
     }
   }
   EXPECT_GT(stops, 6);
-  expect_same(*found, expected);
+  expect_same(*found, two_slabs().run);
 }
 
 TEST(SlabRun, RefusesTheFolderOfAnotherRun) {
@@ -422,11 +427,9 @@ TEST(SlabRun, RefusesTheFolderOfAnotherRun) {
 }
 
 TEST(SlabRun, RefusesScratchFilesThatAreCutOff) {
-  const TempFolder folder;
-  const Volume scan = scan_of_rod(72);
-  const SlabRunOptions options{.slabs = 2, .scratch = folder.path(), .keep_scratch = true};
-  const SlabRunResult first = run_alone(scan, options);
-  const fs::path files = folder / "mesamis-slabs";
+  const Volume& scan = two_slabs().scan;
+  const SlabRunOptions& options = two_slabs().options;
+  const fs::path files = two_slabs().folder / "mesamis-slabs";
   for (const char* name : {"run", "choice", "image", "grid.0", "profile.1.0", "final.2.1",
                            "surface.decimated.1", "done.prepare.0"}) {
     const std::string bytes = read_bytes(files / name);
@@ -439,7 +442,7 @@ TEST(SlabRun, RefusesScratchFilesThatAreCutOff) {
     }
     write_bytes(files / name, bytes);
   }
-  expect_same(run_alone(scan, options), first);
+  expect_same(run_alone(scan, options), two_slabs().run);
   EXPECT_TRUE(fs::exists(files)) << "kept";
 }
 
