@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -18,25 +19,27 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A sphere, its surface, mesh and report.
+/// A sphere, its surface, mesh and report: one run for all tests.
 class ReportPageTest : public testing::Test {
  protected:
-  void SetUp() override {
-    run_program(folder_,
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<TempFolder>();
+    run_program(*folder_,
                 {"phantom", "sphere", "--size", "24,24,24", "--noise", "3", "-o", at("scan.nrrd")});
-    made_ = run_program(
-        folder_, {"segment", at("scan.nrrd"), "-o", at("a.ply"), "--mesh", at("a.vtu"), "--report",
-                  at("a.json"), "--html", at("a.html"), "--pictures", at("pictures"), "--labelmap",
-                  at("labels.nrrd"), "--max-tets", "4000", "--adaptations", "2"});
-    ASSERT_THAT(made_.status, testing::AnyOf(0, 4)) << made_.err;
+    const ProgramRun made = run_program(
+        *folder_, {"segment", at("scan.nrrd"), "-o", at("a.ply"), "--mesh", at("a.vtu"), "--report",
+                   at("a.json"), "--html", at("a.html"), "--pictures", at("pictures"), "--labelmap",
+                   at("labels.nrrd"), "--max-tets", "4000", "--adaptations", "2"});
+    ASSERT_THAT(made.status, testing::AnyOf(0, 4)) << made.err;
   }
-  std::string at(const std::string& name) const { return folder_ / name; }
-  json report() const { return json::parse(read_bytes(at("a.json"))); }
-  TempFolder folder_;
+  static void TearDownTestSuite() { folder_.reset(); }
+  static std::string at(const std::string& name) { return *folder_ / name; }
+  static json report() { return json::parse(read_bytes(at("a.json"))); }
 
- private:
-  ProgramRun made_;
+  static std::unique_ptr<TempFolder> folder_;
 };
+
+std::unique_ptr<TempFolder> ReportPageTest::folder_;
 
 bool holds(const std::string& page, const std::string& text) {
   return page.find(text) != std::string::npos;
@@ -64,13 +67,13 @@ TEST_F(ReportPageTest, HasTheNumbersOfTheReportAndIsMadeOfItAgain) {
   std::vector<std::string> listed;
   for (const json& file : facts["files"]) listed.push_back(fs::path(file["path"]).filename());
   EXPECT_THAT(listed, testing::IsSupersetOf({"a.html", "mesh-cut.png", "slice-axial.png"}));
-  const ProgramRun run = run_program(folder_, {"report", at("a.json"), "--html", at("b.html")});
+  const ProgramRun run = run_program(*folder_, {"report", at("a.json"), "--html", at("b.html")});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.err, "");
   // A .ply holds every bit of the points.
   EXPECT_TRUE(read_bytes(at("b.html")) == read_bytes(at("a.html")));
   EXPECT_FALSE(holds(read_bytes(at("a.html")), at("scan.nrrd")));
-  run_program(folder_, {"report", at("a.json"), "--html", at("c.html"), "--html-names"});
+  run_program(*folder_, {"report", at("a.json"), "--html", at("c.html"), "--html-names"});
   EXPECT_TRUE(holds(read_bytes(at("c.html")), at("scan.nrrd")));
 }
 
@@ -87,13 +90,13 @@ TEST_F(ReportPageTest, TakesTheFilesOfTheRunAndNoOthers) {
   }
   write_bytes(at("other/r.json"), moved.dump());
   const ProgramRun run =
-      run_program(folder_, {"report", at("other/r.json"), "--html", at("b.html")});
+      run_program(*folder_, {"report", at("other/r.json"), "--html", at("b.html")});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(holds(read_bytes(at("b.html")), "<canvas") ||
               holds(read_bytes(at("b.html")), "id=\"no-viewer\""));
   fs::remove(at("other/scan.nrrd"));
   const ProgramRun without =
-      run_program(folder_, {"report", at("other/r.json"), "--html", at("c.html")});
+      run_program(*folder_, {"report", at("other/r.json"), "--html", at("c.html")});
   EXPECT_EQ(without.status, 0);
   EXPECT_THAT(without.err, HasSubstr("/nowhere/scan.nrrd: not found"));
   EXPECT_FALSE(holds(read_bytes(at("c.html")), "<canvas"));
@@ -101,19 +104,19 @@ TEST_F(ReportPageTest, TakesTheFilesOfTheRunAndNoOthers) {
   json other = report();
   other["files"][0]["sha256"] = std::string(64, '0');
   write_bytes(at("other.json"), other.dump());
-  EXPECT_FAILS(run_program(folder_, {"report", at("other.json"), "--html", page}), 3,
+  EXPECT_FAILS(run_program(*folder_, {"report", at("other.json"), "--html", page}), 3,
                "a.ply: expected the file of the run");
   EXPECT_FAILS(
-      run_program(folder_, {"report", at("a.json"), "--html", page, "--scan", at("a.vtu")}), 3,
+      run_program(*folder_, {"report", at("a.json"), "--html", page, "--scan", at("a.vtu")}), 3,
       "a.vtu");
   write_bytes(at("x.json"), "{\"program\": {\"name\": \"mesamis\"}}");
-  EXPECT_FAILS(run_program(folder_, {"report", at("x.json"), "--html", page}), 3,
+  EXPECT_FAILS(run_program(*folder_, {"report", at("x.json"), "--html", page}), 3,
                "expected the report of a run of segment");
-  EXPECT_FAILS(run_program(folder_, {"report", at("a.json")}), 2, "expected --html or --pictures");
-  EXPECT_FAILS(run_program(folder_, {"report", at("a.json"), "--html", at("b.pdf")}), 2, ".html");
-  EXPECT_FAILS(run_program(folder_, {"report", at("a.json"), "--pictures", at("a.json")}), 3,
+  EXPECT_FAILS(run_program(*folder_, {"report", at("a.json")}), 2, "expected --html or --pictures");
+  EXPECT_FAILS(run_program(*folder_, {"report", at("a.json"), "--html", at("b.pdf")}), 2, ".html");
+  EXPECT_FAILS(run_program(*folder_, {"report", at("a.json"), "--pictures", at("a.json")}), 3,
                "a folder");
-  EXPECT_FAILS(run_program(folder_, {"segment", at("scan.nrrd"), "--html", at("none/b.html")}), 3,
+  EXPECT_FAILS(run_program(*folder_, {"segment", at("scan.nrrd"), "--html", at("none/b.html")}), 3,
                "there is no folder");
   EXPECT_FALSE(fs::exists(page));
 }
@@ -142,8 +145,8 @@ TEST(ReportPage, OfAReportOfAnotherShapeIsRefusedInOneLine) {
 
 TEST_F(ReportPageTest, ShowsObjectsInTheirColours) {
   const ProgramRun run =
-      run_program(folder_, {"segment", at("scan.nrrd"), "--labels", at("labels.nrrd"), "-o",
-                            at("all.vtp"), "--report", at("r.json"), "--html", at("l.html")});
+      run_program(*folder_, {"segment", at("scan.nrrd"), "--labels", at("labels.nrrd"), "-o",
+                             at("all.vtp"), "--report", at("r.json"), "--html", at("l.html")});
   EXPECT_EQ(run.status, 0) << run.err;
   const std::string page = read_bytes(at("l.html"));
   const json facts = json::parse(read_bytes(at("r.json")));
@@ -202,8 +205,8 @@ std::vector<std::string> console_lines(const std::string& err) {
 TEST_F(ReportPageTest, ABrowserDrawsScanAndSurfaceAndAsksForNothing) {
   MESAMIS_REQUIRE_BROWSER();
   const std::string shot = at("shot.png"), net = at("net.json");
-  const ProgramRun run =
-      browse(folder_, at("a.html"), {"--screenshot=" + shot, "--log-net-log=" + net, "--dump-dom"});
+  const ProgramRun run = browse(*folder_, at("a.html"),
+                                {"--screenshot=" + shot, "--log-net-log=" + net, "--dump-dom"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(console_lines(run.err), testing::IsEmpty());
   // The browser logs each request with its address.

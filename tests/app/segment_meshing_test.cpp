@@ -21,27 +21,38 @@ namespace {
 
 constexpr double kTolerance = 0.3;
 
-class SegmentMeshing : public testing::Test {
- protected:
-  SegmentMeshing() {
-    run_program(folder,
-                {"phantom", "femur", "-o", folder / "femur.nrrd", "--noise", "10", "--quiet"});
+/// A scan of a femur in a folder of its own, and runs on it.
+class Femur {
+ public:
+  Femur() {
+    run_program(folder, {"phantom", "femur", "--size", "40,40,56", "-o", folder / "femur.nrrd",
+                         "--noise", "10", "--quiet"});
   }
-
-  ProgramRun segment(std::vector<std::string> more) {
+  ProgramRun segment(std::vector<std::string> more) const {
     std::vector<std::string> arguments{
         "segment",  folder / "femur.nrrd", "--tolerance", "0.3", "--preview",
         "--report", folder / "r.json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_program(folder, arguments);
   }
-  ProgramRun mesh_surface(const std::string& file) {
-    return segment({"-o", folder / file, "--surface-quality", "meshing", "--element-size", "3"});
-  }
-  nlohmann::json report() { return nlohmann::json::parse(read_bytes(folder / "r.json")); }
+  nlohmann::json report() const { return nlohmann::json::parse(read_bytes(folder / "r.json")); }
 
   TempFolder folder;
 };
+
+/// With its surface for meshing, as a.ply and a.stl.
+struct MeshedFemur : Femur {
+  ProgramRun run = segment({"-o", folder / "a.ply", "-o", folder / "a.stl", "--surface-quality",
+                            "meshing", "--element-size", "3"});
+};
+
+/// Made once for all tests.
+const MeshedFemur& meshed_femur() {
+  static const MeshedFemur femur;
+  return femur;
+}
+
+class SegmentMeshing : public testing::Test, protected Femur {};
 
 double volume_of(const TetMesh& mesh) {
   double volume = 0;
@@ -53,10 +64,10 @@ TEST_F(SegmentMeshing, KeepsItsPromisesAndReportsThem) {
   const ProgramRun plain = segment({"-o", folder / "plain.ply"});
   ASSERT_EQ(plain.status, 0) << plain.err;
   EXPECT_FALSE(report()["surface"].contains("meshing"));
-  const ProgramRun run = mesh_surface("a.ply");
-  ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.err, testing::Not(testing::HasSubstr("warning"))) << run.err;
-  const TriMesh surface = read_surface(folder / "a.ply"),
+  const MeshedFemur& meshed = meshed_femur();
+  ASSERT_EQ(meshed.run.status, 0) << meshed.run.err;
+  EXPECT_THAT(meshed.run.err, testing::Not(testing::HasSubstr("warning")));
+  const TriMesh surface = read_surface(meshed.folder / "a.ply"),
                 given = read_surface(folder / "plain.ply");
   EXPECT_EQ(solid_flaws_of(check_surface(surface)), "");
   EXPECT_TRUE(find_self_intersections(surface).empty());
@@ -66,7 +77,7 @@ TEST_F(SegmentMeshing, KeepsItsPromisesAndReportsThem) {
   EXPECT_LT(triangle_shapes(given).least_angle, 20) << "else there was nothing to do";
   const double to = max_distance(surface, given, 0.003), from = max_distance(given, surface, 0.003);
   EXPECT_LE(std::max(to, from), kTolerance);
-  const auto told = report()["surface"];
+  const auto told = meshed.report()["surface"];
   EXPECT_EQ(told["triangles"], surface.triangles.size());
   EXPECT_EQ(told["meshing"]["kept"], true);
   EXPECT_NEAR(told["meshing"]["least_angle_deg"], shapes.least_angle, 0.01);
@@ -77,11 +88,10 @@ TEST_F(SegmentMeshing, KeepsItsPromisesAndReportsThem) {
 
 /// The body is made once: its skin is the surface.
 TEST_F(SegmentMeshing, ABodyBesideItHasTheSameSkin) {
-  ASSERT_EQ(mesh_surface("alone.ply").status, 0);
   const ProgramRun run = segment({"-o", folder / "a.ply", "--surface-quality", "meshing",
                                   "--element-size", "3", "--body", folder / "a.vtu"});
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(read_bytes(folder / "alone.ply"), read_bytes(folder / "a.ply"));
+  EXPECT_EQ(read_bytes(meshed_femur().folder / "a.ply"), read_bytes(folder / "a.ply"));
   const double volume = check_surface(read_surface(folder / "a.ply")).volume;
   EXPECT_NEAR(volume_of(read_vtu(folder / "a.vtu").mesh), volume, 1e-5 * volume);
 }
@@ -100,7 +110,7 @@ TEST_F(SegmentMeshing, TheErrorExpectedComesAlong) {
 
 TEST_F(SegmentMeshing, GmshFillsIt) {
   MESAMIS_REQUIRE_PROGRAM("gmsh");
-  ASSERT_EQ(mesh_surface("a.stl").status, 0);
+  std::filesystem::copy(meshed_femur().folder / "a.stl", folder / "a.stl");
   write_bytes(folder / "a.geo", "Merge \"a.stl\";\nSurface Loop(1) = {1};\nVolume(1) = {1};\n");
   ASSERT_EQ(run_in(folder.path(), "gmsh -3 a.geo -format mesh -o a.mesh -nopopup"), 0)
       << read_bytes(folder / "log");
@@ -134,8 +144,7 @@ TetMesh read_tetgen(const std::filesystem::path& nodes, const std::filesystem::p
 
 TEST_F(SegmentMeshing, TetGenFillsIt) {
   MESAMIS_REQUIRE_PROGRAM("tetgen");
-  ASSERT_EQ(mesh_surface("a.ply").status, 0);
-  const TriMesh surface = read_surface(folder / "a.ply");
+  const TriMesh surface = read_surface(meshed_femur().folder / "a.ply");
   write_off(folder / "a.off", surface);
   ASSERT_EQ(run_in(folder.path(), "tetgen -pYQz a.off"), 0) << read_bytes(folder / "log");
   const double volume = check_surface(surface).volume;
