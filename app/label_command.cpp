@@ -57,6 +57,7 @@ std::vector<NamedSurface> objects_of(const fs::path& path, const LabelCommand& c
 /// Labels of a file are kept where no two of all files are alike; else they are 1, 2, ...
 void number_objects(std::vector<NamedSurface>& objects) {
   std::vector<Index> labels;
+  labels.reserve(objects.size());
   for (const NamedSurface& object : objects) labels.push_back(object.label);
   std::sort(labels.begin(), labels.end());
   const bool distinct = std::adjacent_find(labels.begin(), labels.end()) == labels.end();
@@ -76,6 +77,7 @@ int run_label(const LabelCommand& command) {
   }
   number_objects(objects);
   std::vector<FoundObject> found;
+  found.reserve(objects.size());
   for (const NamedSurface& object : objects) {
     found.push_back({object.surface, {object.name, object.label, 0, object.colour}});
   }

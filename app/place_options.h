@@ -54,7 +54,7 @@ TissueKind tissue_kind(const PlaceArguments& places);
 struct RequestArguments {
   const PlaceArguments& places;
   const LabelArguments& labels;
-  Frame frame = Frame::kLps;           ///< of the seeds
+  Frame frame = Frame::kLps;          ///< of the seeds
   std::function<VoxelGrid()> scan{};  ///< see LabelOptions::scan
 };
 

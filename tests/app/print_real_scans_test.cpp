@@ -14,19 +14,19 @@ namespace {
 struct Scan {
   const char* name;
   const char* path;
+  const char* crop;
   const char* stride = "3,3,3";
-  const char* crop = "0:-1,0:-1,0:-1";
 };
 
 class EachScan : public testing::TestWithParam<Scan> {
  protected:
-  /// Fewer cells and passes than by default, and parts of large scans: what is promised does not
-  /// depend on them.
+  /// Fewer cells and passes than by default, and parts of scans: what is promised does not depend
+  /// on them.
   ProgramRun segment(const std::filesystem::path& scan) const {
     return run_program(folder_, {"segment", scan, "-o", folder_ / "a.stl", "-o", folder_ / "a.3mf",
                                  "-o", folder_ / "a.amf", "--report", folder_ / "r.json",
                                  "--stride", GetParam().stride, "--crop", GetParam().crop,
-                                 "--max-tets", "30000", "--adaptations", "2", "--quiet"});
+                                 "--max-tets", "5000", "--adaptations", "2", "--quiet"});
   }
 
   TempFolder folder_;
@@ -34,17 +34,18 @@ class EachScan : public testing::TestWithParam<Scan> {
 
 INSTANTIATE_TEST_SUITE_P(
     Real, EachScan,
-    testing::Values(Scan{"cranium", "cranium_inv/ct.nrrd", "4,4,4", "0:-1,0:-1,40:100"},
-                    Scan{"pelvis", "pelvis_ts/ct.nii.gz"},
-                    Scan{"skull", "skull_phantom/ct_soft_1mm.nrrd", "6,6,3",
-                         "80:248,100:300,20:80"},
-                    Scan{"mouse", "mouse_skull/ct_A_J.nii.gz"},
-                    Scan{"mouse_template", "mouse_skull/ct_template.nii.gz"},
-                    Scan{"spine", "thoracic_spine_ts/ct.nii.gz"},
-                    Scan{"trabecular", "trabecular_microct/ct.nrrd", "4,4,4", "0:80,0:80,0:80"},
-                    Scan{"head_aniso", "head_aniso/ct.nii.gz"},
-                    Scan{"mr", "head_aniso/mr_t1.nii.gz"}, Scan{"j2k", "dicom_ct_j2k"},
-                    Scan{"three_slices", "dicom_ct_3slice"}),
+    testing::Values(Scan{"cranium", "cranium_inv/ct.nrrd", "128:188,60:120,60:84"},
+                    Scan{"pelvis", "pelvis_ts/ct.nii.gz", "20:60,30:70,40:70"},
+                    Scan{"skull", "skull_phantom/ct_soft_1mm.nrrd", "130:190,160:220,35:65",
+                         "4,4,2"},
+                    Scan{"mouse", "mouse_skull/ct_A_J.nii.gz", "50:90,50:90,40:70"},
+                    Scan{"mouse_template", "mouse_skull/ct_template.nii.gz", "40:80,70:110,40:70"},
+                    Scan{"spine", "thoracic_spine_ts/ct.nii.gz", "40:80,40:80,70:100"},
+                    Scan{"trabecular", "trabecular_microct/ct.nrrd", "0:36,0:36,0:36"},
+                    Scan{"head_aniso", "head_aniso/ct.nii.gz", "84:144,84:144,6:20"},
+                    Scan{"mr", "head_aniso/mr_t1.nii.gz", "84:144,84:144,6:20"},
+                    Scan{"j2k", "dicom_ct_j2k", "180:300,180:300,0:-1"},
+                    Scan{"three_slices", "dicom_ct_3slice", "150:350,150:350,0:-1"}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST_P(EachScan, GivesASurfaceThatPrints) {

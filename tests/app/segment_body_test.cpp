@@ -39,19 +39,18 @@ class SegmentBody : public testing::Test {
 
   ProgramRun segment(const std::string& body, std::vector<std::string> more,
                      const std::string& size = "3", const std::string& tolerance = "0.2") {
-    std::vector<std::string> arguments{"segment",        folder / "block.nrrd",
-                                       "--body",         folder / body,
-                                       "--report",       folder / "a.json",
-                                       "--element-size", size,
-                                       "--tolerance",    tolerance,
-                                       "--max-tets",     "20000",
-                                       "--quiet"};
+    std::vector<std::string> arguments{
+        "segment",         folder / "block.nrrd", "--body", folder / body, "--report",
+        folder / "a.json", "--element-size",      size,     "--tolerance", tolerance,
+        "--quiet"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_program(folder, arguments);
   }
   nlohmann::json report() { return nlohmann::json::parse(read_bytes(folder / "a.json")); }
 
   TempFolder folder;
+  std::vector<std::string> how{"--preview"};  // where the surface comes from makes no difference
 };
 
 TEST_F(SegmentBody, WritesAMeshThatTheReportDescribes) {
@@ -122,6 +121,7 @@ std::string node_at(const TetMesh& mesh, const Vec3& place) {
 TEST_F(SegmentBody, AHollowBallUnderPressureHasTheEnergyOfTheory) {
   MESAMIS_REQUIRE_PROGRAM("ccx");
   write_nrrd(folder / "block.nrrd", hollow_ball());
+  how = {"--max-tets", "20000"};
   const ProgramRun run = segment("a.inp",
                                  {"--body", folder / "a.vtu", "--set", "IN=inner", "--set",
                                   "OUT=outer", "--skin-tolerance", "0.1"},
@@ -153,6 +153,7 @@ TEST_F(SegmentBody, AHollowBallUnderPressureHasTheEnergyOfTheory) {
 }
 
 TEST_F(SegmentBody, RefusesInOneLineBeforeItReads) {
+  how.clear();
   write_bytes(folder / "block.nrrd", "no scan");
   EXPECT_FAILS(segment("a.stl", {}), 2, "--body");
   EXPECT_FAILS(segment("a.mesh", {"--element", "tet10"}), 2, "--body: expected .inp");

@@ -53,7 +53,7 @@ nlohmann::json report_of(const TempFolder& folder, const std::string& name) {
 TEST(SegmentCommand, TurnsAScanIntoASurfaceAMeshAndAReportThatRepeatsIt) {
   const TempFolder folder;
   write_ball(folder, 24);
-  const std::vector<std::string> options{"--max-tets", "10000", "--quiet"};
+  const std::vector<std::string> options{"--max-tets", "5000", "--quiet"};
   auto one = segment_arguments(folder, "one", options);
   one.insert(one.end(), {"--threads", "1"});
   const ProgramRun run = run_program(folder, one);
@@ -72,7 +72,7 @@ TEST(SegmentCommand, TurnsAScanIntoASurfaceAMeshAndAReportThatRepeatsIt) {
   EXPECT_TRUE(check_surface(surface).closed());
   const MeshWithArrays mesh = read_vtu(folder / "one.vtu");
   EXPECT_EQ(report["mesh"]["tets"], mesh.mesh.cells.size());
-  EXPECT_NEAR(static_cast<double>(mesh.mesh.cells.size()), 10000, 1000);
+  EXPECT_NEAR(static_cast<double>(mesh.mesh.cells.size()), 5000, 500);
 
   // The settings of the report, on another number of threads: the same bytes.
   const auto again = segment_arguments(
@@ -189,7 +189,7 @@ TEST(SegmentCommand, WritesTheErrorItExpects) {
 
 TEST(SegmentCommand, IsAsFineAsWasAskedForOrSaysThatTheScanIsNot) {
   const TempFolder folder;
-  write_ball(folder, 32);
+  write_ball(folder, 24);
   const auto run_for = [&](const std::string& name, const std::string& accuracy) {
     return run_program(folder,
                        segment_arguments(folder, name, {"--accuracy", accuracy, "--quiet"}));

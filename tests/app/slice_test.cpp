@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -49,8 +50,8 @@ std::vector<std::string> slice_arguments(const TempFolder& folder,
 /// Half a ball with bumps: in a slicer that does its work in another order each time, its lines
 /// differ.
 TriMesh bumpy_ball() {
-  return level_set({{-13, -13, -13}, {13, 13, 13}}, {24, 24, 24}, [](const Vec3& p) {
-    return std::min(9 + 2 * std::sin(p.x) * std::cos(p.y + 0.5 * p.z) - norm(p), p.z + 0.1);
+  return level_set({{-10, -10, -10}, {10, 10, 10}}, {18, 18, 18}, [](const Vec3& p) {
+    return std::min(7 + 2 * std::sin(p.x) * std::cos(p.y + 0.5 * p.z) - norm(p), p.z + 0.1);
   });
 }
 
@@ -78,6 +79,21 @@ class EverySlicer : public testing::TestWithParam<std::string> {
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_THAT(run.out, HasSubstr(" layers, "));
     return json::parse(read_bytes(folder_ / (name + ".json")));
+  }
+
+  /// The cube with default settings, sliced once for all tests, as "a".
+  json slice_plainly() {
+    struct Plain {
+      json report;
+      std::string gcode;
+    };
+    static std::map<std::string, Plain> of_slicer;
+    if (!of_slicer.contains(GetParam())) {
+      const json report = slice("a");
+      of_slicer[GetParam()] = {report, read_bytes(folder_ / "a.gcode")};
+    }
+    write_bytes(folder_ / "a.gcode", of_slicer[GetParam()].gcode);
+    return of_slicer[GetParam()].report;
   }
 
   TempFolder folder_;
@@ -131,7 +147,7 @@ std::size_t walls_along_y(const std::vector<Move>& moves, int layer) {
 }
 
 TEST_P(EverySlicer, PrintsACubeInTheMiddleOfTheBedLayerByLayer) {
-  const json report = slice("a");
+  const json report = slice_plainly();
   EXPECT_EQ(report["layers"], kLayers);
   const std::vector<Move> moves = moves_of(read_bytes(folder_ / "a.gcode"));
   std::set<long> heights;  // in layers
@@ -152,13 +168,12 @@ TEST_P(EverySlicer, PrintsACubeInTheMiddleOfTheBedLayerByLayer) {
 }
 
 TEST_P(EverySlicer, DoesAsTheSettingsSay) {
-  const json plain = slice("plain");
-  EXPECT_EQ(walls_along_y(moves_of(read_bytes(folder_ / "plain.gcode")), kLayers / 2), 4u);
+  const json plain = slice_plainly();
+  EXPECT_EQ(walls_along_y(moves_of(read_bytes(folder_ / "a.gcode")), kLayers / 2), 4u);
   const json dense = slice("dense", {"--infill", "40%"});
-  const json walls = slice("walls", {"--perimeters", "4"});
-  EXPECT_EQ(walls_along_y(moves_of(read_bytes(folder_ / "walls.gcode")), kLayers / 2), 8u);
-  const json fine = slice("fine", {"--layer", "0.15", "--infill", "0"});
-  EXPECT_EQ(fine["layers"], 133);
+  const json walls = slice("walls", {"--perimeters", "4", "--layer", "0.15"});
+  EXPECT_EQ(walls_along_y(moves_of(read_bytes(folder_ / "walls.gcode")), kLayers), 8u);
+  EXPECT_EQ(walls["layers"], 133);
   // Eight times the infill of 5 %: 35 % of the cube within walls and shell, roughly.
   const double more = dense["filament_cm3"].get<double>() - plain["filament_cm3"].get<double>();
   EXPECT_NEAR(more, 0.35 * std::pow(1.84, 2) * 1.82, 0.4);
@@ -169,7 +184,7 @@ TEST_P(EverySlicer, DoesAsTheSettingsSay) {
 }
 
 TEST_P(EverySlicer, ReportsWhatThePrintTakes) {
-  const json report = slice("a");
+  const json report = slice_plainly();
   EXPECT_EQ(report["program"]["name"], "mesamis");
   EXPECT_EQ(report["input"]["triangles"], 12);
   EXPECT_EQ(report["input"]["sha256"].get<std::string>().size(), 64u);
@@ -204,7 +219,7 @@ TEST_P(EverySlicer, GivesTheSameBytesAgain) {
 }
 
 TEST_P(EverySlicer, GivesTheSameBytesFromAnyFormat) {
-  slice("a");
+  slice_plainly();
   write_cube(folder_ / "cube.ply");
   slice("b", {}, "cube.ply");
   EXPECT_TRUE(read_bytes(folder_ / "a.gcode") == read_bytes(folder_ / "b.gcode"));
@@ -226,7 +241,7 @@ TEST_P(EverySlicer, LeavesNothingButItsOutputs) {
 }
 
 TEST_P(EverySlicer, TheReportSaysWhoJudged) {
-  const json all = slice("all");
+  const json all = slice_plainly();
   const bool has_prusa = !find_program("prusa-slicer").empty();
   EXPECT_EQ(all["gate"]["by"].size(), has_prusa ? 2u : 1u);
   EXPECT_EQ(all["gate"]["prusa_slicer"].is_null(), !has_prusa);
@@ -240,9 +255,10 @@ TEST_P(EverySlicer, TheReportSaysWhoJudged) {
 }
 
 TEST_P(EverySlicer, SupportsWhatHangsOver) {
-  // A plate above a cube: it hangs over by 10 mm.
-  write_surface(folder_ / "cube.stl", joined(cube({0, 0, 0}, 10), cube({-5, -5, 9.9}, 20)));
-  EXPECT_GT(slice("with", {"--support"})["filament_cm3"], slice("without")["filament_cm3"]);
+  // A cube above a smaller one: it hangs over by 3 mm on all sides.
+  write_surface(folder_ / "cube.stl", joined(cube({0, 0, 0}, 6), cube({-3, -3, 5.9}, 12)));
+  EXPECT_GT(slice("with", {"--infill", "0", "--support"})["filament_cm3"],
+            slice("without", {"--infill", "0"})["filament_cm3"]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Slice, EverySlicer, testing::Values("prusa", "cura"),

@@ -204,7 +204,7 @@ TEST(MakeBody, IsTheSameForAnyNumberOfThreads) {
 TEST(MakeBody, SmallPartsAreLeftOutAndCounted) {
   const TriMesh surface =
       joined(ball_surface(kRadius, 40), moved(ball_surface(1.5, 24), {14, 0, 0}));
-  BodyOptions options = of_size(4);
+  BodyOptions options = of_size(6);
   options.least_size = 1;
   options.part_share = 0;
   const MeshedBody both = make_body(std::vector{surface}, box_around(surface), options);

@@ -165,7 +165,7 @@ TEST_F(Fault, ADiskThatIsFull) {
 }
 
 TEST_F(Fault, ASeekThatFails) {
-  constexpr long kStep = 11;  // a .vtu takes five for an array: each of them is met
+  constexpr long kStep = 21;  // a .vtu takes five for an array: each of them is met
   for (long n = 1; n <= calls("seek"); n += kStep) {
     const ProgramRun run = segment("seek:" + std::to_string(n), "180");
     const Found found = look();  // a stream may try twice
@@ -215,7 +215,7 @@ TEST_F(Fault, AThreadThatDoesNotStart) {
 }
 
 TEST_F(Fault, MemoryThatIsNotThere) {
-  for (const long n : some_of(calls("alloc"), 16)) {
+  for (const long n : some_of(calls("alloc"), 8)) {
     const ProgramRun run = segment("alloc:" + std::to_string(n), "180");
     const Found found = look();
     EXPECT_THAT(run.status, AnyOf(3, 4)) << n << run.err;
@@ -228,7 +228,7 @@ TEST_F(Fault, MemoryThatIsNotThere) {
 }
 
 TEST_F(Fault, KilledAnywhere) {
-  for (const long n : some_of(calls("kill"), 16)) {
+  for (const long n : some_of(calls("kill"), 8)) {
     const ProgramRun run = segment("kill:" + std::to_string(n), "180");
     EXPECT_EQ(run.status, -SIGKILL) << n;
     const Found found = look();

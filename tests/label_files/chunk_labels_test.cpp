@@ -48,8 +48,7 @@ TEST(ChunkLabels, OfAnImageThoseThatLieInIt) {
     const LabelFile file = read_label_map(folder / name);
     EXPECT_EQ(file.format, "OME-Zarr");
     EXPECT_EQ(file.map.spacing, (Vec3{0.01, 0.01, 0.02}));
-    EXPECT_THAT(file.map.layers,
-                ElementsAre(ElementsAre(0, 0, 7, 0, 8, 0, 0, 0, 0, 0, 0, 1)));
+    EXPECT_THAT(file.map.layers, ElementsAre(ElementsAre(0, 0, 7, 0, 8, 0, 0, 0, 0, 0, 0, 1)));
     EXPECT_EQ(find_segment(file.map.segments, "70000").label, 8);
     EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("70000 becomes 8")));
   }
@@ -72,8 +71,7 @@ TEST(ChunkLabels, TakeAtMostTheMemoryAllowed) {
   write_bytes(folder / "a/.zarray",
               R"({"zarr_format": 2, "shape": [1000, 1000, 1000], "chunks": [8, 8, 8], "dtype":
                   "|u1", "compressor": null, "filters": null, "fill_value": 0, "order": "C"})");
-  EXPECT_REFUSED(read_label_map(folder / "a", {{.memory_gb = 0.5}}),
-                 HasSubstr("memory: expected"));
+  EXPECT_REFUSED(read_label_map(folder / "a", {{.memory_gb = 0.5}}), HasSubstr("memory: expected"));
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ TEST(LabelValues, RefusesWhatIsNoLabel) {
     std::vector<std::string> warnings;
     EXPECT_REFUSED(labels_of({}, {0, sample}, warnings), HasSubstr(why));
   };
-  refused(-1, "f: expected labels, whole numbers of 0 to 9007199254740991, found -1 at voxel 1 0 0");
+  refused(-1,
+          "f: expected labels, whole numbers of 0 to 9007199254740991, found -1 at voxel 1 0 0");
   refused(0.5, "found 0.5");
   refused(2.98, "found 2.98");
   refused(1e20, "found 1e+20");
@@ -85,8 +86,7 @@ TEST(LabelValues, NumbersOfAnAtlasGetLabelsAndKeepTheirNames) {
   EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr("2 labels are above 65535"),
                                           HasSubstr("312782546 becomes 2"))));
   EXPECT_EQ(find_segment(map.segments, "312782546").name, "label 312782546");
-  EXPECT_EQ(find_segment(map.segments, "312782550"),
-            (Segment{"root", 3, 1, {1, 2, 3}, 312782550}));
+  EXPECT_EQ(find_segment(map.segments, "312782550"), (Segment{"root", 3, 1, {1, 2, 3}, 312782550}));
   EXPECT_EQ(find_segment(map.segments, "liver").label, 1);
 }
 

@@ -72,7 +72,8 @@ TEST(MaskFolder, TheOnlyFileIsReadAsItIs) {
 TEST(MaskFolder, WarningsOfAllFilesComeOnce) {
   WideBudget budget;
   const auto read = [](const std::filesystem::path& path) {
-    return file_of(path == "a" ? std::vector<std::uint16_t>{7, 0} : std::vector<std::uint16_t>{0, 3});
+    return file_of(path == "a" ? std::vector<std::uint16_t>{7, 0}
+                               : std::vector<std::uint16_t>{0, 3});
   };
   const LabelFile file = read_masks({"a", "b"}, read, budget);
   EXPECT_THAT(file.warnings, ElementsAre("same"));

@@ -46,9 +46,8 @@ TEST(NiftiLabels, AreThoseOfTheCaretExtension) {
 
 TEST(NiftiLabels, BrokenOnesAreRefused) {
   EXPECT_REFUSED(segments_of("f", {kCaret.substr(0, 300)}), HasSubstr("f: "));
-  EXPECT_REFUSED(
-      segments_of("f", {"<CaretExtension><Label Key=\"-1\">a</Label></CaretExtension>"}),
-      HasSubstr("label's Key in the header extension, found \"-1\""));
+  EXPECT_REFUSED(segments_of("f", {"<CaretExtension><Label Key=\"-1\">a</Label></CaretExtension>"}),
+                 HasSubstr("label's Key in the header extension, found \"-1\""));
   EXPECT_EQ(
       segments_of("f", {"<CaretExtension><Label Key=\"70000\">a</Label></CaretExtension>"})[0],
       (Segment{"a", 0, 0, default_colour(0), 70000}));

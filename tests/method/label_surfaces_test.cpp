@@ -48,6 +48,12 @@ Volume scan_of(double first, double second, double background, double noise) {
   return scan;
 }
 
+/// The scan of most tests.
+const Volume& usual_scan() {
+  static const Volume scan = scan_of(200, 130, 50, 4);
+  return scan;
+}
+
 /// Labels on every n-th voxel, shifted by so many millimetres.
 LabelMap labels_of(Index every, double shift) {
   LabelMap map;
@@ -106,8 +112,15 @@ std::size_t shared_points(const LabelResult& found) {
                     [&](const Vec3& p) { return first.count(p) == 1; }));
 }
 
+/// Of the usual scan and a label for each of its voxels.
+const LabelResult& objects_by_one_thread() {
+  static const LabelResult found =
+      with_threads(1, [] { return find_labelled_objects(usual_scan(), {labels_of(1, 0)}, {}); });
+  return found;
+}
+
 TEST(LabelSurfaces, TheImagePlacesWhatLabelsChoose) {
-  const Volume scan = scan_of(200, 130, 50, 4);
+  const Volume& scan = usual_scan();
   for (const auto& [every, shift] : {std::pair{1, 0.5}, {2, 1.0}, {3, 0.0}}) {
     const LabelMap labels = labels_of(every, shift);
     const LabelResult found = find_labelled_objects(scan, {labels}, {});
@@ -133,10 +146,9 @@ TEST(LabelSurfaces, TheLabelsDecideWhereTheImageShowsNothing) {
 }
 
 TEST(LabelSurfaces, OneObjectEndsWhereAnotherBegins) {
-  const Volume scan = scan_of(200, 130, 50, 4);
   const LabelMap labels = labels_of(1, 0);
-  const LabelResult both = find_labelled_objects(scan, {labels}, {});
-  const LabelResult one = find_labelled_objects(scan, {labels, {labels.segments[1]}}, {});
+  const LabelResult& both = objects_by_one_thread();
+  const LabelResult one = find_labelled_objects(usual_scan(), {labels, {labels.segments[1]}}, {});
   ASSERT_EQ(one.objects.size(), 1U);
   EXPECT_EQ(one.objects[0].segment.name, "second");
   EXPECT_NEAR(check_surface(one.objects[0].surface).volume,
@@ -172,7 +184,7 @@ TEST(LabelSurfaces, OfALabelAtTheBorderOfTheMapAreWhole) {
 }
 
 TEST(LabelSurfaces, OfMirroredGridsFaceOutward) {
-  Volume scan = scan_of(200, 130, 50, 4);
+  Volume scan = usual_scan();
   LabelMap labels = labels_of(1, 0);
   scan.direction.rows[0] = {-1, 0, 0};
   labels.direction.rows[0] = {-1, 0, 0};
@@ -195,10 +207,9 @@ TEST(LabelSurfaces, OverlappingLayersAreFoundEachByItself) {
 }
 
 TEST(LabelSurfaces, AreTheSameForAnyNumberOfThreads) {
-  const Volume scan = scan_of(200, 130, 50, 4);
-  const LabelMap labels = labels_of(2, 0);
-  const auto run = [&] { return find_labelled_objects(scan, {labels}, {}); };
-  const LabelResult one = with_threads(1, run), two = with_threads(2, run);
+  const LabelResult& one = objects_by_one_thread();
+  const LabelResult two =
+      with_threads(2, [] { return find_labelled_objects(usual_scan(), {labels_of(1, 0)}, {}); });
   ASSERT_EQ(one.objects.size(), two.objects.size());
   for (std::size_t n = 0; n < one.objects.size(); ++n) {
     EXPECT_EQ(one.objects[n].surface.triangles, two.objects[n].surface.triangles);
@@ -208,7 +219,7 @@ TEST(LabelSurfaces, AreTheSameForAnyNumberOfThreads) {
 }
 
 TEST(LabelSurfaces, RefuseWhatIsNotThere) {
-  const Volume scan = scan_of(200, 130, 50, 4);
+  const Volume& scan = usual_scan();
   LabelMap labels = labels_of(1, 0);
   labels.origin.x = 500;
   EXPECT_REFUSED(find_labelled_objects(scan, {labels}, {}),

@@ -201,7 +201,8 @@ TEST_P(EachObjectFormat, CutOffOrDamagedIsRefusedInOneLineOrStillObjects) {
 
 TEST(ObjectFiles, OtherExtensionsHoldOneObjectAndAreNotWritten) {
   const TempFolder folder;
-  EXPECT_EQ(written_object_formats(), (std::vector<std::string>{".3mf", ".vtp", ".obj", ".amf", ".glb"}));
+  EXPECT_EQ(written_object_formats(),
+            (std::vector<std::string>{".3mf", ".vtp", ".obj", ".amf", ".glb"}));
   for (const char* name : {"a.stl", "a.ply", "a.vtk", "a", "a.vtp.gz"}) {
     EXPECT_REFUSED(write_objects(folder / name, three_objects()), HasSubstr(".3mf .vtp .obj .amf"));
   }

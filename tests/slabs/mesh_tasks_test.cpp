@@ -18,6 +18,8 @@ namespace {
 
 using testing::HasSubstr;
 
+std::int64_t cells_of_first_meshes = 0;  // as their tasks tell it
+
 /// Two slabs with mesh 1, its border adapted; made once.
 const SmallRun& two_meshed_slabs() {
   static const SmallRun small(72, {0, 33, 72});
@@ -25,8 +27,21 @@ const SmallRun& two_meshed_slabs() {
     make_item_file<float>(small.scratch.path(kImageFile), small.scan.voxel_count());
     for (Index s = 0; s < 2; ++s) prepare_and_minimise(small.run, s);
     const MeshRun run(small.run);
-    for (Index s = 0; s < 2; ++s) first_mesh(run, s);
+    for (Index s = 0; s < 2; ++s) cells_of_first_meshes += first_mesh(run, s).cells;
     seam(run, 1, 0);
+    return true;
+  }();
+  return small;
+}
+
+/// The same after a pass: mesh 2, its border not yet adapted; made once.
+const SmallRun& two_adapted_slabs() {
+  static const SmallRun small(two_meshed_slabs());
+  [[maybe_unused]] static const bool made = [] {
+    MeshRun run(small.run);
+    for (Index s = 0; s < 2; ++s) solve(run, 1, s);
+    plan_next_mesh(run);
+    for (Index s = 0; s < 2; ++s) adapt_slab(run, 2, s);
     return true;
   }();
   return small;
@@ -34,12 +49,10 @@ const SmallRun& two_meshed_slabs() {
 
 /// These slabs, in a folder of their own.
 struct TwoSlabs {
-  TwoSlabs() : small(two_meshed_slabs()) { run.emplace(small.run); }
-  /// To mesh 2, up to the border.
-  void adapt() {
-    for (Index s = 0; s < 2; ++s) solve(*run, 1, s);
-    plan_next_mesh(*run);
-    for (Index s = 0; s < 2; ++s) adapt_slab(*run, 2, s);
+  explicit TwoSlabs(int meshes = 1)
+      : small(meshes == 1 ? two_meshed_slabs() : two_adapted_slabs()) {
+    run.emplace(small.run);
+    if (meshes == 2) plan_next_mesh(*run);
   }
   Piece read(const std::string& name) const {
     ArchiveReader archive = small.scratch.read(name);
@@ -83,11 +96,35 @@ class OnTwoMeshedSlabs : public testing::Test {
  protected:
   static void SetUpTestSuite() { two_meshed_slabs(); }
 };
+using FirstMesh = OnTwoMeshedSlabs;
 using Seam = OnTwoMeshedSlabs;
-using Finish = OnTwoMeshedSlabs;
-using AdaptSlab = OnTwoMeshedSlabs;
+class OnTwoAdaptedSlabs : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { two_adapted_slabs(); }
+};
+using Finish = OnTwoAdaptedSlabs;
+using AdaptSlab = OnTwoAdaptedSlabs;
 using Collect = OnTwoMeshedSlabs;
 using MeshTasks = OnTwoMeshedSlabs;
+
+TEST_F(FirstMesh, TheSlabsFitTogether) {
+  const TwoSlabs slabs;
+  std::vector<Piece> pieces;
+  for (const char* name : {"core.1.0", "rim.1.0.high", "border.1.0.high", "border.1.1.low",
+                           "rim.1.1.low", "core.1.1"}) {
+    pieces.push_back(slabs.read(name));
+    EXPECT_FALSE(pieces.back().mesh.cells.empty()) << name;
+  }
+  const std::array<const Piece*, 6> all{&pieces[0], &pieces[1], &pieces[2],
+                                        &pieces[3], &pieces[4], &pieces[5]};
+  const Piece whole = join(all);
+  EXPECT_EQ(find_flaw(whole.mesh, slabs.run->input.box), "");
+  EXPECT_EQ(std::ssize(whole.mesh.cells), cells_of_first_meshes);
+  // A border piece reaches no farther than its slab.
+  const double border = slabs.run->plan(1).height(1);
+  for (const Vec3& p : pieces[2].mesh.points) EXPECT_LE(p.z, border);
+  for (const Vec3& p : pieces[3].mesh.points) EXPECT_GE(p.z, border);
+}
 
 TEST_F(Seam, FitsBetweenTheSlabsAndCrossesTheirBorder) {
   const TwoSlabs slabs;
@@ -116,8 +153,7 @@ TEST_F(Seam, ANodeOfTwoPiecesHasTheSameValuesInBoth) {
 }
 
 TEST_F(Finish, BothSlabsHaveTheSameFieldsAtTheirBorder) {
-  TwoSlabs slabs;
-  slabs.adapt();
+  const TwoSlabs slabs(2);
   seam(*slabs.run, 2, 0);
   for (Index s = 0; s < 2; ++s) finish(*slabs.run, 2, s);
   const Piece low = slabs.read("final.2.0"), high = slabs.read("final.2.1");
@@ -125,8 +161,7 @@ TEST_F(Finish, BothSlabsHaveTheSameFieldsAtTheirBorder) {
 }
 
 TEST_F(AdaptSlab, MeshesFitAndAreAsLargeAsAsked) {
-  TwoSlabs slabs;
-  slabs.adapt();
+  const TwoSlabs slabs(2);
   seam(*slabs.run, 2, 0);
   const Piece whole = slabs.whole("2");
   EXPECT_EQ(find_flaw(whole.mesh, slabs.run->input.box), "");
@@ -140,8 +175,7 @@ TEST_F(AdaptSlab, MeshesFitAndAreAsLargeAsAsked) {
 
 TEST_F(AdaptSlab, WhateverTouchesTheBorderIsAdaptedAgain) {
   // Else faces as they were cut from the mesh before would stay in the next one.
-  TwoSlabs slabs;
-  slabs.adapt();
+  const TwoSlabs slabs(2);
   const auto points = [&](const std::vector<std::string>& names) {
     std::set<std::array<double, 3>> places;
     for (const std::string& name : names) {

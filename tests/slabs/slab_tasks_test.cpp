@@ -75,30 +75,7 @@ TEST(PrepareAndMinimise, DoneAgainItLeavesTheSameFiles) {
   EXPECT_EQ(read_bytes(small.scratch.path(kImageFile)), image);
 }
 
-TEST(FirstMesh, TheSlabsFitTogether) {
-  const SmallRun small(72, {0, 33, 72});
-  prepare_all(small.run);
-  const MeshRun run(small.run);
-  std::vector<Piece> pieces;
-  std::int64_t cells = 0;
-  for (Index s = 0; s < 2; ++s) cells += first_mesh(run, s).cells;
-  for (const char* name : {"core.1.0", "rim.1.0.high", "border.1.0.high", "border.1.1.low",
-                           "rim.1.1.low", "core.1.1"}) {
-    ArchiveReader archive = small.scratch.read(name);
-    pieces.push_back(next_piece(archive));
-    EXPECT_FALSE(pieces.back().mesh.cells.empty()) << name;
-  }
-  const std::array<const Piece*, 6> all{&pieces[0], &pieces[1], &pieces[2],
-                                        &pieces[3], &pieces[4], &pieces[5]};
-  const Piece whole = join(all);
-  EXPECT_EQ(find_flaw(whole.mesh, run.input.box), "");
-  EXPECT_EQ(std::ssize(whole.mesh.cells), cells);
-  // A border piece reaches no farther than its slab.
-  for (const Vec3& p : pieces[2].mesh.points) EXPECT_LE(p.z, run.plan(1).height(1));
-  for (const Vec3& p : pieces[3].mesh.points) EXPECT_GE(p.z, run.plan(1).height(1));
-}
-
-TEST(FirstMesh, OnlyInnerBordersHaveNeighbours) {
+TEST(GridSlab, OnlyInnerBordersHaveNeighbours) {
   const SmallRun small(72, {0, 33, 72});
   const SlabPlan& plan = small.run.plan;
   EXPECT_FALSE(has_neighbour(plan, 0, Side::kLow));

@@ -33,7 +33,7 @@ TEST(Farthest, BoundsSamplesFromAboveAndWithinItsSlack) {
   constexpr int kSteps = 150;
   for (const Vec3& stretch : {Vec3{1, 1, 1}, Vec3{1000, 1, 1}, Vec3{1000, 1000, 1}}) {
     const TriMesh surface = random_triangles(80, stretch, 1),
-                  others = random_triangles(12, stretch, 2);
+                  others = random_triangles(4, stretch, 2);
     const TriangleTree tree(surface);
     std::size_t hint = 0;
     for (const Triangle& t : others.triangles) {

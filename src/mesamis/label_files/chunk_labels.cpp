@@ -46,8 +46,7 @@ fs::path store_of(const fs::path& path) {
 
 LabelFile read_chunk_labels(const fs::path& path, const ReadLimits& limits) {
   const ChunkOptions options{.limits = limits};
-  const auto scan =
-      is_zarr(path) ? open_zarr(store_of(path), options) : open_hdf5(path, options);
+  const auto scan = is_zarr(path) ? open_zarr(store_of(path), options) : open_hdf5(path, options);
   LabelFile out{{scan->grid(), {}, {}}, scan->format(), scan->warnings()};
   MemoryBudget budget(path, limits);
   LabelBuilder builder(path, out.map, {}, budget);

@@ -143,8 +143,7 @@ std::vector<double> join_planes(std::vector<FlatContour>& contours) {
     if (gap > kLeastGap) gaps.push_back(gap);
   }
   const double tolerance =
-      gaps.empty() ? kMostTolerance
-                   : std::clamp(0.05 * median_of(gaps), kLeastGap, kMostTolerance);
+      gaps.empty() ? kMostTolerance : std::clamp(0.05 * median_of(gaps), kLeastGap, kMostTolerance);
   std::vector<double> planes;
   for (FlatContour& contour : contours) {
     if (planes.empty() || contour.height - planes.back() > tolerance) {
@@ -232,9 +231,7 @@ class GridBuilder {
 
  private:
   int scan_axis(int axis) const { return (*axes_.scan_axes)[static_cast<std::size_t>(axis)]; }
-  Index scan_size(int axis) const {
-    return scan_->size[static_cast<std::size_t>(scan_axis(axis))];
-  }
+  Index scan_size(int axis) const { return scan_->size[static_cast<std::size_t>(scan_axis(axis))]; }
   /// Of a single plane.
   double thickness(double pixel) const {
     return axes_.scan_axes ? scan_->spacing[scan_axis(2)] : pixel;
@@ -305,9 +302,9 @@ void require_size(const std::filesystem::path& file, const VoxelGrid& grid,
   const double allowed = kMostPerByte * static_cast<double>(size_of(file)) +
                          (scan ? static_cast<double>(scan->voxel_count()) : 0.0);
   if (voxels <= allowed) return;
-  refuse(file, say("expected contours on at most ", kMostPerByte,
-                   " voxels per byte of the file, found ", grid.size[0], " x ", grid.size[1], " x ",
-                   grid.size[2], " voxels"));
+  refuse(file,
+         say("expected contours on at most ", kMostPerByte, " voxels per byte of the file, found ",
+             grid.size[0], " x ", grid.size[1], " x ", grid.size[2], " voxels"));
 }
 
 }  // namespace
@@ -315,7 +312,8 @@ void require_size(const std::filesystem::path& file, const VoxelGrid& grid,
 ContourGrid place_contours(const std::filesystem::path& file, const StructureSet& set,
                            const std::optional<VoxelGrid>& scan) {
   const Vec3 normal = main_normal(set);
-  if (!(norm(normal) > 0.5)) refuse(file, "expected contours with an inside, found lines and points");
+  if (!(norm(normal) > 0.5))
+    refuse(file, "expected contours with an inside, found lines and points");
   const PlaneAxes axes = axes_of(normal, scan);
   FlatContours flat = flatten(set, axes);
   drop_beyond(flat, axes, scan);
@@ -338,8 +336,9 @@ ContourGrid place_contours(const std::filesystem::path& file, const StructureSet
     out.contours[contour.region].push_back(std::move(placed));
   }
   if (flat.askew > 0) {
-    out.warnings.push_back(say(flat.askew, " contours left out that do not lie in the planes of the "
-                                           "others, across ",
+    out.warnings.push_back(say(flat.askew,
+                               " contours left out that do not lie in the planes of the "
+                               "others, across ",
                                axes.normal.x, " ", axes.normal.y, " ", axes.normal.z));
   }
   if (!step.even) {

@@ -32,11 +32,12 @@ struct ContourGrid {
 /// Finds the planes, and places the contours on a grid.
 ///
 /// The planes are those across the axis of the scan that most of the area lies across, with its
-/// pixels and no wider than the scan; without a scan, or where it lies askew, those of the contours,
-/// with pixels as long as their edges. The distance of the planes is the least distance of two
-/// contours that lie in different ones. There is one more plane at both ends.
+/// pixels and no wider than the scan; without a scan, or where it lies askew, those of the
+/// contours, with pixels as long as their edges. The distance of the planes is the least distance
+/// of two contours that lie in different ones. There is one more plane at both ends.
 /// @param scan  none: not known.
-/// @throws InputError  if no contour lies within the scan, or the grid has more than 8192 voxels per
+/// @throws InputError  if no contour lies within the scan, or the grid has more than 8192 voxels
+/// per
 ///                     byte of the file.
 ///
 /// O(points + contours), up to a logarithm.

@@ -31,8 +31,7 @@ class LayerBuilder {
   LayerBuilder(const SegFile& seg, LabelMap& map, MemoryBudget& budget)
       : seg_(seg),
         budget_(budget),
-        stack_(map, budget,
-               [&](std::size_t layers) { require_voxels(seg.file, map, layers); }) {}
+        stack_(map, budget, [&](std::size_t layers) { require_voxels(seg.file, map, layers); }) {}
 
   /// Sets the segment's layer.
   void add(Segment& segment, const std::vector<std::size_t>& frames) {

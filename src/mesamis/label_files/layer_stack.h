@@ -50,8 +50,9 @@ class LayerStack {
   std::string overlap_note() const {
     if (objects_ == 0) return {};
     return say(objects_, objects_ == 1 ? " object overlaps" : " objects overlap",
-               " others: each stays whole. The first is ", in_quotes(first_), " with ", first_voxels_,
-               first_voxels_ == 1 ? " voxel of " : " voxels of ", in_quotes(first_other_));
+               " others: each stays whole. The first is ", in_quotes(first_), " with ",
+               first_voxels_, first_voxels_ == 1 ? " voxel of " : " voxels of ",
+               in_quotes(first_other_));
   }
 
  private:
@@ -68,7 +69,8 @@ class LayerStack {
       }
     });
     const auto first = std::find_if(taken.begin(), taken.end(), [](auto n) { return n > 0; });
-    if (first != taken.end()) note(segment, static_cast<std::size_t>(first - taken.begin()), taken, by);
+    if (first != taken.end())
+      note(segment, static_cast<std::size_t>(first - taken.begin()), taken, by);
     return static_cast<std::size_t>(std::find(taken.begin(), taken.end(), 0u) - taken.begin());
   }
 

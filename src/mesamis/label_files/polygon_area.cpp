@@ -20,8 +20,8 @@ class SignedArea {
         rows_(static_cast<std::size_t>(window.rows)),
         sums_((columns_ + 2) * rows_) {}
 
-  /// Splits the edge where it crosses the left and the right end: left of the window it counts as if
-  /// it lay on its end, right of it nothing is left to count.
+  /// Splits the edge where it crosses the left and the right end: left of the window it counts as
+  /// if it lay on its end, right of it nothing is left to count.
   void add(PlanePoint p, PlanePoint q) {
     const double right = static_cast<double>(columns_);
     for (const double end : {0.0, right}) {

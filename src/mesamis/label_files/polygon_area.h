@@ -27,10 +27,10 @@ struct PixelWindow {
 /// @param plane  the result is cut off at it.
 PixelWindow window_of(std::span<const PlanePoint> polygon, const PixelWindow& plane);
 
-/// The share of each pixel's area that lies inside of a closed polygon, exact to rounding. Inside is
-/// where the winding number is not 0, which leaves open the hole of a polygon that goes around it in
-/// the other direction (keyhole); where the polygon overlaps itself within one pixel the share may be
-/// too large, up to 1.
+/// The share of each pixel's area that lies inside of a closed polygon, exact to rounding. Inside
+/// is where the winding number is not 0, which leaves open the hole of a polygon that goes around
+/// it in the other direction (keyhole); where the polygon overlaps itself within one pixel the
+/// share may be too large, up to 1.
 /// @param polygon  the last point is joined to the first.
 /// @return 0 to 1 for each pixel of the window, row by row.
 ///

@@ -158,6 +158,7 @@ std::vector<Inward> rows_inward(const VolumeView& volume, const VoxelMask& marke
 bool is_edge(const std::vector<Inward>& rows, float value, double range) {
   constexpr double kFar = 0.3, kClose = 0.5;  // of the range; of the step
   std::vector<float> second;
+  second.reserve(rows.size());
   for (const Inward& row : rows) second.push_back(row[1]);
   const auto q = quantiles(VolumeView{{}, second}, {0.05, 0.5, 0.95});
   const double step = std::abs(q[1] - static_cast<double>(value));

@@ -195,22 +195,11 @@ void set_scale(ScanFile& scan, const MetaHeader& header) {
   scan.source.intercept = offset;
 }
 
-/// The data files of a header that names several, one after the other.
-std::vector<std::filesystem::path> listed_files(const MetaHeader& header, const std::string& name,
-                                                bool allow_outside) {
-  const std::vector<std::string> names =
-      name.starts_with("LIST") ? header.listed : numbered_names(header.file, name);
-  if (names.empty()) refuse(header.file, "expected a list of data files, found an empty one");
-  std::vector<std::filesystem::path> files;
-  for (const std::string& one : names) files.push_back(data_path(header.file, one, allow_outside));
-  return files;
-}
-
 void find_data(ScanFile& scan, const MetaHeader& header, bool allow_outside) {
   SampleSource& source = scan.source;
   const std::string name = header.need("elementdatafile");
   if (name == "LIST" || name.starts_with("LIST ") || name.find('%') != std::string::npos) {
-    scan.parts = listed_files(header, name, allow_outside);
+    scan.parts = listed_paths(header.file, name, header.listed, allow_outside);
   }
   const bool local = lower(name) == "local";
   source.file = local                 ? header.file

@@ -404,22 +404,11 @@ std::uint64_t offset_behind_lines(const std::filesystem::path& file, std::uint64
   return offset;
 }
 
-/// The data files of a header that names several, one after the other.
-std::vector<std::filesystem::path> listed_files(const NrrdHeader& header, const std::string& name,
-                                                bool allow_outside) {
-  const std::vector<std::string> names =
-      name.starts_with("LIST") ? header.listed : numbered_names(header.file, name);
-  if (names.empty()) refuse(header.file, "expected a list of data files, found an empty one");
-  std::vector<std::filesystem::path> files;
-  for (const std::string& one : names) files.push_back(data_path(header.file, one, allow_outside));
-  return files;
-}
-
 void find_data(ScanFile& scan, const NrrdHeader& header, bool allow_outside) {
   SampleSource& source = scan.source;
   const std::string name = header.or_else("data file", "");
   if (name == "LIST" || name.starts_with("LIST ") || name.find('%') != std::string::npos) {
-    scan.parts = listed_files(header, name, allow_outside);
+    scan.parts = listed_paths(header.file, name, header.listed, allow_outside);
   }
   source.file = name.empty()          ? header.file
                 : !scan.parts.empty() ? scan.parts.front()

@@ -140,11 +140,10 @@ void set_origin(ScanFile& scan, const Vec3& origin);
 ///                     MemoryBudget::claim().
 std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget);
 
-/// Reads the samples of all values in double precision, which holds whole numbers to 2^53, and hands
-/// them to visit() block by block, in the order of the file. Memory: one block.
+/// Reads the samples of all values in double precision, which holds whole numbers to 2^53, and
+/// hands them to visit() block by block, in the order of the file. Memory: one block.
 /// @throws InputError  as read_samples(), and what visit() throws.
-void visit_samples(const ScanFile& scan,
-                   const std::function<void(std::span<const double>)>& visit);
+void visit_samples(const ScanFile& scan, const std::function<void(std::span<const double>)>& visit);
 
 /// Where the samples begin in source.file, in bytes, if they lie there as they are. The header is
 /// held against the size of the file; no sample is read.

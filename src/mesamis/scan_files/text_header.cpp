@@ -103,6 +103,16 @@ std::vector<std::string> numbered_names(const std::filesystem::path& file, std::
   return names;
 }
 
+std::vector<fs::path> listed_paths(const fs::path& header, std::string_view name,
+                                   const std::vector<std::string>& listed, bool allow_outside) {
+  const auto names = name.starts_with("LIST") ? listed : numbered_names(header, name);
+  if (names.empty()) refuse(header, "expected a list of data files, found an empty one");
+  std::vector<fs::path> paths;
+  paths.reserve(names.size());
+  for (const std::string& one : names) paths.push_back(data_path(header, one, allow_outside));
+  return paths;
+}
+
 std::vector<std::string> words_of(std::string_view text) {
   std::istringstream in{std::string(text)};
   std::vector<std::string> words;

@@ -46,6 +46,16 @@ std::filesystem::path data_path(const std::filesystem::path& header, const std::
 /// @throws InputError  for any other text, and for more than 100 000 names.
 std::vector<std::string> numbered_names(const std::filesystem::path& file, std::string_view text);
 
+/// Where the data files of a header are that names several, one after the other.
+/// @param header  the file.
+/// @param name    "LIST ...", or a pattern as numbered_names() takes it.
+/// @param listed  the lines that follow the header, for a LIST.
+/// @throws InputError  for no name at all, and as data_path() does.
+std::vector<std::filesystem::path> listed_paths(const std::filesystem::path& header,
+                                                std::string_view name,
+                                                const std::vector<std::string>& listed,
+                                                bool allow_outside);
+
 /// Words between white space.
 std::vector<std::string> words_of(std::string_view text);
 

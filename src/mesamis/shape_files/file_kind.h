@@ -15,9 +15,9 @@ enum class FileKind {
 };
 
 /// Tells what a file holds by its extension, in either case and without a final .gz: .stl .ply .obj
-/// .vtp .3mf .amf .glb .vtk are surfaces, .vtu .mesh are tetrahedra. Anything else, a directory with any
-/// name too, may be a scan; a file that begins like an Encapsulated STL or OBJ in DICOM is a
-/// surface.
+/// .vtp .3mf .amf .glb .vtk are surfaces, .vtu .mesh are tetrahedra. Anything else, a directory
+/// with any name too, may be a scan; a file that begins like an Encapsulated STL or OBJ in DICOM is
+/// a surface.
 /// @param path  need not exist.
 FileKind kind_of(const std::filesystem::path& path);
 
