@@ -206,6 +206,36 @@ TEST(LabelSurfaces, OverlappingLayersAreFoundEachByItself) {
               60);
 }
 
+/// The first ball in one layer and the second in another.
+LabelMap layered_labels(bool second_first) {
+  const LabelMap both = labels_of(1, 0);
+  LabelMap map = both;
+  map.layers.assign(2, std::vector<std::uint16_t>(both.layers[0].size(), 0));
+  const std::size_t of_second = second_first ? 0 : 1;
+  for (std::size_t n = 0; n < both.layers[0].size(); ++n) {
+    const std::uint16_t label = both.layers[0][n];
+    if (label > 0) map.layers[label == 2 ? of_second : 1 - of_second][n] = label;
+  }
+  map.segments[0].layer = static_cast<Index>(1 - of_second);
+  map.segments[1].layer = static_cast<Index>(of_second);
+  return map;
+}
+
+/// A run has one level, one window and one tolerance, whichever layer comes last.
+TEST(LabelSurfaces, DoNotDependOnTheOrderOfLayers) {
+  const LabelResult one = find_labelled_objects(usual_scan(), {layered_labels(false)}, {}),
+                    other = find_labelled_objects(usual_scan(), {layered_labels(true)}, {});
+  ASSERT_EQ(one.objects.size(), 2U);
+  ASSERT_EQ(other.objects.size(), 2U);
+  EXPECT_EQ(one.parameters.level, other.parameters.level);
+  EXPECT_DOUBLE_EQ(one.parameters.tolerance, other.parameters.tolerance);
+  EXPECT_EQ(one.parameters.blur, other.parameters.blur);
+  for (std::size_t n = 0; n < 2; ++n) {
+    EXPECT_EQ(one.objects[n].segment.name, other.objects[1 - n].segment.name);
+    EXPECT_EQ(one.objects[n].surface.points, other.objects[1 - n].surface.points);
+  }
+}
+
 TEST(LabelSurfaces, AreTheSameForAnyNumberOfThreads) {
   const LabelResult& one = objects_by_one_thread();
   const LabelResult two =

@@ -44,7 +44,7 @@ void deliver_surface(const RunInput& run, TriMesh extracted, Result& result) {
 }
 
 void deliver_loop(const RunInput& run, Loop loop, const Progress& progress, Result& result) {
-  (void)Stage(progress, "surface");
+  begin_stage(progress, "surface");
   const Parameters& p = run.parameters;
   const TetMesh& mesh = loop.state.mesh;
   Stopwatch watch;

@@ -30,7 +30,7 @@ Result mesh_beside_labels(const VolumeView& image, std::span<const Volume> label
                           const Settings& settings, const Progress& progress) {
   Stopwatch watch;
   Result result;
-  (void)Stage(progress, "preparation");
+  begin_stage(progress, "preparation");
   const Prepared prepared = prepare_image(image, settings);
   RunInput run(prepared);
   std::deque<Prepared> others;

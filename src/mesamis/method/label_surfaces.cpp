@@ -66,12 +66,12 @@ void bring_to_world(const VoxelGrid& grid, PartitionSurface& partition) {
   for (Triangle& t : partition.triangles) std::swap(t[1], t[2]);
 }
 
-/// Native units half way between what is chosen and what is not; nothing where they are alike.
-std::optional<double> level_between(const Volume& scan, std::span<const std::uint16_t> labels,
-                                    const std::vector<char>& chosen) {
+/// Native units half way between the voxels that are chosen and the others; nothing where they are
+/// alike.
+std::optional<double> level_between(const Volume& scan, const std::vector<char>& chosen) {
   std::vector<double> in, out;
-  for (std::size_t n = 0; n < labels.size(); ++n) {
-    (chosen[labels[n]] != 0 ? in : out).push_back(scan.samples[n]);
+  for (std::size_t n = 0; n < chosen.size(); ++n) {
+    (chosen[n] != 0 ? in : out).push_back(scan.samples[n]);
   }
   if (in.empty() || out.empty()) return std::nullopt;
   const double a = median(in), b = median(out);
@@ -110,6 +110,14 @@ CropRange range_of(const LabelBlock& block) {
   return range;
 }
 
+void append(const PartitionSurface& partition, TriMesh& all) {
+  const auto first = static_cast<Index>(all.points.size());
+  all.points.insert(all.points.end(), partition.points.begin(), partition.points.end());
+  for (const Triangle& t : partition.triangles) {
+    all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+}
+
 std::string name_of(const LabelMap& map, Index layer, Index label) {
   for (const Segment& s : map.segments) {
     if (s.layer == layer && s.label == label) return s.name;
@@ -117,250 +125,312 @@ std::string name_of(const LabelMap& map, Index layer, Index label) {
   return {};
 }
 
-/// The whole of a run on labels, with or without an image.
-class LabelRun {
- public:
-  LabelRun(const LabelRequest& request, const Settings& settings, const Progress& progress)
-      : settings_(settings),
-        progress_(progress),
-        labels_(request.map),
-        probabilities_(request.probabilities),
-        wants_mesh_(request.mesh && !settings.preview),
-        chosen_(request.chosen.empty() ? request.map.segments : request.chosen) {
-    require_chosen();
+/// A map of too many objects is no label map.
+void require_chosen(const std::vector<Segment>& chosen, const LabelMap& map) {
+  if (chosen.size() > kMostObjects) {
+    throw InputError("labels: expected at most " + std::to_string(kMostObjects) +
+                     " objects, found " + std::to_string(chosen.size()) + "; choose some of them");
   }
-
-  LabelResult with_image(const VolumeView& scan, double margin) {
-    Stopwatch all, watch;
-    (void)Stage(progress_, "preparation");
-    result_.has_image = true;
-    result_.margin = margin;
-    const LabelMap on_scan = labels_on(labels_, scan);
-    const LabelBlock block = clipped(require_block(on_scan, margin), scan);
-    const CropRange range = range_of(block);
-    const Volume part = crop(scan, range);
-    std::optional<Edges> edges;  // of a given level they are those of all layers
-    for (const Index layer : layers_of(chosen_)) {
-      const std::vector<char> marks = marks_of(chosen_, layer);
-      auto labels = labels_in(on_scan, layer, block);
-      if (!edges || !settings_.level) edges = find_edges(part, with_level(part, labels, marks));
-      result_.parameters = edges->prepared.parameters;
-      result_.parameters.preview = settings_.preview;
-      result_.parameters.min_volume = settings_.min_volume.value_or(0);
-      result_.parameters.crop = range;
-      result_.image = edges->prepared.measured;
-      result_.seconds.prepare += watch.lap();
-      place_by_image(layer, std::move(labels), marks, *edges, watch);
-    }
-    if (wants_mesh_) make_mesh(part, range);
-    result_.seconds.mesh = watch.lap();
-    result_.seconds.total = all.lap();
-    return std::move(result_);
-  }
-
-  LabelResult alone() {
-    Stopwatch all, watch;
-    (void)Stage(progress_, "preparation");
-    const LabelBlock block = require_block(labels_, 0);
-    const VoxelGrid grid = grid_of(labels_, block);
-    for (const Index layer : layers_of(chosen_)) {
-      const std::vector<char> marks = marks_of(chosen_, layer);
-      auto labels = labels_in(labels_, layer, block);
-      result_.seconds.prepare += watch.lap();
-      (void)Stage(progress_, "smoothing the labels");
-      const GridMemberships memberships = without_image(grid, labels);
-      result_.seconds.flow += watch.lap();
-      (void)Stage(progress_, "surface");
-      PartitionSurface partition = extract_partition_on_grid(memberships);
-      std::vector<BoundaryGuide> none(partition.points.size());
-      partition = only_chosen(partition, marks, none);
-      bring_to_world(grid, partition);
-      result_.seconds.surface += watch.lap();
-      finish(layer, std::move(partition), labels_.voxel_size(), nullptr);
-      result_.seconds.printable += watch.lap();
-    }
-    result_.seconds.total = all.lap();
-    return std::move(result_);
-  }
-
- private:
-  /// A map of too many objects is no label map.
-  void require_chosen() const {
-    if (chosen_.size() > kMostObjects) {
-      throw InputError("labels: expected at most " + std::to_string(kMostObjects) +
-                       " objects, found " + std::to_string(chosen_.size()) +
-                       "; choose some of them");
-    }
-    std::set<std::pair<Index, Index>> known, seen;
-    for (const Segment& s : labels_.segments) known.emplace(s.layer, s.label);
-    for (const Segment& s : chosen_) {
-      const std::pair key(s.layer, s.label);
-      if (known.count(key) == 0 || !seen.insert(key).second) {
-        throw InputError("labels: expected each chosen object once and of the map, found '" +
-                         s.name + "'" + (known.count(key) == 0 ? " of another" : " twice"));
-      }
+  std::set<std::pair<Index, Index>> known, seen;
+  for (const Segment& s : map.segments) known.emplace(s.layer, s.label);
+  for (const Segment& s : chosen) {
+    const std::pair key(s.layer, s.label);
+    if (known.count(key) == 0 || !seen.insert(key).second) {
+      throw InputError("labels: expected each chosen object once and of the map, found '" + s.name +
+                       "'" + (known.count(key) == 0 ? " of another" : " twice"));
     }
   }
+}
 
-  /// The settings with a level: the given one, or that between the chosen labels and the rest.
-  Settings with_level(const Volume& scan, std::span<const std::uint16_t> labels,
-                      const std::vector<char>& marks) const {
-    Settings settings = settings_;
-    if (!settings.level) settings.level = level_between(scan, labels, marks);
-    return settings;
+/// What the steps of a run on labels know.
+struct LabelRun {
+  const LabelRequest& request;
+  const Settings& settings;
+  const Progress& progress;
+  std::vector<Segment> chosen;
+  double margin = 0;  ///< mm
+
+  LabelRun(const LabelRequest& asked, const Settings& how, const Progress& tell)
+      : request(asked),
+        settings(how),
+        progress(tell),
+        chosen(asked.chosen.empty() ? asked.map.segments : asked.chosen) {
+    require_chosen(chosen, asked.map);
   }
-
-  LabelBlock require_block(const LabelMap& map, double room) const {
-    const auto block = block_around(map, chosen_, room);
-    if (block) return *block;
-    throw InputError("labels: expected voxels of " +
-                     (chosen_.size() == 1 ? "'" + chosen_.front().name + "'" : "chosen labels") +
-                     " within the grid, found none");
-  }
-
-  /// Where the boundaries are by the labels alone.
-  /// @param labels  of the grid; with probabilities they become those that win there.
-  GridMemberships without_image(const VoxelGrid& grid, std::vector<std::uint16_t>& labels) const {
-    if (probabilities_ == nullptr) return smooth_memberships({grid.size, grid.spacing, labels});
-    GridMemberships found = probable_memberships(*probabilities_, grid);
-    labels = winning_labels(found);
-    return found;
-  }
-
-  void place_by_image(Index layer, std::vector<std::uint16_t> labels,
-                      const std::vector<char>& marks, const Edges& edges, Stopwatch& watch) {
-    (void)Stage(progress_, "flow of the labels");
-    const Parameters& p = edges.prepared.parameters;
-    const VoxelGrid& voxels = edges.prepared.grey;
-    const GridMemberships smooth = without_image(voxels, labels);
-    const LabelGrid grid{voxels.size, voxels.spacing, labels};
-    const auto weight = label_confidence(grid, result_.margin);
-    const FlowOptions flow{p.functional.beta, p.functional.eta, p.unit_mm, kReach * result_.margin};
-    FlowReport solved;
-    const GridMemberships memberships =
-        flow_memberships(grid, {smooth, weight, edges.v}, flow, &solved);
-    result_.flow_converged &= solved.solver_converged;
-    if (wants_mesh_) images_.push_back(label_image(memberships, edges.prepared.grey));
-    result_.seconds.flow += watch.lap();
-    (void)Stage(progress_, "surface");
-    const RunInput run(edges.prepared);
-    PartitionSurface partition = extract_partition_on_grid(memberships);
-    const auto pairs = measure_pair_levels(partition, run.image);
-    record_boundaries(layer, pairs, marks, run);
-    auto guides = guides_of_points(partition, pairs, run.error.noise);
-    partition = only_chosen(partition, marks, guides);
-    if (settings_.follow) {
-      partition = follow_image(std::move(partition), run.image, guides, run.error.noise);
-    }
-    bring_to_world(run.grey, partition);
-    result_.seconds.surface += watch.lap();
-    finish(layer, std::move(partition), run.grey.voxel_size(), &run);
-    result_.seconds.printable += watch.lap();
-  }
-
-  void make_mesh(const Volume& part, const CropRange& range) {
-    Settings settings = settings_;
-    settings.crop = {};
-    settings.level = result_.parameters.level;
-    settings.surface = SurfaceKind::kSolid;
-    result_.mesh = mesh_beside_labels(part, images_, settings, progress_);
-    result_.mesh->parameters.crop = range;
-  }
-
-  void record_boundaries(Index layer, const std::vector<PairLevel>& pairs,
-                         const std::vector<char>& marks, const RunInput& run) {
-    const GreyMap& grey = run.parameters.grey;
-    for (const PairLevel& pair : pairs) {
-      if (marks[static_cast<std::size_t>(pair.sides[0])] == 0 &&
-          marks[static_cast<std::size_t>(pair.sides[1])] == 0) {
-        continue;
-      }
-      result_.boundaries.push_back(
-          {name_of(labels_, layer, pair.sides[0]), name_of(labels_, layer, pair.sides[1]),
-           grey.to_native(pair.level), pair.contrast / grey.grey_per_native(),
-           settings_.follow && shows_edge(pair, run.error.noise)});
-    }
-  }
-
-  /// Decimation, and a surface for each object.
-  /// @param voxel  mm: of the scan, or of the labels.
-  void finish(Index layer, PartitionSurface partition, double voxel, const RunInput* run) {
-    std::map<Index, std::int64_t> extracted;
-    for (const auto& sides : partition.sides) {
-      for (const Index side : sides) ++extracted[side];
-    }
-    decimate(partition, voxel, run);
-    std::vector<Index> labels;
-    for (const Segment& segment : chosen_) {
-      if (segment.layer == layer) labels.push_back(segment.label);
-    }
-    std::vector<TriMesh> surfaces = object_surfaces(partition, labels);
-    auto surface = surfaces.begin();
-    for (const Segment& segment : chosen_) {
-      if (segment.layer != layer) continue;
-      LabelledObject object{segment, selected(std::move(*surface++)), {}, extracted[segment.label]};
-      if (object.surface.triangles.empty()) continue;
-      if (run != nullptr) {
-        ErrorOptions delivered = run->error;
-        delivered.decimated = decimated_;
-        object.expected_error = expected_error(object.surface, run->image, delivered);
-      }
-      result_.objects.push_back(std::move(object));
-    }
-  }
-
-  void decimate(PartitionSurface& partition, double voxel, const RunInput* run) {
-    Parameters& p = result_.parameters;
-    decimated_ = 0;
-    p.tolerance = settings_.tolerance.value_or(default_tolerance_of(partition, voxel, run));
-    p.triangles = settings_.triangles.value_or(0);
-    if (p.tolerance == 0 || partition.triangles.empty()) return;
-    (void)Stage(progress_, "decimation");
-    std::vector<Vec3> rounded = round_together(partition.points);
-    double shift = 0;
-    for (std::size_t n = 0; n < rounded.size(); ++n) {
-      shift = std::max(shift, norm(rounded[n] - partition.points[n]));
-    }
-    partition.points = std::move(rounded);
-    DecimateOptions options;
-    options.tolerance = std::max(0.0, p.tolerance - shift);
-    options.triangles = p.triangles;
-    options.progress = progress_;
-    options.quick = settings_.preview && std::isfinite(options.tolerance);
-    DecimateReport report;
-    partition = decimate_partition(partition, options, &report);
-    decimated_ = shift + std::max(report.original_to_result, report.result_to_original);
-    result_.decimated = std::max(result_.decimated, decimated_);
-  }
-
-  double default_tolerance_of(const PartitionSurface& partition, double voxel,
-                              const RunInput* run) const {
-    if (settings_.triangles) return std::numeric_limits<double>::infinity();
-    if (run == nullptr) return kToleranceOfLabels * voxel;
-    const TriMesh all{partition.points, partition.triangles};
-    const double error = mean_expected_error(*run, all);
-    return default_tolerance(voxel, error, settings_.accuracy.value_or(0));
-  }
-
-  /// The parts that the settings leave; unless they say so, all of them.
-  TriMesh selected(TriMesh surface) const {
-    const PartSelection wanted{settings_.min_volume.value_or(0), settings_.keep_largest,
-                               settings_.fill_cavities};
-    const bool all = wanted.volume_min == 0 && wanted.keep_largest == 0 && !wanted.fill_cavities;
-    if (all || surface.triangles.empty()) return surface;
-    return select_parts(surface, wanted);
-  }
-
-  const Settings& settings_;
-  const Progress& progress_;
-  const LabelMap& labels_;
-  const Probabilities* probabilities_;  // or null
-  bool wants_mesh_;
-  std::vector<Segment> chosen_;
-  std::vector<Volume> images_;  // of the layers, for the mesh
-  double decimated_ = 0;        // of the present layer, mm
-  LabelResult result_;
+  bool makes_mesh() const { return request.mesh && !settings.preview; }
+  void begin(const char* stage) const { begin_stage(progress, stage); }
 };
+
+LabelBlock require_block(const LabelRun& run, const LabelMap& map) {
+  const auto block = block_around(map, run.chosen, run.margin);
+  if (block) return *block;
+  throw InputError("labels: expected voxels of " +
+                   (run.chosen.size() == 1 ? "'" + run.chosen.front().name + "'"
+                                           : std::string("chosen labels")) +
+                   " within the grid, found none");
+}
+
+/// The boundaries of the chosen objects of a layer, which have not been decimated.
+struct LayerBoundaries {
+  Index layer = 0;
+  PartitionSurface partition;  ///< world frame, mm; material 0 is whatever is not chosen
+  std::vector<LabelBoundary> boundaries{};
+  std::optional<Volume> image{};  ///< label_image(), for the mesh
+  bool converged = true;
+};
+
+/// Where the boundaries are by the labels alone.
+/// @param labels  of the grid; with probabilities they become those that win there.
+GridMemberships without_image(const LabelRun& run, const VoxelGrid& grid,
+                              std::vector<std::uint16_t>& labels) {
+  const Probabilities* probabilities = run.request.probabilities;
+  if (probabilities == nullptr) return smooth_memberships({grid.size, grid.spacing, labels});
+  GridMemberships found = probable_memberships(*probabilities, grid);
+  labels = winning_labels(found);
+  return found;
+}
+
+/// The settings with a level: the given one, or that between the voxels of all chosen labels and
+/// the rest.
+Settings with_level(const LabelRun& run, const Volume& part, const LabelMap& map,
+                    const LabelBlock& block) {
+  Settings settings = run.settings;
+  if (settings.level) return settings;
+  std::vector<char> chosen(part.samples.size(), 0);
+  for (const Index layer : layers_of(run.chosen)) {
+    const std::vector<char> marks = marks_of(run.chosen, layer);
+    const auto labels = labels_in(map, layer, block);
+    for (std::size_t n = 0; n < chosen.size(); ++n) chosen[n] |= marks[labels[n]];
+  }
+  settings.level = level_between(part, chosen);
+  return settings;
+}
+
+std::vector<LabelBoundary> boundaries_of(const LabelRun& run, Index layer,
+                                         const std::vector<PairLevel>& pairs,
+                                         const RunInput& input) {
+  const GreyMap& grey = input.parameters.grey;
+  const LabelMap& map = run.request.map;
+  const std::vector<char> marks = marks_of(run.chosen, layer);
+  std::vector<LabelBoundary> found;
+  for (const PairLevel& pair : pairs) {
+    const auto [one, other] = pair.sides;
+    if (marks[static_cast<std::size_t>(one)] == 0 && marks[static_cast<std::size_t>(other)] == 0) {
+      continue;
+    }
+    found.push_back({name_of(map, layer, one), name_of(map, layer, other),
+                     grey.to_native(pair.level), pair.contrast / grey.grey_per_native(),
+                     run.settings.follow && shows_edge(pair, input.error.noise)});
+  }
+  return found;
+}
+
+/// The labels flow to the edges of the image; the boundaries between them follow the image.
+LayerBoundaries place_by_image(const LabelRun& run, Index layer, std::vector<std::uint16_t> labels,
+                               const Edges& edges, LabelResult::Seconds& seconds) {
+  Stopwatch watch;
+  run.begin("flow of the labels");
+  LayerBoundaries found{layer, {}};
+  const Parameters& p = edges.prepared.parameters;
+  const VoxelGrid& voxels = edges.prepared.grey;
+  const GridMemberships smooth = without_image(run, voxels, labels);
+  const LabelGrid grid{voxels.size, voxels.spacing, labels};
+  const auto weight = label_confidence(grid, run.margin);
+  const FlowOptions flow{p.functional.beta, p.functional.eta, p.unit_mm, kReach * run.margin};
+  FlowReport solved;
+  const GridMemberships memberships =
+      flow_memberships(grid, {smooth, weight, edges.v}, flow, &solved);
+  found.converged = solved.solver_converged;
+  if (run.makes_mesh()) found.image = label_image(memberships, edges.prepared.grey);
+  seconds.flow += watch.lap();
+  run.begin("surface");
+  const RunInput input(edges.prepared);
+  found.partition = extract_partition_on_grid(memberships);
+  const auto pairs = measure_pair_levels(found.partition, input.image);
+  found.boundaries = boundaries_of(run, layer, pairs, input);
+  auto guides = guides_of_points(found.partition, pairs, input.error.noise);
+  found.partition = only_chosen(found.partition, marks_of(run.chosen, layer), guides);
+  if (run.settings.follow) {
+    found.partition =
+        follow_image(std::move(found.partition), input.image, guides, input.error.noise);
+  }
+  bring_to_world(input.grey, found.partition);
+  seconds.surface += watch.lap();
+  return found;
+}
+
+LayerBoundaries place_by_labels(const LabelRun& run, Index layer, const LabelBlock& block,
+                                LabelResult::Seconds& seconds) {
+  Stopwatch watch;
+  const LabelMap& map = run.request.map;
+  const VoxelGrid grid = grid_of(map, block);
+  auto labels = labels_in(map, layer, block);
+  run.begin("smoothing the labels");
+  const GridMemberships memberships = without_image(run, grid, labels);
+  seconds.flow += watch.lap();
+  run.begin("surface");
+  PartitionSurface partition = extract_partition_on_grid(memberships);
+  std::vector<BoundaryGuide> none(partition.points.size());
+  partition = only_chosen(partition, marks_of(run.chosen, layer), none);
+  bring_to_world(grid, partition);
+  seconds.surface += watch.lap();
+  return {layer, std::move(partition)};
+}
+
+/// The tolerance of all layers where the settings leave it open: as exact as the image shows the
+/// boundaries in the mean, or as labels can be.
+/// @param input  of the image; nullptr: none.
+double choose_tolerance(const LabelRun& run, const std::vector<LayerBoundaries>& layers,
+                        const RunInput* input) {
+  const Settings& settings = run.settings;
+  if (settings.tolerance) return *settings.tolerance;
+  if (settings.triangles) return std::numeric_limits<double>::infinity();
+  if (input == nullptr) return kToleranceOfLabels * run.request.map.voxel_size();
+  TriMesh all;
+  for (const LayerBoundaries& layer : layers) append(layer.partition, all);
+  return default_tolerance(input->grey.voxel_size(), mean_expected_error(*input, all),
+                           settings.accuracy.value_or(0));
+}
+
+/// Decimates what objects share in one.
+/// @return how far boundaries were moved at most, mm.
+double decimate(const LabelRun& run, const Parameters& p, PartitionSurface& partition) {
+  if (p.tolerance == 0 || partition.triangles.empty()) return 0;
+  run.begin("decimation");
+  std::vector<Vec3> rounded = round_together(partition.points);
+  double shift = 0;
+  for (std::size_t n = 0; n < rounded.size(); ++n) {
+    shift = std::max(shift, norm(rounded[n] - partition.points[n]));
+  }
+  partition.points = std::move(rounded);
+  DecimateOptions options;
+  options.tolerance = std::max(0.0, p.tolerance - shift);
+  options.triangles = p.triangles;
+  options.progress = run.progress;
+  options.quick = run.settings.preview && std::isfinite(options.tolerance);
+  DecimateReport report;
+  partition = decimate_partition(partition, options, &report);
+  return shift + std::max(report.original_to_result, report.result_to_original);
+}
+
+/// The parts that the settings leave; unless they say so, all of them.
+TriMesh selected(const Settings& settings, TriMesh surface) {
+  const PartSelection wanted{settings.min_volume.value_or(0), settings.keep_largest,
+                             settings.fill_cavities};
+  const bool all = wanted.volume_min == 0 && wanted.keep_largest == 0 && !wanted.fill_cavities;
+  if (all || surface.triangles.empty()) return surface;
+  return select_parts(surface, wanted);
+}
+
+/// Decimates the boundaries of a layer, and makes a surface for each of its objects.
+void finish_layer(const LabelRun& run, LayerBoundaries layer, const RunInput* input,
+                  LabelResult& result) {
+  std::map<Index, std::int64_t> extracted;
+  for (const auto& sides : layer.partition.sides) {
+    for (const Index side : sides) ++extracted[side];
+  }
+  const double decimated = decimate(run, result.parameters, layer.partition);
+  result.decimated = std::max(result.decimated, decimated);
+  std::vector<Segment> segments;
+  std::vector<Index> labels;
+  for (const Segment& segment : run.chosen) {
+    if (segment.layer != layer.layer) continue;
+    segments.push_back(segment);
+    labels.push_back(segment.label);
+  }
+  std::vector<TriMesh> surfaces = object_surfaces(layer.partition, labels);
+  for (std::size_t n = 0; n < segments.size(); ++n) {
+    LabelledObject object{
+        segments[n], selected(run.settings, std::move(surfaces[n])), {}, extracted[labels[n]]};
+    if (object.surface.triangles.empty()) continue;
+    if (input != nullptr) {
+      ErrorOptions delivered = input->error;
+      delivered.decimated = decimated;
+      object.expected_error = expected_error(object.surface, input->image, delivered);
+    }
+    result.objects.push_back(std::move(object));
+  }
+}
+
+/// What is chosen for all layers, before any of them.
+Parameters parameters_of(const LabelRun& run, const Prepared& prepared, const CropRange& range) {
+  Parameters p = prepared.parameters;
+  p.preview = run.settings.preview;
+  p.min_volume = run.settings.min_volume.value_or(0);
+  p.crop = range;
+  return p;
+}
+
+void finish_layers(const LabelRun& run, std::vector<LayerBoundaries> layers, const RunInput* input,
+                   LabelResult& result) {
+  Stopwatch watch;
+  result.parameters.tolerance = choose_tolerance(run, layers, input);
+  result.parameters.triangles = run.settings.triangles.value_or(0);
+  for (LayerBoundaries& layer : layers) {
+    result.flow_converged &= layer.converged;
+    result.boundaries.insert(result.boundaries.end(), layer.boundaries.begin(),
+                             layer.boundaries.end());
+    finish_layer(run, std::move(layer), input, result);
+  }
+  result.seconds.printable = watch.lap();
+}
+
+/// Around the chosen labels, adapted to the image and to the labels of all layers.
+Result mesh_of(const LabelRun& run, const Volume& part, std::vector<LayerBoundaries>& layers,
+               const Parameters& p) {
+  std::vector<Volume> images;
+  for (LayerBoundaries& layer : layers) images.push_back(std::move(*layer.image));
+  Settings settings = run.settings;
+  settings.crop = {};
+  settings.level = p.level;
+  settings.surface = SurfaceKind::kSolid;
+  Result mesh = mesh_beside_labels(part, images, settings, run.progress);
+  mesh.parameters.crop = p.crop;
+  return mesh;
+}
+
+LabelResult with_image(const LabelRun& run, const VolumeView& scan) {
+  Stopwatch all, watch;
+  run.begin("preparation");
+  LabelResult result;
+  result.has_image = true;
+  result.margin = run.margin;
+  const LabelMap on_scan = labels_on(run.request.map, scan);
+  const LabelBlock block = clipped(require_block(run, on_scan), scan);
+  const CropRange range = range_of(block);
+  const Volume part = crop(scan, range);
+  const Edges edges = find_edges(part, with_level(run, part, on_scan, block));
+  const RunInput input(edges.prepared);
+  result.parameters = parameters_of(run, edges.prepared, range);
+  result.image = edges.prepared.measured;
+  result.seconds.prepare = watch.lap();
+  std::vector<LayerBoundaries> layers;
+  for (const Index layer : layers_of(run.chosen)) {
+    layers.push_back(
+        place_by_image(run, layer, labels_in(on_scan, layer, block), edges, result.seconds));
+  }
+  watch.lap();
+  if (run.makes_mesh()) result.mesh = mesh_of(run, part, layers, result.parameters);
+  result.seconds.mesh = watch.lap();
+  finish_layers(run, std::move(layers), &input, result);
+  result.seconds.total = all.lap();
+  return result;
+}
+
+LabelResult by_labels(const LabelRun& run) {
+  Stopwatch all;
+  run.begin("preparation");
+  LabelResult result;
+  const LabelBlock block = require_block(run, run.request.map);
+  result.seconds.prepare = all.lap();
+  std::vector<LayerBoundaries> layers;
+  for (const Index layer : layers_of(run.chosen)) {
+    layers.push_back(place_by_labels(run, layer, block, result.seconds));
+  }
+  finish_layers(run, std::move(layers), nullptr, result);
+  result.seconds.total = result.seconds.prepare + all.lap();
+  return result;
+}
 
 }  // namespace
 
@@ -379,13 +449,15 @@ LabelResult find_labelled_objects(const VolumeView& scan, const LabelRequest& re
                      std::to_string(kMostMargin * scan.voxel_size()) + " mm, found " +
                      std::to_string(margin));
   }
-  return LabelRun(request, settings, progress).with_image(scan, margin);
+  LabelRun run(request, settings, progress);
+  run.margin = margin;
+  return with_image(run, scan);
 }
 
 LabelResult surfaces_of_labels(const LabelRequest& request, const Settings& settings,
                                const Progress& progress) {
   require_valid(request.map);
-  return LabelRun(request, settings, progress).alone();
+  return by_labels({request, settings, progress});
 }
 
 }  // namespace mesamis

@@ -27,7 +27,7 @@ void run_preview(const RunInput& run, const Progress& progress, Result& result) 
   const Stage first(progress, "preview, on the voxel grid");
   TriMesh extracted = preview_surface({run, 1, first, result.iterations.emplace_back()});
   result.converged = result.iterations.back().amis.solver_converged;
-  (void)Stage(progress, "surface");
+  begin_stage(progress, "surface");
   deliver_surface(run, std::move(extracted), result);
 }
 
@@ -41,7 +41,7 @@ Result run_on(const VolumeView& volume, const Settings& settings, const Progress
   Stopwatch watch;
   Result result;
   Parameters& p = result.parameters;
-  (void)Stage(progress, "preparation");
+  begin_stage(progress, "preparation");
   const Prepared prepared = prepare_image(volume, settings);
   p = prepared.parameters;
   result.image = prepared.measured;

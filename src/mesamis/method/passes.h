@@ -41,6 +41,12 @@ class Stage {
   std::string name_;
 };
 
+/// Tells that a stage begins whose share done is not told.
+/// @throws Cancelled  if progress says stop.
+inline void begin_stage(const Progress& progress, std::string_view name) {
+  if (progress && !progress(name, 0)) throw Cancelled();
+}
+
 /// What all passes of a run share.
 struct RunInput {
   const Parameters& parameters;
