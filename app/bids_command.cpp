@@ -62,7 +62,7 @@ nlohmann::ordered_json asked_of(const BidsArguments& a) {
           {"formats", a.formats},
           {"tetrahedra", a.tetrahedra},
           {"dseg", a.dseg},
-          {"error", a.segment.error},
+          {"error", a.segment.out.error},
           {"frame", a.segment.scan.frame == Frame::kRas ? "ras" : "lps"}};
 }
 
@@ -74,11 +74,11 @@ SegmentOptions options_for(const BidsArguments& a, const BidsImage& image) {
   };
   SegmentOptions s = a.segment;
   s.scan.input = image.path;
-  for (const std::string& format : a.formats) s.surfaces.push_back(made("mesh." + format));
-  if (a.tetrahedra) s.meshes = {made("mesh.vtu")};
-  if (a.dseg) s.labelmap = made("dseg.nii.gz");
-  s.report = made("mesh.json");
-  s.name = s.report.stem().string();
+  for (const std::string& format : a.formats) s.out.surfaces.push_back(made("mesh." + format));
+  if (a.tetrahedra) s.out.meshes = {made("mesh.vtu")};
+  if (a.dseg) s.out.labelmap = made("dseg.nii.gz");
+  s.out.report = made("mesh.json");
+  s.out.name = s.out.report.stem().string();
   s.report_also = {{"Sources", {uri_of(image)}}, {"bids", asked_of(a)}};
   return s;
 }
@@ -101,13 +101,13 @@ int status_in(const nlohmann::json& report) {
 /// The exit status of this very run if it has been made: by this program, with these settings, of
 /// this image.
 std::optional<int> made_before(const SegmentOptions& s) {
-  if (!fs::exists(s.report)) return {};
+  if (!fs::exists(s.out.report)) return {};
   try {
-    const nlohmann::json report = read_json(s.report);
+    const nlohmann::json report = read_json(s.out.report);
     const bool is_made = report.at("program") == nlohmann::json(program_json()) &&
                          report.at("bids") == nlohmann::json(s.report_also.at("bids")) &&
                          report.at("input").at("sha256") == sha256(s.scan.input) &&
-                         has_files(report, s.report.parent_path());
+                         has_files(report, s.out.report.parent_path());
     return is_made ? std::optional(status_in(report)) : std::nullopt;
   } catch (const InputError&) {
     return {};
@@ -127,7 +127,7 @@ void remove_empty(const fs::path& out, fs::path folder) {
 
 int segment_image(const BidsArguments& a, const SegmentOptions& options,
                   const CommonOptions& common) {
-  const fs::path folder = options.report.parent_path();
+  const fs::path folder = options.out.report.parent_path();
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError(folder.string() + ": " + error.message());
@@ -151,7 +151,7 @@ int worse(int a, int b) {
 void require_different(const BidsArguments& a, const std::vector<BidsImage>& images) {
   std::map<fs::path, std::string> names;
   for (const BidsImage& image : images) {
-    const auto [first, is_new] = names.emplace(options_for(a, image).report, image.name);
+    const auto [first, is_new] = names.emplace(options_for(a, image).out.report, image.name);
     if (is_new) continue;
     throw InputError(image.name + ": expected files of another name than those of " +
                      first->second +
@@ -176,8 +176,8 @@ int run_images(const BidsArguments& a, const std::vector<BidsImage>& images,
     const int one =
         run_action([&] { return segment_image(a, options, common); }, image.path.string());
     if (noted_interrupt() != 0) break;
-    if (one != kExitDone) remove_empty(a.out, options.report.parent_path());
-    made += fs::exists(options.report) && one != kExitInput && one != kExitUsage ? 1 : 0;
+    if (one != kExitDone) remove_empty(a.out, options.out.report.parent_path());
+    made += fs::exists(options.out.report) && one != kExitInput && one != kExitUsage ? 1 : 0;
     status = worse(status, one);
   }
   log_info(fmt::format("{} images: {} segmented, {} kept, {} failed", images.size(), made, kept,
@@ -203,7 +203,7 @@ void require_arguments(const BidsArguments& a) {
   if (fs::equivalent(a.dataset, a.out, error)) {
     throw CLI::ValidationError("output", "expected another folder than the dataset, found it");
   }
-  if (a.segment.error &&
+  if (a.segment.out.error &&
       std::none_of(a.formats.begin(), a.formats.end(),
                    [](const std::string& format) { return carries_arrays("x." + format); })) {
     throw CLI::ValidationError("--error", "expected vtp or ply among --format, found none");
@@ -251,7 +251,7 @@ void add_made_options(CLI::App& c, BidsArguments& a) {
       ->check(CLI::IsMember(format_names()));
   c.add_flag("--tetrahedra", a.tetrahedra, "Also the adapted mesh: _mesh.vtu");
   c.add_flag("--dseg", a.dseg, "Also what was found, voxel by voxel: _dseg.nii.gz");
-  c.add_flag("--error", a.segment.error, "The error expected at each point, in vtp and ply");
+  c.add_flag("--error", a.segment.out.error, "The error expected at each point, in vtp and ply");
   PlaceArguments& places = a.segment.scan.places;
   c.add_option("--tissue", places.tissue, "What is meant, in native units, as of segment");
   c.add_flag("--keep-surroundings", places.keep_surroundings,

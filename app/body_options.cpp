@@ -7,15 +7,12 @@
 #include <utility>
 
 #include "arguments.h"
-#include "commands.h"
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/written_number.h"
 #include "mesamis/delivery/body_request.h"
-#include "mesamis/delivery/filled_objects.h"
 #include "mesamis/material/density.h"
 #include "mesamis/material/material_law.h"
-#include "mesamis/shape_files/element_files.h"
 #include "outputs.h"
 
 namespace mesamis {
@@ -116,10 +113,25 @@ void require_masters(const BodyArguments& a) {
   }
 }
 
+BodyWishes body_wishes(const BodyArguments& a, Frame frame) {
+  BodyWishes wishes;
+  wishes.elements = a.options;
+  wishes.elements.quadratic = a.element == "tet10";
+  wishes.tolerance = a.skin_tolerance;
+  wishes.rim = a.rim;
+  if (!a.material.empty()) wishes.material = material_options(a);
+  for (const std::string& set : a.sets) {
+    wishes.sets.push_back(parsed("--set", [&] { return in_lps(parse_face_query(set), frame); }));
+  }
+  return wishes;
+}
+
 /// One line per object whose surface is not all that meshers were promised.
-void warn_of_unmet(const ElementResults& results, const std::vector<FoundObject>& objects) {
-  for (std::size_t n = 0; n < results.quality.size(); ++n) {
-    const std::string missed = unmet(results.quality[n]);
+void warn_of_skins(const Outcome& outcome) {
+  const auto& quality = outcome.elements.quality;
+  const std::vector<FoundObject> objects = outcome.objects();
+  for (std::size_t n = 0; n < quality.size(); ++n) {
+    const std::string missed = unmet(quality[n]);
     if (missed.empty()) continue;
     const std::string of = objects.size() > 1 ? "'" + objects[n].segment.name + "': " : "";
     log_warning(std::string("--surface-quality: ").append(of).append(missed));
@@ -177,69 +189,22 @@ void require_elements_for(const BodyArguments& a, const Settings& settings) {
   parsed(option, [&] { require_fillable(settings, a.skin_tolerance); });
 }
 
-BodyWishes body_wishes(const BodyArguments& a, Frame frame) {
-  BodyWishes wishes;
-  wishes.elements = a.options;
-  wishes.elements.quadratic = a.element == "tet10";
-  wishes.tolerance = a.skin_tolerance;
-  wishes.rim = a.rim;
-  if (!a.material.empty()) wishes.material = material_options(a);
-  for (const std::string& set : a.sets) {
-    wishes.sets.push_back(parsed("--set", [&] { return in_lps(parse_face_query(set), frame); }));
-  }
-  return wishes;
+ElementRequest element_request(const BodyArguments& a, Frame frame, double memory_gb) {
+  if (!a.elements()) return {};
+  return {body_wishes(a, frame), a.given(), a.meshing(), memory_gb};
 }
 
-ElementResults make_elements(const BodyArguments& a, const ElementSource& source,
-                             const RunContext& run) {
-  ElementResults results;
-  if (!a.elements()) return results;
-  const BodyRequest request = complete_request(
-      body_wishes(a, source.frame), source.objects,
-      {source.grid, run.settings.tolerance, source.blur, run.common.limits.memory_gb});
-  BodyOptions options = request.elements;
-  options.progress = run.display.callback();
-  options.skins = a.meshing();
-  FilledObjects filled = fill_objects(source.objects, source.grid, options);
-  results.surfaces = std::move(filled.skins);
-  for (std::size_t n = 0; n < results.surfaces.size(); ++n) {
-    results.quality.push_back(meshing_quality(results.surfaces[n], source.objects[n].surface,
-                                              request.elements.tolerance));
-  }
-  warn_of_unmet(results, source.objects);
-  if (a.given()) {
-    results.body = make_body_output(std::move(filled.body), source.objects, source.scan, request);
-    results.unmet = unmet(*results.body);
-    const std::string loose = loose_parts(results.body->facts.parts, std::ssize(source.objects));
-    if (!loose.empty()) log_warning("--body: " + loose);
-  }
-  return results;
-}
-
-void take_surface(TriMesh&& of_elements, TriMesh& surface, std::vector<double>& errors) {
-  if (!errors.empty()) errors = carried_errors(surface, errors, of_elements.points);
-  surface = std::move(of_elements);
-}
-
-int status_with(const ElementResults& elements, int status) {
-  if (elements.unmet.empty()) return status;
-  log_error("--body: " + elements.unmet);
-  return status == kExitDone ? kExitNotConverged : status;
-}
-
-void write_bodies(const BodyArguments& a, const BodyOutput& body, Frame frame) {
-  ElementWriteOptions options;
-  options.frame = frame;
-  options.gmsh = a.gmsh == "4.1" ? GmshVersion::k41 : GmshVersion::k22;
-  const bool bare = options.gmsh == GmshVersion::k22 && !body.elements.sets.empty() &&
-                    !body.elements.materials.empty();
+void warn_of_elements(const BodyArguments& a, const Outcome& outcome) {
+  warn_of_skins(outcome);
+  if (!outcome.elements.body) return;
+  if (!outcome.elements.loose.empty()) log_warning("--body: " + outcome.elements.loose);
+  const FiniteElements& body = outcome.elements.body->elements;
+  const bool bare = a.gmsh == "2.2" && !body.sets.empty() && !body.materials.empty();
   for (const fs::path& path : a.files) {
-    if (bare && lower_extension(path) == ".msh") {
-      log_warning("--body " + path.string() +
-                  ": version 2.2 with --set has no values of the elements; --gmsh-version 4.1 and "
-                  ".vtu have them");
-    }
-    write_elements(path, body.elements, options);
+    if (!bare || lower_extension(path) != ".msh") continue;
+    log_warning("--body " + path.string() +
+                ": version 2.2 with --set has no values of the elements; --gmsh-version 4.1 and "
+                ".vtu have them");
   }
 }
 

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "commands.h"
 #include "mesamis/base/frame.h"
-#include "mesamis/delivery/body_output.h"
 #include "mesamis/delivery/body_request.h"
-#include "mesamis/delivery/meshing_surface.h"
 #include "mesamis/method/settings.h"
-#include "progress.h"
+#include "mesamis/run/outcome.h"
 
 namespace CLI {
 class App;
@@ -54,51 +50,12 @@ void require_body(const BodyArguments& arguments);
 ///                               tolerance for a skin.
 void require_elements_for(const BodyArguments& arguments, const Settings& settings);
 
-/// What the arguments ask for.
+/// What elements a run is asked for.
 /// @param frame  that places and directions of sets are written in.
 /// @throws CLI::ValidationError  as the parsers.
-BodyWishes body_wishes(const BodyArguments& arguments, Frame frame);
+ElementRequest element_request(const BodyArguments& arguments, Frame frame, double memory_gb);
 
-/// What a run hands on to those who deliver its results.
-struct RunContext {
-  const Settings& settings;  ///< as they were asked for
-  const CommonOptions& common;
-  ProgressDisplay& display;
-};
-
-/// The objects whose elements are wanted, and where they lie.
-struct ElementSource {
-  const std::vector<FoundObject>& objects;
-  const VoxelGrid& grid;         ///< that they were found on
-  const Volume& scan;            ///< on the same grid; read for --body only
-  Frame frame = Frame::kLps;     ///< that sets are written in
-  std::array<double, 3> blur{};  ///< of the scan, standard deviation along each axis, voxels
-};
-
-/// What the elements of objects are asked for.
-struct ElementResults {
-  std::optional<BodyOutput> body;       ///< of --body
-  std::string unmet;                    ///< what the body misses, see unmet(); empty: nothing
-  std::vector<TriMesh> surfaces;        ///< of --surface-quality meshing, one per object
-  std::vector<MeshingQuality> quality;  ///< of these surfaces; logged where a promise was missed
-};
-
-/// Fills objects with elements once, for all that is asked for; nothing if nothing is.
-/// @throws InputError  as complete_request(), fill_objects() and make_body_output().
-/// @throws Cancelled   if progress says stop.
-ElementResults make_elements(const BodyArguments& arguments, const ElementSource& source,
-                             const RunContext& run);
-
-/// Puts the surface of elements in the place of the one that they were made for.
-/// @param errors  that are expected at the points of the surface, mm; carried over. May be empty.
-void take_surface(TriMesh&& of_elements, TriMesh& surface, std::vector<double>& errors);
-
-/// What becomes of the status of a run whose body missed a promise: it is told, and the run ends
-/// as one that did not keep it, unless it ends worse.
-int status_with(const ElementResults& elements, int status);
-
-/// Writes the body to each of the files.
-/// @throws InputError  as write_elements().
-void write_bodies(const BodyArguments& arguments, const BodyOutput& body, Frame frame);
+/// Logs what the elements of a run miss, but for what decides its exit status.
+void warn_of_elements(const BodyArguments& arguments, const Outcome& outcome);
 
 }  // namespace mesamis

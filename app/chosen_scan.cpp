@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "chosen_scan.h"
 
-#include <nlohmann/json.hpp>
 #include <utility>
 
-#include "log.h"
 #include "mesamis/method/memory.h"
 #include "mesamis/object/places.h"
-#include "mesamis/record/object_report.h"
 #include "scan.h"
 
 namespace mesamis {
 namespace {
-
-nlohmann::ordered_json report_of(const ScanArguments& arguments, const ObjectRequest& request,
-                                 const ChosenObject& object) {
-  nlohmann::ordered_json report = object_json(request, object);
-  if (request.mask) report["mask"]["path"] = arguments.places.mask.string();
-  return report;
-}
 
 /// Before the samples are read: they are held too.
 void require_memory_for(const VoxelGrid& grid, const CropRange& crop, Settings settings,
@@ -42,30 +32,26 @@ std::function<VoxelGrid()> grid_of_scan(const ScanArguments& arguments) {
   return [&arguments] { return read_any_grid(arguments.input, arguments.read); };
 }
 
-ChosenScan read_chosen_scan(const ScanArguments& arguments, const Settings& settings,
-                            const std::optional<double>& memory_gb) {
+ReadScan read_chosen_scan(const ScanArguments& arguments, const Settings& settings,
+                          const std::optional<double>& memory_gb) {
   ReadRequest asked = read_request(
       {arguments.places, arguments.labels, arguments.frame, grid_of_scan(arguments)}, settings);
-  ObjectRequest& request = asked.object;
+  ReadScan scan;
+  scan.object = std::move(asked.object);
+  scan.warnings = std::move(asked.warnings);
   ReadOptions read = arguments.read;
   read.on_grid = [&](const VoxelGrid& grid) {
     if (!arguments.places.box.empty()) {
-      request.crop = box_to_range(grid, arguments.places.box, arguments.frame);
+      scan.object.crop = box_to_range(grid, arguments.places.box, arguments.frame);
     }
-    if (memory_gb) require_memory_for(grid, request.crop, settings, *memory_gb);
+    if (memory_gb) require_memory_for(grid, scan.object.crop, settings, *memory_gb);
   };
   VolumeFile file = read_scan(arguments.input, read);
-  ChosenScan scan;
-  scan.grid = file.volume;
-  scan.warnings = std::move(asked.warnings);
   if (arguments.patient) scan.subject = subject_of(file, arguments.read.limits);
   if (arguments.report) {
     scan.facts = facts_of({arguments.input, file.format, file.warnings, file.files}, file.volume);
   }
-  scan.object = choose_object(std::move(file.volume), request);
-  for (const std::string& note : scan.object.notes) log_info(note);
-  for (const std::string& warning : scan.object.warnings) log_warning(warning);
-  scan.report = report_of(arguments, request, scan.object);
+  scan.volume = std::move(file.volume);
   return scan;
 }
 

@@ -3,8 +3,9 @@
 
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "mesamis/files/dicom_subject.h"
 #include "mesamis/method/chosen_run.h"
@@ -25,12 +26,11 @@ struct ScanArguments {
   bool patient = false;  ///< whether surfaces in DICOM belong to the patient and study of the scan
 };
 
-/// The image of the object that is meant, and what is known of the scan it came from.
-struct ChosenScan {
-  VoxelGrid grid;                       ///< of the whole scan
-  ChosenObject object;                  ///< the scan's samples are not kept beside it
-  std::optional<InputFacts> facts;      ///< of the scan as it was read, if asked for
-  nlohmann::ordered_json report;        ///< the report's entry "object"
+/// A scan that was read, and what is asked of it.
+struct ReadScan {
+  Volume volume;                        ///< native units
+  ObjectRequest object;                 ///< which object is meant
+  std::optional<InputFacts> facts;      ///< of the scan, if asked for
   std::vector<std::string> warnings{};  ///< of the readers of label files, one line each
   DicomSubject subject{};               ///< patient and study, if asked for
 };
@@ -38,10 +38,10 @@ struct ChosenScan {
 /// Reads the grid of the scan when it is called; empty without a scan. Refers to the arguments.
 std::function<VoxelGrid()> grid_of_scan(const ScanArguments& arguments);
 
-/// Reads a scan and makes the image of the object that is meant; logs what was done unasked.
+/// Reads a scan and the masks that choose an object of it.
 /// @param memory_gb  limit of the run that follows, see require_memory(); nothing: not checked.
-/// @throws InputError  as read_scan(), choose_object() and require_memory().
-ChosenScan read_chosen_scan(const ScanArguments& arguments, const Settings& settings,
-                            const std::optional<double>& memory_gb);
+/// @throws InputError  as read_scan(), the readers of label maps and require_memory().
+ReadScan read_chosen_scan(const ScanArguments& arguments, const Settings& settings,
+                          const std::optional<double>& memory_gb);
 
 }  // namespace mesamis

@@ -24,10 +24,10 @@ inline constexpr int kExitNotConverged = 4;  ///< outputs are written and marked
 inline constexpr int kExitNotClosed = 5;     ///< a surface that should be closed is not
 
 /// The exit status of a run with this outcome.
-constexpr int exit_status(Outcome outcome) {
-  return outcome == Outcome::kKept           ? kExitDone
-         : outcome == Outcome::kNotConverged ? kExitNotConverged
-                                             : kExitNotClosed;
+constexpr int exit_status(VerdictKind outcome) {
+  return outcome == VerdictKind::kKept           ? kExitDone
+         : outcome == VerdictKind::kNotConverged ? kExitNotConverged
+                                                 : kExitNotClosed;
 }
 
 /// Options of every command.

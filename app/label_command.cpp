@@ -16,7 +16,7 @@
 #include "mesamis/shape_files/object_files.h"
 #include "outputs.h"
 #include "scan.h"
-#include "segment_labels.h"
+#include "segment_checks.h"
 
 namespace mesamis {
 namespace {

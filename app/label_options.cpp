@@ -46,32 +46,30 @@ LabelMap read_marks(const std::filesystem::path& path, const LabelOptions& optio
   return std::move(file.map);
 }
 
-NamedLabels read_labels(const LabelArguments& a, const std::function<VoxelGrid()>& scan) {
-  NamedLabels labels;
+LabelChoice read_label_choice(const LabelArguments& a, const std::function<VoxelGrid()>& scan,
+                              std::vector<std::string>& warnings) {
+  LabelChoice choice;
   if (!a.file.empty()) {
-    labels.map = read_marks(a.file, {a.limits, scan}, labels.warnings);
+    choice.map = read_marks(a.file, {a.limits, scan}, warnings);
   } else {
     ProbabilityFile file = read_probabilities(a.probabilities, a.limits);
     log_all(file.warnings);
-    labels.warnings = std::move(file.warnings);
-    labels.map = most_probable(file.probabilities);
-    labels.probabilities = std::move(file.probabilities);
+    warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
+    choice.map = most_probable(file.probabilities);
+    choice.exact_by = std::move(file.probabilities);
   }
-  if (!a.names.empty()) labels.map = with_names(std::move(labels.map), read_label_table(a.names));
-  return labels;
+  if (!a.names.empty()) choice.map = with_names(std::move(choice.map), read_label_table(a.names));
+  for (const std::string& wanted : a.chosen) {
+    const Segment segment = find_segment(choice.map.segments, wanted);
+    const auto end = choice.chosen.end();
+    if (std::find(choice.chosen.begin(), end, segment) == end) choice.chosen.push_back(segment);
+  }
+  choice.margin = a.margin;
+  return choice;
 }
 
-LabelRequest label_request(const LabelArguments& a, const NamedLabels& labels) {
-  const LabelMap& map = labels.map;
-  LabelRequest request{map};
-  if (labels.probabilities) request.probabilities = &*labels.probabilities;
-  for (const std::string& wanted : a.chosen) {
-    const Segment segment = find_segment(map.segments, wanted);
-    const auto end = request.chosen.end();
-    if (std::find(request.chosen.begin(), end, segment) == end) request.chosen.push_back(segment);
-  }
-  request.margin = a.margin;
-  return request;
+const std::vector<Segment>& wanted_of(const LabelChoice& choice) {
+  return choice.chosen.empty() ? choice.map.segments : choice.chosen;
 }
 
 }  // namespace mesamis

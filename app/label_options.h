@@ -9,7 +9,7 @@
 
 #include "mesamis/files/read_limits.h"
 #include "mesamis/label_files/read_labels.h"
-#include "mesamis/method/label_surfaces.h"
+#include "mesamis/run/request.h"
 
 namespace CLI {
 class App;
@@ -39,20 +39,16 @@ void add_label_options(CLI::App& command, LabelArguments& arguments);
 LabelMap read_marks(const std::filesystem::path& path, const LabelOptions& options,
                     std::vector<std::string>& warnings);
 
-/// Labels, and where they come of probabilities those too.
-struct NamedLabels {
-  LabelMap map;
-  std::optional<Probabilities> probabilities;
-  std::vector<std::string> warnings{};  ///< of the reader, one line each
-};
+/// Reads the label map, logs the reader's warnings, names its labels, and chooses those that the
+/// options name.
+/// @param scan      see LabelOptions::scan.
+/// @param warnings  the reader's are added.
+/// @throws InputError  as the readers and find_segment().
+LabelChoice read_label_choice(const LabelArguments& arguments,
+                              const std::function<VoxelGrid()>& scan,
+                              std::vector<std::string>& warnings);
 
-/// Reads the label map, logs the reader's warnings, and names its labels.
-/// @param scan  see LabelOptions::scan.
-/// @throws InputError  as the readers.
-NamedLabels read_labels(const LabelArguments& arguments, const std::function<VoxelGrid()>& scan);
-
-/// The labels that the options choose; refers to them.
-/// @throws InputError  as find_segment().
-LabelRequest label_request(const LabelArguments& arguments, const NamedLabels& labels);
+/// The objects of a choice.
+const std::vector<Segment>& wanted_of(const LabelChoice& choice);
 
 }  // namespace mesamis

@@ -2,23 +2,16 @@
 #include "page_options.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 
-#include "log.h"
 #include "mesamis/base/error.h"
-#include "mesamis/files/atomic_file.h"
 #include "mesamis/files/sha256.h"
+#include "outputs.h"
 #include "scan.h"
 
 namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::array kPictures{"surface-front.png",   "surface-left.png", "surface-top.png",
-                               "surface-oblique.png", "slice-axial.png",  "slice-coronal.png",
-                               "slice-sagittal.png",  "mesh-cut.png"};
 
 void require_picture_folder(const fs::path& folder) {
   const fs::path whole = fs::absolute(folder).lexically_normal();
@@ -33,7 +26,7 @@ void require_picture_folder(const fs::path& folder) {
 
 }  // namespace
 
-void add_page_options(CLI::App& command, PageArguments& a) {
+void add_page_options(CLI::App& command, PageFiles& a) {
   command.add_option("--html", a.html,
                      "Page to look at in a browser, in one file that needs no network: .html");
   command.add_option("--pictures", a.pictures,
@@ -42,7 +35,7 @@ void add_page_options(CLI::App& command, PageArguments& a) {
                    "Show paths and file names in the page, which may name the patient");
 }
 
-void require_page(const PageArguments& a) {
+void require_page(const PageFiles& a) {
   if (!a.html.empty()) require_output(a.html, {".html", ".htm"}, "--html");
   if (a.names && a.html.empty()) {
     throw CLI::ValidationError("--html-names", "expected --html for it, found none");
@@ -50,15 +43,7 @@ void require_page(const PageArguments& a) {
   if (a.pictures.empty()) return;
   require_picture_folder(a.pictures);
   if (!fs::is_directory(a.pictures)) return;
-  for (const char* name : kPictures) require_writable(a.pictures / name);
-}
-
-Paths page_outputs(const PageArguments& a) {
-  Paths outputs;
-  if (!a.html.empty()) outputs.push_back(a.html);
-  if (a.pictures.empty()) return outputs;
-  for (const char* name : kPictures) outputs.push_back(a.pictures / name);
-  return outputs;
+  for (const fs::path& path : page_outputs({{}, a.pictures})) require_writable(path);
 }
 
 std::optional<Volume> read_shown_scan(const ScanToShow& scan) {
@@ -69,15 +54,6 @@ std::optional<Volume> read_shown_scan(const ScanToShow& scan) {
                      ": expected the scan of the run, found another one: its sha256 differs");
   }
   return std::move(file.volume);
-}
-
-void write_page(const PageArguments& a, const RunPage& page) {
-  if (!a.html.empty()) write_run_page(a.html, page);
-  if (a.pictures.empty()) return;
-  fs::create_directory(a.pictures);
-  for (const RunPicture& picture : run_pictures(page)) {
-    write_file(a.pictures / picture.name, picture.png);
-  }
 }
 
 }  // namespace mesamis

@@ -2,14 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "mesamis/page/run_page.h"
+#include "mesamis/page/page_files.h"
 #include "mesamis/scan_files/read_volume.h"
-#include "outputs.h"
 
 namespace CLI {
 class App;
@@ -18,23 +15,12 @@ class App;
 /// A run as a page and as pictures: what `segment` and `report` share.
 namespace mesamis {
 
-struct PageArguments {
-  std::filesystem::path html;      ///< --html; may be empty
-  std::filesystem::path pictures;  ///< --pictures, a folder; may be empty
-  bool names = false;              ///< --html-names
-
-  bool given() const { return !html.empty() || !pictures.empty(); }
-};
-
 /// Adds the options. `arguments` must outlive the parsing.
-void add_page_options(CLI::App& command, PageArguments& arguments);
+void add_page_options(CLI::App& command, PageFiles& arguments);
 
 /// Checks before any work that page and pictures can be written.
 /// @throws CLI::ValidationError, InputError  as require_output().
-void require_page(const PageArguments& arguments);
-
-/// The files that write_page() may write.
-Paths page_outputs(const PageArguments& arguments);
+void require_page(const PageFiles& arguments);
 
 /// A scan to be shown.
 struct ScanToShow {
@@ -47,9 +33,5 @@ struct ScanToShow {
 /// @return nothing where there is no path.
 /// @throws InputError  as read_volume(), or if it is not the scan of the run.
 std::optional<Volume> read_shown_scan(const ScanToShow& scan);
-
-/// Writes the page and the pictures that are asked for; into the OutputSet that is open.
-/// @throws InputError  as run_page() and write_file().
-void write_page(const PageArguments& arguments, const RunPage& page);
 
 }  // namespace mesamis

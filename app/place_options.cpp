@@ -91,7 +91,8 @@ TissueKind tissue_kind(const PlaceArguments& places) {
 ReadRequest read_request(const RequestArguments& arguments, const Settings& settings) {
   const auto& [places, labels, frame, scan] = arguments;
   const LabelOptions how{places.limits, scan};
-  ReadRequest read{object_request(settings)};
+  ReadRequest read;
+  read.object.crop = settings.crop;
   ObjectRequest& request = read.object;
   if (!places.tissue.empty()) request.tissue = parse_tissue(places.tissue);
   for (const std::string& seed : places.seeds) request.seeds.push_back(parse_point(seed, frame));
@@ -104,11 +105,9 @@ ReadRequest read_request(const RequestArguments& arguments, const Settings& sett
   }
   if (body) {
     request.surroundings = SurroundingsRule::kRemove;
-  } else if (places.keep_surroundings || labels.given()) {
+  } else if (places.keep_surroundings) {
     request.surroundings = SurroundingsRule::kKeep;
   }
-  request.has_labels = labels.given();
-  if (request.has_labels) request.measure_level = false;
   return read;
 }
 

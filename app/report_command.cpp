@@ -29,7 +29,7 @@ struct ReportCommand {
   fs::path report, scan, mesh;
   std::vector<fs::path> surfaces;
   ReadOptions read;
-  PageArguments page;
+  PageFiles page;
 };
 
 /// The string at a JSON pointer; empty where there is none.

@@ -1,20 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "segment_labels.h"
+#include "body_options.h"
+#include "chosen_scan.h"
+#include "mesamis/run/write.h"
 #include "segment_slabs.h"
 #include "settings_options.h"
 
 namespace mesamis {
 
 /// Everything that a run of `segment` is asked for.
-struct SegmentOptions : SegmentRun {
+struct SegmentOptions {
+  ScanArguments scan;  ///< its input may be empty: the labels alone
   SettingsArguments settings;
+  BodyArguments body;
+  Outputs out;  ///< but for bodies, frame and facts, which follow from the others
   SlabArguments slabs;
   std::optional<double> time_limit;  ///< s, from wall_seconds() 0
   bool plan = false;                 ///< only tell what the run needs
+  nlohmann::ordered_json report_also = nlohmann::ordered_json::object();  ///< entries of the report
+  std::filesystem::path report_reader_file;  ///< that out.facts.written writes; may be empty
+
+  bool wants_mesh() const { return !out.meshes.empty() || !out.band_meshes.empty(); }
 };
 
 /// Runs `segment`: for its own command line, and for those who ask for it in another way.

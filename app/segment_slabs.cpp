@@ -27,6 +27,7 @@
 #include "outputs.h"
 #include "progress.h"
 #include "scan.h"
+#include "segment_run.h"
 #include "summary.h"
 
 namespace mesamis {
@@ -44,9 +45,9 @@ std::string identity_of(const fs::path& path) {
 bool is_in_pieces(const fs::path& mesh) { return lower_extension(mesh) == kPiecesExtension; }
 
 /// Those that are written at once.
-Paths whole_meshes_of(const SegmentRun& run) {
+Paths whole_meshes_of(const SegmentOptions& run) {
   Paths whole;
-  std::copy_if(run.meshes.begin(), run.meshes.end(), std::back_inserter(whole),
+  std::copy_if(run.out.meshes.begin(), run.out.meshes.end(), std::back_inserter(whole),
                [](const fs::path& mesh) { return !is_in_pieces(mesh); });
   return whole;
 }
@@ -61,10 +62,10 @@ bool is_piece_of(const fs::path& index, const fs::path& file) {
 }
 
 /// The pieces of a mesh are written beside its index: nothing else may have their names.
-void require_room_for_pieces(const SegmentRun& run) {
-  for (const fs::path& index : run.meshes) {
+void require_room_for_pieces(const SegmentOptions& run) {
+  for (const fs::path& index : run.out.meshes) {
     if (!is_in_pieces(index)) continue;
-    for (const fs::path& other : run.meshes) {
+    for (const fs::path& other : run.out.meshes) {
       if (!is_piece_of(index, other)) continue;
       throw CLI::ValidationError("--mesh", "expected another name than that of a piece of " +
                                                index.string() + ", found " + other.string());
@@ -73,12 +74,12 @@ void require_room_for_pieces(const SegmentRun& run) {
 }
 
 /// Whether a surface is to carry grey values, which are those of the mesh below it.
-bool wants_grey(const SegmentRun& run) {
-  return std::any_of(run.surfaces.begin(), run.surfaces.end(), carries_grey);
+bool wants_grey(const SegmentOptions& run) {
+  return std::any_of(run.out.surfaces.begin(), run.out.surfaces.end(), carries_grey);
 }
 
 /// Without a place for checkpoints, scratch files lie beside the first output.
-SlabRunOptions slab_options(const SegmentRun& run, const SlabArguments& slabs) {
+SlabRunOptions slab_options(const SegmentOptions& run, const SlabArguments& slabs) {
   SlabRunOptions options;
   if (slabs.slabs.value_or(0) > 0) options.turns = slabs.slabs;
   options.scratch = slabs.checkpoint;
@@ -87,9 +88,9 @@ SlabRunOptions slab_options(const SegmentRun& run, const SlabArguments& slabs) {
   options.mesh = !whole_meshes_of(run).empty();
   options.grey = wants_grey(run);
   if (options.scratch.empty()) {
-    options.scratch = !run.surfaces.empty() ? run.surfaces.front()
-                      : !run.meshes.empty() ? run.meshes.front()
-                                            : run.report;
+    options.scratch = !run.out.surfaces.empty() ? run.out.surfaces.front()
+                      : !run.out.meshes.empty() ? run.out.meshes.front()
+                                                : run.out.report;
     options.scratch += ".slabs";
   }
   return options;
@@ -117,7 +118,7 @@ nlohmann::ordered_json slabs_json(const SlabRunResult& found, const Team& team) 
           {"slabs", std::move(each)}};
 }
 
-nlohmann::ordered_json scan_json(const SegmentRun& run, const VolumeFile& head) {
+nlohmann::ordered_json scan_json(const SegmentOptions& run, const VolumeFile& head) {
   return {{"path", run.scan.input.string()},
           {"format", head.format},
           {"modality", head.volume.modality},
@@ -132,34 +133,34 @@ struct Ended {
   const std::optional<MeshOutput>& mesh;
 };
 
-void write_slab_report(const SegmentRun& run, const Settings& settings, const VolumeFile& head,
-                       const Ended& ended, const Team& team, const OutputSet& set) {
-  if (run.report.empty()) return;
+void write_slab_report(const SegmentOptions& run, const Settings& settings, const VolumeFile& head,
+                       const Ended& ended, const CommonOptions& common, const OutputSet& set) {
+  if (run.out.report.empty()) return;
   nlohmann::ordered_json report;
   report["program"] = program_json();
   report["input"] = scan_json(run, head);
-  report["command"] = run.command;
+  report["command"] = common.arguments;
   report["output"] = output_json(run.scan.frame);
   report.update(run_json(settings, ended.found.result, ended.check));
   if (ended.mesh) report["mesh"]["region"] = region_json(*ended.mesh);
-  report["slabs"] = slabs_json(ended.found, team);
+  report["slabs"] = slabs_json(ended.found, *common.team);
   report["warnings"] = head.warnings;
-  report["verdict"] = {{"kept", ended.verdict.outcome == Outcome::kKept},
+  report["verdict"] = {{"kept", ended.verdict.kind == VerdictKind::kKept},
                        {"message", ended.verdict.message}};
   report["files"] = files_json(set);
   add_costs(report);
-  write_json(run.report, report);
+  write_json(run.out.report, report);
 }
 
 /// The meshes of a run, as they come; all files of the run appear together.
 class MeshWriter {
  public:
-  MeshWriter(const SegmentRun& run, const SliceSource& source) : run_(run), source_(source) {}
+  MeshWriter(const SegmentOptions& run, const SliceSource& source) : run_(run), source_(source) {}
 
   /// Writes the piece of one slab beside each index. Its cells have the mean of the voxels in them.
   void write_piece(Index slab, const Result& piece) {
     const MeshWithArrays grid = make_mesh_piece(piece, scan());
-    for (const fs::path& path : run_.meshes) {
+    for (const fs::path& path : run_.out.meshes) {
       if (!is_in_pieces(path)) continue;
       const std::string name = path.stem().string() + "_" + std::to_string(slab) + ".vtu";
       pieces_[path].push_back(name);
@@ -181,7 +182,7 @@ class MeshWriter {
     }
     const Paths whole = whole_meshes_of(run_);
     if (whole.empty()) return {};
-    const MeshOutput mesh = make_mesh_output(result, scan(), run_.mesh);
+    const MeshOutput mesh = make_mesh_output(result, scan(), run_.out.mesh);
     for (const fs::path& path : whole) write_mesh(path, mesh, run_.scan.frame);
     return mesh;
   }
@@ -189,7 +190,7 @@ class MeshWriter {
  private:
   const VolumeView& scan() {
     if (!scan_) {
-      scan_.emplace(map_scan(source_, fs::absolute(run_.meshes.front()).parent_path()));
+      scan_.emplace(map_scan(source_, fs::absolute(run_.out.meshes.front()).parent_path()));
     }
     return scan_->volume;
   }
@@ -201,33 +202,33 @@ class MeshWriter {
   }
 
   OutputSet set_;
-  const SegmentRun& run_;
+  const SegmentOptions& run_;
   const SliceSource& source_;
   std::optional<MappedScan> scan_;
   std::map<fs::path, std::vector<std::string>> pieces_;  // names, by index
   MeshWithArrays index_;                                 // names and components of the arrays
 };
 
-int deliver(const SegmentRun& run, const Settings& settings, const FileSlices& source,
-            const SlabRunResult& found, const Team& team, MeshWriter& meshes) {
+int deliver(const SegmentOptions& run, const Settings& settings, const FileSlices& source,
+            const SlabRunResult& found, const CommonOptions& common, MeshWriter& meshes) {
   const VolumeFile& head = source.head();
   const Result& result = found.result;
   const SurfaceCheck check = check_surface(result.surface);
   const Verdict verdict = judge(result, check);
-  if (!run.surfaces.empty()) require_surface(result);
-  auto as =
-      surface_options(result, head.volume.voxel_size(), {run.scan.frame, run.name, run.error});
+  if (!run.out.surfaces.empty()) require_surface(result);
+  auto as = surface_options(result, head.volume.voxel_size(),
+                            {run.scan.frame, run.out.name, run.out.error});
   as.grey = found.grey;
-  for (const fs::path& path : run.surfaces) write_surface(path, result.surface, as);
+  for (const fs::path& path : run.out.surfaces) write_surface(path, result.surface, as);
   const std::optional<MeshOutput> mesh = meshes.finish(result);
-  write_slab_report(run, settings, head, {found, check, verdict, mesh}, team, meshes.set());
+  write_slab_report(run, settings, head, {found, check, verdict, mesh}, common, meshes.set());
   const Paths files = files_of(meshes.set());
   commit(meshes.set());
   RunFigures figures = figures_of(result, check, head.volume.modality);
   figures.files = files;
   show_summary(figures);
-  if (verdict.outcome != Outcome::kKept) log_error(verdict.message);
-  return exit_status(verdict.outcome);
+  if (verdict.kind != VerdictKind::kKept) log_error(verdict.message);
+  return exit_status(verdict.kind);
 }
 
 }  // namespace
@@ -249,7 +250,7 @@ void add_slab_options(CLI::App& command, SlabArguments& arguments) {
                      "there; removed at the end");
 }
 
-void require_slabs(const SegmentRun& run, const Settings& settings) {
+void require_slabs(const SegmentOptions& run, const Settings& settings) {
   const auto refuse = [](const std::string& option) {
     throw CLI::ValidationError("--slabs",
                                "expected no option that needs the whole scan at once, "
@@ -258,21 +259,21 @@ void require_slabs(const SegmentRun& run, const Settings& settings) {
   };
   if (run.scan.labels.given()) refuse("labels");
   if (run.scan.places.given()) refuse("--tissue, --seed, --box, --mask, --remove or --padding");
-  if (!run.band_meshes.empty()) refuse("--band-mesh");
+  if (!run.out.band_meshes.empty()) refuse("--band-mesh");
   require_room_for_pieces(run);
-  if (run.mesh.region == MeshRegion::kObject &&
-      std::any_of(run.meshes.begin(), run.meshes.end(), is_in_pieces)) {
+  if (run.out.mesh.region == MeshRegion::kObject &&
+      std::any_of(run.out.meshes.begin(), run.out.meshes.end(), is_in_pieces)) {
     refuse("--mesh-region object for a .pvtu");
   }
   if (run.body.elements()) refuse("--body or --surface-quality");
-  if (!run.labelmap.empty()) refuse("--labelmap");
-  if (run.page.given()) refuse("--html or --pictures");
+  if (!run.out.labelmap.empty()) refuse("--labelmap");
+  if (run.out.page.given()) refuse("--html or --pictures");
   if (settings.preview) refuse("--preview");
   if (!(settings.crop == CropRange{})) refuse("--crop");
   if (run.scan.input.empty()) throw CLI::ValidationError("input", "expected a scan, found none");
 }
 
-int run_slabs(const SegmentRun& run, const SlabArguments& slabs, const Settings& settings,
+int run_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Settings& settings,
               const CommonOptions& common) {
   Team& team = *common.team;
   const std::unique_ptr<FileSlices> source = open_any_slices(run.scan.input, run.scan.read);
@@ -283,13 +284,13 @@ int run_slabs(const SegmentRun& run, const SlabArguments& slabs, const Settings&
   options.progress = display.callback();
   std::optional<MeshWriter> meshes;
   if (team.rank() == 0) meshes.emplace(run, *source);
-  if (std::any_of(run.meshes.begin(), run.meshes.end(), is_in_pieces)) {
+  if (std::any_of(run.out.meshes.begin(), run.out.meshes.end(), is_in_pieces)) {
     options.take_piece = [&](Index s, const Result& piece) { meshes->write_piece(s, piece); };
   }
   const auto found = run_in_slabs(*source, settings, options, team);
   display.finish();
   if (!found) return kExitDone;
-  return deliver(run, settings, *source, *found, team, *meshes);
+  return deliver(run, settings, *source, *found, common, *meshes);
 }
 
 }  // namespace mesamis

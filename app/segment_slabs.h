@@ -4,7 +4,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "segment_labels.h"
+#include "commands.h"
+#include "mesamis/method/settings.h"
 
 namespace CLI {
 class App;
@@ -12,6 +13,8 @@ class App;
 
 /// Runs of `segment` on scans that are larger than the memory.
 namespace mesamis {
+
+struct SegmentOptions;
 
 /// Of the index of a mesh that is written slab by slab.
 inline constexpr const char* kPiecesExtension = ".pvtu";
@@ -28,12 +31,12 @@ void add_slab_options(CLI::App& command, SlabArguments& arguments);
 
 /// Checks what needs no scan: that nothing is asked for that needs all of a scan at once.
 /// @throws CLI::ValidationError
-void require_slabs(const SegmentRun& run, const Settings& settings);
+void require_slabs(const SegmentOptions& run, const Settings& settings);
 
 /// Finds the object slab by slab, with the processes of the team, and writes it.
 /// @return the exit status.
 /// @throws InputError  as open_any_slices() and run_in_slabs().
-int run_slabs(const SegmentRun& run, const SlabArguments& slabs, const Settings& settings,
+int run_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Settings& settings,
               const CommonOptions& common);
 
 }  // namespace mesamis

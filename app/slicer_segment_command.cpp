@@ -102,8 +102,8 @@ std::string tissue_of(const SlicerArguments& a) {
 /// What Slicer asked for, as `segment` takes it.
 SegmentOptions segment_options(SlicerArguments a) {
   SegmentOptions& s = a.segment;
-  s.surfaces = {a.model};
-  if (!a.mesh.empty()) s.meshes = {a.mesh};
+  s.out.surfaces = {a.model};
+  if (!a.mesh.empty()) s.out.meshes = {a.mesh};
   s.scan.places.tissue = tissue_of(a);
   s.scan.labels.chosen = parts_of(a.labels);
   s.scan.labels.margin = optional_number(a.margin, "--margin");
@@ -111,9 +111,9 @@ SegmentOptions segment_options(SlicerArguments a) {
   if (!a.region.empty()) s.scan.places.box = box_of_region(a.region);
   drop_untouched(s.settings);
   const bool several = s.scan.labels.given() || s.scan.places.seeds.size() > 1;
-  if (s.error && several) {
+  if (s.out.error && several) {
     log_warning("--error: several objects in one model carry no expected error");
-    s.error = false;
+    s.out.error = false;
   }
   return s;
 }
@@ -188,8 +188,8 @@ int run_for_slicer(const SlicerArguments& arguments, const CommonOptions& common
   SegmentOptions options = segment_options(arguments);
   if (!arguments.results.empty()) {
     require_writable(arguments.results);
-    options.on_report_file = arguments.results;
-    options.on_report = [&](const Json& report) {
+    options.report_reader_file = arguments.results;
+    options.out.facts.written = [&](const Json& report) {
       write_file(arguments.results, result_lines(results_of(report)));
     };
   }
@@ -223,11 +223,12 @@ void add_file_options(CLI::App& c, SlicerArguments& a) {
   c.add_flag("--xml", a.xml, "Print the description of the module, and nothing else");
   c.add_option("scan", a.segment.scan.input, "Volume, as Slicer writes it: .nrrd");
   c.add_option("model", a.model, "Surface, as Slicer reads it: .vtp .stl .ply .obj");
-  c.add_option("--labelmap", a.segment.labelmap, "What was found on the scan's grid: .nrrd .nii");
+  c.add_option("--labelmap", a.segment.out.labelmap,
+               "What was found on the scan's grid: .nrrd .nii");
   c.add_option("--mesh", a.mesh, "Adapted mesh: .vtu");
-  c.add_option("--report", a.segment.report, "Report: .json");
+  c.add_option("--report", a.segment.out.report, "Report: .json");
   c.add_option("--returnparameterfile", a.results, "Figures of the run, name = value");
-  c.add_flag("--error", a.segment.error, "Write the error expected at each point, mm");
+  c.add_flag("--error", a.segment.out.error, "Write the error expected at each point, mm");
   c.add_option("--time_limit", a.time_limit, "Seconds after which no further mesh is begun");
 }
 

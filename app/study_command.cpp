@@ -186,7 +186,7 @@ StudyRun complete_run(Study& study, const Experiment& experiment, const PlannedR
   }
   run = with_comparison(study.reference.surface, experiment, std::move(run));
   run.surface = {};
-  if (run.outcome != Outcome::kKept) {
+  if (run.outcome != VerdictKind::kKept) {
     study.remarks += (study.remarks.empty() ? "" : "; ") + run.plan.name + ": " + run.remark;
   }
   return run;

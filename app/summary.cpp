@@ -79,6 +79,21 @@ RunFigures figures_of(const Result& result, const SurfaceCheck& check,
   return figures;
 }
 
+RunFigures figures_of(const Outcome& outcome) {
+  if (outcome.one) {
+    RunFigures figures = figures_of(*outcome.one, outcome.checks.front(), outcome.grid.modality);
+    if (!outcome.object->tissue.empty()) figures.object = outcome.object->tissue;
+    return figures;
+  }
+  RunFigures figures;
+  for (const FoundObject& object : outcome.objects()) {
+    figures.object += (figures.object.empty() ? "" : ", ") + object.segment.name;
+    figures.surfaces.push_back(&object.surface);
+  }
+  figures.checks = outcome.checks;
+  return figures;
+}
+
 std::vector<std::string> summary_lines(const RunFigures& run) {
   return {"object   " + run.object, "level    " + level_line(run), "size     " + size_line(run),
           "surface  " + surface_line(run), "files    " + files_line(run)};

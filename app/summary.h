@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/method/mes_amis.h"
+#include "mesamis/run/outcome.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {
@@ -26,6 +26,9 @@ struct RunFigures {
 /// @param result, check  must live as long as the figures are shown; check is of the surface.
 /// @param modality       of the scan, see VoxelGrid.
 RunFigures figures_of(const Result& result, const SurfaceCheck& check, const std::string& modality);
+
+/// The figures of a run that does not work in slabs, but for the files; refer to the outcome.
+RunFigures figures_of(const Outcome& outcome);
 
 /// Five lines: object; level and expected error; size; triangles, parts, closed or not; files.
 std::vector<std::string> summary_lines(const RunFigures& run);

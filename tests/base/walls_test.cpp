@@ -55,6 +55,9 @@ const std::map<std::string, std::set<std::string>> kSees{
     {"study",
      {"base", "image", "surface", "method", "files", "shape_files", "plot", "comparison",
       "delivery", "record"}},
+    {"run",
+     {"base", "files", "image", "mesh", "surface", "object", "method", "label_files", "shape_files",
+      "delivery", "record", "page"}},
     {"page", {"base", "image", "mesh", "surface", "method", "files", "plot"}},
 };
 
@@ -68,7 +71,7 @@ const std::map<std::string, std::set<std::string>> kOnlyIn{
     {"blosc", {"chunk_files"}},
     {"zstd", {"chunk_files"}},
     {"X11", {"picture"}},
-    {"nlohmann", {"record", "study", "page", "files", "chunk_files", "shape_files"}},
+    {"nlohmann", {"record", "run", "study", "page", "files", "chunk_files", "shape_files"}},
     {"oneapi/tbb", {"base"}},
     {"tbb", {"base"}},
     {"OpenMesh", {"decimate"}},

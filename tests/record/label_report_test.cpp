@@ -72,10 +72,10 @@ TEST(LabelReport, OfLabelsAloneSaysNothingOfAnImage) {
 TEST(LabelReport, JudgesEachSurface) {
   LabelResult result = two_objects();
   const Verdict open = judge(result, checks_of(result));
-  EXPECT_EQ(open.outcome, Outcome::kNotClosed);
+  EXPECT_EQ(open.kind, VerdictKind::kNotClosed);
   EXPECT_NE(open.message.find("'hip'"), std::string::npos);
   result.objects.pop_back();
-  EXPECT_EQ(judge(result, checks_of(result)).outcome, Outcome::kKept);
+  EXPECT_EQ(judge(result, checks_of(result)).kind, VerdictKind::kKept);
 }
 
 }  // namespace

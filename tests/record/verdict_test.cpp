@@ -26,7 +26,7 @@ struct Case {
 
 TEST(Verdict, ARunThatKeptItsPromisesHasNothingToSay) {
   const Verdict verdict = Case().verdict();
-  EXPECT_EQ(verdict.outcome, Outcome::kKept);
+  EXPECT_EQ(verdict.kind, VerdictKind::kKept);
   EXPECT_EQ(verdict.message, "");
 }
 
@@ -34,17 +34,17 @@ TEST(Verdict, AnOpenSurfaceIsTheWorst) {
   Case broken;
   broken.result.surface.triangles.pop_back();
   broken.result.converged = false;
-  EXPECT_EQ(broken.verdict().outcome, Outcome::kNotClosed);
+  EXPECT_EQ(broken.verdict().kind, VerdictKind::kNotClosed);
   EXPECT_THAT(broken.verdict().message, HasSubstr("expected a closed 2-manifold surface"));
 }
 
 TEST(Verdict, AnUnmetToleranceCountsForSolidsAlone) {
   Case far;
   far.result.printable.extracted_to_result = 0.2;
-  EXPECT_EQ(far.verdict().outcome, Outcome::kNotConverged);
+  EXPECT_EQ(far.verdict().kind, VerdictKind::kNotConverged);
   EXPECT_THAT(far.verdict().message, HasSubstr("tolerance: expected distances of 0.1 mm"));
   far.result.parameters.surface = SurfaceKind::kBand;
-  EXPECT_EQ(far.verdict().outcome, Outcome::kKept);
+  EXPECT_EQ(far.verdict().kind, VerdictKind::kKept);
 }
 
 TEST(Verdict, ARunThatWasStoppedSaysWhere) {
@@ -52,7 +52,7 @@ TEST(Verdict, ARunThatWasStoppedSaysWhere) {
   stopped.result.stopped = true;
   stopped.result.converged = false;
   stopped.result.parameters.adaptations = 8;
-  EXPECT_EQ(stopped.verdict().outcome, Outcome::kNotConverged);
+  EXPECT_EQ(stopped.verdict().kind, VerdictKind::kNotConverged);
   EXPECT_THAT(stopped.verdict().message, HasSubstr("time limit after 2 of at most 8 adaptations"));
   stopped.result.parameters.preview = true;
   EXPECT_THAT(stopped.verdict().message, HasSubstr("the surface is a preview"));
@@ -61,11 +61,11 @@ TEST(Verdict, ARunThatWasStoppedSaysWhere) {
 TEST(Verdict, AnAccuracyThatTheScanDoesNotPermitIsUnmet) {
   Case coarse;
   coarse.result.expected_error.assign(coarse.result.surface.points.size(), 0.3);
-  EXPECT_EQ(coarse.verdict().outcome, Outcome::kKept) << "none was asked for";
+  EXPECT_EQ(coarse.verdict().kind, VerdictKind::kKept) << "none was asked for";
   coarse.result.parameters.accuracy = 0.5;
-  EXPECT_EQ(coarse.verdict().outcome, Outcome::kKept);
+  EXPECT_EQ(coarse.verdict().kind, VerdictKind::kKept);
   coarse.result.parameters.accuracy = 0.2;
-  EXPECT_EQ(coarse.verdict().outcome, Outcome::kNotConverged);
+  EXPECT_EQ(coarse.verdict().kind, VerdictKind::kNotConverged);
   EXPECT_THAT(coarse.verdict().message,
               HasSubstr("expected 0.2 mm in the mean at most, found 0.3"));
 }
@@ -83,7 +83,7 @@ TEST(Verdict, SaysWhyARunHasNotConverged) {
   unsettled.result.parameters.surface = SurfaceKind::kSolid;
   unsettled.result.parameters.until = StopRule::kEnergy;
   unsettled.result.iterations[1].mesh_change = 0.3;
-  EXPECT_EQ(unsettled.verdict().outcome, Outcome::kNotConverged);
+  EXPECT_EQ(unsettled.verdict().kind, VerdictKind::kNotConverged);
   EXPECT_THAT(unsettled.verdict().message, HasSubstr("the cell count changed by 0.3"));
   unsettled.result.parameters.adaptations = 1;
   EXPECT_THAT(unsettled.verdict().message, HasSubstr("expected 2 or more"));

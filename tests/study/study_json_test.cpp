@@ -84,11 +84,11 @@ TEST(StudyJson, HasAnEntryPerExperiment) {
 
 TEST(StudyRecord, ItsOutcomeIsTheWorstOfItsRuns) {
   StudyRun open = made_up_run(kRun, 0.5);
-  open.outcome = Outcome::kNotClosed;
-  EXPECT_EQ(record_of({made_up_run(kRun, 0.5)}).outcome(), Outcome::kKept);
-  EXPECT_EQ(record_of({open, failed_run(kRun, "why")}).outcome(), Outcome::kNotClosed);
+  open.outcome = VerdictKind::kNotClosed;
+  EXPECT_EQ(record_of({made_up_run(kRun, 0.5)}).outcome(), VerdictKind::kKept);
+  EXPECT_EQ(record_of({open, failed_run(kRun, "why")}).outcome(), VerdictKind::kNotClosed);
   const StudyRecord failed = record_of({made_up_run(kRun, 0.5), failed_run(kRun, "why")});
-  EXPECT_EQ(failed.outcome(), Outcome::kNotConverged);
+  EXPECT_EQ(failed.outcome(), VerdictKind::kNotConverged);
   EXPECT_EQ(study_json(failed)["converged"], false);
 }
 

@@ -37,7 +37,7 @@ TEST(SegmentPlanned, OnEverySliceIsThePlainRun) {
   EXPECT_EQ(run.summary->tets, static_cast<std::int64_t>(plain.mesh.cells.size()));
   EXPECT_EQ(run.summary->iterations.back().energy.total(), plain.iterations.back().energy.total());
   EXPECT_EQ(run.converged(), plain.converged);
-  EXPECT_EQ(run.outcome == Outcome::kKept, run.remark.empty());
+  EXPECT_EQ(run.outcome == VerdictKind::kKept, run.remark.empty());
   EXPECT_TRUE(run.grid.samples.empty());
   EXPECT_EQ(run.grid.size, scan.size);
 }
@@ -60,7 +60,7 @@ TEST(SegmentPlanned, StopsWhenProgressSaysSo) {
 TEST(FailedRun, IsMarked) {
   const StudyRun run = failed_run({"s3", 3, {1, 1, 3}}, "no memory");
   EXPECT_EQ(run.plan.name, "s3");
-  EXPECT_EQ(run.outcome, Outcome::kNotConverged);
+  EXPECT_EQ(run.outcome, VerdictKind::kNotConverged);
   EXPECT_EQ(run.remark, "no memory");
   EXPECT_EQ(run.failure, "no memory");
   EXPECT_FALSE(run.converged());
@@ -109,7 +109,7 @@ TEST(WithComparison, MarksARunWithNothingInside) {
   const Case given(cube({0, 0, 0}, 0.5));
   const StudyRun run = with_comparison(cube({3, 3, 3}, 3), given.experiment, given.run);
   EXPECT_FALSE(run.comparison);
-  EXPECT_EQ(run.outcome, Outcome::kNotConverged);
+  EXPECT_EQ(run.outcome, VerdictKind::kNotConverged);
   EXPECT_THAT(run.failure, HasSubstr("inside the region"));
   EXPECT_TRUE(run.surface.triangles.empty());
 }

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  page_files.h
   run_page.h)
 set(ROOM_SOURCES
   base64.cpp
@@ -8,6 +9,7 @@ set(ROOM_SOURCES
   figures.cpp
   html.cpp
   mesh_cut.cpp
+  page_files.cpp
   public_report.cpp
   raster.cpp
   run_page.cpp

@@ -57,17 +57,17 @@ Verdict judge(const Result& result, const SurfaceCheck& check) {
   const bool encloses = solid && !result.surface.triangles.empty();
   const std::string flaws = encloses ? solid_flaws_of(check) : flaws_of(check);
   if (!flaws.empty()) {
-    return {Outcome::kNotClosed,
+    return {VerdictKind::kNotClosed,
             "expected a closed 2-manifold surface that faces outward, found " + flaws};
   }
   if (solid && !result.printable.within(p.tolerance)) {
-    return {Outcome::kNotConverged, tolerance_unmet(p.tolerance, result.printable)};
+    return {VerdictKind::kNotConverged, tolerance_unmet(p.tolerance, result.printable)};
   }
-  if (!result.converged) return {Outcome::kNotConverged, why_not_converged(result)};
+  if (!result.converged) return {VerdictKind::kNotConverged, why_not_converged(result)};
   if (solid && p.accuracy > 0) {
     const double expected = summarize_error(result.surface, result.expected_error).mean;
     if (expected > p.accuracy) {
-      return {Outcome::kNotConverged, accuracy_unmet(p.accuracy, expected)};
+      return {VerdictKind::kNotConverged, accuracy_unmet(p.accuracy, expected)};
     }
   }
   return {};

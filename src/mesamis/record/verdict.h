@@ -9,14 +9,14 @@
 namespace mesamis {
 
 /// Whether a run kept what it promised, the worst last.
-enum class Outcome {
+enum class VerdictKind {
   kKept,          ///< converged, closed, within the tolerance, as accurate as was asked for
   kNotConverged,  ///< the loop did not settle, a solve did not converge, or a distance is unmet
   kNotClosed      ///< a surface that should be closed, manifold and outward is not
 };
 
 struct Verdict {
-  Outcome outcome = Outcome::kKept;
+  VerdictKind kind = VerdictKind::kKept;
   std::string message;  ///< what was expected and found, on one line; empty: all was kept
 };
 

@@ -54,8 +54,8 @@ ordered_json runs_json(const ExperimentRecord& experiment) {
 
 }  // namespace
 
-Outcome StudyRecord::outcome() const {
-  Outcome worst = Outcome::kKept;
+VerdictKind StudyRecord::outcome() const {
+  VerdictKind worst = VerdictKind::kKept;
   for (const ExperimentRecord& experiment : experiments) {
     for (const StudyRun& run : experiment.runs) worst = std::max(worst, run.outcome);
   }
@@ -93,7 +93,7 @@ ordered_json study_json(const StudyRecord& study) {
     report[experiment.name]["runs"] = runs_json(experiment);
   }
   report["pictures"] = study.pictures;
-  report["converged"] = study.outcome() == Outcome::kKept;
+  report["converged"] = study.outcome() == VerdictKind::kKept;
   return report;
 }
 

@@ -34,7 +34,7 @@ struct StudyRecord {
   std::vector<std::string> pictures;  ///< names of the diagrams drawn
 
   /// The worst outcome of all runs.
-  Outcome outcome() const;
+  VerdictKind outcome() const;
 };
 
 /// The entry of one run. Figures that the run does not have are left out.

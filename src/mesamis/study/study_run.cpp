@@ -12,7 +12,7 @@ namespace mesamis {
 namespace {
 
 void mark_failed(StudyRun& run, const std::string& reason) {
-  run.outcome = Outcome::kNotConverged;
+  run.outcome = VerdictKind::kNotConverged;
   run.remark = run.failure = reason;
   run.surface = {};
 }
@@ -53,7 +53,7 @@ StudyRun segment_planned(const Experiment& experiment, const PlannedRun& plan,
   }
   const SurfaceCheck check = check_surface(result.surface);
   Verdict verdict = judge(result, check);
-  run.outcome = verdict.outcome;
+  run.outcome = verdict.kind;
   run.remark = std::move(verdict.message);
   run.summary = summarize(result, check);
   run.surface = std::move(result.surface);

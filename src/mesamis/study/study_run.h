@@ -37,7 +37,7 @@ struct StudyRun {
   TriMesh surface;                          ///< LPS mm; empty if there is none
   std::string surface_file;                 ///< its name in the study's folder; may be empty
   std::optional<RunComparison> comparison;  ///< none if it was not made or could not be made
-  Outcome outcome = Outcome::kKept;
+  VerdictKind outcome = VerdictKind::kKept;
   std::string remark;   ///< why the outcome is not kKept; else empty
   std::string failure;  ///< why there is no surface to compare; else empty
 

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "segment_checks.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "arguments.h"
+#include "mesamis/base/error.h"
+#include "mesamis/delivery/mesh_output.h"
+#include "mesamis/record/label_surface_files.h"
+#include "mesamis/shape_files/surface_files.h"
+#include "outputs.h"
+#include "page_options.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A run whose result nobody would see is not started.
+void require_some_output(const SegmentOptions& options) {
+  if (!options.out.surfaces.empty() || !options.out.meshes.empty() ||
+      !options.out.band_meshes.empty() || !options.out.labelmap.empty() ||
+      options.out.wants_report() || options.body.given()) {
+    return;
+  }
+  throw CLI::ValidationError(
+      "segment",
+      "expected --output, --mesh, --body, --band-mesh, --labelmap, --report, --html or --pictures, "
+      "found nothing to write");
+}
+
+/// A Medit mesh has its fields in a file of their own.
+fs::path fields_beside(const fs::path& mesh) { return fs::path(mesh).replace_extension(".sol"); }
+
+Paths all_outputs_of(const SegmentOptions& options) {
+  Paths outputs = page_outputs(options.out.page);
+  outputs.insert(outputs.end(),
+                 {options.out.labelmap, options.out.report, options.report_reader_file});
+  for (const auto* paths : {&options.out.surfaces, &options.out.meshes, &options.out.band_meshes,
+                            &options.body.files}) {
+    outputs.insert(outputs.end(), paths->begin(), paths->end());
+  }
+  for (const fs::path& mesh : options.out.meshes) {
+    if (lower_extension(mesh) == ".mesh") outputs.push_back(fields_beside(mesh));
+  }
+  return outputs;
+}
+
+Paths inputs_of(const SegmentOptions& options) {
+  const ScanArguments& scan = options.scan;
+  Paths inputs{scan.input,       scan.labels.file,   scan.labels.names,
+               scan.places.mask, scan.places.remove, options.settings.file};
+  const Paths& more = scan.labels.probabilities;
+  inputs.insert(inputs.end(), more.begin(), more.end());
+  return inputs;
+}
+
+/// Only surfaces in DICOM have a place for a patient.
+void require_patient(const SegmentOptions& options) {
+  if (!options.scan.patient) return;
+  const auto is_dicom = [](const fs::path& path) { return lower_extension(path) == ".dcm"; };
+  if (std::none_of(options.out.surfaces.begin(), options.out.surfaces.end(), is_dicom)) {
+    throw CLI::ValidationError("--patient", "expected a .dcm among --output, found none");
+  }
+  if (options.scan.input.empty() || options.slabs.given()) {
+    throw CLI::ValidationError("--patient",
+                               "expected a DICOM scan and no --slabs, found " +
+                                   std::string(options.slabs.given() ? "--slabs" : "no scan"));
+  }
+}
+
+void require_outputs(const SegmentOptions& options) {
+  require_some_output(options);
+  require_utf8(options.out.name, "--name");
+  for (const fs::path& path : options.out.surfaces) {
+    require_output(path, written_surface_formats(), "--output");
+  }
+  if (options.out.error &&
+      std::none_of(options.out.surfaces.begin(), options.out.surfaces.end(), carries_arrays)) {
+    throw CLI::ValidationError("--error", "expected a .vtp or .ply among --output, found none");
+  }
+  require_patient(options);
+  std::vector<std::string> mesh_formats = written_mesh_formats();
+  if (options.slabs.given()) mesh_formats.emplace_back(kPiecesExtension);
+  for (const fs::path& path : options.out.meshes) require_output(path, mesh_formats, "--mesh");
+  for (const fs::path& path : options.out.meshes) {
+    if (lower_extension(path) == ".mesh") require_writable(fields_beside(path));
+  }
+  for (const fs::path& path : options.out.band_meshes)
+    require_output(path, {".vtu"}, "--band-mesh");
+  require_body(options.body);
+  if (options.body.meshing() && options.out.surfaces.empty()) {
+    throw CLI::ValidationError("--surface-quality", "expected --output for meshing, found none");
+  }
+  if (!options.out.labelmap.empty()) require_labelmap(options.out.labelmap, "--labelmap");
+  if (!options.out.report.empty()) require_output(options.out.report, {".json"}, "--report");
+  require_page(options.out.page);
+  require_distinct_files(all_outputs_of(options), inputs_of(options));
+}
+
+/// A preview makes no mesh.
+void require_mesh_for(const SegmentOptions& options, const Settings& settings) {
+  if (settings.preview && options.wants_mesh()) {
+    throw CLI::ValidationError("--preview", "expected neither --mesh nor --band-mesh, found one");
+  }
+}
+
+/// Elements fill a solid, and a material needs the grey values of the scan.
+void require_body_for(const SegmentOptions& options, const Settings& settings) {
+  require_elements_for(options.body, settings);
+  if (!options.body.material.empty() && tissue_kind(options.scan.places) != TissueKind::kBright) {
+    throw CLI::ValidationError("--material",
+                               "expected a bright --tissue, whose grey values are those of the "
+                               "scan, found " +
+                                   options.scan.places.tissue);
+  }
+}
+
+/// What needs no scan to be refused.
+void require_places(const SegmentOptions& options, const Settings& settings) {
+  const PlaceArguments& places = options.scan.places;
+  require_places(places, options.scan.labels, settings);
+  if (options.scan.input.empty() && places.given()) {
+    throw CLI::ValidationError("input", "expected a scan for the options of places, found none");
+  }
+  if (tissue_kind(places) != TissueKind::kBright && !options.out.meshes.empty()) {
+    throw CLI::ValidationError("--mesh",
+                               "expected a bright --tissue, whose grey values are those "
+                               "of the scan, found " +
+                                   places.tissue);
+  }
+}
+
+/// Where the error at each point is asked for, a file of one object each must have a place for it.
+void require_error_place(const SegmentOptions& options) {
+  const auto holds = [](const fs::path& path) { return carries_arrays(path) && !holds_all(path); };
+  if (options.out.error &&
+      std::none_of(options.out.surfaces.begin(), options.out.surfaces.end(), holds)) {
+    throw CLI::ValidationError(
+        "--error", "expected a .ply, or a .vtp with {label} in its name, for several objects");
+  }
+  if (options.out.error && options.scan.input.empty()) {
+    throw CLI::ValidationError("--error", "expected a scan beside the labels, found none");
+  }
+}
+
+/// A mesh is made of the scan.
+void require_scan_for_mesh(const SegmentOptions& options) {
+  if (options.wants_mesh() && options.scan.input.empty()) {
+    throw CLI::ValidationError("--mesh", "expected a scan beside the labels, found none");
+  }
+  if (options.body.given() && options.scan.input.empty()) {
+    throw CLI::ValidationError("--body", "expected a scan beside the labels, found none");
+  }
+}
+
+/// The files of objects, whose names are known with the labels, can be written.
+void require_separate_files(const SegmentOptions& options, const std::vector<Segment>& wanted) {
+  const std::vector<NamedSurface> objects = named_segments(wanted);
+  Paths all;
+  for (const fs::path& path : options.out.surfaces) {
+    const bool together = holds_all(path);
+    const Paths files = together ? Paths{path} : label_paths(path, objects, wanted.size() > 1);
+    all.insert(all.end(), files.begin(), files.end());
+    if (together && lower_extension(path) == ".obj") {
+      all.push_back(fs::path(path).replace_extension(".mtl"));
+    }
+  }
+  for (const fs::path& path : all) require_writable(path);
+  require_distinct_files(all, {});
+}
+
+/// A NIfTI file has one layer.
+void require_layers(const SegmentOptions& options, const std::vector<Segment>& wanted) {
+  if (options.out.labelmap.empty() || lower_extension(options.out.labelmap) == ".nrrd") return;
+  for (const Segment& s : wanted) {
+    if (s.layer != wanted.front().layer) {
+      throw InputError("--labelmap: expected a .nrrd or .seg.nrrd, as '" + s.name +
+                       "' may overlap others, found " + options.out.labelmap.string());
+    }
+  }
+}
+
+}  // namespace
+
+void require_segment(const SegmentOptions& options, const Settings& settings) {
+  if (!options.plan) require_outputs(options);
+  require_places(options, settings);
+  require_mesh_for(options, settings);
+  require_body_for(options, settings);
+  if (options.time_limit && options.scan.labels.given()) {
+    throw CLI::ValidationError("--time-limit", "expected a run for one object, found several");
+  }
+}
+
+void require_several(const SegmentOptions& options) {
+  require_error_place(options);
+  require_scan_for_mesh(options);
+}
+
+void require_object_files(const SegmentOptions& options, const std::vector<Segment>& wanted) {
+  require_layers(options, wanted);
+  require_separate_files(options, wanted);
+}
+
+void require_labelmap(const fs::path& path, const std::string& option) {
+  const bool packed = lower_extension(path) == ".gz" && lower_extension(path.stem()) == ".nii";
+  require_output(path, {".nii", packed ? ".gz" : ".nii.gz", ".nrrd"}, option);
+}
+
+}  // namespace mesamis

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/run/outcome.h"
+
+namespace mesamis {
+
+std::vector<FoundObject> Outcome::objects() const {
+  if (several) return found_objects(*several);
+  return {{one->surface, wanted.front()}};
+}
+
+VolumeView Outcome::image() const {
+  if (!object) return {};
+  VolumeView view = object->volume;
+  if (view.samples.empty()) view.samples = in_place;
+  return view;
+}
+
+const Result* Outcome::mesh() const {
+  if (one) return one->mesh.cells.empty() ? nullptr : &*one;
+  return several->mesh ? &*several->mesh : nullptr;
+}
+
+const std::vector<double>& Outcome::expected_error(std::size_t n) const {
+  return one ? one->expected_error : several->objects[n].expected_error;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/run/segment.h"
+
+#include <utility>
+
+#include "mesamis/base/error.h"
+#include "mesamis/method/chosen_run.h"
+#include "mesamis/record/label_report.h"
+#include "mesamis/record/run_surface.h"
+
+namespace mesamis {
+namespace {
+
+void tell(const std::function<void(const std::string&)>& hear,
+          const std::vector<std::string>& lines) {
+  if (!hear) return;
+  for (const std::string& line : lines) hear(line);
+}
+
+/// What was asked for of the object, with what the settings say of it.
+ObjectRequest completed(const Request& request) {
+  const ObjectRequest by_settings = object_request(request.settings);
+  ObjectRequest object = request.object;
+  object.level = by_settings.level;
+  object.measure_level = by_settings.measure_level && !request.labels;
+  object.has_labels = request.labels.has_value();
+  if (object.crop == CropRange{}) object.crop = by_settings.crop;
+  if (object.has_labels && object.surroundings == SurroundingsRule::kRemoveIfBody) {
+    object.surroundings = SurroundingsRule::kKeep;
+  }
+  return object;
+}
+
+/// Copies the samples only where they change.
+ChosenObject choose(Request& request, const ObjectRequest& wanted,
+                    std::span<const float>& in_place) {
+  if (auto* volume = std::get_if<Volume>(&request.scan)) {
+    return choose_object(std::move(*volume), wanted);
+  }
+  const auto& view = std::get<VolumeView>(request.scan);
+  if (auto same = choose_in_place(view, wanted)) {
+    in_place = view.samples;
+    return *std::move(same);
+  }
+  return choose_object(copy_volume(view), wanted);
+}
+
+void choose_image(Request& request, const Listener& listener, Outcome& outcome) {
+  outcome.object_asked = completed(request);
+  std::visit(
+      [&](const auto& scan) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(scan)>, std::monostate>) {
+          require_usable(scan);
+          outcome.grid = scan;
+        }
+      },
+      request.scan);
+  outcome.object = choose(request, outcome.object_asked, outcome.in_place);
+  tell(listener.note, outcome.object->notes);
+  tell(listener.warning, outcome.object->warnings);
+}
+
+void require_scan_where_needed(const Request& request) {
+  if (request.has_scan()) return;
+  if (!request.labels) throw InputError("request: expected a scan or labels, found neither");
+  if (request.mesh) throw InputError("mesh: expected a scan beside the labels, found none");
+  if (request.elements.body) {
+    throw InputError("body: expected a scan beside the labels, found none");
+  }
+}
+
+void run_one(const Request& request, const Listener& listener, Outcome& outcome) {
+  outcome.wanted = {{"object", 1, 0, default_colour(1)}};
+  const ObjectInPlace object{*outcome.object, outcome.image()};
+  outcome.one = run_on_object(object, request.settings, listener.progress, request.enough);
+}
+
+/// @param choice  labels of the request, or the parts of several seeds.
+void run_several(const Request& request, const LabelChoice& choice, const Listener& listener,
+                 Outcome& outcome) {
+  outcome.wanted = choice.chosen.empty() ? choice.map.segments : choice.chosen;
+  if (listener.objects) listener.objects(outcome.wanted);
+  if (request.enough) {
+    throw InputError("time limit: expected a run for one object, found several");
+  }
+  const LabelRequest labels{choice.map, choice.chosen, choice.margin, request.mesh,
+                            choice.exact_by ? &*choice.exact_by : nullptr};
+  outcome.several = outcome.object
+                        ? run_on_labels(ObjectInPlace{*outcome.object, outcome.image()}, labels,
+                                        request.settings, listener.progress)
+                        : surfaces_of_labels(labels, request.settings, listener.progress);
+  outcome.warnings = missing_objects(*outcome.several, outcome.wanted);
+  tell(listener.warning, outcome.warnings);
+}
+
+/// The surface of elements in the place of the one that they were made for, with its errors.
+void take_skin(TriMesh skin, TriMesh& surface, std::vector<double>& errors) {
+  if (!errors.empty()) errors = carried_errors(surface, errors, skin.points);
+  surface = std::move(skin);
+}
+
+void fill(const Request& request, const Progress& progress, Outcome& outcome) {
+  if (!request.elements.wanted()) return;
+  if (outcome.one) require_surface(*outcome.one);
+  const std::vector<FoundObject> objects = outcome.objects();
+  const VolumeView image = outcome.image();
+  const VoxelGrid& grid = outcome.object ? static_cast<const VoxelGrid&>(image) : outcome.grid;
+  outcome.elements = make_elements(
+      request.elements, {objects, grid, image, outcome.parameters(), request.settings.tolerance},
+      progress);
+  auto& skins = outcome.elements.skins;
+  for (std::size_t n = 0; n < skins.size(); ++n) {
+    TriMesh& surface = outcome.one ? outcome.one->surface : outcome.several->objects[n].surface;
+    take_skin(
+        std::move(skins[n]), surface,
+        outcome.one ? outcome.one->expected_error : outcome.several->objects[n].expected_error);
+  }
+  skins.clear();
+}
+
+/// Warns where a surface may show something else than what was meant.
+void warn_of_surface(const Listener& listener, Outcome& outcome) {
+  if (!outcome.one || outcome.parameters().surface != SurfaceKind::kSolid) return;
+  outcome.warnings = surface_warnings(*outcome.object, outcome.image(), outcome.parameters().level);
+  tell(listener.warning, outcome.warnings);
+}
+
+}  // namespace
+
+Outcome segment(Request request, const Listener& listener) {
+  require_scan_where_needed(request);
+  Outcome outcome;
+  outcome.asked = request.settings;
+  if (request.has_scan()) {
+    choose_image(request, listener, outcome);
+  } else {
+    outcome.grid = request.labels->map;
+  }
+  if (request.labels) {
+    run_several(request, *request.labels, listener, outcome);
+  } else if (outcome.object->parts) {
+    run_several(request, {*outcome.object->parts}, listener, outcome);
+  } else {
+    run_one(request, listener, outcome);
+  }
+  fill(request, listener.progress, outcome);
+  warn_of_surface(listener, outcome);
+  for (const FoundObject& object : outcome.objects()) {
+    outcome.checks.push_back(check_surface(object.surface));
+  }
+  outcome.verdict = outcome.one ? judge(*outcome.one, outcome.checks.front())
+                                : judge(*outcome.several, outcome.checks);
+  return outcome;
+}
+
+}  // namespace mesamis

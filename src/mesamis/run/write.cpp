@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/run/write.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "mesamis/label_files/write_labels.h"
+#include "mesamis/record/body_json.h"
+#include "mesamis/record/json_file.h"
+#include "mesamis/record/label_report.h"
+#include "mesamis/record/label_surface_files.h"
+#include "mesamis/record/meshing_json.h"
+#include "mesamis/record/object_report.h"
+#include "mesamis/shape_files/surface_files.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// The mesh with its cells in sets: bins of grey values, or the objects under the labels that their
+/// surfaces have in files.
+std::optional<MeshOutput> mesh_output(const Outcome& o, const MeshOptions& options) {
+  const Result* mesh = o.mesh();
+  if (mesh == nullptr) return std::nullopt;
+  if (o.one) return make_mesh_output(*mesh, o.image(), options);
+  const std::vector<NamedSurface> named = named_surfaces(*o.several);
+  std::vector<FoundObject> objects = o.objects();
+  for (std::size_t n = 0; n < named.size(); ++n) objects[n].segment.label = named[n].label;
+  return make_mesh_output(*mesh, o.image(), options, objects);
+}
+
+void write_surfaces(const Outcome& o, const Outputs& w) {
+  const auto& files = w.surfaces;
+  if (o.several) {
+    const RunSurfaceOptions as{w.frame, w.name, w.error, false, w.subject};
+    return write_label_surfaces(files, *o.several, as, o.wanted.size() > 1);
+  }
+  const bool grey = std::any_of(files.begin(), files.end(), carries_grey);
+  const SurfaceWriteOptions as =
+      surface_options(*o.one, o.image().voxel_size(), {w.frame, w.name, w.error, grey, w.subject});
+  for (const fs::path& path : files) write_surface(path, o.one->surface, as);
+}
+
+void write_meshes(const Outcome& o, const Outputs& w, const std::optional<MeshOutput>& mesh) {
+  if (mesh) {
+    for (const fs::path& path : w.meshes) write_mesh(path, *mesh, w.frame);
+  }
+  if (o.mesh() == nullptr) return;
+  for (const fs::path& path : w.band_meshes) write_band_mesh(path, *o.mesh(), w.frame);
+}
+
+/// What the report says of the method and of the elements.
+ordered_json found_json(const Outcome& o) {
+  ordered_json found =
+      o.one ? run_json(o.asked, *o.one, o.checks.front()) : label_run_json(*o.several, o.checks);
+  if (o.elements.body) found["body"] = body_json(*o.elements.body);
+  const auto& quality = o.elements.quality;
+  for (std::size_t n = 0; n < quality.size(); ++n) {
+    ordered_json& surface = o.one ? found["surface"] : found["object"]["surfaces"][n];
+    surface["meshing"] = meshing_json(quality[n]);
+  }
+  return found;
+}
+
+ordered_json warnings_json(const Outcome& o, const ReportFacts& facts) {
+  ordered_json warnings = ordered_json::array();
+  const auto add = [&](const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) warnings.push_back(line);
+  };
+  if (facts.input) add(facts.input->warnings);
+  if (o.object) add(o.object->warnings);
+  add(facts.warnings);
+  add(o.warnings);
+  return warnings;
+}
+
+/// The page has what a reader of the report file would find.
+void write_page_of(const Outcome& o, const Outputs& w, const ordered_json& report) {
+  const auto shown = w.shown_scan ? w.shown_scan() : std::nullopt;
+  const auto replace = ordered_json::error_handler_t::replace;
+  RunPage page{nlohmann::json::parse(report.dump(-1, ' ', false, replace))};
+  page.scan = shown ? &*shown : nullptr;
+  for (const FoundObject& object : o.objects()) {
+    if (object.surface.triangles.empty()) continue;
+    page.surfaces.push_back(
+        {&object.surface, o.one ? "" : object.segment.name, object.segment.colour});
+  }
+  if (const Result* mesh = o.mesh()) {
+    page.mesh = &mesh->mesh;
+    page.grey = mesh->u;
+  }
+  page.names = w.page.names;
+  write_page(w.page, page);
+}
+
+void write_report(const Outcome& o, const Outputs& w, ordered_json report, const OutputSet& set) {
+  if (w.page.given()) write_page_of(o, w, report);
+  if (w.report.empty() && !w.facts.written) return;
+  report["files"] = files_json(set);
+  if (w.facts.complete) w.facts.complete(report);
+  if (!w.report.empty()) write_json(w.report, report);
+  if (w.facts.written) w.facts.written(report);
+}
+
+}  // namespace
+
+ordered_json report_json(const Outcome& o, const Outputs& w) {
+  const ReportFacts& facts = w.facts;
+  ordered_json report, chosen;
+  if (o.object) chosen = object_json(o.object_asked, *o.object);
+  if (!facts.mask.empty()) chosen["mask"]["path"] = facts.mask;
+  report["program"] = program_json();
+  if (facts.input) report["input"] = input_json(*facts.input);
+  if (!facts.command.empty()) report["command"] = facts.command;
+  report["output"] = output_json(w.frame);
+  if (o.one) report["object"] = chosen;
+  report.update(found_json(o));
+  if (o.object) report["object"].update(chosen);
+  report["warnings"] = warnings_json(o, facts);
+  report["verdict"] = {{"kept", o.verdict.kind == VerdictKind::kKept},
+                       {"message", o.verdict.message}};
+  return report;
+}
+
+void write(const Outcome& o, const Outputs& w, OutputSet& set) {
+  if (o.one && !w.surfaces.empty()) require_surface(*o.one);
+  std::optional<MeshOutput> mesh;  // before any file is written: it may be refused
+  if (!w.meshes.empty()) mesh = mesh_output(o, w.mesh);
+  if (!w.surfaces.empty()) write_surfaces(o, w);
+  write_meshes(o, w, mesh);
+  if (o.elements.body) {
+    for (const fs::path& path : w.bodies) {
+      write_elements(path, o.elements.body->elements, {.frame = w.frame, .gmsh = w.gmsh});
+    }
+  }
+  if (!w.labelmap.empty()) write_label_map(w.labelmap, label_map_of(o.grid, o.objects()));
+  if (!w.wants_report()) return;
+  ordered_json report = report_json(o, w);
+  if (mesh) report["mesh"]["region"] = region_json(*mesh);
+  write_report(o, w, std::move(report), set);
+}
+
+void write(const Outcome& outcome, const Outputs& outputs) {
+  OutputSet set;
+  write(outcome, outputs, set);
+  set.commit();
+}
+
+}  // namespace mesamis

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/run/elements.h"
+
+#include <gtest/gtest.h>
+
+#include "run/small_request.h"
+#include "support/throws.h"
+
+namespace mesamis {
+namespace {
+
+Request body_request() {
+  Request request = ball_request();
+  request.settings.preview = true;
+  request.elements.wishes.elements.element_size = 4;
+  request.elements.wishes.tolerance = 0.3;
+  return request;
+}
+
+TEST(MakeElements, MakesNothingUnlessAsked) {
+  const Outcome& found = ball_outcome();
+  const ElementResults none =
+      make_elements({}, {found.objects(), found.grid, found.image(), found.parameters()}, {});
+  EXPECT_FALSE(none.body);
+  EXPECT_TRUE(none.skins.empty());
+}
+
+TEST(MakeElements, ABodyFillsTheObject) {
+  Request request = body_request();
+  request.elements.body = true;
+  const Outcome found = segment(std::move(request));
+  ASSERT_TRUE(found.elements.body);
+  EXPECT_EQ(found.elements.unmet, "");
+  const FiniteElements& body = found.elements.body->elements;
+  const TetMesh mesh{body.points, body.cells};
+  double volume = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    volume += cell_volume(mesh, static_cast<Index>(c));
+  }
+  EXPECT_NEAR(volume, found.checks[0].volume, 0.03 * found.checks[0].volume);
+}
+
+/// The surface becomes that of the elements, with the errors that were expected of it.
+TEST(MakeElements, SkinsReplaceSurfaces) {
+  Request request = body_request();
+  const Outcome before = segment(request);
+  request.elements.skins = true;
+  const Outcome after = segment(std::move(request));
+  EXPECT_FALSE(after.elements.body);
+  ASSERT_EQ(after.elements.quality.size(), 1U);
+  EXPECT_LE(after.elements.quality[0].to_given, 0.3);
+  EXPECT_NE(after.one->surface.points, before.one->surface.points);
+  EXPECT_EQ(after.expected_error(0).size(), after.one->surface.points.size());
+}
+
+TEST(MakeElements, NeedASurface) {
+  Request request = body_request();
+  request.elements.body = true;
+  request.settings.min_volume = 1e6;
+  EXPECT_REFUSED(segment(std::move(request)),
+                 "surface: expected a part of at least --min-volume 1000000 mm^3, found none");
+}
+
+}  // namespace
+}  // namespace mesamis
