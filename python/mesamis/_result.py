@@ -59,6 +59,10 @@ class _AnyResult:
         """What was done to the scan unasked, a line each: padding filled, a table removed."""
         return list(self._run.notes)
 
+    def save_labelmap(self, path):
+        """Writes what was found, voxel by voxel: .nii .nii.gz .nrrd .seg.nrrd."""
+        self._run.save_labelmap(os.fspath(path))
+
     @property
     def nodes(self):
         """The mesh's nodes, (n, 3), mm; none for a preview, nor of labels without mesh=True. The
@@ -88,17 +92,17 @@ class Result(_AnyResult):
     @property
     def points(self):
         """The surface's points, (n, 3), mm."""
-        return self._turned(self._run.points)
+        return self._turned(self._run.objects[0]["points"])
 
     @property
     def triangles(self):
         """The surface's triangles, (m, 3) indices of points, outward."""
-        return self._run.triangles
+        return self._run.objects[0]["triangles"]
 
     @property
     def expected_error(self):
         """How far each point is expected to lie from the truth, mm; empty for a band."""
-        return self._run.expected_error
+        return self._run.objects[0]["expected_error"]
 
     @property
     def f(self):
@@ -147,7 +151,7 @@ class Result(_AnyResult):
             self._run.save_surface(path, name, bool(error))
 
     def __repr__(self):
-        return (f"<mesamis.Result {len(self._run.triangles)} triangles, {len(self._run.tets)} "
+        return (f"<mesamis.Result {len(self.triangles)} triangles, {len(self._run.tets)} "
                 f"tetrahedra, level {self.level:.6g}>")
 
 
@@ -199,15 +203,11 @@ class LabelResult(_AnyResult):
         elif _extension(path) in MESH_FORMATS:
             self._run.save_mesh(path, region, int(bins))
         else:
-            self._run.save_surfaces(path, name, bool(error))
-
-    def save_labelmap(self, path):
-        """Writes what was found, voxel by voxel: .nii .nii.gz .nrrd .seg.nrrd."""
-        self._run.save_labelmap(os.fspath(path))
+            self._run.save_surface(path, name, bool(error))
 
     def __repr__(self):
         return f"<mesamis.LabelResult {', '.join(o.name for o in self.objects)}>"
 
 
 def result_of(run, frame):
-    return Result(run, frame) if isinstance(run, _core.Run) else LabelResult(run, frame)
+    return (LabelResult if run.several else Result)(run, frame)

@@ -97,8 +97,7 @@ def segment(
     }
     result = result_of(_core.segment(marks_scan, ours, arguments, progress, int(threads)), frame)
     warn(result.warnings)
-    if hasattr(result._run, "require_surface"):
-        result._run.require_surface()
+    result._run.require_surface()
     return result
 
 

@@ -11,7 +11,6 @@ void bind_volume(pybind11::module_& module);
 void bind_settings(pybind11::module_& module);
 void bind_files(pybind11::module_& module);
 void bind_run(pybind11::module_& module);
-void bind_labels(pybind11::module_& module);
 void bind_segment(pybind11::module_& module);
 void bind_tools(pybind11::module_& module);
 void bind_body(pybind11::module_& module);

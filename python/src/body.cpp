@@ -75,39 +75,25 @@ BodyWishes body_wishes(const Arguments& a, Frame frame) {
 }
 
 /// What the program does for --body.
-Shared body_of(const RunFacts& run, const std::vector<FoundObject>& objects,
-               const Parameters& parameters, const py::dict& arguments, const CallOptions& call) {
+Shared body_of(const std::shared_ptr<Run>& run, const py::dict& arguments,
+               const py::object& progress, int threads) {
+  const Outcome& found = run->outcome;
+  if (!found.object) throw InputError("body: expected a scan beside the labels, found none");
   const Arguments plain(arguments);
-  const BodyWishes wishes = body_wishes(plain, run.frame);
-  require_fillable(run.settings, wishes.tolerance);
-  if (wishes.material && run.object->kind != TissueKind::kBright) {
-    throw InputError("material: expected a bright tissue, found " + run.object->tissue);
+  ElementRequest request{body_wishes(plain, run->frame), true};
+  request.memory_gb = plain.get<double>("memory");
+  require_fillable(found.asked, request.wishes.tolerance);
+  if (request.wishes.material && found.object->kind != TissueKind::kBright) {
+    throw InputError("material: expected a bright tissue, found " + found.object->tissue);
   }
-  const VolumeView image = run.image();
-  BodyRequest request = complete_request(
-      wishes, objects,
-      {image, run.settings.tolerance, parameters.blur, plain.get<double>("memory")});
-  BodyOutput output = released(call, [&](const Progress& tell) {
-    request.elements.progress = tell;
-    return make_body_output(objects, image, request);
+  ElementResults results = released({progress, threads}, [&](const Progress& tell) {
+    const std::vector<FoundObject> objects = found.objects();
+    const VolumeView image = found.image();
+    return make_elements(request,
+                         {objects, image, image, found.parameters(), found.asked.tolerance}, tell);
   });
-  std::vector<std::string> warnings{unmet(output),
-                                    loose_parts(output.facts.parts, std::ssize(objects))};
-  return std::make_shared<Body>(Body{std::move(output), run.frame, std::move(warnings)});
-}
-
-Shared body_of_run(const std::shared_ptr<Run>& run, const py::dict& arguments,
-                   const py::object& progress, int threads) {
-  const std::vector<FoundObject> objects{
-      {run->result.surface, {"object", 1, 0, default_colour(1)}}};
-  return body_of(*run, objects, run->result.parameters, arguments, {progress, threads});
-}
-
-Shared body_of_labels(const std::shared_ptr<LabelRun>& run, const py::dict& arguments,
-                      const py::object& progress, int threads) {
-  if (!run->scan) throw InputError("body: expected a scan beside the labels, found none");
-  return body_of(*run, found_objects(run->result), run->result.parameters, arguments,
-                 {progress, threads});
+  return std::make_shared<Body>(
+      Body{std::move(*results.body), run->frame, {results.unmet, results.loose}});
 }
 
 py::dict sets_of(const Shared& body) {
@@ -158,8 +144,7 @@ void bind_body(py::module_& module) {
             save(b, path);
           },
           "path"_a);
-  module.def("make_body", &body_of_run, "run"_a, "arguments"_a, "progress"_a, "threads"_a);
-  module.def("make_body", &body_of_labels, "run"_a, "arguments"_a, "progress"_a, "threads"_a);
+  module.def("make_body", &body_of, "run"_a, "arguments"_a, "progress"_a, "threads"_a);
 }
 
 }  // namespace mesamis::python

@@ -15,7 +15,6 @@ PYBIND11_MODULE(_core, module) {
   bind_settings(module);
   bind_files(module);
   bind_run(module);
-  bind_labels(module);
   bind_segment(module);
   bind_tools(module);
   bind_body(module);

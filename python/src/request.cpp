@@ -22,7 +22,7 @@ std::optional<LabelSource> source_of(const Arguments& a, const char* name) {
   throw InputError(what + ": expected it without " + other + ", found both");
 }
 
-void require_consistent(const Request& r, const Arguments& a) {
+void require_consistent(const CallRequest& r, const Arguments& a) {
   if (!r.tissue.empty()) parse_tissue(r.tissue);
   if (!r.box.empty()) {
     parse_box(r.box);
@@ -64,8 +64,8 @@ Frame frame_of(const std::string& name) {
   throw InputError("frame: expected 'lps' or 'ras', found '" + name + "'");
 }
 
-Request request_of(const Arguments& a) {
-  Request r;
+CallRequest request_of(const Arguments& a) {
+  CallRequest r;
   r.settings =
       settings_from(a.get<std::string>("preset", "default"), a.get<std::string>("settings_file"),
                     a.get<std::string>("settings", "{}"));
@@ -102,13 +102,14 @@ LabelMap labels_of(const LabelSource& source, const LabelOptions& options,
   return std::move(file.map);
 }
 
-LabelOptions label_options(const Request& request, const VoxelGrid& scan) {
+LabelOptions label_options(const CallRequest& request, const VoxelGrid& scan) {
   return {{.memory_gb = request.memory_gb}, [&scan] { return scan; }};
 }
 
-ObjectRequest object_request(const Request& r, const VoxelGrid& grid,
+ObjectRequest object_request(const CallRequest& r, const VoxelGrid& grid,
                              std::vector<std::string>& warnings) {
-  ObjectRequest request = mesamis::object_request(r.settings);
+  ObjectRequest request;
+  request.crop = r.settings.crop;
   if (!r.tissue.empty()) request.tissue = parse_tissue(r.tissue);
   for (const auto& seed : r.seeds) {
     request.seeds.push_back(in_frame({seed[0], seed[1], seed[2]}, r.frame));
@@ -120,11 +121,9 @@ ObjectRequest object_request(const Request& r, const VoxelGrid& grid,
   if (r.remove) request.remove = labels_of(*r.remove, how, warnings);
   if (r.remove_body) {
     request.surroundings = SurroundingsRule::kRemove;
-  } else if (r.keep_surroundings || r.wants_labels()) {
+  } else if (r.keep_surroundings) {
     request.surroundings = SurroundingsRule::kKeep;
   }
-  request.has_labels = r.wants_labels();
-  if (request.has_labels) request.measure_level = false;
   if (!r.box.empty()) request.crop = box_to_range(grid, r.box, r.frame);
   return request;
 }

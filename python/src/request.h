@@ -14,7 +14,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/frame.h"
 #include "mesamis/label_files/read_labels.h"
-#include "mesamis/method/chosen_run.h"
+#include "mesamis/run/request.h"
 #include "volume.h"
 
 /// What a call of segment() asks for.
@@ -84,7 +84,7 @@ struct LabelSource {
 };
 
 /// What is asked for, in the types of the library.
-struct Request {
+struct CallRequest {
   Settings settings;
   Frame frame = Frame::kLps;
   std::string tissue, box;
@@ -102,10 +102,10 @@ struct Request {
 };
 
 /// @throws InputError  for settings that are refused, and for what does not go together.
-Request request_of(const Arguments& arguments);
+CallRequest request_of(const Arguments& arguments);
 
 /// How labels are read beside a scan, which the options refer to.
-LabelOptions label_options(const Request& request, const VoxelGrid& scan);
+LabelOptions label_options(const CallRequest& request, const VoxelGrid& scan);
 
 /// Reads the labels.
 /// @param warnings  those of the reader are added.
@@ -116,7 +116,7 @@ LabelMap labels_of(const LabelSource& source, const LabelOptions& options,
 /// What the library is asked for; reads masks.
 /// @param grid  of the scan, for the box.
 /// @throws InputError  as labels_of() and box_to_range().
-ObjectRequest object_request(const Request& request, const VoxelGrid& grid,
+ObjectRequest object_request(const CallRequest& request, const VoxelGrid& grid,
                              std::vector<std::string>& warnings);
 
 }  // namespace mesamis::python

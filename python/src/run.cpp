@@ -10,8 +10,6 @@
 #include "call.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
-#include "mesamis/record/report.h"
-#include "mesamis/record/run_surface.h"
 #include "mesamis/shape_files/surface_files.h"
 
 namespace mesamis::python {
@@ -20,59 +18,101 @@ namespace {
 using Shared = std::shared_ptr<Run>;
 
 std::string report_of(const Run& run) {
-  nlohmann::ordered_json report = run.report_head();
-  report.update(run_json(run.settings, run.result, run.check));
+  nlohmann::ordered_json report = report_json(run.outcome, run.outputs());
+  report["output"]["threads"] = run.threads > 0 ? run.threads : thread_count();
   report["seconds"] = run.seconds;
   return json_text(report);
 }
 
-void save_surface(const Run& run, const std::string& path, const std::string& name, bool error) {
-  require_surface(run.result);
-  if (error && !carries_arrays(path)) {
-    throw InputError("error: expected a .vtp or .ply, found " + path);
-  }
-  const double voxel = run.image().voxel_size();
-  write_surface(path, run.result.surface,
-                surface_options(run.result, voxel, {run.frame, name, error, carries_grey(path)}));
+const Result& mesh_of(const Run& run) {
+  if (run.outcome.mesh() != nullptr) return *run.outcome.mesh();
+  throw InputError(run.outcome.one ? "mesh: expected a run that made one, found a preview"
+                                   : "mesh: expected a run with mesh=True, found one without");
 }
 
-void require_mesh(const Run& run) {
-  if (!run.result.mesh.cells.empty()) return;
-  throw InputError("mesh: expected a run that made one, found a preview");
-}
-
-void save_mesh(const Run& run, const std::string& path, const std::string& region, int bins) {
-  require_mesh(run);
-  if (run.object->kind != TissueKind::kBright) {
-    throw InputError(
-        "mesh: expected a bright tissue, whose grey values are those of the scan, found " +
-        run.object->tissue);
-  }
-  write_mesh(path, make_mesh_output(run.result, run.image(), mesh_options(region, bins)),
-             run.frame);
+/// Of a preview, which has a mesh without nodes, too.
+const Result& fields_of(const Run& run) {
+  return run.outcome.one ? *run.outcome.one : mesh_of(run);
 }
 
 template <class Number, class Element>
 auto field(std::vector<Element> Result::*member) {
-  return [member](const Shared& run) { return view_of<Number>(run->result.*member, run); };
+  return [member](const Shared& run) { return view_of<Number>(fields_of(*run).*member, run); };
+}
+
+py::dict object_of(const Shared& run, std::size_t n) {
+  using namespace py::literals;
+  const FoundObject o = run->outcome.objects().at(n);
+  const auto& colour = o.segment.colour;
+  return py::dict("name"_a = o.segment.name, "label"_a = o.segment.label,
+                  "layer"_a = o.segment.layer,
+                  "colour"_a = py::make_tuple(colour[0], colour[1], colour[2]),
+                  "points"_a = view_of<double>(o.surface.points, run),
+                  "triangles"_a = view_of<Index>(o.surface.triangles, run),
+                  "expected_error"_a = view_of<double>(run->outcome.expected_error(n), run));
+}
+
+py::list objects_of(const Shared& run) {
+  py::list objects;
+  for (std::size_t n = 0; n < run->outcome.objects().size(); ++n) objects.append(object_of(run, n));
+  return objects;
+}
+
+void save_surface(const Run& run, const std::string& path, const std::string& name, bool error) {
+  if (run.outcome.one && error && !carries_arrays(path)) {
+    throw InputError("error: expected a .vtp or .ply, found " + path);
+  }
+  Outputs out = run.outputs();
+  out.surfaces = {path};
+  out.name = name;
+  out.error = error;
+  write(run.outcome, out);
+}
+
+void save_mesh(const Run& run, const std::string& path, const std::string& region, int bins) {
+  mesh_of(run);
+  if (run.outcome.object->kind != TissueKind::kBright) {
+    throw InputError(
+        "mesh: expected a bright tissue, whose grey values are those of the scan, found " +
+        run.outcome.object->tissue);
+  }
+  Outputs out = run.outputs();
+  out.meshes = {path};
+  out.mesh = mesh_options(region, bins);
+  write(run.outcome, out);
+}
+
+void save_band(const Run& run, const std::string& path) {
+  mesh_of(run);
+  Outputs out = run.outputs();
+  out.band_meshes = {path};
+  write(run.outcome, out);
+}
+
+void save_labelmap(const Run& run, const std::string& path) {
+  Outputs out = run.outputs();
+  out.labelmap = path;
+  write(run.outcome, out);
 }
 
 }  // namespace
 
-VolumeView RunFacts::image() const {
-  VolumeView view = object->volume;
-  if (view.samples.empty()) view.samples = scan->view.samples;
-  return view;
+Outputs Run::outputs() const {
+  Outputs out;
+  out.frame = frame;
+  out.facts = facts;
+  return out;
 }
 
-nlohmann::ordered_json RunFacts::report_head() const {
-  nlohmann::ordered_json report;
-  report["program"] = program_json();
-  if (scan) report["input"] = input;
-  report["output"] = output_json(frame);
-  report["output"]["threads"] = threads > 0 ? threads : thread_count();
-  if (scan) report["object"] = chosen;
-  return report;
+std::vector<std::string> Run::warnings() const {
+  std::vector<std::string> lines = facts.warnings;
+  const auto append = [&](const std::vector<std::string>& more) {
+    lines.insert(lines.end(), more.begin(), more.end());
+  };
+  if (scan) append(scan->warnings);
+  if (outcome.object) append(outcome.object->warnings);
+  append(outcome.warnings);
+  return lines;
 }
 
 MeshOptions mesh_options(const std::string& region, int bins) {
@@ -93,28 +133,31 @@ std::string json_text(const nlohmann::ordered_json& json) {
 void bind_run(py::module_& module) {
   using namespace py::literals;
   py::class_<Run, Shared>(module, "Run")
+      .def_property_readonly("several", [](const Run& r) { return r.outcome.several.has_value(); })
+      .def_property_readonly("objects", &objects_of)
       .def_property_readonly(
-          "points", [](const Shared& r) { return view_of<double>(r->result.surface.points, r); })
+          "nodes", [](const Shared& r) { return view_of<double>(fields_of(*r).mesh.points, r); })
       .def_property_readonly(
-          "triangles",
-          [](const Shared& r) { return view_of<Index>(r->result.surface.triangles, r); })
-      .def_property_readonly(
-          "nodes", [](const Shared& r) { return view_of<double>(r->result.mesh.points, r); })
-      .def_property_readonly(
-          "tets", [](const Shared& r) { return view_of<Index>(r->result.mesh.cells, r); })
+          "tets", [](const Shared& r) { return view_of<Index>(fields_of(*r).mesh.cells, r); })
       .def_property_readonly("u", field<double>(&Result::u))
       .def_property_readonly("v", field<double>(&Result::v))
       .def_property_readonly("f", field<double>(&Result::f))
       .def_property_readonly("metric", field<double>(&Result::metric))
-      .def_property_readonly("expected_error", field<double>(&Result::expected_error))
-      .def_property_readonly("level", [](const Run& r) { return r.result.parameters.level; })
-      .def_property_readonly("converged", [](const Run& r) { return r.result.converged; })
-      .def_property_readonly("stopped", [](const Run& r) { return r.result.stopped; })
-      .def_property_readonly("closed", [](const Run& r) { return r.check.closed(); })
-      .def_readonly("warnings", &Run::warnings)
-      .def_readonly("notes", &Run::notes)
-      .def_readonly("flaw", &Run::flaw)
-      .def("require_surface", [](const Run& r) { require_surface(r.result); })
+      .def_property_readonly("level", [](const Run& r) { return r.outcome.parameters().level; })
+      .def_property_readonly("converged", [](const Run& r) { return r.outcome.one->converged; })
+      .def_property_readonly("stopped", [](const Run& r) { return r.outcome.one->stopped; })
+      .def_property_readonly("closed", [](const Run& r) { return r.outcome.checks[0].closed(); })
+      .def_property_readonly("warnings", &Run::warnings)
+      .def_property_readonly("notes",
+                             [](const Run& r) {
+                               return r.outcome.object ? r.outcome.object->notes
+                                                       : std::vector<std::string>{};
+                             })
+      .def_property_readonly("flaw", [](const Run& r) { return r.outcome.verdict.message; })
+      .def("require_surface",
+           [](const Run& r) {
+             if (r.outcome.one) require_surface(*r.outcome.one);
+           })
       .def("report",
            [](const Run& r) {
              return released({py::none(), 0}, [&](const Progress&) { return report_of(r); });
@@ -133,11 +176,12 @@ void bind_run(py::module_& module) {
           "path"_a, "region"_a, "bins"_a)
       .def(
           "save_band",
+          [](const Run& r, const std::string& path) { without_lock([&] { save_band(r, path); }); },
+          "path"_a)
+      .def(
+          "save_labelmap",
           [](const Run& r, const std::string& path) {
-            without_lock([&] {
-              require_mesh(r);
-              write_band_mesh(path, r.result, r.frame);
-            });
+            without_lock([&] { save_labelmap(r, path); });
           },
           "path"_a);
 }

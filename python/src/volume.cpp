@@ -156,7 +156,7 @@ std::shared_ptr<Scan> scan_of(Volume volume) {
   return scan;
 }
 
-nlohmann::ordered_json Scan::facts() const {
+InputFacts Scan::facts() const {
   Volume header;  // facts_of() wants a volume, whose range alone needs samples
   static_cast<VoxelGrid&>(header) = view;
   InputFacts facts = facts_of({path, format, warnings, files}, header);
@@ -165,9 +165,7 @@ nlohmann::ordered_json Scan::facts() const {
     facts.lowest = *low;
     facts.highest = *high;
   }
-  nlohmann::ordered_json json = input_json(facts);
-  if (path.empty()) json["path"] = json["sha256"] = nullptr;
-  return json;
+  return facts;
 }
 
 void bind_volume(py::module_& module) {

@@ -30,7 +30,7 @@ struct Scan {
   bool spent = false;                 ///< the samples were moved out
 
   /// The facts a report gives. @throws InputError  as facts_of().
-  nlohmann::ordered_json facts() const;
+  InputFacts facts() const;
 };
 
 /// A scan that owns its samples.

@@ -172,9 +172,10 @@ InputFacts facts_of(const ScanSource& source, const Volume& volume) {
 }
 
 ordered_json input_json(const InputFacts& input) {
-  return {{"path", input.path.string()},
+  const bool is_file = !input.path.empty();
+  return {{"path", is_file ? ordered_json(input.path.string()) : nullptr},
           {"format", input.format},
-          {"sha256", input.sha256},
+          {"sha256", is_file ? ordered_json(input.sha256) : nullptr},
           {"size", input.size},
           {"spacing_mm", vec_json(input.spacing)},
           {"origin_mm", vec_json(input.origin)},

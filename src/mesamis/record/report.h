@@ -44,7 +44,8 @@ struct ScanSource {
 /// @throws InputError  if a file cannot be read again for its sha256, or has changed meanwhile.
 InputFacts facts_of(const ScanSource& source, const Volume& volume);
 
-/// The entry "input" of a report: "path", "format", "sha256", ... of its scan.
+/// The entry "input" of a report: "path", "format", "sha256", ... of its scan; path and sha256 are
+/// null for a scan that comes from no file.
 nlohmann::ordered_json input_json(const InputFacts& input);
 
 /// The entry "program" of every report: name, version, commit.
