@@ -289,7 +289,7 @@ TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
         folder, {"segment", folder / "ball.nrrd", "-o", folder / surface, "--mesh", folder / mesh});
   };
   EXPECT_FAILS(outputs("a.xyz", "a.vtu"), 2,
-               "ends with one of .stl .ply .obj .vtp .3mf .amf, found");
+               "ends with one of .stl .ply .obj .vtp .3mf .amf .glb .dcm .obj.dcm, found");
   EXPECT_FAILS(outputs("a.stl", "a.foo"), 2, "ends with one of .vtu .mesh .msh .inp, found");
   for (const auto* bins : {"0", "1000", "-3", "2.5"}) {
     EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--bins", bins})), 2,

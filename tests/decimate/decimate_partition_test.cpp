@@ -27,7 +27,7 @@ PartitionSurface blobs(Index n = 14, int count = 4) {
 
 /// Wavy layers, thinner than the tolerances below.
 PartitionSurface layers() {
-  const TetMesh mesh = box_mesh({{0, 0, 0}, {1, 1, 1}}, {12, 12, 12});
+  const TetMesh mesh = box_mesh({{0, 0, 0}, {1, 1, 1}}, {16, 16, 16});
   std::vector<std::vector<double>> fields(5);
   for (const Vec3& p : mesh.points) {
     const double height = p.z - 0.5 - 0.1 * std::sin(9 * p.x) * std::cos(8 * p.y);

@@ -156,7 +156,6 @@ TEST(SlabRun, FindsWhatMesAmisFinds) {
 TEST(SlabRun, TheGridMayBeCoarserThanTheVoxels) {
   const TempFolder folder;
   Settings settings = quick_settings();
-  settings.adaptations = 1;
   settings.stride = {2, 2, 2};
   const Volume scan = scan_of_rod(99);
   const SlabRunResult run = run_alone(scan, {.slabs = 3, .scratch = folder / "scratch"}, settings);

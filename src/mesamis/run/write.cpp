@@ -126,9 +126,9 @@ ordered_json report_json(const Outcome& o, const Outputs& w) {
 }
 
 void write(const Outcome& o, const Outputs& w, OutputSet& set) {
-  if (o.one && !w.surfaces.empty()) require_surface(*o.one);
   std::optional<MeshOutput> mesh;  // before any file is written: it may be refused
   if (!w.meshes.empty()) mesh = mesh_output(o, w.mesh);
+  if (o.one && !w.surfaces.empty()) require_surface(*o.one);
   if (!w.surfaces.empty()) write_surfaces(o, w);
   write_meshes(o, w, mesh);
   if (o.elements.body) {
