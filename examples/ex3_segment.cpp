@@ -6,11 +6,10 @@
 #include <cstdio>
 #include <exception>
 #include <random>
+#include <utility>
 
-#include "mesamis/method/mes_amis.h"
-#include "mesamis/shape_files/mesh_files.h"
-#include "mesamis/shape_files/surface_files.h"
-#include "mesamis/surface/tri_mesh.h"
+#include "mesamis/run/segment.h"
+#include "mesamis/run/write.h"
 
 using namespace mesamis;
 
@@ -30,27 +29,31 @@ int main(int count, char** arguments) try {
   }
 
   // 2. The run. Everything it depends on is in the settings; the progress may stop it.
-  Settings settings;
-  settings.max_tets = 20000;
-  const Result result = mes_amis(volume, settings, [](std::string_view stage, double done) {
+  Request request;
+  request.scan = std::move(volume);
+  request.settings.max_tets = 20000;
+  Listener listener;
+  listener.progress = [](std::string_view stage, double done) {
     if (done == 0) std::printf("%.*s\n", static_cast<int>(stage.size()), stage.data());
     return true;
-  });
+  };
+  const Outcome outcome = segment(std::move(request), listener);
 
   // 3. What happened: cells and energy of each pass.
-  for (const Iteration& pass : result.iterations) {
+  for (const Iteration& pass : outcome.one->iterations) {
     std::printf("%9lld cells, energy %.4g\n", static_cast<long long>(pass.tets),
                 pass.energy.total());
   }
-  const SurfaceCheck check = check_surface(result.surface);
+  const SurfaceCheck& check = outcome.checks.front();
   std::printf("%zu triangles, closed: %s, volume %.0f mm3 (the ball: %.0f)\n",
-              result.surface.triangles.size(), check.closed() ? "yes" : "no", check.volume,
+              outcome.one->surface.triangles.size(), check.closed() ? "yes" : "no", check.volume,
               4.0 / 3 * 3.141592653589793 * 9 * 9 * 9);
 
-  // 4. Files, written whole or not at all, in LPS mm.
-  if (count > 1) write_surface(arguments[1], result.surface, {});
-  const std::vector<MeshArray> arrays{{"u", 1, result.u}};
-  if (count > 2) write_vtu(arguments[2], result.mesh, {.point_arrays = arrays});
+  // 4. Files, which appear together or not at all, in LPS mm.
+  Outputs outputs;
+  if (count > 1) outputs.surfaces = {arguments[1]};
+  if (count > 2) outputs.meshes = {arguments[2]};
+  write(outcome, outputs);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "ex3_segment: %s\n", error.what());
   return 1;

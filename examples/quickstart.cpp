@@ -7,8 +7,8 @@
 #include <exception>
 #include <vector>
 
-#include "mesamis/method/mes_amis.h"
-#include "mesamis/shape_files/surface_files.h"
+#include "mesamis/run/segment.h"
+#include "mesamis/run/write.h"
 
 namespace {
 
@@ -36,10 +36,14 @@ int main(int count, char** arguments) try {
   scan.spacing = {0.5, 0.5, 0.5};  // mm
   scan.samples = voxels;           // any std::span<const float>
 
-  const mesamis::Result result = mesamis::mes_amis(scan, mesamis::Settings{});
-  mesamis::write_surface(count > 1 ? arguments[1] : "quickstart.stl", result.surface);
-  const bool closed = mesamis::check_surface(result.surface).closed();
-  std::printf("%zu triangles, %s\n", result.surface.triangles.size(), closed ? "closed" : "open");
+  mesamis::Request request;
+  request.scan = scan;
+  const mesamis::Outcome outcome = mesamis::segment(request);
+  mesamis::write(outcome, {.surfaces = {count > 1 ? arguments[1] : "quickstart.stl"}});
+
+  const bool closed = outcome.checks.front().closed();
+  std::printf("%zu triangles, %s\n", outcome.objects().front().surface.triangles.size(),
+              closed ? "closed" : "open");
   return closed ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "quickstart: %s\n", error.what());

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "mesamis/run/segment.h"
+
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -8,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "mesamis/run/write.h"
+#include "mesamis/scan_files/read_volume.h"
 #include "mesamis/shape_files/mesh_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "support/ball_volume.h"
@@ -48,6 +52,35 @@ std::vector<std::string> segment_arguments(const TempFolder& folder, const std::
 
 nlohmann::json report_of(const TempFolder& folder, const std::string& name) {
   return nlohmann::json::parse(read_bytes(folder / (name + ".json")));
+}
+
+/// The program only translates: its files are those that the library writes for the same request.
+TEST(SegmentCommand, WritesTheBytesOfTheLibrary) {
+  const TempFolder folder;
+  write_ball(folder, 20);
+  const std::vector<std::string> names{"a.stl", "a.vtp", "a.3mf", "a.vtu", "a.nii.gz"};
+  std::vector<std::string> arguments{
+      "segment", folder / "ball.nrrd", "--max-tets", "2000", "--adaptations", "2", "--quiet",
+      "--error"};
+  for (const char* option : {"-o", "-o", "-o", "--mesh", "--labelmap"}) {
+    const std::string& name = names[(arguments.size() - 8) / 2];
+    arguments.insert(arguments.end(), {option, folder / name});
+  }
+  ASSERT_EQ(run_program(folder, arguments).status, 0);
+  Request request;
+  request.scan = read_volume(folder / "ball.nrrd").volume;
+  request.settings.max_tets = 2000;
+  request.settings.adaptations = 2;
+  const TempFolder other;
+  Outputs out;
+  out.surfaces = {other / "a.stl", other / "a.vtp", other / "a.3mf"};
+  out.meshes = {other / "a.vtu"};
+  out.labelmap = other / "a.nii.gz";
+  out.error = true;
+  write(segment(std::move(request)), out);
+  for (const std::string& name : names) {
+    EXPECT_EQ(read_bytes(folder / name), read_bytes(other / name)) << name;
+  }
 }
 
 TEST(SegmentCommand, TurnsAScanIntoASurfaceAMeshAndAReportThatRepeatsIt) {
