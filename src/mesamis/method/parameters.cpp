@@ -4,49 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesamis/method/setting_table.h"
+
 namespace mesamis {
 
-Settings settings_of(const Parameters& p) {
-  Settings s;
-  s.crop = p.crop;
-  s.stride = p.stride;
-  s.window = Window{p.grey.low, p.grey.high};
-  s.threshold_rule = p.grey.has_threshold() ? ThresholdRule::kValue : ThresholdRule::kNone;
-  s.threshold = p.grey.threshold;
-  s.restore = p.restore;
-  s.noise = p.noise;
-  s.blur = p.blur;
-  s.length_unit = p.length_unit;
-  s.epsilon = p.functional.epsilon;
-  s.eta = p.functional.eta;
-  s.beta = p.functional.beta;
-  s.gamma = p.functional.gamma;
-  s.amis_iterations = p.amis_iterations;
-  s.tol_v = p.tol_v;
-  s.solver_tolerance = p.solver_tolerance;
-  if (p.max_tets > 0) s.max_tets = p.max_tets;
-  s.tau = p.tau;
-  s.adaptations = p.adaptations;
-  s.tol_mesh = p.tol_mesh;
-  s.tol_energy = p.tol_energy;
-  s.until = p.until;
-  s.drafts = p.drafts;
-  s.max_stretch = p.max_stretch;
-  s.gradation = p.gradation;
-  s.h_min = p.h_min;
-  s.h_max = p.h_max;
-  s.surface = p.surface;
-  if (p.surface == SurfaceKind::kSolid) s.level = p.level;
-  s.follow = p.follow;
-  s.band_threshold = p.band_threshold;
-  s.min_volume = p.min_volume;
-  s.keep_largest = p.keep_largest;
-  s.fill_cavities = p.fill_cavities;
-  if (p.accuracy > 0) s.accuracy = p.accuracy;
-  s.tolerance = p.tolerance;
-  if (p.triangles > 0) s.triangles = p.triangles;
-  s.preview = p.preview;
-  return s;
+Settings settings_of(const Parameters& parameters) {
+  Settings settings;
+  for (const Setting& setting : setting_table()) setting.repeat(parameters, settings);
+  return settings;
 }
 
 double cells_for_surface(double area, double thin_share, const Vec3& spacing, double accuracy) {

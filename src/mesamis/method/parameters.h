@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "mesamis/image/grey_values.h"
 #include "mesamis/method/settings.h"
@@ -51,7 +52,7 @@ struct Parameters {
   double accuracy = 0;            ///< asked for, mm; 0: none was
   /// Of decimation, mm, both ways; 0: none done; infinite: no bound. The default, see
   /// default_tolerance(), is set when there is a surface; before, it is infinite.
-  double tolerance = 0;
+  double tolerance = std::numeric_limits<double>::infinity();
   std::int64_t triangles = 0;  ///< where decimation stops; 0: nowhere
 
   bool preview = false;  ///< the solid of the first grid; no mesh is made

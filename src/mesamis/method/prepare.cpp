@@ -9,6 +9,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/image/grey_values.h"
+#include "mesamis/method/setting_table.h"
 #include "mesamis/restore/half_maximum_level.h"
 #include "mesamis/restore/level_crossings.h"
 #include "mesamis/restore/object_edge.h"
@@ -32,38 +33,13 @@ double default_h_max(const VoxelGrid& volume, double unit_mm) {
 
 /// Settings that are taken over, and those that follow from the volume's grid alone.
 Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
-  const double unit_mm = s.length_unit == LengthUnit::kMm ? 1 : volume.voxel_size();
   Parameters p;
-  p.crop = s.crop;
+  p.unit_mm = s.length_unit == LengthUnit::kMm ? 1 : volume.voxel_size();
   p.stride = stride_of(s, volume.size, volume.spacing);
-  p.restore = s.restore;
-  p.length_unit = s.length_unit;
-  p.unit_mm = unit_mm;
-  p.functional = {s.epsilon, s.eta.value_or(s.epsilon * s.epsilon), s.beta, s.gamma.value_or(0)};
-  p.amis_iterations = s.amis_iterations;
-  p.tol_v = s.tol_v;
-  p.solver_tolerance = s.solver_tolerance;
-  p.max_tets = s.max_tets.value_or(0);
-  p.tau = s.tau;
-  p.adaptations = s.adaptations;
-  p.tol_mesh = s.tol_mesh;
-  p.tol_energy = s.tol_energy;
-  p.until = s.until;
-  p.drafts = s.drafts;
-  p.max_stretch = s.max_stretch;
-  p.gradation = s.gradation;
-  p.h_min = s.h_min;
-  p.h_max = s.h_max.value_or(std::max(s.h_min, default_h_max(volume, unit_mm)));
-  p.surface = s.surface;
-  p.follow = s.follow;
-  p.band_threshold = s.band_threshold;
-  p.min_volume = s.min_volume.value_or(kDefaultMinVolume * volume.voxel_volume());
-  p.keep_largest = s.keep_largest;
-  p.fill_cavities = s.fill_cavities;
-  p.tolerance = s.tolerance.value_or(std::numeric_limits<double>::infinity());
-  p.accuracy = s.accuracy.value_or(0);
-  p.triangles = s.triangles.value_or(0);
-  p.preview = s.preview;
+  p.functional.eta = s.epsilon * s.epsilon;
+  p.h_max = std::max(s.h_min, default_h_max(volume, p.unit_mm));
+  p.min_volume = kDefaultMinVolume * volume.voxel_volume();
+  for (const Setting& setting : setting_table()) setting.use(s, p);
   return p;
 }
 

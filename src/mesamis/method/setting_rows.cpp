@@ -2,6 +2,7 @@
 #include "mesamis/method/setting_rows.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <type_traits>
 
@@ -59,21 +60,21 @@ void take(const Numbers& n, CropRange& range) {
 }
 
 template <class T>
-void bind(Setting& row, T Settings::*member) {
+void bind_value(Setting& row, T Settings::*member) {
   row.get = [member](const Settings& s) { return SettingValue(numbers_of(s.*member)); };
   row.set = [member](Settings& s, const SettingValue& value) {
     take(std::get<Numbers>(value), s.*member);
   };
 }
 
-void bind(Setting& row, bool Settings::*member) {
+void bind_value(Setting& row, bool Settings::*member) {
   row.get = [member](const Settings& s) { return SettingValue(s.*member); };
   row.set = [member](Settings& s, const SettingValue& value) { s.*member = std::get<bool>(value); };
 }
 
 /// Without a value the setting is "auto".
 template <class T>
-void bind(Setting& row, std::optional<T> Settings::*member) {
+void bind_value(Setting& row, std::optional<T> Settings::*member) {
   row.get = [member](const Settings& s) {
     return s.*member ? SettingValue(numbers_of(*(s.*member))) : SettingValue("auto");
   };
@@ -86,7 +87,7 @@ void bind(Setting& row, std::optional<T> Settings::*member) {
 /// The row's words in the order of the enumerators.
 template <class Enum>
 requires std::is_enum_v<Enum>
-void bind(Setting& row, Enum Settings::*member) {
+void bind_value(Setting& row, Enum Settings::*member) {
   const std::vector<std::string> words = row.words;
   row.get = [=](const Settings& s) {
     return SettingValue(words[static_cast<std::size_t>(s.*member)]);
@@ -97,13 +98,64 @@ void bind(Setting& row, Enum Settings::*member) {
   };
 }
 
-template <class Member>
-Setting bound(Setting row, Member member) {
-  bind(row, member);
+// ---- From a member of Settings to that of Parameters and back.
+
+template <class T, class OfRun>
+void bind_run(Setting& row, T Settings::*member, OfRun of_run) {
+  row.use = [=](const Settings& s, Parameters& p) { std::invoke(of_run, p) = s.*member; };
+  row.repeat = [=](const Parameters& p, Settings& s) { s.*member = std::invoke(of_run, p); };
+}
+
+/// What is "auto" stays as it was chosen.
+template <class T, class OfRun>
+void bind_run(Setting& row, std::optional<T> Settings::*member, OfRun of_run) {
+  row.use = [=](const Settings& s, Parameters& p) {
+    if (s.*member) std::invoke(of_run, p) = *(s.*member);
+  };
+  row.repeat = [=](const Parameters& p, Settings& s) { s.*member = std::invoke(of_run, p); };
+}
+
+/// A member of the functional's parameters.
+auto of_functional(double AtParameters::*member) {
+  return [member](auto& p) -> auto& { return p.functional.*member; };
+}
+
+/// @param of_run  the member of Parameters, or what returns a reference to it.
+template <class Member, class OfRun>
+Setting bound(Setting row, Member member, OfRun of_run) {
+  bind_value(row, member);
+  bind_run(row, member, of_run);
   return row;
 }
 
-// ---- Three settings have words of their own beside numbers.
+/// The same where 0 is none, which was not asked for.
+template <class Member, class OfRun>
+Setting bound_unless_zero(Setting row, Member member, OfRun of_run) {
+  row = bound(std::move(row), member, of_run);
+  row.repeat = [=](const Parameters& p, Settings& s) {
+    if (std::invoke(of_run, p) > 0) s.*member = std::invoke(of_run, p);
+  };
+  return row;
+}
+
+// ---- Settings whose value or whose use is of a kind of its own.
+
+/// The run has a map of grey values in its place.
+Setting window_row(Setting row) {
+  bind_value(row, &Settings::window);
+  row.use = [](const Settings&, Parameters&) {};
+  row.repeat = [](const Parameters& p, Settings& s) { s.window = Window{p.grey.low, p.grey.high}; };
+  return row;
+}
+
+/// A band has none.
+Setting level_row(Setting row) {
+  row = bound(std::move(row), &Settings::level, &Parameters::level);
+  row.repeat = [](const Parameters& p, Settings& s) {
+    if (p.surface == SurfaceKind::kSolid) s.level = p.level;
+  };
+  return row;
+}
 
 Setting threshold_row(Setting row) {
   row.get = [](const Settings& s) -> SettingValue {
@@ -126,11 +178,16 @@ Setting threshold_row(Setting row) {
                                                  : ThresholdRule::kValue;
     if (s.threshold_rule == ThresholdRule::kValue) s.threshold = std::get<Numbers>(value)[0];
   };
+  row.use = [](const Settings&, Parameters&) {};
+  row.repeat = [](const Parameters& p, Settings& s) {
+    s.threshold_rule = p.grey.has_threshold() ? ThresholdRule::kValue : ThresholdRule::kNone;
+    s.threshold = p.grey.threshold;
+  };
   return row;
 }
 
 Setting blur_row(Setting row) {
-  bind(row, &Settings::blur);
+  row = bound(std::move(row), &Settings::blur, &Parameters::blur);
   row.set = [set = row.set](Settings& s, const SettingValue& value) {
     set(s, is_word(value, "none") ? SettingValue(Numbers{0, 0, 0}) : value);
   };
@@ -138,7 +195,7 @@ Setting blur_row(Setting row) {
 }
 
 Setting tolerance_row(Setting row) {
-  bind(row, &Settings::tolerance);
+  row = bound(std::move(row), &Settings::tolerance, &Parameters::tolerance);
   row.get = [get = row.get](const Settings& s) {
     return s.tolerance == kInfinity ? SettingValue("none") : get(s);
   };
@@ -157,18 +214,17 @@ std::vector<Setting> image_rows() {
     bound({.name = "crop", .form = "I0:I1,J0:J1,K0:K1", .count = 6, .whole = true, .ranges = true,
            .low = -1, .high = kLargestIndex, .unit = "voxels",
            .help = "Part of the volume to use, ends excluded; nothing, or -1 as an end: the "
-               "volume's own bound"}, &Settings::crop),
+               "volume's own bound"}, &Settings::crop, &Parameters::crop),
     bound({.name = "stride", .form = "X,Y,Z", .count = 3, .whole = true, .low = 1, .high = 1000,
            .words = {"auto"}, .unit = "voxels", .help = "Voxels per node of the first grid",
            .automatic = "1; 2 in volumes of more than a million voxels, along the axes where that is no "
                "more than twice the voxels' mean size; for a preview, so that there are at most three "
-               "million nodes", .paper = "1,1,1"}, &Settings::stride),
-    bound({.name = "window", .form = "LO,HI", .count = 2, .low = -kLargestValue,
+               "million nodes", .paper = "1,1,1"}, &Settings::stride, &Parameters::stride),
+    window_row({.name = "window", .form = "LO,HI", .count = 2, .low = -kLargestValue,
            .high = kLargestValue, .words = {"auto"}, .unit = "native",
            .help = "Values that become grey values 0 and 255",
            .automatic = "CT: -200 HU to the 99.9 percentile, at least 800 and at most 2000 HU; "
-               "else the 0.1 and 99.9 percentiles; widened where the level needs room"},
-          &Settings::window),
+               "else the 0.1 and 99.9 percentiles; widened where the level needs room"}),
     threshold_row({.name = "threshold", .form = "T", .count = 1, .low = -kLargestValue,
                    .high = kLargestValue, .words = {"auto", "none", "paper"}, .unit = "native",
                    .help = "T of (13): what is darker counts as T; paper: 140 of 255 grey values",
@@ -176,11 +232,11 @@ std::vector<Setting> image_rows() {
                        "of two classes", .paper = "paper"}),
     bound({.name = "restore", .form = "yes|no",
            .help = "Remove impulses and undo the blur before the method sees the image",
-           .paper = "no"}, &Settings::restore),
+           .paper = "no"}, &Settings::restore, &Parameters::restore),
     bound({.name = "noise", .form = "S", .count = 1, .low = 0, .high = kLargestValue,
            .words = {"auto"}, .unit = "native", .help = "Standard deviation of the noise",
            .automatic = "measured beside the object's surface, on the quieter side"},
-          &Settings::noise),
+          &Settings::noise, &Parameters::noise),
     blur_row({.name = "blur", .form = "X,Y,Z", .count = 3, .low = 0, .high = kLargestBlur,
               .words = {"auto", "none"}, .unit = "voxels",
               .help = "Blur to undo, standard deviation along each axis",
@@ -193,67 +249,67 @@ std::vector<Setting> functional_rows() {
   return {
     bound({.name = "length_unit", .form = "voxel|mm", .words = {"voxel", "mm"},
            .help = "Unit of the lengths in the functional and of h-min and h-max; voxel: the "
-               "geometric mean of the spacing", .paper = "mm"}, &Settings::length_unit),
+               "geometric mean of the spacing", .paper = "mm"}, &Settings::length_unit, &Parameters::length_unit),
     bound({.name = "epsilon", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
-           .unit = "length units", .help = "Thickness of the edge indicator"}, &Settings::epsilon),
+           .unit = "length units", .help = "Thickness of the edge indicator"}, &Settings::epsilon, of_functional(&AtParameters::epsilon)),
     bound({.name = "eta", .form = "X", .count = 1, .low = kTiny * kTiny, .high = kHuge,
            .words = {"auto"}, .help = "Smallest diffusion, at edges",
-           .automatic = "epsilon squared"}, &Settings::eta),
+           .automatic = "epsilon squared"}, &Settings::eta, of_functional(&AtParameters::eta)),
     bound({.name = "beta", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
            .unit = "length units squared",
-           .help = "Weight of smoothness away from edges"}, &Settings::beta),
+           .help = "Weight of smoothness away from edges"}, &Settings::beta, of_functional(&AtParameters::beta)),
     bound({.name = "gamma", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
            .words = {"auto"}, .unit = "grey values squared times length units",
            .help = "Weight of the edge indicator: the price of edges",
            .automatic = "4 epsilon beta (0.07 contrast + 0.25 noise)^2, both measured",
-           .paper = "0.1"}, &Settings::gamma),
+           .paper = "0.1"}, &Settings::gamma, of_functional(&AtParameters::gamma)),
     bound({.name = "amis_iterations", .form = "N", .count = 1, .whole = true, .low = 1,
            .high = 1000,
            .help = "Jmax of Algorithm 1: alternations per mesh at most"},
-          &Settings::amis_iterations),
+          &Settings::amis_iterations, &Parameters::amis_iterations),
     bound({.name = "tol_v", .form = "X", .count = 1, .low = 0, .high = 1,
-           .help = "Algorithm 1 stops when v changes by less everywhere"}, &Settings::tol_v),
+           .help = "Algorithm 1 stops when v changes by less everywhere"}, &Settings::tol_v, &Parameters::tol_v),
     bound({.name = "solver_tolerance", .form = "X", .count = 1, .low = 1e-14, .high = 1e-2,
-           .help = "Relative residual of each linear solve"}, &Settings::solver_tolerance),
+           .help = "Relative residual of each linear solve"}, &Settings::solver_tolerance, &Parameters::solver_tolerance),
   };
 }
 
 std::vector<Setting> mesh_rows() {
   return {
-    bound({.name = "max_tets", .form = "N", .count = 1, .whole = true, .low = 100, .high = 2e8,
+    bound_unless_zero({.name = "max_tets", .form = "N", .count = 1, .whole = true, .low = 100, .high = 2e8,
            .words = {"auto"}, .help = "NMAX: cells of the mesh at most",
            .automatic = "4.5 for each square of the object's surface with the voxel's shortest "
                "side, 18 in walls and gaps thinner than two voxels, times a tenth of a voxel over accuracy, "
-               "a quarter to four, if that is asked for; 20 000 to 2 000 000 in all", .paper = "1300000"}, &Settings::max_tets),
+               "a quarter to four, if that is asked for; 20 000 to 2 000 000 in all", .paper = "1300000"}, &Settings::max_tets, &Parameters::max_tets),
     bound({.name = "tau", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
-           .help = "Tolerance on the error estimator"}, &Settings::tau),
+           .help = "Tolerance on the error estimator"}, &Settings::tau, &Parameters::tau),
     bound({.name = "adaptations", .form = "N", .count = 1, .whole = true, .low = 1, .high = 100,
-           .help = "Adaptations of the mesh at most"}, &Settings::adaptations),
+           .help = "Adaptations of the mesh at most"}, &Settings::adaptations, &Parameters::adaptations),
     bound({.name = "tol_mesh", .form = "X", .count = 1, .low = 0, .high = kHuge,
            .help = "The mesh has settled when the cell count changes by less, relatively"},
-          &Settings::tol_mesh),
+          &Settings::tol_mesh, &Parameters::tol_mesh),
     bound({.name = "tol_energy", .form = "X", .count = 1, .low = 0, .high = kHuge,
            .help = "The energy has settled when it changes by less, relatively"},
-          &Settings::tol_energy),
+          &Settings::tol_energy, &Parameters::tol_energy),
     bound({.name = "until", .form = "surface|energy|either", .words = {"surface", "energy", "either"},
            .help = "surface: the loop ends when a mesh has moved the solid by less than its expected "
                "error, or a fifth of a voxel, if that is more and the solid then follows the image; "
                "energy, and for a band: when mesh and energy have settled; either: when one has",
-           .paper = "either"}, &Settings::until),
+           .paper = "either"}, &Settings::until, &Parameters::until),
     bound({.name = "drafts", .form = "yes|no",
            .help = "Meshes before the last have fewer cells and approximate fields",
-           .paper = "no"}, &Settings::drafts),
+           .paper = "no"}, &Settings::drafts, &Parameters::drafts),
     bound({.name = "max_stretch", .form = "X", .count = 1, .low = 1.1, .high = 1e6,
            .help = "Longest to shortest size of a cell at most",
-           .paper = "30000"}, &Settings::max_stretch),
+           .paper = "30000"}, &Settings::max_stretch, &Parameters::max_stretch),
     bound({.name = "gradation", .form = "X", .count = 1, .low = 1.01, .high = 1000,
            .exceptions = {0},
-           .help = "Growth of sizes from edge to edge at most; 0: any"}, &Settings::gradation),
+           .help = "Growth of sizes from edge to edge at most; 0: any"}, &Settings::gradation, &Parameters::gradation),
     bound({.name = "h_min", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
-           .unit = "length units", .help = "Smallest edge", .paper = "0.1"}, &Settings::h_min),
+           .unit = "length units", .help = "Smallest edge", .paper = "0.1"}, &Settings::h_min, &Parameters::h_min),
     bound({.name = "h_max", .form = "X", .count = 1, .low = kTiny, .high = kHuge,
            .words = {"auto"}, .unit = "length units", .help = "Largest edge",
-           .automatic = "a quarter of the box's longest side"}, &Settings::h_max),
+           .automatic = "a quarter of the box's longest side"}, &Settings::h_max, &Parameters::h_max),
   };
 }
 
@@ -261,29 +317,29 @@ std::vector<Setting> surface_rows() {
   return {
     bound({.name = "surface", .form = "solid|band", .words = {"solid", "band"},
            .help = "solid: closed level set of u; band: the paper's surface, the boundary of the "
-               "cells where v is small", .paper = "band"}, &Settings::surface),
-    bound({.name = "level", .form = "X", .count = 1, .low = -kLargestValue, .high = kLargestValue,
+               "cells where v is small", .paper = "band"}, &Settings::surface, &Parameters::surface),
+    level_row({.name = "level", .form = "X", .count = 1, .low = -kLargestValue, .high = kLargestValue,
            .words = {"auto"}, .unit = "native", .help = "Value of the solid surface",
            .automatic = "half maximum of the object's edge, fitted to the image where the object "
-               "is thickest; above T"}, &Settings::level),
+               "is thickest; above T"}),
     bound({.name = "follow", .form = "yes|no",
            .help = "Move the solid surface on to the image where that is more exact than the mesh",
-           .paper = "no"}, &Settings::follow),
+           .paper = "no"}, &Settings::follow, &Parameters::follow),
     bound({.name = "band_threshold", .form = "X", .count = 1, .low = 0, .high = 1,
-           .help = "TOLth: the band's cells have v below this"}, &Settings::band_threshold),
+           .help = "TOLth: the band's cells have v below this"}, &Settings::band_threshold, &Parameters::band_threshold),
     bound({.name = "min_volume", .form = "X", .count = 1, .low = 0, .high = 1e12,
            .words = {"auto"}, .unit = "mm^3",
            .help = "Smaller islands of the solid go, smaller cavities are filled",
-           .automatic = "4 voxels"}, &Settings::min_volume),
+           .automatic = "4 voxels"}, &Settings::min_volume, &Parameters::min_volume),
     bound({.name = "keep_largest", .form = "N", .count = 1, .whole = true, .low = 0, .high = 1e9,
-           .help = "Islands of the solid to keep; 0: all"}, &Settings::keep_largest),
+           .help = "Islands of the solid to keep; 0: all"}, &Settings::keep_largest, &Parameters::keep_largest),
     bound({.name = "fill_cavities", .form = "yes|no",
-           .help = "Fill every cavity of the solid"}, &Settings::fill_cavities),
-    bound({.name = "accuracy", .form = "MM", .count = 1, .low = kTiny, .high = kHuge,
+           .help = "Fill every cavity of the solid"}, &Settings::fill_cavities, &Parameters::fill_cavities),
+    bound_unless_zero({.name = "accuracy", .form = "MM", .count = 1, .low = kTiny, .high = kHuge,
            .words = {"auto"}, .unit = "mm",
            .help = "Mean distance of the solid to the truth that is asked for: chooses max-tets and "
                "tolerance where they are auto",
-           .automatic = "none is asked for: the usual cells and tolerance"}, &Settings::accuracy),
+           .automatic = "none is asked for: the usual cells and tolerance"}, &Settings::accuracy, &Parameters::accuracy),
     tolerance_row({.name = "tolerance", .form = "X", .count = 1, .low = 0, .high = kHuge,
                    .words = {"auto", "none"}, .unit = "mm",
                    .help = "Decimation keeps the solid surface within this distance; 0: no "
@@ -292,10 +348,10 @@ std::vector<Setting> surface_rows() {
                                 "triangles says where to stop"}),
     bound({.name = "preview", .form = "yes|no",
            .help = "The solid of the first grid, quickly: no mesh is adapted, decimation is quick"},
-          &Settings::preview),
-    bound({.name = "triangles", .form = "N", .count = 1, .whole = true, .low = 4, .high = 2e9,
+          &Settings::preview, &Parameters::preview),
+    bound_unless_zero({.name = "triangles", .form = "N", .count = 1, .whole = true, .low = 4, .high = 2e9,
            .words = {"auto"}, .help = "Decimation stops at this many triangles",
-           .automatic = "as few as the tolerance permits"}, &Settings::triangles),
+           .automatic = "as few as the tolerance permits"}, &Settings::triangles, &Parameters::triangles),
   };
 }
 // clang-format on

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "mesamis/method/parameters.h"
 #include "mesamis/method/settings.h"
 
 /// The one table of settings. The command line, JSON files, the checks, the reports and
@@ -34,6 +35,10 @@ struct Setting {
   std::function<SettingValue(const Settings&)> get = {};
   /// The value must have passed check_value().
   std::function<void(Settings&, const SettingValue&)> set = {};
+  /// Takes over what the settings give; what they leave open stays as the run chose it.
+  std::function<void(const Settings&, Parameters&)> use = {};
+  /// The value that repeats a run.
+  std::function<void(const Parameters&, Settings&)> repeat = {};
 };
 
 /// Every setting, in the order in which they are written. O(1): the table is built once.
