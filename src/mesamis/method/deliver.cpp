@@ -30,12 +30,6 @@ void turn_as_grid(const RunInput& run, TriMesh& surface) {
   for (Triangle& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);
 }
 
-void choose_tolerance(const RunInput& run, const Settings& settings, double mean_error,
-                      Parameters& parameters) {
-  if (settings.tolerance || settings.triangles) return;
-  parameters.tolerance = default_tolerance(run.grey.voxel_size(), mean_error, parameters.accuracy);
-}
-
 void deliver_surface(const RunInput& run, TriMesh extracted, Result& result) {
   Stopwatch watch;
   result.surface = followed(run, std::move(extracted));
@@ -65,7 +59,8 @@ void finish_surface(const RunInput& run, const Settings& settings, const Progres
   Parameters& p = result.parameters;
   result.printable.triangles_extracted = std::ssize(result.surface.triangles);
   if (p.surface == SurfaceKind::kBand) return;
-  choose_tolerance(run, settings, mean_expected_error(run, result.surface), p);
+  p.tolerance =
+      chosen_tolerance(settings, run.grey.voxel_size(), mean_expected_error(run, result.surface));
   result.surface = make_printable(result.surface,
                                   {p.min_volume, p.keep_largest, p.fill_cavities, p.tolerance,
                                    p.triangles, progress, p.preview},

@@ -22,11 +22,6 @@ void deliver_loop(const RunInput& run, Loop loop, const Progress& progress, Resu
 /// inward.
 void turn_as_grid(const RunInput& run, TriMesh& surface);
 
-/// The tolerance of decimation where the settings leave it open.
-/// @param mean_error  expected of the surface, mm.
-void choose_tolerance(const RunInput& run, const Settings& settings, double mean_error,
-                      Parameters& parameters);
-
 /// Makes a solid printable, and tells its error; the paper's band is delivered as it is.
 /// @param result  with a surface; Parameters::tolerance is set where the settings leave it open.
 /// @throws Cancelled  if progress says stop.

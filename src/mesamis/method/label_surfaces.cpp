@@ -36,9 +36,8 @@ namespace {
 
 constexpr double kMargin = 2.5;  // voxels, of the labels or of the scan
 constexpr std::size_t kMostObjects = 4096;
-constexpr double kMostMargin = 50;          // voxels of the scan
-constexpr double kToleranceOfLabels = 0.1;  // voxels: they are no more exact
-constexpr double kReach = 2;                // margins that a label may flow
+constexpr double kMostMargin = 50;  // voxels of the scan
+constexpr double kReach = 2;        // margins that a label may flow
 
 /// The layers of those segments, increasing.
 std::vector<Index> layers_of(const std::vector<Segment>& segments) {
@@ -277,19 +276,14 @@ LayerBoundaries place_by_labels(const LabelRun& run, Index layer, const LabelBlo
   return {layer, std::move(partition)};
 }
 
-/// The tolerance of all layers where the settings leave it open: as exact as the image shows the
-/// boundaries in the mean, or as labels can be.
+/// How exact the boundaries of all layers are expected to be in the mean, mm; infinite without an
+/// image.
 /// @param input  of the image; nullptr: none.
-double choose_tolerance(const LabelRun& run, const std::vector<LayerBoundaries>& layers,
-                        const RunInput* input) {
-  const Settings& settings = run.settings;
-  if (settings.tolerance) return *settings.tolerance;
-  if (settings.triangles) return std::numeric_limits<double>::infinity();
-  if (input == nullptr) return kToleranceOfLabels * run.request.map.voxel_size();
+double mean_error_of(const std::vector<LayerBoundaries>& layers, const RunInput* input) {
+  if (input == nullptr) return std::numeric_limits<double>::infinity();
   TriMesh all;
   for (const LayerBoundaries& layer : layers) append(layer.partition, all);
-  return default_tolerance(input->grey.voxel_size(), mean_expected_error(*input, all),
-                           settings.accuracy.value_or(0));
+  return mean_expected_error(*input, all);
 }
 
 /// Decimates what objects share in one.
@@ -364,7 +358,8 @@ Parameters parameters_of(const LabelRun& run, const Prepared& prepared, const Cr
 void finish_layers(const LabelRun& run, std::vector<LayerBoundaries> layers, const RunInput* input,
                    LabelResult& result) {
   Stopwatch watch;
-  result.parameters.tolerance = choose_tolerance(run, layers, input);
+  const double voxel = input ? input->grey.voxel_size() : run.request.map.voxel_size();
+  result.parameters.tolerance = chosen_tolerance(run.settings, voxel, mean_error_of(layers, input));
   result.parameters.triangles = run.settings.triangles.value_or(0);
   for (LayerBoundaries& layer : layers) {
     result.flow_converged &= layer.converged;

@@ -72,6 +72,12 @@ double default_tolerance(double voxel, double expected_error, double accuracy) {
   return std::clamp(expected_error, kLeast * voxel, kMost * voxel);
 }
 
+double chosen_tolerance(const Settings& settings, double voxel, double expected_error) {
+  if (settings.tolerance) return *settings.tolerance;
+  if (settings.triangles) return std::numeric_limits<double>::infinity();
+  return default_tolerance(voxel, expected_error, settings.accuracy.value_or(0));
+}
+
 double default_gamma(double epsilon, double beta, double contrast, double noise) {
   constexpr double kOfContrast = 0.07, kOfNoise = 0.25;
   const double gradient = kOfContrast * contrast + kOfNoise * noise;

@@ -124,6 +124,13 @@ std::array<Index, 3> stride_of(const Settings& settings, const std::array<Index,
 /// @return mm.
 double default_tolerance(double voxel, double expected_error, double accuracy);
 
+/// The tolerance of a run: what the settings give; infinite where they give a number of triangles
+/// instead; else default_tolerance().
+/// @param voxel           mm, as for default_tolerance().
+/// @param expected_error  mm, >= 0; infinite where nothing is known of it.
+/// @return mm.
+double chosen_tolerance(const Settings& settings, double voxel, double expected_error);
+
 /// The default of gamma, 4 epsilon beta (0.07 c + 0.25 n)^2.
 ///
 /// v falls below one half where beta |grad u|^2 exceeds gamma / (4 epsilon), that is where u

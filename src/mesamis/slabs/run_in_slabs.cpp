@@ -133,7 +133,7 @@ void run_surface(SurfaceRun& run, Stages& stages, const Settings& settings, bool
   stages.run("follow at borders", slabs - 1, [&](Index s) { return follow_border(run, s); });
   stages.run("parts", slabs, [&](Index s) { return list_parts(run, s); });
   learn_parts(run);
-  choose_tolerance(run.mesh.input, settings, run.parts.mean_error, p);
+  p.tolerance = chosen_tolerance(settings, run.mesh.input.grey.voxel_size(), run.parts.mean_error);
   if (!decimates_in_slabs(run)) return;
   stages.run("nesting", slabs, [&](Index s) { return cross_rays(run, s); });
   learn_choice(run, {p.min_volume, p.keep_largest, p.fill_cavities});
