@@ -28,11 +28,9 @@ void require_valid(const IsosurfaceOptions& options);
 /// @param level    native units.
 /// @param options  see there.
 /// @return triangles in LPS mm, oriented outward where the object is brighter. Open where the
-/// object
-///         leaves the volume, unless options.close_at_box.
+///         object leaves the volume, unless options.close_at_box.
 /// @throws InputError      if options.smooth_voxels is out of range, or no value of the (smoothed)
-/// volume
-///                         is below or none is above the level.
+///                         volume is below or none is above the level.
 /// @throws NumericalError  if a filter of VTK fails.
 ///
 /// O(voxels + triangles log(triangles)); 4 bytes per voxel for each of smoothing and closing.

@@ -102,8 +102,7 @@ class ModIntersection : public CollapseRule {
  public:
   explicit ModIntersection(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}
   /// @param first_copies  of each point, the first one at the same place that is to be taken for
-  /// the
-  ///                      same; empty: all differ.
+  ///                      the same; empty: all differ.
   void set_surface(const TriMesh& surface, std::vector<Index> first_copies = {});
   float collapse_priority(const CollapseInfo& collapse) override;
   void postprocess_collapse(const CollapseInfo& collapse) override;

@@ -19,8 +19,7 @@ void require_valid(const DecimateOptions& options);
 /// collapses decides then.
 /// @param surface              closed, 2-manifold.
 /// @param options              valid; the tolerance is not 0. Progress grows, and is never called
-/// by
-///                             two threads at once.
+///                             by two threads at once.
 /// @param triangles_per_patch  about, > 0.
 /// @return over the points of the surface; some are not used. The same bits for any number of
 ///         threads.

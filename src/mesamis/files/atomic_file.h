@@ -37,8 +37,7 @@ class AtomicFile {
   /// OutputSet lives on this thread, the set renames it. Call it once, when the file is closed and
   /// everything is known to be written.
   /// @throws InputError  if a byte does not reach the disk or the file cannot be renamed; the
-  /// target
-  ///                     is then as it was.
+  ///                     target is then as it was.
   void commit();
 
  private:

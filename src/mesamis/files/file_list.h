@@ -14,9 +14,9 @@ std::string reason_of(const std::error_code& error);
 std::string reason_of(int error_number);
 
 /// @throws InputError  if there is neither a file that can be read nor a directory of this path,
-/// with
-///                     the reason: nothing is there, no permission, a loop of links, a name too
-///                     long, or something whose reading could wait for ever, a pipe or a device.
+///                     with the reason: nothing is there, no permission, a loop of links, a name
+///                     too long, or something whose reading could wait for ever, a pipe or a
+///                     device.
 void require_there(const std::filesystem::path& path);
 
 /// @throws InputError  as require_there(), and for a directory.

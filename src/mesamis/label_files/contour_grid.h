@@ -37,8 +37,7 @@ struct ContourGrid {
 /// of two contours that lie in different ones. There is one more plane at both ends.
 /// @param scan  none: not known.
 /// @throws InputError  if no contour lies within the scan, or the grid has more than 8192 voxels
-/// per
-///                     byte of the file.
+///                     per byte of the file.
 ///
 /// O(points + contours), up to a logarithm.
 ContourGrid place_contours(const std::filesystem::path& file, const StructureSet& set,

@@ -12,8 +12,7 @@ namespace mesamis::detail {
 ///
 /// Segments go to the first layer where they overlap no other, by ascending number.
 /// @throws InputError  as open_seg(), for pixels that cannot be decoded or refer to no segment, and
-/// if
-///                     overlapping segments need more layers than the file's size allows.
+///                     if overlapping segments need more layers than the file's size allows.
 ///
 /// O(pixels * layers), plus the voxels of the layers.
 LabelFile read_dicom_labels(const std::filesystem::path& path, MemoryBudget& budget);

@@ -29,8 +29,7 @@ std::vector<Segment> read_label_table(const std::filesystem::path& path);
 /// @param path      any name; ITK-SNAP expects .label or .txt.
 /// @param segments  labels of 1 to 65535.
 /// @throws InputError  for two segments of one label (in different layers), a label out of range,
-/// and if
-///                     the file cannot be written.
+///                     and if the file cannot be written.
 ///
 /// O(segments), up to a logarithm.
 void write_label_table(const std::filesystem::path& path, std::span<const Segment> segments);

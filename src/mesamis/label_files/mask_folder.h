@@ -16,8 +16,7 @@ namespace mesamis::detail {
 std::string object_name(const std::filesystem::path& file);
 
 /// @throws InputError  naming the file, if its grid has another size than that of the first file,
-/// or lies
-///                     more than 1e-3 of a voxel beside it.
+///                     or lies more than 1e-3 of a voxel beside it.
 void require_same_grid(const std::filesystem::path& file, const VoxelGrid& found,
                        const std::filesystem::path& first, const VoxelGrid& expected);
 

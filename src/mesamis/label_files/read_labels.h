@@ -92,11 +92,9 @@ struct ProbabilityFile {
 /// @param paths   one file, or several volumes on one grid (to 1e-3 of a voxel).
 /// @param limits  as read_label_map(), for all files together.
 /// @return values of 0 to 1 (no unit); those beyond by at most 1e-3, which smoothing leaves, are
-/// set to
-///         the bound.
+///         set to the bound.
 /// @throws InputError  one line that begins with a path, for other values, for grids that differ,
-/// and as
-///                     read_label_map().
+///                     and as read_label_map().
 ///
 /// O(voxels * objects). Memory: 4 bytes per voxel and object, twice for one file.
 ProbabilityFile read_probabilities(const std::vector<std::filesystem::path>& paths,

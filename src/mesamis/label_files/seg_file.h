@@ -34,9 +34,8 @@ bool is_seg(const DicomFile& file);
 /// Opens a file of the SOP classes Segmentation Storage and Label Map Segmentation Storage.
 ///
 /// @throws InputError  for another file or a broken one, frames without a place or with a segment
-/// that
-///                     is not described, two frames of one segment at one place, segment numbers
-///                     out of range or twice, and as grid_of_frames().
+///                     that is not described, two frames of one segment at one place, segment
+///                     numbers out of range or twice, and as grid_of_frames().
 ///
 /// O(bytes + frames), up to a logarithm.
 SegFile open_seg(const std::filesystem::path& path, MemoryBudget& budget);

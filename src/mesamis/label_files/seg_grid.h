@@ -22,9 +22,8 @@ struct SegGrid {
 /// Thickness.
 /// @param pixels  pixels_of(file).
 /// @throws InputError  naming the frame and both values, for frames of different orientation or
-/// pixel
-///                     spacing or that are not straight above one another, for positions that do
-///                     not fit a regular grid to 2 % of its step, and if the grid has too many
+///                     pixel spacing or that are not straight above one another, for positions that
+///                     do not fit a regular grid to 2 % of its step, and if the grid has too many
 ///                     voxels for the file.
 ///
 /// O(frames), up to a logarithm.

@@ -19,8 +19,8 @@ namespace mesamis {
 /// @param path  the extension decides.
 /// @param map   valid, see require_valid().
 /// @throws InputError  for another extension, a map that is not valid or, for .nii, has several
-/// layers or
-///                     more than 32767 voxels along an axis, and if the file cannot be written.
+///                     layers or more than 32767 voxels along an axis, and if the file cannot be
+///                     written.
 ///
 /// O(voxels * layers). Memory: the samples once, gzipped twice.
 void write_label_map(const std::filesystem::path& path, const LabelMap& map);

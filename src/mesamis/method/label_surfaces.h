@@ -84,8 +84,7 @@ double label_margin(const VoxelGrid& scan, const VoxelGrid& labels);
 /// @param progress  optional.
 /// @return one object per chosen segment that has voxels within the scan and keeps some of them.
 /// @throws InputError  if no chosen label lies within the scan, more than 4096 are chosen, or the
-/// scan
-///                     cannot be used.
+///                     scan cannot be used.
 /// @throws Cancelled   if progress says stop.
 ///
 /// O(voxels of the scan * layers) to bring the labels onto its grid; then O(voxels around the

@@ -22,8 +22,7 @@ struct Loop {
 /// minimises once more.
 /// @param progress  stages "adaptation k of n" and "final minimisation".
 /// @param enough    optional; asked before each adaptation from 2 on. The fields of the loop that
-/// it
-///                  stops depend on the number of its adaptations alone.
+///                  it stops depend on the number of its adaptations alone.
 /// @throws Cancelled  if progress says stop.
 Loop run_loop(const RunInput& run, const Progress& progress, const HasEnough& enough = {});
 

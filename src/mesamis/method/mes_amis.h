@@ -57,10 +57,9 @@ struct Result {
 /// @param progress  optional; stages "preparation", "adaptation k of n", "final minimisation",
 ///                  "surface", "decimation".
 /// @param enough    optional; asked before each pass. Stopped before the first one, a run for a
-/// solid
-///                  delivers its preview, without a mesh; a band needs one adaptation. Stopped
-///                  later, it minimises on the last mesh that it has made, and extracts the surface
-///                  from it.
+///                  solid delivers its preview, without a mesh; a band needs one adaptation.
+///                  Stopped later, it minimises on the last mesh that it has made, and extracts the
+///                  surface from it.
 /// @return the same bits for any number of threads (see with_threads()); of a run that was stopped,
 ///         bits that depend on the pass at which it was.
 /// @throws InputError  if the volume or a setting cannot be used.

@@ -37,8 +37,7 @@ struct Body {
 /// - What the opening took is given back if it hangs on and is no longer than 100 mm (ears, nose,
 ///   fingers), or lies in a hollow of the body into which no ball of 15 mm fits.
 /// - What the body encloses, in space or in an axial slice, is inside, and so is a gap at the
-/// border
-///   of the scan that is lung (-950 to -300 HU in its median).
+///   border of the scan that is lung (-950 to -300 HU in its median).
 ///
 /// Of what is left out, islands that reach through at least half of the slices are called table or
 /// head rest.

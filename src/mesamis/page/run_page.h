@@ -49,8 +49,7 @@ bool has_viewer() noexcept;
 /// times, memory and threads nowhere.
 /// @param page  see there.
 /// @return UTF-8; the same bytes for the same input. A value of the report is an element `data`
-/// with
-///         the exact value and its JSON pointer.
+///         with the exact value and its JSON pointer.
 /// @throws InputError  if a surface is not sound or the grey values are not one per node of the
 ///                     mesh.
 ///

@@ -42,8 +42,7 @@ struct PlotOptions {
 /// @param options  see there.
 /// @return an SVG 1.1 document in UTF-8; the same input gives the same bytes, whatever the locale.
 /// @throws InputError  if there is no point at all, x and y of a series differ in number, a value
-/// is
-///                     not finite or out of range, a logarithmic axis has no positive value, the
+///                     is not finite or out of range, a logarithmic axis has no positive value, the
 ///                     size is out of range, or a text is not UTF-8 or has control characters.
 ///
 /// O(n) time and memory for n points.

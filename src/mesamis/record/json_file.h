@@ -15,8 +15,7 @@ void write_json(const std::filesystem::path& path, const nlohmann::ordered_json&
 
 /// Reads a JSON file.
 /// @throws InputError  if the file cannot be read, is not JSON, nests more than 64 lists and
-/// objects
-///                     or has an object with a key twice; the message says where or which.
+///                     objects or has an object with a key twice; the message says where or which.
 nlohmann::json read_json(const std::filesystem::path& path);
 
 /// A point or vector as [x, y, z], in mm or whatever unit it has.

@@ -65,10 +65,11 @@ Verdict judge(const LabelResult& result, std::span<const SurfaceCheck> checks) {
   for (std::size_t n = 0; n < checks.size(); ++n) {
     const std::string flaws = solid_flaws_of(checks[n]);
     if (flaws.empty()) continue;
-    return {VerdictKind::kNotClosed, "'" + result.objects[n].segment.name +
-                                     "': expected a closed 2-manifold surface that faces outward, "
-                                     "found " +
-                                     flaws};
+    return {VerdictKind::kNotClosed,
+            "'" + result.objects[n].segment.name +
+                "': expected a closed 2-manifold surface that faces outward, "
+                "found " +
+                flaws};
   }
   return {};
 }

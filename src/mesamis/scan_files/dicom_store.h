@@ -19,8 +19,7 @@ bool is_zip(const std::filesystem::path& path);
 class DicomStore {
  public:
   /// @param path    a directory, a DICOM file (its directory counts), or a ZIP archive, which is
-  /// read
-  ///                whole.
+  ///                read whole.
   /// @param budget  must live on.
   /// @throws InputError  as files_below(), ZipArchive and MemoryBudget::claim().
   DicomStore(const std::filesystem::path& path, MemoryBudget& budget);

@@ -52,8 +52,7 @@ OpenSlices open_stack(const std::filesystem::path& directory,
 /// @param files    at least one.
 /// @param options  to announce() the grid to.
 /// @throws InputError  naming the file, if a picture is of another format, size, type or (where
-/// none
-///                     is given) spacing than the first, or holds more than one slice.
+///                     none is given) spacing than the first, or holds more than one slice.
 ///
 /// Memory: 4 bytes per pixel, and one file at a time.
 VolumeFile read_slices(const std::filesystem::path& directory,

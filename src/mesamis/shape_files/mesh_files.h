@@ -44,8 +44,7 @@ void write_vtu(const std::filesystem::path& path, const TetMesh& mesh,
 /// appears whole or not at all.
 ///
 /// @param pieces        file names of write_vtu(), without a folder: they lie beside the index.
-/// @param point_arrays, cell_arrays  as every piece has them: names and components; their values
-/// are
+/// @param point_arrays, cell_arrays as every piece has them: names and components; their values are
 ///                      not read.
 /// @throws InputError  if the file cannot be written.
 void write_pvtu(const std::filesystem::path& path, std::span<const std::string> pieces,

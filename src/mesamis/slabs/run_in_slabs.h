@@ -69,9 +69,8 @@ struct SlabRunResult {
 /// @param source    read by slabs, from several threads at the same time.
 /// @param settings  valid; no preview, no crop, no band, and until the surface has settled.
 /// @param options   how many slabs, and where scratch files go: about 4 bytes per voxel, 16 per
-/// node
-///                  of the first grid, 200 per cell, 200 per triangle as extracted. A folder with
-///                  files of the same run is gone on with.
+///                  node of the first grid, 200 per cell, 200 per triangle as extracted. A folder
+///                  with files of the same run is gone on with.
 /// @param team      the processes that all call this function with the same arguments.
 /// @return on rank 0; nothing elsewhere.
 /// @throws InputError  as mes_amis(), plan_slabs() and the source; or if the folder holds files of
