@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,14 +15,8 @@
 #include "arguments.h"
 #include "costs.h"
 #include "log.h"
-#include "mesamis/delivery/mesh_output.h"
-#include "mesamis/record/json_file.h"
-#include "mesamis/record/report.h"
-#include "mesamis/record/run_surface.h"
-#include "mesamis/record/verdict.h"
+#include "mesamis/run/segment_in_slabs.h"
 #include "mesamis/shape_files/surface_files.h"
-#include "mesamis/slabs/map_scan.h"
-#include "mesamis/slabs/run_in_slabs.h"
 #include "outputs.h"
 #include "progress.h"
 #include "scan.h"
@@ -118,115 +111,37 @@ nlohmann::ordered_json slabs_json(const SlabRunResult& found, const Team& team) 
           {"slabs", std::move(each)}};
 }
 
-nlohmann::ordered_json scan_json(const SegmentOptions& run, const VolumeFile& head) {
-  return {{"path", run.scan.input.string()},
-          {"format", head.format},
-          {"modality", head.volume.modality},
-          {"size", head.volume.size},
-          {"spacing_mm", vec_json(head.volume.spacing)}};
+/// What a report says of the scan: its samples were not all looked at.
+InputFacts facts_of(const SegmentOptions& run, const VolumeFile& head) {
+  InputFacts facts;
+  facts.path = run.scan.input;
+  facts.format = head.format;
+  facts.modality = head.volume.modality;
+  facts.size = head.volume.size;
+  facts.spacing = head.volume.spacing;
+  facts.origin = head.volume.origin;
+  facts.direction = head.volume.direction;
+  facts.warnings = head.warnings;
+  return facts;
 }
 
-struct Ended {
-  const SlabRunResult& found;
-  const SurfaceCheck& check;
-  const Verdict& verdict;
-  const std::optional<MeshOutput>& mesh;
-};
-
-void write_slab_report(const SegmentOptions& run, const Settings& settings, const VolumeFile& head,
-                       const Ended& ended, const CommonOptions& common, const OutputSet& set) {
-  if (run.out.report.empty()) return;
-  nlohmann::ordered_json report;
-  report["program"] = program_json();
-  report["input"] = scan_json(run, head);
-  report["command"] = common.arguments;
-  report["output"] = output_json(run.scan.frame);
-  report.update(run_json(settings, ended.found.result, ended.check));
-  if (ended.mesh) report["mesh"]["region"] = region_json(*ended.mesh);
-  report["slabs"] = slabs_json(ended.found, *common.team);
-  report["warnings"] = head.warnings;
-  report["verdict"] = {{"kept", ended.verdict.kind == VerdictKind::kKept},
-                       {"message", ended.verdict.message}};
-  report["files"] = files_json(set);
-  add_costs(report);
-  write_json(run.out.report, report);
-}
-
-/// The meshes of a run, as they come; all files of the run appear together.
-class MeshWriter {
- public:
-  MeshWriter(const SegmentOptions& run, const SliceSource& source) : run_(run), source_(source) {}
-
-  /// Writes the piece of one slab beside each index. Its cells have the mean of the voxels in them.
-  void write_piece(Index slab, const Result& piece) {
-    const MeshWithArrays grid = make_mesh_piece(piece, scan());
-    for (const fs::path& path : run_.out.meshes) {
-      if (!is_in_pieces(path)) continue;
-      const std::string name = path.stem().string() + "_" + std::to_string(slab) + ".vtu";
-      pieces_[path].push_back(name);
-      write_vtu(fs::path(path).replace_filename(name), grid.mesh,
-                {grid.point_arrays, grid.cell_arrays, run_.scan.frame});
-    }
-    for (const MeshArray& array : grid.point_arrays) keep(array, index_.point_arrays);
-    for (const MeshArray& array : grid.cell_arrays) keep(array, index_.cell_arrays);
-  }
-
-  /// Of all files that are written while this object lives.
-  OutputSet& set() { return set_; }
-
-  /// Writes the indices, and the meshes that are written at once.
-  /// @return what these are of, if there is one.
-  std::optional<MeshOutput> finish(const Result& result) {
-    for (const auto& [path, pieces] : pieces_) {
-      write_pvtu(path, pieces, index_.point_arrays, index_.cell_arrays);
-    }
-    const Paths whole = whole_meshes_of(run_);
-    if (whole.empty()) return {};
-    const MeshOutput mesh = make_mesh_output(result, scan(), run_.out.mesh);
-    for (const fs::path& path : whole) write_mesh(path, mesh, run_.scan.frame);
-    return mesh;
-  }
-
- private:
-  const VolumeView& scan() {
-    if (!scan_) {
-      scan_.emplace(map_scan(source_, fs::absolute(run_.out.meshes.front()).parent_path()));
-    }
-    return scan_->volume;
-  }
-  /// All pieces have the same arrays.
-  static void keep(const MeshArray& array, std::vector<MeshArray>& known) {
-    const auto is_same = [&](const MeshArray& other) { return other.name == array.name; };
-    if (std::any_of(known.begin(), known.end(), is_same)) return;
-    known.push_back({array.name, array.components, {}});
-  }
-
-  OutputSet set_;
-  const SegmentOptions& run_;
-  const SliceSource& source_;
-  std::optional<MappedScan> scan_;
-  std::map<fs::path, std::vector<std::string>> pieces_;  // names, by index
-  MeshWithArrays index_;                                 // names and components of the arrays
-};
-
-int deliver(const SegmentOptions& run, const Settings& settings, const FileSlices& source,
-            const SlabRunResult& found, const CommonOptions& common, MeshWriter& meshes) {
-  const VolumeFile& head = source.head();
-  const Result& result = found.result;
-  const SurfaceCheck check = check_surface(result.surface);
-  const Verdict verdict = judge(result, check);
-  if (!run.out.surfaces.empty()) require_surface(result);
-  auto as = surface_options(result, head.volume.voxel_size(),
-                            {run.scan.frame, run.out.name, run.out.error});
-  as.grey = found.grey;
-  for (const fs::path& path : run.out.surfaces) write_surface(path, result.surface, as);
-  const std::optional<MeshOutput> mesh = meshes.finish(result);
-  write_slab_report(run, settings, head, {found, check, verdict, mesh}, common, meshes.set());
-  const Paths files = files_of(meshes.set());
-  commit(meshes.set());
-  RunFigures figures = figures_of(result, check, head.volume.modality);
-  figures.files = files;
+int deliver(const SegmentOptions& run, const FileSlices& source, const SlabOutcome& found,
+            const CommonOptions& common, OutputSet& set) {
+  Outputs out = run.out;
+  out.frame = run.scan.frame;
+  out.meshes = whole_meshes_of(run);
+  out.facts.input = facts_of(run, source.head());
+  out.facts.command = common.arguments;
+  out.facts.complete = [&](nlohmann::ordered_json& report) {
+    report["slabs"] = slabs_json(found.work, *common.team);
+    add_costs(report);
+  };
+  write(found.outcome, out, set);
+  RunFigures figures = figures_of(found.outcome);
+  figures.files = files_of(set);
+  commit(set);
   show_summary(figures);
+  const Verdict& verdict = found.outcome.verdict;
   if (verdict.kind != VerdictKind::kKept) log_error(verdict.message);
   return exit_status(verdict.kind);
 }
@@ -282,15 +197,17 @@ int run_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Setti
   ProgressDisplay display(common.quiet || common.is_helper());
   SlabRunOptions options = slab_options(run, slabs);
   options.progress = display.callback();
-  std::optional<MeshWriter> meshes;
-  if (team.rank() == 0) meshes.emplace(run, *source);
-  if (std::any_of(run.out.meshes.begin(), run.out.meshes.end(), is_in_pieces)) {
-    options.take_piece = [&](Index s, const Result& piece) { meshes->write_piece(s, piece); };
-  }
-  const auto found = run_in_slabs(*source, settings, options, team);
+  SlabRequest request{*source, settings, std::move(options), {}, run.scan.frame};
+  std::copy_if(run.out.meshes.begin(), run.out.meshes.end(),
+               std::back_inserter(request.piece_meshes), is_in_pieces);
+  std::optional<OutputSet> set;
+  if (team.rank() == 0) set.emplace();
+  fs::path folder;  // of a copy of the scan
+  if (!run.out.meshes.empty()) folder = fs::absolute(run.out.meshes.front()).parent_path();
+  const auto found = segment_in_slabs(request, folder, team);
   display.finish();
   if (!found) return kExitDone;
-  return deliver(run, settings, *source, *found, common, *meshes);
+  return deliver(run, *source, *found, common, *set);
 }
 
 }  // namespace mesamis

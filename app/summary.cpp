@@ -82,7 +82,7 @@ RunFigures figures_of(const Result& result, const SurfaceCheck& check,
 RunFigures figures_of(const Outcome& outcome) {
   if (outcome.one) {
     RunFigures figures = figures_of(*outcome.one, outcome.checks.front(), outcome.grid.modality);
-    if (!outcome.object->tissue.empty()) figures.object = outcome.object->tissue;
+    if (outcome.object && !outcome.object->tissue.empty()) figures.object = outcome.object->tissue;
     return figures;
   }
   RunFigures figures;

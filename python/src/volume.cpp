@@ -162,9 +162,9 @@ InputFacts Scan::facts() const {
   InputFacts facts = facts_of({path, format, warnings, files}, header);
   const auto [low, high] = std::minmax_element(view.samples.begin(), view.samples.end());
   if (!view.samples.empty()) {
-    facts.lowest = *low;
-    facts.highest = *high;
+    facts.range = {*low, *high};
   }
+  if (path.empty()) facts.sha256.clear();
   return facts;
 }
 

@@ -57,7 +57,7 @@ const std::map<std::string, std::set<std::string>> kSees{
       "delivery", "record"}},
     {"run",
      {"base", "files", "image", "mesh", "surface", "object", "method", "label_files", "shape_files",
-      "delivery", "record", "page"}},
+      "delivery", "record", "page", "slabs"}},
     {"page", {"base", "image", "mesh", "surface", "method", "files", "plot"}},
 };
 

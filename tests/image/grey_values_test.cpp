@@ -43,14 +43,14 @@ TEST(GreyMap, WithoutThresholdTheWindowStartsAtZero) {
 TEST(GreyMap, RefusesAnEmptyWindow) { EXPECT_THROW(apply({5, 5, 0}, ramp(0, 1)), InputError); }
 
 TEST(Quantiles, OfARamp) {
-  const auto q = quantiles(ramp(0, 1000), {0.001, 0.5, 0.999});
+  const auto q = quantiles(ramp(0, 1000).samples, {0.001, 0.5, 0.999});
   EXPECT_NEAR(q[0], 1, 0.5);
   EXPECT_NEAR(q[1], 500, 0.5);
   EXPECT_NEAR(q[2], 999, 0.5);
 }
 
 TEST(Otsu, SeparatesTwoClasses) {
-  const OtsuSplit split = otsu_split(make_ball({.noise = 10}));
+  const OtsuSplit split = otsu_split(make_ball({.noise = 10}).samples);
   EXPECT_GT(split.threshold, 150);
   EXPECT_LT(split.threshold, 200);
   EXPECT_NEAR(split.mean_below, 120, 5);
@@ -59,7 +59,7 @@ TEST(Otsu, SeparatesTwoClasses) {
 
 TEST(Otsu, CanLookAtTheDarkSamplesAlone) {
   const Volume volume = make_ball({.background = 40, .object = 900, .noise = 10, .air = -1000});
-  const OtsuSplit split = otsu_split(volume, 400);
+  const OtsuSplit split = otsu_split(volume.samples, 400);
   EXPECT_NEAR(split.mean_below, -1000, 60);
   EXPECT_NEAR(split.mean_above, 40, 100);
 }

@@ -48,6 +48,21 @@ TEST(Stages, EachTaskIsDoneByOneProcessOnce) {
   EXPECT_EQ(done, std::vector<int>(7, 1));
 }
 
+/// Each slab counts its own tasks and those of the border above it.
+TEST(Stages, SumTheWorkOfSlabs) {
+  const TempFolder folder;
+  const Scratch scratch(folder.path());
+  const Progress progress;
+  Alone team;
+  Stages stages(scratch, team, progress, 3);
+  stages.run("look", 3, [](Index) { return SlabWork{.rows = 10000}; });
+  stages.for_slabs("mesh", 3, [](Index s) { return SlabWork{.rows = 10 * (s + 1)}; });
+  stages.for_borders("seam", 3, [](Index s) { return SlabWork{.rows = s + 1}; });
+  std::vector<std::int64_t> rows;
+  for (const SlabWork& work : stages.work_of_slabs(3)) rows.push_back(work.rows);
+  EXPECT_EQ(rows, (std::vector<std::int64_t>{11, 22, 30}));
+}
+
 TEST(Stages, SomeTasksAreDoneAtATime) {
   const TempFolder folder;
   const Scratch scratch(folder.path());

@@ -24,9 +24,8 @@ struct Histogram {
 /// Samples whose counts are added up before they are added to the whole.
 constexpr std::size_t kPart = 1 << 20;
 
-Histogram histogram(const VolumeView& volume) {
+Histogram histogram(std::span<const float> samples) {
   constexpr std::size_t kBins = 4096;
-  const std::span<const float> samples = volume.samples;
   const auto [low, high] = sample_range(samples);
   Histogram h{low, (static_cast<double>(high) - low) / kBins, std::vector<std::int64_t>(kBins, 0)};
   if (!(h.width > 0)) h.width = 1;
@@ -222,11 +221,12 @@ Volume apply(const GreyMap& map, Volume volume) {
   return volume;
 }
 
-std::vector<double> quantiles(const VolumeView& volume, const std::vector<double>& fractions) {
-  const Histogram h = histogram(volume);
+std::vector<double> quantiles(std::span<const float> samples,
+                              const std::vector<double>& fractions) {
+  const Histogram h = histogram(samples);
   std::vector<double> values;
   for (const double fraction : fractions) {
-    const double goal = fraction * static_cast<double>(volume.samples.size());
+    const double goal = fraction * static_cast<double>(samples.size());
     std::size_t bin = 0;
     double below = static_cast<double>(h.counts[0]);
     while (below < goal && bin + 1 < h.counts.size()) below += static_cast<double>(h.counts[++bin]);
@@ -235,8 +235,8 @@ std::vector<double> quantiles(const VolumeView& volume, const std::vector<double
   return values;
 }
 
-OtsuSplit otsu_split(const VolumeView& volume, double limit) {
-  Histogram h = histogram(volume);
+OtsuSplit otsu_split(std::span<const float> samples, double limit) {
+  Histogram h = histogram(samples);
   while (h.counts.size() > 1 && h.value(h.counts.size() - 1) >= limit) h.counts.pop_back();
   double total = 0, total_sum = 0;
   for (std::size_t b = 0; b < h.counts.size(); ++b) {
@@ -269,7 +269,7 @@ bool is_hounsfield(const VolumeView& volume) {
 
 Window default_window(const VolumeView& volume, double background) {
   constexpr double kDarkest = -200;
-  const auto q = quantiles(volume, {0.001, 0.999});
+  const auto q = quantiles(volume.samples, {0.001, 0.999});
   if (is_hounsfield(volume)) {
     return {background > kDarkest ? kDarkest : q[0], std::clamp(q[1], 800.0, 2000.0)};
   }

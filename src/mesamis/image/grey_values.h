@@ -39,12 +39,12 @@ Volume apply(const GreyMap& map, Volume volume);
 std::pair<float, float> sample_range(std::span<const float> samples);
 
 /// Finds the values below which the given fractions of the samples lie, to a 4096th of their range.
-/// @param volume     at least one sample, all finite; the grid does not count.
+/// @param samples    at least one, all finite, any unit.
 /// @param fractions  0 to 1.
-/// @return native units, one per fraction.
-std::vector<double> quantiles(const VolumeView& volume, const std::vector<double>& fractions);
+/// @return in that unit, one per fraction.
+std::vector<double> quantiles(std::span<const float> samples, const std::vector<double>& fractions);
 
-/// Two classes of samples, native units.
+/// Two classes of samples, in their unit.
 struct OtsuSplit {
   double threshold;               ///< between the classes
   double mean_below, mean_above;  ///< of the classes; both the threshold if there is only one
@@ -52,9 +52,9 @@ struct OtsuSplit {
 
 /// Splits the samples into the two classes of least variance, on a histogram of 4096 bins. Source:
 /// Otsu, A threshold selection method from gray-level histograms, IEEE SMC 9, 1979.
-/// @param volume  at least one sample, all finite; the grid does not count.
-/// @param below   native units: only samples below this value count.
-OtsuSplit otsu_split(const VolumeView& volume,
+/// @param samples  at least one, all finite, any unit.
+/// @param below    in that unit: only samples below this value count.
+OtsuSplit otsu_split(std::span<const float> samples,
                      double below = std::numeric_limits<double>::infinity());
 
 /// Whether the samples are Hounsfield units: the modality is CT or, where it is unknown, the

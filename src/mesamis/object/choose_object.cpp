@@ -103,9 +103,9 @@ class Choice {
           line("padding: expected voxels of %g and others, found none", *request_.padding.value));
     }
     if (!padding) return;
-    const double value =
-        in_hounsfield_ ? kAirHu
-                       : quantiles({{}, samples_outside(chosen_.volume, padding->mask)}, {0.05})[0];
+    const double value = in_hounsfield_
+                             ? kAirHu
+                             : quantiles(samples_outside(chosen_.volume, padding->mask), {0.05})[0];
     chosen_.volume = filled(std::move(chosen_.volume), padding->mask, value);
     chosen_.padding = FilledPadding{padding->voxels, padding->value, value};
     chosen_.unmeasured = std::move(padding->mask);
@@ -220,8 +220,8 @@ class Choice {
   /// What falls away falls to this: what is around the object.
   double background() const {
     if (background_ && (!chosen_.level || *background_ < *chosen_.level)) return *background_;
-    if (!chosen_.level) return otsu_split(chosen_.volume).mean_below;
-    return otsu_split(chosen_.volume, *chosen_.level).mean_above;
+    if (!chosen_.level) return otsu_split(chosen_.volume.samples).mean_below;
+    return otsu_split(chosen_.volume.samples, *chosen_.level).mean_above;
   }
 
   void keep_mask() {

@@ -160,7 +160,7 @@ bool is_edge(const std::vector<Inward>& rows, float value, double range) {
   std::vector<float> second;
   second.reserve(rows.size());
   for (const Inward& row : rows) second.push_back(row[1]);
-  const auto q = quantiles(VolumeView{{}, second}, {0.05, 0.5, 0.95});
+  const auto q = quantiles(second, {0.05, 0.5, 0.95});
   const double step = std::abs(q[1] - static_cast<double>(value));
   return step > kFar * range && q[2] - q[0] < kClose * step;
 }
@@ -171,7 +171,7 @@ bool is_cut(const VolumeView& volume, const VoxelMask& marked, float value) {
   constexpr double kDark = 0.3, kAway = 0.02;  // of the range
   constexpr double kLeastDiffer = 0.05, kLeastDark = 0.25, kMostRise = 0.75, kLeastNoise = 0.1;
   const std::vector<float> seen = samples_outside(volume, marked);
-  const auto ends = quantiles(VolumeView{{}, seen}, {0.001, 0.999});
+  const auto ends = quantiles(seen, {0.001, 0.999});
   const double range = ends[1] - ends[0];
   const std::vector<Inward> rows = rows_inward(volume, marked);
   double differ = 0, dark = 0, rise = 0, change = 0;

@@ -58,8 +58,7 @@ PaddingRule parse_padding(std::string_view text);
 /// O(voxels); 1 byte per voxel.
 std::optional<Padding> find_padding(const VolumeView& volume, const PaddingRule& rule = {});
 
-/// Copies the samples that are not marked: what statistics of the scan are made of. As a view
-/// without a grid, VolumeView{{}, samples}, quantiles() and otsu_split() take them.
+/// Copies the samples that are not marked: what statistics of the scan are made of.
 /// @param mask  one mark per voxel, such as Padding::mask.
 /// @return native units, in the order of the voxels.
 /// @throws InputError  if the mask does not fit the volume.

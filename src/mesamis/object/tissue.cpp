@@ -96,7 +96,7 @@ Tissue parse_tissue(std::string_view text) {
 
 std::optional<Tissue> suggested_tissue(const VolumeView& volume) {
   if (!is_hounsfield(volume)) return std::nullopt;
-  const bool has_bone = quantiles(volume, {0.999})[0] > kBoneHu;
+  const bool has_bone = quantiles(volume.samples, {0.999})[0] > kBoneHu;
   return parse_tissue(has_bone ? "bone" : "skin");
 }
 

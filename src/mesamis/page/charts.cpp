@@ -83,7 +83,7 @@ std::string pass_diagram(const std::vector<PlotSeries>& series, const std::strin
 }  // namespace
 
 std::string histogram_svg(const VolumeView& scan, const json& report) {
-  const auto ends = quantiles(scan, {0.0005, 0.9995});
+  const auto ends = quantiles(scan.samples, {0.0005, 0.9995});
   const json &window = entry(report, "/grey/window_native"),
              &threshold = entry(report, "/settings/threshold"),
              &level = entry(report, "/surface/level_native");

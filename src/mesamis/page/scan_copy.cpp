@@ -16,7 +16,7 @@ namespace {
 
 /// A little more than nearly all samples, and what must be shown.
 Window range_of(const VolumeView& scan, const Window& shown) {
-  const auto ends = quantiles(scan, {0.001, 0.999});
+  const auto ends = quantiles(scan.samples, {0.001, 0.999});
   const double low = std::min({ends[0], shown.low}), high = std::max({ends[1], shown.high});
   return {low, high > low ? high : low + 1};
 }

@@ -65,7 +65,7 @@ Window window_of(const RunPage& page) {
     const Window window{given[0].get<double>(), given[1].get<double>()};
     if (window.low < window.high) return window;
   }
-  const auto ends = quantiles(*page.scan, {0.005, 0.995});
+  const auto ends = quantiles(page.scan->samples, {0.005, 0.995});
   return {ends[0], ends[1] > ends[0] ? ends[1] : ends[0] + 1};
 }
 

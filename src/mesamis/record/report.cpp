@@ -158,31 +158,32 @@ InputFacts facts_of(const ScanSource& source, const Volume& volume) {
                    volume.modality,
                    volume.size,
                    volume.spacing,
-                   0,
-                   0,
+                   {},
                    source.warnings,
                    volume.origin,
                    volume.direction};
   if (!volume.samples.empty()) {
     const auto [low, high] = sample_range(volume.samples);
-    facts.lowest = low;
-    facts.highest = high;
+    facts.range = {low, high};
   }
   return facts;
 }
 
 ordered_json input_json(const InputFacts& input) {
-  const bool is_file = !input.path.empty();
-  return {{"path", is_file ? ordered_json(input.path.string()) : nullptr},
-          {"format", input.format},
-          {"sha256", is_file ? ordered_json(input.sha256) : nullptr},
-          {"size", input.size},
-          {"spacing_mm", vec_json(input.spacing)},
-          {"origin_mm", vec_json(input.origin)},
-          {"direction", direction_json(input.direction)},
-          {"range", {input.lowest, input.highest}},
-          {"modality", input.modality},
-          {"warnings", input.warnings}};
+  const auto text = [](const std::string& known) {
+    return known.empty() ? ordered_json(nullptr) : ordered_json(known);
+  };
+  ordered_json json{{"path", text(input.path.string())},
+                    {"format", input.format},
+                    {"sha256", text(input.sha256)},
+                    {"size", input.size},
+                    {"spacing_mm", vec_json(input.spacing)},
+                    {"origin_mm", vec_json(input.origin)},
+                    {"direction", direction_json(input.direction)}};
+  if (input.range) json["range"] = *input.range;
+  json["modality"] = input.modality;
+  json["warnings"] = input.warnings;
+  return json;
 }
 
 ordered_json image_json(const Parameters& p, const MeasuredImage& image) {

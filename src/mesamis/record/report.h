@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,12 +25,12 @@ namespace mesamis {
 struct InputFacts {
   std::filesystem::path path;
   std::string format, sha256, modality;
-  std::array<Index, 3> size{0, 0, 0};  ///< voxels
-  Vec3 spacing;                        ///< mm
-  double lowest = 0, highest = 0;      ///< native units
-  std::vector<std::string> warnings;   ///< of the reader
-  Vec3 origin{};                       ///< LPS, mm; see VoxelGrid::origin
-  Mat3 direction{};                    ///< LPS; see VoxelGrid::direction
+  std::array<Index, 3> size{0, 0, 0};            ///< voxels
+  Vec3 spacing;                                  ///< mm
+  std::optional<std::array<double, 2>> range{};  ///< of the samples, native units; none: not read
+  std::vector<std::string> warnings;             ///< of the reader
+  Vec3 origin{};                                 ///< LPS, mm; see VoxelGrid::origin
+  Mat3 direction{};                              ///< LPS; see VoxelGrid::direction
 };
 
 /// Where a scan comes from, as its reader tells.
@@ -44,8 +46,8 @@ struct ScanSource {
 /// @throws InputError  if a file cannot be read again for its sha256, or has changed meanwhile.
 InputFacts facts_of(const ScanSource& source, const Volume& volume);
 
-/// The entry "input" of a report: "path", "format", "sha256", ... of its scan; path and sha256 are
-/// null for a scan that comes from no file.
+/// The entry "input" of a report: "path", "format", "sha256", ... of its scan; what is not known
+/// of path and sha256 is null.
 nlohmann::ordered_json input_json(const InputFacts& input);
 
 /// The entry "program" of every report: name, version, commit.

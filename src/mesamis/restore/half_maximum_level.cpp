@@ -103,7 +103,7 @@ double otsu_threshold_on_edges(const VolumeView& smooth) {
   });
   std::vector<float> on_edges;
   for (const auto& part : found) on_edges.insert(on_edges.end(), part.begin(), part.end());
-  return otsu_split(on_edges.empty() ? smooth : VolumeView{{}, on_edges}).threshold;
+  return otsu_split(on_edges.empty() ? smooth.samples : on_edges).threshold;
 }
 
 /// The fixed-point iteration from a level.
@@ -136,7 +136,7 @@ bool exceeds_noise(const HalfMaximumLevel& object, double deviations, const Volu
 bool is_more_than_noise(const HalfMaximumLevel& object, const VolumeView& volume,
                         const VolumeView& guide) {
   constexpr double kOfNoise = 1.45, kLeastShare = 0.002;  // of the voxels, on either side
-  const auto side = quantiles(guide, {kLeastShare, 1 - kLeastShare});
+  const auto side = quantiles(guide.samples, {kLeastShare, 1 - kLeastShare});
   return object.level > side[0] && object.level < side[1] &&
          exceeds_noise(object, kOfNoise, volume, guide);
 }
@@ -144,14 +144,14 @@ bool is_more_than_noise(const HalfMaximumLevel& object, const VolumeView& volume
 HalfMaximumLevel iterate_from_histogram(const VolumeView& volume, const VolumeView& guide) {
   constexpr double kPlain = 2.5;   // deviations of the noise
   constexpr double kBelow = 0.98;  // share of the voxels, where the object is small
-  const bool has_bone = is_hounsfield(volume) && quantiles(volume, {0.999})[0] > kBoneHu;
+  const bool has_bone = is_hounsfield(volume) && quantiles(volume.samples, {0.999})[0] > kBoneHu;
   if (has_bone) return iterate_from(kBoneHu, volume, guide);
-  const HalfMaximumLevel object = iterate_from(otsu_split(volume).threshold, volume, guide);
+  const HalfMaximumLevel object = iterate_from(otsu_split(volume.samples).threshold, volume, guide);
   if (exceeds_noise(object, kPlain, volume, guide)) return object;
   const HalfMaximumLevel on_edges =
       iterate_from(otsu_threshold_on_edges(smoothed(guide)), volume, guide);
   if (is_more_than_noise(on_edges, volume, guide)) return on_edges;
-  HalfMaximumLevel small = iterate_from(quantiles(guide, {kBelow})[0], volume, guide);
+  HalfMaximumLevel small = iterate_from(quantiles(guide.samples, {kBelow})[0], volume, guide);
   if (!(small.contrast.difference() > 0)) return on_edges;
   small.in_noise = !is_more_than_noise(small, volume, guide);
   return small;

@@ -45,7 +45,7 @@ std::optional<double> find_tissue_threshold(const VolumeView& volume,
   constexpr double kTwoClasses = 4;    // one class's halves are 1.6 times its noise apart
   constexpr double kThirdClass = 0.5;  // distance of the two dark classes, against the contrast
   if (!(contrast.difference() > 0)) return std::nullopt;
-  const OtsuSplit dark = otsu_split(volume, level);
+  const OtsuSplit dark = otsu_split(volume.samples, level);
   const double distance = dark.mean_above - dark.mean_below;
   if (distance < std::max(kThirdClass * contrast.difference(), kTwoClasses * noise)) {
     return std::nullopt;

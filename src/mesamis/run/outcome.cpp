@@ -9,7 +9,7 @@ std::vector<FoundObject> Outcome::objects() const {
 }
 
 VolumeView Outcome::image() const {
-  if (!object) return {};
+  if (!object) return {grid, in_place};
   VolumeView view = object->volume;
   if (view.samples.empty()) view.samples = in_place;
   return view;
@@ -23,5 +23,7 @@ const Result* Outcome::mesh() const {
 const std::vector<double>& Outcome::expected_error(std::size_t n) const {
   return one ? one->expected_error : several->objects[n].expected_error;
 }
+
+Segment one_object() { return {"object", 1, 0, default_colour(1)}; }
 
 }  // namespace mesamis

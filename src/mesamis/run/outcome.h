@@ -22,13 +22,16 @@ struct Outcome {
   Settings asked;                      ///< the settings that the run was started with
   VoxelGrid grid;                      ///< of the whole scan; without one that of the labels
   std::optional<ChosenObject> object;  ///< the image; nothing: the labels alone
-  std::span<const float> in_place;     ///< its samples where `object` has none
+  std::span<const float> in_place;     ///< of the grid, where `object` has no samples
   ObjectRequest object_asked;          ///< as it was completed from the settings
 
   std::optional<Result> one;           ///< of a run for one object
   std::optional<LabelResult> several;  ///< of labels, or of the parts of several seeds
   std::vector<Segment> wanted;         ///< the objects that were looked for
   std::vector<SurfaceCheck> checks;    ///< of the surfaces of objects()
+  /// Of the points of one surface, see surface_grey(), where they were found beforehand; may be
+  /// empty.
+  std::vector<double> grey;
   ElementResults elements;
   std::vector<std::string> warnings;  ///< beside those of `object`, one line each
   Verdict verdict;                    ///< of the surfaces; a body has its own, ElementResults
@@ -44,5 +47,8 @@ struct Outcome {
   /// The mean error to expect of each point of an object's surface, mm; empty: not known.
   const std::vector<double>& expected_error(std::size_t object) const;
 };
+
+/// The segment of a run for one object.
+Segment one_object();
 
 }  // namespace mesamis

@@ -70,7 +70,7 @@ void require_scan_where_needed(const Request& request) {
 }
 
 void run_one(const Request& request, const Listener& listener, Outcome& outcome) {
-  outcome.wanted = {{"object", 1, 0, default_colour(1)}};
+  outcome.wanted = {one_object()};
   const ObjectInPlace object{*outcome.object, outcome.image()};
   outcome.one = run_on_object(object, request.settings, listener.progress, request.enough);
 }

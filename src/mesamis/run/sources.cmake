@@ -4,9 +4,11 @@ set(ROOM_HEADERS
   outcome.h
   request.h
   segment.h
+  segment_in_slabs.h
   write.h)
 set(ROOM_SOURCES
   elements.cpp
   outcome.cpp
   segment.cpp
+  segment_in_slabs.cpp
   write.cpp)

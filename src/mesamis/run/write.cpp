@@ -39,8 +39,10 @@ void write_surfaces(const Outcome& o, const Outputs& w) {
     return write_label_surfaces(files, *o.several, as, o.wanted.size() > 1);
   }
   const bool grey = std::any_of(files.begin(), files.end(), carries_grey);
-  const SurfaceWriteOptions as =
-      surface_options(*o.one, o.image().voxel_size(), {w.frame, w.name, w.error, grey, w.subject});
+  SurfaceWriteOptions as =
+      surface_options(*o.one, o.image().voxel_size(),
+                      {w.frame, w.name, w.error, grey && o.grey.empty(), w.subject});
+  if (!o.grey.empty()) as.grey = o.grey;
   for (const fs::path& path : files) write_surface(path, o.one->surface, as);
 }
 
@@ -116,7 +118,7 @@ ordered_json report_json(const Outcome& o, const Outputs& w) {
   if (facts.input) report["input"] = input_json(*facts.input);
   if (!facts.command.empty()) report["command"] = facts.command;
   report["output"] = output_json(w.frame);
-  if (o.one) report["object"] = chosen;
+  if (o.one && o.object) report["object"] = chosen;
   report.update(found_json(o));
   if (o.object) report["object"].update(chosen);
   report["warnings"] = warnings_json(o, facts);

@@ -101,25 +101,25 @@ SlabRun begin_run(const SliceSource& source, const Settings& settings, const Scr
   return {source, scratch, plan, choice};
 }
 
-constexpr const char* kLastOnMesh = "final minimisation";
-
 std::string of_mesh(const char* what, int k) { return what + (" " + std::to_string(k)); }
 
 /// All tasks on meshes: as many meshes as run_loop() would make.
 /// @return the number of the last mesh.
 int run_meshes(MeshRun& run, Stages& stages) {
   const Index slabs = run.count();
-  stages.run("mesh 1", slabs, [&](Index s) { return first_mesh(run, s); });
-  stages.run("borders 1", slabs - 1, [&](Index s) { return seam(run, 1, s); });
+  stages.for_slabs("mesh 1", slabs, [&](Index s) { return first_mesh(run, s); });
+  stages.for_borders("borders 1", slabs, [&](Index s) { return seam(run, 1, s); });
   int k = 1;
   for (bool settled = false; k < run.input.parameters.adaptations && !settled; ++k) {
-    stages.run(of_mesh("minimise", k), slabs, [&](Index s) { return solve(run, k, s); });
+    stages.for_slabs(of_mesh("minimise", k), slabs, [&](Index s) { return solve(run, k, s); });
     plan_next_mesh(run);
-    stages.run(of_mesh("mesh", k + 1), slabs, [&](Index s) { return adapt_slab(run, k + 1, s); });
-    stages.run(of_mesh("borders", k + 1), slabs - 1, [&](Index s) { return seam(run, k + 1, s); });
+    stages.for_slabs(of_mesh("mesh", k + 1), slabs,
+                     [&](Index s) { return adapt_slab(run, k + 1, s); });
+    stages.for_borders(of_mesh("borders", k + 1), slabs,
+                       [&](Index s) { return seam(run, k + 1, s); });
     settled = has_settled(run.input, records_of(run, k));
   }
-  stages.run(kLastOnMesh, slabs, [&](Index s) { return finish(run, k, s); });
+  stages.for_slabs("final minimisation", slabs, [&](Index s) { return finish(run, k, s); });
   return k;
 }
 
@@ -127,53 +127,21 @@ int run_meshes(MeshRun& run, Stages& stages) {
 void run_surface(SurfaceRun& run, Stages& stages, const Settings& settings, bool grey) {
   const Index slabs = run.count();
   Parameters& p = run.parameters;
-  stages.run("surface", slabs, [&](Index s) { return extract_slab(run, s); });
+  stages.for_slabs("surface", slabs, [&](Index s) { return extract_slab(run, s); });
   learn_follows(run);
-  stages.run("follow", slabs, [&](Index s) { return follow_slab(run, s); });
-  stages.run("follow at borders", slabs - 1, [&](Index s) { return follow_border(run, s); });
-  stages.run("parts", slabs, [&](Index s) { return list_parts(run, s); });
+  stages.for_slabs("follow", slabs, [&](Index s) { return follow_slab(run, s); });
+  stages.for_borders("follow at borders", slabs, [&](Index s) { return follow_border(run, s); });
+  stages.for_slabs("parts", slabs, [&](Index s) { return list_parts(run, s); });
   learn_parts(run);
   p.tolerance = chosen_tolerance(settings, run.mesh.input.grey.voxel_size(), run.parts.mean_error);
   if (!decimates_in_slabs(run)) return;
-  stages.run("nesting", slabs, [&](Index s) { return cross_rays(run, s); });
+  stages.for_slabs("nesting", slabs, [&](Index s) { return cross_rays(run, s); });
   learn_choice(run, {p.min_volume, p.keep_largest, p.fill_cavities});
-  stages.run("decimate", slabs, [&](Index s) { return decimate_slab(run, s); });
-  stages.run("decimate at borders", slabs - 1, [&](Index s) { return decimate_border(run, s); });
-  stages.run("distances", slabs, [&](Index s) { return measure_slab(run, s); });
-  if (grey) stages.run("grey", slabs, [&](Index s) { return find_grey(run, s); });
-}
-
-/// The stages with a task for each slab, and those with one for each border, in their order.
-struct StageNames {
-  std::vector<std::string> slabs, borders;
-};
-
-StageNames stage_names(const SurfaceRun& run, bool grey) {
-  StageNames names{{"prepare", kLastOnMesh, "surface", "follow", "parts"}, {"follow at borders"}};
-  for (int k = 1; k <= run.last; ++k) {
-    names.slabs.push_back(of_mesh("mesh", k));
-    names.borders.push_back(of_mesh("borders", k));
-    if (k < run.last) names.slabs.push_back(of_mesh("minimise", k));
-  }
-  if (decimates_in_slabs(run)) {
-    names.slabs.insert(names.slabs.end(), {"nesting", "decimate", "distances"});
-    names.borders.emplace_back("decimate at borders");
-    if (grey) names.slabs.emplace_back("grey");
-  }
-  return names;
-}
-
-/// What the slabs have done.
-std::vector<SlabWork> work_of_slabs(const SurfaceRun& run, const StageNames& names,
-                                    const Stages& stages) {
-  std::vector<SlabWork> all;
-  for (Index s = 0; s < run.count(); ++s) {
-    SlabWork& sum = all.emplace_back();
-    for (const std::string& name : names.slabs) sum += stages.work_of(name, s);
-    if (s + 1 == run.count()) continue;
-    for (const std::string& name : names.borders) sum += stages.work_of(name, s);
-  }
-  return all;
+  stages.for_slabs("decimate", slabs, [&](Index s) { return decimate_slab(run, s); });
+  stages.for_borders("decimate at borders", slabs,
+                     [&](Index s) { return decimate_border(run, s); });
+  stages.for_slabs("distances", slabs, [&](Index s) { return measure_slab(run, s); });
+  if (grey) stages.for_slabs("grey", slabs, [&](Index s) { return find_grey(run, s); });
 }
 
 Loop loop_on(Piece whole) {
@@ -283,7 +251,7 @@ SlabRunResult deliver(const SurfaceRun& run, const Settings& settings,
   hand_out_pieces(run, options);
   all.plan = mesh.slabs.plan;
   all.mesh_plan = mesh.plan(run.last);
-  all.slabs = work_of_slabs(run, stage_names(run, options.grey), stages);
+  all.slabs = stages.work_of_slabs(run.count());
   return all;
 }
 
@@ -382,7 +350,8 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
     make_item_file<float>(scratch.path(kImageFile), run.plan.whole.voxel_count());
     return SlabWork{};
   });
-  stages.run("prepare", run.plan.count(), [&](Index s) { return prepare_and_minimise(run, s); });
+  stages.for_slabs("prepare", run.plan.count(),
+                   [&](Index s) { return prepare_and_minimise(run, s); });
   MeshRun meshes(run);
   SurfaceRun surface(meshes, run_meshes(meshes, stages));
   require_full(meshes, surface.last);

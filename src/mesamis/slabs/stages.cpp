@@ -42,6 +42,29 @@ void Stages::run(const std::string& name, Index count, const std::function<SlabW
   team_.wait_for_all();
 }
 
+void Stages::for_slabs(const std::string& name, Index slabs,
+                       const std::function<SlabWork(Index)>& task) {
+  run(name, slabs, task);
+  of_slabs_.push_back(name);
+}
+
+void Stages::for_borders(const std::string& name, Index slabs,
+                         const std::function<SlabWork(Index)>& task) {
+  run(name, slabs - 1, task);
+  of_borders_.push_back(name);
+}
+
+std::vector<SlabWork> Stages::work_of_slabs(Index slabs) const {
+  std::vector<SlabWork> all;
+  for (Index s = 0; s < slabs; ++s) {
+    SlabWork& sum = all.emplace_back();
+    for (const std::string& name : of_slabs_) sum += work_of(name, s);
+    if (s + 1 == slabs) continue;
+    for (const std::string& name : of_borders_) sum += work_of(name, s);
+  }
+  return all;
+}
+
 SlabWork Stages::work_of(const std::string& name, Index n) const {
   return scratch_.read(done_file(name, n)).next_one<SlabWork>();
 }

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/run/segment_in_slabs.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "mesamis/delivery/mesh_output.h"
+#include "mesamis/shape_files/mesh_files.h"
+
+namespace mesamis {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Writes meshes slab by slab, and at the end the indices of their pieces.
+class PieceWriter {
+ public:
+  explicit PieceWriter(const SlabRequest& request) : request_(request) {}
+
+  /// Its cells have the mean of the voxels in them.
+  void write(Index slab, const Result& piece, const VolumeView& scan) {
+    const MeshWithArrays grid = make_mesh_piece(piece, scan);
+    for (const fs::path& path : request_.piece_meshes) {
+      const std::string name = path.stem().string() + "_" + std::to_string(slab) + ".vtu";
+      pieces_[path].push_back(name);
+      write_vtu(fs::path(path).replace_filename(name), grid.mesh,
+                {grid.point_arrays, grid.cell_arrays, request_.frame});
+    }
+    for (const MeshArray& array : grid.point_arrays) keep(array, index_.point_arrays);
+    for (const MeshArray& array : grid.cell_arrays) keep(array, index_.cell_arrays);
+  }
+
+  void write_indices() const {
+    for (const auto& [path, pieces] : pieces_) {
+      write_pvtu(path, pieces, index_.point_arrays, index_.cell_arrays);
+    }
+  }
+
+ private:
+  /// All pieces have the same arrays.
+  static void keep(const MeshArray& array, std::vector<MeshArray>& known) {
+    const auto is_same = [&](const MeshArray& other) { return other.name == array.name; };
+    if (std::any_of(known.begin(), known.end(), is_same)) return;
+    known.push_back({array.name, array.components, {}});
+  }
+
+  const SlabRequest& request_;
+  std::map<fs::path, std::vector<std::string>> pieces_;  // names, by index
+  MeshWithArrays index_;                                 // names and components of the arrays
+};
+
+Outcome outcome_of(const SlabRequest& request, SlabRunResult& work) {
+  Outcome outcome;
+  outcome.asked = request.settings;
+  outcome.grid = request.source.grid();
+  outcome.one = std::move(work.result);
+  outcome.grey = std::move(work.grey);
+  outcome.wanted = {one_object()};
+  outcome.checks = {check_surface(outcome.one->surface)};
+  outcome.verdict = judge(*outcome.one, outcome.checks.front());
+  return outcome;
+}
+
+}  // namespace
+
+std::optional<SlabOutcome> segment_in_slabs(const SlabRequest& request, const fs::path& scratch,
+                                            Team& team) {
+  std::optional<MappedScan> scan;
+  const auto samples = [&]() -> const VolumeView& {
+    if (!scan) scan.emplace(map_scan(request.source, scratch));
+    return scan->volume;
+  };
+  PieceWriter pieces(request);
+  SlabRunOptions options = request.slabs;
+  if (!request.piece_meshes.empty()) {
+    options.take_piece = [&](Index s, const Result& piece) { pieces.write(s, piece, samples()); };
+  }
+  auto work = run_in_slabs(request.source, request.settings, options, team);
+  if (!work) return std::nullopt;
+  SlabOutcome found{outcome_of(request, *work), *std::move(work), {}};
+  if (options.mesh) found.outcome.in_place = samples().samples;
+  pieces.write_indices();
+  found.scan = std::move(scan);
+  return found;
+}
+
+}  // namespace mesamis

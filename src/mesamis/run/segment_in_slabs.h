@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mesamis/image/slice_source.h"
+#include "mesamis/run/outcome.h"
+#include "mesamis/slabs/map_scan.h"
+#include "mesamis/slabs/run_in_slabs.h"
+
+namespace mesamis {
+
+/// A run in slabs for one object: all that is bright.
+struct SlabRequest {
+  const SliceSource& source;
+  Settings settings{};
+  SlabRunOptions slabs{};  ///< `mesh`: whether the outcome has its mesh; take_piece is not used
+  /// Meshes that are written slab by slab as they come: a .vtu for each slab, "NAME_3.vtu", beside
+  /// the index NAME.pvtu.
+  std::vector<std::filesystem::path> piece_meshes{};
+  Frame frame = Frame::kLps;  ///< of these
+};
+
+/// What came out of it.
+struct SlabOutcome {
+  Outcome outcome;                 ///< without an image, unless its mesh is kept
+  SlabRunResult work;              ///< its result is moved into the outcome
+  std::optional<MappedScan> scan;  ///< the samples that the outcome refers to
+};
+
+/// Does what segment() does for one object, without ever holding the scan: see run_in_slabs().
+/// Pieces of meshes go into the OutputSet of the calling thread, if there is one.
+/// @param scratch  folder for a copy of the scan, where a mesh needs the grey values below it.
+/// @return on rank 0; nothing elsewhere.
+/// @throws InputError, Cancelled  as run_in_slabs(), map_scan() and write_vtu(). Cost as
+///                                run_in_slabs().
+std::optional<SlabOutcome> segment_in_slabs(const SlabRequest& request,
+                                            const std::filesystem::path& scratch, Team& team);
+
+}  // namespace mesamis
