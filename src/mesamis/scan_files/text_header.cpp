@@ -13,6 +13,8 @@
 namespace mesamis::detail {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::uint64_t kLongestHeader = 1 << 20;
 
 template <class Number>
