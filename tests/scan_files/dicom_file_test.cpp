@@ -372,6 +372,28 @@ TEST(Dicom, SliceLocationAlonePlacesSlices) {
   EXPECT_THAT(file.warnings, testing::ElementsAre(HasSubstr("placed by Slice Location")));
 }
 
+TEST(Dicom, SliceLocationsLieAlongTheNormalOfAnOrientation) {
+  const TempFolder folder;
+  const auto path = changed_series(folder, [](SliceBytes& slice, int k) {
+    slice.position.clear();
+    slice.orientation = {0, 1, 0, 0, 0, 1};
+    slice.more[0x00201041] = {"DS", std::to_string(30 - 2.5 * k)};
+  });
+  const VolumeFile file = read_volume(path);
+  EXPECT_NEAR(file.volume.spacing.z, 2.5, 1e-9);
+  expect_near(transpose(file.volume.direction).rows[2], {1, 0, 0});
+  EXPECT_EQ(file.volume.samples[0], 36) << "the lowest comes first";
+  EXPECT_THAT(file.warnings, testing::ElementsAre(HasSubstr("whether they are mirrored")));
+}
+
+TEST(Dicom, DosesAreScaled) {
+  const TempFolder folder;
+  const auto path = changed_series(folder, [](SliceBytes& slice, int) {
+    slice.more[0x3004000e] = {"DS", "0.25"};
+  });
+  EXPECT_EQ(read_volume(path).volume.samples[13], 13 * 0.25);
+}
+
 TEST(Dicom, InstanceNumbersPlaceSlicesByAGivenSpacing) {
   const TempFolder folder;
   const auto path = changed_series(folder, [](SliceBytes& slice, int k) {

@@ -129,7 +129,8 @@ void require_bits(const DicomFile& file, const DicomPixels& p, PixelUse use) {
   if (!whole || p.bits_stored < 1 || p.bits_stored > p.bits_allocated ||
       p.high_bit < p.bits_stored - 1 || p.high_bit >= p.bits_allocated) {
     refuse(file.path, say("expected pixels of 8, 16 or 32 bits, found ", p.bits_allocated,
-                          " bits allocated, ", p.bits_stored, " stored, high bit ", p.high_bit));
+                          " bits allocated, ", p.bits_stored, " stored, high bit ", p.high_bit,
+                          p.bits_allocated == 1 ? " (--labels reads segmentations)" : ""));
   }
 }
 

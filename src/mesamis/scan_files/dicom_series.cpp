@@ -88,9 +88,11 @@ void check_places(DicomSeries& series) {
         say(slice->file.string(), ": expected Image Position (0020,0032) as in other slices ",
             "of the series, found none");
   } else if (way != PlacedBy::kPosition) {
-    series.warnings.push_back(say("the slices have no Image Position: placed by ",
-                                  way == PlacedBy::kLocation ? "Slice Location" : "Instance Number",
-                                  ", axes taken as LPS; whether sides are exchanged is not known"));
+    series.warnings.push_back(
+        say("the slices have no Image Position: placed by ",
+            way == PlacedBy::kLocation ? "Slice Location" : "Instance Number",
+            slice->oriented ? ", one straight above another; whether they are mirrored is not known"
+                            : ", axes taken as LPS; whether sides are exchanged is not known"));
   }
 }
 

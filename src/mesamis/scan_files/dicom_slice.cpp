@@ -63,10 +63,8 @@ constexpr MacroTag kPositionTag{dicom::kPlanePosition, dicom::kPosition},
     kOrientationTag{dicom::kPlaneOrientation, dicom::kOrientation},
     kSpacingTag{dicom::kPixelMeasures, dicom::kPixelSpacing};
 
-void place_in_plane(DicomSlice& slice, const FrameTags& tags) {
-  const auto p = tags.need(kPositionTag, 3, "Image Position (0020,0032)");
+void orient(DicomSlice& slice, const FrameTags& tags) {
   const auto o = tags.need(kOrientationTag, 6, "Image Orientation (0020,0037)");
-  slice.position = {p[0], p[1], p[2]};
   slice.along_row = {o[0], o[1], o[2]};
   slice.along_column = {o[3], o[4], o[5]};
   constexpr double kUnitTolerance = 0.01;  // cosines are sometimes written with two digits
@@ -76,6 +74,13 @@ void place_in_plane(DicomSlice& slice, const FrameTags& tags) {
              say("expected an Image Orientation of unit vectors, found length ", norm(direction)));
     }
   }
+}
+
+void place_in_plane(DicomSlice& slice, const FrameTags& tags) {
+  constexpr const char* kHint = " (--spacing X,Y,Z takes slices in the order of Instance Numbers)";
+  const auto p = tags.need(kPositionTag, 3, "Image Position (0020,0032)", kHint);
+  slice.position = {p[0], p[1], p[2]};
+  orient(slice, tags);
 }
 
 /// A number that tells the order of slices without a position; none if there is none.
@@ -93,12 +98,16 @@ std::optional<double> order_of(const DicomFile& file, const std::optional<Vec3>&
 
 void place(DicomSlice& slice, const DicomFile& file, const FrameTags& tags,
            const std::optional<Vec3>& spacing) {
-  const bool placed = tags.has(kPositionTag) || tags.has(kOrientationTag);
-  const auto height = placed ? std::nullopt : order_of(file, spacing, slice);
+  const auto height = tags.has(kPositionTag) ? std::nullopt : order_of(file, spacing, slice);
   if (!height || !std::isfinite(*height)) return place_in_plane(slice, tags);
-  slice.position = {0, 0, *height};
-  slice.along_row = {1, 0, 0};
-  slice.along_column = {0, 1, 0};
+  slice.oriented = tags.has(kOrientationTag);
+  if (slice.oriented) {
+    orient(slice, tags);
+  } else {
+    slice.along_row = {1, 0, 0};
+    slice.along_column = {0, 1, 0};
+  }
+  slice.position = *height * unit_or_zero(cross(slice.along_row, slice.along_column));
 }
 
 /// Distances of rows and columns.
@@ -126,6 +135,9 @@ void scale(DicomSlice& slice, const FrameTags& tags) {
   const auto intercept = tags.find({dicom::kPixelTransformation, dicom::kIntercept}, 1);
   if (slope) slice.slope = slope->front();
   if (intercept) slice.intercept = intercept->front();
+  if (const auto dose = tags.find({dicom::kPixelTransformation, dicom::kDoseScaling}, 1)) {
+    slice.slope *= dose->front();
+  }
   if (slice.slope == 0 || !std::isfinite(slice.slope) || !std::isfinite(slice.intercept)) {
     refuse(slice.file, say("expected a usable rescale, found slope ", slice.slope, ", intercept ",
                            slice.intercept));

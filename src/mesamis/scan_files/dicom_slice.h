@@ -16,8 +16,8 @@ namespace mesamis::detail {
 /// What tells where a slice lies.
 enum class PlacedBy {
   kPosition,  ///< Image Position
-  kLocation,  ///< Slice Location alone: heights in axes that are not known
-  kNumber,    ///< Instance Number alone: its order, one step of the given spacing each
+  kLocation,  ///< Slice Location: heights along the normal of the slices
+  kNumber,    ///< Instance Number: its order, one step of the given spacing each
 };
 
 /// One frame: where its samples are and where it lies in space. LPS, mm.
@@ -31,7 +31,8 @@ struct DicomSlice {
   double slope = 1, intercept = 0;
   bool localizer = false;  ///< its Image Type says LOCALIZER
   PlacedBy placed_by = PlacedBy::kPosition;
-  std::string phase{};  ///< by what slices at one place may differ, see phase_marks()
+  bool oriented = true;  ///< false: the directions are taken as LPS
+  std::string phase{};   ///< by what slices at one place may differ, see phase_marks()
 };
 
 /// A tag and the functional group of an enhanced file in which it lies.
@@ -54,8 +55,8 @@ struct DicomImage {
 /// Places one frame, from 0, of a file of pixels: all of a DicomSlice but rescale, localizer and
 /// phase.
 ///
-/// A file that has neither position nor orientation lies at its Slice Location, or, where a spacing
-/// is given, at its Instance Number, in axes along LPS.
+/// A file without a position lies at its Slice Location, or, where a spacing is given, at its
+/// Instance Number: along the normal of its orientation, or in axes along LPS where it has none.
 /// @param pixels   pixels_of(file).
 /// @param spacing  mm, given by the user: taken where the file's cannot be used.
 /// @throws InputError  if position, orientation or spacing are missing or cannot be used.
