@@ -16,6 +16,7 @@ TEST(LengthUnit, IsKnownByItsSymbolAndItsWordsInEitherCase) {
   EXPECT_EQ(mm_per_unit("nm"), 1e-6);
   EXPECT_EQ(mm_per_unit("cm"), 10);
   EXPECT_EQ(mm_per_unit("metres"), 1e3);
+  EXPECT_DOUBLE_EQ(mm_per_unit("thou").value(), 0.0254);
 }
 
 TEST(LengthUnit, IsNoneForWhatIsNoLength) {

@@ -142,5 +142,33 @@ TEST(TiffLayout, AxesOfTifffileBeforeTheSlicesAreVolumes) {
   EXPECT_EQ(layout("{\"shape\": [2, 3, 4, 5]}", 5).slices, 5) << "another number of pages";
 }
 
+TEST(TiffLayout, AxesOfTifffileHaveLetters) {
+  const TiffLayout found = layout("{\"shape\": [3, 2, 4, 5], \"axes\": \"ZCYX\"}", 6);
+  EXPECT_EQ(found.slices, 3);
+  EXPECT_EQ(found.axes.volumes, 1);
+  EXPECT_EQ(found.axes.channels, 2);
+  EXPECT_THAT(found.planes, ElementsAre(0, 2, 4, 1, 3, 5));
+  const TiffLayout times = layout("{\"shape\": [5, 1, 4, 5], \"axes\": \"TCYX\"}", 5);
+  EXPECT_EQ(times.slices, 5);
+  EXPECT_THAT(times.warnings, ElementsAre(HasSubstr("5 times of one slice each")));
+  EXPECT_EQ(layout("{\"shape\": [3, 2, 4, 5], \"axes\": \"ZQYX\"}", 6).slices, 2)
+      << "two axes of slices";
+}
+
+TEST(TiffLayout, TakesTheDistanceOfSlicesOfTifffile) {
+  const std::string shape = "{\"shape\": [5, 3, 4], ";
+  EXPECT_DOUBLE_EQ(layout(shape + "\"spacing\": 2.5, \"unit\": \"um\"}", 5).spacing.z, 0.0025);
+  EXPECT_EQ(layout(shape + "\"spacing\": 2.5}", 5).between, 2.5);
+  const TiffLayout odd = layout(shape + "\"unit\": \"pixel\", \"spacing\": 2.5}", 5);
+  EXPECT_EQ(odd.spacing.z, 0);
+  EXPECT_EQ(odd.between, 0);
+  EXPECT_THAT(odd.warnings, ElementsAre(HasSubstr("\"pixel\" of the spacing is no length")));
+  for (const char* text :
+       {"\"spacing\": \"2\"}", "\"spacing\": nan}", "\"spacing\"", "\"unit\": \"um"}) {
+    EXPECT_EQ(layout(shape + text, 5).spacing.z, 0) << text;
+    EXPECT_EQ(layout(shape + text, 5).slices, 5) << text;
+  }
+}
+
 }  // namespace
 }  // namespace mesamis::detail

@@ -19,22 +19,37 @@ constexpr double kInch = 25.4;
 
 /// Words are in the singular and in American spelling.
 constexpr std::array kUnits{
-    LengthUnit{"mm", 1},           LengthUnit{"millimeter", 1},
-    LengthUnit{"um", 1e-3},        LengthUnit{"\xc2\xb5m", 1e-3},  // micro sign
-    LengthUnit{"\xce\xbcm", 1e-3},                                 // Greek mu
-    LengthUnit{"\xb5m", 1e-3},                                     // Latin-1
-    LengthUnit{"\\u00b5m", 1e-3},                                  // as Java escapes it
-    LengthUnit{"micron", 1e-3},    LengthUnit{"micrometer", 1e-3},
-    LengthUnit{"nm", 1e-6},        LengthUnit{"nanometer", 1e-6},
-    LengthUnit{"pm", 1e-9},        LengthUnit{"picometer", 1e-9},
-    LengthUnit{"angstrom", 1e-7},  LengthUnit{"\xc3\x85", 1e-7},
-    LengthUnit{"cm", 10},          LengthUnit{"centimeter", 10},
-    LengthUnit{"dm", 100},         LengthUnit{"decimeter", 100},
-    LengthUnit{"m", 1e3},          LengthUnit{"meter", 1e3},
-    LengthUnit{"km", 1e6},         LengthUnit{"kilometer", 1e6},
-    LengthUnit{"in", kInch},       LengthUnit{"inch", kInch},
-    LengthUnit{"inche", kInch},    LengthUnit{"\"", kInch},
-    LengthUnit{"ft", 12 * kInch},  LengthUnit{"foot", 12 * kInch},
+    LengthUnit{"mm", 1},
+    LengthUnit{"millimeter", 1},
+    LengthUnit{"um", 1e-3},
+    LengthUnit{"\xc2\xb5m", 1e-3},  // micro sign
+    LengthUnit{"\xce\xbcm", 1e-3},  // Greek mu
+    LengthUnit{"\xb5m", 1e-3},      // Latin-1
+    LengthUnit{"\\u00b5m", 1e-3},   // as Java escapes it
+    LengthUnit{"micron", 1e-3},
+    LengthUnit{"micrometer", 1e-3},
+    LengthUnit{"nm", 1e-6},
+    LengthUnit{"nanometer", 1e-6},
+    LengthUnit{"pm", 1e-9},
+    LengthUnit{"picometer", 1e-9},
+    LengthUnit{"angstrom", 1e-7},
+    LengthUnit{"\xc3\x85", 1e-7},
+    LengthUnit{"cm", 10},
+    LengthUnit{"centimeter", 10},
+    LengthUnit{"dm", 100},
+    LengthUnit{"decimeter", 100},
+    LengthUnit{"m", 1e3},
+    LengthUnit{"meter", 1e3},
+    LengthUnit{"km", 1e6},
+    LengthUnit{"kilometer", 1e6},
+    LengthUnit{"in", kInch},
+    LengthUnit{"inch", kInch},
+    LengthUnit{"inche", kInch},
+    LengthUnit{"\"", kInch},
+    LengthUnit{"thou", kInch / 1000},
+    LengthUnit{"mil", kInch / 1000},
+    LengthUnit{"ft", 12 * kInch},
+    LengthUnit{"foot", 12 * kInch},
 };
 
 std::optional<double> find(std::string_view name) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "mesamis/files/length_unit.h"
@@ -343,10 +344,68 @@ std::vector<std::int64_t> shape_in(std::string_view text) {
   return shape;
 }
 
-/// The last two axes are those of a page, the one before them holds slices, the others volumes.
+/// What follows a key and its colon; empty if there is none.
+std::string_view value_behind(std::string_view text, const std::string& key) {
+  const auto at = text.find(in_quotes(key));
+  const auto colon = text.find(':', at);
+  if (at == std::string_view::npos || colon == std::string_view::npos) return {};
+  return trimmed(text.substr(colon + 1));
+}
+
+std::string text_in(std::string_view text, const std::string& key) {
+  const std::string_view value = value_behind(text, key);
+  const auto end = value.find('"', 1);
+  if (!value.starts_with('"') || end == std::string_view::npos) return {};
+  return std::string(value.substr(1, end - 1));
+}
+
+/// The distance of slices, in the unit that is named, or in that of the resolution.
+void take_distance(std::string_view text, TiffLayout& layout) {
+  const std::string_view value = value_behind(text, "spacing");
+  double distance = 0;
+  if (!parse_number(trimmed(value.substr(0, value.find_first_of(",}"))), distance) ||
+      !std::isfinite(distance) || distance == 0) {
+    return;
+  }
+  const std::string unit = text_in(text, "unit");
+  const auto mm = mm_per_unit(unit);
+  if (mm) {
+    layout.spacing.z = *mm * std::abs(distance);
+  } else if (unit.empty()) {
+    layout.between = std::abs(distance);
+  } else {
+    layout.warnings.push_back(say("the unit ", in_quotes(unit),
+                                  " of the spacing is no length: it "
+                                  "does not count"));
+  }
+}
+
+/// Which axes before the last two hold slices, volumes and channels, by their letters; without
+/// letters the last of them holds slices, the others volumes.
+/// @return none if two axes hold the same.
+std::optional<Steps> take_axes(const std::vector<std::int64_t>& shape, const std::string& axes,
+                               TiffLayout& layout) {
+  const std::size_t leading = shape.size() - 2;
+  if (axes.size() != shape.size()) return std::nullopt;
+  Steps steps;
+  std::int64_t step = 1;
+  layout.slices = 1;
+  for (std::size_t a = leading; a-- > 0; step *= shape[a]) {
+    if (shape[a] == 1) continue;
+    const bool channel = axes[a] == 'C', time = axes[a] == 'T';
+    auto& count = channel ? layout.axes.channels : time ? layout.axes.volumes : layout.slices;
+    if (count != 1) return std::nullopt;
+    count = shape[a];
+    (channel ? steps.channel : time ? steps.volume : steps.slice) = step;
+  }
+  return steps;
+}
+
+/// The last two axes are those of a page.
 TiffLayout read_shape(const Pages& pages, std::string_view text) {
   TiffLayout layout;
   layout.one_directory = true;
+  take_distance(text, layout);
   const std::vector<std::int64_t> shape = shape_in(text);
   std::int64_t planes = 1;
   for (std::size_t a = 0; a + 2 < shape.size(); ++a) {
@@ -358,10 +417,15 @@ TiffLayout read_shape(const Pages& pages, std::string_view text) {
     take_all_pages(pages, layout);
     return layout;
   }
-  layout.slices = shape[shape.size() - 3];
-  layout.axes.volumes = std::max<std::int64_t>(1, planes / layout.slices);
+  auto steps = take_axes(shape, text_in(text, "axes"), layout);
+  if (!steps) {
+    layout.slices = shape[shape.size() - 3];
+    layout.axes = {std::max<std::int64_t>(1, planes / layout.slices), 1};
+    steps = {1, layout.slices, planes};
+  }
   require_planes(pages, layout, "the shape in the description");
-  number_planes(layout, {1, layout.slices, planes});
+  number_planes(layout, *steps);
+  take_times_as_slices(layout);
   return layout;
 }
 
