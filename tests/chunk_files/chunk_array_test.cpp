@@ -145,5 +145,37 @@ TEST(ChunkArray, SetsTheSpacingAndSaysWhereFrom) {
   EXPECT_REFUSED(warnings({}, Vec3{1, 0, 1}), HasSubstr("expected a positive spacing, found 0"));
 }
 
+TEST(ChunkArray, VisitsAllSamplesInTheirOrder) {
+  for (const double memory_gb : {0.1, 8e-7}) {
+    const Counted array({.memory_gb = memory_gb});
+    std::vector<double> all;
+    array.scan->visit_samples([&](std::span<const double> samples) {
+      all.insert(all.end(), samples.begin(), samples.end());
+    });
+    const std::vector<float> slices = expected_slices(0, 7);
+    EXPECT_EQ(all, std::vector<double>(slices.begin(), slices.end())) << memory_gb;
+  }
+}
+
+TEST(ChunkArray, VisitsWholeNumbersThatSinglePrecisionRounds) {
+  OpenedArray array;
+  array.path = ".";
+  array.layout.shape = array.layout.chunk = {1, 1, 2};
+  array.layout.order = {0, 1, 2};
+  array.layout.type = NumberType::kUint64;
+  array.grid.size = require_layout(array.path, array.layout);
+  array.limits = {.memory_gb = 0.1};
+  const std::vector<std::uint64_t> values{16777217, 9007199254740991};
+  array.fetch = [&](const std::vector<std::uint64_t>&, MemoryBudget&) {
+    return std::optional(StoredChunk{".", bytes_of_all(values), {}});
+  };
+  const auto scan = make_chunked_scan(std::move(array));
+  scan->visit_samples([](std::span<const double> samples) {
+    EXPECT_THAT(samples, ElementsAre(16777217, 9007199254740991));
+  });
+  EXPECT_FALSE(scan->holds_labels());
+  EXPECT_THAT(scan->named_numbers(), IsEmpty());
+}
+
 }  // namespace
 }  // namespace mesamis::detail

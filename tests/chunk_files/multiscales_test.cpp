@@ -74,5 +74,47 @@ TEST(Multiscales, RefusesWhatItCannotPlace) {
   EXPECT_REFUSED(read(R"({"datasets": [{"path": 3}]})"), HasSubstr("expected a string"));
 }
 
+std::vector<ScaleLevel> with_labels(const std::string& labels) {
+  const auto json = nlohmann::json::parse(
+      R"({"multiscales": [{"datasets": [{"path": "0"}, {"path": "1"}]}], "image-label": )" +
+      labels + "}");
+  const std::filesystem::path file("attributes");
+  return read_multiscales({file, json});
+}
+
+TEST(Multiscales, NameAndColourLabels) {
+  const auto levels = with_labels(R"({"colors": [{"label-value": 2, "rgba": [255, 8, 0, 128]},
+      {"label-value": 70000}], "properties": [{"label-value": 1, "area": 3, "class": "tibia"},
+      {"label-value": 2, "name": "femur"}]})");
+  ASSERT_EQ(levels.size(), 2U);
+  for (const ScaleLevel& level : levels) {
+    ASSERT_TRUE(level.labels);
+    ASSERT_EQ(level.labels->size(), 3U);
+    const NamedNumber& femur = level.labels->at(0);
+    EXPECT_EQ(femur.number, 2);
+    EXPECT_EQ(femur.name, "femur");
+    EXPECT_EQ(femur.colour, (std::array<std::uint8_t, 3>{255, 8, 0}));
+    EXPECT_EQ(level.labels->at(1).number, 70000);
+    EXPECT_EQ(level.labels->at(2).name, "tibia");
+    EXPECT_FALSE(level.labels->at(2).colour);
+    EXPECT_THAT(level.warnings, IsEmpty());
+  }
+  EXPECT_FALSE(read(multiscales("micrometer"))[0].labels);
+  EXPECT_TRUE(with_labels("{}")[0].labels);
+}
+
+TEST(Multiscales, NamesOfLabelsThatAreBrokenAreAWarning) {
+  for (const char* labels :
+       {R"({"colors": 3})", R"({"colors": [{"rgba": [1, 2, 3, 4]}]})",
+        R"({"colors": [{"label-value": 1.5, "rgba": [1, 2, 3, 4]}]})",
+        R"({"colors": [{"label-value": 1e300}]})",
+        R"({"colors": [{"label-value": 1, "rgba": [1, 2]}]})",
+        R"({"colors": [{"label-value": 1, "rgba": [1, 2, 256, 4]}]})", R"({"properties": [7]})"}) {
+    const auto levels = with_labels(labels);
+    EXPECT_THAT(levels[0].warnings, ElementsAre(HasSubstr("not all names of labels"))) << labels;
+    EXPECT_TRUE(levels[0].labels) << labels;
+  }
+}
+
 }  // namespace
 }  // namespace mesamis::detail

@@ -96,6 +96,17 @@ void write_pictures(const SeedFolder& seeds) {
   pages[0].description.clear();
   seeds.add("tiff", "plain", tiff_bytes({pages[0]}));
   seeds.add("tiff", "bytes", tiff_bytes({{.bits = 8, .format = 1, .pixels = "abcdefghijkl"}}));
+  TiffPage colours{3, 1, 4, 1, 1, 3, 0, "", "\x12\x30"};
+  colours.colours = std::vector<std::uint16_t>(48);
+  seeds.add("tiff", "palette", tiff_bytes({colours, colours}));
+  seeds.add("tiff", "bits", tiff_bytes({{9, 1, 1, 1, 1, 1, 0, "", "\xa1\x80"}}));
+  seeds.add("bmp", "bits",
+            BmpBytes{.width = 9,
+                     .height = 1,
+                     .bits = 1,
+                     .palette = std::string("\0\0\0\0\xff\xff\xff\0", 8),
+                     .pixels = std::string("\xa0\x80\0\0", 4)}
+                .bytes());
   seeds.add("bmp", "grey",
             BmpBytes{.palette = grey_palette(), .pixels = std::string("abc\0def\0", 8)}.bytes());
   seeds.add("bmp", "colours",
@@ -131,6 +142,8 @@ void write_zarr(const SeedFolder& seeds) {
       [{"type": "scale", "scale": [4, 2, 1]}, {"type": "translation", "translation": [1, 2, 3]}
       ]}]}])";
   seeds.add("zarr", "image", "a{" + image + "}");
+  seeds.add("zarr", "labels", "a{" + image + R"(, "image-label": {"colors": [{"label-value": 1,
+      "rgba": [255, 0, 0, 255]}], "properties": [{"label-value": 1, "name": "bone"}]}})");
   seeds.add("zarr", "group",
             R"(3{"zarr_format": 3, "node_type": "group", "attributes": {"ome": {)" + image + "}}}");
 }

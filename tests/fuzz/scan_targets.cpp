@@ -4,6 +4,8 @@
 #include <cstring>
 
 #include "mesamis/chunk_files/chunked_scan.h"
+#include "mesamis/image/label_map.h"
+#include "mesamis/label_files/read_labels.h"
 #include "mesamis/scan_files/open_slices.h"
 #include "mesamis/scan_files/read_volume.h"
 #include "reader_targets.h"
@@ -91,6 +93,22 @@ void run_scan(std::string_view bytes) {
   read_scan(input_folder().write(kName, bytes));
 }
 
+/// Labels have other values than a scan where a picture has a table of colours.
+void read_as_labels(const fs::path& file) {
+  read_or_refuse(file, [](const fs::path& path) {
+    const LabelFile labels = read_label_map(path, {.limits = fuzz_limits()});
+    for (const std::string& warning : labels.warnings) require_one_line(warning);
+    require_valid(labels.map);
+  });
+}
+
+template <const char* kName>
+void run_picture(std::string_view bytes) {
+  const fs::path file = input_folder().write(kName, bytes);
+  read_scan(file);
+  read_as_labels(file);
+}
+
 /// A slice alone is no volume: another one of the same series lies beside it.
 void run_dicom(std::string_view bytes) {
   static const fs::path second = [] {
@@ -139,11 +157,14 @@ std::string with_png_sums(std::string bytes) {
 }
 
 void run_png(std::string_view bytes) {
-  read_scan(input_folder().write("scan.png", with_png_sums(std::string(bytes))));
+  const fs::path file = input_folder().write("scan.png", with_png_sums(std::string(bytes)));
+  read_scan(file);
+  read_as_labels(file);
 }
 
+constexpr std::size_t kMostVoxels = 100'000;  // each may be a chunk, and a look at the disk
+
 void require_chunks(const ChunkedScan& scan) {
-  constexpr std::size_t kMostVoxels = 100'000;  // each may be a chunk, and a look at the disk
   require_grid(scan.grid());
   for (const std::string& warning : scan.warnings()) require_one_line(warning);
   if (scan.grid().voxel_count() > kMostVoxels) return;
@@ -151,6 +172,9 @@ void require_chunks(const ChunkedScan& scan) {
   const Index last = scan.grid().size[2] - 1;
   require_law(scan.read(last, 1).size() == slice, "samples are missing");
   require_law(scan.read(0, last + 1).size() == scan.grid().voxel_count(), "samples are missing");
+  std::size_t visited = 0;
+  scan.visit_samples([&](std::span<const double> samples) { visited += samples.size(); });
+  require_law(visited == scan.grid().voxel_count(), "samples are not visited");
 }
 
 /// Which metadata these are: 2 .zarray, 3 zarr.json, else .zattrs; behind a zero byte the first
@@ -178,7 +202,9 @@ void run_zarr(std::string_view bytes) {
     input_folder().write("store/c/0/0/0", chunk);
   }
   read_or_refuse(store, [](const fs::path& path) {
-    require_chunks(*open_zarr(path, {.limits = fuzz_limits()}));
+    const auto scan = open_zarr(path, {.limits = fuzz_limits()});
+    require_chunks(*scan);
+    if (scan->grid().voxel_count() <= kMostVoxels) read_as_labels(path);
   });
 }
 
@@ -205,11 +231,11 @@ constexpr char kNifti[] = "scan.nii", kNrrd[] = "scan.nrrd", kMeta[] = "scan.mha
                kVgi[] = "scan.vgi", kJpeg[] = "scan.jpg";
 
 constexpr FuzzTarget kTargets[] = {
-    {"dicom", run_dicom},      {"nifti", run_scan<kNifti>}, {"nrrd", run_scan<kNrrd>},
-    {"meta", run_scan<kMeta>}, {"tiff", run_scan<kTiff>},   {"inv3", run_scan<kInv3>},
-    {"png", run_png},          {"bmp", run_scan<kBmp>},     {"raw", run_raw},
-    {"zarr", run_zarr},        {"hdr", run_scan<kPair>},    {"mgh", run_scan<kMgh>},
-    {"isq", run_scan<kIsq>},   {"aim", run_scan<kAim>},     {"vgi", run_scan<kVgi>},
+    {"dicom", run_dicom},      {"nifti", run_scan<kNifti>},  {"nrrd", run_scan<kNrrd>},
+    {"meta", run_scan<kMeta>}, {"tiff", run_picture<kTiff>}, {"inv3", run_scan<kInv3>},
+    {"png", run_png},          {"bmp", run_picture<kBmp>},   {"raw", run_raw},
+    {"zarr", run_zarr},        {"hdr", run_scan<kPair>},     {"mgh", run_scan<kMgh>},
+    {"isq", run_scan<kIsq>},   {"aim", run_scan<kAim>},      {"vgi", run_scan<kVgi>},
     {"jpeg", run_scan<kJpeg>}, {"beside", run_text_beside},
 };
 

@@ -74,5 +74,52 @@ TEST(ChunkLabels, TakeAtMostTheMemoryAllowed) {
   EXPECT_REFUSED(read_label_map(folder / "a", {{.memory_gb = 0.5}}), HasSubstr("memory: expected"));
 }
 
+/// Attributes of an image of labels of one level.
+std::string attributes_with(const std::string& labels) {
+  return R"({"multiscales": [{"datasets": [{"path": "0"}]}], "image-label": )" + labels + "}";
+}
+
+TEST(ChunkLabels, HaveTheNamesAndColoursOfTheImage) {
+  const TempFolder folder;
+  write_image(folder / "a.zarr", kLabels);
+  write_bytes(folder / "a.zarr/.zattrs",
+              attributes_with(R"({"colors": [{"label-value": 7, "rgba": [1, 2, 3, 255]},
+                  {"label-value": 0, "rgba": [0, 0, 0, 0]}, {"label-value": -1}],
+                  "properties": [{"label-value": 70000, "name": "isocortex"}]})"));
+  for (const char* name : {"a.zarr", "a.zarr/0"}) {
+    const LabelFile file = read_label_map(folder / name);
+    const Segment seven = find_segment(file.map.segments, "7");
+    EXPECT_EQ(seven.name, "label 7");
+    EXPECT_THAT(seven.colour, ElementsAre(1, 2, 3));
+    EXPECT_EQ(find_segment(file.map.segments, "isocortex").number_in_file, 70000);
+    EXPECT_THAT(file.map.segments, SizeIs(3));
+    EXPECT_TRUE(is_label_file(folder / name));
+  }
+  write_image(folder / "b.zarr", kLabels);
+  EXPECT_FALSE(is_label_file(folder / "b.zarr"));
+}
+
+TEST(ChunkLabels, NumbersThatSinglePrecisionRoundsStayApart) {
+  const TempFolder folder;
+  std::vector<std::uint32_t> labels = kLabels;
+  labels[0] = 614454277;
+  labels[1] = 614454278;
+  write_array(folder / "a", labels);
+  const LabelFile file = read_label_map(folder / "a");
+  const auto& map = file.map;
+  EXPECT_EQ(find_segment(map.segments, "614454277").label, map.layers[0][0]);
+  EXPECT_EQ(find_segment(map.segments, "614454278").label, map.layers[0][1]);
+  EXPECT_NE(map.layers[0][0], map.layers[0][1]);
+}
+
+TEST(ChunkLabels, LieInsideAnImage) {
+  const TempFolder folder;
+  write_image(folder / "a.zarr", kGrey);
+  EXPECT_FALSE(is_mask_folder(folder / "a.zarr"));
+  write_bytes(folder / "a.zarr/labels/.zgroup", R"({"zarr_format": 2})");
+  write_image(folder / "a.zarr/labels/cells", kLabels);
+  EXPECT_TRUE(is_mask_folder(folder / "a.zarr"));
+}
+
 }  // namespace
 }  // namespace mesamis

@@ -62,19 +62,26 @@ LabelFile file_of(const std::vector<std::uint16_t>& labels) {
   return file;
 }
 
+/// A reader whose headers state the grids of the files.
+MaskReader reader_of(const std::function<LabelFile(const std::filesystem::path&)>& read) {
+  return {read, [read](const std::filesystem::path& path) {
+            return std::optional<VoxelGrid>(read(path).map);
+          }};
+}
+
 TEST(MaskFolder, TheOnlyFileIsReadAsItIs) {
   WideBudget budget;
-  const auto read = [](const std::filesystem::path&) { return file_of({1, 2}); };
+  const MaskReader read = reader_of([](const auto&) { return file_of({1, 2}); });
   EXPECT_EQ(read_masks({"a"}, read, budget).format, "test");
   EXPECT_REFUSED(read_masks({"a", "b"}, read, budget), HasSubstr("the labels 1 and 2"));
 }
 
 TEST(MaskFolder, WarningsOfAllFilesComeOnce) {
   WideBudget budget;
-  const auto read = [](const std::filesystem::path& path) {
+  const MaskReader read = reader_of([](const std::filesystem::path& path) {
     return file_of(path == "a" ? std::vector<std::uint16_t>{7, 0}
                                : std::vector<std::uint16_t>{0, 3});
-  };
+  });
   const LabelFile file = read_masks({"a", "b"}, read, budget);
   EXPECT_THAT(file.warnings, ElementsAre("same"));
   EXPECT_THAT(file.map.layers, ElementsAre(ElementsAre(1, 2)));

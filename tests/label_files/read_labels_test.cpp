@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/jpeg_bytes.h"
+#include "support/picture_bytes.h"
 #include "support/scan_bytes.h"
 #include "support/seg_bytes.h"
 #include "support/temp_folder.h"
@@ -183,10 +185,28 @@ TEST(ReadLabels, OverlappingMasksStayWholeWithAWarning) {
                                  "with 2 voxels of \"a\"")));
 }
 
+TEST(ReadLabels, MasksThatWereCutOutOfOneGridAreReadTogether) {
+  const TempFolder folder;
+  write_bytes(folder / "a.nii", mask({1, 0, 0, 0, 0, 0, 0, 1}));
+  NiftiBytes cut;  // two voxels along i, mirrored: the first is voxel 4 0 1 of the other
+  cut.dim = {3, 2, 1, 1, 1, 1, 1, 1};
+  cut.srow = {-0.5F, 0, 0, 12, 0, 1.25F, 0, 20, 0, 0, 2, 32};
+  write_bytes(folder / "b.nii", cut.header() + bytes_of_all(std::vector<std::int16_t>{0, 9}));
+  const LabelFile file = read_label_map(folder.path());
+  EXPECT_THAT(file.map.size, ElementsAre(5, 2, 2));
+  EXPECT_EQ(file.map.spacing, (Vec3{0.5, 1.25, 2}));
+  std::vector<std::uint16_t> expected(20);
+  expected[file.map.offset(0, 0, 0)] = expected[file.map.offset(3, 1, 0)] = 1;
+  expected[file.map.offset(3, 0, 1)] = 2;
+  EXPECT_THAT(file.map.layers, ElementsAre(ElementsAreArray(expected)));
+}
+
 TEST(ReadLabels, MasksOfDifferentGridsAndOfSeveralObjectsAreRefused) {
   const TempFolder folder;
   write_bytes(folder / "a.nii", mask({1, 1, 1, 0, 0, 0, 0, 0}));
-  write_bytes(folder / "b.nii", NiftiBytes{}.header() + bytes_of_all(kLabels));
+  NiftiBytes other;
+  other.srow[0] = 0.75F;
+  write_bytes(folder / "b.nii", other.header() + bytes_of_all(kLabels));
   EXPECT_REFUSED(read_label_map(folder.path()),
                  AllOf(StartsWith((folder / "b.nii").string()),
                        HasSubstr("expected the grid of a.nii, 4 x 2 x 1 voxels, found 4 x 3 x 5")));
@@ -217,6 +237,86 @@ TEST(ReadLabels, OfAFolderOfSlices) {
   EXPECT_THAT(placed.warnings, ElementsAre(HasSubstr("its place is taken")));
   scan.size = {4, 3, 6};
   EXPECT_EQ(read_label_map(folder.path(), {{}, [&] { return scan; }}).map.origin, (Vec3{}));
+}
+
+const std::string kColours("\0\0\0\xff\0\0\0\xff\0", 9);  // black, red, green
+
+/// Pixels 0, 1, 2, 1.
+std::string png_with_palette(const std::string& palette) {
+  PngBytes png{.width = 2, .height = 2, .bits = 2, .color = 3, .palette = palette};
+  png.lines = {std::string("\0\x10", 2), std::string("\0\x90", 2)};
+  return png.bytes();
+}
+
+std::string tiff_with_palette(std::uint16_t red) {
+  TiffPage page{2, 2, 4, 1, 1, 3, 0, "", "\x01\x21"};
+  page.colours = std::vector<std::uint16_t>(48);
+  page.colours[1] = red;          // of 1
+  page.colours[16 + 2] = 0xffff;  // green of 2
+  return tiff_bytes({page});
+}
+
+std::string bmp_with_palette(const std::string& more) {
+  BmpBytes bmp{.width = 2, .height = -2, .bits = 4, .colors = 3};
+  bmp.palette = std::string("\0\0\0\0\0\0\xff\0\0\xff\0", 11) + more;
+  bmp.pixels = std::string("\x01\0\0\0\x21\0\0\0", 8);
+  return bmp.bytes();
+}
+
+TEST(ReadLabels, OfPicturesWithATableOfColoursTheIndices) {
+  const TempFolder folder;
+  const std::string tiff = tiff_with_palette(0xffff), bmp = bmp_with_palette(std::string(1, '\0'));
+  const std::vector<std::pair<std::string, std::string>> pictures{
+      {"png", png_with_palette(kColours)}, {"tif", tiff}, {"bmp", bmp}};
+  for (const auto& [format, bytes] : pictures) {
+    for (const char* slice : {"/1.", "/2."}) write_bytes(folder / (format + slice + format), bytes);
+    const LabelFile file = read_label_map(folder / format);
+    EXPECT_THAT(file.map.layers, ElementsAre(ElementsAre(0, 1, 2, 1, 0, 1, 2, 1))) << format;
+    ASSERT_THAT(file.map.segments, SizeIs(2)) << format;
+    EXPECT_THAT(file.map.segments[0].colour, ElementsAre(255, 0, 0)) << format;
+    EXPECT_THAT(file.map.segments[1].colour, ElementsAre(0, 255, 0)) << format;
+  }
+}
+
+TEST(ReadLabels, TablesOfColoursMustBeAlikeAndBeginWithBlack) {
+  const TempFolder folder;
+  const std::string white(9, '\xff');
+  write_bytes(folder / "png/1.png", png_with_palette(kColours));
+  write_bytes(folder / "png/2.png", png_with_palette(white));
+  write_bytes(folder / "tif/1.tif", tiff_with_palette(0xffff));
+  write_bytes(folder / "tif/2.tif", tiff_with_palette(0));
+  for (const char* format : {"png", "tif"}) {
+    EXPECT_REFUSED(read_label_map(folder / format),
+                   AllOf(HasSubstr("2."), HasSubstr("expected the table of colours of the first")));
+  }
+  write_bytes(folder / "png/1.png", png_with_palette(white));
+  EXPECT_THAT(read_label_map(folder / "png").warnings, Contains(HasSubstr("it is not black")));
+}
+
+TEST(ReadLabels, OfPicturesNoneThatAreLossy) {
+  const TempFolder folder;
+  for (const char* name : {"1.jpg", "2.jpg"}) write_bytes(folder / name, flat_jpeg(8, 3));
+  EXPECT_REFUSED(read_label_map(folder.path()), HasSubstr("1.jpg: expected labels as .png"));
+}
+
+TEST(ReadLabels, OfTiffNumbersThatSinglePrecisionRounds) {
+  const TempFolder folder;
+  TiffPage page{2, 1, 32, 1, 1, 1, 0, "", ""};
+  page.pixels = bytes_of_all(std::vector<std::uint32_t>{614454277, 614454278});
+  const LabelFile file = read(folder, "a.tif", tiff_bytes({page}));
+  EXPECT_THAT(file.map.layers, ElementsAre(ElementsAre(1, 2)));
+  EXPECT_EQ(file.map.segments[1].number_in_file, 614454278);
+}
+
+TEST(ReadLabels, ADirectoryOfDicomLabelsAloneIsALabelFile) {
+  const TempFolder folder;
+  write_bytes(folder / "a/1.dcm", small_seg().bytes());
+  EXPECT_TRUE(is_label_file(folder / "a"));
+  EXPECT_FALSE(is_label_file(folder.path() / "b"));
+  write_bytes(folder / "a/2.dcm", SliceBytes{}.bytes());
+  EXPECT_FALSE(is_label_file(folder / "a"));
+  write_bytes(folder / "c/a.txt", "x");
+  EXPECT_FALSE(is_label_file(folder / "c"));
 }
 
 TEST(ReadLabels, OfADicomFolderTheOneFileThatHoldsLabels) {

@@ -40,6 +40,21 @@ TEST(Bmp, ReadsGreyInColour) {
   EXPECT_THAT(complaint(folder, "c.bmp", bmp.bytes()), HasSubstr("red 7, green 8, blue 7"));
 }
 
+TEST(Bmp, ReadsPixelsOfLessThanAByte) {
+  const TempFolder folder;
+  BmpBytes bmp{.width = 9, .height = -1, .bits = 1};
+  bmp.palette = std::string("\0\0\0\0\xff\xff\xff\0", 8);
+  bmp.pixels = std::string("\xa0\x80\0\0", 4);
+  EXPECT_THAT(read(folder, "a.bmp", bmp.bytes()).volume.samples,
+              ElementsAre(255, 0, 255, 0, 0, 0, 0, 0, 255));
+  bmp = {.width = 3, .height = -1, .bits = 4, .colors = 3};
+  bmp.palette = std::string("\1\1\1\0\5\5\5\0\7\7\7\0", 12);
+  bmp.pixels = std::string("\x21\0\0\0", 4);
+  EXPECT_THAT(read(folder, "b.bmp", bmp.bytes()).volume.samples, ElementsAre(7, 5, 1));
+  bmp.pixels[0] = '\x31';
+  EXPECT_THAT(complaint(folder, "c.bmp", bmp.bytes()), HasSubstr("names colour 3 of 3"));
+}
+
 TEST(Bmp, RefusesWhatItCannotReadAndWhatIsNotThere) {
   const TempFolder folder;
   const BmpBytes good{.palette = grey_palette(), .pixels = kSixPixels};
@@ -47,8 +62,8 @@ TEST(Bmp, RefusesWhatItCannotReadAndWhatIsNotThere) {
   bmp.compression = 1;
   EXPECT_THAT(complaint(folder, "a.bmp", bmp.bytes()), HasSubstr("compression 1"));
   bmp = good;
-  bmp.bits = 4;
-  EXPECT_THAT(complaint(folder, "b.bmp", bmp.bytes()), HasSubstr("found 4 bits"));
+  bmp.bits = 16;
+  EXPECT_THAT(complaint(folder, "b.bmp", bmp.bytes()), HasSubstr("found 16 bits"));
   bmp = good;
   bmp.colors = 3;
   EXPECT_THAT(complaint(folder, "c.bmp", bmp.bytes()), HasSubstr("names colour 3 of 3"));

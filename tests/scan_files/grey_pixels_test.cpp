@@ -51,5 +51,26 @@ TEST(PictureGrid, TakesTheSpacingOrWarns) {
   EXPECT_EQ(scan.warnings.size(), 3U);
 }
 
+TEST(GreyPixels, OfAScreenAreAWarning) {
+  for (const double per_inch : {72.0, 96.0, 72.009, 95.9866}) {
+    std::vector<std::string> warnings;
+    warn_of_screen_resolution(25.4 / per_inch, warnings);
+    EXPECT_THAT(warnings, ElementsAre(HasSubstr("pixels per inch is that of a screen")))
+        << per_inch;
+  }
+  std::vector<std::string> warnings;
+  for (const double mm : {1.0, 0.25, 0.02, 25.4 / 300, 25.4 / 73}) {
+    warn_of_screen_resolution(mm, warnings);
+  }
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(GreyPixels, KeepATableOfColours) {
+  ScanFile scan{"a.png", "PNG", {}, {}, {}};
+  keep_palette(scan, std::string_view("\0\0\0\1\2\xff", 6));
+  EXPECT_THAT(scan.palette, ElementsAre(ElementsAre(0, 0, 0), ElementsAre(1, 2, 255)));
+  EXPECT_TRUE(scan.warnings.empty());
+}
+
 }  // namespace
 }  // namespace mesamis::detail

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesamis/scan_files/read_volume.h"
@@ -224,6 +226,56 @@ TEST(Tiff, WarnsOfPagesThatAreMeantToBeTurned) {
                              bytes_of(std::uint32_t{1}) + bytes_of(std::uint32_t{4});
   bytes.replace(bytes.find(samples), 12, turned);
   EXPECT_THAT(read(folder, "a.tif", bytes).warnings, testing::Contains(HasSubstr("Orientation 4")));
+}
+
+TEST(Tiff, ReadsPixelsOfLessThanAByte) {
+  const TempFolder folder;
+  TiffPage page{9, 2, 1, 1, 1, 1, 0, "", "\xa0\x80\x01"};
+  page.pixels += '\0';
+  EXPECT_THAT(read(folder, "a.tif", tiff_bytes({page, page})).volume.samples,
+              ElementsAre(1, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0,  //
+                          1, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0));
+  page = {3, 1, 2, 1, 1, 1, 0, "", "\xd8"};
+  EXPECT_THAT(read(folder, "b.tif", tiff_bytes({page})).volume.samples, ElementsAre(3, 1, 2));
+  page = {3, 1, 4, 1, 1, 1, 0, "", "\xe3\x70"};
+  EXPECT_THAT(read(folder, "c.tif", tiff_bytes({page})).volume.samples, ElementsAre(14, 3, 7));
+  page.pixels = "\xe3";
+  EXPECT_THAT(complaint(folder, "d.tif", tiff_bytes({page}).substr(0, 9)), HasSubstr("TIFF"));
+}
+
+TEST(Tiff, NamesACompressionThatNobodyDecodes) {
+  const TempFolder folder;
+  auto pages = five_pages();
+  for (TiffPage& page : pages) page.compression = 34712;
+  EXPECT_THAT(complaint(folder, "a.tif", tiff_bytes(pages)), HasSubstr("compression 34712"));
+}
+
+TEST(Tiff, AsksWhetherTheResolutionOfAScreenIsMeant) {
+  const TempFolder folder;
+  for (const auto& [per_cm, is_screen] :
+       {std::pair(72 / 2.54F, true), std::pair(96 / 2.54F, true), std::pair(20.F, false)}) {
+    auto pages = five_pages();
+    for (TiffPage& page : pages) page.pixels_per_cm = per_cm;
+    const auto warnings = read(folder, "a.tif", tiff_bytes(pages)).warnings;
+    EXPECT_EQ(std::ranges::any_of(warnings,
+                                  [](const std::string& w) {
+                                    return w.find("that of a screen") != std::string::npos;
+                                  }),
+              is_screen)
+        << per_cm;
+  }
+}
+
+TEST(Tiff, TablesOfColoursMustBeAlike) {
+  const TempFolder folder;
+  TiffPage page{2, 1, 4, 1, 1, 3, 0, "", "\x12"};
+  page.colours = std::vector<std::uint16_t>(48);
+  TiffPage other = page;
+  other.colours[7] = 0xff00;
+  EXPECT_THAT(read(folder, "a.tif", tiff_bytes({page, page})).volume.samples,
+              ElementsAre(1, 2, 1, 2));
+  EXPECT_THAT(complaint(folder, "b.tif", tiff_bytes({page, other})),
+              HasSubstr("another one on page 1"));
 }
 
 }  // namespace

@@ -136,6 +136,7 @@ struct TiffPage {
   std::string pixels;  // as they are stored
   std::uint16_t compression = 1;
   bool thumbnail = false;
+  std::vector<std::uint16_t> colours{};  // all reds, all greens, all blues
 };
 
 /// A little-endian TIFF with one strip per page.
@@ -150,6 +151,8 @@ inline std::string tiff_bytes(const std::vector<TiffPage>& pages) {
            bytes_of(std::uint32_t{1000});
     const auto text = static_cast<std::uint32_t>(out.size());
     out += page.description + std::string(8 - page.description.size() % 4, '\0');
+    const auto colours = static_cast<std::uint32_t>(out.size());
+    out += bytes_of_all(page.colours);
     out.replace(link, 4, bytes_of(static_cast<std::uint32_t>(out.size())));
     std::vector<std::string> tags;
     const auto tag = [&tags](int id, int type, std::uint32_t count, std::uint32_t value) {
@@ -166,6 +169,9 @@ inline std::string tiff_bytes(const std::vector<TiffPage>& pages) {
     tag(273, 4, 1, strip), tag(277, 3, 1, page.channels), tag(278, 4, 1, page.height);
     tag(279, 4, 1, static_cast<std::uint32_t>(page.pixels.size()));
     if (page.pixels_per_cm > 0) tag(282, 5, 1, ratio), tag(283, 5, 1, ratio), tag(296, 3, 1, 3);
+    if (!page.colours.empty()) {
+      tag(320, 3, static_cast<std::uint32_t>(page.colours.size()), colours);
+    }
     tag(339, 3, 1, page.format);
     out += bytes_of(static_cast<std::uint16_t>(tags.size()));
     for (const std::string& bytes : tags) out += bytes;

@@ -111,10 +111,10 @@ LeadAxes lead_axes(const fs::path& file, const ChunkLayout& layout,
   return lead;
 }
 
-template <class Number>
-void convert_line(const char* bytes, std::size_t stride, ByteOrder order, std::span<float> out) {
+template <class Stored, class Number>
+void convert_line(const char* bytes, std::size_t stride, ByteOrder order, std::span<Number> out) {
   for (std::size_t n = 0; n < out.size(); ++n) {
-    out[n] = static_cast<float>(load<Number>(bytes + n * stride * sizeof(Number), order));
+    out[n] = static_cast<Number>(load<Stored>(bytes + n * stride * sizeof(Stored), order));
   }
 }
 
@@ -133,7 +133,13 @@ class ChunkArray : public ChunkedScan {
   const VoxelGrid& grid() const override { return array_.grid; }
   const std::string& format() const override { return array_.format; }
   const std::vector<std::string>& warnings() const override { return array_.warnings; }
+  bool holds_labels() const override { return array_.labels != nullptr; }
+  const std::vector<NamedNumber>& named_numbers() const override {
+    static const std::vector<NamedNumber> kNone;
+    return array_.labels ? *array_.labels : kNone;
+  }
   std::vector<float> read(Index first, Index count) const override;
+  void visit_samples(const std::function<void(std::span<const double>)>& visit) const override;
 
  private:
   std::uint64_t slice_voxels() const {
@@ -161,12 +167,16 @@ class ChunkArray : public ChunkedScan {
     }
     budget.claim(kept_.capacity(), sizeof(float), "a row of chunks");
   }
+  // Number is float or double.
+  template <class Number>
   void decode(std::uint64_t row, const SliceRange& slices, MemoryBudget& budget,
-              std::span<float> out) const;
+              std::span<Number> out) const;
+  template <class Number>
   void decode_chunk(const std::array<std::uint64_t, 3>& place, const SliceRange& slices,
-                    MemoryBudget& budget, std::span<float> out) const;
+                    MemoryBudget& budget, std::span<Number> out) const;
+  template <class Number>
   void put(const Piece& piece, const std::string* bytes, const SliceRange& slices,
-           std::span<float> out) const;
+           std::span<Number> out) const;
 
   OpenedArray array_;
   std::array<std::size_t, 3> strides_{};
@@ -178,8 +188,9 @@ class ChunkArray : public ChunkedScan {
 };
 
 /// Writes a piece to its place in the slices; without bytes the fill value.
+template <class Number>
 void ChunkArray::put(const Piece& piece, const std::string* bytes, const SliceRange& slices,
-                     std::span<float> out) const {
+                     std::span<Number> out) const {
   const ChunkLayout& layout = array_.layout;
   const auto nx = static_cast<std::uint64_t>(array_.grid.size[0]);
   const auto ny = static_cast<std::uint64_t>(array_.grid.size[1]);
@@ -187,9 +198,9 @@ void ChunkArray::put(const Piece& piece, const std::string* bytes, const SliceRa
   for (std::uint64_t k = 0; k < size[0]; ++k) {
     for (std::uint64_t j = 0; j < size[1]; ++j) {
       const std::uint64_t line = ((from[0] + k - slices.first) * ny + from[1] + j) * nx + from[2];
-      const std::span<float> target = out.subspan(line, size[2]);
+      const std::span<Number> target = out.subspan(line, size[2]);
       if (bytes == nullptr) {
-        std::fill(target.begin(), target.end(), static_cast<float>(layout.fill));
+        std::fill(target.begin(), target.end(), static_cast<Number>(layout.fill));
         continue;
       }
       const std::size_t element = first_element_ + (in_chunk[0] + k) * strides_[0] +
@@ -202,8 +213,9 @@ void ChunkArray::put(const Piece& piece, const std::string* bytes, const SliceRa
   }
 }
 
+template <class Number>
 void ChunkArray::decode_chunk(const std::array<std::uint64_t, 3>& place, const SliceRange& slices,
-                              MemoryBudget& budget, std::span<float> out) const {
+                              MemoryBudget& budget, std::span<Number> out) const {
   const Piece piece = piece_of(array_.layout, place, slices);
   std::vector<std::uint64_t> index;
   for (std::size_t a = 0; a < array_.layout.lead.size(); ++a) {
@@ -219,8 +231,9 @@ void ChunkArray::decode_chunk(const std::array<std::uint64_t, 3>& place, const S
   put(piece, &bytes, slices, out);
 }
 
+template <class Number>
 void ChunkArray::decode(std::uint64_t row, const SliceRange& slices, MemoryBudget& budget,
-                        std::span<float> out) const {
+                        std::span<Number> out) const {
   const auto chunks = [&](std::size_t axis) {
     const auto all = static_cast<std::uint64_t>(array_.grid.size[2 - axis]);
     return (all + length_[axis] - 1) / length_[axis];
@@ -245,7 +258,7 @@ bool ChunkArray::keep_row(std::uint64_t row, MemoryBudget& budget) const {
   }
   reserve_within(budget, kept_, voxels, "a row of chunks");
   kept_.resize(voxels);
-  decode(row, slices, budget, kept_);
+  decode(row, slices, budget, std::span(kept_));
   kept_row_ = row;
   return true;
 }
@@ -283,6 +296,30 @@ std::vector<float> ChunkArray::read(Index first, Index count) const {
       k = wanted.end();
     }
     return out;
+  });
+}
+
+void ChunkArray::visit_samples(const std::function<void(std::span<const double>)>& visit) const {
+  constexpr std::uint64_t kShare = 4;  // of the memory that is allowed
+  const std::scoped_lock lock(mutex_);
+  in_one_line(array_.path, [&] {
+    MemoryBudget budget(array_.path, array_.limits);
+    claim_kept(budget);
+    const std::uint64_t most = budget.left() / (kShare * sizeof(double) * slice_voxels());
+    const std::uint64_t rows =
+        (static_cast<std::uint64_t>(array_.grid.size[2]) + length_[0] - 1) / length_[0];
+    std::vector<double> samples;
+    for (std::uint64_t row = 0; row < rows; ++row) {
+      const SliceRange all = row_slices(row);
+      for (std::uint64_t k = all.first; k < all.end();) {
+        const SliceRange slices{k, std::min(std::max<std::uint64_t>(most, 1), all.end() - k)};
+        reserve_within(budget, samples, slices.count * slice_voxels(), "slices");
+        samples.resize(slices.count * slice_voxels());
+        decode(row, slices, budget, std::span(samples));
+        visit(samples);
+        k = slices.end();
+      }
+    }
   });
 }
 

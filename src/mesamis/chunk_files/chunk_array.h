@@ -66,6 +66,7 @@ struct OpenedArray {
   ChunkLayout layout;
   FetchChunk fetch;
   ReadLimits limits;
+  std::shared_ptr<const std::vector<NamedNumber>> labels{};  ///< see ScaleLevel
 };
 
 /// Opens it. @throws InputError  if the spacing or the origin of the grid is not finite or

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +26,13 @@ struct ChunkOptions {
   std::optional<Index> volume{}, channel{};
 };
 
+/// What an OME-Zarr image of labels tells about one of them.
+struct NamedNumber {
+  std::int64_t number = 0;
+  std::string name;                                     ///< empty: not told
+  std::optional<std::array<std::uint8_t, 3>> colour{};  ///< red, green, blue (sRGB)
+};
+
 /// A scan in chunks, open for reading.
 ///
 /// The last axis of the array is i, the one before it j, then k. x runs to the left, y to the
@@ -37,6 +48,14 @@ class ChunkedScan : public SliceSource {
   virtual const std::string& format() const = 0;
   /// One line each: what was assumed or replaced.
   virtual const std::vector<std::string>& warnings() const = 0;
+  /// Whether its metadata call it an image of labels (OME-Zarr: image-label).
+  virtual bool holds_labels() const = 0;
+  /// The labels that these metadata name or colour, in their order.
+  virtual const std::vector<NamedNumber>& named_numbers() const = 0;
+  /// Hands the samples of all slices to visit(), block by block from the first voxel on, in double
+  /// precision, which holds whole numbers to 2^53. Memory: a row of chunks at most.
+  /// @throws InputError  as read(), and what visit() throws.
+  virtual void visit_samples(const std::function<void(std::span<const double>)>& visit) const = 0;
 };
 
 /// Whether a path is a directory that holds a Zarr array or group (version 2 or 3), or leads to one

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
+#include "mesamis/base/error.h"
 #include "mesamis/files/length_unit.h"
 #include "mesamis/files/refuse.h"
 
@@ -111,6 +114,72 @@ void set_lengths(const std::vector<Axis>& axes, const Transform& transform, Scal
   }
 }
 
+/// Labels while their names and colours are collected, in the order of the file.
+class NamedNumbers {
+ public:
+  NamedNumber& at(const JsonValue& entry) {
+    constexpr double kMost = 9007199254740992.0;  // 2^53
+    const JsonValue value = entry.at("label-value");
+    const double number = value.number();
+    if (!(std::abs(number) < kMost) || number != std::floor(number)) {
+      value.refuse_as("a whole number");
+    }
+    const auto [place, is_new] = places_.emplace(static_cast<std::int64_t>(number), all_.size());
+    if (is_new) all_.push_back({place->first, {}});
+    return all_[place->second];
+  }
+  std::vector<NamedNumber> take() { return std::move(all_); }
+
+ private:
+  std::map<std::int64_t, std::size_t> places_;
+  std::vector<NamedNumber> all_;
+};
+
+std::array<std::uint8_t, 3> colour_of(const JsonValue& rgba) {
+  const std::vector<std::uint64_t> shares = rgba.counts();
+  std::array<std::uint8_t, 3> colour{};
+  for (std::size_t c = 0; c < colour.size(); ++c) {
+    if (c >= shares.size() || shares[c] > 255) rgba.refuse_as("four numbers of 0 to 255");
+    colour[c] = static_cast<std::uint8_t>(shares[c]);
+  }
+  return colour;
+}
+
+/// NGFF leaves the keys of properties to the writer: the first text that is a usual one.
+std::string name_in(const JsonValue& properties) {
+  for (const char* key : {"name", "label", "class", "label-name", "text"}) {
+    const auto value = properties.find(key);
+    if (value && value->is_text() && !value->text().empty()) return value->text();
+  }
+  return {};
+}
+
+void read_label_entries(const JsonValue& labels, NamedNumbers& all) {
+  if (const auto colours = labels.find("colors")) {
+    for (const JsonValue& entry : colours->list()) {
+      NamedNumber& named = all.at(entry);
+      if (const auto rgba = entry.find("rgba")) named.colour = colour_of(*rgba);
+    }
+  }
+  if (const auto properties = labels.find("properties")) {
+    for (const JsonValue& entry : properties->list()) all.at(entry).name = name_in(entry);
+  }
+}
+
+/// What the group says about its labels, in all its levels.
+void add_labels(const JsonValue& owner, std::vector<ScaleLevel>& levels) {
+  const auto labels = owner.find("image-label");
+  if (!labels) return;
+  NamedNumbers all;
+  try {
+    read_label_entries(*labels, all);
+  } catch (const InputError& error) {
+    levels.front().warnings.push_back(say("not all names of labels are read: ", error.what()));
+  }
+  const auto shared = std::make_shared<const std::vector<NamedNumber>>(all.take());
+  for (ScaleLevel& level : levels) level.labels = shared;
+}
+
 }  // namespace
 
 std::vector<ScaleLevel> read_multiscales(const JsonValue& attributes) {
@@ -134,6 +203,7 @@ std::vector<ScaleLevel> read_multiscales(const JsonValue& attributes) {
     levels.push_back(std::move(level));
   }
   if (levels.empty()) image.at("datasets").refuse_as("a list with a dataset");
+  add_labels(owner, levels);
   return levels;
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/chunk_files/chunked_scan.h"
 #include "mesamis/files/json_value.h"
 
 /// The metadata by which OME-Zarr groups arrays of one image (NGFF 0.1 to 0.5).
@@ -18,11 +20,14 @@ struct ScaleLevel {
   std::optional<Vec3> spacing;    ///< mm along i, j, k; none if it is not told
   Vec3 origin;                    ///< mm
   std::vector<std::string> warnings;
+  /// Of an image of labels those that are named or coloured; none for other images.
+  std::shared_ptr<const std::vector<NamedNumber>> labels{};
 };
 
 /// The levels of the first image that a group describes, finest first; empty if it describes none.
 /// @param attributes  of the group.
-/// @throws InputError  for what contradicts the format, and space axes other than z, y, x.
+/// Names and colours of labels that contradict the format are left out with a warning.
+/// @throws InputError  for what else contradicts the format, and space axes other than z, y, x.
 std::vector<ScaleLevel> read_multiscales(const JsonValue& attributes);
 
 }  // namespace mesamis::detail

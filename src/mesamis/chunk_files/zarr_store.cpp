@@ -291,8 +291,12 @@ OpenedArray opened(const fs::path& path, const Found& found, const ChunkOptions&
   }
   detail::require_chain(found.folder, array.layout.codecs);
   warn_of_scale(found.folder, budget, out.warnings);
-  if (found.level && !options.spacing) out.warnings = found.level->warnings;
-  if (found.level) out.grid.origin = found.level->origin;
+  if (found.level) {
+    const auto& more = found.level->warnings;
+    if (!options.spacing) out.warnings.insert(out.warnings.end(), more.begin(), more.end());
+    out.grid.origin = found.level->origin;
+    out.labels = found.level->labels;
+  }
   detail::set_spacing(out, found.level ? found.level->spacing : std::nullopt, options.spacing);
   out.layout = array.layout;
   out.limits = options.limits;

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
+#include <string>
 #include <utility>
 
+#include "mesamis/base/error.h"
 #include "mesamis/chunk_files/chunked_scan.h"
 #include "mesamis/files/memory_budget.h"
 #include "mesamis/files/refuse.h"
@@ -42,7 +45,30 @@ fs::path store_of(const fs::path& path) {
   return labels.front();
 }
 
+/// The segments that the store names; numbers that are no labels are left out.
+std::vector<Segment> named_segments(const ChunkedScan& scan) {
+  std::vector<Segment> segments;
+  for (const NamedNumber& named : scan.named_numbers()) {
+    Segment segment;
+    if (named.number == 0 || !set_number(segment, say(named.number))) continue;
+    segment.name = named.name.empty() ? say("label ", named.number) : named.name;
+    segment.colour = named.colour.value_or(default_colour(segment.label));
+    segments.push_back(std::move(segment));
+  }
+  return segments;
+}
+
 }  // namespace
+
+bool holds_chunk_labels(const fs::path& path, const ReadLimits& limits) {
+  try {
+    return is_zarr(path) && open_zarr(path, {.limits = limits})->holds_labels();
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+bool has_labels_inside(const fs::path& path) { return is_zarr(path) && !labels_in(path).empty(); }
 
 LabelFile read_chunk_labels(const fs::path& path, const ReadLimits& limits) {
   const ChunkOptions options{.limits = limits};
@@ -50,7 +76,8 @@ LabelFile read_chunk_labels(const fs::path& path, const ReadLimits& limits) {
   LabelFile out{{scan->grid(), {}, {}}, scan->format(), scan->warnings()};
   MemoryBudget budget(path, limits);
   LabelBuilder builder(path, out.map, {}, budget);
-  for (Index k = 0; k < out.map.size[2]; ++k) builder.add(scan->read(k, 1));
+  out.map.segments = named_segments(*scan);
+  scan->visit_samples([&](std::span<const double> samples) { builder.add(samples); });
   out.map = builder.finish(std::move(out.map), out.warnings);
   return out;
 }

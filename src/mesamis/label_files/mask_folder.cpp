@@ -2,7 +2,10 @@
 #include "mesamis/label_files/mask_folder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -10,6 +13,7 @@
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/label_files/layer_stack.h"
+#include "mesamis/label_files/voxel_lattice.h"
 #include "mesamis/scan_files/formats.h"
 
 namespace mesamis::detail {
@@ -79,16 +83,19 @@ std::string empty_note(const std::vector<std::string>& names) {
 /// The masks of a folder while they become one map.
 class MaskCollector {
  public:
-  MaskCollector(const fs::path& first, MemoryBudget& budget)
-      : first_(first), stack_(out_.map, budget) {}
+  /// @param grid  on which they are put together; none: all have that of the first.
+  MaskCollector(const fs::path& first, const std::optional<VoxelGrid>& grid, MemoryBudget& budget)
+      : first_(first), has_grid_(grid.has_value()), stack_(out_.map, budget) {
+    if (grid) static_cast<VoxelGrid&>(out_.map) = *grid;
+  }
 
   void add(const fs::path& file, LabelFile mask) {
     const auto number = static_cast<Index>(out_.map.segments.size() + 1);
     if (number == 1) {
-      static_cast<VoxelGrid&>(out_.map) = mask.map;
+      if (!has_grid_) static_cast<VoxelGrid&>(out_.map) = mask.map;
       out_.format = mask.format + " masks";
     }
-    require_same_grid(file, mask.map, first_, out_.map);
+    const LatticePlace place = place_of(file, mask.map);
     const std::uint16_t label = label_of(file, mask);
     Segment segment{object_name(file), number, 0, default_colour(number)};
     if (label == 0) {
@@ -97,7 +104,7 @@ class MaskCollector {
       const auto& labels = mask.map.layers[0];
       stack_.add(segment, [&](const auto& visit) {
         for (std::size_t n = 0; n < labels.size(); ++n) {
-          if (labels[n] == label) visit(n);
+          if (labels[n] == label) visit(offset_of(place.at(mask.map.voxel(n))));
         }
       });
     }
@@ -115,11 +122,40 @@ class MaskCollector {
   }
 
  private:
+  /// Where the voxels of a mask lie in the map.
+  LatticePlace place_of(const fs::path& file, const VoxelGrid& grid) const {
+    if (!has_grid_) require_same_grid(file, grid, first_, out_.map);
+    if (const auto place = find_place(grid, out_.map)) return *place;
+    refuse(file, "expected the grid of its header, found another one");
+  }
+  std::size_t offset_of(const std::array<std::int64_t, 3>& voxel) const {
+    return out_.map.offset(static_cast<Index>(voxel[0]), static_cast<Index>(voxel[1]),
+                           static_cast<Index>(voxel[2]));
+  }
+
   fs::path first_;
+  bool has_grid_;
   LabelFile out_;
   LayerStack stack_;
   std::vector<std::string> empty_;
 };
+
+/// The grid that holds all masks where their headers state different ones.
+std::optional<VoxelGrid> grid_of_all(const std::vector<fs::path>& files, const MaskReader& reader,
+                                     MemoryBudget& budget) {
+  constexpr double kMostShift = 1e-3;
+  std::vector<VoxelGrid> grids;
+  bool alike = true;
+  for (const fs::path& file : files) {
+    const ScopedFile scope(budget, file);
+    const std::optional<VoxelGrid> grid = reader.grid(file);
+    if (!grid) return std::nullopt;
+    grids.push_back(*grid);
+    alike = alike && grid->size == grids[0].size && shift_between(grids[0], *grid) <= kMostShift;
+  }
+  if (alike) return std::nullopt;
+  return enclosing_grid(files, grids);
+}
 
 }  // namespace
 
@@ -154,19 +190,19 @@ std::vector<fs::path> masks_in(const fs::path& folder, MemoryBudget& budget) {
   return masks;
 }
 
-LabelFile read_masks(const std::vector<fs::path>& files,
-                     const std::function<LabelFile(const fs::path&)>& read, MemoryBudget& budget) {
-  if (files.size() == 1) return read(files[0]);
+LabelFile read_masks(const std::vector<fs::path>& files, const MaskReader& reader,
+                     MemoryBudget& budget) {
+  if (files.size() == 1) return reader.read(files[0]);
   if (files.size() > static_cast<std::size_t>(kMaxLabel)) {
     refuse(files[0].parent_path(),
            say("expected at most ", kMaxLabel, " masks, found ", files.size()));
   }
-  MaskCollector collector(files[0], budget);
+  MaskCollector collector(files[0], grid_of_all(files, reader, budget), budget);
   for (const fs::path& file : files) {
     LabelFile mask;
     {
       const ScopedFile scope(budget, file);
-      mask = read(file);
+      mask = reader.read(file);
     }
     const ScopedClaim claim(budget, mask.map.voxel_count(), sizeof(std::uint16_t), "a mask");
     collector.add(file, std::move(mask));

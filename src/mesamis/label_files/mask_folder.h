@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "mesamis/files/memory_budget.h"
@@ -26,17 +27,23 @@ void require_same_grid(const std::filesystem::path& file, const VoxelGrid& found
 std::vector<std::filesystem::path> masks_in(const std::filesystem::path& folder,
                                             MemoryBudget& budget);
 
+/// How the files of a folder are read.
+struct MaskReader {
+  std::function<LabelFile(const std::filesystem::path&)> read;
+  /// The grid that its header states; none where it states no place.
+  std::function<std::optional<VoxelGrid>(const std::filesystem::path&)> grid;
+};
+
 /// Reads masks as the objects of one label map, numbered from 1 and named after their files. The
 /// only file may be a label map of many objects. Masks that overlap lie in different layers, with a
-/// warning. Empty ones are objects without a voxel, with a warning.
+/// warning. Empty ones are objects without a voxel, with a warning. Masks that were cut out of one
+/// grid, or whose axes run elsewhere, are put together on a grid that holds all of them.
 /// @param files  at least one.
-/// @param read   reads one file.
-/// @throws InputError  naming the file that has another grid than the first, several layers or
-///                     several objects, and what read() throws.
+/// @throws InputError  naming the file whose voxels lie between those of the first, several layers
+///                     or several objects, and what the reader throws.
 ///
 /// O(voxels * files). Memory: the layers, and one file at a time.
-LabelFile read_masks(const std::vector<std::filesystem::path>& files,
-                     const std::function<LabelFile(const std::filesystem::path&)>& read,
+LabelFile read_masks(const std::vector<std::filesystem::path>& files, const MaskReader& reader,
                      MemoryBudget& budget);
 
 }  // namespace mesamis::detail

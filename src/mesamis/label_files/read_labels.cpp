@@ -99,7 +99,7 @@ void take_place_of_scan(const Request& request, LabelFile& file) {
       "place is taken"};
 }
 
-/// A volume of samples in single precision: pictures, or a folder of them.
+/// A volume of samples in single precision.
 LabelFile labels_of_volume(const Request& request) {
   const fs::path& path = request.path;
   const VolumeFile file = read_volume(path, request.options());
@@ -107,7 +107,33 @@ LabelFile labels_of_volume(const Request& request) {
   LabelBuilder builder(path, file.volume, {}, request.budget);
   builder.add(file.volume.samples);
   out.map = builder.finish(std::move(out.map), out.warnings);
-  if (fs::is_directory(path) || detail::is_picture(path)) take_place_of_scan(request, out);
+  return out;
+}
+
+/// The colours of labels that are the indices of a table of them.
+void take_colours(const ScanFile& scan, LabelMap& map) {
+  for (Segment& segment : map.segments) {
+    const auto number = static_cast<std::size_t>(detail::number_of(segment));
+    if (number < scan.palette.size()) segment.colour = scan.palette[number];
+  }
+}
+
+/// A picture, or the slices of a folder.
+LabelFile labels_of_pictures(const Request& request, const std::vector<fs::path>& files) {
+  detail::Opening opening = request.opening();
+  opening.labels = true;
+  const ScanFile scan = files.front() == request.path
+                            ? detail::open_picture(request.path, opening)
+                            : detail::open_stack(request.path, files, opening).scan;
+  LabelFile out{{scan.grid, {}, {}}, scan.format, scan.warnings};
+  LabelBuilder builder(request.path, scan.grid, {}, request.budget);
+  for (const fs::path& file : files) {
+    detail::visit_picture(file, opening,
+                          [&](std::span<const double> samples) { builder.add(samples); });
+  }
+  out.map = builder.finish(std::move(out.map), out.warnings);
+  take_colours(scan, out.map);
+  take_place_of_scan(request, out);
   return out;
 }
 
@@ -134,6 +160,23 @@ DicomFolder dicom_in(const fs::path& folder, MemoryBudget& budget) {
   return found;
 }
 
+/// Whether a directory and those below it have DICOM files, all of which can be read and hold
+/// labels.
+bool holds_labels_alone(const fs::path& folder, const ReadLimits& limits) {
+  MemoryBudget budget(folder, limits);
+  bool any = false;
+  try {
+    for (const fs::path& file : detail::files_below(folder)) {
+      if (!detail::looks_like_dicom(file)) continue;
+      if (!holds_labels(file, budget)) return false;
+      any = true;
+    }
+  } catch (const InputError&) {
+    return false;  // the reader says what is wrong with it
+  }
+  return any;
+}
+
 [[noreturn]] void refuse_several(const fs::path& folder, const std::vector<fs::path>& files) {
   constexpr std::size_t kMostNamed = 4;
   std::string text;
@@ -147,6 +190,12 @@ DicomFolder dicom_in(const fs::path& folder, MemoryBudget& budget) {
 
 LabelFile read_map(const Request& request);
 
+/// The grid of a header; none for pictures, which state no place.
+std::optional<VoxelGrid> stated_grid(const Request& request, const fs::path& file) {
+  const auto scan = detail::open_array(file, request.opening());
+  return scan ? std::optional<VoxelGrid>(scan->grid) : std::nullopt;
+}
+
 LabelFile read_folder(const Request& request) {
   const auto& [folder, how, budget] = request;
   const DicomFolder dicom = dicom_in(folder, budget);
@@ -154,12 +203,13 @@ LabelFile read_folder(const Request& request) {
   if (dicom.labels.size() == 1) return read_map(request.at(dicom.labels[0]));
   const std::vector<fs::path> masks = detail::masks_in(folder, budget);
   if (!masks.empty()) {
-    return detail::read_masks(
-        masks, [&](const fs::path& file) { return read_map(request.at(file)); }, budget);
+    const detail::MaskReader reader{
+        [&](const fs::path& file) { return read_map(request.at(file)); },
+        [&](const fs::path& file) { return stated_grid(request, file); }};
+    return detail::read_masks(masks, reader, budget);
   }
-  if (dicom.files == 0 && !detail::slices_in(folder, budget).empty()) {
-    return labels_of_volume(request);
-  }
+  const std::vector<fs::path> slices = detail::slices_in(folder, budget);
+  if (dicom.files == 0 && !slices.empty()) return labels_of_pictures(request, slices);
   refuse(folder, say("expected masks, slices of labels or one DICOM segmentation or structure set "
                      "in the directory, found ",
                      dicom.files > 0 ? say(dicom.files, " DICOM files of other kinds")
@@ -184,7 +234,8 @@ LabelFile read_map(const Request& request) {
   if (const auto scan = detail::open_array(path, request.opening())) {
     return labels_of_array(request, *scan);
   }
-  if (detail::is_picture(path) || !detail::looks_like_dicom(path)) return labels_of_volume(request);
+  if (detail::is_picture(path)) return labels_of_pictures(request, {path});
+  if (!detail::looks_like_dicom(path)) return labels_of_volume(request);
   return labels_of_dicom(request);
 }
 
@@ -279,6 +330,8 @@ LabelFile read_label_map(const fs::path& path, const LabelOptions& options) {
 
 bool is_label_file(const fs::path& path, const ReadLimits& limits) {
   std::error_code error;
+  if (is_zarr(path)) return detail::holds_chunk_labels(path, limits);
+  if (fs::is_directory(path, error)) return holds_labels_alone(path, limits);
   if (!fs::is_regular_file(path, error)) return false;
   if (detail::lower(path.filename().string()).ends_with(".seg.nrrd")) return true;
   if (detail::is_array_file(path) || detail::is_picture(path) || !detail::looks_like_dicom(path)) {
@@ -290,7 +343,8 @@ bool is_label_file(const fs::path& path, const ReadLimits& limits) {
 
 bool is_mask_folder(const fs::path& path, const ReadLimits& limits) {
   std::error_code error;
-  if (!fs::is_directory(path, error) || is_zarr(path)) return false;
+  if (is_zarr(path)) return detail::has_labels_inside(path);
+  if (!fs::is_directory(path, error)) return false;
   MemoryBudget budget(path, limits);
   const std::vector<fs::path> files = detail::files_below(path);
   return std::none_of(files.begin(), files.end(), detail::looks_like_dicom) &&

@@ -67,12 +67,13 @@ struct LabelOptions {
 LabelFile read_label_map(const std::filesystem::path& path, const LabelOptions& options = {});
 
 /// Whether a path holds nothing but labels, whatever its values: a DICOM segmentation or structure
-/// set, or a .seg.nrrd. O(bytes) of a DICOM file.
+/// set, a directory of such files alone, a .seg.nrrd, or an OME-Zarr image of labels. O(bytes) of
+/// the DICOM files up to the first that holds none.
 /// @throws InputError  if a DICOM file cannot be read or claims more memory than the limits allow.
 bool is_label_file(const std::filesystem::path& path, const ReadLimits& limits = {});
 
-/// Whether a directory holds masks or label maps and no DICOM: what read_label_map() takes as an
-/// object per file. O(files).
+/// Whether a directory holds masks or label maps and no DICOM, which read_label_map() takes as an
+/// object per file, or is an OME-Zarr image that has labels in it. O(files).
 /// @throws InputError  if the directory cannot be read.
 bool is_mask_folder(const std::filesystem::path& path, const ReadLimits& limits = {});
 

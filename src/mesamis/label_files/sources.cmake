@@ -19,4 +19,5 @@ set(ROOM_SOURCES
   seg_file.cpp
   seg_grid.cpp
   structure_set.cpp
+  voxel_lattice.cpp
   write_labels.cpp)

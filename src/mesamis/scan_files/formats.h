@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,17 +74,24 @@ VolumeFile read_tiff(const std::filesystem::path& file, const Opening& opening);
 ScanFile open_tiff_header(const std::filesystem::path& file, const Opening& opening);
 OpenSlices open_tiff_slices(const std::filesystem::path& file, const Opening& opening);
 
+/// Takes samples, of one slice or more, in double precision.
+using VisitSamples = std::function<void(std::span<const double>)>;
+
+/// The slices of a TIFF, one after another.
+void visit_tiff(const std::filesystem::path& file, const Opening& opening,
+                const VisitSamples& visit);
+
 /// A PNG, one slice as above; 1 to 16 bits, grey, or colours that are. Spacing along x and y from
 /// its resolution (pHYs). Not interlaced. What it claims is compared with its bytes before memory
-/// is taken for it.
+/// is taken for it. Labels (Opening::labels) are the indices of a table of colours, if it has one.
 VolumeFile read_png(const std::filesystem::path& file, const Opening& opening);
 ScanFile open_png(const std::filesystem::path& file, const Opening& opening);
 
-/// An uncompressed BMP of 8, 24 or 32 bits, as a PNG.
+/// An uncompressed BMP of 1, 4, 8, 24 or 32 bits, as a PNG.
 VolumeFile read_bmp(const std::filesystem::path& file, const Opening& opening);
 ScanFile open_bmp(const std::filesystem::path& file, const Opening& opening);
 
-/// A grey JPEG, as a PNG, with a warning: it is lossy.
+/// A grey JPEG, as a PNG, with a warning: it is lossy. It holds no labels.
 VolumeFile read_jpeg(const std::filesystem::path& file, const Opening& opening);
 ScanFile open_jpeg(const std::filesystem::path& file, const Opening& opening);
 
@@ -90,6 +99,9 @@ ScanFile open_jpeg(const std::filesystem::path& file, const Opening& opening);
 bool is_picture(const std::filesystem::path& file);
 /// One of them, as the name says.
 VolumeFile read_picture(const std::filesystem::path& file, const Opening& opening);
+/// The same in double precision, which holds whole numbers to 2^53: its slices one after another.
+void visit_picture(const std::filesystem::path& file, const Opening& opening,
+                   const VisitSamples& visit);
 /// Its grid and the type of its samples; they are not read.
 ScanFile open_picture(const std::filesystem::path& file, const Opening& opening);
 /// The same, and how to read its slices: of a .tif some of its pages, else the one slice.
@@ -105,6 +117,10 @@ Opening opening_of(const ReadOptions& options, MemoryBudget& budget);
 /// The spacing and the modality that were asked for, if any were, take the place of the file's: the
 /// spacing with a warning, and also of what was assumed.
 void apply_options(const ReadOptions& options, VolumeFile& file);
+
+/// Removes the warnings of a spacing that was assumed or is doubtful, for one that is known better.
+/// @return how many told that it was assumed.
+std::size_t drop_spacing_warnings(std::vector<std::string>& warnings);
 
 /// Tells the caller of the grid whose samples are about to be read, with the spacing and the
 /// modality that were asked for.

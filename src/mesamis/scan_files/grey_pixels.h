@@ -4,13 +4,20 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "mesamis/scan_files/read_volume.h"
 #include "mesamis/scan_files/scan_file.h"
 
 /// Shared by the readers of pictures that hold one slice: PNG, BMP and JPEG.
 namespace mesamis::detail {
+
+/// A warning if the pixels are as large as programs have it that know of screens alone: 72 or 96
+/// per inch.
+void warn_of_screen_resolution(double spacing_mm, std::vector<std::string>& warnings);
 
 /// Sets the grid of one slice; x to the left, y to the back, z to the head. Where the spacing is
 /// not stated, 1 mm is taken with a warning; between slices always.
@@ -24,6 +31,11 @@ void set_picture_grid(ScanFile& scan, const std::array<std::int64_t, 2>& size, c
 /// @throws InputError  for a pixel of another colour.
 float require_grey(const std::filesystem::path& file, const std::array<unsigned, 3>& color,
                    const std::array<std::int64_t, 2>& pixel);
+
+/// The colours of a table are kept where the values are its indices; a warning says so if the first
+/// one, the background, is not black.
+/// @param palette  bytes red, green and blue of each colour, `stride` bytes apart.
+void keep_palette(ScanFile& scan, std::string_view palette, std::size_t stride = 3);
 
 /// The slice of a grey picture.
 /// @param scan      its header, with its grid.

@@ -65,13 +65,21 @@ ScanFile scan_of(const std::filesystem::path& file, const Jpeg& jpeg) {
   return scan;
 }
 
+/// Values between two labels, which the coding makes at their border, are other labels.
+void require_no_labels(const std::filesystem::path& file, const Opening& opening) {
+  if (!opening.labels) return;
+  refuse(file, "expected labels as .png, .tif or .bmp, found JPEG, which is lossy");
+}
+
 }  // namespace
 
 ScanFile open_jpeg(const std::filesystem::path& file, const Opening& opening) {
+  require_no_labels(file, opening);
   return scan_of(file, parse(file, opening.budget));
 }
 
 VolumeFile read_jpeg(const std::filesystem::path& file, const Opening& opening) {
+  require_no_labels(file, opening);
   const Jpeg jpeg = parse(file, opening.budget);
   ScanFile scan = scan_of(file, jpeg);
   opening.budget.claim(scan.grid.voxel_count(), sizeof(float) + 2 * sizeof(std::uint16_t),

@@ -24,6 +24,7 @@ constexpr int kGrey = 0, kRgb = 2, kPalette = 3, kGreyAlpha = 4, kRgba = 6;
 struct Png {
   std::int64_t width = 0, height = 0;
   int bits = 0, color = -1;
+  bool labels = false;  ///< the values are the indices of the palette
   Vec3 spacing;         ///< mm; zero: not stated
   std::string palette;  ///< red, green, blue of each colour
   std::string packed;   ///< the pixels, as one zlib stream
@@ -77,10 +78,12 @@ void take_chunk(const std::filesystem::path& file, std::string_view type, std::s
 }
 
 /// Parses everything but the pixels.
-Png parse(const std::filesystem::path& file, MemoryBudget& budget) {
+Png parse(const std::filesystem::path& file, const Opening& opening) {
+  MemoryBudget& budget = opening.budget;
   const std::string bytes = read_all(file, budget);
   if (!bytes.starts_with(kSignature)) refuse(file, "expected a PNG file, found something else");
   Png png;
+  png.labels = opening.labels;
   reserve_within(budget, png.packed, bytes.size(), "packed pixels");
   std::size_t at = kSignature.size();
   std::string_view type;
@@ -175,7 +178,7 @@ unsigned number_at(const char* line, std::size_t n, int bits) {
 std::array<unsigned, 3> color_at(const Png& png, const char* line, std::size_t x) {
   const std::size_t first = x * png.channels();
   const unsigned value = number_at(line, first, png.bits);
-  if (png.color == kPalette) {
+  if (png.color == kPalette && !png.labels) {
     std::array<unsigned, 3> rgb{};
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t at = 3 * value + c;
@@ -191,19 +194,19 @@ ScanFile scan_of(const std::filesystem::path& file, const Png& png) {
   ScanFile scan{file, "PNG", {}, {}, {}};
   set_picture_grid(scan, {png.width, png.height}, png.spacing);
   scan.source.type = png.bits == 16 ? NumberType::kUint16 : NumberType::kUint8;
+  if (png.color == kPalette && png.labels) keep_palette(scan, png.palette);
   return scan;
 }
 
 }  // namespace
 
 ScanFile open_png(const std::filesystem::path& file, const Opening& opening) {
-  MemoryBudget& budget = opening.budget;
-  return scan_of(file, parse(file, budget));
+  return scan_of(file, parse(file, opening));
 }
 
 VolumeFile read_png(const std::filesystem::path& file, const Opening& opening) {
   MemoryBudget& budget = opening.budget;
-  const Png png = parse(file, budget);
+  const Png png = parse(file, opening);
   ScanFile scan = scan_of(file, png);
   std::string lines = unpack(file, png, budget);
   budget.claim(scan.grid.voxel_count(), sizeof(float), "samples");

@@ -288,12 +288,19 @@ void detail::require_options(const fs::path& path, const ReadOptions& options) {
   refuse(path, "expected the modality CT, MR or other, found " + in_quotes(modality));
 }
 
+std::size_t detail::drop_spacing_warnings(std::vector<std::string>& warnings) {
+  std::erase_if(warnings, [](const std::string& warning) {
+    return warning.find("is that of a screen") != std::string::npos;
+  });
+  return std::erase_if(warnings, [](const std::string& warning) {
+    return warning.find(": 1 mm taken") != std::string::npos;
+  });
+}
+
 void detail::apply_options(const ReadOptions& options, VolumeFile& file) {
   if (!options.modality.empty()) file.volume.modality = options.modality;
   if (!options.spacing) return;
-  const auto assumed = std::erase_if(file.warnings, [](const std::string& warning) {
-    return warning.find(": 1 mm taken") != std::string::npos;
-  });
+  const std::size_t assumed = drop_spacing_warnings(file.warnings);
   const Vec3 stated = std::exchange(file.volume.spacing, *options.spacing);
   if (assumed == 0 && stated != *options.spacing) {
     file.warnings.push_back(spacing_is_replaced(stated));
@@ -304,6 +311,15 @@ bool detail::is_picture(const fs::path& file) { return picture_format_of(file) !
 
 VolumeFile detail::read_picture(const fs::path& file, const Opening& opening) {
   return picture_format_of(file)->read(file, opening);
+}
+
+void detail::visit_picture(const fs::path& file, const Opening& opening,
+                           const VisitSamples& visit) {
+  const ScopedFile scope(opening.budget, file);
+  const PictureFormat* format = picture_format_of(file);
+  if (format->read == read_tiff) return visit_tiff(file, opening, visit);
+  const std::vector<float> samples = format->read(file, opening).volume.samples;
+  visit(std::vector<double>(samples.begin(), samples.end()));
 }
 
 ScanFile detail::open_picture(const fs::path& file, const Opening& opening) {

@@ -350,11 +350,26 @@ void set_origin(ScanFile& scan, const Vec3& origin) {
   scan.grid.origin = origin + Vec3{};  // -0 becomes 0
 }
 
-void append_samples(std::span<const unsigned char> bytes, const SampleSource& source,
-                    std::vector<float>& out) {
+namespace {
+
+template <class Number>
+void append_any(std::span<const unsigned char> bytes, const SampleSource& source,
+                std::vector<Number>& out) {
   const std::size_t begin = out.size();
   out.resize(begin + bytes.size() / byte_size(source.type));
   convert_any(bytes, source, out.data() + begin);
+}
+
+}  // namespace
+
+void append_samples(std::span<const unsigned char> bytes, const SampleSource& source,
+                    std::vector<float>& out) {
+  append_any(bytes, source, out);
+}
+
+void append_samples(std::span<const unsigned char> bytes, const SampleSource& source,
+                    std::vector<double>& out) {
+  append_any(bytes, source, out);
 }
 
 namespace {

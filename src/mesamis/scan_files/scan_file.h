@@ -60,6 +60,9 @@ struct ScanFile {
   std::optional<std::array<Vec3, 3>> sheared{};
   /// The samples lie in these files in turn, with equal numbers of slices, or one volume each.
   std::vector<std::filesystem::path> parts{};
+  /// Red, green and blue of a picture's values, where these are the indices of its table of
+  /// colours.
+  std::vector<std::array<std::uint8_t, 3>> palette{};
 };
 
 /// How many values per voxel a reader accepts.
@@ -73,6 +76,9 @@ struct Opening {
   std::optional<Vec3> spacing{};  ///< mm, given by the user
   bool resample = false;          ///< see ReadOptions
   ValueChoice choice{};           ///< of Values::kOne
+  /// The values are labels. Of pictures with a table of colours they are its indices; lossy
+  /// pictures are refused.
+  bool labels = false;
 };
 
 /// How a file places its voxels: directions and distances may each be missing or unusable.
@@ -160,5 +166,8 @@ void append_slices(const ScanFile& scan, std::uint64_t begin, const SliceRange& 
 /// @param bytes  a whole number of samples.
 void append_samples(std::span<const unsigned char> bytes, const SampleSource& source,
                     std::vector<float>& out);
+/// In double precision, which holds whole numbers to 2^53.
+void append_samples(std::span<const unsigned char> bytes, const SampleSource& source,
+                    std::vector<double>& out);
 
 }  // namespace mesamis::detail

@@ -90,6 +90,15 @@ void require_like(const ScanFile& first, const ScanFile& slice) {
   refuse(slice.file, "expected a slice like the first, " + text(first) + ", found " + text(slice));
 }
 
+/// Indices of different tables of colours are no values of one scan.
+void require_same_palette(const ScanFile& first, const ScanFile& slice) {
+  if (first.palette == slice.palette) return;
+  refuse(slice.file, say("expected the table of colours of the first slice, ",
+                         shown(first.file.filename().string()),
+                         ", found another one: values are "
+                         "its indices"));
+}
+
 /// The headers of all files, checked, as one volume without samples.
 ScanFile open_headers(const fs::path& directory, const std::vector<fs::path>& files,
                       const Opening& opening) {
@@ -98,16 +107,17 @@ ScanFile open_headers(const fs::path& directory, const std::vector<fs::path>& fi
   if (first.grid.size[2] != 1) {
     refuse(files[0], say("expected one slice per file, found ", first.grid.size[2]));
   }
-  for (std::size_t n = 1; n < files.size(); ++n)
-    require_like(first, open_picture(files[n], opening));
+  for (std::size_t n = 1; n < files.size(); ++n) {
+    const ScanFile slice = open_picture(files[n], opening);
+    require_like(first, slice);
+    require_same_palette(first, slice);
+  }
   ScanFile scan = first;
   scan.file = directory;
   scan.format += " slices";
   if (const auto log = opening.spacing ? std::nullopt : find_skyscan_log(directory)) {
     scan.grid.spacing = log->spacing;
-    std::erase_if(scan.warnings, [](const std::string& warning) {
-      return warning.find(": 1 mm taken") != std::string::npos;
-    });
+    drop_spacing_warnings(scan.warnings);
     scan.warnings.push_back(
         say("the spacing is that of SkyScan's log ", shown(log->file.filename().string())));
   }

@@ -15,6 +15,7 @@
 #include "mesamis/files/read_record.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
+#include "mesamis/scan_files/grey_pixels.h"
 #include "mesamis/scan_files/tiff_layout.h"
 
 namespace mesamis::detail {
@@ -52,8 +53,29 @@ TiffHandle open(const std::filesystem::path& file, const MemoryBudget& budget) {
 struct Page {
   std::uint32_t width = 0, height = 0;
   std::uint16_t bits = 1, channels = 1, format = SAMPLEFORMAT_UINT, photometric = 0;
+  std::vector<std::array<std::uint8_t, 3>> palette{};  ///< its table of colours
   friend bool operator==(const Page&, const Page&) = default;
+
+  /// Bytes of so many pixels of one line: samples of less than a byte are packed.
+  std::size_t bytes_of_line(std::size_t pixels) const { return (pixels * bits + 7) / 8; }
+  std::size_t bytes_of_all() const { return height * bytes_of_line(width); }
 };
+
+/// The table of colours of a page; empty if there is none.
+std::vector<std::array<std::uint8_t, 3>> palette_of(TIFF* tiff, const Page& page) {
+  constexpr std::uint16_t kMostBits = 16;
+  std::uint16_t *red = nullptr, *green = nullptr, *blue = nullptr;
+  if (page.photometric != PHOTOMETRIC_PALETTE || page.bits > kMostBits ||
+      TIFFGetField(tiff, TIFFTAG_COLORMAP, &red, &green, &blue) != 1) {
+    return {};
+  }
+  std::vector<std::array<std::uint8_t, 3>> palette(std::size_t{1} << page.bits);
+  const auto share = [](std::uint16_t colour) { return static_cast<std::uint8_t>(colour >> 8); };
+  for (std::size_t n = 0; n < palette.size(); ++n) {
+    palette[n] = {share(red[n]), share(green[n]), share(blue[n])};
+  }
+  return palette;
+}
 
 Page page_of(TIFF* tiff) {
   Page page;
@@ -63,6 +85,7 @@ Page page_of(TIFF* tiff) {
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &page.channels);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &page.format);
   TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &page.photometric);
+  page.palette = palette_of(tiff, page);
   return page;
 }
 
@@ -76,6 +99,11 @@ std::optional<NumberType> sample_type(const Page& page) {
   const bool real = page.format == SAMPLEFORMAT_IEEEFP, sign = page.format == SAMPLEFORMAT_INT;
   if (!real && !sign && page.format != SAMPLEFORMAT_UINT) return std::nullopt;
   switch (page.bits) {
+    case 1:
+    case 2:
+    case 4:
+      if (real || sign) return std::nullopt;
+      return NumberType::kUint8;  // once they are unpacked
     case 8:
       if (real) return std::nullopt;
       return sign ? NumberType::kInt8 : NumberType::kUint8;
@@ -97,7 +125,7 @@ NumberType require_grey(const std::filesystem::path& file, const Page& page) {
                                            page.photometric == PHOTOMETRIC_PALETTE);
   const auto type = sample_type(page);
   if (!grey || !type) {
-    refuse(file, say("expected grey pages of 8, 16, 32 or 64 bits, found ", page.channels,
+    refuse(file, say("expected grey pages of 1, 2, 4, 8, 16, 32 or 64 bits, found ", page.channels,
                      " channels of ", page.bits, " bits, sample format ", page.format,
                      ", photometric ", page.photometric));
   }
@@ -129,14 +157,18 @@ struct TiffPages {
   std::vector<PagePlace> places;     ///< of the slices
   std::optional<tdir_t> cut_off;     ///< the first page that goes on behind the end of the file
   std::vector<std::int64_t> planes;  ///< of the slices, where all lie behind one directory
-  std::uint64_t plane_bytes() const {
-    return std::uint64_t{page.width} * page.height * page.bits / 8;
-  }
+  std::uint64_t plane_bytes() const { return page.bytes_of_all(); }
 };
 
 void require_like(const std::filesystem::path& file, const Page& common, const Page& page,
                   tdir_t number) {
   if (page == common) return;
+  Page other = page;
+  other.palette = common.palette;
+  if (other == common) {
+    refuse(file, say("expected the table of colours of the first page, found another one on page ",
+                     number, ": values are its indices"));
+  }
   refuse(file, say("expected pages of one size and type (", common.width, " x ", common.height,
                    ", ", common.bits, " bits), found page ", number, " of ", page.width, " x ",
                    page.height, ", ", page.bits, " bits"));
@@ -227,6 +259,7 @@ Vec3 spacing_of(TIFF* tiff, const TiffLayout& layout, std::vector<std::string>& 
                            ? "the file's resolution has no unit: 1 mm taken along x and y"
                            : "the file gives no resolution: 1 mm taken along x and y");
   }
+  warn_of_screen_resolution(spacing.x, warnings);
   if (!(spacing.z > 0)) {
     spacing.z = 1;
     warnings.push_back(layout.between > 0
@@ -261,6 +294,19 @@ void refuse_metamorph(const std::filesystem::path& file, TIFF* tiff) {
   }
 }
 
+/// Refuses what libtiff does not decode, and lossy labels; other lossy pages are a warning.
+void check_compression(ScanFile& scan, TIFF* tiff, bool labels) {
+  std::uint16_t compression = COMPRESSION_NONE;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &compression);
+  if (!TIFFIsCODECConfigured(compression)) {
+    refuse(scan.file, say("expected pages that libtiff decodes, found compression ", compression,
+                          "; save them uncompressed"));
+  }
+  if (compression != COMPRESSION_JPEG && compression != COMPRESSION_OJPEG) return;
+  if (labels) refuse(scan.file, "expected labels, found pages coded as JPEG, which is lossy");
+  scan.warnings.emplace_back("JPEG is lossy: edges are not where they were by up to some pixels");
+}
+
 void warn_of_page_place(TIFF* tiff, std::vector<std::string>& warnings) {
   std::uint16_t orientation = ORIENTATION_TOPLEFT;
   TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &orientation);
@@ -272,12 +318,13 @@ void warn_of_page_place(TIFF* tiff, std::vector<std::string>& warnings) {
 
 /// Width and height of the tiles, checked against what the file can hold.
 std::array<std::size_t, 2> tile_size(const std::filesystem::path& file, TIFF* tiff,
-                                     std::size_t pixel) {
+                                     const Page& page) {
   std::uint32_t width = 0, height = 0;
   TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &width);
   TIFFGetField(tiff, TIFFTAG_TILELENGTH, &height);
-  const double wanted = 1.0 * width * height * static_cast<double>(pixel);
-  if (wanted == 0 || wanted > allocation_bound(file) ||
+  const double wanted = 1.0 * static_cast<double>(page.bytes_of_line(width)) * height;
+  const bool whole_bytes = std::uint64_t{width} * page.bits % 8 == 0;
+  if (wanted == 0 || !whole_bytes || wanted > allocation_bound(file) ||
       static_cast<double>(TIFFTileSize64(tiff)) != wanted) {
     refuse(file, say("expected tiles of a size the file can hold, found ", width, " x ", height));
   }
@@ -296,20 +343,21 @@ void read_tiles(const PageRead& read, std::vector<unsigned char>& out) {
   const auto& [in, tiff, budget, number] = read;
   const std::filesystem::path& file = in.scan.file;
   const Page& page = in.page;
-  const std::size_t pixel = page.bits / 8u, line = page.width * pixel;
-  const auto [tile_width, tile_height] = tile_size(file, tiff, pixel);
-  const ScopedClaim claim(budget, 2 * tile_width * tile_height, pixel, "a tile");  // and libtiff's
-  std::vector<unsigned char> tile(tile_width * tile_height * pixel);
+  const std::size_t line = page.bytes_of_line(page.width);
+  const auto [tile_width, tile_height] = tile_size(file, tiff, page);
+  const std::size_t tile_line = page.bytes_of_line(tile_width);
+  const ScopedClaim claim(budget, 2 * tile_height, tile_line, "a tile");  // and libtiff's
+  std::vector<unsigned char> tile(tile_height * tile_line);
   for (std::size_t y = 0; y < page.height; y += tile_height) {
     for (std::size_t x = 0; x < page.width; x += tile_width) {
       if (TIFFReadTile(tiff, tile.data(), static_cast<std::uint32_t>(x),
                        static_cast<std::uint32_t>(y), 0, 0) < 0) {
         refuse_page(file, number);
       }
-      const std::size_t bytes = std::min(tile_width, page.width - x) * pixel;
+      const std::size_t bytes = page.bytes_of_line(std::min(tile_width, page.width - x));
       for (std::size_t row = 0; row < std::min(tile_height, page.height - y); ++row) {
-        std::copy_n(tile.data() + row * tile_width * pixel, bytes,
-                    out.data() + (y + row) * line + x * pixel);
+        std::copy_n(tile.data() + row * tile_line, bytes,
+                    out.data() + (y + row) * line + page.bytes_of_line(x));
       }
     }
   }
@@ -319,7 +367,7 @@ void read_strips(const PageRead& read, std::vector<unsigned char>& out) {
   const std::filesystem::path& file = read.in.scan.file;
   const Page& page = read.in.page;
   TIFF* tiff = read.tiff;
-  const std::size_t line = std::size_t{page.width} * (page.bits / 8u);
+  const std::size_t line = page.bytes_of_line(page.width);
   if (static_cast<std::size_t>(TIFFScanlineSize64(tiff)) != line) {
     refuse(file, say("page ", read.number, ": expected lines of ", line, " bytes"));
   }
@@ -407,6 +455,7 @@ TiffPages open_pages(const std::filesystem::path& file, TIFF* tiff, const Openin
   const Page page = in.page;
   scan.source.type = require_grey(file, page);
   if (!TIFFSetDirectory(tiff, in.places.front().number)) refuse_page(file, in.places[0].number);
+  check_compression(scan, tiff, opening.labels);
   const TiffLayout layout = layout_of(in, tiff, opening.budget);
   choose_planes(in, tiff, layout, opening.choice);
   scan.warnings.insert(scan.warnings.end(), layout.warnings.begin(), layout.warnings.end());
@@ -415,6 +464,7 @@ TiffPages open_pages(const std::filesystem::path& file, TIFF* tiff, const Openin
   set_size(scan, {page.width, page.height, layout.slices});
   place(scan, tiff, layout);
   warn_of_page_place(tiff, scan.warnings);
+  scan.palette = page.palette;
   if (page.photometric == PHOTOMETRIC_PALETTE) {
     scan.warnings.push_back("the pages have a table of colours: the values are its indices");
   }
@@ -429,8 +479,33 @@ TiffPages open_pages(const std::filesystem::path& file, TIFF* tiff, const Openin
   return in;
 }
 
+/// Samples of less than a byte, a byte each; lines begin with a byte.
+std::vector<unsigned char> unpacked(std::span<const unsigned char> bytes, const Page& page) {
+  std::vector<unsigned char> samples;
+  samples.reserve(std::size_t{page.width} * page.height);
+  const std::size_t line = page.bytes_of_line(page.width);
+  for (std::size_t y = 0; y < page.height; ++y) {
+    for (std::size_t x = 0; x < page.width; ++x) {
+      const unsigned byte = bytes[y * line + x * page.bits / 8];
+      const std::size_t shift = 8u - page.bits - x * page.bits % 8;
+      samples.push_back(static_cast<unsigned char>(byte >> shift & ((1u << page.bits) - 1)));
+    }
+  }
+  return samples;
+}
+
+/// Appends the samples of a page. Number is float or double.
+template <class Number>
+void append_page(const TiffPages& in, std::span<const unsigned char> bytes,
+                 std::vector<Number>& out, MemoryBudget& budget) {
+  if (in.page.bits >= 8) return append_samples(bytes, in.scan.source, out);
+  const ScopedClaim claim(budget, std::uint64_t{in.page.width} * in.page.height, 1, "a page");
+  append_samples(unpacked(bytes, in.page), in.scan.source, out);
+}
+
 /// Appends planes that lie behind one directory.
-void append_planes(const TiffPages& in, const SliceRange& slices, std::vector<float>& out,
+template <class Number>
+void append_planes(const TiffPages& in, const SliceRange& slices, std::vector<Number>& out,
                    MemoryBudget& budget) {
   const ScopedClaim claim(budget, in.plane_bytes(), 1, "a page");
   std::vector<unsigned char> bytes(in.plane_bytes());
@@ -441,28 +516,42 @@ void append_planes(const TiffPages& in, const SliceRange& slices, std::vector<fl
     if (source.read(bytes.data(), bytes.size()) < bytes.size()) {
       refuse(in.scan.file, say("image ", plane, " is cut off"));
     }
-    append_samples(bytes, in.scan.source, out);
+    append_page(in, bytes, out, budget);
   }
 }
 
 /// Appends the samples of some slices.
-void append_pages(PageRead read, const SliceRange& slices, std::vector<float>& out) {
+template <class Number>
+void append_pages(PageRead read, const SliceRange& slices, std::vector<Number>& out) {
   const TiffPages& in = read.in;
   if (!in.planes.empty()) return append_planes(in, slices, out, read.budget);
-  const std::size_t pixels = std::size_t{in.page.width} * in.page.height;
-  const ScopedClaim claim(read.budget, pixels, in.page.bits / 8u, "a page");
-  std::vector<unsigned char> page(pixels * (in.page.bits / 8u));
+  const ScopedClaim claim(read.budget, in.page.bytes_of_all(), 1, "a page");
+  std::vector<unsigned char> page(in.page.bytes_of_all());
   const auto asked = std::span(in.places).subspan(static_cast<std::size_t>(slices.first),
                                                   static_cast<std::size_t>(slices.count));
   for (const PagePlace& place : asked) {
     read.number = place.number;
     if (!TIFFSetSubDirectory(read.tiff, place.offset)) refuse_page(in.scan.file, place.number);
     TIFFIsTiled(read.tiff) ? read_tiles(read, page) : read_strips(read, page);
-    append_samples(page, in.scan.source, out);
+    append_page(in, page, out, read.budget);
   }
 }
 
 }  // namespace
+
+void visit_tiff(const std::filesystem::path& file, const Opening& opening,
+                const VisitSamples& visit) {
+  MemoryBudget& budget = opening.budget;
+  const TiffHandle tiff = open(file, budget);
+  const TiffPages in = open_pages(file, tiff.get(), opening);
+  std::vector<double> slice;
+  reserve_within(budget, slice, std::size_t{in.page.width} * in.page.height, "a slice");
+  for (Index k = 0; k < in.scan.grid.size[2]; ++k) {
+    slice.clear();
+    append_pages({in, tiff.get(), budget}, {k, 1}, slice);
+    visit(slice);
+  }
+}
 
 VolumeFile read_tiff(const std::filesystem::path& file, const Opening& opening) {
   MemoryBudget& budget = opening.budget;
