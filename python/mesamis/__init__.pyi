@@ -140,6 +140,7 @@ class Result(_AnyResult):
         region: Literal["box", "object"] = ...,
         bins: int = ...,
         band: bool = ...,
+        patient: bool = ...,
     ) -> None: ...
 
 class Object:
@@ -166,6 +167,7 @@ class LabelResult(_AnyResult):
         error: bool = ...,
         region: Literal["box", "object"] = ...,
         bins: int = ...,
+        patient: bool = ...,
     ) -> None: ...
 
 class Body:
@@ -290,6 +292,7 @@ def write_surface(
     frame: _Frame | None = ...,
     name: str = ...,
     arrays: Mapping[str, npt.ArrayLike] | None = ...,
+    patient: Volume | None = ...,
 ) -> None: ...
 def read_mesh(path: _Path) -> Mesh: ...
 def write_mesh(

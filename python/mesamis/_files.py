@@ -15,16 +15,19 @@ def read_surface(path):
     return Surface(points, triangles, frame)
 
 
-def write_surface(path, surface, *, frame=None, name="mesamis surface", arrays=None):
-    """Writes a surface: .stl .ply .obj .vtp .3mf .amf .glb, .dcm (STL in DICOM, without a patient).
+def write_surface(path, surface, *, frame=None, name="mesamis surface", arrays=None, patient=None):
+    """Writes a surface: .stl .ply .obj .vtp .3mf .amf .glb, .dcm (STL in DICOM).
 
     `surface` is a Surface, a result or (points, triangles). Its points are written as they are;
     `frame` is what the file states instead of the surface's own. `arrays` is a dict of values per
-    point, for .vtp and .ply. The file appears whole or not at all.
+    point, for .vtp and .ply. A .dcm names no patient unless `patient`, a Volume read from DICOM, gives
+    patient, study and frame of reference. The file appears whole or not at all.
     """
     points, triangles, own = surface_parts(surface)
     values = {key: np.asarray(v, dtype=float) for key, v in (arrays or {}).items()}
-    _core.write_surface(os.fspath(path), points, triangles, own if frame is None else frame, name, values)
+    scan = None if patient is None else patient._scan
+    _core.write_surface(os.fspath(path), (points, triangles), own if frame is None else frame,
+                        (name, values), scan)
 
 
 _TURNS = {3: np.array([-1.0, -1, 1]), 6: np.array([1.0, 1, 1, 1, -1, -1])}

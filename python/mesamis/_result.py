@@ -133,12 +133,14 @@ class Result(_AnyResult):
     def closed(self):
         return self._run.closed
 
-    def save(self, path, *, name="mesamis surface", error=False, region="box", bins=10, band=False):
-        """Writes the surface (.stl .ply .obj .vtp .3mf .amf), the mesh (.vtu .mesh .msh .inp) or the
+    def save(self, path, *, name="mesamis surface", error=False, region="box", bins=10, band=False,
+             patient=False):
+        """Writes the surface (.stl .ply .obj .vtp .3mf .amf .glb .dcm), the mesh (.vtu .mesh .msh .inp) or the
         report (.json): the extension decides. The bytes are those of the program.
 
         `error` adds the expected error to a .vtp or .ply. Of the mesh, `region` is "box" or "object",
         `bins` the number of sets of cells; `band` writes the cells near edges with v alone (.vtu).
+        `patient` copies patient, study and frame of reference of a scan in DICOM into a .dcm.
         """
         path = os.fspath(path)
         if _extension(path) == ".json":
@@ -148,7 +150,7 @@ class Result(_AnyResult):
         elif _extension(path) in MESH_FORMATS:
             self._run.save_mesh(path, region, int(bins))
         else:
-            self._run.save_surface(path, name, bool(error))
+            self._run.save_surface(path, name, bool(error), bool(patient))
 
     def __repr__(self):
         return (f"<mesamis.Result {len(self.triangles)} triangles, {len(self._run.tets)} "
@@ -194,16 +196,16 @@ class LabelResult(_AnyResult):
                 return o
         raise KeyError(key)
 
-    def save(self, path, *, name="mesamis surface", error=False, region="box", bins=10):
-        """Writes all objects into one file (.3mf .vtp .obj .amf), one file per object ({label} in the
-        name, or a format of one object), the mesh, or the report."""
+    def save(self, path, *, name="mesamis surface", error=False, region="box", bins=10, patient=False):
+        """Writes all objects into one file (.3mf .vtp .obj .amf .glb), one file per object ({label} in
+        the name, or a format of one object), the mesh, or the report. `patient` is as for Result."""
         path = os.fspath(path)
         if _extension(path) == ".json":
             _write_json(path, self.report)
         elif _extension(path) in MESH_FORMATS:
             self._run.save_mesh(path, region, int(bins))
         else:
-            self._run.save_surface(path, name, bool(error))
+            self._run.save_surface(path, name, bool(error), bool(patient))
 
     def __repr__(self):
         return f"<mesamis.LabelResult {', '.join(o.name for o in self.objects)}>"

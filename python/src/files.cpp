@@ -2,6 +2,9 @@
 #include <pybind11/stl.h>
 
 #include <map>
+#include <memory>
+#include <string>
+#include <utility>
 
 #include "arrays.h"
 #include "binding.h"
@@ -9,6 +12,7 @@
 #include "mesamis/shape_files/mesh_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "request.h"
+#include "volume.h"
 
 namespace mesamis::python {
 namespace {
@@ -33,10 +37,14 @@ std::vector<double> flat(const Doubles& array) {
 }
 
 /// What goes into the file, points as they are in the frame that it states.
-void write_surface_file(const std::string& path, const Doubles& points, const Indices& triangles,
-                        const std::string& frame, const std::string& name, const Arrays& arrays) {
-  TriMesh surface = surface_of(points, triangles);
+/// @param patient  a scan to whose patient and study it belongs (.dcm); or none.
+void write_surface_file(const std::string& path, const std::pair<Doubles, Indices>& shape,
+                        const std::string& frame, const std::pair<std::string, Arrays>& content,
+                        const std::shared_ptr<Scan>& patient) {
+  TriMesh surface = surface_of(shape.first, shape.second);
+  const auto& [name, arrays] = content;
   SurfaceWriteOptions as{.frame = std::nullopt, .name = name};
+  if (patient) as.subject = subject_of(patient, path);
   if (!frame.empty()) as.frame = frame_of(frame);
   if (as.frame == Frame::kRas) surface = turned(std::move(surface));  // the writer takes LPS
   for (const auto& [key, values] : arrays) as.point_arrays.push_back({key, flat(values)});
@@ -106,8 +114,8 @@ py::tuple read_mesh_file(const std::string& path) {
 void bind_files(py::module_& module) {
   module.def("surface_formats", &written_surface_formats);
   module.def("read_surface", &read_surface_file, "path"_a);
-  module.def("write_surface", &write_surface_file, "path"_a, "points"_a, "triangles"_a, "frame"_a,
-             "name"_a, "arrays"_a);
+  module.def("write_surface", &write_surface_file, "path"_a, "shape"_a, "frame"_a, "content"_a,
+             "patient"_a.none(true));
   module.def("read_mesh", &read_mesh_file, "path"_a);
   module.def("write_mesh", &write_mesh_file, "path"_a, "nodes"_a, "tets"_a, "frame"_a, "arrays"_a);
 }

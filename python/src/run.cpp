@@ -58,7 +58,15 @@ py::list objects_of(const Shared& run) {
   return objects;
 }
 
-void save_surface(const Run& run, const std::string& path, const std::string& name, bool error) {
+/// How a surface is written.
+struct SaveOptions {
+  std::string name;
+  bool error = false;    ///< with the expected error
+  bool patient = false;  ///< .dcm: belongs to patient and study of the scan
+};
+
+void save_surface(const Run& run, const std::string& path, const SaveOptions& as) {
+  const auto& [name, error, patient] = as;
   if (run.outcome.one && error && !carries_arrays(path)) {
     throw InputError("error: expected a .vtp or .ply, found " + path);
   }
@@ -66,6 +74,7 @@ void save_surface(const Run& run, const std::string& path, const std::string& na
   out.surfaces = {path};
   out.name = name;
   out.error = error;
+  if (patient) out.subject = subject_of(run.scan, path);
   write(run.outcome, out);
 }
 
@@ -164,10 +173,11 @@ void bind_run(py::module_& module) {
            })
       .def(
           "save_surface",
-          [](const Run& r, const std::string& path, const std::string& name, bool error) {
-            without_lock([&] { save_surface(r, path, name, error); });
+          [](const Run& r, const std::string& path, const std::string& name, bool error,
+             bool patient) {
+            without_lock([&] { save_surface(r, path, {name, error, patient}); });
           },
-          "path"_a, "name"_a, "error"_a)
+          "path"_a, "name"_a, "error"_a, "patient"_a)
       .def(
           "save_mesh",
           [](const Run& r, const std::string& path, const std::string& region, int bins) {

@@ -149,6 +149,18 @@ Mat3 matrix_of(const std::vector<double>& n) {
   return {{Vec3{n[0], n[1], n[2]}, Vec3{n[3], n[4], n[5]}, Vec3{n[6], n[7], n[8]}}};
 }
 
+DicomSubject subject_of(const std::shared_ptr<Scan>& scan, const std::string& path) {
+  if (!std::filesystem::path(path).extension().string().ends_with(".dcm")) {
+    throw InputError("patient: expected a .dcm, found " + path);
+  }
+  std::vector<std::filesystem::path> files;
+  if (scan) {
+    for (const ReadFile& file : scan->files) files.push_back(file.path);
+  }
+  if (files.empty()) throw InputError("patient: expected a scan read from DICOM, found none");
+  return read_dicom_subject(files);
+}
+
 std::shared_ptr<Scan> scan_of(Volume volume) {
   auto scan = std::make_shared<Scan>();
   scan->own = std::move(volume);

@@ -3,11 +3,13 @@
 
 #include <pybind11/numpy.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "mesamis/files/dicom_subject.h"
 #include "mesamis/files/read_record.h"
 #include "mesamis/image/label_map.h"
 #include "mesamis/image/volume.h"
@@ -32,6 +34,11 @@ struct Scan {
   /// The facts a report gives. @throws InputError  as facts_of().
   InputFacts facts() const;
 };
+
+/// The patient and the study of a scan in DICOM, for files of surfaces that belong to it.
+/// @param path  of such a file, or what was asked for: must end with .dcm.
+/// @throws InputError  for another extension, and a scan that is not DICOM.
+DicomSubject subject_of(const std::shared_ptr<Scan>& scan, const std::string& path);
 
 /// A scan that owns its samples.
 std::shared_ptr<Scan> scan_of(Volume volume);

@@ -232,3 +232,51 @@ def test_a_body_needs_a_solid_and_a_tolerance(ball):
     with pytest.raises(mesamis.InputError, match="tolerance: expected one above 0 for the skin"):
         mesamis.make_body(raw, element_size=4)
     assert len(mesamis.make_body(raw, element_size=4, tolerance=0.3).nodes)
+
+
+def write_dicom_scan(folder, scan):
+    """A scan as DICOM slices of a patient."""
+    pydicom = pytest.importorskip("pydicom")
+    from pydicom.uid import ExplicitVRLittleEndian
+
+    folder.mkdir()
+    for k in range(scan.array.shape[2]):
+        slice_ = pydicom.Dataset()
+        slice_.SOPClassUID, slice_.SOPInstanceUID = "1.2.840.10008.5.1.4.1.1.2", f"1.2.3.{k + 1}"
+        slice_.StudyInstanceUID, slice_.SeriesInstanceUID = "1.2.4", "1.2.5"
+        slice_.FrameOfReferenceUID, slice_.Modality = "1.2.6", "CT"
+        slice_.PatientName, slice_.PatientID = "Doe^Jane", "77"
+        slice_.Rows, slice_.Columns = scan.array.shape[1], scan.array.shape[0]
+        slice_.SamplesPerPixel, slice_.PhotometricInterpretation = 1, "MONOCHROME2"
+        slice_.BitsAllocated = slice_.BitsStored = 16
+        slice_.HighBit, slice_.PixelRepresentation = 15, 1
+        slice_.PixelSpacing, slice_.ImageOrientationPatient = [1, 1], [1, 0, 0, 0, 1, 0]
+        slice_.ImagePositionPatient = [0, 0, k]
+        slice_.PixelData = scan.array[:, :, k].T.astype("<i2").tobytes()
+        slice_.file_meta = pydicom.dataset.FileMetaDataset()
+        slice_.file_meta.TransferSyntaxUID = ExplicitVRLittleEndian
+        slice_.file_meta.MediaStorageSOPClassUID = slice_.SOPClassUID
+        slice_.file_meta.MediaStorageSOPInstanceUID = slice_.SOPInstanceUID
+        slice_.preamble = bytes(128)
+        pydicom.dcmwrite(folder / f"{k}.dcm", slice_)
+
+
+def test_surfaces_in_dicom_belong_to_the_patient_that_is_asked_for(tmp_path):
+    pydicom = pytest.importorskip("pydicom")
+    phantom = mesamis.phantom("sphere", size=(16, 16, 16))
+    write_dicom_scan(tmp_path / "scan", phantom)
+    scan = mesamis.read_volume(tmp_path / "scan")
+    found = mesamis.segment(scan, preview=True)
+    found.save(tmp_path / "with.dcm", patient=True)
+    found.save(tmp_path / "without.dcm")
+    mesamis.write_surface(tmp_path / "written.dcm", found, patient=scan)
+    for name in ("with.dcm", "written.dcm"):
+        file = pydicom.dcmread(tmp_path / name)
+        assert (file.PatientName, file.PatientID, file.StudyInstanceUID) == ("Doe^Jane", "77", "1.2.4")
+        assert file.FrameOfReferenceUID == "1.2.6"
+    assert not pydicom.dcmread(tmp_path / "without.dcm").PatientName
+    with pytest.raises(mesamis.InputError, match="patient: expected a .dcm, found .*a.stl"):
+        found.save(tmp_path / "a.stl", patient=True)
+    with pytest.raises(mesamis.InputError, match="patient: expected a scan read from DICOM"):
+        mesamis.write_surface(tmp_path / "a.dcm", found, patient=phantom)
+    assert not list(tmp_path.glob("a.*"))
