@@ -198,6 +198,7 @@ TEST(ReadLabels, MasksThatWereCutOutOfOneGridAreReadTogether) {
   std::vector<std::uint16_t> expected(20);
   expected[file.map.offset(0, 0, 0)] = expected[file.map.offset(3, 1, 0)] = 1;
   expected[file.map.offset(3, 0, 1)] = 2;
+  EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("put together on 5 x 2 x 2 voxels")));
   EXPECT_THAT(file.map.layers, ElementsAre(ElementsAreArray(expected)));
 }
 

@@ -114,6 +114,11 @@ class MaskCollector {
 
   LabelFile finish() {
     if (out_.map.layers.empty()) stack_.add_layer();
+    if (has_grid_) {
+      const auto& n = out_.map.size;
+      out_.warnings.push_back(say("the masks have different grids: put together on ", n[0], " x ",
+                                  n[1], " x ", n[2], " voxels by the places they state"));
+    }
     if (!empty_.empty()) out_.warnings.push_back(empty_note(empty_));
     if (const std::string note = stack_.overlap_note(); !note.empty()) {
       out_.warnings.push_back(note);
