@@ -129,7 +129,7 @@ LabelFile read_labels(const InfoCommand& command) {
 /// A line for the grid, and one per label.
 void print_label_file(const InfoCommand& command) {
   VolumeInfo info;
-  info.description = command.input.filename().string();
+  info.description = (command.input / "").parent_path().filename().string();
   LabelFile file;
   try {
     file = read_labels(command);

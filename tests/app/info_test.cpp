@@ -12,6 +12,7 @@ namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
+using testing::StartsWith;
 
 TEST(Info, DescribesAVolumeInOneLine) {
   const TempFolder folder;
@@ -89,6 +90,40 @@ TEST(Info, ReadsDicomSegmentationsAndStructureSets) {
   const ProgramRun broken = run_program(folder, {"info", folder / "rt.dcm"});
   EXPECT_EQ(broken.status, 0);
   EXPECT_THAT(broken.out, HasSubstr("rt.dcm  labels  not usable: "));
+}
+
+TEST(Info, ReadsFoldersOfDicomLabelsAlone) {
+  const TempFolder folder;
+  write_bytes(folder / "case/seg.dcm", small_seg().bytes());
+  for (const auto& path : {folder / "case", folder / "case/"}) {
+    const ProgramRun run = run_program(folder, {"info", path});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.out, StartsWith("case  DICOM labels  3 x 5 x 3 voxels"));
+  }
+  write_bytes(folder / "case/rt.dcm", small_structure_set().bytes());
+  EXPECT_THAT(run_program(folder, {"info", folder / "case"}).out,
+              HasSubstr("found 2: rt.dcm, seg.dcm; name one of them"));
+}
+
+TEST(Info, ListsTheLabelsOfAnOmeZarrImage) {
+  const TempFolder folder;
+  const std::string image = R"({"multiscales": [{"datasets": [{"path": "0"}]}])";
+  const std::string array = R"({"zarr_format": 2, "shape": [1, 2, 3], "chunks": [1, 2, 3],
+      "dtype": "|u1", "compressor": null, "fill_value": 0, "order": "C"})";
+  for (const char* group : {"a.zarr", "a.zarr/labels", "a.zarr/labels/bones"}) {
+    write_bytes(folder / group / ".zgroup", R"({"zarr_format": 2})");
+  }
+  for (const char* group : {"a.zarr", "a.zarr/labels/bones"}) {
+    write_bytes(folder / group / "0/.zarray", array);
+    write_bytes(folder / group / "0/0.0.0", std::string("\0\2\2\0\0\2", 6));
+  }
+  write_bytes(folder / "a.zarr/.zattrs", image + "}");
+  write_bytes(folder / "a.zarr/labels/bones/.zattrs",
+              image + R"(, "image-label": {"properties": [{"label-value": 2, "name": "hip"}]}})");
+  EXPECT_THAT(run_program(folder, {"info", folder / "a.zarr"}).out,
+              HasSubstr("as --labels:\n  2  hip  3 voxels  3 mm^3\n"));
+  EXPECT_THAT(run_program(folder, {"info", folder / "a.zarr/labels/bones"}).out,
+              HasSubstr("bones  OME-Zarr labels  3 x 2 x 1 voxels"));
 }
 
 TEST(Info, ListsTheObjectsOfAFolderOfMasks) {
