@@ -76,7 +76,7 @@ TEST(ExpectedError, SummarizesOverTheArea) {
 }
 
 TEST(ExpectedError, IsWithinAFactorOfTwoOfTheRealOne) {
-  const Phantom phantom = make_phantom("femur", {36, 36, 36});
+  const Phantom phantom = make_phantom("femur", {48, 48, 48});
   const TriMesh truth = make_truth(phantom).surface;
   struct Case {
     double noise;

@@ -228,7 +228,7 @@ TEST(LabelSurfaces, DoNotDependOnTheOrderOfLayers) {
   ASSERT_EQ(one.objects.size(), 2U);
   ASSERT_EQ(other.objects.size(), 2U);
   EXPECT_EQ(one.parameters.level, other.parameters.level);
-  EXPECT_DOUBLE_EQ(one.parameters.tolerance, other.parameters.tolerance);
+  EXPECT_NEAR(one.parameters.tolerance, other.parameters.tolerance, 1e-9);
   EXPECT_EQ(one.parameters.blur, other.parameters.blur);
   for (std::size_t n = 0; n < 2; ++n) {
     EXPECT_EQ(one.objects[n].segment.name, other.objects[1 - n].segment.name);

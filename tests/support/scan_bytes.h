@@ -132,8 +132,8 @@ struct TiffPage {
   std::uint32_t width = 4, height = 3;
   std::uint16_t bits = 16, channels = 1, format = 2, photometric = 1;
   float pixels_per_cm = 20;  // 0: no resolution given
-  std::string description;
-  std::string pixels;  // as they are stored
+  std::string description{};
+  std::string pixels{};  // as they are stored
   std::uint16_t compression = 1;
   bool thumbnail = false;
   std::vector<std::uint16_t> colours{};  // all reds, all greens, all blues
