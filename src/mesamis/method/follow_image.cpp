@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mesamis/base/parallel.h"
-#include "mesamis/method/surface_moves.h"
+#include "mesamis/fit/surface_moves.h"
 #include "mesamis/surface/normals.h"
 #include "mesamis/surface/split_edges.h"
 

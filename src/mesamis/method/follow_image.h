@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "mesamis/fit/surface_moves.h"
 #include "mesamis/image/spline_image.h"
-#include "mesamis/method/surface_moves.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {

@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "mesamis/base/parallel.h"
-#include "mesamis/method/surface_moves.h"
+#include "mesamis/fit/fit_surface.h"
+#include "mesamis/fit/surface_moves.h"
 
 namespace mesamis {
 namespace {
@@ -195,6 +196,17 @@ PartitionSurface follow_image(PartitionSurface partition, const SplineImage& ima
   }
   partition.points = std::move(surface.points);
   partition.triangles = std::move(surface.triangles);
+  return partition;
+}
+
+PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& image,
+                                const std::vector<BoundaryGuide>& guides, double reach) {
+  FitPoints points{{}, curve_points(partition)};
+  for (const BoundaryGuide& guide : guides) points.contrast.push_back(guide.contrast);
+  TriMesh fitted = fit_surface({std::move(partition.points), std::move(partition.triangles)}, image,
+                               points, {.reach = reach});
+  partition.points = std::move(fitted.points);
+  partition.triangles = std::move(fitted.triangles);
   return partition;
 }
 

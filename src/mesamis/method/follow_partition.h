@@ -55,4 +55,12 @@ PartitionSurface only_chosen(const PartitionSurface& all, const std::vector<char
 PartitionSurface follow_image(PartitionSurface partition, const SplineImage& image,
                               const std::vector<BoundaryGuide>& guides, double noise);
 
+/// Fits the boundaries of several objects to an image, with what they share: fit_surface() for a
+/// partition.
+/// @param partition, image, guides  as for follow_image(); of a guide its contrast counts.
+/// @param reach  voxels, > 0, see FitOptions.
+/// @return the same triangles. Cost as fit_surface().
+PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& image,
+                                const std::vector<BoundaryGuide>& guides, double reach);
+
 }  // namespace mesamis

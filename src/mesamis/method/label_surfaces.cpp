@@ -36,8 +36,10 @@ namespace {
 
 constexpr double kMargin = 2.5;  // voxels, of the labels or of the scan
 constexpr std::size_t kMostObjects = 4096;
-constexpr double kMostMargin = 50;  // voxels of the scan
-constexpr double kReach = 2;        // margins that a label may flow
+constexpr double kMostMargin = 50;    // voxels of the scan
+constexpr double kReach = 2;          // margins that a label may flow
+constexpr double kReachOfFit = 0.64;  // margins in which a fitted surface looks for edges
+constexpr double kAsFine = 1.25;      // voxels of the scan: labels no coarser are fitted
 
 /// The layers of those segments, increasing.
 std::vector<Index> layers_of(const std::vector<Segment>& segments) {
@@ -77,14 +79,14 @@ std::optional<double> level_between(const Volume& scan, const std::vector<char>&
   return a == b ? std::nullopt : std::optional((a + b) / 2);
 }
 
-/// The edges of an image, one v per voxel, and what was prepared for it.
+/// What was prepared of an image, and its edges, one v per voxel, where labels flow to them.
 struct Edges {
   Prepared prepared;
   std::vector<float> v;
 };
 
 /// @param settings  with a level, or the run looks for one of its own.
-Edges find_edges(const Volume& scan, Settings settings) {
+Edges find_edges(const Volume& scan, Settings settings, bool flows) {
   settings.crop = {};
   settings.stride = {1, 1, 1};
   settings.preview = true;  // no mesh is made
@@ -93,6 +95,7 @@ Edges find_edges(const Volume& scan, Settings settings) {
     settings.threshold_rule = ThresholdRule::kNone;
   }
   Edges edges{prepare_image(scan, settings), {}};
+  if (!flows) return edges;
   const RunInput run(edges.prepared);
   const Parameters& p = run.parameters;
   const KuhnGrid grid{run.grey.size, (1 / p.unit_mm) * run.grey.spacing};
@@ -155,6 +158,10 @@ struct LabelRun {
         progress(tell),
         chosen(asked.chosen.empty() ? asked.map.segments : asked.chosen) {
     require_chosen(chosen, asked.map);
+  }
+  /// Whether boundaries are fitted to an image of these voxels; else labels flow.
+  bool fits(const VoxelGrid& scan) const {
+    return settings.fit && request.map.voxel_size() <= kAsFine * scan.voxel_size();
   }
   bool makes_mesh() const { return request.mesh && !settings.preview; }
   void begin(const char* stage) const { begin_stage(progress, stage); }
@@ -224,22 +231,41 @@ std::vector<LabelBoundary> boundaries_of(const LabelRun& run, Index layer,
   return found;
 }
 
-/// The labels flow to the edges of the image; the boundaries between them follow the image.
+/// The labels flow to the edges of the image.
+GridMemberships flowed(const LabelRun& run, const GridMemberships& smooth, const LabelGrid& grid,
+                       const Edges& edges, bool& converged) {
+  const Parameters& p = edges.prepared.parameters;
+  const auto weight = label_confidence(grid, run.margin);
+  const FlowOptions flow{p.functional.beta, p.functional.eta, p.unit_mm, kReach * run.margin};
+  FlowReport solved;
+  GridMemberships found = flow_memberships(grid, {smooth, weight, edges.v}, flow, &solved);
+  converged = solved.solver_converged;
+  return found;
+}
+
+/// Moves boundaries on to the image.
+PartitionSurface moved_to_image(const LabelRun& run, PartitionSurface partition,
+                                const RunInput& input, const std::vector<BoundaryGuide>& guides) {
+  if (!run.settings.follow) return partition;
+  if (!run.fits(input.grey)) {
+    return follow_image(std::move(partition), input.image, guides, input.error.noise);
+  }
+  const double reach = kReachOfFit * run.margin / input.grey.voxel_size();
+  return fit_boundaries(std::move(partition), input.image, guides, reach);
+}
+
+/// Boundaries of the labels, as the image places them.
 LayerBoundaries place_by_image(const LabelRun& run, Index layer, std::vector<std::uint16_t> labels,
                                const Edges& edges, LabelResult::Seconds& seconds) {
   Stopwatch watch;
   run.begin("flow of the labels");
   LayerBoundaries found{layer, {}};
-  const Parameters& p = edges.prepared.parameters;
   const VoxelGrid& voxels = edges.prepared.grey;
-  const GridMemberships smooth = without_image(run, voxels, labels);
-  const LabelGrid grid{voxels.size, voxels.spacing, labels};
-  const auto weight = label_confidence(grid, run.margin);
-  const FlowOptions flow{p.functional.beta, p.functional.eta, p.unit_mm, kReach * run.margin};
-  FlowReport solved;
-  const GridMemberships memberships =
-      flow_memberships(grid, {smooth, weight, edges.v}, flow, &solved);
-  found.converged = solved.solver_converged;
+  GridMemberships memberships = without_image(run, voxels, labels);
+  if (!run.fits(voxels)) {
+    memberships =
+        flowed(run, memberships, {voxels.size, voxels.spacing, labels}, edges, found.converged);
+  }
   if (run.makes_mesh()) found.image = label_image(memberships, edges.prepared.grey);
   seconds.flow += watch.lap();
   run.begin("surface");
@@ -249,10 +275,7 @@ LayerBoundaries place_by_image(const LabelRun& run, Index layer, std::vector<std
   found.boundaries = boundaries_of(run, layer, pairs, input);
   auto guides = guides_of_points(found.partition, pairs, input.error.noise);
   found.partition = only_chosen(found.partition, marks_of(run.chosen, layer), guides);
-  if (run.settings.follow) {
-    found.partition =
-        follow_image(std::move(found.partition), input.image, guides, input.error.noise);
-  }
+  found.partition = moved_to_image(run, std::move(found.partition), input, guides);
   bring_to_world(input.grey, found.partition);
   seconds.surface += watch.lap();
   return found;
@@ -394,7 +417,7 @@ LabelResult with_image(const LabelRun& run, const VolumeView& scan) {
   const LabelBlock block = clipped(require_block(run, on_scan), scan);
   const CropRange range = range_of(block);
   const Volume part = crop(scan, range);
-  const Edges edges = find_edges(part, with_level(run, part, on_scan, block));
+  const Edges edges = find_edges(part, with_level(run, part, on_scan, block), !run.fits(scan));
   const RunInput input(edges.prepared);
   result.parameters = parameters_of(run, edges.prepared, range);
   result.image = edges.prepared.measured;

@@ -45,6 +45,7 @@ struct Parameters {
   SurfaceKind surface = SurfaceKind::kSolid;
   double level = 0;               ///< of the solid, native units
   bool follow = false;            ///< the solid is moved on to the image's level set
+  bool fit = false;               ///< boundaries of labels are fitted to the image
   double band_threshold = 0;      ///< TOLth
   double min_volume = 0;          ///< of islands and cavities that stay, mm^3
   std::int64_t keep_largest = 0;  ///< islands; 0: all

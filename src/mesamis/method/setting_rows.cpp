@@ -325,6 +325,10 @@ std::vector<Setting> surface_rows() {
     bound({.name = "follow", .form = "yes|no",
            .help = "Move the solid surface on to the image where that is more exact than the mesh",
            .paper = "no"}, &Settings::follow, &Parameters::follow),
+    bound({.name = "fit", .form = "yes|no",
+           .help = "Objects of labels whose voxels are about as fine as the scan's: fit their smooth "
+               "surfaces to the image, in place of the flow of the labels",
+           .paper = "no"}, &Settings::fit, &Parameters::fit),
     bound({.name = "band_threshold", .form = "X", .count = 1, .low = 0, .high = 1,
            .help = "TOLth: the band's cells have v below this"}, &Settings::band_threshold, &Parameters::band_threshold),
     bound({.name = "min_volume", .form = "X", .count = 1, .low = 0, .high = 1e12,

@@ -74,6 +74,7 @@ struct Settings {
   SurfaceKind surface = SurfaceKind::kSolid;
   std::optional<double> level;
   bool follow = true;
+  bool fit = true;
   double band_threshold = 0.1;
   std::optional<double> min_volume;
   std::int64_t keep_largest = 0;

@@ -18,8 +18,7 @@ set(ROOM_INNER_HEADERS
   deliver.h
   follow_image.h
   loop.h
-  passes.h
-  surface_moves.h)
+  passes.h)
 set(ROOM_SOURCES
   chosen_run.cpp
   deliver.cpp
@@ -38,5 +37,4 @@ set(ROOM_SOURCES
   printable.cpp
   setting_rows.cpp
   setting_table.cpp
-  surface_change.cpp
-  surface_moves.cpp)
+  surface_change.cpp)

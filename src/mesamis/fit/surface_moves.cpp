@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/method/surface_moves.h"
+#include "mesamis/fit/surface_moves.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "mesamis/fit/surface_moves.h"
+
+namespace mesamis {
+
+/// What smooths a surface: the umbrella operator L, the difference of a point from the mean of the
+/// points beside it. On curves where several boundaries meet these are those of the curve alone; a
+/// point with fewer than two has none.
+class Umbrella {
+ public:
+  /// @param neighbors, on_curve  must live as long; one entry per point.
+  Umbrella(const Neighbors& neighbors, const std::vector<char>& on_curve);
+
+  /// L x.
+  std::vector<Vec3> bent(const std::vector<Vec3>& x) const;
+  /// L^T y.
+  std::vector<Vec3> transposed(const std::vector<Vec3>& y) const;
+  /// Whether a point is smoothed at all.
+  bool smooths(std::size_t point) const { return degree_[point] > 0; }
+
+ private:
+  const Neighbors& neighbors_;
+  const std::vector<char>& on_curve_;
+  std::vector<int> degree_;
+};
+
+/// Where points shall be, and how much that counts.
+struct Springs {
+  std::vector<double> weight;  ///< >= 0 each
+  std::vector<Vec3> goal;
+  std::vector<char> held;  ///< 1: the point stays where it is
+};
+
+/// Finds the points that minimise
+///   sum of weight |x - goal|^2 + bending |L x|^2
+/// by conjugate gradients.
+/// @param x  where they are; the first guess.
+/// @return the same for any number of threads.
+///
+/// O(n) per step, at most 120 steps.
+std::vector<Vec3> relax(const Umbrella& umbrella, const Springs& springs, double bending,
+                        std::vector<Vec3> x);
+
+}  // namespace mesamis

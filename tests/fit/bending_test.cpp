@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/fit/bending.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "mesamis/base/parallel.h"
+#include "support/solids.h"
+
+namespace mesamis {
+namespace {
+
+struct Case {
+  TriMesh surface = ball_surface(5, 20);
+  Neighbors neighbors{surface};
+  std::vector<char> on_curve = std::vector<char>(surface.points.size(), 0);
+  Umbrella umbrella{neighbors, on_curve};
+  Springs springs;
+
+  Case() {
+    std::mt19937 generator(5);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (const Vec3& p : surface.points) {
+      springs.weight.push_back(0.6 + 0.5 * uniform(generator));
+      springs.goal.push_back(
+          p + 0.3 * Vec3{uniform(generator), uniform(generator), uniform(generator)});
+    }
+    springs.held.resize(surface.points.size(), 0);
+  }
+
+  double energy(const std::vector<Vec3>& x, double bending) const {
+    const std::vector<Vec3> bent = umbrella.bent(x);
+    double sum = 0;
+    for (std::size_t p = 0; p < x.size(); ++p) {
+      const Vec3 away = x[p] - springs.goal[p];
+      sum += springs.weight[p] * dot(away, away) + bending * dot(bent[p], bent[p]);
+    }
+    return sum;
+  }
+};
+
+TEST(Umbrella, IsAdjointToItsTransposed) {
+  const Case c;
+  const auto left = c.umbrella.bent(c.springs.goal);
+  const auto right = c.umbrella.transposed(c.surface.points);
+  double one = 0, other = 0;
+  for (std::size_t p = 0; p < left.size(); ++p) {
+    one += dot(left[p], c.surface.points[p]);
+    other += dot(c.springs.goal[p], right[p]);
+  }
+  EXPECT_NEAR(one, other, 1e-9 * std::abs(one));
+}
+
+TEST(Umbrella, OnACurveHoldsTheCurveAlone) {
+  const TriMesh fan{{{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 3}},
+                    {{0, 1, 3}, {0, 3, 2}, {0, 2, 4}, {0, 4, 1}}};
+  const Neighbors neighbors(fan);
+  const std::vector<char> on_curve{1, 1, 1, 0, 0};
+  const Umbrella umbrella(neighbors, on_curve);
+  EXPECT_EQ(norm(umbrella.bent(fan.points)[0]), 0) << "the curve is straight";
+}
+
+/// Every other place has more energy.
+TEST(Relax, FindsTheLeastEnergy) {
+  const Case c;
+  const std::vector<Vec3> x = relax(c.umbrella, c.springs, 3, c.surface.points);
+  const double least = c.energy(x, 3);
+  std::mt19937 generator(6);
+  std::normal_distribution<double> normal(0, 1e-2);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<Vec3> other = x;
+    for (Vec3& p : other) p += Vec3{normal(generator), normal(generator), normal(generator)};
+    EXPECT_GT(c.energy(other, 3), least);
+  }
+}
+
+TEST(Relax, LeavesWhatIsHeldAndGoesToGoalsWithoutBending) {
+  Case c;
+  c.springs.held[3] = 1;
+  const std::vector<Vec3> x = relax(c.umbrella, c.springs, 1e-9, c.surface.points);
+  EXPECT_EQ(x[3], c.surface.points[3]);
+  EXPECT_LT(norm(x[4] - c.springs.goal[4]), 1e-3);
+}
+
+TEST(Relax, HasTheSameBitsForAnyNumberOfThreads) {
+  const Case c;
+  const auto run = [&] { return relax(c.umbrella, c.springs, 3, c.surface.points); };
+  EXPECT_EQ(with_threads(1, run), with_threads(3, run));
+}
+
+}  // namespace
+}  // namespace mesamis

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/fit/fit_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "mesamis/base/parallel.h"
+#include "mesamis/surface/self_intersections.h"
+#include "support/ball_volume.h"
+#include "support/solids.h"
+#include "support/throws.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kRadius = 11;
+
+const SplineImage& ball_image() {
+  static const SplineImage image =
+      interpolating_spline(make_ball({.noise = 10, .radius = kRadius, .blur = 0.7}));
+  return image;
+}
+
+/// A ball of another radius, whose points lie up to half a millimetre beside it.
+TriMesh rough_ball(double radius) {
+  TriMesh surface = moved(ball_surface(radius, 40), 0.5 * ball_image().grid.box().extent());
+  std::mt19937 generator(4);
+  std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+  for (Vec3& p : surface.points) {
+    p += Vec3{uniform(generator), uniform(generator), uniform(generator)};
+  }
+  return surface;
+}
+
+FitPoints points_of(const TriMesh& surface, double contrast) {
+  return {std::vector<double>(surface.points.size(), contrast),
+          std::vector<char>(surface.points.size(), 0)};
+}
+
+/// Mean and deviation of the distance of the points from the ball's surface.
+std::pair<double, double> distance_of(const TriMesh& surface) {
+  const Vec3 centre = 0.5 * ball_image().grid.box().extent();
+  double sum = 0, squares = 0;
+  for (const Vec3& p : surface.points) {
+    const double d = norm(p - centre) - kRadius;
+    sum += d;
+    squares += d * d;
+  }
+  const auto n = static_cast<double>(surface.points.size());
+  return {sum / n, std::sqrt(squares / n - sum / n * sum / n)};
+}
+
+TEST(FitSurface, LiesOnTheImageAndIsSmooth) {
+  for (const double radius : {kRadius - 1, kRadius + 0.8}) {
+    const TriMesh start = rough_ball(radius);
+    const TriMesh fitted = fit_surface(start, ball_image(), points_of(start, 110), {});
+    const auto [mean, deviation] = distance_of(fitted);
+    EXPECT_NEAR(mean, 0, 0.08) << radius;
+    EXPECT_LT(deviation, 0.1) << radius << ": the noise alone moves its level set by that";
+    EXPECT_EQ(solid_flaws_of(check_surface(fitted)), "");
+    EXPECT_TRUE(find_self_intersections(fitted).empty());
+  }
+}
+
+/// Where nothing is to be seen, what is smoothed stays where it began.
+TEST(FitSurface, WithoutEdgesOnlySmooths) {
+  const TriMesh start = rough_ball(kRadius - 1);
+  const TriMesh fitted = fit_surface(start, ball_image(), points_of(start, 0), {});
+  const auto [mean, deviation] = distance_of(fitted);
+  EXPECT_NEAR(mean, -1, 0.15);
+  EXPECT_LT(deviation, 0.5 * distance_of(start).second);
+}
+
+/// The darker side may be behind the surface.
+TEST(FitSurface, TheSignOfTheContrastTurnsTheEdge) {
+  TriMesh inside_out = rough_ball(kRadius - 0.5);
+  for (Triangle& t : inside_out.triangles) std::swap(t[1], t[2]);
+  const TriMesh fitted = fit_surface(inside_out, ball_image(), points_of(inside_out, -110), {});
+  EXPECT_NEAR(distance_of(fitted).first, 0, 0.08);
+}
+
+TEST(FitSurface, LeavesPointsOnTheBox) {
+  TriMesh start = moved(ball_surface(kRadius, 30), {0, 19.5, 19.5});
+  for (Vec3& p : start.points) p.x = std::max(p.x, 0.0);
+  const TriMesh fitted = fit_surface(start, ball_image(), points_of(start, 0), {});
+  for (std::size_t p = 0; p < start.points.size(); ++p) {
+    if (start.points[p].x == 0) EXPECT_EQ(fitted.points[p], start.points[p]);
+  }
+}
+
+TEST(FitSurface, HasTheSameBitsForAnyNumberOfThreads) {
+  const TriMesh start = rough_ball(kRadius - 0.5);
+  const auto run = [&] { return fit_surface(start, ball_image(), points_of(start, 110), {}); };
+  EXPECT_EQ(with_threads(1, run).points, with_threads(3, run).points);
+}
+
+TEST(FitSurface, NeedsAnEntryPerPoint) {
+  const TriMesh start = rough_ball(kRadius);
+  EXPECT_REFUSED(fit_surface(start, ball_image(), {}, {}),
+                 "fit: expected an entry for each point of the surface");
+}
+
+}  // namespace
+}  // namespace mesamis
