@@ -35,7 +35,7 @@ const std::map<std::string, std::set<std::string>> kSees{
       "decimate", "labels", "fit"}},
     {"slabs",
      {"base", "image", "restore", "object", "mesh", "fem", "segment", "adapt", "remesh", "surface",
-      "decimate", "method"}},
+      "decimate", "fit", "method"}},
     {"parallel", {"base", "slabs"}},
     {"files", {"base"}},
     {"scan_files", {"base", "image", "files"}},

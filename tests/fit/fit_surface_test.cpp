@@ -24,7 +24,7 @@ const SplineImage& ball_image() {
 
 /// A ball of another radius, whose points lie up to half a millimetre beside it.
 TriMesh rough_ball(double radius) {
-  TriMesh surface = moved(ball_surface(radius, 40), 0.5 * ball_image().grid.box().extent());
+  TriMesh surface = moved(ball_surface(radius, 90), 0.5 * ball_image().grid.box().extent());
   std::mt19937 generator(4);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
   for (Vec3& p : surface.points) {
@@ -85,7 +85,8 @@ TEST(FitSurface, LeavesPointsOnTheBox) {
   for (Vec3& p : start.points) p.x = std::max(p.x, 0.0);
   const TriMesh fitted = fit_surface(start, ball_image(), points_of(start, 0), {});
   for (std::size_t p = 0; p < start.points.size(); ++p) {
-    if (start.points[p].x == 0) EXPECT_EQ(fitted.points[p], start.points[p]);
+    if (start.points[p].x > 0) continue;
+    EXPECT_EQ(fitted.points[p], start.points[p]);
   }
 }
 

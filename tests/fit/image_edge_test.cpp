@@ -8,20 +8,20 @@
 namespace mesamis {
 namespace {
 
-constexpr double kRadius = 11;
+constexpr double kBall = 11;
 
 /// Of a ball without noise: 120 around it, 230 within.
-const SplineImage& ball_image() {
-  static const SplineImage image = interpolating_spline(make_ball({.noise = 0, .radius = kRadius}));
+const SplineImage& clean_ball() {
+  static const SplineImage image = interpolating_spline(make_ball({.noise = 0, .radius = kBall}));
   return image;
 }
 
 /// At so many millimetres outside of the ball, along an oblique direction.
 ImageEdge seen_from(double outside, double contrast, double reach = 1.6) {
-  const FollowSpace space(ball_image(), 1);
+  const FollowSpace space(clean_ball(), 1);
   const Vec3 normal = unit_or_zero({0.3, -0.5, 0.8});
-  const Vec3 centre = 0.5 * ball_image().grid.box().extent();
-  return find_image_edge(space, centre + (kRadius + outside) * normal, normal, contrast, reach);
+  const Vec3 centre = 0.5 * clean_ball().grid.box().extent();
+  return find_image_edge(space, centre + (kBall + outside) * normal, normal, contrast, reach);
 }
 
 TEST(ImageEdge, LiesWhereTheObjectEnds) {
