@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "mesamis/method/printable.h"
 #include "mesamis/fit/surface_moves.h"
+#include "mesamis/method/printable.h"
 #include "mesamis/slabs/surface_piece.h"
 #include "mesamis/slabs/tasks.h"
 #include "mesamis/surface/select_parts.h"
