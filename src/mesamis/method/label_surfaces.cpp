@@ -397,6 +397,7 @@ void finish_layers(const LabelRun& run, std::vector<LayerBoundaries> layers, con
 Result mesh_of(const LabelRun& run, const Volume& part, std::vector<LayerBoundaries>& layers,
                const Parameters& p) {
   std::vector<Volume> images;
+  images.reserve(layers.size());
   for (LayerBoundaries& layer : layers) images.push_back(std::move(*layer.image));
   Settings settings = run.settings;
   settings.crop = {};
