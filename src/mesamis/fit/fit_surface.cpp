@@ -12,49 +12,82 @@
 namespace mesamis {
 namespace {
 
-/// Pulls each point to the edge that it sees, or else to where it began.
-void aim(const FollowSpace& space, const FitPoints& points, const FitOptions& options,
-         const std::vector<Vec3>& start, const TriMesh& now, const Neighbors& neighbors,
-         Springs& springs) {
-  const std::vector<Vec3> normals = smoothed_normals(now, neighbors);
-  parallel_for(start.size(), [&](std::size_t p) {
-    ImageEdge edge;
-    const bool looks = springs.held[p] == 0 && points.contrast[p] != 0 && points.on_curve[p] == 0;
-    if (looks) {
-      edge = find_image_edge(space, now.points[p], normals[p], points.contrast[p], options.reach);
+/// The rounds of fit_surface().
+class Fit {
+ public:
+  Fit(const TriMesh& start, const SplineImage& image, const FitPoints& points,
+      const FitOptions& options)
+      : space(image, 1),
+        start_(start),
+        points_(points),
+        options_(options),
+        neighbors_(start),
+        umbrella_(neighbors_, points.on_curve),
+        now_(start),
+        springs_{std::vector<double>(start.points.size()), start.points,
+                 std::vector<char>(start.points.size())} {
+    parallel_for(start.points.size(),
+                 [&](std::size_t p) { springs_.held[p] = space.on_box(start.points[p]) ? 1 : 0; });
+  }
+
+  void round() {
+    aim();
+    now_.points = relax(umbrella_, springs_, options_.bending, std::move(now_.points));
+  }
+
+  /// How far the points have moved.
+  std::vector<Vec3> shifts() const {
+    std::vector<Vec3> ways(now_.points.size());
+    for (std::size_t p = 0; p < ways.size(); ++p) {
+      ways[p] = space.within_box(start_.points[p], now_.points[p] - start_.points[p]);
     }
-    const double stay = (1 - edge.weight) * options.start;
-    const Vec3 seen = now.points[p] + (edge.distance * space.voxel()) * normals[p];
-    springs.weight[p] = edge.weight + stay;
-    springs.goal[p] = (1 / springs.weight[p]) * (edge.weight * seen + stay * start[p]);
-  });
-}
+    return ways;
+  }
+
+  const FollowSpace space;
+
+ private:
+  bool looks(std::size_t p) const {
+    return springs_.held[p] == 0 && points_.contrast[p] != 0 && points_.on_curve[p] == 0;
+  }
+
+  /// Pulls each point to the edge that it sees, or else to where it began.
+  void aim() {
+    const std::vector<Vec3> normals = smoothed_normals(now_, neighbors_);
+    parallel_for(now_.points.size(), [&](std::size_t p) {
+      ImageEdge edge;
+      if (looks(p)) {
+        edge =
+            find_image_edge(space, now_.points[p], normals[p], points_.contrast[p], options_.reach);
+      }
+      const double stay = (1 - edge.weight) * options_.start;
+      const Vec3 seen = now_.points[p] + (edge.distance * space.voxel()) * normals[p];
+      springs_.weight[p] = edge.weight + stay;
+      springs_.goal[p] = (1 / springs_.weight[p]) * (edge.weight * seen + stay * start_.points[p]);
+    });
+  }
+
+  const TriMesh& start_;
+  const FitPoints& points_;
+  const FitOptions& options_;
+  Neighbors neighbors_;
+  Umbrella umbrella_;
+  TriMesh now_;
+  Springs springs_;
+};
 
 }  // namespace
 
-TriMesh fit_surface(TriMesh surface, const SplineImage& image, const FitPoints& points,
+TriMesh fit_surface(const TriMesh& surface, const SplineImage& image, const FitPoints& points,
                     const FitOptions& options) {
   require_sound(surface);
   const std::size_t n = surface.points.size();
   if (points.contrast.size() != n || points.on_curve.size() != n) {
     throw InputError("fit: expected an entry for each point of the surface");
   }
-  const FollowSpace space(image, 1);
-  const Neighbors neighbors(surface);
-  const Umbrella umbrella(neighbors, points.on_curve);
-  Springs springs{std::vector<double>(n), std::vector<Vec3>(n), std::vector<char>(n)};
-  parallel_for(n,
-               [&](std::size_t p) { springs.held[p] = space.on_box(surface.points[p]) ? 1 : 0; });
-  TriMesh now = surface;
-  for (int round = 0; round < options.rounds; ++round) {
-    aim(space, points, options, surface.points, now, neighbors, springs);
-    now.points = relax(umbrella, springs, options.bending, std::move(now.points));
-  }
-  std::vector<Vec3> shifts(n);
-  for (std::size_t p = 0; p < n; ++p) {
-    shifts[p] = space.within_box(surface.points[p], now.points[p] - surface.points[p]);
-  }
-  return moved_without_folds(space, surface, std::move(shifts));
+  Fit fit(surface, image, points, options);
+  for (int round = 0; round < options.rounds; ++round) fit.round();
+  return moved_without_folds(fit.space, surface, fit.shifts());
 }
 
 }  // namespace mesamis

@@ -40,7 +40,7 @@ struct FitPoints {
 /// @throws InputError  as require_sound(), or if the points do not fit the surface.
 ///
 /// O(n log n) for n points. The same bits for any number of threads.
-TriMesh fit_surface(TriMesh surface, const SplineImage& image, const FitPoints& points,
+TriMesh fit_surface(const TriMesh& surface, const SplineImage& image, const FitPoints& points,
                     const FitOptions& options);
 
 }  // namespace mesamis

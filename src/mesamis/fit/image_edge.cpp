@@ -27,7 +27,9 @@ class Profile {
     }
   }
 
-  double at(int i) const { return values_[static_cast<std::size_t>(i + middle_)]; }
+  double at(int i) const {
+    return values_[static_cast<std::size_t>(i) + static_cast<std::size_t>(middle_)];
+  }
   /// Outwards, per voxel.
   double fall(int i) const { return (at(i - 1) - at(i + 1)) / (2 * kStep); }
 
