@@ -65,14 +65,16 @@ detail::DicomFile parsed(const std::filesystem::path& path) {
 TEST(Encapsulated, BelongsToThePatientThatIsGivenAndElseToNone) {
   const TempFolder folder;
   write_surface(folder / "a.dcm", cube({}, 1), {.name = "hip", .subject = patient()});
-  const auto known = parsed(folder / "a.dcm").elements;
+  const detail::DicomFile first = parsed(folder / "a.dcm");
+  const detail::DicomSet& known = first.elements;
   EXPECT_EQ(detail::text_of(known, 0x00100010), "M\xc3\xbcller^Eva");
   EXPECT_EQ(detail::text_of(known, 0x0020000d), "1.2.5");
   EXPECT_EQ(detail::text_of(known, 0x00200052), "1.2.9");
   EXPECT_EQ(detail::text_of(known.at(0x00420013).items.at(0), 0x00081155), "1.2.6");
   EXPECT_EQ(detail::text_of(known, 0x00420010), "hip");
   write_surface(folder / "b.dcm", cube({}, 1), {});
-  const auto none = parsed(folder / "b.dcm").elements;
+  const detail::DicomFile second = parsed(folder / "b.dcm");
+  const detail::DicomSet& none = second.elements;
   EXPECT_EQ(detail::text_of(none, 0x00100010), "");
   EXPECT_THAT(detail::text_of(none, 0x0020000d), testing::StartsWith("2.25."));
   EXPECT_NE(detail::text_of(none, 0x0020000d), detail::text_of(none, 0x0020000e));
