@@ -113,7 +113,7 @@ void check_texts(Texts texts) {
   require_places(texts.places, texts.labels, settings);
   texts.places.mask.clear();
   if (texts.places.remove != "body") texts.places.remove.clear();
-  read_request(texts.places, texts.labels, settings, texts.frame);
+  read_request({texts.places, texts.labels, texts.frame}, settings);
 }
 
 void run_texts(std::string_view bytes) {
@@ -165,8 +165,9 @@ void run_body(std::string_view bytes) {
   add_body_options(app, body);
   try {
     app.parse(static_cast<int>(pointers.size()), pointers.data());
+    body.files = {"a.inp"};
+    const BodyWishes wishes = element_request(body, Frame::kLps, 0).wishes;
     body.files.clear();  // no file is asked for
-    const BodyWishes wishes = body_wishes(body, Frame::kLps);
     for (const FaceQuery& query : wishes.sets) require_query(query);
     if (wishes.material) require_material(*wishes.material);
     require_body(body);
