@@ -260,6 +260,7 @@ def segment(
     surface: Literal["solid", "band"] | None = ...,
     level: Literal["auto"] | float | None = ...,
     follow: bool | None = ...,
+    fit: bool | None = ...,
     band_threshold: float | None = ...,
     min_volume: Literal["auto"] | float | None = ...,
     keep_largest: int | None = ...,
