@@ -17,7 +17,7 @@ class Fit {
  public:
   Fit(const TriMesh& start, const SplineImage& image, const FitPoints& points,
       const FitOptions& options)
-      : space(image, 1),
+      : space_(image, 1),
         start_(start),
         points_(points),
         options_(options),
@@ -27,7 +27,7 @@ class Fit {
         springs_{std::vector<double>(start.points.size()), start.points,
                  std::vector<char>(start.points.size())} {
     parallel_for(start.points.size(),
-                 [&](std::size_t p) { springs_.held[p] = space.on_box(start.points[p]) ? 1 : 0; });
+                 [&](std::size_t p) { springs_.held[p] = space_.on_box(start.points[p]) ? 1 : 0; });
   }
 
   void round() {
@@ -35,16 +35,14 @@ class Fit {
     now_.points = relax(umbrella_, springs_, options_.bending, std::move(now_.points));
   }
 
-  /// How far the points have moved.
-  std::vector<Vec3> shifts() const {
-    std::vector<Vec3> ways(now_.points.size());
-    for (std::size_t p = 0; p < ways.size(); ++p) {
-      ways[p] = space.within_box(start_.points[p], now_.points[p] - start_.points[p]);
+  /// The start with its points where they are now, as far as that is possible.
+  TriMesh surface() const {
+    std::vector<Vec3> shifts(now_.points.size());
+    for (std::size_t p = 0; p < shifts.size(); ++p) {
+      shifts[p] = space_.within_box(start_.points[p], now_.points[p] - start_.points[p]);
     }
-    return ways;
+    return moved_without_folds(space_, start_, std::move(shifts));
   }
-
-  const FollowSpace space;
 
  private:
   bool looks(std::size_t p) const {
@@ -57,16 +55,17 @@ class Fit {
     parallel_for(now_.points.size(), [&](std::size_t p) {
       ImageEdge edge;
       if (looks(p)) {
-        edge =
-            find_image_edge(space, now_.points[p], normals[p], points_.contrast[p], options_.reach);
+        edge = find_image_edge(space_, now_.points[p], normals[p], points_.contrast[p],
+                               options_.reach);
       }
       const double stay = (1 - edge.weight) * options_.start;
-      const Vec3 seen = now_.points[p] + (edge.distance * space.voxel()) * normals[p];
+      const Vec3 seen = now_.points[p] + (edge.distance * space_.voxel()) * normals[p];
       springs_.weight[p] = edge.weight + stay;
       springs_.goal[p] = (1 / springs_.weight[p]) * (edge.weight * seen + stay * start_.points[p]);
     });
   }
 
+  FollowSpace space_;
   const TriMesh& start_;
   const FitPoints& points_;
   const FitOptions& options_;
@@ -87,7 +86,7 @@ TriMesh fit_surface(const TriMesh& surface, const SplineImage& image, const FitP
   }
   Fit fit(surface, image, points, options);
   for (int round = 0; round < options.rounds; ++round) fit.round();
-  return moved_without_folds(fit.space, surface, fit.shifts());
+  return fit.surface();
 }
 
 }  // namespace mesamis

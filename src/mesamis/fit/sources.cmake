@@ -3,6 +3,7 @@ set(ROOM_HEADERS
   fit_surface.h)
 # For the rooms above alone: not installed.
 set(ROOM_INNER_HEADERS
+  bending.h
   surface_moves.h)
 set(ROOM_SOURCES
   bending.cpp

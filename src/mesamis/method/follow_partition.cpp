@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/fit/bending.h"
 #include "mesamis/fit/fit_surface.h"
 #include "mesamis/fit/surface_moves.h"
 
@@ -68,57 +69,24 @@ void carry_others(const Neighbors& neighbors, const std::vector<BoundaryGuide>& 
   }
 }
 
-/// What each point is smoothed with: the points beside it, on a curve where boundaries meet those
-/// of the curve alone.
-class Fairing {
- public:
-  Fairing(const FollowSpace& space, const TriMesh& surface, const Neighbors& neighbors,
-          std::vector<char> on_curve)
-      : surface_(surface),
-        neighbors_(neighbors),
-        free_(surface.points.size()),
-        on_curve_(std::move(on_curve)) {
-    parallel_for(free_.size(),
-                 [&](std::size_t p) { free_[p] = space.on_box(surface.points[p]) ? 0 : 1; });
-  }
-
-  /// How far Taubin's filter moves the points, at most so far.
-  std::vector<Vec3> shifts(double most) const {
-    std::vector<Vec3> points = surface_.points;
-    for (int sweep = 0; sweep < kFairingSweeps; ++sweep) {
-      points = stepped(points, kShrink);
-      points = stepped(points, kGrow);
-    }
+/// How far Taubin's filter moves the points, at most so far; those on the box stay.
+std::vector<Vec3> faired(const FollowSpace& space, const std::vector<Vec3>& start,
+                         const Umbrella& umbrella, double most) {
+  std::vector<Vec3> points = start;
+  for (int step = 0; step < 2 * kFairingSweeps; ++step) {
+    const double factor = step % 2 == 0 ? kShrink : kGrow;
+    const std::vector<Vec3> bent = umbrella.bent(points);
     parallel_for(points.size(), [&](std::size_t p) {
-      const Vec3 shift = points[p] - surface_.points[p];
-      const double length = norm(shift);
-      points[p] = (length > most ? most / length : 1) * shift;
+      if (!space.on_box(start[p])) points[p] = points[p] - factor * bent[p];
     });
-    return points;
   }
-
- private:
-  std::vector<Vec3> stepped(const std::vector<Vec3>& points, double factor) const {
-    std::vector<Vec3> next(points.size());
-    parallel_for(points.size(), [&](std::size_t p) {
-      Vec3 sum;
-      int count = 0;
-      for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
-        const Index other = neighbors_.points[n];
-        if (on_curve_[p] > on_curve_[static_cast<std::size_t>(other)]) continue;
-        sum += points[static_cast<std::size_t>(other)];
-        ++count;
-      }
-      next[p] = points[p];
-      if (free_[p] != 0 && count > 1) next[p] += factor * ((1.0 / count) * sum - points[p]);
-    });
-    return next;
-  }
-
-  const TriMesh& surface_;
-  const Neighbors& neighbors_;
-  std::vector<char> free_, on_curve_;
-};
+  parallel_for(points.size(), [&](std::size_t p) {
+    const Vec3 shift = points[p] - start[p];
+    const double length = norm(shift);
+    points[p] = (length > most ? most / length : 1) * shift;
+  });
+  return points;
+}
 
 }  // namespace
 
@@ -176,11 +144,12 @@ PartitionSurface only_chosen(const PartitionSurface& all, const std::vector<char
 PartitionSurface follow_image(PartitionSurface partition, const SplineImage& image,
                               const std::vector<BoundaryGuide>& guides, double noise) {
   const FollowSpace space(image, 1);
-  std::vector<char> on_curve = curve_points(partition);
+  const std::vector<char> on_curve = curve_points(partition);
   TriMesh surface{std::move(partition.points), std::move(partition.triangles)};
   const Neighbors neighbors(surface);
-  const Fairing fairing(space, surface, neighbors, std::move(on_curve));
-  surface = moved_without_folds(space, surface, fairing.shifts(kMostFairing * space.voxel()));
+  const Umbrella umbrella(neighbors, on_curve);
+  surface = moved_without_folds(
+      space, surface, faired(space, surface.points, umbrella, kMostFairing * space.voxel()));
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<Vec3> normals = smoothed_normals(surface, neighbors);
     const Offsets offsets = measure(space, surface, normals, guides, noise);
