@@ -18,13 +18,6 @@ void require_memory_for(const VoxelGrid& grid, const CropRange& crop, Settings s
                  sizeof(float) * static_cast<double>(grid.voxel_count()));
 }
 
-/// The files of a DICOM series.
-DicomSubject subject_of(const VolumeFile& file, const ReadLimits& limits) {
-  std::vector<std::filesystem::path> files;
-  for (const ReadFile& read : file.files) files.push_back(read.path);
-  return read_dicom_subject(files, limits);
-}
-
 }  // namespace
 
 std::function<VoxelGrid()> grid_of_scan(const ScanArguments& arguments) {
@@ -47,7 +40,7 @@ ReadScan read_chosen_scan(const ScanArguments& arguments, const Settings& settin
     if (memory_gb) require_memory_for(grid, scan.object.crop, settings, *memory_gb);
   };
   VolumeFile file = read_scan(arguments.input, read);
-  if (arguments.patient) scan.subject = subject_of(file, arguments.read.limits);
+  if (arguments.patient) scan.subject = read_dicom_subject(file.files, arguments.read.limits);
   if (arguments.report) {
     scan.facts = facts_of({arguments.input, file.format, file.warnings, file.files}, file.volume);
   }

@@ -153,12 +153,10 @@ DicomSubject subject_of(const std::shared_ptr<Scan>& scan, const std::string& pa
   if (!std::filesystem::path(path).extension().string().ends_with(".dcm")) {
     throw InputError("patient: expected a .dcm, found " + path);
   }
-  std::vector<std::filesystem::path> files;
-  if (scan) {
-    for (const ReadFile& file : scan->files) files.push_back(file.path);
+  if (!scan || scan->files.empty()) {
+    throw InputError("patient: expected a scan read from DICOM, found none");
   }
-  if (files.empty()) throw InputError("patient: expected a scan read from DICOM, found none");
-  return read_dicom_subject(files);
+  return read_dicom_subject(scan->files);
 }
 
 std::shared_ptr<Scan> scan_of(Volume volume) {
@@ -168,17 +166,7 @@ std::shared_ptr<Scan> scan_of(Volume volume) {
   return scan;
 }
 
-InputFacts Scan::facts() const {
-  Volume header;  // facts_of() wants a volume, whose range alone needs samples
-  static_cast<VoxelGrid&>(header) = view;
-  InputFacts facts = facts_of({path, format, warnings, files}, header);
-  const auto [low, high] = std::minmax_element(view.samples.begin(), view.samples.end());
-  if (!view.samples.empty()) {
-    facts.range = {*low, *high};
-  }
-  if (path.empty()) facts.sha256.clear();
-  return facts;
-}
+InputFacts Scan::facts() const { return facts_of({path, format, warnings, files}, view); }
 
 void bind_volume(py::module_& module) {
   using namespace py::literals;

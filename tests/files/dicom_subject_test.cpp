@@ -34,8 +34,8 @@ TEST(DicomSubject, IsThatOfTheFirstFileAndHasAllSources) {
   write_bytes(folder / "a.dcm", file_of("1.2.6"));
   write_bytes(folder / "b.dcm", file_of("1.2.7"));
   write_bytes(folder / "notes.txt", "no DICOM");
-  const std::vector<std::filesystem::path> files{folder / "notes.txt", folder / "a.dcm",
-                                                 folder / "b.dcm"};
+  const std::vector<ReadFile> files{
+      {folder / "notes.txt", {}}, {folder / "a.dcm", {}}, {folder / "b.dcm", {}}};
   const DicomSubject subject = read_dicom_subject(files);
   EXPECT_EQ(subject.patient_name, "M\xc3\xbcller^Eva");
   EXPECT_EQ(subject.patient_id, "42");
@@ -52,7 +52,7 @@ TEST(DicomSubject, IsThatOfTheFirstFileAndHasAllSources) {
 TEST(DicomSubject, OfOtherFilesIsRefused) {
   const TempFolder folder;
   write_bytes(folder / "notes.txt", "no DICOM");
-  const std::vector<std::filesystem::path> files{folder / "notes.txt"};
+  const std::vector<ReadFile> files{{folder / "notes.txt", {}}};
   EXPECT_REFUSED(read_dicom_subject(files), HasSubstr("expected a file of a DICOM scan"));
   EXPECT_REFUSED(read_dicom_subject({}), HasSubstr("found none"));
   write_bytes(folder / "notes.txt", SliceBytes{}.bytes());

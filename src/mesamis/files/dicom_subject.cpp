@@ -57,11 +57,11 @@ void take_subject(const DicomFile& file, DicomSubject& subject) {
 
 }  // namespace
 
-DicomSubject read_dicom_subject(std::span<const fs::path> files, const ReadLimits& limits) {
+DicomSubject read_dicom_subject(std::span<const ReadFile> files, const ReadLimits& limits) {
   DicomSubject subject;
   if (files.empty()) throw InputError("patient: expected a DICOM scan, found none");
-  MemoryBudget budget(files.front(), limits);
-  for (const fs::path& path : files) {
+  MemoryBudget budget(files.front().path, limits);
+  for (const auto& [path, state] : files) {
     if (!is_dicom(path)) continue;
     const ScopedFile scope(budget, path);
     const DicomFile file = read_dicom_file(path, budget);
@@ -70,7 +70,7 @@ DicomSubject read_dicom_subject(std::span<const fs::path> files, const ReadLimit
                                  text_of(file.elements, dicom::kSopInstance));
   }
   if (subject.study_uid.empty()) {
-    refuse(files.front(), "expected a file of a DICOM scan, found another one");
+    refuse(files.front().path, "expected a file of a DICOM scan, found another one");
   }
   return subject;
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mesamis/files/read_limits.h"
+#include "mesamis/files/read_record.h"
 
 namespace mesamis {
 
@@ -28,7 +28,6 @@ struct DicomSubject {
 /// @throws InputError  if no file is DICOM or the first one states no study, naming it.
 ///
 /// O(bytes). Memory: one file at a time.
-DicomSubject read_dicom_subject(std::span<const std::filesystem::path> files,
-                                const ReadLimits& limits = {});
+DicomSubject read_dicom_subject(std::span<const ReadFile> files, const ReadLimits& limits = {});
 
 }  // namespace mesamis

@@ -151,10 +151,10 @@ ordered_json direction_json(const Mat3& direction) {
 
 }  // namespace
 
-InputFacts facts_of(const ScanSource& source, const Volume& volume) {
+InputFacts facts_of(const ScanSource& source, const VolumeView& volume) {
   InputFacts facts{source.path,
                    source.format,
-                   sha256(source.files),
+                   source.files.empty() ? std::string() : sha256(source.files),
                    volume.modality,
                    volume.size,
                    volume.spacing,

@@ -42,9 +42,10 @@ struct ScanSource {
 };
 
 /// Collects the facts of a scan that a report gives.
-/// @param volume  as it was read; native units.
+/// @param volume  as it was read; native units. Without samples there is no range, and without
+///                files no sha256.
 /// @throws InputError  if a file cannot be read again for its sha256, or has changed meanwhile.
-InputFacts facts_of(const ScanSource& source, const Volume& volume);
+InputFacts facts_of(const ScanSource& source, const VolumeView& volume);
 
 /// The entry "input" of a report: "path", "format", "sha256", ... of its scan; what is not known
 /// of path and sha256 is null.
