@@ -13,13 +13,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A scan of one slab has the bytes of a run without slabs.
-TEST(SegmentInSlabs, OneSlabIsTheWhole) {
+class SegmentInSlabs : public testing::Test {
+ protected:
+  SegmentInSlabs() { request.slabs.scratch = folder / "scratch"; }
+
   const TempFolder folder;
   const Volume scan = make_ball(small_ball());
-  const VolumeSlices source(scan);
+  const VolumeSlices source{scan};
   SlabRequest request{source, small_settings()};
-  request.slabs.scratch = folder / "scratch";
+};
+
+/// A scan of one slab has the bytes of a run without slabs.
+TEST_F(SegmentInSlabs, OneSlabIsTheWhole) {
   request.piece_meshes = {folder / "pieces.pvtu"};
   const auto found = segment_in_slabs(request, folder.path(), alone());
   ASSERT_TRUE(found);
@@ -40,12 +45,7 @@ TEST(SegmentInSlabs, OneSlabIsTheWhole) {
 }
 
 /// The scan is not copied where nothing needs its grey values.
-TEST(SegmentInSlabs, KeepsNoImageWithoutAMesh) {
-  const TempFolder folder;
-  const Volume scan = make_ball(small_ball());
-  const VolumeSlices source(scan);
-  SlabRequest request{source, small_settings()};
-  request.slabs.scratch = folder / "scratch";
+TEST_F(SegmentInSlabs, KeepsNoImageWithoutAMesh) {
   request.slabs.mesh = false;
   const auto found = segment_in_slabs(request, folder.path(), alone());
   ASSERT_TRUE(found);

@@ -26,6 +26,15 @@ class Rank : public Team {
   int size_, rank_;
 };
 
+class StagesAlone : public testing::Test {
+ protected:
+  const TempFolder folder;
+  const Scratch scratch{folder.path()};
+  const Progress progress;
+  Alone team;
+  Stages stages{scratch, team, progress, 7};
+};
+
 TEST(Stages, EachTaskIsDoneByOneProcessOnce) {
   const TempFolder folder;
   const Scratch scratch(folder.path());
@@ -49,12 +58,7 @@ TEST(Stages, EachTaskIsDoneByOneProcessOnce) {
 }
 
 /// Each slab counts its own tasks and those of the border above it.
-TEST(Stages, SumTheWorkOfSlabs) {
-  const TempFolder folder;
-  const Scratch scratch(folder.path());
-  const Progress progress;
-  Alone team;
-  Stages stages(scratch, team, progress, 3);
+TEST_F(StagesAlone, SumTheWorkOfSlabs) {
   stages.run("look", 3, [](Index) { return SlabWork{.rows = 10000}; });
   stages.for_slabs("mesh", 3, [](Index s) { return SlabWork{.rows = 10 * (s + 1)}; });
   stages.for_borders("seam", 3, [](Index s) { return SlabWork{.rows = s + 1}; });
@@ -94,12 +98,7 @@ TEST(Stages, SomeTasksAreDoneAtATime) {
   }
 }
 
-TEST(Stages, ATaskThatFailsIsDoneAgain) {
-  const TempFolder folder;
-  const Scratch scratch(folder.path());
-  const Progress progress;
-  Alone team;
-  Stages stages(scratch, team, progress, 7);
+TEST_F(StagesAlone, ATaskThatFailsIsDoneAgain) {
   int calls = 0;
   const auto fails_once = [&](Index) {
     if (++calls == 2) throw std::runtime_error("no more");

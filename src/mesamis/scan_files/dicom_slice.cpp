@@ -222,13 +222,19 @@ bool lies_nowhere(const DicomFile& file) {
   return true;
 }
 
-DicomSlice frame_along_lps(const DicomFile& file, const DicomPixels& pixels, std::size_t frame,
-                           const std::optional<Vec3>& spacing) {
+/// A frame without a place.
+DicomSlice unplaced_frame(const DicomFile& file, const DicomPixels& pixels, std::size_t frame) {
   DicomSlice slice;
   slice.file = file.path;
   slice.frame = static_cast<int>(frame);
   slice.columns = pixels.columns;
   slice.rows = pixels.rows;
+  return slice;
+}
+
+DicomSlice frame_along_lps(const DicomFile& file, const DicomPixels& pixels, std::size_t frame,
+                           const std::optional<Vec3>& spacing) {
+  DicomSlice slice = unplaced_frame(file, pixels, frame);
   slice.along_row = {1, 0, 0};
   slice.along_column = {0, 1, 0};
   set_pixel_size(slice, FrameTags(file, frame), spacing);
@@ -278,11 +284,7 @@ std::size_t content_of(const DicomFile& file) {
 
 DicomSlice place_frame(const DicomFile& file, const DicomPixels& pixels, std::size_t frame,
                        const std::optional<Vec3>& spacing) {
-  DicomSlice slice;
-  slice.file = file.path;
-  slice.frame = static_cast<int>(frame);
-  slice.columns = pixels.columns;
-  slice.rows = pixels.rows;
+  DicomSlice slice = unplaced_frame(file, pixels, frame);
   const FrameTags tags(file, frame);
   place(slice, file, tags, spacing);
   set_pixel_size(slice, tags, spacing);

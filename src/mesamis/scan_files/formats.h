@@ -61,7 +61,7 @@ ScanFile open_vgi(const std::filesystem::path& file, const Opening& opening);
 /// Opens one of the formats above, as the file's name says; none for any other name.
 std::optional<ScanFile> open_array(const std::filesystem::path& file, const Opening& opening);
 
-/// Whether the file's name is that of one of them: .nii .nii.gz .nrrd .nhdr .mha .mhd .inv3.
+/// Whether open_array() opens a file of this name.
 bool is_array_file(const std::filesystem::path& file);
 
 /// A file of bare samples, i fastest, then j, k; 1 mm with a warning, axes LPS, origin 0. The size
