@@ -59,17 +59,9 @@ LabelChoice read_label_choice(const LabelArguments& a, const std::function<Voxel
     choice.exact_by = std::move(file.probabilities);
   }
   if (!a.names.empty()) choice.map = with_names(std::move(choice.map), read_label_table(a.names));
-  for (const std::string& wanted : a.chosen) {
-    const Segment segment = find_segment(choice.map.segments, wanted);
-    const auto end = choice.chosen.end();
-    if (std::find(choice.chosen.begin(), end, segment) == end) choice.chosen.push_back(segment);
-  }
+  choice.chosen = find_segments(choice.map.segments, a.chosen);
   choice.margin = a.margin;
   return choice;
-}
-
-const std::vector<Segment>& wanted_of(const LabelChoice& choice) {
-  return choice.chosen.empty() ? choice.map.segments : choice.chosen;
 }
 
 }  // namespace mesamis

@@ -43,12 +43,9 @@ LabelMap read_marks(const std::filesystem::path& path, const LabelOptions& optio
 /// options name.
 /// @param scan      see LabelOptions::scan.
 /// @param warnings  the reader's are added.
-/// @throws InputError  as the readers and find_segment().
+/// @throws InputError  as the readers and find_segments().
 LabelChoice read_label_choice(const LabelArguments& arguments,
                               const std::function<VoxelGrid()>& scan,
                               std::vector<std::string>& warnings);
-
-/// The objects of a choice.
-const std::vector<Segment>& wanted_of(const LabelChoice& choice);
 
 }  // namespace mesamis

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis segment: a scan in, a surface, an adapted mesh and a report out.
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,10 +13,9 @@
 #include "arguments.h"
 #include "chosen_scan.h"
 #include "commands.h"
-#include "costs.h"
+#include "deliver.h"
 #include "log.h"
 #include "mesamis/run/segment.h"
-#include "mesamis/run/write.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "outputs.h"
 #include "page_options.h"
@@ -27,7 +27,6 @@
 #include "segment_checks.h"
 #include "segment_run.h"
 #include "settings_options.h"
-#include "summary.h"
 
 namespace mesamis {
 namespace {
@@ -68,7 +67,7 @@ Request read_request(const SegmentOptions& options, const Settings& settings,
     require_several(options);
     request.labels =
         read_label_choice(options.scan.labels, grid_of_scan(options.scan), out.facts.warnings);
-    require_object_files(options, wanted_of(*request.labels));
+    require_object_files(options, request.labels->wanted());
   }
   if (!options.scan.input.empty()) {
     std::optional<double> limit;
@@ -88,20 +87,6 @@ Request read_request(const SegmentOptions& options, const Settings& settings,
   request.elements = element_request(options.body, options.scan.frame, common.limits.memory_gb);
   request.enough = time_limit(options);
   return request;
-}
-
-/// Of what is written, what the options do not say.
-Outputs outputs_of(const SegmentOptions& options) {
-  Outputs out = options.out;
-  out.frame = options.scan.frame;
-  out.bodies = options.body.files;
-  out.gmsh = options.body.gmsh == "4.1" ? GmshVersion::k41 : GmshVersion::k22;
-  out.facts.mask = options.scan.places.mask.string();
-  out.facts.complete = [also = options.report_also](nlohmann::ordered_json& report) {
-    add_costs(report);
-    report.update(also);
-  };
-  return out;
 }
 
 /// Logs what is said of a run as it is said.
@@ -130,36 +115,25 @@ void warn_of_missing_meshes(const SegmentOptions& options, const Outcome& outcom
   log_warning("--time-limit: no mesh was made in this time, none is written");
 }
 
-int deliver(const SegmentOptions& options, const Outcome& outcome, Outputs out) {
-  warn_of_missing_meshes(options, outcome);
-  warn_of_elements(options.body, outcome);
-  out.shown_scan = [&] {
-    const std::string sum = out.facts.input ? out.facts.input->sha256 : std::string();
-    return read_shown_scan({options.scan.input, options.scan.read, sum});
-  };
-  OutputSet set;
-  write(outcome, out, set);
-  const Paths files = files_of(set);
-  commit(set);
-  RunFigures figures = figures_of(outcome);
-  figures.files = files;
-  show_summary(figures);
-  const Verdict& verdict = outcome.verdict;
-  if (verdict.kind != VerdictKind::kKept) log_error(verdict.message);
-  if (outcome.elements.unmet.empty()) return exit_status(verdict.kind);
-  log_error("--body: " + outcome.elements.unmet);
-  return verdict.kind == VerdictKind::kKept ? kExitNotConverged : exit_status(verdict.kind);
+/// Of the page: the scan as it is in its file.
+std::function<std::optional<Volume>()> shown_scan(const SegmentOptions& options,
+                                                  const Outputs& out) {
+  const std::string sum = out.facts.input ? out.facts.input->sha256 : std::string();
+  return [&options, sum] { return read_shown_scan({options.scan.input, options.scan.read, sum}); };
 }
 
 int run_whole(const SegmentOptions& options, const Settings& settings,
               const CommonOptions& common) {
-  Outputs out = outputs_of(options);
-  out.facts.command = common.arguments;
+  Outputs out = outputs_of(options, common);
   Request request = read_request(options, settings, common, out);
+  out.shown_scan = shown_scan(options, out);
   ProgressDisplay display(common.quiet);
   const Outcome outcome = segment(std::move(request), listener_of(display, options));
   display.finish();
-  return deliver(options, outcome, std::move(out));
+  warn_of_missing_meshes(options, outcome);
+  warn_of_elements(options.body, outcome);
+  OutputSet set;
+  return deliver(outcome, out, set);
 }
 
 int print_plan(const SegmentOptions& options, const Settings& settings) {

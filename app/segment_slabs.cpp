@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "arguments.h"
-#include "costs.h"
+#include "deliver.h"
 #include "log.h"
 #include "mesamis/run/segment_in_slabs.h"
 #include "mesamis/shape_files/surface_files.h"
@@ -21,7 +21,6 @@
 #include "progress.h"
 #include "scan.h"
 #include "segment_run.h"
-#include "summary.h"
 
 namespace mesamis {
 namespace {
@@ -37,12 +36,12 @@ std::string identity_of(const fs::path& path) {
 
 bool is_in_pieces(const fs::path& mesh) { return lower_extension(mesh) == kPiecesExtension; }
 
-/// Those that are written at once.
-Paths whole_meshes_of(const SegmentOptions& run) {
-  Paths whole;
-  std::copy_if(run.out.meshes.begin(), run.out.meshes.end(), std::back_inserter(whole),
-               [](const fs::path& mesh) { return !is_in_pieces(mesh); });
-  return whole;
+/// The meshes that are written in pieces, or those that are written at once.
+Paths meshes_of(const SegmentOptions& run, bool in_pieces) {
+  Paths meshes;
+  std::copy_if(run.out.meshes.begin(), run.out.meshes.end(), std::back_inserter(meshes),
+               [=](const fs::path& mesh) { return is_in_pieces(mesh) == in_pieces; });
+  return meshes;
 }
 
 /// Whether a file has the name of a piece of a mesh: F_0.vtu for F.pvtu.
@@ -78,7 +77,7 @@ SlabRunOptions slab_options(const SegmentOptions& run, const SlabArguments& slab
   options.scratch = slabs.checkpoint;
   options.resumable = !slabs.checkpoint.empty();
   options.input = identity_of(run.scan.input);
-  options.mesh = !whole_meshes_of(run).empty();
+  options.mesh = !meshes_of(run, false).empty();
   options.grey = wants_grey(run);
   if (options.scratch.empty()) {
     options.scratch = !run.out.surfaces.empty() ? run.out.surfaces.front()
@@ -111,39 +110,18 @@ nlohmann::ordered_json slabs_json(const SlabRunResult& found, const Team& team) 
           {"slabs", std::move(each)}};
 }
 
-/// What a report says of the scan: its samples were not all looked at.
-InputFacts facts_of(const SegmentOptions& run, const VolumeFile& head) {
-  InputFacts facts;
-  facts.path = run.scan.input;
-  facts.format = head.format;
-  facts.modality = head.volume.modality;
-  facts.size = head.volume.size;
-  facts.spacing = head.volume.spacing;
-  facts.origin = head.volume.origin;
-  facts.direction = head.volume.direction;
-  facts.warnings = head.warnings;
-  return facts;
-}
-
-int deliver(const SegmentOptions& run, const FileSlices& source, const SlabOutcome& found,
-            const CommonOptions& common, OutputSet& set) {
-  Outputs out = run.out;
-  out.frame = run.scan.frame;
-  out.meshes = whole_meshes_of(run);
-  out.facts.input = facts_of(run, source.head());
-  out.facts.command = common.arguments;
-  out.facts.complete = [&](nlohmann::ordered_json& report) {
+Outputs outputs_of(const SegmentOptions& run, const FileSlices& source, const SlabOutcome& found,
+                   const CommonOptions& common) {
+  Outputs out = outputs_of(run, common);
+  out.meshes = meshes_of(run, false);
+  const VolumeFile& head = source.head();
+  // Its samples were not all looked at, and its files are too large for a sum.
+  out.facts.input = facts_of({run.scan.input, head.format, head.warnings, {}}, head.volume);
+  out.facts.complete = [&, others = out.facts.complete](nlohmann::ordered_json& report) {
     report["slabs"] = slabs_json(found.work, *common.team);
-    add_costs(report);
+    others(report);
   };
-  write(found.outcome, out, set);
-  RunFigures figures = figures_of(found.outcome);
-  figures.files = files_of(set);
-  commit(set);
-  show_summary(figures);
-  const Verdict& verdict = found.outcome.verdict;
-  if (verdict.kind != VerdictKind::kKept) log_error(verdict.message);
-  return exit_status(verdict.kind);
+  return out;
 }
 
 }  // namespace
@@ -197,9 +175,8 @@ int run_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Setti
   ProgressDisplay display(common.quiet || common.is_helper());
   SlabRunOptions options = slab_options(run, slabs);
   options.progress = display.callback();
-  SlabRequest request{*source, settings, std::move(options), {}, run.scan.frame};
-  std::copy_if(run.out.meshes.begin(), run.out.meshes.end(),
-               std::back_inserter(request.piece_meshes), is_in_pieces);
+  const SlabRequest request{*source, settings, std::move(options), meshes_of(run, true),
+                            run.scan.frame};
   std::optional<OutputSet> set;
   if (team.rank() == 0) set.emplace();
   fs::path folder;  // of a copy of the scan
@@ -207,7 +184,7 @@ int run_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Setti
   const auto found = segment_in_slabs(request, folder, team);
   display.finish();
   if (!found) return kExitDone;
-  return deliver(run, *source, *found, common, *set);
+  return deliver(found->outcome, outputs_of(run, *source, *found, common), *set);
 }
 
 }  // namespace mesamis

@@ -65,32 +65,22 @@ std::string files_line(const RunFigures& run) {
 
 }  // namespace
 
-RunFigures figures_of(const Result& result, const SurfaceCheck& check,
-                      const std::string& modality) {
-  RunFigures figures;
-  figures.object = "all that is bright";
-  if (result.parameters.surface == SurfaceKind::kSolid) figures.level = result.parameters.level;
-  figures.unit = modality == "CT" ? "HU" : "native units";
-  figures.surfaces = {&result.surface};
-  figures.checks = {check};
-  if (!result.expected_error.empty()) {
-    figures.expected_error = summarize_error(result.surface, result.expected_error).mean;
-  }
-  return figures;
-}
-
 RunFigures figures_of(const Outcome& outcome) {
-  if (outcome.one) {
-    RunFigures figures = figures_of(*outcome.one, outcome.checks.front(), outcome.grid.modality);
-    if (outcome.object && !outcome.object->tissue.empty()) figures.object = outcome.object->tissue;
-    return figures;
-  }
   RunFigures figures;
+  figures.checks = outcome.checks;
   for (const FoundObject& object : outcome.objects()) {
     figures.object += (figures.object.empty() ? "" : ", ") + object.segment.name;
     figures.surfaces.push_back(&object.surface);
   }
-  figures.checks = outcome.checks;
+  if (!outcome.one) return figures;
+  const Result& result = *outcome.one;
+  const bool named = outcome.object && !outcome.object->tissue.empty();
+  figures.object = named ? outcome.object->tissue : "all that is bright";
+  if (result.parameters.surface == SurfaceKind::kSolid) figures.level = result.parameters.level;
+  figures.unit = outcome.grid.modality == "CT" ? "HU" : "native units";
+  if (!result.expected_error.empty()) {
+    figures.expected_error = summarize_error(result.surface, result.expected_error).mean;
+  }
   return figures;
 }
 

@@ -22,12 +22,7 @@ struct RunFigures {
   std::vector<std::filesystem::path> files;
 };
 
-/// The figures of a run that has found one object, but for the object's name and the files.
-/// @param result, check  must live as long as the figures are shown; check is of the surface.
-/// @param modality       of the scan, see VoxelGrid.
-RunFigures figures_of(const Result& result, const SurfaceCheck& check, const std::string& modality);
-
-/// The figures of a run that does not work in slabs, but for the files; refer to the outcome.
+/// The figures of a run, but for the files; refer to the outcome.
 RunFigures figures_of(const Outcome& outcome);
 
 /// Five lines: object; level and expected error; size; triangles, parts, closed or not; files.

@@ -43,11 +43,7 @@ LabelChoice label_choice(const CallRequest& call, const Scan* scan,
   require_valid(map);
   LabelChoice choice{std::move(map)};
   choice.margin = call.margin;
-  for (const std::string& name : call.chosen) {
-    const Segment segment = find_segment(choice.map.segments, name);
-    const auto end = choice.chosen.end();
-    if (std::find(choice.chosen.begin(), end, segment) == end) choice.chosen.push_back(segment);
-  }
+  choice.chosen = find_segments(choice.map.segments, call.chosen);
   return choice;
 }
 

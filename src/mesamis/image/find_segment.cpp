@@ -111,4 +111,14 @@ Segment find_segment(std::span<const Segment> segments, std::string_view name_or
   return found[0];
 }
 
+std::vector<Segment> find_segments(std::span<const Segment> segments,
+                                   std::span<const std::string> names_or_labels) {
+  std::vector<Segment> found;
+  for (const std::string& text : names_or_labels) {
+    const Segment segment = find_segment(segments, text);
+    if (std::find(found.begin(), found.end(), segment) == found.end()) found.push_back(segment);
+  }
+  return found;
+}
+
 }  // namespace mesamis

@@ -51,6 +51,11 @@ struct Probabilities : VoxelGrid {
 ///                     those that fit.
 Segment find_segment(std::span<const Segment> segments, std::string_view name_or_label);
 
+/// Finds the segments that a user means, each once, in the order of the texts.
+/// @throws InputError  as find_segment().
+std::vector<Segment> find_segments(std::span<const Segment> segments,
+                                   std::span<const std::string> names_or_labels);
+
 /// Finds the label at a point of the world: that of the nearest voxel centre of the map. On the
 /// face between two voxels (to 1e-6 of a voxel) the one of the greater index counts.
 /// @param layer  one of the map's.

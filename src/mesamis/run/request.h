@@ -24,6 +24,9 @@ struct LabelChoice {
   std::vector<Segment> chosen{};            ///< of the map; empty: all of them
   std::optional<double> margin{};           ///< mm, see LabelRequest
   std::optional<Probabilities> exact_by{};  ///< of which the map is most_probable()
+
+  /// The objects that are looked for.
+  const std::vector<Segment>& wanted() const { return chosen.empty() ? map.segments : chosen; }
 };
 
 /// Elements that fill the objects.

@@ -31,6 +31,12 @@ ObjectRequest completed(const Request& request) {
   return object;
 }
 
+/// The scan of a request that has one.
+VolumeView view_of(const Request& request) {
+  if (const auto* volume = std::get_if<Volume>(&request.scan)) return *volume;
+  return std::get<VolumeView>(request.scan);
+}
+
 /// Copies the samples only where they change.
 ChosenObject choose(Request& request, const ObjectRequest& wanted,
                     std::span<const float>& in_place) {
@@ -47,14 +53,9 @@ ChosenObject choose(Request& request, const ObjectRequest& wanted,
 
 void choose_image(Request& request, const Listener& listener, Outcome& outcome) {
   outcome.object_asked = completed(request);
-  std::visit(
-      [&](const auto& scan) {
-        if constexpr (!std::is_same_v<std::decay_t<decltype(scan)>, std::monostate>) {
-          require_usable(scan);
-          outcome.grid = scan;
-        }
-      },
-      request.scan);
+  const VolumeView scan = view_of(request);
+  require_usable(scan);
+  outcome.grid = scan;
   outcome.object = choose(request, outcome.object_asked, outcome.in_place);
   tell(listener.note, outcome.object->notes);
   tell(listener.warning, outcome.object->warnings);
@@ -78,7 +79,7 @@ void run_one(const Request& request, const Listener& listener, Outcome& outcome)
 /// @param choice  labels of the request, or the parts of several seeds.
 void run_several(const Request& request, const LabelChoice& choice, const Listener& listener,
                  Outcome& outcome) {
-  outcome.wanted = choice.chosen.empty() ? choice.map.segments : choice.chosen;
+  outcome.wanted = choice.wanted();
   if (listener.objects) listener.objects(outcome.wanted);
   if (request.enough) {
     throw InputError("time limit: expected a run for one object, found several");
@@ -110,10 +111,12 @@ void fill(const Request& request, const Progress& progress, Outcome& outcome) {
       progress);
   auto& skins = outcome.elements.skins;
   for (std::size_t n = 0; n < skins.size(); ++n) {
-    TriMesh& surface = outcome.one ? outcome.one->surface : outcome.several->objects[n].surface;
-    take_skin(
-        std::move(skins[n]), surface,
-        outcome.one ? outcome.one->expected_error : outcome.several->objects[n].expected_error);
+    if (outcome.one) {
+      take_skin(std::move(skins[n]), outcome.one->surface, outcome.one->expected_error);
+    } else {
+      LabelledObject& object = outcome.several->objects[n];
+      take_skin(std::move(skins[n]), object.surface, object.expected_error);
+    }
   }
   skins.clear();
 }

@@ -26,8 +26,11 @@ std::optional<MeshOutput> mesh_output(const Outcome& o, const MeshOptions& optio
   const Result* mesh = o.mesh();
   if (mesh == nullptr) return std::nullopt;
   if (o.one) return make_mesh_output(*mesh, o.image(), options);
-  const std::vector<NamedSurface> named = named_surfaces(*o.several);
   std::vector<FoundObject> objects = o.objects();
+  std::vector<Segment> segments;
+  segments.reserve(objects.size());
+  for (const FoundObject& object : objects) segments.push_back(object.segment);
+  const std::vector<NamedSurface> named = named_segments(segments);  // without their triangles
   for (std::size_t n = 0; n < named.size(); ++n) objects[n].segment.label = named[n].label;
   return make_mesh_output(*mesh, o.image(), options, objects);
 }

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deliver.h"
+
+#include <nlohmann/json.hpp>
+
+#include "costs.h"
+#include "log.h"
+#include "outputs.h"
+#include "summary.h"
+
+namespace mesamis {
+
+Outputs outputs_of(const SegmentOptions& options, const CommonOptions& common) {
+  Outputs out = options.out;
+  out.frame = options.scan.frame;
+  out.bodies = options.body.files;
+  out.gmsh = options.body.gmsh == "4.1" ? GmshVersion::k41 : GmshVersion::k22;
+  out.facts.command = common.arguments;
+  out.facts.mask = options.scan.places.mask.string();
+  out.facts.complete = [also = options.report_also](nlohmann::ordered_json& report) {
+    add_costs(report);
+    report.update(also);
+  };
+  return out;
+}
+
+int deliver(const Outcome& outcome, const Outputs& outputs, OutputSet& set) {
+  write(outcome, outputs, set);
+  RunFigures figures = figures_of(outcome);
+  figures.files = files_of(set);
+  commit(set);
+  show_summary(figures);
+  const Verdict& verdict = outcome.verdict;
+  if (verdict.kind != VerdictKind::kKept) log_error(verdict.message);
+  if (outcome.elements.unmet.empty()) return exit_status(verdict.kind);
+  log_error("--body: " + outcome.elements.unmet);
+  return verdict.kind == VerdictKind::kKept ? kExitNotConverged : exit_status(verdict.kind);
+}
+
+}  // namespace mesamis
