@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 
@@ -203,6 +204,32 @@ TEST(Decimate, KeepsPointsWhereTheyWere) {
   const TriMesh surface = sphere();
   for (const Vec3& p : decimate(surface, {.tolerance = 0.05}).points) {
     EXPECT_NE(std::find(surface.points.begin(), surface.points.end(), p), surface.points.end());
+  }
+}
+
+/// The cosine of the angle between the normals of neighbours, where that is the least.
+double sharpest_edge(const TriMesh& surface) {
+  std::map<std::pair<Index, Index>, Vec3> normals;
+  for (const Triangle& t : surface.triangles) {
+    const Vec3& p = surface.points[t[0]];
+    const Vec3 normal = unit_or_zero(cross(surface.points[t[1]] - p, surface.points[t[2]] - p));
+    for (std::size_t i = 0; i < 3; ++i) normals[{t[i], t[(i + 1) % 3]}] = normal;
+  }
+  double least = 1;
+  for (const auto& [edge, normal] : normals) {
+    const auto other = normals.find({edge.second, edge.first});
+    if (other != normals.end()) least = std::min(least, dot(normal, other->second));
+  }
+  return least;
+}
+
+TEST(Decimate, MakesNoCreases) {
+  const double allowed = std::cos(25.01 * std::numbers::pi / 180);
+  for (const TriMesh& surface : {sphere(24), torus(30)}) {
+    ASSERT_GT(sharpest_edge(surface), allowed) << "not smooth itself";
+    const TriMesh result = decimate(surface, {.tolerance = 0.05});
+    EXPECT_LT(result.triangles.size(), surface.triangles.size() / 4);
+    EXPECT_GE(sharpest_edge(result), allowed);
   }
 }
 

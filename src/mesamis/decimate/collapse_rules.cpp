@@ -37,6 +37,46 @@ double flatness(const std::vector<Vec3>& p, const Triangle& t) {
   return longest > 0 ? dot(n, n) / (longest * longest) : 0;
 }
 
+/// Cosine of the angle of a crease: 25 degrees.
+constexpr double kSharpest = 0.9063;
+constexpr double kSlack = 1e-6;  // of rounding
+
+/// The normals of the triangles around the point to be removed, one per edge of its ring, from the
+/// point on that it is collapsed to.
+struct Fan {
+  std::vector<Vec3> before;
+  std::vector<Vec3> after;   ///< of the triangle that is there instead; of the first and the last,
+                             ///< which go, the neighbour's beyond the ring
+  std::vector<Vec3> beyond;  ///< of the neighbour beyond the ring; zero: there is none
+
+  bool has_beyond(std::size_t i) const { return norm(beyond[i]) > 0; }
+};
+
+Fan fan_of(const HalfedgeMesh& mesh, const std::vector<Vec3>& points,
+           const CollapseInfo& collapse) {
+  const auto normal = [&](OpenMesh::VertexHandle a, OpenMesh::VertexHandle b,
+                          OpenMesh::VertexHandle c) {
+    const Vec3& p = points[index(a)];
+    return unit_or_zero(cross(points[index(b)] - p, points[index(c)] - p));
+  };
+  Fan fan;
+  auto h = collapse.v0v1;
+  do {
+    const auto rim = mesh.next_halfedge_handle(h), across = mesh.opposite_halfedge_handle(rim);
+    const auto a = mesh.from_vertex_handle(rim), b = mesh.to_vertex_handle(rim);
+    fan.before.push_back(normal(collapse.v0, a, b));
+    fan.after.push_back(normal(collapse.v1, a, b));
+    fan.beyond.push_back(
+        mesh.face_handle(across).is_valid()
+            ? normal(b, a, mesh.to_vertex_handle(mesh.next_halfedge_handle(across)))
+            : Vec3{});
+    h = mesh.ccw_rotated_halfedge_handle(h);
+  } while (h != collapse.v0v1);
+  fan.after.front() = fan.beyond.front();
+  fan.after.back() = fan.beyond.back();
+  return fan;
+}
+
 }  // namespace
 
 float ModFlatness::collapse_priority(const CollapseInfo& collapse) {
@@ -45,6 +85,24 @@ float ModFlatness::collapse_priority(const CollapseInfo& collapse) {
   for (const Triangle& t : star.before) least = std::min(least, flatness(*points_, t));
   for (const Triangle& t : star.after) {
     if (flatness(*points_, t) < least || !has_area(*points_, t)) return ILLEGAL_COLLAPSE;
+  }
+  return LEGAL_COLLAPSE;
+}
+
+float ModCreases::collapse_priority(const CollapseInfo& collapse) {
+  const Fan fan = fan_of(mesh(), *points_, collapse);
+  const std::size_t n = fan.before.size();
+  double sharpest = kSharpest;
+  for (std::size_t i = 0; i < n; ++i) {
+    sharpest = std::min(sharpest, dot(fan.before[i], fan.before[(i + 1) % n]));
+    if (fan.has_beyond(i)) sharpest = std::min(sharpest, dot(fan.before[i], fan.beyond[i]));
+  }
+  const auto bends = [&](const Vec3& one, const Vec3& other) {
+    return norm(one) > 0 && norm(other) > 0 && dot(one, other) < sharpest - kSlack;
+  };
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    if (bends(fan.after[i], fan.after[i + 1])) return ILLEGAL_COLLAPSE;
+    if (i > 0 && bends(fan.after[i], fan.beyond[i])) return ILLEGAL_COLLAPSE;
   }
   return LEGAL_COLLAPSE;
 }

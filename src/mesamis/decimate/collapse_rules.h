@@ -37,6 +37,18 @@ class ModFlatness : public CollapseRule {
   const std::vector<Vec3>* points_ = nullptr;
 };
 
+/// Refuses creases: edges at which the new triangles bend by more than 25 degrees, and by more than
+/// the surface did at any edge of those that they replace.
+class ModCreases : public CollapseRule {
+ public:
+  explicit ModCreases(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}
+  void set_surface(const TriMesh& surface) { points_ = &surface.points; }
+  float collapse_priority(const CollapseInfo& collapse) override;
+
+ private:
+  const std::vector<Vec3>* points_ = nullptr;
+};
+
 /// Refuses new edges between points at the rims of sheets: another sheet might have the same edge,
 /// which would join four triangles then.
 class ModRims : public CollapseRule {

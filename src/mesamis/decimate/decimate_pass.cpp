@@ -5,6 +5,7 @@
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -59,6 +60,11 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
     add(quadric_);
     add(flips);
     add(flatness);
+    if (!std::isinf(task.tolerance)) {  // a number of triangles is reached all the same
+      ModuleHandle<ModCreases> creases;
+      add(creases);
+      module(creases).set_surface(surface);
+    }
     if (task.sheets) {
       ModuleHandle<ModRims> rims;
       add(rims);
