@@ -46,7 +46,7 @@ std::vector<Value> smoothed_along(const Neighbors& neighbors, const std::vector<
 /// Takes moves back until no triangles meet that a move made meet.
 class Unfolding {
  public:
-  Unfolding(const FollowSpace& space, const TriMesh& surface) : space_(space), surface_(surface) {}
+  Unfolding(const SurfaceSpace& space, const TriMesh& surface) : space_(space), surface_(surface) {}
 
   TriMesh run(std::vector<Vec3> shifts) const {
     constexpr int kHalvings = 2, kMostTrials = 40;
@@ -109,24 +109,24 @@ class Unfolding {
     return surface;
   }
 
-  const FollowSpace& space_;
+  const SurfaceSpace& space_;
   const TriMesh& surface_;
 };
 
 }  // namespace
 
-FollowSpace::FollowSpace(const SplineImage& image, double point_scale)
-    : image_(image),
+SurfaceSpace::SurfaceSpace(const VoxelGrid& grid, double point_scale)
+    : grid_(grid),
       point_scale_(point_scale),
-      voxel_(image.grid.voxel_size() / point_scale),
-      box_{{0, 0, 0}, (1 / point_scale) * image.grid.box().extent()} {}
+      voxel_(grid.voxel_size() / point_scale),
+      box_{{0, 0, 0}, (1 / point_scale) * grid.box().extent()} {}
 
-double FollowSpace::in_steps(const Vec3& way) const {
-  const Vec3 d = point_scale_ * way, &s = image_.grid.spacing;
+double SurfaceSpace::in_steps(const Vec3& way) const {
+  const Vec3 d = point_scale_ * way, &s = grid_.spacing;
   return norm({d.x / s.x, d.y / s.y, d.z / s.z});
 }
 
-bool FollowSpace::on_box(const Vec3& p) const {
+bool SurfaceSpace::on_box(const Vec3& p) const {
   const double slack = 1e-6 * voxel_;
   for (int a = 0; a < 3; ++a) {
     if (p[a] <= box_.lo[a] + slack || p[a] >= box_.hi[a] - slack) return true;
@@ -134,7 +134,7 @@ bool FollowSpace::on_box(const Vec3& p) const {
   return false;
 }
 
-Vec3 FollowSpace::within_box(const Vec3& p, const Vec3& move) const {
+Vec3 SurfaceSpace::within_box(const Vec3& p, const Vec3& move) const {
   double part = 1;
   for (int a = 0; a < 3; ++a) {
     const double room = std::max(0.0, move[a] < 0 ? p[a] - box_.lo[a] : box_.hi[a] - p[a]);
@@ -143,8 +143,8 @@ Vec3 FollowSpace::within_box(const Vec3& p, const Vec3& move) const {
   return part * move;
 }
 
-Vec3 FollowSpace::as_in_a_file(const Vec3& point) const {
-  Vec3 p = image_.grid.to_world(point_scale_ * point);
+Vec3 SurfaceSpace::as_in_a_file(const Vec3& point) const {
+  Vec3 p = grid_.to_world(point_scale_ * point);
   for (int a = 0; a < 3; ++a) p[a] = static_cast<float>(p[a]);
   return p;
 }
@@ -224,7 +224,7 @@ std::vector<double> filtered_moves(const FollowSpace& space, const Offsets& offs
   return moves;
 }
 
-TriMesh moved_without_folds(const FollowSpace& space, const TriMesh& surface,
+TriMesh moved_without_folds(const SurfaceSpace& space, const TriMesh& surface,
                             std::vector<Vec3> shifts) {
   return Unfolding(space, surface).run(std::move(shifts));
 }

@@ -12,32 +12,49 @@
 /// follow_image() that hold for the boundaries of several objects, too.
 namespace mesamis {
 
-/// A surface's coordinates and the image that it is moved in.
-class FollowSpace {
+/// A surface's coordinates and the grid that it is moved in.
+class SurfaceSpace {
  public:
-  /// @param image        must live longer than this.
+  /// @param grid         must live longer than this.
   /// @param point_scale  mm per unit of the surface's coordinates, > 0.
-  FollowSpace(const SplineImage& image, double point_scale);
+  SurfaceSpace(const VoxelGrid& grid, double point_scale);
 
   /// The length of a voxel, in the surface's unit.
   double voxel() const noexcept { return voxel_; }
-  /// The image at a point of the surface; the gradient is per mm.
-  ImageValue at(const Vec3& p) const { return spline_at(image_, point_scale_ * p); }
-  /// Slopes per mm to slopes per voxel.
-  double per_voxel(double slope) const noexcept { return slope * image_.grid.voxel_size(); }
-  /// The length of a way in steps of the image's grid.
+  /// The length of a way in steps of the grid.
   double in_steps(const Vec3& way) const;
-  /// Whether a point lies on the image's box, to a millionth of a voxel.
+  /// Whether a point lies on the grid's box, to a millionth of a voxel.
   bool on_box(const Vec3& p) const;
   /// A move, shortened to at most half the way to the box where it would leave it.
   Vec3 within_box(const Vec3& p, const Vec3& move) const;
   /// A point of the surface in the world, in single precision.
   Vec3 as_in_a_file(const Vec3& p) const;
 
+ protected:
+  const VoxelGrid& grid() const noexcept { return grid_; }
+  double point_scale() const noexcept { return point_scale_; }
+
  private:
-  const SplineImage& image_;
+  const VoxelGrid& grid_;
   double point_scale_, voxel_;
   Box box_;
+};
+
+/// The same with an image on the grid.
+class FollowSpace : public SurfaceSpace {
+ public:
+  /// @param image        must live longer than this.
+  /// @param point_scale  mm per unit of the surface's coordinates, > 0.
+  FollowSpace(const SplineImage& image, double point_scale)
+      : SurfaceSpace(image.grid, point_scale), image_(image) {}
+
+  /// The image at a point of the surface; the gradient is per mm.
+  ImageValue at(const Vec3& p) const { return spline_at(image_, point_scale() * p); }
+  /// Slopes per mm to slopes per voxel.
+  double per_voxel(double slope) const noexcept { return slope * grid().voxel_size(); }
+
+ private:
+  const SplineImage& image_;
 };
 
 /// The neighbours of each point of a surface, each once: those of point p from start[p] to before
@@ -91,7 +108,7 @@ std::vector<double> filtered_moves(const FollowSpace& space, const Offsets& offs
 /// Moves all points, then takes moves back, first half, then whole, where triangles meet, here or
 /// once the surface is in a file, which holds single precision.
 /// @return the surface as it was where that does not help.
-TriMesh moved_without_folds(const FollowSpace& space, const TriMesh& surface,
+TriMesh moved_without_folds(const SurfaceSpace& space, const TriMesh& surface,
                             std::vector<Vec3> shifts);
 
 }  // namespace mesamis

@@ -9,6 +9,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/fit/bending.h"
 #include "mesamis/fit/fit_surface.h"
+#include "mesamis/fit/smooth_surface.h"
 #include "mesamis/fit/surface_moves.h"
 
 namespace mesamis {
@@ -176,6 +177,15 @@ PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& i
                                points, {.reach = reach});
   partition.points = std::move(fitted.points);
   partition.triangles = std::move(fitted.triangles);
+  return partition;
+}
+
+PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid) {
+  const std::vector<char> on_curve = curve_points(partition);
+  TriMesh smooth =
+      smooth_surface({std::move(partition.points), std::move(partition.triangles)}, grid, on_curve);
+  partition.points = std::move(smooth.points);
+  partition.triangles = std::move(smooth.triangles);
   return partition;
 }
 

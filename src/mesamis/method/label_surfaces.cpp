@@ -201,6 +201,7 @@ GridMemberships without_image(const LabelRun& run, const VoxelGrid& grid,
 Settings with_level(const LabelRun& run, const Volume& part, const LabelMap& map,
                     const LabelBlock& block) {
   Settings settings = run.settings;
+  settings.local_level = false;  // each boundary has its own
   if (settings.level) return settings;
   std::vector<char> chosen(part.samples.size(), 0);
   for (const Index layer : layers_of(run.chosen)) {
@@ -294,6 +295,8 @@ LayerBoundaries place_by_labels(const LabelRun& run, Index layer, const LabelBlo
   PartitionSurface partition = extract_partition_on_grid(memberships);
   std::vector<BoundaryGuide> none(partition.points.size());
   partition = only_chosen(partition, marks_of(run.chosen, layer), none);
+  const bool has_steps = run.request.probabilities == nullptr;
+  if (run.settings.fit && has_steps) partition = smooth_boundaries(std::move(partition), grid);
   bring_to_world(grid, partition);
   seconds.surface += watch.lap();
   return {layer, std::move(partition)};
@@ -402,6 +405,7 @@ Result mesh_of(const LabelRun& run, const Volume& part, std::vector<LayerBoundar
   Settings settings = run.settings;
   settings.crop = {};
   settings.level = p.level;
+  settings.local_level = false;
   settings.surface = SurfaceKind::kSolid;
   Result mesh = mesh_beside_labels(part, images, settings, run.progress);
   mesh.parameters.crop = p.crop;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/fit/smooth_surface.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/fit/bending.h"
+#include "mesamis/fit/surface_moves.h"
+
+namespace mesamis {
+
+TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid,
+                       const std::vector<char>& on_curve, const SmoothingOptions& options) {
+  require_sound(surface);
+  const std::vector<Vec3>& start = surface.points;
+  if (on_curve.size() != start.size()) {
+    throw InputError("smoothing: expected an entry for each point of the surface");
+  }
+  const SurfaceSpace space(grid, 1);
+  const Neighbors neighbors(surface);
+  const Umbrella umbrella(neighbors, on_curve);
+  Springs springs{std::vector<double>(start.size(), 1), start, std::vector<char>(start.size())};
+  parallel_for(start.size(),
+               [&](std::size_t p) { springs.held[p] = space.on_box(start[p]) ? 1 : 0; });
+  std::vector<Vec3> now = start;
+  for (int round = 0; round < options.rounds; ++round) {
+    now = relax(umbrella, springs, options.bending, std::move(now));
+    parallel_for(start.size(), [&](std::size_t p) { springs.goal[p] += start[p] - now[p]; });
+  }
+  const double most = options.reach * space.voxel();
+  parallel_for(start.size(), [&](std::size_t p) {
+    const Vec3 shift = now[p] - start[p];
+    const double length = norm(shift);
+    now[p] = space.within_box(start[p], (length > most ? most / length : 1) * shift);
+  });
+  return moved_without_folds(space, surface, std::move(now));
+}
+
+}  // namespace mesamis
