@@ -258,7 +258,7 @@ def segment(
     h_min: float | None = ...,
     h_max: Literal["auto"] | float | None = ...,
     surface: Literal["solid", "band"] | None = ...,
-    level: Literal["auto"] | float | None = ...,
+    level: Literal["auto", "local"] | float | None = ...,
     follow: bool | None = ...,
     fit: bool | None = ...,
     band_threshold: float | None = ...,

@@ -12,6 +12,8 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/method/expected_error.h"
 #include "support/ball_volume.h"
+#include "support/sampled_volume.h"
+#include "support/solids.h"
 
 namespace mesamis {
 namespace {
@@ -68,6 +70,54 @@ TEST(MesAmis, PreviewsTheSolidWithoutAMesh) {
   const Result again =
       with_threads(1, [&] { return mes_amis(volume, settings_of(result.parameters)); });
   EXPECT_EQ(again.surface.points, result.surface.points);
+}
+
+/// A dense ball beside one that no level midway between the dense one and the background would find.
+Volume unlike_balls() {
+  return sampled_volume({52, 26, 26}, {1, 1, 1}, [](const Vec3& p) {
+    return 50 + 1150 * blurred_ball(norm(p - Vec3{13, 13, 13}), 8, 0.7) +
+           300 * blurred_ball(norm(p - Vec3{38, 13, 13}), 8, 0.7);
+  });
+}
+
+TEST(MesAmis, ALevelForEachPlaceFindsWhatIsLessDense) {
+  Settings settings;
+  settings.max_tets = 8000;
+  settings.adaptations = 2;
+  const Volume scan = unlike_balls();
+  settings.level = 625;
+  EXPECT_EQ(check_surface(mes_amis(scan, settings).surface).components, 1);
+  settings.local_level = true;
+  const Result result = mes_amis(scan, settings);
+  const SurfaceCheck check = check_surface(result.surface);
+  EXPECT_EQ(solid_flaws_of(check), "");
+  EXPECT_EQ(check.components, 2);
+  const double ball = 4.0 / 3 * std::numbers::pi * std::pow(8, 3);
+  EXPECT_NEAR(check.volume / (2 * ball), 1, 0.04);
+  EXPECT_LT(result.image.level_range[0], 250);
+  EXPECT_GT(result.image.level_range[1], 550);
+  // The fields are those of the scan, and the object's cells are those of both balls.
+  const GreyMap& grey = result.parameters.grey;
+  for (std::size_t n = 0; n < result.u.size(); ++n) {
+    const Vec3& p = result.mesh.points[n];
+    if (norm(p - Vec3{38, 13, 13}) < 4) {
+      EXPECT_NEAR(grey.to_native(result.u[n]), 350, 40);
+    }
+    if (norm(p - Vec3{13, 13, 13}) < 4) {
+      EXPECT_NEAR(grey.to_native(result.u[n]), 1200, 60);
+    }
+  }
+  EXPECT_EQ(result.level_excess.size(), result.u.size());
+  EXPECT_EQ(mes_amis(scan, settings_of(result.parameters)).surface.points, result.surface.points);
+}
+
+/// Of one material it is about the level of the whole.
+TEST(MesAmis, ALevelForEachPlaceIsThatOfTheOneMaterial) {
+  Settings settings = small_run();
+  settings.local_level = true;
+  const Result result = with_threads(1, [&] { return mes_amis(make_ball(ball()), settings); });
+  const double one_level = check_surface(small_result().surface).volume;
+  EXPECT_NEAR(check_surface(result.surface).volume, one_level, 0.03 * one_level);
 }
 
 TEST(MesAmis, DeliversAValidMeshWithinTheCount) {

@@ -166,7 +166,7 @@ TEST(SettingTable, RefusesTextThatIsNoValue) {
   refused("surface", "5", "expected solid|band, found '5'");
   refused("gamma", "much", "expected X|auto, found 'much'");
   refused("gamma", "", "expected X|auto");
-  refused("level", "nan", "expected X|auto");
+  refused("level", "nan", "expected X|auto|local");
   refused("drafts", "maybe", "expected yes|no");
 }
 

@@ -29,7 +29,11 @@ std::vector<Index> all_cells(const TetMesh& mesh) {
 /// The object by its cells; which of its parts, as for the surface.
 std::vector<Index> object_cells(const Result& result) {
   const Parameters& p = result.parameters;
-  const auto above = cells_mostly_above(result.mesh, result.u, p.grey.to_grey(p.level));
+  std::vector<double> levelled = result.u;
+  for (std::size_t n = 0; n < result.level_excess.size(); ++n) {
+    levelled[n] -= result.level_excess[n];
+  }
+  const auto above = cells_mostly_above(result.mesh, levelled, p.grey.to_grey(p.level));
   const auto cells =
       select_cells(result.mesh, above, {p.min_volume, p.keep_largest, p.fill_cavities});
   if (cells.empty()) {

@@ -35,6 +35,7 @@ Settings settings_for(const ChosenObject& object, Settings settings) {
   settings.crop = {};
   const bool asked = !object.tissue.empty() || object.level_from == LevelSource::kUser;
   if (asked || object_request(settings).measure_level) settings.level = object.level;
+  if (object.kind == TissueKind::kRange) settings.local_level = false;
   if (object.alone && settings.keep_largest == 0) settings.keep_largest = 1;
   if (object.kind == TissueKind::kDark) {
     if (settings.window) settings.window = mirrored(*settings.window);

@@ -41,6 +41,20 @@ std::vector<Sym3> world_metric(const RunInput& run, const std::vector<Sym3>& met
   return world;
 }
 
+/// See Result::level_excess.
+/// @param points  length units.
+std::vector<double> excess_at(const RunInput& run, const std::vector<Vec3>& points) {
+  const Volume& excess = run.excess;
+  std::vector<double> found(excess.samples.empty() ? 0 : points.size());
+  const double unit = run.parameters.unit_mm;
+  parallel_for(found.size(), [&](std::size_t n) {
+    const Vec3 p = unit * points[n];
+    found[n] =
+        linear_at(excess, {p.x / excess.spacing.x, p.y / excess.spacing.y, p.z / excess.spacing.z});
+  });
+  return found;
+}
+
 }  // namespace
 
 Loop run_loop(const RunInput& run, const Progress& progress, const HasEnough& enough) {
@@ -74,6 +88,7 @@ void deliver_mesh(const RunInput& run, Loop loop, Result& result) {
   result.converged = has_converged(loop);
   result.stopped = loop.stopped;
   if (!mesh.cells.empty()) result.fit = measure_fit(mesh, loop.state.metric);
+  result.level_excess = excess_at(run, mesh.points);
   bring_to_world(run, mesh.points);
   if (determinant(run.grey.direction) < 0) {
     for (Cell& cell : mesh.cells) std::swap(cell[2], cell[3]);
@@ -83,6 +98,10 @@ void deliver_mesh(const RunInput& run, Loop loop, Result& result) {
   result.u = std::move(loop.minimum.u);
   result.v = std::move(loop.minimum.v);
   result.f = std::move(loop.minimum.f);
+  for (std::size_t n = 0; n < result.level_excess.size(); ++n) {
+    result.u[n] += result.level_excess[n];
+    result.f[n] += result.level_excess[n];
+  }
   result.iterations = std::move(loop.passes);
 }
 

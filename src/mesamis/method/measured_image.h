@@ -13,6 +13,8 @@ struct MeasuredImage {
   double impulses = 0;           ///< share of the voxels that were replaced, 0 to 1
   double contrast = 0;           ///< of the object, native units; not positive: none was found
   double level_uncertainty = 0;  ///< see HalfMaximumLevel, native units; 0: not known
+  /// Of levels for each place, see LocalLevel::range, native units; both 0: there is one level.
+  std::array<double, 2> level_range{};
 };
 
 }  // namespace mesamis

@@ -29,8 +29,11 @@ struct Result {
 
   TetMesh mesh;                 ///< empty for a preview, as are its fields
   std::vector<double> u, v, f;  ///< nodal: grey values (u, f) and edge indicator
-  std::vector<Sym3> metric;     ///< that the mesh was made for, at the nodes, 1/mm^2
-  MeshFit fit;                  ///< how well the mesh fits it
+  /// Nodal: what the level of each place exceeds that of the parameters, grey values; empty where
+  /// there is one level.
+  std::vector<double> level_excess;
+  std::vector<Sym3> metric;  ///< that the mesh was made for, at the nodes, 1/mm^2
+  MeshFit fit;               ///< how well the mesh fits it
   TriMesh surface;
   /// How far the points of a solid are expected to lie from the truth, mm, see expected_error();
   /// empty for a band.

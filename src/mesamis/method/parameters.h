@@ -44,6 +44,7 @@ struct Parameters {
   // The surface.
   SurfaceKind surface = SurfaceKind::kSolid;
   double level = 0;               ///< of the solid, native units
+  bool local_level = false;       ///< the level is that of the object as a whole, see LocalLevel
   bool follow = false;            ///< the solid is moved on to the image's level set
   bool fit = false;               ///< boundaries of labels are fitted to the image
   double band_threshold = 0;      ///< TOLth

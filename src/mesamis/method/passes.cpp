@@ -164,6 +164,7 @@ RunInput::RunInput(const Prepared& prepared)
       grey(prepared.grey),
       image(prepared.image),
       box{{0, 0, 0}, (1 / parameters.unit_mm) * grey.box().extent()},
+      excess(prepared.excess),
       error{prepared.measured.noise_left * parameters.grey.grey_per_native(),
             prepared.measured.contrast * parameters.grey.grey_per_native(), parameters.blur} {}
 

@@ -12,6 +12,7 @@
 #include "mesamis/method/setting_table.h"
 #include "mesamis/restore/half_maximum_level.h"
 #include "mesamis/restore/level_crossings.h"
+#include "mesamis/restore/local_level.h"
 #include "mesamis/restore/object_edge.h"
 #include "mesamis/restore/restore.h"
 #include "mesamis/restore/surface_extent.h"
@@ -146,6 +147,17 @@ void require_contrast(const VolumeView& volume, const Parameters& p) {
 struct Chosen {
   Choice choice;
   Restored restored;
+  Volume excess{};  ///< of the level of each place, native units; no samples: there is one level
+
+  /// Takes what the level of each place exceeds the object's off the image.
+  void level_out(double level) {
+    const ObjectContrast& contrast = choice.object.contrast;
+    if (!(contrast.difference() > 0)) return;
+    LocalLevel local = find_local_level(restored.volume, contrast, level, restored.noise);
+    take_off(local, restored.volume);
+    choice.measured.level_range = local.range;
+    excess = std::move(local.excess);
+  }
 };
 
 Chosen choose(const VolumeView& volume, const VoxelGrid& whole, const Settings& settings) {
@@ -168,13 +180,18 @@ Chosen choose(const VolumeView& volume, const VoxelGrid& whole, const Settings& 
   p.blur = restored.blur;
   chosen.choice.impulse_height = restored.impulse_height;
 
+  if (p.local_level) chosen.level_out(settings.level.value_or(object.level));
   const auto measured = find_tissue_threshold(volume, seen.contrast, seen.level, restored.noise);
   p.grey.threshold =
       choose_threshold(settings, p.grey, measured, settings.level.value_or(object.level));
   p.level = settings.level.value_or(level_above(p.grey, object));
   const double contrast = object.contrast.difference();
-  chosen.choice.measured = {restored.noise_left, restored.noise_correlation, restored.impulses,
-                            contrast, settings.level ? 0 : object.uncertainty};
+  chosen.choice.measured = {restored.noise_left,
+                            restored.noise_correlation,
+                            restored.impulses,
+                            contrast,
+                            settings.level ? 0 : object.uncertainty,
+                            chosen.choice.measured.level_range};
   if (!settings.max_tets && !settings.preview) {
     const SurfaceExtent extent =
         measured_extent(restored.volume, restored.noise_left, contrast, p.level);
@@ -206,11 +223,17 @@ std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
 
 Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
   Chosen chosen = choose(volume, volume, settings);
-  return prepared_from(chosen.choice, std::move(chosen.restored.volume));
+  Prepared prepared = prepared_from(chosen.choice, std::move(chosen.restored.volume));
+  prepared.excess = std::move(chosen.excess);
+  const double scale = prepared.parameters.grey.grey_per_native();
+  for (float& value : prepared.excess.samples) value = static_cast<float>(scale * value);
+  return prepared;
 }
 
 Choice choose_parameters(const VolumeView& part, const VoxelGrid& whole, const Settings& settings) {
-  return choose(part, whole, settings).choice;
+  Settings one_level = settings;
+  one_level.local_level = false;
+  return choose(part, whole, one_level).choice;
 }
 
 Prepared prepare_slab(const VolumeView& slab, const Choice& choice) {

@@ -20,6 +20,9 @@ struct Prepared {
   Volume grey;  ///< the volume, restored, in grey values
   /// The same between the voxels: the spline through what the bounds have not cut yet.
   SplineImage image;
+  /// What was taken off both where each place has a level of its own, grey values; no samples where
+  /// there is one level.
+  Volume excess{};
 };
 
 /// What a run uses, chosen from a scan or from a part of it that stands for the whole.

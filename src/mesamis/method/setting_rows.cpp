@@ -148,10 +148,22 @@ Setting window_row(Setting row) {
   return row;
 }
 
-/// A band has none.
+/// A band has none. Where each place has its own, what a repeated run finds is the same again.
 Setting level_row(Setting row) {
   row = bound(std::move(row), &Settings::level, &Parameters::level);
+  row.get = [get = row.get](const Settings& s) {
+    return s.local_level ? SettingValue("local") : get(s);
+  };
+  row.set = [set = row.set](Settings& s, const SettingValue& value) {
+    s.local_level = is_word(value, "local");
+    set(s, s.local_level ? SettingValue("auto") : value);
+  };
+  row.use = [use = row.use](const Settings& s, Parameters& p) {
+    use(s, p);
+    p.local_level = s.local_level;
+  };
   row.repeat = [](const Parameters& p, Settings& s) {
+    s.local_level = p.local_level;
     if (p.surface == SurfaceKind::kSolid) s.level = p.level;
   };
   return row;
@@ -319,7 +331,8 @@ std::vector<Setting> surface_rows() {
            .help = "solid: closed level set of u; band: the paper's surface, the boundary of the "
                "cells where v is small", .paper = "band"}, &Settings::surface, &Parameters::surface),
     level_row({.name = "level", .form = "X", .count = 1, .low = -kLargestValue, .high = kLargestValue,
-           .words = {"auto"}, .unit = "native", .help = "Value of the solid surface",
+           .words = {"auto", "local"}, .unit = "native", .help = "Value of the solid surface; local: "
+               "for each place, midway between the two sides of the edges around it",
            .automatic = "half maximum of the object's edge, fitted to the image where the object "
                "is thickest; above T"}),
     bound({.name = "follow", .form = "yes|no",

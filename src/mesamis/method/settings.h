@@ -73,6 +73,7 @@ struct Settings {
   // The surface.
   SurfaceKind surface = SurfaceKind::kSolid;
   std::optional<double> level;
+  bool local_level = false;  ///< for each place; level is then that of the object as a whole
   bool follow = true;
   bool fit = true;
   double band_threshold = 0.1;

@@ -4,6 +4,7 @@ set(ROOM_HEADERS
   half_maximum_level.h
   impulses.h
   level_crossings.h
+  local_level.h
   object_contrast.h
   object_edge.h
   restore.h
@@ -24,6 +25,7 @@ set(ROOM_SOURCES
   thick_places.cpp
   tissue_threshold.cpp
   NEXT object_edge.cpp
+  local_level.cpp
   thin_sheets.cpp
   NEXT restore.cpp
   value_variation.cpp)

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/restore/local_level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "mesamis/base/parallel.h"
+#include "mesamis/image/gaussian.h"
+#include "mesamis/image/grey_values.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kEdgeScale = 0.8;  // voxels, of the gradient
+constexpr double kSpread = 3;       // voxels, of the mean over edges
+constexpr double kThick = 4;        // voxels, of both sides of an edge that counts
+constexpr double kLeastOfContrast = 0.1, kLeastOfNoise = 4, kMostOfContrast = 0.6;
+/// The dark side of an edge against the object's background, of its contrast.
+constexpr double kDarkest = -0.25, kBrightest = 0.35;
+/// Of the median weight of an edge: what holds the level at the object's where there are no edges.
+constexpr double kPull = 0.005;
+
+/// Of the samples, per voxel along each axis.
+Vec3 slope_at(const VolumeView& v, Index i, Index j, Index k) {
+  const std::array<Index, 3> here{i, j, k};
+  Vec3 slope;
+  for (std::size_t a = 0; a < 3; ++a) {
+    std::array<Index, 3> low = here, high = here;
+    low[a] = std::max<Index>(here[a] - 1, 0);
+    high[a] = std::min<Index>(here[a] + 1, v.size[a] - 1);
+    if (low[a] == high[a]) continue;
+    const double rise = v.samples[v.offset(high[0], high[1], high[2])] -
+                        double{v.samples[v.offset(low[0], low[1], low[2])]};
+    slope[static_cast<int>(a)] = rise / static_cast<double>(high[a] - low[a]);
+  }
+  return slope;
+}
+
+/// The two sides of an edge, native units.
+struct Sides {
+  double dark = 0, bright = 0;
+};
+
+/// Looks for the edges of an image.
+class EdgeFinder {
+ public:
+  EdgeFinder(const VolumeView& volume, const ObjectContrast& contrast, double noise)
+      : volume_(volume),
+        smooth_(gaussian_smoothed({volume, {volume.samples.begin(), volume.samples.end()}},
+                                  kEdgeScale)),
+        steepness_{volume, std::vector<float>(volume.samples.size())},
+        background_(contrast.background),
+        contrast_(contrast.difference()),
+        least_(std::max(kLeastOfContrast * contrast_, kLeastOfNoise * noise)) {
+    for_each_voxel([&](Index i, Index j, Index k) {
+      steepness_.samples[volume_.offset(i, j, k)] =
+          static_cast<float>(norm(slope_at(smooth_, i, j, k)));
+    });
+  }
+
+  template <class Visit>
+  void for_each_voxel(Visit&& visit) const {
+    parallel_for(static_cast<std::size_t>(volume_.size[2]), [&](std::size_t k) {
+      for (Index j = 0; j < volume_.size[1]; ++j) {
+        for (Index i = 0; i < volume_.size[0]; ++i) visit(i, j, static_cast<Index>(k));
+      }
+    });
+  }
+
+  /// @return equal sides where there is none.
+  Sides at(Index i, Index j, Index k) const {
+    const double steep = steepness_.samples[volume_.offset(i, j, k)];
+    // A blurred step of the least height rises by about a sixth of it per voxel.
+    if (steep < least_ / 6) return {};
+    const Vec3 here{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+    const Vec3 up = unit_or_zero(slope_at(smooth_, i, j, k));
+    if (linear_at(steepness_, here + up) > steep || linear_at(steepness_, here - up) > steep) {
+      return {};
+    }
+    const double middle = volume_.samples[volume_.offset(i, j, k)];
+    Sides sides{middle, middle};
+    for (const double t : {0.5, 1.0, 1.5, 2.0}) {
+      sides.bright = std::max(sides.bright, linear_at(volume_, here + t * up));
+      sides.dark = std::min(sides.dark, linear_at(volume_, here - t * up));
+    }
+    return counts(sides) && are_thick(sides, here, up) ? sides : Sides{};
+  }
+
+ private:
+  /// Whether each side stays on its side of the middle, as far as thin walls and clefts do not: the
+  /// blur keeps these from their own value.
+  bool are_thick(const Sides& sides, const Vec3& here, const Vec3& up) const {
+    const double middle = (sides.bright + sides.dark) / 2;
+    for (double t = 1; t <= kThick; t += 0.5) {
+      if (linear_at(volume_, here + t * up) < middle) return false;
+      if (linear_at(volume_, here - t * up) > middle) return false;
+    }
+    return true;
+  }
+
+  bool counts(const Sides& sides) const {
+    const double dark = (sides.dark - background_) / contrast_;
+    return sides.bright - sides.dark > least_ && dark > kDarkest && dark < kBrightest &&
+           sides.bright > background_ + kLeastOfContrast * contrast_;
+  }
+
+  const VolumeView& volume_;
+  Volume smooth_, steepness_;
+  double background_, contrast_, least_;
+};
+
+}  // namespace
+
+LocalLevel find_local_level(const VolumeView& volume, const ObjectContrast& contrast, double level,
+                            double noise) {
+  const double most = kMostOfContrast * contrast.difference();
+  Volume weight{volume, std::vector<float>(volume.samples.size(), 0)}, pulled = weight;
+  const EdgeFinder edges(volume, contrast, noise);
+  edges.for_each_voxel([&](Index i, Index j, Index k) {
+    const Sides sides = edges.at(i, j, k);
+    if (!(sides.bright > sides.dark)) return;
+    const std::size_t n = volume.offset(i, j, k);
+    const double w = std::min(sides.bright - sides.dark, most);
+    weight.samples[n] = static_cast<float>(w);
+    pulled.samples[n] = static_cast<float>(w * ((sides.bright + sides.dark) / 2 - level));
+  });
+  LocalLevel local;
+  std::vector<float> weights, levels;
+  for (std::size_t n = 0; n < weight.samples.size(); ++n) {
+    if (!(weight.samples[n] > 0)) continue;
+    weights.push_back(weight.samples[n]);
+    levels.push_back(static_cast<float>(level + pulled.samples[n] / weight.samples[n]));
+  }
+  local.range = {level, level};
+  local.edge_share =
+      static_cast<double>(weights.size()) / static_cast<double>(weight.samples.size());
+  local.excess = std::move(pulled);
+  if (weights.empty()) return local;
+  const auto ends = quantiles(levels, {0.05, 0.95});
+  local.range = {ends[0], ends[1]};
+  const double pull = kPull * quantiles(weights, {0.5})[0];
+  weight = gaussian_smoothed(std::move(weight), kSpread);
+  local.excess = gaussian_smoothed(std::move(local.excess), kSpread);
+  parallel_for(weight.samples.size(), [&](std::size_t n) {
+    local.excess.samples[n] =
+        static_cast<float>(local.excess.samples[n] / (weight.samples[n] + pull));
+  });
+  return local;
+}
+
+void take_off(const LocalLevel& local, Volume& volume) {
+  parallel_for(volume.samples.size(),
+               [&](std::size_t n) { volume.samples[n] -= local.excess.samples[n]; });
+}
+
+}  // namespace mesamis

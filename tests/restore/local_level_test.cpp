@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/restore/local_level.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "mesamis/base/parallel.h"
+#include "support/ball_volume.h"
+#include "support/sampled_volume.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kAround = 50, kDense = 1200, kLight = 350, kBall = 9, kBlur = 0.8;
+const Vec3 kDenseCentre{14, 14, 14}, kLightCentre{46, 14, 14};
+const ObjectContrast kOfDense{kAround, kDense, 1000};
+constexpr double kHalfMaximum = (kAround + kDense) / 2;
+
+/// Two balls, of which one is less dense.
+Volume two_balls() {
+  return sampled_volume({61, 29, 29}, {1, 1, 1}, [](const Vec3& p) {
+    const auto ball = [&p](const Vec3& centre) {
+      return blurred_ball(norm(p - centre), kBall, kBlur);
+    };
+    return kAround + (kDense - kAround) * ball(kDenseCentre) +
+           (kLight - kAround) * ball(kLightCentre);
+  });
+}
+
+TEST(LocalLevel, IsMidwayBetweenTheSidesOfTheEdgeNearby) {
+  const LocalLevel local = find_local_level(two_balls(), kOfDense, kHalfMaximum, 0);
+  for (const Vec3& way : {Vec3{0, 1, 0}, Vec3{0, 0, -1}, Vec3{0, 0.6, 0.8}}) {
+    const double dense = linear_at(local.excess, kDenseCentre + kBall * way);
+    const double light = linear_at(local.excess, kLightCentre + kBall * way);
+    EXPECT_NEAR(kHalfMaximum + dense, kHalfMaximum, 0.03 * (kDense - kAround));
+    EXPECT_NEAR(kHalfMaximum + light, (kAround + kLight) / 2, 0.06 * (kLight - kAround));
+  }
+  EXPECT_NEAR(local.range[0], (kAround + kLight) / 2, 0.1 * (kLight - kAround));
+  EXPECT_NEAR(local.range[1], kHalfMaximum, 0.03 * (kDense - kAround));
+}
+
+TEST(LocalLevel, TakenOffMakesTheObjectsLevelThatOfEachPlace) {
+  Volume scan = two_balls();
+  take_off(find_local_level(scan, kOfDense, kHalfMaximum, 0), scan);
+  const Vec3 middle{0, middle_radius(kBall, kBlur), 0};
+  EXPECT_NEAR(linear_at(scan, kLightCentre + middle), kHalfMaximum, 0.07 * (kLight - kAround));
+  EXPECT_GT(linear_at(scan, kLightCentre + Vec3{0, kBall - 2, 0}), kHalfMaximum);
+  EXPECT_LT(linear_at(scan, kLightCentre + Vec3{0, kBall + 2, 0}), kHalfMaximum);
+}
+
+/// The blur keeps a thin wall from its own value: what is thick nearby tells its level.
+TEST(LocalLevel, ThinWallsAndNoiseHaveNoSay) {
+  std::mt19937 generator(2);
+  std::normal_distribution<double> noise(0, 60);
+  const Volume wall = sampled_volume({40, 20, 20}, {1, 1, 1}, [](const Vec3& p) {
+    return kAround + (kDense - kAround) * std::exp(-(p.x - 20) * (p.x - 20) / 2);
+  });
+  const Volume nothing = sampled_volume({30, 30, 30}, {1, 1, 1},
+                                        [&](const Vec3&) { return kAround + noise(generator); });
+  for (const LocalLevel& local : {find_local_level(wall, kOfDense, kHalfMaximum, 0),
+                                  find_local_level(nothing, kOfDense, kHalfMaximum, 60)}) {
+    EXPECT_EQ(local.edge_share, 0);
+    for (const float excess : local.excess.samples) ASSERT_EQ(excess, 0);
+  }
+}
+
+TEST(LocalLevel, HasTheSameBitsForAnyNumberOfThreads) {
+  const Volume scan = two_balls();
+  const auto run = [&] { return find_local_level(scan, kOfDense, kHalfMaximum, 0).excess.samples; };
+  EXPECT_EQ(with_threads(1, run), with_threads(3, run));
+}
+
+}  // namespace
+}  // namespace mesamis
