@@ -16,6 +16,7 @@
 #include "mesamis/surface/self_intersections.h"
 #include "support/level_set.h"
 #include "support/shapes.h"
+#include "support/solids.h"
 #include "support/throws.h"
 
 namespace mesamis {
@@ -224,13 +225,14 @@ double sharpest_edge(const TriMesh& surface) {
 }
 
 TEST(Decimate, MakesNoCreases) {
+  const TriMesh smooth = ball_surface(1, 40);
   const double allowed = std::cos(25.01 * std::numbers::pi / 180);
-  for (const TriMesh& surface : {sphere(24), torus(30)}) {
-    ASSERT_GT(sharpest_edge(surface), allowed) << "not smooth itself";
-    const TriMesh result = decimate(surface, {.tolerance = 0.05});
-    EXPECT_LT(result.triangles.size(), surface.triangles.size() / 4);
-    EXPECT_GE(sharpest_edge(result), allowed);
-  }
+  ASSERT_GT(sharpest_edge(smooth), allowed) << "not smooth itself";
+  const TriMesh result = decimate(smooth, {.tolerance = 0.05});
+  EXPECT_LT(result.triangles.size(), smooth.triangles.size() / 4);
+  EXPECT_GE(sharpest_edge(result), allowed);
+  const TriMesh rough = torus(30);  // with the creases of its grid
+  EXPECT_GE(sharpest_edge(decimate(rough, {.tolerance = 0.05})), sharpest_edge(rough) - 1e-4);
 }
 
 TEST(Decimate, ReachesANumberOfTriangles) {

@@ -9,6 +9,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/fit/bending.h"
 #include "mesamis/fit/fit_surface.h"
+#include "mesamis/fit/keep_volumes.h"
 #include "mesamis/fit/smooth_surface.h"
 #include "mesamis/fit/surface_moves.h"
 
@@ -182,10 +183,11 @@ PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& i
 
 PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid) {
   const std::vector<char> on_curve = curve_points(partition);
-  TriMesh smooth =
-      smooth_surface({std::move(partition.points), std::move(partition.triangles)}, grid, on_curve);
-  partition.points = std::move(smooth.points);
-  partition.triangles = std::move(smooth.triangles);
+  const TriMesh start{std::move(partition.points), std::move(partition.triangles)};
+  const TriMesh smooth = smooth_surface(start, grid, on_curve);
+  TriMesh kept = keep_volumes(start, smooth, partition.sides, grid, on_curve);
+  partition.points = std::move(kept.points);
+  partition.triangles = std::move(kept.triangles);
   return partition;
 }
 

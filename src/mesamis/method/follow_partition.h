@@ -63,8 +63,8 @@ PartitionSurface follow_image(PartitionSurface partition, const SplineImage& ima
 PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& image,
                                 const std::vector<BoundaryGuide>& guides, double reach);
 
-/// Smooths the boundaries of several objects, with what they share: smooth_surface() for a
-/// partition.
+/// Smooths the boundaries of several objects, with what they share, and keeps the volume of each:
+/// smooth_surface() and keep_volumes() for a partition.
 /// @param partition  in the grid's own axes, mm; without self-intersections.
 /// @return the same triangles. Cost as smooth_surface().
 PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -36,10 +35,11 @@ namespace {
 
 constexpr double kMargin = 2.5;  // voxels, of the labels or of the scan
 constexpr std::size_t kMostObjects = 4096;
-constexpr double kMostMargin = 50;    // voxels of the scan
-constexpr double kReach = 2;          // margins that a label may flow
-constexpr double kReachOfFit = 0.64;  // margins in which a fitted surface looks for edges
-constexpr double kAsFine = 1.25;      // voxels of the scan: labels no coarser are fitted
+constexpr double kMostMargin = 50;       // voxels of the scan
+constexpr double kReach = 2;             // margins that a label may flow
+constexpr double kReachOfFit = 0.64;     // margins in which a fitted surface looks for edges
+constexpr double kErrorOfLabels = 0.04;  // voxels of the labels, where they are right
+constexpr double kAsFine = 1.25;         // voxels of the scan: labels no coarser are fitted
 
 /// The layers of those segments, increasing.
 std::vector<Index> layers_of(const std::vector<Segment>& segments) {
@@ -302,11 +302,11 @@ LayerBoundaries place_by_labels(const LabelRun& run, Index layer, const LabelBlo
   return {layer, std::move(partition)};
 }
 
-/// How exact the boundaries of all layers are expected to be in the mean, mm; infinite without an
-/// image.
-/// @param input  of the image; nullptr: none.
-double mean_error_of(const std::vector<LayerBoundaries>& layers, const RunInput* input) {
-  if (input == nullptr) return std::numeric_limits<double>::infinity();
+/// How exact the boundaries of all layers are expected to be in the mean, mm.
+/// @param input  of the image; nullptr: none, and the labels are right.
+double mean_error_of(const LabelRun& run, const std::vector<LayerBoundaries>& layers,
+                     const RunInput* input) {
+  if (input == nullptr) return kErrorOfLabels * run.request.map.voxel_size();
   TriMesh all;
   for (const LayerBoundaries& layer : layers) append(layer.partition, all);
   return mean_expected_error(*input, all);
@@ -385,7 +385,8 @@ void finish_layers(const LabelRun& run, std::vector<LayerBoundaries> layers, con
                    LabelResult& result) {
   Stopwatch watch;
   const double voxel = input ? input->grey.voxel_size() : run.request.map.voxel_size();
-  result.parameters.tolerance = chosen_tolerance(run.settings, voxel, mean_error_of(layers, input));
+  result.parameters.tolerance =
+      chosen_tolerance(run.settings, voxel, mean_error_of(run, layers, input));
   result.parameters.triangles = run.settings.triangles.value_or(0);
   for (LayerBoundaries& layer : layers) {
     result.flow_converged &= layer.converged;
