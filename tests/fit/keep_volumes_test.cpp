@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/fit/keep_volumes.h"
+
+#include <gtest/gtest.h>
+
+#include "fit/rough_ball.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/fit/smooth_surface.h"
+#include "mesamis/surface/self_intersections.h"
+#include "support/label_grids.h"
+
+namespace mesamis {
+namespace {
+
+TriMesh shrunk(TriMesh ball, double factor) {
+  const Vec3 centre = 0.5 * ball_image().grid.box().extent();
+  for (Vec3& p : ball.points) p = centre + factor * (p - centre);
+  return ball;
+}
+
+TriMesh kept(const TriMesh& before, const TriMesh& now, const std::array<Index, 2>& sides) {
+  const std::vector<std::array<Index, 2>> of_all(now.triangles.size(), sides);
+  return keep_volumes(before, now, of_all, ball_image().grid,
+                      std::vector<char>(now.points.size(), 0));
+}
+
+/// Whichever side of the triangles the ball lies on.
+TEST(KeepVolumes, ABallHasItsVolumeAgain) {
+  TriMesh ball = moved(ball_surface(kRadius, 40), 0.5 * ball_image().grid.box().extent());
+  const double volume = check_surface(ball).volume;
+  EXPECT_NEAR(check_surface(kept(ball, shrunk(ball, 0.97), {1, 0})).volume, volume, 1e-4 * volume);
+  for (Triangle& t : ball.triangles) std::swap(t[1], t[2]);
+  const TriMesh turned = kept(ball, shrunk(ball, 1.02), {0, 1});
+  EXPECT_NEAR(-check_surface(turned).volume, volume, 1e-4 * volume);
+}
+
+PartitionSurface touching_balls() {
+  const OwnedLabels labels = labels_where({30, 22, 22}, {1, 1, 1}, [](const Vec3& p) {
+    if (norm(p - Vec3{10, 10.5, 10.5}) < 7) return 1;
+    return norm(p - Vec3{19, 10.5, 10.5}) < 6 ? 2 : 0;
+  });
+  return extract_partition_on_grid(smooth_memberships(labels.grid(), {.most_rounds = 0}));
+}
+
+TEST(KeepVolumes, ObjectsThatTouchEachHaveTheirs) {
+  PartitionSurface partition = touching_balls();
+  const TriMesh before{partition.points, partition.triangles};
+  VoxelGrid grid;
+  grid.size = {30, 22, 22};
+  const std::vector<char> on_curve(before.points.size(), 0);
+  const TriMesh smooth = smooth_surface(before, grid, on_curve, {.bending = 2000, .rounds = 1});
+  const TriMesh now = keep_volumes(before, smooth, partition.sides, grid, on_curve);
+  EXPECT_TRUE(find_self_intersections(now).empty());
+  for (const Index m : {1, 2}) {
+    const double volume = check_surface(object_surface(partition, m)).volume;
+    const auto changed = [&](const TriMesh& surface) {
+      const PartitionSurface other{surface.points, surface.triangles, partition.sides};
+      return std::abs(check_surface(object_surface(other, m)).volume - volume) / volume;
+    };
+    EXPECT_GT(changed(smooth), 0.01) << m;
+    EXPECT_LT(changed(now), 0.002) << m;
+  }
+}
+
+TEST(KeepVolumes, HasTheSameBitsForAnyNumberOfThreads) {
+  const TriMesh ball = rough_ball(kRadius);
+  const auto run = [&] { return kept(ball, shrunk(ball, 0.98), {1, 0}); };
+  EXPECT_EQ(with_threads(1, run).points, with_threads(3, run).points);
+}
+
+}  // namespace
+}  // namespace mesamis
