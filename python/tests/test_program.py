@@ -2,6 +2,7 @@
 """The package writes the bytes that the program writes."""
 
 import json
+import warnings
 
 import numpy as np
 import pytest
@@ -119,7 +120,9 @@ def test_bodies_are_the_same(given, program, nifti, tmp_path):
     done = program("segment", path, "--preview", "--body", "b.inp", *material, *options)
     assert done.returncode in (0, 4), done.stderr
     result = mesamis.segment(path, preview=True, **settings)
-    body = mesamis.make_body(result, material="keyak-1994", calibration="0,0.001", **keywords)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", mesamis.MesamisWarning)  # a promise that the program misses, too
+        body = mesamis.make_body(result, material="keyak-1994", calibration="0,0.001", **keywords)
     body.save(tmp_path / "python-b.inp")
     assert same(tmp_path, "b.inp")
     assert (done.returncode == 4) == bool(body.warnings)
