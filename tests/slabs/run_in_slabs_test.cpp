@@ -454,6 +454,7 @@ TEST(SlabRun, RefusesWhatHasNoMeaningInSlabs) {
     change(settings);
     run_alone(scan, {.slabs = 2, .scratch = folder / "scratch"}, settings);
   };
+  EXPECT_REFUSED(run_with([](Settings& s) { s.local_level = true; }), HasSubstr("one level"));
   EXPECT_REFUSED(run_with([](Settings& s) { s.preview = true; }), HasSubstr("preview"));
   EXPECT_REFUSED(run_with([](Settings& s) { s.crop.begin[0] = 2; }), HasSubstr("crop"));
   EXPECT_REFUSED(run_with([](Settings& s) { s.until = StopRule::kEnergy; }), HasSubstr("energy"));
