@@ -6,6 +6,7 @@
 #include <random>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/image/trilinear.h"
 #include "support/ball_volume.h"
 #include "support/sampled_volume.h"
 
@@ -31,8 +32,8 @@ Volume two_balls() {
 TEST(LocalLevel, IsMidwayBetweenTheSidesOfTheEdgeNearby) {
   const LocalLevel local = find_local_level(two_balls(), kOfDense, kHalfMaximum, 0);
   for (const Vec3& way : {Vec3{0, 1, 0}, Vec3{0, 0, -1}, Vec3{0, 0.6, 0.8}}) {
-    const double dense = linear_at(local.excess, kDenseCentre + kBall * way);
-    const double light = linear_at(local.excess, kLightCentre + kBall * way);
+    const double dense = Trilinear(local.excess).at(kDenseCentre + kBall * way);
+    const double light = Trilinear(local.excess).at(kLightCentre + kBall * way);
     EXPECT_NEAR(kHalfMaximum + dense, kHalfMaximum, 0.03 * (kDense - kAround));
     EXPECT_NEAR(kHalfMaximum + light, (kAround + kLight) / 2, 0.06 * (kLight - kAround));
   }
@@ -44,9 +45,9 @@ TEST(LocalLevel, TakenOffMakesTheObjectsLevelThatOfEachPlace) {
   Volume scan = two_balls();
   take_off(find_local_level(scan, kOfDense, kHalfMaximum, 0), scan);
   const Vec3 middle{0, middle_radius(kBall, kBlur), 0};
-  EXPECT_NEAR(linear_at(scan, kLightCentre + middle), kHalfMaximum, 0.07 * (kLight - kAround));
-  EXPECT_GT(linear_at(scan, kLightCentre + Vec3{0, kBall - 2, 0}), kHalfMaximum);
-  EXPECT_LT(linear_at(scan, kLightCentre + Vec3{0, kBall + 2, 0}), kHalfMaximum);
+  EXPECT_NEAR(Trilinear(scan).at(kLightCentre + middle), kHalfMaximum, 0.07 * (kLight - kAround));
+  EXPECT_GT(Trilinear(scan).at(kLightCentre + Vec3{0, kBall - 2, 0}), kHalfMaximum);
+  EXPECT_LT(Trilinear(scan).at(kLightCentre + Vec3{0, kBall + 2, 0}), kHalfMaximum);
 }
 
 /// The blur keeps a thin wall from its own value: what is thick nearby tells its level.

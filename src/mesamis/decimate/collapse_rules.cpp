@@ -82,15 +82,15 @@ Fan fan_of(const HalfedgeMesh& mesh, const std::vector<Vec3>& points,
 float ModFlatness::collapse_priority(const CollapseInfo& collapse) {
   const Star star = star_of(mesh(), collapse);
   double least = kFlattest * kFlattest;
-  for (const Triangle& t : star.before) least = std::min(least, flatness(*points_, t));
+  for (const Triangle& t : star.before) least = std::min(least, flatness(points(), t));
   for (const Triangle& t : star.after) {
-    if (flatness(*points_, t) < least || !has_area(*points_, t)) return ILLEGAL_COLLAPSE;
+    if (flatness(points(), t) < least || !has_area(points(), t)) return ILLEGAL_COLLAPSE;
   }
   return LEGAL_COLLAPSE;
 }
 
 float ModCreases::collapse_priority(const CollapseInfo& collapse) {
-  const Fan fan = fan_of(mesh(), *points_, collapse);
+  const Fan fan = fan_of(mesh(), points(), collapse);
   const std::size_t n = fan.before.size();
   double sharpest = kSharpest;
   for (std::size_t i = 0; i < n; ++i) {

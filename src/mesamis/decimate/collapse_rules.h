@@ -26,27 +26,32 @@ struct Star {
   std::vector<Triangle> before, after;
 };
 
-/// Refuses triangles that are nearly degenerate.
-class ModFlatness : public CollapseRule {
+/// A rule that looks at the points of the surface.
+class PointRule : public CollapseRule {
  public:
-  explicit ModFlatness(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}
+  explicit PointRule(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}
   void set_surface(const TriMesh& surface) { points_ = &surface.points; }
-  float collapse_priority(const CollapseInfo& collapse) override;
+
+ protected:
+  const std::vector<Vec3>& points() const { return *points_; }
 
  private:
   const std::vector<Vec3>* points_ = nullptr;
 };
 
+/// Refuses triangles that are nearly degenerate.
+class ModFlatness : public PointRule {
+ public:
+  using PointRule::PointRule;
+  float collapse_priority(const CollapseInfo& collapse) override;
+};
+
 /// Refuses creases: edges at which the new triangles bend by more than 25 degrees, and by more than
 /// the surface did at any edge of those that they replace.
-class ModCreases : public CollapseRule {
+class ModCreases : public PointRule {
  public:
-  explicit ModCreases(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}
-  void set_surface(const TriMesh& surface) { points_ = &surface.points; }
+  using PointRule::PointRule;
   float collapse_priority(const CollapseInfo& collapse) override;
-
- private:
-  const std::vector<Vec3>* points_ = nullptr;
 };
 
 /// Refuses new edges between points at the rims of sheets: another sheet might have the same edge,

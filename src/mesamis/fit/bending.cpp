@@ -86,6 +86,14 @@ std::vector<Vec3> Umbrella::transposed(const std::vector<Vec3>& y) const {
   return x;
 }
 
+Springs springs_at(const SurfaceSpace& space, const std::vector<Vec3>& points, double weight) {
+  Springs springs{std::vector<double>(points.size(), weight), points,
+                  std::vector<char>(points.size())};
+  parallel_for(points.size(),
+               [&](std::size_t p) { springs.held[p] = space.on_box(points[p]) ? 1 : 0; });
+  return springs;
+}
+
 std::vector<Vec3> relax(const Umbrella& umbrella, const Springs& springs, double bending,
                         std::vector<Vec3> x) {
   constexpr int kMostSteps = 120;

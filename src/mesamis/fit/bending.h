@@ -35,6 +35,9 @@ struct Springs {
   std::vector<char> held;  ///< 1: the point stays where it is
 };
 
+/// Springs of one weight that hold points where they are; those on the grid's box stay.
+Springs springs_at(const SurfaceSpace& space, const std::vector<Vec3>& points, double weight);
+
 /// Finds the points that minimise
 ///   sum of weight |x - goal|^2 + bending |L x|^2
 /// by conjugate gradients.

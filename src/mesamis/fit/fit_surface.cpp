@@ -24,11 +24,7 @@ class Fit {
         neighbors_(start),
         umbrella_(neighbors_, points.on_curve),
         now_(start),
-        springs_{std::vector<double>(start.points.size()), start.points,
-                 std::vector<char>(start.points.size())} {
-    parallel_for(start.points.size(),
-                 [&](std::size_t p) { springs_.held[p] = space_.on_box(start.points[p]) ? 1 : 0; });
-  }
+        springs_(springs_at(space_, start.points, 0)) {}
 
   void round() {
     aim();

@@ -21,9 +21,7 @@ TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid,
   const SurfaceSpace space(grid, 1);
   const Neighbors neighbors(surface);
   const Umbrella umbrella(neighbors, on_curve);
-  Springs springs{std::vector<double>(start.size(), 1), start, std::vector<char>(start.size())};
-  parallel_for(start.size(),
-               [&](std::size_t p) { springs.held[p] = space.on_box(start[p]) ? 1 : 0; });
+  Springs springs = springs_at(space, start, 1);
   std::vector<Vec3> now = start;
   for (int round = 0; round < options.rounds; ++round) {
     now = relax(umbrella, springs, options.bending, std::move(now));

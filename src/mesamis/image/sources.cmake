@@ -11,7 +11,8 @@ set(ROOM_HEADERS
   volume.h)
 # For the rooms above alone: not installed.
 set(ROOM_INNER_HEADERS
-  slice_plane.h)
+  slice_plane.h
+  trilinear.h)
 set(ROOM_SOURCES
   find_segment.cpp
   gaussian.cpp

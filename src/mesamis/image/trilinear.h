@@ -8,9 +8,9 @@
 #include "mesamis/base/types.h"
 #include "mesamis/image/volume.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 
-/// A scan between its voxels, linear along each axis; constant beyond the outermost voxel centres.
+/// An image between its voxels, linear along each axis; constant beyond the outermost voxel centres.
 class Trilinear {
  public:
   /// @param volume  at least 2 voxels along each axis; must live as long as this.
@@ -21,7 +21,7 @@ class Trilinear {
         step_z_(step_y_ * volume.size[1]) {}
 
   /// @param p  in voxels along the axes of the grid, finite.
-  /// @return native units.
+  /// @return in the unit of the samples.
   double at(const Vec3& p) const {
     double fx, fy, fz;
     const float* s = samples_ + place(p.x, size_[0], fx) + step_y_ * place(p.y, size_[1], fy) +
@@ -45,4 +45,4 @@ class Trilinear {
   std::ptrdiff_t step_y_, step_z_;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis

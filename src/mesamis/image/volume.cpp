@@ -157,27 +157,4 @@ Volume subsample(const VolumeView& volume, const std::array<Index, 3>& stride) {
   return select(volume, kept);
 }
 
-double linear_at(const VolumeView& volume, const Vec3& place) {
-  std::array<Index, 3> low{};
-  std::array<double, 3> share{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double last = static_cast<double>(volume.size[a] - 1);
-    const double x = std::clamp(place[static_cast<int>(a)], 0.0, last);
-    low[a] = std::min(static_cast<Index>(x), std::max<Index>(volume.size[a] - 2, 0));
-    share[a] = x - static_cast<double>(low[a]);
-  }
-  double sum = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    double weight = 1;
-    std::array<Index, 3> at = low;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const bool up = (corner >> a & 1) != 0;
-      weight *= up ? share[a] : 1 - share[a];
-      if (up && weight > 0) ++at[a];
-    }
-    if (weight > 0) sum += weight * volume.samples[volume.offset(at[0], at[1], at[2])];
-  }
-  return sum;
-}
-
 }  // namespace mesamis

@@ -212,9 +212,4 @@ inline double interpolate(const VolumeView& volume, const Vec3& p) {
   return interpolate(volume.samples, volume.size, volume.spacing, p);
 }
 
-/// A value between the samples, linear along each axis.
-/// @param place  voxels; clamped to the grid, which has at least one voxel along each axis.
-/// @return in the unit of the samples.
-double linear_at(const VolumeView& volume, const Vec3& place);
-
 }  // namespace mesamis

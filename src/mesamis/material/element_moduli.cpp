@@ -8,12 +8,10 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/written_number.h"
-#include "mesamis/material/trilinear.h"
+#include "mesamis/image/trilinear.h"
 #include "mesamis/mesh/kuhn.h"
 
 namespace mesamis {
-
-using detail::Trilinear;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/written_number.h"
-#include "mesamis/material/trilinear.h"
+#include "mesamis/image/trilinear.h"
 #include "mesamis/surface/signed_distance.h"
 
 namespace mesamis {
@@ -121,7 +121,7 @@ class RimFiller {
   }
 
   const VolumeView& volume_;
-  detail::Trilinear image_;
+  Trilinear image_;
   Vec3 depth_;
   double reach_;
   Volume filled_;

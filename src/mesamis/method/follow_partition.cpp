@@ -90,6 +90,17 @@ std::vector<Vec3> faired(const FollowSpace& space, const std::vector<Vec3>& star
   return points;
 }
 
+/// The surface of a partition, which is left without.
+TriMesh taken_from(PartitionSurface& partition) {
+  return {std::move(partition.points), std::move(partition.triangles)};
+}
+
+PartitionSurface put_back(TriMesh surface, PartitionSurface partition) {
+  partition.points = std::move(surface.points);
+  partition.triangles = std::move(surface.triangles);
+  return partition;
+}
+
 }  // namespace
 
 bool shows_edge(const PairLevel& pair, double noise) {
@@ -147,7 +158,7 @@ PartitionSurface follow_image(PartitionSurface partition, const SplineImage& ima
                               const std::vector<BoundaryGuide>& guides, double noise) {
   const FollowSpace space(image, 1);
   const std::vector<char> on_curve = curve_points(partition);
-  TriMesh surface{std::move(partition.points), std::move(partition.triangles)};
+  TriMesh surface = taken_from(partition);
   const Neighbors neighbors(surface);
   const Umbrella umbrella(neighbors, on_curve);
   surface = moved_without_folds(
@@ -165,30 +176,23 @@ PartitionSurface follow_image(PartitionSurface partition, const SplineImage& ima
     }
     surface = moved_without_folds(space, surface, std::move(shifts));
   }
-  partition.points = std::move(surface.points);
-  partition.triangles = std::move(surface.triangles);
-  return partition;
+  return put_back(std::move(surface), std::move(partition));
 }
 
 PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& image,
                                 const std::vector<BoundaryGuide>& guides, double reach) {
   FitPoints points{{}, curve_points(partition)};
   for (const BoundaryGuide& guide : guides) points.contrast.push_back(guide.contrast);
-  TriMesh fitted = fit_surface({std::move(partition.points), std::move(partition.triangles)}, image,
-                               points, {.reach = reach});
-  partition.points = std::move(fitted.points);
-  partition.triangles = std::move(fitted.triangles);
-  return partition;
+  TriMesh fitted = fit_surface(taken_from(partition), image, points, {.reach = reach});
+  return put_back(std::move(fitted), std::move(partition));
 }
 
 PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid) {
   const std::vector<char> on_curve = curve_points(partition);
-  const TriMesh start{std::move(partition.points), std::move(partition.triangles)};
+  const TriMesh start = taken_from(partition);
   const TriMesh smooth = smooth_surface(start, grid, on_curve);
   TriMesh kept = keep_volumes(start, smooth, partition.sides, grid, on_curve);
-  partition.points = std::move(kept.points);
-  partition.triangles = std::move(kept.triangles);
-  return partition;
+  return put_back(std::move(kept), std::move(partition));
 }
 
 }  // namespace mesamis

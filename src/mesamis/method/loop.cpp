@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/image/trilinear.h"
 
 namespace mesamis {
 namespace {
@@ -44,13 +45,14 @@ std::vector<Sym3> world_metric(const RunInput& run, const std::vector<Sym3>& met
 /// See Result::level_excess.
 /// @param points  length units.
 std::vector<double> excess_at(const RunInput& run, const std::vector<Vec3>& points) {
-  const Volume& excess = run.excess;
-  std::vector<double> found(excess.samples.empty() ? 0 : points.size());
+  if (run.excess.samples.empty()) return {};
+  const VolumeView excess = run.excess;
+  const Trilinear between(excess);
   const double unit = run.parameters.unit_mm;
+  std::vector<double> found(points.size());
   parallel_for(found.size(), [&](std::size_t n) {
     const Vec3 p = unit * points[n];
-    found[n] =
-        linear_at(excess, {p.x / excess.spacing.x, p.y / excess.spacing.y, p.z / excess.spacing.z});
+    found[n] = between.at({p.x / excess.spacing.x, p.y / excess.spacing.y, p.z / excess.spacing.z});
   });
   return found;
 }

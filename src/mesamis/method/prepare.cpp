@@ -147,16 +147,14 @@ void require_contrast(const VolumeView& volume, const Parameters& p) {
 struct Chosen {
   Choice choice;
   Restored restored;
-  Volume excess{};  ///< of the level of each place, native units; no samples: there is one level
+  LocalLevel local{};  ///< no samples: there is one level
 
   /// Takes what the level of each place exceeds the object's off the image.
   void level_out(double level) {
     const ObjectContrast& contrast = choice.object.contrast;
     if (!(contrast.difference() > 0)) return;
-    LocalLevel local = find_local_level(restored.volume, contrast, level, restored.noise);
+    local = find_local_level(restored.volume, contrast, level, restored.noise);
     take_off(local, restored.volume);
-    choice.measured.level_range = local.range;
-    excess = std::move(local.excess);
   }
 };
 
@@ -191,7 +189,7 @@ Chosen choose(const VolumeView& volume, const VoxelGrid& whole, const Settings& 
                             restored.impulses,
                             contrast,
                             settings.level ? 0 : object.uncertainty,
-                            chosen.choice.measured.level_range};
+                            chosen.local.range};
   if (!settings.max_tets && !settings.preview) {
     const SurfaceExtent extent =
         measured_extent(restored.volume, restored.noise_left, contrast, p.level);
@@ -224,16 +222,14 @@ std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
 Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
   Chosen chosen = choose(volume, volume, settings);
   Prepared prepared = prepared_from(chosen.choice, std::move(chosen.restored.volume));
-  prepared.excess = std::move(chosen.excess);
+  prepared.excess = std::move(chosen.local.excess);
   const double scale = prepared.parameters.grey.grey_per_native();
   for (float& value : prepared.excess.samples) value = static_cast<float>(scale * value);
   return prepared;
 }
 
 Choice choose_parameters(const VolumeView& part, const VoxelGrid& whole, const Settings& settings) {
-  Settings one_level = settings;
-  one_level.local_level = false;
-  return choose(part, whole, one_level).choice;
+  return choose(part, whole, settings).choice;
 }
 
 Prepared prepare_slab(const VolumeView& slab, const Choice& choice) {

@@ -8,6 +8,8 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/image/gaussian.h"
 #include "mesamis/image/grey_values.h"
+#include "mesamis/image/trilinear.h"
+#include "mesamis/restore/level_crossings.h"
 
 namespace mesamis {
 namespace {
@@ -21,41 +23,35 @@ constexpr double kDarkest = -0.25, kBrightest = 0.35;
 /// Of the median weight of an edge: what holds the level at the object's where there are no edges.
 constexpr double kPull = 0.005;
 
-/// Of the samples, per voxel along each axis.
-Vec3 slope_at(const VolumeView& v, Index i, Index j, Index k) {
-  const std::array<Index, 3> here{i, j, k};
-  Vec3 slope;
-  for (std::size_t a = 0; a < 3; ++a) {
-    std::array<Index, 3> low = here, high = here;
-    low[a] = std::max<Index>(here[a] - 1, 0);
-    high[a] = std::min<Index>(here[a] + 1, v.size[a] - 1);
-    if (low[a] == high[a]) continue;
-    const double rise = v.samples[v.offset(high[0], high[1], high[2])] -
-                        double{v.samples[v.offset(low[0], low[1], low[2])]};
-    slope[static_cast<int>(a)] = rise / static_cast<double>(high[a] - low[a]);
-  }
-  return slope;
-}
-
 /// The two sides of an edge, native units.
 struct Sides {
   double dark = 0, bright = 0;
 };
+
+/// The image that edges are looked for in; its gradients are per voxel.
+Volume smoothed_in_voxels(const VolumeView& volume) {
+  Volume smooth =
+      gaussian_smoothed({volume, {volume.samples.begin(), volume.samples.end()}}, kEdgeScale);
+  smooth.spacing = {1, 1, 1};
+  return smooth;
+}
 
 /// Looks for the edges of an image.
 class EdgeFinder {
  public:
   EdgeFinder(const VolumeView& volume, const ObjectContrast& contrast, double noise)
       : volume_(volume),
-        smooth_(gaussian_smoothed({volume, {volume.samples.begin(), volume.samples.end()}},
-                                  kEdgeScale)),
+        smoothed_(smoothed_in_voxels(volume)),
+        smooth_(smoothed_),
         steepness_{volume, std::vector<float>(volume.samples.size())},
+        image_(volume_),
+        slopes_(steepness_),
         background_(contrast.background),
         contrast_(contrast.difference()),
         least_(std::max(kLeastOfContrast * contrast_, kLeastOfNoise * noise)) {
     for_each_voxel([&](Index i, Index j, Index k) {
       steepness_.samples[volume_.offset(i, j, k)] =
-          static_cast<float>(norm(slope_at(smooth_, i, j, k)));
+          static_cast<float>(norm(gradient_at(smooth_, i, j, k)));
     });
   }
 
@@ -74,15 +70,15 @@ class EdgeFinder {
     // A blurred step of the least height rises by about a sixth of it per voxel.
     if (steep < least_ / 6) return {};
     const Vec3 here{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
-    const Vec3 up = unit_or_zero(slope_at(smooth_, i, j, k));
-    if (linear_at(steepness_, here + up) > steep || linear_at(steepness_, here - up) > steep) {
+    const Vec3 up = unit_or_zero(gradient_at(smooth_, i, j, k));
+    if (slopes_.at(here + up) > steep || slopes_.at(here - up) > steep) {
       return {};
     }
     const double middle = volume_.samples[volume_.offset(i, j, k)];
     Sides sides{middle, middle};
     for (const double t : {0.5, 1.0, 1.5, 2.0}) {
-      sides.bright = std::max(sides.bright, linear_at(volume_, here + t * up));
-      sides.dark = std::min(sides.dark, linear_at(volume_, here - t * up));
+      sides.bright = std::max(sides.bright, image_.at(here + t * up));
+      sides.dark = std::min(sides.dark, image_.at(here - t * up));
     }
     return counts(sides) && are_thick(sides, here, up) ? sides : Sides{};
   }
@@ -93,8 +89,8 @@ class EdgeFinder {
   bool are_thick(const Sides& sides, const Vec3& here, const Vec3& up) const {
     const double middle = (sides.bright + sides.dark) / 2;
     for (double t = 1; t <= kThick; t += 0.5) {
-      if (linear_at(volume_, here + t * up) < middle) return false;
-      if (linear_at(volume_, here - t * up) > middle) return false;
+      if (image_.at(here + t * up) < middle) return false;
+      if (image_.at(here - t * up) > middle) return false;
     }
     return true;
   }
@@ -106,7 +102,10 @@ class EdgeFinder {
   }
 
   const VolumeView& volume_;
-  Volume smooth_, steepness_;
+  Volume smoothed_;
+  VolumeView smooth_;
+  Volume steepness_;
+  Trilinear image_, slopes_;
   double background_, contrast_, least_;
 };
 

@@ -12,9 +12,9 @@ namespace mesamis {
 
 /// The level of half maximum at each voxel, against that of the whole object.
 struct LocalLevel {
-  Volume excess;                ///< of the local level over the object's, native units
-  std::array<double, 2> range;  ///< 5 % and 95 % quantiles of the levels at edges, native units
-  double edge_share = 0;        ///< voxels at edges over all voxels
+  Volume excess;                  ///< of the local level over the object's, native units
+  std::array<double, 2> range{};  ///< 5 % and 95 % quantiles of the levels at edges, native units
+  double edge_share = 0;          ///< voxels at edges over all voxels
 };
 
 /// Finds the level of half maximum for each place from the edges nearby.
