@@ -11,7 +11,6 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/written_number.h"
 #include "mesamis/delivery/body_request.h"
-#include "mesamis/material/density.h"
 #include "mesamis/material/material_law.h"
 #include "outputs.h"
 
@@ -127,7 +126,7 @@ BodyWishes body_wishes(const BodyArguments& a, Frame frame) {
 }
 
 /// One line per object whose surface is not all that meshers were promised.
-void warn_of_skins(const Outcome& outcome) {
+void warn_of_skins(const OutcomeDetails& outcome) {
   const auto& quality = outcome.elements.quality;
   const std::vector<FoundObject> objects = outcome.objects();
   for (std::size_t n = 0; n < quality.size(); ++n) {
@@ -194,7 +193,7 @@ ElementRequest element_request(const BodyArguments& a, Frame frame, double memor
   return {body_wishes(a, frame), a.given(), a.meshing(), memory_gb};
 }
 
-void warn_of_elements(const BodyArguments& a, const Outcome& outcome) {
+void warn_of_elements(const BodyArguments& a, const OutcomeDetails& outcome) {
   warn_of_skins(outcome);
   if (!outcome.elements.body) return;
   if (!outcome.elements.loose.empty()) log_warning("--body: " + outcome.elements.loose);

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/base/frame.h"
+#include "mesamis/base/types.h"
 #include "mesamis/delivery/body_request.h"
 #include "mesamis/method/settings.h"
-#include "mesamis/run/outcome.h"
+#include "mesamis/run/outcome_details.h"
 
 namespace CLI {
 class App;
@@ -56,6 +56,6 @@ void require_elements_for(const BodyArguments& arguments, const Settings& settin
 ElementRequest element_request(const BodyArguments& arguments, Frame frame, double memory_gb);
 
 /// Logs what the elements of a run miss, but for what decides its exit status.
-void warn_of_elements(const BodyArguments& arguments, const Outcome& outcome);
+void warn_of_elements(const BodyArguments& arguments, const OutcomeDetails& outcome);
 
 }  // namespace mesamis

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/files/read_limits.h"
+#include "mesamis/files/reading.h"
 #include "mesamis/record/verdict.h"
 #include "mesamis/slabs/team.h"
 

@@ -10,8 +10,8 @@
 
 namespace mesamis {
 
-Outputs outputs_of(const SegmentOptions& options, const CommonOptions& common) {
-  Outputs out = options.out;
+RunFiles outputs_of(const SegmentOptions& options, const CommonOptions& common) {
+  RunFiles out = options.out;
   out.frame = options.scan.frame;
   out.bodies = options.body.files;
   out.gmsh = options.body.gmsh == "4.1" ? GmshVersion::k41 : GmshVersion::k22;
@@ -24,7 +24,7 @@ Outputs outputs_of(const SegmentOptions& options, const CommonOptions& common) {
   return out;
 }
 
-int deliver(const Outcome& outcome, const Outputs& outputs, OutputSet& set) {
+int deliver(const OutcomeDetails& outcome, const RunFiles& outputs, OutputSet& set) {
   write(outcome, outputs, set);
   RunFigures figures = figures_of(outcome);
   figures.files = files_of(set);

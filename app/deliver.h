@@ -3,18 +3,18 @@
 
 #include "commands.h"
 #include "mesamis/files/output_set.h"
-#include "mesamis/run/write.h"
+#include "mesamis/run/run_files.h"
 #include "segment_run.h"
 
 namespace mesamis {
 
 /// What the options say of the files of a run, with its command line and its costs in the report.
-Outputs outputs_of(const SegmentOptions& options, const CommonOptions& common);
+RunFiles outputs_of(const SegmentOptions& options, const CommonOptions& common);
 
 /// Writes the files of a run, shows its figures, and logs what it has missed.
 /// @param set  of this thread; what is in it already appears with the files.
 /// @return the exit status.
 /// @throws InputError  as write() and OutputSet::commit().
-int deliver(const Outcome& outcome, const Outputs& outputs, OutputSet& set);
+int deliver(const OutcomeDetails& outcome, const RunFiles& outputs, OutputSet& set);
 
 }  // namespace mesamis

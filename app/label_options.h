@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/files/read_limits.h"
+#include "mesamis/files/reading.h"
 #include "mesamis/label_files/read_labels.h"
-#include "mesamis/run/request.h"
+#include "mesamis/run/segment.h"
 
 namespace CLI {
 class App;

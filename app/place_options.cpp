@@ -5,6 +5,7 @@
 
 #include "arguments.h"
 #include "mesamis/object/places.h"
+#include "mesamis/object/tissue.h"
 
 namespace mesamis {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "label_options.h"
-#include "mesamis/base/frame.h"
+#include "mesamis/base/types.h"
 #include "mesamis/method/chosen_run.h"
 
 namespace CLI {

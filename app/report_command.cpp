@@ -12,6 +12,7 @@
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/files/sha256.h"
+#include "mesamis/page/run_page.h"
 #include "mesamis/record/json_file.h"
 #include "mesamis/shape_files/file_kind.h"
 #include "mesamis/shape_files/object_files.h"

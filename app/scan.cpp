@@ -12,6 +12,7 @@
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/chunk_files/chunked_scan.h"
+#include "mesamis/files/read_record.h"
 #include "mesamis/image/not_numbers.h"
 
 namespace mesamis {

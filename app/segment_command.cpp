@@ -60,7 +60,7 @@ HasEnough time_limit(const SegmentOptions& options) {
 /// Reads labels, scan and masks, and says what is wanted of them.
 /// @param out  learns what a report says of the files that were read.
 Request read_request(const SegmentOptions& options, const Settings& settings,
-                     const CommonOptions& common, Outputs& out) {
+                     const CommonOptions& common, RunFiles& out) {
   const bool labels = options.scan.labels.given();
   Request request;
   if (labels) {
@@ -109,7 +109,7 @@ Listener listener_of(ProgressDisplay& display, const SegmentOptions& options) {
   return listener;
 }
 
-void warn_of_missing_meshes(const SegmentOptions& options, const Outcome& outcome) {
+void warn_of_missing_meshes(const SegmentOptions& options, const OutcomeDetails& outcome) {
   if (!outcome.one || !outcome.one->stopped || outcome.mesh() != nullptr) return;
   if (!options.wants_mesh()) return;
   log_warning("--time-limit: no mesh was made in this time, none is written");
@@ -117,18 +117,19 @@ void warn_of_missing_meshes(const SegmentOptions& options, const Outcome& outcom
 
 /// Of the page: the scan as it is in its file.
 std::function<std::optional<Volume>()> shown_scan(const SegmentOptions& options,
-                                                  const Outputs& out) {
+                                                  const RunFiles& out) {
   const std::string sum = out.facts.input ? out.facts.input->sha256 : std::string();
   return [&options, sum] { return read_shown_scan({options.scan.input, options.scan.read, sum}); };
 }
 
 int run_whole(const SegmentOptions& options, const Settings& settings,
               const CommonOptions& common) {
-  Outputs out = outputs_of(options, common);
+  RunFiles out = outputs_of(options, common);
   Request request = read_request(options, settings, common, out);
   out.shown_scan = shown_scan(options, out);
   ProgressDisplay display(common.quiet);
-  const Outcome outcome = segment(std::move(request), listener_of(display, options));
+  const Outcome found = segment(std::move(request), listener_of(display, options));
+  const OutcomeDetails& outcome = found.details();
   display.finish();
   warn_of_missing_meshes(options, outcome);
   warn_of_elements(options.body, outcome);

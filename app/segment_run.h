@@ -7,7 +7,7 @@
 
 #include "body_options.h"
 #include "chosen_scan.h"
-#include "mesamis/run/write.h"
+#include "mesamis/run/run_files.h"
 #include "segment_slabs.h"
 #include "settings_options.h"
 
@@ -18,7 +18,7 @@ struct SegmentOptions {
   ScanArguments scan;  ///< its input may be empty: the labels alone
   SettingsArguments settings;
   BodyArguments body;
-  Outputs out;  ///< but for bodies, frame and facts, which follow from the others
+  RunFiles out;  ///< but for bodies, frame and facts, which follow from the others
   SlabArguments slabs;
   std::optional<double> time_limit;  ///< s, from wall_seconds() 0
   bool plan = false;                 ///< only tell what the run needs

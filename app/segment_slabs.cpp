@@ -110,9 +110,9 @@ nlohmann::ordered_json slabs_json(const SlabRunResult& found, const Team& team) 
           {"slabs", std::move(each)}};
 }
 
-Outputs outputs_of(const SegmentOptions& run, const FileSlices& source, const SlabOutcome& found,
-                   const CommonOptions& common) {
-  Outputs out = outputs_of(run, common);
+RunFiles outputs_of(const SegmentOptions& run, const FileSlices& source, const SlabOutcome& found,
+                    const CommonOptions& common) {
+  RunFiles out = outputs_of(run, common);
   out.meshes = meshes_of(run, false);
   const VolumeFile& head = source.head();
   // Its samples were not all looked at, and its files are too large for a sum.
@@ -185,7 +185,7 @@ int run_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Setti
   const auto found = segment_in_slabs(request, folder, team);
   display.finish();
   if (!found) return kExitDone;
-  return deliver(found->outcome, outputs_of(run, *source, *found, common), *set);
+  return deliver(found->outcome.details(), outputs_of(run, *source, *found, common), *set);
 }
 
 }  // namespace mesamis

@@ -65,7 +65,7 @@ std::string files_line(const RunFigures& run) {
 
 }  // namespace
 
-RunFigures figures_of(const Outcome& outcome) {
+RunFigures figures_of(const OutcomeDetails& outcome) {
   RunFigures figures;
   figures.checks = outcome.checks;
   for (const FoundObject& object : outcome.objects()) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/run/outcome.h"
+#include "mesamis/run/outcome_details.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {
@@ -23,7 +23,7 @@ struct RunFigures {
 };
 
 /// The figures of a run, but for the files; refer to the outcome.
-RunFigures figures_of(const Outcome& outcome);
+RunFigures figures_of(const OutcomeDetails& outcome);
 
 /// Five lines: object; level and expected error; size; triangles, parts, closed or not; files.
 std::vector<std::string> summary_lines(const RunFigures& run);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "mesamis/base/stopwatch.h"
+#include "mesamis/image/grey_values.h"
 #include "mesamis/label_files/read_labels.h"
 #include "mesamis/object/body.h"
 #include "mesamis/object/padding.h"

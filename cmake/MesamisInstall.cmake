@@ -1,19 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-# What another project finds with find_package(mesamis): a set of targets for the core and for each
-# room with dependencies of its own, so that none need be installed that is not used.
+# What another project finds with find_package(mesamis): mesamis::mesamis with its header and those that it leads to, and
+# for each component its library, which is found only where it is asked for.
+if(NOT TARGET mesamis)
+  return()
+endif()
 include(CMakePackageConfigHelpers)
 
 set(MESAMIS_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/mesamis)
-install(TARGETS mesamis EXPORT mesamisTargets COMPONENT development
+mesamis_rooms_of_kind(rooms library)
+list(TRANSFORM rooms PREPEND mesamis_)
+install(TARGETS mesamis mesamis_core ${rooms} EXPORT mesamisTargets COMPONENT development
         FILE_SET HEADERS COMPONENT development)
 install(EXPORT mesamisTargets NAMESPACE mesamis:: DESTINATION ${MESAMIS_CMAKE_DIR}
         COMPONENT development)
-get_property(mesamis_libraries GLOBAL PROPERTY MESAMIS_LIBRARIES)
-foreach(room IN LISTS mesamis_libraries)
-  install(TARGETS mesamis_${room} EXPORT mesamis_${room} COMPONENT development
-          FILE_SET HEADERS COMPONENT development)
-  install(EXPORT mesamis_${room} NAMESPACE mesamis:: DESTINATION ${MESAMIS_CMAKE_DIR}
-          COMPONENT development)
+foreach(component picture baseline)
+  if(TARGET mesamis_${component})
+    install(TARGETS mesamis_${component} EXPORT mesamis_${component} COMPONENT development
+            FILE_SET HEADERS COMPONENT development)
+    install(EXPORT mesamis_${component} NAMESPACE mesamis:: DESTINATION ${MESAMIS_CMAKE_DIR}
+            COMPONENT development)
+  endif()
 endforeach()
 
 configure_package_config_file(

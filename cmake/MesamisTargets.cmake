@@ -90,21 +90,17 @@ function(mesamis_join result root folder)
   set(${result} ${joined} PARENT_SCOPE)
 endfunction()
 
-# Adds a room to a library. Its sources.cmake names its doors (ROOM_HEADERS, which are installed), the
-# headers that other rooms of the project may include as well (ROOM_INNER_HEADERS) and its sources
-# (ROOM_SOURCES, in parts as mesamis_join takes them); any other header is the room's own.
+# Adds a room to a library. Its sources.cmake names its doors (ROOM_HEADERS), the headers that other rooms may include, and
+# its sources (ROOM_SOURCES, in parts as mesamis_join takes them); any other header is the room's own.
 function(mesamis_add_room target room)
-  set(folder ${PROJECT_SOURCE_DIR}/src/mesamis/${room})
-  include(${folder}/sources.cmake)
-  list(TRANSFORM ROOM_HEADERS PREPEND ${folder}/)
+  include(${PROJECT_SOURCE_DIR}/src/mesamis/${room}/sources.cmake)
   mesamis_join(sources ${PROJECT_SOURCE_DIR}/src mesamis/${room}/ ${ROOM_SOURCES})
-  target_sources(${target}
-    PRIVATE ${sources}
-    PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${ROOM_HEADERS})
+  target_sources(${target} PRIVATE ${sources})
 endfunction()
 
-# A room with dependencies of its own: the library mesamis_ROOM, which is mesamis::ROOM elsewhere.
+# A room that is a library of its own: mesamis_ROOM, which links the rooms that it leads to. LIBRARIES are others that it needs.
 function(mesamis_add_library room)
+  cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
   set(target mesamis_${room})
   add_library(${target})
   add_library(mesamis::${room} ALIAS ${target})
@@ -112,5 +108,10 @@ function(mesamis_add_library room)
   mesamis_add_room(${target} ${room})
   mesamis_compile_options(${target})
   mesamis_instrument(${target})
-  set_property(GLOBAL APPEND PROPERTY MESAMIS_LIBRARIES ${room})
+  target_link_libraries(${target} PUBLIC mesamis_core PRIVATE ${ARG_LIBRARIES})
+  foreach(lower IN LISTS MESAMIS_ROOMS_OF_${room})
+    if(TARGET mesamis_${lower})
+      target_link_libraries(${target} PUBLIC mesamis_${lower})
+    endif()
+  endforeach()
 endfunction()

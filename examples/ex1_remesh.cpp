@@ -3,7 +3,8 @@
 //
 //   ex1_remesh [OUT.vtu]
 //
-// The metric asks for cells that are thin across a sphere and long along it.
+// The metric asks for cells that are thin across a sphere and long along it. The headers of the
+// remesher are not installed: this program is built in the source tree.
 #include <cmath>
 #include <cstdio>
 #include <exception>

@@ -2,12 +2,12 @@
 // Example 2: read a scan, print its facts, draw its middle slice.
 //
 //   ex2_volume SCAN [OUT.png]      (without a screen: xvfb-run ex2_volume ...)
+#include <mesamis/mesamis.h>
+#include <mesamis/picture/picture.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-
-#include "mesamis/picture/picture.h"
-#include "mesamis/scan_files/read_volume.h"
 
 using namespace mesamis;
 

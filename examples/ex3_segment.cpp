@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Example 3: the whole method on a ball made on the spot; its surface, its mesh and its energies.
+// Example 3: the whole method on a ball made on the spot; its surface, its mesh and what it used.
 //
 //   ex3_segment [SURFACE.stl [MESH.vtu]]
+#include <mesamis/mesamis.h>
+
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <random>
 #include <utility>
-
-#include "mesamis/run/segment.h"
-#include "mesamis/run/write.h"
 
 using namespace mesamis;
 
@@ -39,14 +38,15 @@ int main(int count, char** arguments) try {
   };
   const Outcome outcome = segment(std::move(request), listener);
 
-  // 3. What happened: cells and energy of each pass.
-  for (const Iteration& pass : outcome.one->iterations) {
-    std::printf("%9lld cells, energy %.4g\n", static_cast<long long>(pass.tets),
-                pass.energy.total());
+  // 3. What came out: the adapted mesh with its fields, the surface, and what was chosen.
+  if (const auto mesh = outcome.mesh()) {
+    std::printf("%zu cells, grey value %.1f at the first node\n", mesh->mesh.cells.size(),
+                mesh->u[0]);
   }
-  const SurfaceCheck& check = outcome.checks.front();
-  std::printf("%zu triangles, closed: %s, volume %.0f mm3 (the ball: %.0f)\n",
-              outcome.one->surface.triangles.size(), check.closed() ? "yes" : "no", check.volume,
+  const OutcomeObject object = outcome.objects().front();
+  std::printf("level %.4g, %zu triangles, closed: %s, volume %.0f mm3 (the ball: %.0f)\n",
+              *outcome.settings_used().level, object.surface.triangles.size(),
+              object.check.closed() ? "yes" : "no", object.check.volume,
               4.0 / 3 * 3.141592653589793 * 9 * 9 * 9);
 
   // 4. Files, which appear together or not at all, in LPS mm.

@@ -2,13 +2,12 @@
 // Quickstart: from a span of voxels to an STL. The voxels are read where they lie.
 //
 //   quickstart [SURFACE.stl]
+#include <mesamis/mesamis.h>
+
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <vector>
-
-#include "mesamis/run/segment.h"
-#include "mesamis/run/write.h"
 
 namespace {
 
@@ -41,9 +40,9 @@ int main(int count, char** arguments) try {
   const mesamis::Outcome outcome = mesamis::segment(request);
   mesamis::write(outcome, {.surfaces = {count > 1 ? arguments[1] : "quickstart.stl"}});
 
-  const bool closed = outcome.checks.front().closed();
-  std::printf("%zu triangles, %s\n", outcome.objects().front().surface.triangles.size(),
-              closed ? "closed" : "open");
+  const mesamis::OutcomeObject object = outcome.objects().front();
+  const bool closed = object.check.closed();
+  std::printf("%zu triangles, %s\n", object.surface.triangles.size(), closed ? "closed" : "open");
   return closed ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "quickstart: %s\n", error.what());

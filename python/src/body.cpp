@@ -10,7 +10,6 @@
 #include "mesamis/base/written_number.h"
 #include "mesamis/delivery/body_output.h"
 #include "mesamis/delivery/body_request.h"
-#include "mesamis/material/density.h"
 #include "mesamis/material/material_law.h"
 #include "mesamis/record/body_json.h"
 #include "mesamis/shape_files/element_files.h"
@@ -77,7 +76,7 @@ BodyWishes body_wishes(const Arguments& a, Frame frame) {
 /// What the program does for --body.
 Shared body_of(const std::shared_ptr<Run>& run, const py::dict& arguments,
                const py::object& progress, int threads) {
-  const Outcome& found = run->outcome;
+  const OutcomeDetails& found = run->details();
   if (!found.object) throw InputError("body: expected a scan beside the labels, found none");
   const Arguments plain(arguments);
   ElementRequest request{body_wishes(plain, run->frame), true};

@@ -12,9 +12,9 @@
 
 #include "call.h"
 #include "mesamis/base/error.h"
-#include "mesamis/base/frame.h"
+#include "mesamis/base/types.h"
 #include "mesamis/label_files/read_labels.h"
-#include "mesamis/run/request.h"
+#include "mesamis/run/segment.h"
 #include "volume.h"
 
 /// What a call of segment() asks for.

@@ -10,6 +10,7 @@
 #include "call.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/record/run_surface.h"
 #include "mesamis/shape_files/surface_files.h"
 
 namespace mesamis::python {
@@ -18,21 +19,21 @@ namespace {
 using Shared = std::shared_ptr<Run>;
 
 std::string report_of(const Run& run) {
-  nlohmann::ordered_json report = report_json(run.outcome, run.outputs());
+  nlohmann::ordered_json report = report_json(run.details(), run.files());
   report["output"]["threads"] = run.threads > 0 ? run.threads : thread_count();
   report["seconds"] = run.seconds;
   return json_text(report);
 }
 
 const Result& mesh_of(const Run& run) {
-  if (run.outcome.mesh() != nullptr) return *run.outcome.mesh();
-  throw InputError(run.outcome.one ? "mesh: expected a run that made one, found a preview"
-                                   : "mesh: expected a run with mesh=True, found one without");
+  if (run.details().mesh() != nullptr) return *run.details().mesh();
+  throw InputError(run.details().one ? "mesh: expected a run that made one, found a preview"
+                                     : "mesh: expected a run with mesh=True, found one without");
 }
 
 /// Of a preview, which has a mesh without nodes, too.
 const Result& fields_of(const Run& run) {
-  return run.outcome.one ? *run.outcome.one : mesh_of(run);
+  return run.details().one ? *run.details().one : mesh_of(run);
 }
 
 template <class Number, class Element>
@@ -42,19 +43,20 @@ auto field(std::vector<Element> Result::*member) {
 
 py::dict object_of(const Shared& run, std::size_t n) {
   using namespace py::literals;
-  const FoundObject o = run->outcome.objects().at(n);
+  const FoundObject o = run->details().objects().at(n);
   const auto& colour = o.segment.colour;
   return py::dict("name"_a = o.segment.name, "label"_a = o.segment.label,
                   "layer"_a = o.segment.layer,
                   "colour"_a = py::make_tuple(colour[0], colour[1], colour[2]),
                   "points"_a = view_of<double>(o.surface.points, run),
                   "triangles"_a = view_of<Index>(o.surface.triangles, run),
-                  "expected_error"_a = view_of<double>(run->outcome.expected_error(n), run));
+                  "expected_error"_a = view_of<double>(run->details().expected_error(n), run));
 }
 
 py::list objects_of(const Shared& run) {
   py::list objects;
-  for (std::size_t n = 0; n < run->outcome.objects().size(); ++n) objects.append(object_of(run, n));
+  for (std::size_t n = 0; n < run->details().objects().size(); ++n)
+    objects.append(object_of(run, n));
   return objects;
 }
 
@@ -67,47 +69,47 @@ struct SaveOptions {
 
 void save_surface(const Run& run, const std::string& path, const SaveOptions& as) {
   const auto& [name, error, patient] = as;
-  if (run.outcome.one && error && !carries_arrays(path)) {
+  if (run.details().one && error && !carries_arrays(path)) {
     throw InputError("error: expected a .vtp or .ply, found " + path);
   }
-  Outputs out = run.outputs();
+  RunFiles out = run.files();
   out.surfaces = {path};
   out.name = name;
   out.error = error;
   if (patient) out.subject = subject_of(run.scan, path);
-  write(run.outcome, out);
+  write(run.details(), out);
 }
 
 void save_mesh(const Run& run, const std::string& path, const std::string& region, int bins) {
   mesh_of(run);
-  if (run.outcome.object->kind != TissueKind::kBright) {
+  if (run.details().object->kind != TissueKind::kBright) {
     throw InputError(
         "mesh: expected a bright tissue, whose grey values are those of the scan, found " +
-        run.outcome.object->tissue);
+        run.details().object->tissue);
   }
-  Outputs out = run.outputs();
+  RunFiles out = run.files();
   out.meshes = {path};
   out.mesh = mesh_options(region, bins);
-  write(run.outcome, out);
+  write(run.details(), out);
 }
 
 void save_band(const Run& run, const std::string& path) {
   mesh_of(run);
-  Outputs out = run.outputs();
+  RunFiles out = run.files();
   out.band_meshes = {path};
-  write(run.outcome, out);
+  write(run.details(), out);
 }
 
 void save_labelmap(const Run& run, const std::string& path) {
-  Outputs out = run.outputs();
+  RunFiles out = run.files();
   out.labelmap = path;
-  write(run.outcome, out);
+  write(run.details(), out);
 }
 
 }  // namespace
 
-Outputs Run::outputs() const {
-  Outputs out;
+RunFiles Run::files() const {
+  RunFiles out;
   out.frame = frame;
   out.facts = facts;
   return out;
@@ -119,8 +121,7 @@ std::vector<std::string> Run::warnings() const {
     lines.insert(lines.end(), more.begin(), more.end());
   };
   if (scan) append(scan->warnings);
-  if (outcome.object) append(outcome.object->warnings);
-  append(outcome.warnings);
+  append(outcome.warnings());
   return lines;
 }
 
@@ -142,7 +143,8 @@ std::string json_text(const nlohmann::ordered_json& json) {
 void bind_run(py::module_& module) {
   using namespace py::literals;
   py::class_<Run, Shared>(module, "Run")
-      .def_property_readonly("several", [](const Run& r) { return r.outcome.several.has_value(); })
+      .def_property_readonly("several",
+                             [](const Run& r) { return r.details().several.has_value(); })
       .def_property_readonly("objects", &objects_of)
       .def_property_readonly(
           "nodes", [](const Shared& r) { return view_of<double>(fields_of(*r).mesh.points, r); })
@@ -152,20 +154,20 @@ void bind_run(py::module_& module) {
       .def_property_readonly("v", field<double>(&Result::v))
       .def_property_readonly("f", field<double>(&Result::f))
       .def_property_readonly("metric", field<double>(&Result::metric))
-      .def_property_readonly("level", [](const Run& r) { return r.outcome.parameters().level; })
-      .def_property_readonly("converged", [](const Run& r) { return r.outcome.one->converged; })
-      .def_property_readonly("stopped", [](const Run& r) { return r.outcome.one->stopped; })
-      .def_property_readonly("closed", [](const Run& r) { return r.outcome.checks[0].closed(); })
+      .def_property_readonly("level", [](const Run& r) { return r.details().parameters().level; })
+      .def_property_readonly("converged", [](const Run& r) { return r.details().one->converged; })
+      .def_property_readonly("stopped", [](const Run& r) { return r.details().one->stopped; })
+      .def_property_readonly("closed", [](const Run& r) { return r.details().checks[0].closed(); })
       .def_property_readonly("warnings", &Run::warnings)
       .def_property_readonly("notes",
                              [](const Run& r) {
-                               return r.outcome.object ? r.outcome.object->notes
-                                                       : std::vector<std::string>{};
+                               return r.details().object ? r.details().object->notes
+                                                         : std::vector<std::string>{};
                              })
-      .def_property_readonly("flaw", [](const Run& r) { return r.outcome.verdict.message; })
+      .def_property_readonly("flaw", [](const Run& r) { return r.details().verdict.message; })
       .def("require_surface",
            [](const Run& r) {
-             if (r.outcome.one) require_surface(*r.outcome.one);
+             if (r.details().one) require_surface(*r.details().one);
            })
       .def("report",
            [](const Run& r) {

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/run/write.h"
+#include "mesamis/run/outcome_details.h"
+#include "mesamis/run/run_files.h"
 #include "volume.h"
 
 /// What a call of segment() returns: a run with all that can be asked of it afterwards.
@@ -20,8 +21,9 @@ struct Run {
   ReportFacts facts;
   double seconds = 0;
 
+  const OutcomeDetails& details() const { return outcome.details(); }
   /// What the files of this run have in common.
-  Outputs outputs() const;
+  RunFiles files() const;
   /// What was warned of, but for the verdict; a line each.
   std::vector<std::string> warnings() const;
 };

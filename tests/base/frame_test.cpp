@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/base/frame.h"
-
 #include <gtest/gtest.h>
+
+#include "mesamis/base/types.h"
 
 namespace mesamis {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/base/grid_place.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdint>
+
+#include "mesamis/base/types.h"
 
 namespace mesamis {
 namespace {

@@ -7,7 +7,7 @@
 #include "input_folder.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
-#include "mesamis/files/read_limits.h"
+#include "mesamis/files/reading.h"
 
 /// What the targets of the readers share: a file is read, and what it gives keeps its law, or it is
 /// refused in one line that names it. Anything else is a finding.

@@ -9,8 +9,8 @@
 #include <random>
 #include <set>
 
-#include "mesamis/base/frame.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/base/types.h"
 #include "support/throws.h"
 
 namespace mesamis {

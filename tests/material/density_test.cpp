@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/material/density.h"
-
 #include <gmock/gmock.h>
 
 #include <limits>
 #include <string>
 
+#include "mesamis/material/material_law.h"
 #include "support/throws.h"
 
 namespace mesamis {

@@ -18,7 +18,7 @@ Request body_request() {
 }
 
 TEST(MakeElements, MakesNothingUnlessAsked) {
-  const Outcome& found = ball_outcome();
+  const OutcomeDetails& found = ball_outcome().details();
   const ElementResults none =
       make_elements({}, {found.objects(), found.grid, found.image(), found.parameters()}, {});
   EXPECT_FALSE(none.body);
@@ -29,15 +29,15 @@ TEST(MakeElements, ABodyFillsTheObject) {
   Request request = body_request();
   request.elements.body = true;
   const Outcome found = segment(std::move(request));
-  ASSERT_TRUE(found.elements.body);
-  EXPECT_EQ(found.elements.unmet, "");
-  const FiniteElements& body = found.elements.body->elements;
+  ASSERT_TRUE(found.details().elements.body);
+  EXPECT_EQ(found.details().elements.unmet, "");
+  const FiniteElements& body = found.details().elements.body->elements;
   const TetMesh mesh{body.points, body.cells};
   double volume = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     volume += cell_volume(mesh, static_cast<Index>(c));
   }
-  EXPECT_NEAR(volume, found.checks[0].volume, 0.03 * found.checks[0].volume);
+  EXPECT_NEAR(volume, found.details().checks[0].volume, 0.03 * found.details().checks[0].volume);
 }
 
 /// The surface becomes that of the elements, with the errors that were expected of it.
@@ -46,11 +46,11 @@ TEST(MakeElements, SkinsReplaceSurfaces) {
   const Outcome before = segment(request);
   request.elements.skins = true;
   const Outcome after = segment(std::move(request));
-  EXPECT_FALSE(after.elements.body);
-  ASSERT_EQ(after.elements.quality.size(), 1U);
-  EXPECT_LE(after.elements.quality[0].to_given, 0.3);
-  EXPECT_NE(after.one->surface.points, before.one->surface.points);
-  EXPECT_EQ(after.expected_error(0).size(), after.one->surface.points.size());
+  EXPECT_FALSE(after.details().elements.body);
+  ASSERT_EQ(after.details().elements.quality.size(), 1U);
+  EXPECT_LE(after.details().elements.quality[0].to_given, 0.3);
+  EXPECT_NE(after.details().one->surface.points, before.details().one->surface.points);
+  EXPECT_EQ(after.details().expected_error(0).size(), after.details().one->surface.points.size());
 }
 
 TEST(MakeElements, NeedASurface) {

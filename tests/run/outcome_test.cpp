@@ -9,32 +9,46 @@ namespace mesamis {
 namespace {
 
 TEST(Outcome, OneObjectIsAListOfOne) {
-  const Outcome& found = ball_outcome();
-  const auto objects = found.objects();
+  const auto objects = ball_outcome().objects();
   ASSERT_EQ(objects.size(), 1U);
-  EXPECT_EQ(&objects[0].surface, &found.one->surface);
   EXPECT_EQ(objects[0].segment.name, "object");
-  EXPECT_EQ(found.checks.size(), 1U);
-  EXPECT_EQ(found.expected_error(0).size(), objects[0].surface.points.size());
+  EXPECT_TRUE(objects[0].check.closed());
+  EXPECT_EQ(objects[0].expected_error.size(), objects[0].surface.points.size());
 }
 
 TEST(Outcome, ListsTheObjectsOfLabelsInTheirOrder) {
-  const Outcome& found = halves_outcome();
-  const auto objects = found.objects();
+  const auto objects = halves_outcome().objects();
   ASSERT_EQ(objects.size(), 2U);
   EXPECT_EQ(objects[0].segment.name, "left");
   EXPECT_EQ(objects[1].segment.name, "right");
-  EXPECT_EQ(found.checks.size(), 2U);
-  EXPECT_EQ(found.expected_error(1).size(), objects[1].surface.points.size());
+  EXPECT_EQ(objects[1].expected_error.size(), objects[1].surface.points.size());
 }
 
-TEST(Outcome, HasTheImageAndTheMeshOfEitherKind) {
+TEST(Outcome, HasTheMeshOfEitherKindWithItsFields) {
   for (const Outcome* found : {&ball_outcome(), &halves_outcome()}) {
-    EXPECT_EQ(found->image().size, found->grid.size);
-    ASSERT_NE(found->mesh(), nullptr);
-    EXPECT_EQ(found->mesh()->u.size(), found->mesh()->mesh.points.size());
-    EXPECT_GT(found->parameters().level, 120);
+    const auto mesh = found->mesh();
+    ASSERT_TRUE(mesh);
+    for (const auto field : {mesh->u, mesh->v, mesh->f}) {
+      EXPECT_EQ(field.size(), mesh->mesh.points.size());
+    }
+    EXPECT_EQ(mesh->metric.size(), mesh->mesh.points.size());
+    EXPECT_EQ(found->elements(), nullptr);
+    EXPECT_EQ(found->flaw(), "");
   }
+}
+
+/// The settings that a run has used repeat it.
+TEST(Outcome, TellsWhatTheRunHasUsed) {
+  Request request = ball_request();
+  request.settings = ball_outcome().settings_used();
+  ASSERT_TRUE(request.settings.level);
+  const Outcome again = segment(std::move(request));
+  EXPECT_EQ(again.objects()[0].surface.points, ball_outcome().objects()[0].surface.points);
+}
+
+TEST(Outcome, CopiesShareWhatTheyHold) {
+  const Outcome copy = ball_outcome();
+  EXPECT_EQ(&copy.objects()[0].surface, &ball_outcome().objects()[0].surface);
 }
 
 }  // namespace

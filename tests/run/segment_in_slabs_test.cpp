@@ -28,7 +28,8 @@ TEST_F(SegmentInSlabs, OneSlabIsTheWhole) {
   request.piece_meshes = {folder / "pieces.pvtu"};
   const auto found = segment_in_slabs(request, folder.path(), alone());
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->outcome.verdict.kind, VerdictKind::kKept) << found->outcome.verdict.message;
+  EXPECT_EQ(found->outcome.details().verdict.kind, VerdictKind::kKept)
+      << found->outcome.details().verdict.message;
   Outputs out;
   out.meshes = {folder / "slabs.vtu"};
   out.surfaces = {folder / "slabs.vtp"};
@@ -50,9 +51,10 @@ TEST_F(SegmentInSlabs, KeepsNoImageWithoutAMesh) {
   const auto found = segment_in_slabs(request, folder.path(), alone());
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->scan);
-  EXPECT_TRUE(found->outcome.image().samples.empty());
-  EXPECT_EQ(found->outcome.mesh(), nullptr);
-  EXPECT_EQ(found->outcome.one->surface.points, ball_outcome().one->surface.points);
+  EXPECT_TRUE(found->outcome.details().image().samples.empty());
+  EXPECT_EQ(found->outcome.details().mesh(), nullptr);
+  EXPECT_EQ(found->outcome.details().one->surface.points,
+            ball_outcome().details().one->surface.points);
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ void expect_same_surfaces(const Outcome& a, const Outcome& b) {
 
 TEST(Segment, FindsAClosedSurfaceAndKeepsItsPromises) {
   const Outcome& found = ball_outcome();
-  EXPECT_TRUE(found.checks.front().closed());
-  EXPECT_EQ(found.verdict.kind, VerdictKind::kKept) << found.verdict.message;
+  EXPECT_TRUE(found.details().checks.front().closed());
+  EXPECT_EQ(found.details().verdict.kind, VerdictKind::kKept) << found.details().verdict.message;
 }
 
 TEST(Segment, ReadsTheSamplesOfAViewInPlace) {
@@ -33,8 +33,8 @@ TEST(Segment, ReadsTheSamplesOfAViewInPlace) {
   Request request = ball_request();
   request.scan = VolumeView(scan);
   const Outcome found = segment(std::move(request));
-  EXPECT_TRUE(found.object->volume.samples.empty());
-  EXPECT_EQ(found.image().samples.data(), scan.samples.data());
+  EXPECT_TRUE(found.details().object->volume.samples.empty());
+  EXPECT_EQ(found.details().image().samples.data(), scan.samples.data());
   expect_same_surfaces(found, ball_outcome());
 }
 
@@ -49,8 +49,8 @@ TEST(Segment, LeavesTheSamplesOfAViewAsTheyWere) {
   request.scan = VolumeView(scan);
   const Outcome found = segment(request);
   EXPECT_EQ(scan.samples, before);
-  ASSERT_TRUE(found.object->padding);
-  EXPECT_NE(found.image().samples.data(), scan.samples.data());
+  ASSERT_TRUE(found.details().object->padding);
+  EXPECT_NE(found.details().image().samples.data(), scan.samples.data());
   request.scan = scan;
   expect_same_surfaces(segment(request), found);
 }
@@ -61,16 +61,16 @@ TEST(Segment, TheLevelAndTheCropAreThoseOfTheSettings) {
   request.settings.level = 150;
   request.settings.crop.end = {26, 26, 20};
   const Outcome found = segment(std::move(request));
-  EXPECT_EQ(found.parameters().level, 150);
-  EXPECT_EQ(found.image().size[2], 20);
-  EXPECT_EQ(found.grid.size[2], 26) << "that of the whole scan";
+  EXPECT_EQ(found.details().parameters().level, 150);
+  EXPECT_EQ(found.details().image().size[2], 20);
+  EXPECT_EQ(found.details().grid.size[2], 26) << "that of the whole scan";
 }
 
 TEST(Segment, LabelsChooseTheObjectsAndTheImagePlacesThem) {
   const Outcome& found = halves_outcome();
-  EXPECT_EQ(found.verdict.kind, VerdictKind::kKept) << found.verdict.message;
-  const double volume = found.checks[0].volume + found.checks[1].volume;
-  EXPECT_NEAR(volume, ball_outcome().checks[0].volume, 0.03 * volume);
+  EXPECT_EQ(found.details().verdict.kind, VerdictKind::kKept) << found.details().verdict.message;
+  const double volume = found.details().checks[0].volume + found.details().checks[1].volume;
+  EXPECT_NEAR(volume, ball_outcome().details().checks[0].volume, 0.03 * volume);
 }
 
 TEST(Segment, LabelsAloneNeedNoScan) {
@@ -81,7 +81,7 @@ TEST(Segment, LabelsAloneNeedNoScan) {
   const Outcome found = segment(request);
   ASSERT_EQ(found.objects().size(), 1U);
   EXPECT_EQ(found.objects()[0].segment.name, "right");
-  EXPECT_EQ(found.mesh(), nullptr);
+  EXPECT_FALSE(found.mesh());
   request.mesh = true;
   EXPECT_REFUSED(segment(request), "mesh: expected a scan beside the labels, found none");
   request.mesh = false;
@@ -100,13 +100,13 @@ TEST(Segment, SeveralSeedsMakeAnObjectEach) {
   listener.objects = [&](const std::vector<Segment>& wanted) { told = wanted; };
   const Outcome found = segment(std::move(request), listener);
   EXPECT_EQ(found.objects().size(), 2U);
-  EXPECT_EQ(told, found.wanted);
+  EXPECT_EQ(told, found.details().wanted);
 }
 
 TEST(Segment, ATimeLimitIsForOneObject) {
   Request request = ball_request();
   request.enough = [] { return true; };
-  EXPECT_TRUE(segment(request).one->stopped);
+  EXPECT_TRUE(segment(request).details().one->stopped);
   request.labels = LabelChoice{half_balls()};
   EXPECT_REFUSED(segment(request), "time limit: expected a run for one object, found several");
 }
@@ -123,7 +123,7 @@ TEST(Segment, TellsWhatWasDoneAndWhatIsMissing) {
   const Outcome found = segment(request, listener);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_THAT(warnings[0], HasSubstr("absent"));
-  EXPECT_EQ(found.warnings, warnings);
+  EXPECT_EQ(found.warnings(), warnings);
   listener.progress = [](std::string_view, double) { return false; };
   EXPECT_THROW(segment(request, listener), Cancelled);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "mesamis/run/outcome_details.h"
 #include "mesamis/run/segment.h"
 #include "support/ball_volume.h"
 

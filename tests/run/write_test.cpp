@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mesamis/record/json_file.h"
+#include "mesamis/run/run_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "run/small_request.h"
 #include "support/temp_folder.h"
@@ -39,7 +40,7 @@ TEST(WriteOutcome, WritesEveryFileOfOneObject) {
   EXPECT_THAT(names_in(folder.path()), UnorderedElementsAre("a.stl", "a.vtp", "a.vtu", "band.vtu",
                                                             "a.nrrd", "a.html", "a.json"));
   EXPECT_EQ(read_surface_file(folder / "a.stl").surface.triangles.size(),
-            ball_outcome().one->surface.triangles.size());
+            ball_outcome().details().one->surface.triangles.size());
   const auto report = read_json(folder / "a.json");
   EXPECT_EQ(report["files"].size(), 6U) << "all but itself";
   EXPECT_EQ(report["surface"]["closed"], true);
@@ -58,13 +59,13 @@ TEST(WriteOutcome, WritesAFilePerObject) {
 }
 
 TEST(WriteOutcome, AReportMayBeCompletedAndSeen) {
-  Outputs out;
+  RunFiles out;
   out.facts.complete = [](nlohmann::ordered_json& report) { report["seconds"] = 7; };
   nlohmann::ordered_json seen;
   out.facts.written = [&](const nlohmann::ordered_json& report) { seen = report; };
   out.facts.command = {"segment", "a"};
   out.facts.warnings = {"a warning of a label file"};
-  write(ball_outcome(), out);
+  write(ball_outcome().details(), out);
   EXPECT_EQ(seen["seconds"], 7);
   EXPECT_EQ(seen["command"][1], "a");
   EXPECT_EQ(seen["warnings"][0], "a warning of a label file");
@@ -91,6 +92,12 @@ TEST(WriteOutcome, RefusesASurfaceThatWasNotFound) {
   out.surfaces = {folder / "a.stl"};
   EXPECT_REFUSED(write(found, out),
                  "surface: expected a part of at least --min-volume 1000000 mm^3, found none");
+}
+
+TEST(ReportText, IsTheReportWithoutFiles) {
+  const auto report = nlohmann::json::parse(report_text(ball_outcome()));
+  EXPECT_EQ(report["surface"]["closed"], true);
+  EXPECT_FALSE(report.contains("files"));
 }
 
 }  // namespace

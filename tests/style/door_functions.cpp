@@ -170,6 +170,7 @@ class Parser {
   void statement(const std::string& scope, const std::string& class_name) {
     const std::string doc = read_doc();
     while (is("template")) at_ = past_angle(at_ + 1);
+    if (is("requires")) at_ = past_match(at_ + 1);
     if (at_ >= tokens_.size()) return;
     if (is("namespace")) {
       while (!is("{")) ++at_;

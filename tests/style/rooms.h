@@ -4,7 +4,9 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "style/project_files.h"
 
@@ -13,7 +15,7 @@ namespace mesamis {
 /// What a room's sources.cmake lists.
 struct Room {
   std::filesystem::path folder;
-  std::set<std::string> doors, inner_doors, sources;
+  std::set<std::string> doors, sources;
 };
 
 /// The words of set(NAME ...) in a CMake file.
@@ -30,11 +32,52 @@ inline std::map<std::string, Room> read_rooms() {
   std::map<std::string, Room> rooms;
   for (const auto& file : project_files("src/mesamis", {".cmake"})) {
     const std::string text = file_text(file);
-    const std::string name = file.parent_path().filename().string();
-    rooms[name] = {file.parent_path(), cmake_list(text, "ROOM_HEADERS"),
-                   cmake_list(text, "ROOM_INNER_HEADERS"), cmake_list(text, "ROOM_SOURCES")};
+    rooms[file.parent_path().filename().string()] = {
+        file.parent_path(), cmake_list(text, "ROOM_HEADERS"), cmake_list(text, "ROOM_SOURCES")};
   }
   return rooms;
+}
+
+/// For each room the rooms that its arrows point to.
+using Edges = std::map<std::string, std::set<std::string>>;
+
+/// What rooms.txt says.
+struct RoomList {
+  std::vector<std::string> names;  ///< in its order
+  Edges arrows;
+  Edges libraries;  ///< how headers of other libraries begin that a room may include
+};
+
+inline RoomList read_room_list() {
+  RoomList list;
+  std::istringstream lines(
+      file_text(std::filesystem::path(MESAMIS_SOURCE_DIR) / "src/mesamis/rooms.txt"));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream words(line);
+    std::string name, kind;
+    words >> name >> kind;
+    list.names.push_back(name);
+    for (std::string word; words >> word;) {
+      if (word[0] == '<') {
+        list.libraries[name].insert(word.substr(1));
+      } else {
+        list.arrows[name].insert(word);
+      }
+    }
+  }
+  return list;
+}
+
+/// What stands in the #include lines of a file.
+inline std::vector<std::string> includes_of(const std::filesystem::path& file) {
+  static const std::regex include("#include [<\"]([^>\"]+)[>\"]");
+  const std::string text = file_text(file);
+  std::vector<std::string> found;
+  for (std::sregex_iterator match(text.begin(), text.end(), include), end; match != end; ++match) {
+    found.push_back((*match)[1]);
+  }
+  return found;
 }
 
 }  // namespace mesamis

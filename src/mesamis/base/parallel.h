@@ -3,38 +3,13 @@
 
 #include <cstddef>
 #include <functional>
-#include <optional>
-#include <type_traits>
-#include <utility>
 #include <vector>
+
+#include "mesamis/base/threads.h"
 
 /// The one door to threads. Every result is the same to the bit for any number of threads:
 /// the work is cut into blocks of fixed size, and partial sums are added in block order.
 namespace mesamis {
-
-/// Runs work that returns nothing with at most so many threads, see with_threads().
-/// @param count  at least 1; 0 means as many as are allowed where this is called.
-/// @throws what the work throws.
-void run_with_threads(int count, const std::function<void()>& work);
-
-/// Runs the work, and all that it calls, with at most so many threads. Nothing else in the process
-/// is affected.
-/// @param count  at least 1; 0 means as many as are allowed where this is called.
-/// @return what the work returns.
-/// @throws what the work throws.
-template <class Work>
-auto with_threads(int count, Work&& work) {
-  if constexpr (std::is_void_v<decltype(work())>) {
-    run_with_threads(count, work);
-  } else {
-    std::optional<decltype(work())> result;
-    run_with_threads(count, [&] { result.emplace(work()); });
-    return *std::move(result);
-  }
-}
-
-/// The number of threads that are allowed where this is called, at least 1.
-int thread_count();
 
 /// Items per block of the loops below.
 inline constexpr std::size_t kBlock = 4096;

@@ -11,4 +11,8 @@ namespace mesamis {
 /// behind. It may be called from other threads than the computation was, but by one at a time.
 using Progress = std::function<bool(std::string_view stage, double fraction)>;
 
+/// Asked between the passes of a run, never inside one. If it returns true, the run makes a whole
+/// result of the passes it has made, and says that it was stopped.
+using HasEnough = std::function<bool()>;
+
 }  // namespace mesamis

@@ -2,13 +2,12 @@
 set(ROOM_HEADERS
   available_memory.h
   error.h
-  frame.h
-  grid_place.h
   median.h
   parallel.h
   progress.h
   stopwatch.h
   sym3.h
+  threads.h
   types.h
   version.h
   written_number.h)

@@ -120,4 +120,29 @@ struct Box {
   friend bool operator==(const Box&, const Box&) = default;
 };
 
+/// The frame in which coordinates of a patient are given. LPS (DICOM, ITK): x to the left, y to the
+/// back, z to the head. RAS (NIfTI, 3D Slicer): x to the right, y to the front, z to the head.
+enum class Frame { kLps, kRas };
+
+/// @return  "LPS" or "RAS".
+constexpr const char* frame_name(Frame frame) { return frame == Frame::kRas ? "RAS" : "LPS"; }
+
+/// Converts a point or a direction from LPS to a frame, or from that frame to LPS: half a turn
+/// about z for RAS, nothing for LPS.
+/// @param p  of any unit.
+/// @return in the same unit.
+inline Vec3 in_frame(const Vec3& p, Frame frame) noexcept {
+  return frame == Frame::kRas ? Vec3{-p.x, -p.y, p.z} : p;
+}
+
+/// The place i, j, k of an item of a grid; i runs fastest. O(1), two divisions.
+/// @param size  items along each axis, at least 1; their number fits into the type of n.
+/// @param n     of the item, an integer of any type, >= 0.
+template <class Number>
+std::array<Index, 3> grid_place(const std::array<Index, 3>& size, Number n) noexcept {
+  const auto nx = static_cast<Number>(size[0]), ny = static_cast<Number>(size[1]);
+  const Number line = n / nx;
+  return {static_cast<Index>(n % nx), static_cast<Index>(line % ny), static_cast<Index>(line / ny)};
+}
+
 }  // namespace mesamis

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "mesamis/base/progress.h"
 #include "mesamis/body/body_fit.h"
+#include "mesamis/body/body_options.h"
 #include "mesamis/body/body_skin.h"
 #include "mesamis/body/mid_nodes.h"
 #include "mesamis/mesh/element_quality.h"
@@ -12,21 +12,6 @@
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {
-
-/// What elements a body shall have.
-struct BodyOptions {
-  double element_size = 0;   ///< wanted edge length, mm; 0: a thirtieth of the body's longest side
-  double least_size = 0;     ///< edges are not wanted shorter, mm; 0: a quarter of the element size
-  double tolerance = 0.1;    ///< how far the skin may lie from the surfaces, mm, > 0
-  double gradation = 0.5;    ///< by how much sizes may grow over a length, no unit, > 0
-  int through_wall = 1;      ///< elements wanted between two sides of a wall; 0: any
-  double part_share = 1e-3;  ///< parts that hold less of each object, as a share of its volume,
-                             ///< are left out: a solver cannot hold what hangs on nothing; 0: none
-  std::int64_t most_elements = 100'000'000;  ///< that may be made, those outside included
-  bool quadratic = false;                    ///< add mid-side nodes, on the skin where it is curved
-  bool skins = false;  ///< also deliver the skins, those of small parts included
-  Progress progress;   ///< optional
-};
 
 /// A body for finite elements.
 struct MeshedBody {

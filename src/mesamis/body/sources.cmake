@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   body_fit.h
+  body_options.h
   body_skin.h
-  face_sets.h
-  make_body.h
-  mid_nodes.h)
-# For the rooms above alone: not installed.
-set(ROOM_INNER_HEADERS
   body_surface.h
+  face_sets.h
   junction_lines.h
+  make_body.h
+  mid_nodes.h
   size_field.h
   wall_width.h)
 set(ROOM_SOURCES

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/files/read_limits.h"
+#include "mesamis/files/reading.h"
 #include "mesamis/image/slice_source.h"
 
 /// Scans that lie in chunks, of which only those are decoded that are asked for: Zarr and HDF5.

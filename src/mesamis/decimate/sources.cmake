@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # The only room that includes OpenMesh.
 set(ROOM_HEADERS
-  decimate.h
-  decimate_partition.h
-  round_to_single.h
-  round_together.h)
-# For the rooms above alone: not installed.
-set(ROOM_INNER_HEADERS
   cover.h
+  decimate.h
   decimate_part.h
+  decimate_partition.h
   patch.h
+  round_to_single.h
+  round_together.h
   single_places.h)
 set(ROOM_SOURCES
   collapse_rules.cpp

@@ -13,14 +13,6 @@
 
 namespace mesamis {
 
-enum class MeshRegion { kBox, kObject };
-
-struct MeshOptions {
-  MeshRegion region = MeshRegion::kBox;
-  int bins = 10;  ///< 1 to kMostBins
-};
-inline constexpr int kMostBins = 999;
-
 /// What is known of a set of cells.
 struct MeshBin {
   double low = 0, high = 0;  ///< of the native values, native units; 0 for an empty set of a label

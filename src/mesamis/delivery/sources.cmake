@@ -2,6 +2,7 @@
 set(ROOM_HEADERS
   body_output.h
   body_request.h
+  body_wishes.h
   cell_labels.h
   filled_objects.h
   label_output.h

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "mesamis/base/grid_place.h"
+#include "mesamis/base/types.h"
 #include "mesamis/fem/grid_space.h"
 
 namespace mesamis {

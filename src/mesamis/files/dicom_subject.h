@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesamis/files/read_limits.h"
-#include "mesamis/files/read_record.h"
+#include "mesamis/files/reading.h"
 
 namespace mesamis {
 

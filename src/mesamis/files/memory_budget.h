@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesamis/files/read_limits.h"
+#include "mesamis/files/reading.h"
 
 /// The one account of the memory that a file may claim. Each reader asks it before it takes memory
 /// whose amount a file decides.

@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <vector>
+
+#include "mesamis/files/reading.h"
 
 /// Which files a reader has opened, and in which state, so that a sum over them can be known to be
 /// that of the bytes that were read.
 namespace mesamis {
 
-/// What the system changes with every change of a file.
-struct FileState {
-  std::uint64_t device = 0, inode = 0, bytes = 0;
-  std::int64_t modified_ns = 0, changed_ns = 0;  ///< of the content; of the content or the entry
-  bool operator==(const FileState&) const = default;
-};
-
 /// @throws InputError  if there is no such file, or none that may be asked.
 FileState state_of(const std::filesystem::path& file);
-
-struct ReadFile {
-  std::filesystem::path path;
-  FileState state;  ///< when it was opened
-};
 
 /// Notes each file that is opened for reading on this thread while this lives. Of records within
 /// one another the innermost counts.

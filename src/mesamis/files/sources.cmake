@@ -1,19 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   atomic_file.h
-  dicom_subject.h
-  output_set.h
-  read_limits.h
-  read_record.h
-  sha256.h
-  utf8.h
-  xml_text.h)
-# For the rooms above alone: not installed.
-set(ROOM_INNER_HEADERS
   byte_source.h
   bytes.h
   deflate.h
   dicom_data.h
+  dicom_subject.h
   dicom_text.h
   dicom_writer.h
   file_list.h
@@ -23,12 +15,18 @@ set(ROOM_INNER_HEADERS
   length_unit.h
   memory_budget.h
   number_type.h
+  output_set.h
   owned_file.h
+  read_record.h
+  reading.h
   refuse.h
+  sha256.h
   text_scan.h
   text_writer.h
+  utf8.h
   value_axes.h
   xml.h
+  xml_text.h
   zip_archive.h)
 set(ROOM_SOURCES
   atomic_file.cpp

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
-  fit_surface.h)
-# For the rooms above alone: not installed.
-set(ROOM_INNER_HEADERS
   bending.h
+  fit_surface.h
   keep_volumes.h
   smooth_surface.h
   surface_moves.h)

@@ -73,11 +73,6 @@ bool is_hounsfield(const VolumeView& volume);
 /// Nothing is darker than air (-1000 HU): Hounsfield units of this and less are padding.
 inline constexpr float kPaddingHu = -1500;
 
-/// A range of values, native units.
-struct Window {
-  double low, high;
-};
-
 /// Chooses the range of values that is mapped to grey values.
 ///
 /// CT: -200 HU to the 99.9 percentile, which is bounded to 800 to 2000 HU, so that bone gets nearly

@@ -1,18 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   gaussian.h
-  grid_axes.h
   grey_values.h
+  grid_axes.h
   label_map.h
   not_numbers.h
   orientation.h
+  slice_plane.h
   slice_source.h
   spline_image.h
+  trilinear.h
   volume.h)
-# For the rooms above alone: not installed.
-set(ROOM_INNER_HEADERS
-  slice_plane.h
-  trilinear.h)
 set(ROOM_SOURCES
   find_segment.cpp
   gaussian.cpp

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/base/grid_place.h"
 #include "mesamis/base/types.h"
 
 namespace mesamis {
@@ -95,6 +94,11 @@ Volume copy_volume(const VolumeView& volume);
 /// with a third axis, an unknown sample): this is the gate before any method.
 /// @throws InputError  naming the first condition that does not hold.
 void require_usable(const VolumeView& volume);
+
+/// A range of values, native units.
+struct Window {
+  double low, high;
+};
 
 /// Half-open voxel ranges [begin, end) per direction; an end of -1 means the volume's.
 struct CropRange {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "mesamis/base/frame.h"
+#include "mesamis/base/types.h"
 #include "mesamis/files/bytes.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/xml.h"

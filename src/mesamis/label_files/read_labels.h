@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/files/read_limits.h"
+#include "mesamis/files/reading.h"
 #include "mesamis/image/label_map.h"
 
 namespace mesamis {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "mesamis/base/error.h"
-#include "mesamis/base/grid_place.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/base/types.h"
 
 namespace mesamis {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "mesamis/base/grid_place.h"
+#include "mesamis/base/types.h"
 #include "mesamis/labels/label_confidence.h"
 
 namespace mesamis {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/material/density.h"
-
 #include <cmath>
 #include <string>
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/written_number.h"
+#include "mesamis/material/material_law.h"
 
 namespace mesamis {
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "mesamis/image/volume.h"
-#include "mesamis/material/density.h"
 #include "mesamis/material/material_law.h"
 #include "mesamis/mesh/tet_mesh.h"
 

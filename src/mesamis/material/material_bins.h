@@ -5,15 +5,10 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/material/material_law.h"
 
 /// Elements of nearly equal stiffness share a material: solvers take a limited number of them.
 namespace mesamis {
-
-/// Which modulus the elements of a bin get.
-enum class BinModulus {
-  kHighest,  ///< of its elements, as Bonemat does
-  kMean,     ///< of its elements, each counted once
-};
 
 /// How elements are sorted into bins.
 struct MaterialBinOptions {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "mesamis/image/volume.h"
-#include "mesamis/material/density.h"
 #include "mesamis/material/material_bins.h"
 #include "mesamis/material/material_law.h"
 #include "mesamis/mesh/finite_elements.h"
@@ -15,21 +13,6 @@
 
 /// Materials for a finite element model from a calibrated scan, in one call.
 namespace mesamis {
-
-/// From grey values to materials. The law and the calibration have no default: both depend on the
-/// bone, the scanner and its phantom.
-struct MaterialOptions {
-  std::optional<MaterialLaw> law{};          ///< see parse_material_law(); needed
-  std::optional<Calibration> calibration{};  ///< native to QCT, see parse_calibration(); needed
-  AshRule ash = kSchileoAsh2008;             ///< QCT to ash density
-  double ash_over_apparent = 0.6;            ///< no unit, > 0
-  double density_min = 0;                    ///< g/cm^3, of the kind the law takes
-  double density_max = std::numeric_limits<double>::infinity();  ///< g/cm^3, of that kind
-  double modulus_min = 0.01;                                     ///< MPa, > 0
-  double gap = 50;  ///< MPa between the ends of a bin, >= 0
-  BinModulus bin_modulus = BinModulus::kHighest;
-  std::optional<double> poisson{};  ///< no unit; none: the law's
-};
 
 /// What was used, and how much rests on bounds. Shares are of the mesh's volume, 0 to 1.
 struct MaterialReport {

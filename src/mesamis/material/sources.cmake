@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
-  density.h
   element_moduli.h
   material_bins.h
   material_law.h

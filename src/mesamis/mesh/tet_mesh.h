@@ -14,6 +14,10 @@ namespace mesamis {
 /// Four point indices; positive orientation: (p1-p0) x (p2-p0) . (p3-p0) > 0.
 using Cell = std::array<Index, 4>;
 
+/// What fills a cell of a body: 0 outside, else one of its objects.
+using Material = std::uint8_t;
+inline constexpr Material kOutside = 0;
+
 /// A conforming tetrahedral mesh of an axis-aligned box, coordinates in mm.
 struct TetMesh {
   std::vector<Vec3> points;

@@ -18,10 +18,6 @@
 /// The whole method: a scan in, a surface and an adapted mesh out.
 namespace mesamis {
 
-/// Asked between the passes of a run, never inside one. If it returns true, the run makes a whole
-/// result of the passes it has made, and says that it was stopped.
-using HasEnough = std::function<bool()>;
-
 /// What a run delivers. Points are in the world frame (LPS), in mm.
 struct Result {
   Parameters parameters;  ///< what the run used, the level of the surface included

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "mesamis/base/types.h"
-#include "mesamis/image/grey_values.h"
 #include "mesamis/image/volume.h"
 
 namespace mesamis {

@@ -1,24 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   chosen_run.h
+  deliver.h
   expected_error.h
+  follow_image.h
   iteration.h
   label_mesh.h
   label_surfaces.h
+  loop.h
   measured_image.h
   memory.h
   mes_amis.h
   parameters.h
+  passes.h
   prepare.h
   printable.h
   setting_table.h
   settings.h)
-# For the rooms above alone: not installed.
-set(ROOM_INNER_HEADERS
-  deliver.h
-  follow_image.h
-  loop.h
-  passes.h)
 set(ROOM_SOURCES
   chosen_run.cpp
   deliver.cpp

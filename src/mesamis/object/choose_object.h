@@ -8,34 +8,11 @@
 #include "mesamis/image/label_map.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/object/body.h"
-#include "mesamis/object/padding.h"
-#include "mesamis/object/tissue.h"
+#include "mesamis/object/object_request.h"
 #include "mesamis/object/voxel_distance.h"
 
 /// From a scan and what a user says of the object to an image that shows this object alone.
 namespace mesamis {
-
-/// What happens to table, head rest and whatever else is outside of the patient.
-enum class SurroundingsRule {
-  kRemoveIfBody,  ///< removed where find_body() finds a patient
-  kRemove,        ///< removed; refused where there is no patient
-  kKeep           ///< they stay
-};
-
-/// Which object of a scan is meant.
-struct ObjectRequest {
-  CropRange crop{};                ///< voxels of the scan
-  std::optional<Tissue> tissue{};  ///< nothing: whatever is bright
-  std::optional<double> level{};   ///< native units of the scan; comes before the tissue's
-  bool measure_level = true;       ///< false: nobody needs one but tissues and seeds
-  bool has_labels = false;         ///< labels choose the objects: the scan is no label map itself
-  SurroundingsRule surroundings = SurroundingsRule::kRemoveIfBody;
-  PaddingRule padding{};             ///< which voxels were not measured
-  std::optional<LabelMap> remove{};  ///< what is marked in any of its segments goes
-  std::optional<LabelMap> mask{};    ///< what is marked in any of its segments stays
-  double margin = 2;                 ///< mm, >= 0, around the mask; see KeepOptions
-  std::vector<Vec3> seeds{};         ///< LPS, mm; one: that island alone; more: a part for each
-};
 
 /// Where a level comes from.
 enum class LevelSource {

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/object/object_request.h"
 #include "mesamis/object/voxel_distance.h"
 
 /// Voxels that the scanner never measured: the corners around a round field of view, and what a
@@ -20,19 +20,6 @@ struct Padding {
   double value = 0;        ///< that of most of it, native units
   std::size_t voxels = 0;  ///< how many are padding, at least 1
 };
-
-/// Which voxels count as padding.
-struct PaddingRule {
-  bool search = true;             ///< as find_padding() does; false: none is padding
-  std::optional<double> value{};  ///< native units: all voxels of this value, without a search
-};
-
-/// Reads "auto" (the search), "none" or a number.
-/// @return native units.
-/// @throws InputError  for any other text.
-///
-/// O(1).
-PaddingRule parse_padding(std::string_view text);
 
 /// Finds the padding of a scan.
 ///

@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "mesamis/base/frame.h"
+#include "mesamis/base/types.h"
 #include "mesamis/image/volume.h"
 
 /// Places in the world, as a user writes them down from a viewer.

@@ -4,6 +4,7 @@ set(ROOM_HEADERS
   choose_object.h
   keep.h
   mirror.h
+  object_request.h
   padding.h
   places.h
   split_at_seeds.h

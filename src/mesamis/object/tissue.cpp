@@ -7,6 +7,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/written_number.h"
+#include "mesamis/image/grey_values.h"
 
 namespace mesamis {
 namespace {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "mesamis/files/atomic_file.h"
+#include "mesamis/page/run_page.h"
 
 namespace mesamis {
 namespace {

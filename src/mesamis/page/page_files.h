@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "mesamis/page/run_page.h"
-
 namespace mesamis {
+
+struct RunPage;
 
 /// Where a page and pictures go.
 struct PageFiles {

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "mesamis/base/error.h"
-#include "mesamis/image/grey_values.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/shape_files/mesh_files.h"
 #include "mesamis/shape_files/object_files.h"

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
-  plot.h)
-# For the rooms above alone: not installed.
-set(ROOM_INNER_HEADERS
+  plot.h
   ticks.h)
 set(ROOM_SOURCES
   axis.cpp

@@ -9,9 +9,6 @@
 /// The surface of a run as a file: what is written beside its triangles.
 namespace mesamis {
 
-/// The name of a surface where the user gives none. Never the scan's, which may be the patient's.
-inline constexpr const char* kSurfaceName = "mesamis surface";
-
 /// What a user decides of a surface file.
 struct RunSurfaceOptions {
   Frame frame = Frame::kLps;

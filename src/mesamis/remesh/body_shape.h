@@ -5,13 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "mesamis/base/types.h"
+#include "mesamis/mesh/tet_mesh.h"
 
 namespace mesamis {
-
-/// What fills a cell of a body: 0 outside, else one of its objects.
-using Material = std::uint8_t;
-inline constexpr Material kOutside = 0;
 
 /// A point of the border between materials.
 struct BorderPoint {

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "mesamis/delivery/body_request.h"
 #include "mesamis/delivery/filled_objects.h"
 
 namespace mesamis {

@@ -10,7 +10,7 @@
 #include "mesamis/base/progress.h"
 #include "mesamis/delivery/body_output.h"
 #include "mesamis/delivery/meshing_surface.h"
-#include "mesamis/run/request.h"
+#include "mesamis/run/segment.h"
 
 namespace mesamis {
 

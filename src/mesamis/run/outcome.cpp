@@ -1,29 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/run/outcome.h"
 
+#include <utility>
+
+#include "mesamis/run/outcome_details.h"
+
 namespace mesamis {
 
-std::vector<FoundObject> Outcome::objects() const {
-  if (several) return found_objects(*several);
-  return {{one->surface, wanted.front()}};
+Outcome::Outcome(OutcomeDetails details)
+    : details_(std::make_shared<const OutcomeDetails>(std::move(details))) {}
+
+std::vector<OutcomeObject> Outcome::objects() const {
+  const OutcomeDetails& d = *details_;
+  std::vector<OutcomeObject> objects;
+  for (std::size_t n = 0; n < d.checks.size(); ++n) {
+    const bool one = d.one.has_value();
+    objects.push_back({one ? d.wanted.front() : d.several->objects[n].segment,
+                       one ? d.one->surface : d.several->objects[n].surface, d.checks[n],
+                       d.expected_error(n)});
+  }
+  return objects;
 }
 
-VolumeView Outcome::image() const {
-  if (!object) return {grid, in_place};
-  VolumeView view = object->volume;
-  if (view.samples.empty()) view.samples = in_place;
-  return view;
+std::optional<OutcomeMesh> Outcome::mesh() const {
+  const Result* result = details_->mesh();
+  if (result == nullptr) return std::nullopt;
+  return OutcomeMesh{result->mesh, result->u, result->v, result->f, result->metric};
 }
 
-const Result* Outcome::mesh() const {
-  if (one) return one->mesh.cells.empty() ? nullptr : &*one;
-  return several->mesh ? &*several->mesh : nullptr;
+const FiniteElements* Outcome::elements() const {
+  const auto& body = details_->elements.body;
+  return body ? &body->elements : nullptr;
 }
 
-const std::vector<double>& Outcome::expected_error(std::size_t n) const {
-  return one ? one->expected_error : several->objects[n].expected_error;
+Settings Outcome::settings_used() const { return settings_of(details_->parameters()); }
+
+std::string Outcome::flaw() const {
+  const std::string& of_surfaces = details_->verdict.message;
+  return of_surfaces.empty() ? details_->elements.unmet : of_surfaces;
 }
 
-Segment one_object() { return {"object", 1, 0, default_colour(1)}; }
+std::vector<std::string> Outcome::warnings() const {
+  std::vector<std::string> lines;
+  if (details_->object) lines = details_->object->warnings;
+  lines.insert(lines.end(), details_->warnings.begin(), details_->warnings.end());
+  return lines;
+}
 
 }  // namespace mesamis

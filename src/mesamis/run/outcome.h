@@ -1,54 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "mesamis/delivery/label_output.h"
-#include "mesamis/method/label_surfaces.h"
-#include "mesamis/method/mes_amis.h"
-#include "mesamis/object/choose_object.h"
-#include "mesamis/record/verdict.h"
-#include "mesamis/run/elements.h"
+#include "mesamis/image/label_map.h"
+#include "mesamis/mesh/finite_elements.h"
+#include "mesamis/method/settings.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {
 
-/// What came out of a run, of one object or of several. Surfaces and meshes are in the world frame
-/// (LPS), mm.
-struct Outcome {
-  Settings asked;                      ///< the settings that the run was started with
-  VoxelGrid grid;                      ///< of the whole scan; without one that of the labels
-  std::optional<ChosenObject> object;  ///< the image; nothing: the labels alone
-  std::span<const float> in_place;     ///< of the grid, where `object` has no samples
-  ObjectRequest object_asked;          ///< as it was completed from the settings
+struct OutcomeDetails;
 
-  std::optional<Result> one;           ///< of a run for one object
-  std::optional<LabelResult> several;  ///< of labels, or of the parts of several seeds
-  std::vector<Segment> wanted;         ///< the objects that were looked for
-  std::vector<SurfaceCheck> checks;    ///< of the surfaces of objects()
-  /// Of the points of one surface, see surface_grey(), where they were found beforehand; may be
-  /// empty.
-  std::vector<double> grey;
-  ElementResults elements;
-  std::vector<std::string> warnings;  ///< beside those of `object`, one line each
-  Verdict verdict;                    ///< of the surfaces; a body has its own, ElementResults
-
-  /// The objects that were found, which refer to this outcome.
-  std::vector<FoundObject> objects() const;
-  /// The image that the run was made of, native units; empty without a scan.
-  VolumeView image() const;
-  /// The adapted mesh with its fields; nullptr: none was made.
-  const Result* mesh() const;
-  /// What the run used.
-  const Parameters& parameters() const { return one ? one->parameters : several->parameters; }
-  /// The mean error to expect of each point of an object's surface, mm; empty: not known.
-  const std::vector<double>& expected_error(std::size_t object) const;
+/// An object that was found; refers to its outcome.
+struct OutcomeObject {
+  const Segment& segment;                  ///< its name, label and colour
+  const TriMesh& surface;                  ///< world frame (LPS), mm
+  const SurfaceCheck& check;               ///< of the surface
+  std::span<const double> expected_error;  ///< at each point of the surface, mm; empty: not known
 };
 
-/// The segment of a run for one object.
-Segment one_object();
+/// The adapted mesh of a run; refers to its outcome.
+struct OutcomeMesh {
+  const TetMesh& mesh;           ///< n nodes, world frame (LPS), mm
+  std::span<const double> u, v;  ///< n values: denoised grey values, 0 to 255; edge indicator
+  std::span<const double> f;     ///< n values: the image on the mesh, grey values
+  std::span<const Sym3> metric;  ///< n matrices that the mesh was made for, 1/mm^2
+};
+
+/// What came out of a run, of one object or of several. It does not change; copies share what they
+/// hold, and what refers to it lives as long as one of them.
+class Outcome {
+ public:
+  /// Holds nothing: only segment() makes outcomes of runs.
+  Outcome() = default;
+  /// Takes over what a run has found.
+  explicit Outcome(OutcomeDetails details);
+
+  /// The objects that were found, in the order in which they were looked for; one object is a list
+  /// of one.
+  std::vector<OutcomeObject> objects() const;
+  /// The adapted mesh; nothing for a preview, or where none was asked for.
+  std::optional<OutcomeMesh> mesh() const;
+  /// The body for a solver, world frame (LPS), mm; nullptr: none was asked for.
+  const FiniteElements* elements() const;
+  /// What the run was asked for and what it has chosen: the settings that repeat it.
+  Settings settings_used() const;
+  /// Which promise was not kept, on one line: what was expected and found. Empty: all were.
+  std::string flaw() const;
+  /// What may not be what was meant, one line each.
+  std::vector<std::string> warnings() const;
+  /// All of it, for the rooms and programs of this project.
+  const OutcomeDetails& details() const { return *details_; }
+
+ private:
+  std::shared_ptr<const OutcomeDetails> details_;
+};
 
 }  // namespace mesamis

@@ -7,6 +7,7 @@
 #include "mesamis/method/chosen_run.h"
 #include "mesamis/record/label_report.h"
 #include "mesamis/record/run_surface.h"
+#include "mesamis/run/outcome_details.h"
 
 namespace mesamis {
 namespace {
@@ -51,7 +52,7 @@ ChosenObject choose(Request& request, const ObjectRequest& wanted,
   return choose_object(copy_volume(view), wanted);
 }
 
-void choose_image(Request& request, const Listener& listener, Outcome& outcome) {
+void choose_image(Request& request, const Listener& listener, OutcomeDetails& outcome) {
   outcome.object_asked = completed(request);
   const VolumeView scan = view_of(request);
   require_usable(scan);
@@ -70,7 +71,7 @@ void require_scan_where_needed(const Request& request) {
   }
 }
 
-void run_one(const Request& request, const Listener& listener, Outcome& outcome) {
+void run_one(const Request& request, const Listener& listener, OutcomeDetails& outcome) {
   outcome.wanted = {one_object()};
   const ObjectInPlace object{*outcome.object, outcome.image()};
   outcome.one = run_on_object(object, request.settings, listener.progress, request.enough);
@@ -78,7 +79,7 @@ void run_one(const Request& request, const Listener& listener, Outcome& outcome)
 
 /// @param choice  labels of the request, or the parts of several seeds.
 void run_several(const Request& request, const LabelChoice& choice, const Listener& listener,
-                 Outcome& outcome) {
+                 OutcomeDetails& outcome) {
   outcome.wanted = choice.wanted();
   if (listener.objects) listener.objects(outcome.wanted);
   if (request.enough) {
@@ -100,7 +101,7 @@ void take_skin(TriMesh skin, TriMesh& surface, std::vector<double>& errors) {
   surface = std::move(skin);
 }
 
-void fill(const Request& request, const Progress& progress, Outcome& outcome) {
+void fill(const Request& request, const Progress& progress, OutcomeDetails& outcome) {
   if (!request.elements.wanted()) return;
   if (outcome.one) require_surface(*outcome.one);
   const std::vector<FoundObject> objects = outcome.objects();
@@ -122,7 +123,7 @@ void fill(const Request& request, const Progress& progress, Outcome& outcome) {
 }
 
 /// Warns where a surface may show something else than what was meant.
-void warn_of_surface(const Listener& listener, Outcome& outcome) {
+void warn_of_surface(const Listener& listener, OutcomeDetails& outcome) {
   if (!outcome.one || outcome.parameters().surface != SurfaceKind::kSolid) return;
   outcome.warnings = surface_warnings(*outcome.object, outcome.image(), outcome.parameters().level);
   tell(listener.warning, outcome.warnings);
@@ -132,7 +133,7 @@ void warn_of_surface(const Listener& listener, Outcome& outcome) {
 
 Outcome segment(Request request, const Listener& listener) {
   require_scan_where_needed(request);
-  Outcome outcome;
+  OutcomeDetails outcome;
   outcome.asked = request.settings;
   if (request.has_scan()) {
     choose_image(request, listener, outcome);
@@ -153,7 +154,7 @@ Outcome segment(Request request, const Listener& listener) {
   }
   outcome.verdict = outcome.one ? judge(*outcome.one, outcome.checks.front())
                                 : judge(*outcome.several, outcome.checks);
-  return outcome;
+  return Outcome(std::move(outcome));
 }
 
 }  // namespace mesamis

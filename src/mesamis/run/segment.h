@@ -1,22 +1,89 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "mesamis/run/outcome.h"
-#include "mesamis/run/request.h"
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
 
+#include "mesamis/base/progress.h"
+#include "mesamis/delivery/body_wishes.h"
+#include "mesamis/image/label_map.h"
+#include "mesamis/image/volume.h"
+#include "mesamis/method/settings.h"
+#include "mesamis/object/object_request.h"
+#include "mesamis/run/outcome.h"
+
+/// From a scan, labels, or both to surfaces, meshes and bodies: what the program does.
 namespace mesamis {
+
+/// Labels that choose the objects.
+struct LabelChoice {
+  LabelMap map;                             ///< valid; on a grid of its own
+  std::vector<Segment> chosen{};            ///< of the map; empty: all of them
+  std::optional<double> margin{};           ///< mm, > 0: how far the labels may be wrong; none:
+                                            ///< two and a half voxels
+  std::optional<Probabilities> exact_by{};  ///< of which the map is most_probable()
+
+  /// The objects that are looked for.
+  const std::vector<Segment>& wanted() const { return chosen.empty() ? map.segments : chosen; }
+};
+
+/// Elements that fill the objects.
+struct ElementRequest {
+  BodyWishes wishes;
+  bool body = false;     ///< a body for a solver
+  bool skins = false;    ///< the surfaces become the skins of elements, which suit other meshers
+  double memory_gb = 0;  ///< that the elements may take; 0: what is free
+
+  /// Whether any are.
+  bool wanted() const { return body || skins; }
+};
+
+/// Everything that decides the result of a run.
+struct Request {
+  /// Native units. A Volume is taken over; the samples of a VolumeView are read in place where
+  /// nothing changes them, and must live as long as the outcome. Nothing: the labels alone.
+  std::variant<std::monostate, Volume, VolumeView> scan{};
+  /// Which object is meant. Its level, and its crop where none is given here, are those of the
+  /// settings; labels keep the surroundings, unless these are to be removed.
+  ObjectRequest object{};
+  std::optional<LabelChoice> labels{};
+  Settings settings{};
+  bool mesh = true;  ///< of several objects: make a mesh around them; one object always has one
+  ElementRequest elements{};
+  HasEnough enough{};  ///< for one object only
+
+  /// Whether there is one.
+  bool has_scan() const { return scan.index() != 0; }
+};
+
+/// Hears of a run while it goes on. Each member may be empty.
+struct Listener {
+  Progress progress{};
+  std::function<void(const std::string&)> note{};     ///< one line: what was done unasked
+  std::function<void(const std::string&)> warning{};  ///< one line: what may not be what was meant
+  /// The objects that are looked for, before the long work; it may throw.
+  std::function<void(const std::vector<Segment>&)> objects{};
+};
 
 /// Does all that the program does between reading and writing: chooses the object, runs the method,
 /// fills the objects with elements where that is asked for, and judges the result.
 ///
-/// 1. choose_object(), or choose_in_place(): the image that shows the object alone;
-/// 2. run_on_object(); with labels or several seeds run_on_labels() or surfaces_of_labels();
-/// 3. make_elements();
-/// 4. check_surface() and judge().
-/// @param request   a scan of three axes, labels, or both.
-/// @param listener  optional.
-/// @throws InputError  as these functions, or if neither a scan nor labels are given, or what needs
-///                     a scan is asked of labels alone.
+/// 1. Chooses the object: fills padding, removes the table, finds the level, crops. The samples of
+///    a VolumeView never change.
+/// 2. Minimises on adapted meshes until the surface has settled, extracts the surface, moves it on
+///    to the image and removes triangles within the tolerance; with labels or several seeds, of
+///    each object.
+/// 3. Fills the objects with elements.
+/// 4. Checks the surfaces: closed, 2-manifold, within the tolerance.
+/// @param request   a scan of three axes, labels, or both; what the settings leave open is measured.
+/// @param listener  optional. The stages of its progress are "preparation", "adaptation k of n",
+///                  "final minimisation", "surface", "decimation".
+/// @throws InputError  one line that says what was expected and found: if neither a scan nor labels
+///                     are given, what needs a scan is asked of labels alone, or a scan, a label
+///                     map or a setting cannot be used.
 /// @throws Cancelled   if progress says stop.
 ///
 /// Time and memory are those of the steps. The same bits for any number of threads, but for a run

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesamis/delivery/mesh_output.h"
+#include "mesamis/run/outcome_details.h"
 #include "mesamis/shape_files/mesh_files.h"
 
 namespace mesamis {
@@ -51,8 +52,8 @@ class PieceWriter {
   MeshWithArrays index_;                                 // names and components of the arrays
 };
 
-Outcome outcome_of(const SlabRequest& request, SlabRunResult& work) {
-  Outcome outcome;
+OutcomeDetails outcome_of(const SlabRequest& request, SlabRunResult& work) {
+  OutcomeDetails outcome;
   outcome.asked = request.settings;
   outcome.grid = request.source.grid();
   outcome.one = std::move(work.result);
@@ -79,11 +80,10 @@ std::optional<SlabOutcome> segment_in_slabs(const SlabRequest& request, const fs
   }
   auto work = run_in_slabs(request.source, request.settings, options, team);
   if (!work) return std::nullopt;
-  SlabOutcome found{outcome_of(request, *work), *std::move(work), {}};
-  if (options.mesh) found.outcome.in_place = samples().samples;
+  OutcomeDetails outcome = outcome_of(request, *work);
+  if (options.mesh) outcome.in_place = samples().samples;
   pieces.write_indices();
-  found.scan = std::move(scan);
-  return found;
+  return SlabOutcome{Outcome(std::move(outcome)), *std::move(work), std::move(scan)};
 }
 
 }  // namespace mesamis

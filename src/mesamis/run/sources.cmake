@@ -2,13 +2,15 @@
 set(ROOM_HEADERS
   elements.h
   outcome.h
-  request.h
+  outcome_details.h
+  run_files.h
   segment.h
   segment_in_slabs.h
   write.h)
 set(ROOM_SOURCES
   elements.cpp
   outcome.cpp
+  outcome_details.cpp
   segment.cpp
   segment_in_slabs.cpp
   write.cpp)

@@ -6,12 +6,17 @@
 #include <utility>
 
 #include "mesamis/label_files/write_labels.h"
+#include "mesamis/page/run_page.h"
 #include "mesamis/record/body_json.h"
 #include "mesamis/record/json_file.h"
 #include "mesamis/record/label_report.h"
 #include "mesamis/record/label_surface_files.h"
 #include "mesamis/record/meshing_json.h"
 #include "mesamis/record/object_report.h"
+#include "mesamis/record/run_surface.h"
+#include "mesamis/run/outcome_details.h"
+#include "mesamis/run/run_files.h"
+#include "mesamis/shape_files/element_files.h"
 #include "mesamis/shape_files/surface_files.h"
 
 namespace mesamis {
@@ -22,7 +27,7 @@ using nlohmann::ordered_json;
 
 /// The mesh with its cells in sets: bins of grey values, or the objects under the labels that their
 /// surfaces have in files.
-std::optional<MeshOutput> mesh_output(const Outcome& o, const MeshOptions& options) {
+std::optional<MeshOutput> mesh_output(const OutcomeDetails& o, const MeshOptions& options) {
   const Result* mesh = o.mesh();
   if (mesh == nullptr) return std::nullopt;
   if (o.one) return make_mesh_output(*mesh, o.image(), options);
@@ -35,7 +40,7 @@ std::optional<MeshOutput> mesh_output(const Outcome& o, const MeshOptions& optio
   return make_mesh_output(*mesh, o.image(), options, objects);
 }
 
-void write_surfaces(const Outcome& o, const Outputs& w) {
+void write_surfaces(const OutcomeDetails& o, const RunFiles& w) {
   const auto& files = w.surfaces;
   if (o.several) {
     const RunSurfaceOptions as{w.frame, w.name, w.error, false, w.subject};
@@ -49,7 +54,8 @@ void write_surfaces(const Outcome& o, const Outputs& w) {
   for (const fs::path& path : files) write_surface(path, o.one->surface, as);
 }
 
-void write_meshes(const Outcome& o, const Outputs& w, const std::optional<MeshOutput>& mesh) {
+void write_meshes(const OutcomeDetails& o, const RunFiles& w,
+                  const std::optional<MeshOutput>& mesh) {
   if (mesh) {
     for (const fs::path& path : w.meshes) write_mesh(path, *mesh, w.frame);
   }
@@ -58,7 +64,7 @@ void write_meshes(const Outcome& o, const Outputs& w, const std::optional<MeshOu
 }
 
 /// What the report says of the method and of the elements.
-ordered_json found_json(const Outcome& o) {
+ordered_json found_json(const OutcomeDetails& o) {
   ordered_json found =
       o.one ? run_json(o.asked, *o.one, o.checks.front()) : label_run_json(*o.several, o.checks);
   if (o.elements.body) found["body"] = body_json(*o.elements.body);
@@ -70,7 +76,7 @@ ordered_json found_json(const Outcome& o) {
   return found;
 }
 
-ordered_json warnings_json(const Outcome& o, const ReportFacts& facts) {
+ordered_json warnings_json(const OutcomeDetails& o, const ReportFacts& facts) {
   ordered_json warnings = ordered_json::array();
   const auto add = [&](const std::vector<std::string>& lines) {
     for (const std::string& line : lines) warnings.push_back(line);
@@ -83,7 +89,7 @@ ordered_json warnings_json(const Outcome& o, const ReportFacts& facts) {
 }
 
 /// The page has what a reader of the report file would find.
-void write_page_of(const Outcome& o, const Outputs& w, const ordered_json& report) {
+void write_page_of(const OutcomeDetails& o, const RunFiles& w, const ordered_json& report) {
   const auto shown = w.shown_scan ? w.shown_scan() : std::nullopt;
   const auto replace = ordered_json::error_handler_t::replace;
   RunPage page{nlohmann::json::parse(report.dump(-1, ' ', false, replace))};
@@ -101,7 +107,8 @@ void write_page_of(const Outcome& o, const Outputs& w, const ordered_json& repor
   write_page(w.page, page);
 }
 
-void write_report(const Outcome& o, const Outputs& w, ordered_json report, const OutputSet& set) {
+void write_report(const OutcomeDetails& o, const RunFiles& w, ordered_json report,
+                  const OutputSet& set) {
   if (w.page.given()) write_page_of(o, w, report);
   if (w.report.empty() && !w.facts.written) return;
   report["files"] = files_json(set);
@@ -112,7 +119,7 @@ void write_report(const Outcome& o, const Outputs& w, ordered_json report, const
 
 }  // namespace
 
-ordered_json report_json(const Outcome& o, const Outputs& w) {
+ordered_json report_json(const OutcomeDetails& o, const RunFiles& w) {
   const ReportFacts& facts = w.facts;
   ordered_json report, chosen;
   if (o.object) chosen = object_json(o.object_asked, *o.object);
@@ -130,7 +137,7 @@ ordered_json report_json(const Outcome& o, const Outputs& w) {
   return report;
 }
 
-void write(const Outcome& o, const Outputs& w, OutputSet& set) {
+void write(const OutcomeDetails& o, const RunFiles& w, OutputSet& set) {
   std::optional<MeshOutput> mesh;  // before any file is written: it may be refused
   if (!w.meshes.empty()) mesh = mesh_output(o, w.mesh);
   if (o.one && !w.surfaces.empty()) require_surface(*o.one);
@@ -148,10 +155,19 @@ void write(const Outcome& o, const Outputs& w, OutputSet& set) {
   write_report(o, w, std::move(report), set);
 }
 
-void write(const Outcome& outcome, const Outputs& outputs) {
+void write(const OutcomeDetails& outcome, const RunFiles& files) {
   OutputSet set;
-  write(outcome, outputs, set);
+  write(outcome, files, set);
   set.commit();
+}
+
+void write(const Outcome& outcome, const Outputs& outputs) {
+  write(outcome.details(), RunFiles{outputs});
+}
+
+std::string report_text(const Outcome& outcome) {
+  return report_json(outcome.details(), {})
+      .dump(2, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 }  // namespace mesamis

@@ -8,6 +8,7 @@
 
 #include "mesamis/files/in_one_line.h"
 #include "mesamis/files/memory_budget.h"
+#include "mesamis/files/read_record.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
 #include "mesamis/scan_files/slice_stack.h"

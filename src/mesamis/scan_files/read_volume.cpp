@@ -11,6 +11,7 @@
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/given_spacing.h"
 #include "mesamis/files/in_one_line.h"
+#include "mesamis/files/read_record.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/dicom_store.h"
 #include "mesamis/scan_files/formats.h"

@@ -10,8 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mesamis/files/read_limits.h"
-#include "mesamis/files/read_record.h"
+#include "mesamis/files/reading.h"
 #include "mesamis/image/volume.h"
 
 namespace mesamis {

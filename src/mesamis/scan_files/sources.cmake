@@ -1,18 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
-  open_slices.h
-  read_volume.h
-  write_volume.h)
-# For the rooms above alone: not installed.
-set(ROOM_INNER_HEADERS
   dicom_pixels.h
   dicom_slice.h
   dicom_spacing.h
   formats.h
   nrrd_header.h
+  open_slices.h
+  read_volume.h
   scan_file.h
   slice_reader.h
-  slice_stack.h)
+  slice_stack.h
+  write_volume.h)
 set(ROOM_SOURCES
   bmp_file.cpp
   dicom_file.cpp

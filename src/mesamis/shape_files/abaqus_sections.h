@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "mesamis/base/frame.h"
+#include "mesamis/base/types.h"
 #include "mesamis/files/text_writer.h"
 
 /// What the writers of Abaqus .inp share.

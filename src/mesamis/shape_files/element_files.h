@@ -4,18 +4,12 @@
 #include <filesystem>
 #include <span>
 
-#include "mesamis/base/frame.h"
+#include "mesamis/base/types.h"
 #include "mesamis/mesh/finite_elements.h"
 #include "mesamis/shape_files/mesh_files.h"
 
 /// Bodies of finite elements as the input of solvers.
 namespace mesamis {
-
-/// The versions of Gmsh's format that are written, both ASCII.
-enum class GmshVersion {
-  k22,  ///< read by nearly all programs
-  k41,  ///< Gmsh's own today; entities, and elements in blocks
-};
 
 /// What a file holds beside the elements. The arrays are not copied.
 struct ElementWriteOptions {

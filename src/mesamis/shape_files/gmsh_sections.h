@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-#include "mesamis/base/frame.h"
+#include "mesamis/base/types.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/text_writer.h"
 #include "mesamis/shape_files/mesh_files.h"

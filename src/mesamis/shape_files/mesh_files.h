@@ -6,11 +6,30 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/base/frame.h"
-#include "mesamis/files/read_limits.h"
+#include "mesamis/base/types.h"
+#include "mesamis/files/reading.h"
 #include "mesamis/mesh/tet_mesh.h"
 
 namespace mesamis {
+
+/// Which cells of the mesh of a run are written.
+enum class MeshRegion {
+  kBox,    ///< all
+  kObject  ///< those of which more than half lies within the object
+};
+
+/// How the mesh of a run is written.
+struct MeshOptions {
+  MeshRegion region = MeshRegion::kBox;
+  int bins = 10;  ///< of equal ranges of the native value, 1 to kMostBins; of one object only
+};
+inline constexpr int kMostBins = 999;
+
+/// The versions of Gmsh's format that are written, both ASCII.
+enum class GmshVersion {
+  k22,  ///< read by nearly all programs
+  k41,  ///< Gmsh's own today; entities, and elements in blocks
+};
 
 /// A named array on the points or the cells of a mesh. Three components are a vector, six a
 /// symmetric tensor in VTK's order xx yy zz xy yz xz; both turn with the frame of the file. Arrays

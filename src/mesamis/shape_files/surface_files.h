@@ -7,12 +7,15 @@
 #include <utility>
 #include <vector>
 
-#include "mesamis/base/frame.h"
+#include "mesamis/base/types.h"
 #include "mesamis/files/dicom_subject.h"
-#include "mesamis/files/read_limits.h"
+#include "mesamis/files/reading.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis {
+
+/// The name of a surface where the user gives none. Never the scan's, which may be the patient's.
+inline constexpr const char* kSurfaceName = "mesamis surface";
 
 /// A named array with one value per point of a surface.
 struct PointArray {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "mesamis/base/grid_place.h"
+#include "mesamis/base/types.h"
 #include "mesamis/mesh/kuhn.h"
 #include "mesamis/surface/grid_partition.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <span>
 
-#include "mesamis/base/grid_place.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/base/types.h"
 #include "mesamis/surface/list_materials.h"
 
 namespace mesamis {

@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   axis_flip.h
+  box_tree.h
   components.h
   depth_maximum.h
+  disjoint_sets.h
   distance.h
   extract.h
   extract_cubes.h
+  farthest.h
   grid_partition.h
+  half_edges.h
+  list_materials.h
   measure.h
   nesting.h
   normals.h
@@ -14,21 +19,14 @@ set(ROOM_HEADERS
   sampling.h
   select_parts.h
   self_intersections.h
+  signed_distance.h
   smooth_memberships.h
   split_edges.h
   tri_mesh.h
-  triangle_shapes.h
-  unused_points.h)
-# For the rooms above alone: not installed.
-set(ROOM_INNER_HEADERS
-  box_tree.h
-  disjoint_sets.h
-  farthest.h
-  half_edges.h
-  list_materials.h
-  signed_distance.h
   triangle_intersection.h
-  triangle_tree.h)
+  triangle_shapes.h
+  triangle_tree.h
+  unused_points.h)
 set(ROOM_SOURCES
   axis_flip.cpp
   box_tree.cpp
