@@ -42,7 +42,7 @@ TEST(Refuse, WordsAreTrimmedAndLowered) {
 }
 
 TEST(Refuse, JoinsPartsInTheCLocale) {
-  EXPECT_EQ(say("found ", 1234567, " of ", 0.5, '!'), "found 1234567 of 0.5!");
+  EXPECT_EQ(message("found ", 1234567, " of ", 0.5, '!'), "found 1234567 of 0.5!");
 }
 
 TEST(ParseNumber, TakesARealNumberThatFillsTheText) {

@@ -3,6 +3,7 @@ set(ROOM_HEADERS
   available_memory.h
   error.h
   median.h
+  message.h
   parallel.h
   progress.h
   stopwatch.h

@@ -28,18 +28,19 @@ void require_product(const fs::path& file, const std::vector<std::uint64_t>& cou
   std::uint64_t product = 1;
   for (const std::uint64_t count : counts) {
     if (count < 1 || count > kMostAlong) {
-      refuse(file, say("expected ", what, " of 1 to ", kMostAlong,
-                       " elements along each axis, found ", count));
+      refuse(file, message("expected ", what, " of 1 to ", kMostAlong,
+                           " elements along each axis, found ", count));
     }
     product *= count;  // below 2^40 times 2^31
     if (product > kMostVoxels) {
-      refuse(file, say("expected ", what, " of at most 2^40 elements, found more"));
+      refuse(file, message("expected ", what, " of at most 2^40 elements, found more"));
     }
   }
 }
 
 std::string axis_name(const std::vector<std::string>& axes, std::size_t axis) {
-  return axis < axes.size() ? say("axis ", axis, " (", shown(axes[axis]), ")") : say("axis ", axis);
+  return axis < axes.size() ? message("axis ", axis, " (", shown(axes[axis]), ")")
+                            : message("axis ", axis);
 }
 
 /// Slices of constant k from `first` on.
@@ -103,8 +104,8 @@ LeadAxes lead_axes(const fs::path& file, const ChunkLayout& layout,
     if (layout.shape[a] == 1) continue;
     auto& place = is(a, "c") || (lead.volume && !is(a, "t")) ? lead.channel : lead.volume;
     if (place) {
-      refuse(file, say("expected volumes and channels along two axes at most, found ",
-                       layout.shape[a], " along ", axis_name(names, a), " too"));
+      refuse(file, message("expected volumes and channels along two axes at most, found ",
+                           layout.shape[a], " along ", axis_name(names, a), " too"));
     }
     place = a;
   }
@@ -278,8 +279,8 @@ std::vector<float> ChunkArray::read(Index first, Index count) const {
   return in_one_line(array_.path, [&] {
     const auto last = array_.grid.size[2];
     if (first < 0 || count < 1 || first > last - count) {
-      refuse(array_.path,
-             say("expected slices of 0 to ", last - 1, ", found ", count, " from ", first, " on"));
+      refuse(array_.path, message("expected slices of 0 to ", last - 1, ", found ", count, " from ",
+                                  first, " on"));
     }
     MemoryBudget budget(array_.path, array_.limits);
     const SliceRange all{static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(count)};
@@ -330,7 +331,7 @@ std::array<Index, 3> require_layout(const fs::path& file, ChunkLayout& layout,
                                     const ValueChoice& choice) {
   const std::size_t count = layout.shape.size();
   if (count < 3 || count > kMostAxes) {
-    refuse(file, say("expected an array of 3 axes, found ", count));
+    refuse(file, message("expected an array of 3 axes, found ", count));
   }
   require_product(file, layout.shape, "an array");
   require_product(file, layout.chunk, "chunks");
@@ -378,8 +379,8 @@ std::unique_ptr<ChunkedScan> make_chunked_scan(OpenedArray array) {
   for (int a = 0; a < 3; ++a) {
     const double spacing = array.grid.spacing[a], origin = array.grid.origin[a];
     if (!(spacing > 0) || !std::isfinite(spacing) || !std::isfinite(origin)) {
-      refuse(array.path, say("expected a positive spacing and a finite origin, found ", spacing,
-                             " mm at ", origin, " mm"));
+      refuse(array.path, message("expected a positive spacing and a finite origin, found ", spacing,
+                                 " mm at ", origin, " mm"));
     }
   }
   return std::make_unique<ChunkArray>(std::move(array));

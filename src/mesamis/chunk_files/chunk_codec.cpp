@@ -30,11 +30,11 @@ bool is_sum(const ChunkCodec& codec) {
 }
 
 [[noreturn]] void refuse_size(const fs::path& file, std::size_t expected, std::uint64_t found) {
-  refuse(file, say("expected a chunk of ", expected, " bytes, found ", found));
+  refuse(file, message("expected a chunk of ", expected, " bytes, found ", found));
 }
 
 [[noreturn]] void refuse_broken(const fs::path& file, const char* packing) {
-  refuse(file, say("expected a chunk packed by ", packing, ", found one that is broken"));
+  refuse(file, message("expected a chunk packed by ", packing, ", found one that is broken"));
 }
 
 /// Both ends of a stream in memory; zlib counts them in 32 bits.
@@ -56,7 +56,7 @@ class Inflation {
       status = inflate(&stream_, Z_NO_FLUSH);
       if (status == Z_STREAM_END) break;
       if (status == Z_BUF_ERROR && written() == out_.size()) {
-        refuse(file_, say("expected a chunk of ", out_.size(), " bytes, found more"));
+        refuse(file_, message("expected a chunk of ", out_.size(), " bytes, found more"));
       }
       if (status != Z_OK) refuse_broken(file_, "zlib or gzip");
     }

@@ -23,10 +23,10 @@ using detail::ChunkCodec;
 using detail::ChunkLayout;
 using detail::in_quotes;
 using detail::MemoryBudget;
+using detail::message;
 using detail::NumberType;
 using detail::OpenedArray;
 using detail::refuse;
-using detail::say;
 using detail::StoredChunk;
 
 /// One thread at a time calls the library, which does not print meanwhile.
@@ -180,8 +180,8 @@ std::string find_dataset(const fs::path& path, hid_t file) {
   }
   if (volumes.size() == 1) return volumes.front();
   if (volumes.empty()) refuse(path, "expected a dataset of 3 axes, found none");
-  refuse(path, say("expected one dataset of 3 axes, or a path to one inside, found ",
-                   volumes.size(), ": ", detail::first_of(volumes)));
+  refuse(path, message("expected one dataset of 3 axes, or a path to one inside, found ",
+                       volumes.size(), ": ", detail::first_of(volumes)));
 }
 
 /// Opens a dataset for what follows, with the way to refuse it.
@@ -250,8 +250,8 @@ ChunkCodec codec_of(const Dataset& dataset, unsigned n) {
       return {ChunkCodec::Kind::kZstd};
     default:
       dataset.refuse_it(
-          say("expected the filters deflate, shuffle, fletcher32, blosc or zstd, found ",
-              in_quotes(name.data()), " (", id, ")"));
+          message("expected the filters deflate, shuffle, fletcher32, blosc or zstd, found ",
+                  in_quotes(name.data()), " (", id, ")"));
   }
 }
 
@@ -295,7 +295,7 @@ ChunkLayout layout_of(const Dataset& dataset) {
   ChunkLayout layout;
   layout.shape = shape_of(dataset.id);
   if (layout.shape.size() < 3) {
-    dataset.refuse_it(say("expected an array of 3 axes, found ", layout.shape.size()));
+    dataset.refuse_it(message("expected an array of 3 axes, found ", layout.shape.size()));
   }
   layout.order.resize(layout.shape.size());
   std::iota(layout.order.begin(), layout.order.end(), std::size_t{0});
@@ -343,8 +343,8 @@ std::optional<StoredChunk> read_slice(const Dataset& dataset, const ChunkLayout&
                       H5Sclose);
   H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr);
   if (H5Dread(dataset.id, type, memory, space, H5P_DEFAULT, chunk.bytes.data()) < 0) {
-    dataset.refuse_it(say("expected ", size, " bytes of slice ", first[first.size() - 3],
-                          ", found a file that is broken or cut off"));
+    dataset.refuse_it(message("expected ", size, " bytes of slice ", first[first.size() - 3],
+                              ", found a file that is broken or cut off"));
   }
   return chunk;
 }
@@ -366,8 +366,8 @@ std::optional<StoredChunk> read_chunk(const Dataset& dataset, const ChunkLayout&
   haddr_t address = HADDR_UNDEF;
   hsize_t size = 0;
   const auto refuse_chunk = [&] {
-    dataset.refuse_it(say("expected a chunk at slice ", first[first.size() - 3],
-                          ", found a file that is broken or cut off"));
+    dataset.refuse_it(message("expected a chunk at slice ", first[first.size() - 3],
+                              ", found a file that is broken or cut off"));
   };
   if (H5Dget_chunk_info_by_coord(dataset.id, first.data(), &left_out, &address, &size) < 0) {
     refuse_chunk();
@@ -394,7 +394,7 @@ OpenedArray opened(Dataset dataset, const ChunkOptions& options) {
   for (const char* name : {"scale_factor", "add_offset"}) {
     if (H5Aexists(dataset.id, name) <= 0) continue;
     out.warnings.push_back(
-        say("the attribute ", name, " is not applied: values are kept as stored"));
+        message("the attribute ", name, " is not applied: values are kept as stored"));
   }
   detail::require_chain(dataset.path, out.layout.codecs);
   detail::set_spacing(out, spacing_of(dataset), options.spacing);

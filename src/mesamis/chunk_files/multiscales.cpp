@@ -55,7 +55,7 @@ struct Transform {
 
 std::vector<double> vector_of(const JsonValue& list, std::size_t axes) {
   std::vector<double> values = list.numbers();
-  if (values.size() != axes) list.refuse_as(say("a list of ", axes, " numbers"));
+  if (values.size() != axes) list.refuse_as(message("a list of ", axes, " numbers"));
   return values;
 }
 
@@ -105,9 +105,9 @@ void set_lengths(const std::vector<Axis>& axes, const Transform& transform, Scal
     const std::string unit = axis < axes.size() ? axes[axis].unit : std::string();
     const auto mm = mm_per_unit(unit);
     if (!mm) {
-      level.warnings.push_back(say("axis ", "xyz"[a], " has ",
-                                   unit.empty() ? "no unit" : "the unit " + in_quotes(unit),
-                                   ": its lengths are taken as mm"));
+      level.warnings.push_back(message("axis ", "xyz"[a], " has ",
+                                       unit.empty() ? "no unit" : "the unit " + in_quotes(unit),
+                                       ": its lengths are taken as mm"));
     }
     (*level.spacing)[static_cast<int>(a)] = transform.scale[axis] * mm.value_or(1);
     level.origin[static_cast<int>(a)] = transform.translation[axis] * mm.value_or(1);
@@ -174,7 +174,7 @@ void add_labels(const JsonValue& owner, std::vector<ScaleLevel>& levels) {
   try {
     read_label_entries(*labels, all);
   } catch (const InputError& error) {
-    levels.front().warnings.push_back(say("not all names of labels are read: ", error.what()));
+    levels.front().warnings.push_back(message("not all names of labels are read: ", error.what()));
   }
   const auto shared = std::make_shared<const std::vector<NamedNumber>>(all.take());
   for (ScaleLevel& level : levels) level.labels = shared;

@@ -71,7 +71,8 @@ char read_separator(const JsonValue& value) {
 
 void require_axes(const JsonValue& chunks, const ChunkLayout& layout) {
   if (layout.chunk.size() == layout.shape.size()) return;
-  chunks.refuse_as(say("a list of ", layout.shape.size(), " lengths, as many as the shape has"));
+  chunks.refuse_as(
+      message("a list of ", layout.shape.size(), " lengths, as many as the shape has"));
 }
 
 /// @param element  bytes of a sample, where a shuffle does not tell.
@@ -107,7 +108,7 @@ void transpose_axes(const JsonValue& codec, ChunkLayout& layout) {
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t a = 0; a < layout.order.size(); ++a) {
     if (sorted.size() != layout.order.size() || sorted[a] != a) {
-      order.refuse_as(say("each axis from 0 to ", layout.order.size() - 1, " once"));
+      order.refuse_as(message("each axis from 0 to ", layout.order.size() - 1, " once"));
     }
   }
   const std::vector<std::size_t> before = layout.order;
@@ -164,7 +165,7 @@ JsonValue read_shards(const JsonValue& codec, ZarrArray& array) {
     }
     shard.chunks.push_back(layout.chunk[a] / inner[a]);
     if (shard.chunks.back() < 1 || shard.chunks.back() > kMostChunks / all) {
-      shape.refuse_as(say("1 to ", kMostChunks, " chunks in a shard"));
+      shape.refuse_as(message("1 to ", kMostChunks, " chunks in a shard"));
     }
     all *= shard.chunks.back();
   }

@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 using detail::in_quotes;
 using detail::JsonValue;
 using detail::MemoryBudget;
+using detail::message;
 using detail::OpenedArray;
 using detail::refuse;
-using detail::say;
 using detail::ScaleLevel;
 using detail::StoredChunk;
 using detail::ZarrArray;
@@ -80,7 +80,7 @@ Node read_node(const fs::path& folder, MemoryBudget& budget) {
 fs::path inside(const fs::path& file, const std::string& name) {
   const fs::path path = fs::path(name).relative_path().lexically_normal();
   if (name.find('\0') != std::string::npos || (!path.empty() && *path.begin() == "..")) {
-    refuse(file, say("expected a path that stays within the store, found ", in_quotes(name)));
+    refuse(file, message("expected a path that stays within the store, found ", in_quotes(name)));
   }
   return path == "." ? fs::path() : path;
 }
@@ -173,16 +173,16 @@ Found find_array(const fs::path& path, const std::string& dataset, MemoryBudget&
   const fs::path folder = start.has_filename() ? start : start.parent_path();
   if (!is_node(folder)) {
     refuse(path, dataset.empty() ? "expected a Zarr array or group, found none"
-                                 : say("expected a Zarr array or group ", in_quotes(dataset),
-                                       " within it, found none"));
+                                 : message("expected a Zarr array or group ", in_quotes(dataset),
+                                           " within it, found none"));
   }
   if (read_node(folder, budget).array) return {folder, level_of(root, folder, budget)};
   Search search(budget);
   search.look(folder, 0);
   if (search.found.empty()) refuse(path, "expected an array of 3 axes, found none");
   if (search.found.size() > 1) {
-    refuse(path, say("expected one array of 3 axes, or a path to one inside, found ",
-                     search.found.size(), ": ", names_of(root, search.found)));
+    refuse(path, message("expected one array of 3 axes, or a path to one inside, found ",
+                         search.found.size(), ": ", names_of(root, search.found)));
   }
   return search.found.front();
 }
@@ -198,7 +198,7 @@ std::string read_bytes_of(const fs::path& file, std::uint64_t begin, std::uint64
   const std::uint64_t there = detail::size_of(file);
   if (begin > there || size > there - begin) {
     refuse(file,
-           say("expected ", size, " bytes from byte ", begin, " on, found a file of ", there));
+           message("expected ", size, " bytes from byte ", begin, " on, found a file of ", there));
   }
   budget.claim(size, 1, "a chunk as stored");
   std::string bytes(size, '\0');
@@ -212,7 +212,7 @@ void read_index(const fs::path& file, const detail::ZarrShard& shard, MemoryBudg
   if (index.file == file) return;
   const std::uint64_t size = shard.index_bytes(), all = detail::size_of(file);
   if (size > all) {
-    refuse(file, say("expected a table of ", size, " bytes in the shard, found ", all));
+    refuse(file, message("expected a table of ", size, " bytes in the shard, found ", all));
   }
   index.file.clear();
   std::string table = read_bytes_of(file, shard.index_at_end ? all - size : 0, size, budget);
@@ -272,7 +272,8 @@ void warn_of_scale(const fs::path& folder, MemoryBudget& budget,
   const auto attributes = v3.value().find("attributes");
   for (const char* name : {"scale_factor", "add_offset"}) {
     if (!own.value().has(name) && !(attributes && attributes->has(name))) continue;
-    warnings.push_back(say("the attribute ", name, " is not applied: values are kept as stored"));
+    warnings.push_back(
+        message("the attribute ", name, " is not applied: values are kept as stored"));
   }
 }
 
@@ -286,8 +287,8 @@ OpenedArray opened(const fs::path& path, const Found& found, const ChunkOptions&
   out.grid.size =
       detail::require_layout(found.folder, array.layout, axes, {options.volume, options.channel});
   if (!axes.empty() && axes.size() != array.layout.shape.size()) {
-    refuse(found.folder, say("expected as many axes as the image states, ", axes.size(), ", found ",
-                             array.layout.shape.size()));
+    refuse(found.folder, message("expected as many axes as the image states, ", axes.size(),
+                                 ", found ", array.layout.shape.size()));
   }
   detail::require_chain(found.folder, array.layout.codecs);
   warn_of_scale(found.folder, budget, out.warnings);

@@ -88,8 +88,9 @@ std::size_t ByteSource::State::inflate_into(unsigned char* out, std::size_t n) {
     if (status == Z_STREAM_END) {
       end_of_member();
     } else if (status != Z_OK && status != Z_BUF_ERROR) {
-      refuse(file, say("the compressed data are broken (", stream.msg ? stream.msg : "zlib error",
-                       ") after ", stream.total_out, " bytes unpacked"));
+      refuse(file,
+             message("the compressed data are broken (", stream.msg ? stream.msg : "zlib error",
+                     ") after ", stream.total_out, " bytes unpacked"));
     }
   }
   return n - stream.avail_out;
@@ -101,7 +102,7 @@ ByteSource::ByteSource(const std::filesystem::path& file, Packing packing, std::
   const FileState before = state_of(file);
   state_->file = file;
   if (offset > size) {
-    refuse(file, say("the samples should begin at byte ", offset, ", but the file has ", size));
+    refuse(file, message("the samples should begin at byte ", offset, ", but the file has ", size));
   }
   state_->stored = size - offset;
   errno = 0;

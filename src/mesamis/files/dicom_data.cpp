@@ -79,7 +79,7 @@ class Parser {
     }
     if (left() > 0 && std::any_of(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), bytes_.end(),
                                   [](unsigned char c) { return c != 0; })) {
-      throw Broken{say("cut off in the middle of an element at byte ", at_)};
+      throw Broken{message("cut off in the middle of an element at byte ", at_)};
     }
   }
 
@@ -88,7 +88,7 @@ class Parser {
   unsigned peek_group() const { return static_cast<unsigned>(bytes_[at_] | bytes_[at_ + 1] << 8); }
 
   std::uint32_t take(std::size_t n) {
-    if (left() < n) throw Broken{say("cut off at byte ", bytes_.size())};
+    if (left() < n) throw Broken{message("cut off at byte ", bytes_.size())};
     std::uint32_t value = 0;
     for (std::size_t i = 0; i < n; ++i) {
       value |= std::uint32_t{bytes_[at_ + i]} << 8 * (big_endian_ ? n - 1 - i : i);
@@ -111,7 +111,7 @@ class Parser {
       return header;
     }
     if (left() < 2 || !is_upper(bytes_[at_]) || !is_upper(bytes_[at_ + 1])) {
-      throw Broken{"element " + tag_text(header.tag) + say(" at byte ", at_ - 4, " has no VR")};
+      throw Broken{"element " + tag_text(header.tag) + message(" at byte ", at_ - 4, " has no VR")};
     }
     const std::string_view vr(reinterpret_cast<const char*>(&bytes_[at_]), 2);
     at_ += 2;
@@ -127,9 +127,9 @@ class Parser {
 
   Bytes take_value(const ElementHeader& header) {
     if (header.length > left()) {
-      throw Broken{
-          "element " + tag_text(header.tag) +
-          say(" claims ", header.length, " bytes at byte ", at_, ", but only ", left(), " follow")};
+      throw Broken{"element " + tag_text(header.tag) +
+                   message(" claims ", header.length, " bytes at byte ", at_, ", but only ", left(),
+                           " follow")};
     }
     const Bytes value = bytes_.subspan(at_, header.length);
     at_ += header.length;
@@ -175,9 +175,9 @@ class Parser {
 
   std::size_t end_of(const ElementHeader& header) const {
     if (header.length <= left()) return at_ + header.length;
-    throw Broken{
-        "element " + tag_text(header.tag) +
-        say(" claims ", header.length, " bytes at byte ", at_, ", but only ", left(), " follow")};
+    throw Broken{"element " + tag_text(header.tag) +
+                 message(" claims ", header.length, " bytes at byte ", at_, ", but only ", left(),
+                         " follow")};
   }
 
   DicomSet take_item(const ElementHeader& item) {

@@ -58,7 +58,7 @@ std::vector<fs::path> collect(const fs::path& directory) {
     if (!entry->is_regular_file(ignored)) continue;
     files.push_back(entry->path());
     if (files.size() > kMostFiles) {
-      refuse(directory, say("expected at most ", kMostFiles, " files, found more"));
+      refuse(directory, message("expected at most ", kMostFiles, " files, found more"));
     }
   }
   if (error) refuse(directory, "cannot be read: " + reason_of(error));
@@ -135,7 +135,8 @@ std::string contents_of(const fs::path& directory) {
   for (std::size_t n = 0; n < std::min(names.size(), kMostNamed); ++n) {
     text += (n > 0 ? ", " : "") + names[n];
   }
-  return names.size() > kMostNamed ? say(text, " and ", names.size() - kMostNamed, " more") : text;
+  return names.size() > kMostNamed ? message(text, " and ", names.size() - kMostNamed, " more")
+                                   : text;
 }
 
 }  // namespace mesamis::detail

@@ -10,13 +10,13 @@ namespace mesamis::detail {
 void require_positive_spacing(const std::filesystem::path& path, const Vec3& spacing) {
   for (int a = 0; a < 3; ++a) {
     if (spacing[a] > 0 && std::isfinite(spacing[a])) continue;
-    refuse(path, say("expected a positive spacing, found ", spacing[a], " mm"));
+    refuse(path, message("expected a positive spacing, found ", spacing[a], " mm"));
   }
 }
 
 std::string spacing_is_replaced(const Vec3& stated) {
-  return say("the file's spacing, ", stated.x, " x ", stated.y, " x ", stated.z,
-             " mm, is replaced by the one given");
+  return message("the file's spacing, ", stated.x, " x ", stated.y, " x ", stated.z,
+                 " mm, is replaced by the one given");
 }
 
 }  // namespace mesamis::detail

@@ -18,7 +18,7 @@ std::string metadata_text(const fs::path& file, MemoryBudget& budget) {
   ByteSource source(file, Packing::kPlain);
   const std::uint64_t size = source.most_bytes();
   if (size > kMostBytes) {
-    refuse(file, say("expected metadata of at most 64 MiB, found ", size, " bytes"));
+    refuse(file, message("expected metadata of at most 64 MiB, found ", size, " bytes"));
   }
   budget.claim(size, 1, "metadata");
   std::string text(size, '\0');
@@ -37,14 +37,14 @@ json read_metadata(const fs::path& file, MemoryBudget& budget) {
   budget.claim(text.size(), kMostPerByte, "metadata");
   const auto watch = [&](int depth, json::parse_event_t, const json&) {
     if (depth > kDeepest) {
-      refuse(file, say("expected JSON of at most ", kDeepest, " levels, found more"));
+      refuse(file, message("expected JSON of at most ", kDeepest, " levels, found more"));
     }
     return true;
   };
   try {
     return json::parse(text, watch);
   } catch (const json::parse_error& error) {
-    refuse(file, say("expected JSON, found something else at byte ", error.byte));
+    refuse(file, message("expected JSON, found something else at byte ", error.byte));
   } catch (const json::exception&) {
     refuse(file, "expected JSON with numbers in range, found one that is not");
   }
@@ -52,17 +52,17 @@ json read_metadata(const fs::path& file, MemoryBudget& budget) {
 
 void JsonValue::refuse_as(std::string_view expected) const {
   constexpr std::size_t kLongest = 60;
-  std::string found = value_->is_array() ? say("a list of ", value_->size())
+  std::string found = value_->is_array() ? message("a list of ", value_->size())
                       : value_->is_object()
-                          ? say("an object of ", value_->size())
+                          ? message("an object of ", value_->size())
                           : value_->dump(-1, ' ', true, json::error_handler_t::replace);
   if (found.size() > kLongest) found = found.substr(0, kLongest) + "...";
-  refuse(*file_, say(where_.empty() ? std::string("JSON") : shown(where_), ": expected ", expected,
-                     ", found ", found));
+  refuse(*file_, message(where_.empty() ? std::string("JSON") : shown(where_), ": expected ",
+                         expected, ", found ", found));
 }
 
 JsonValue JsonValue::at(const char* key) const {
-  if (!has(key)) refuse_as(say("an object with ", in_quotes(key)));
+  if (!has(key)) refuse_as(message("an object with ", in_quotes(key)));
   return {*file_, (*value_)[key], where_.empty() ? key : where_ + "." + key};
 }
 

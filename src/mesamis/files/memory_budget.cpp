@@ -28,11 +28,11 @@ void MemoryBudget::claim(std::uint64_t count, std::uint64_t bytes_each, std::str
     held_ += count * bytes_each;
     return;
   }
-  const auto megabytes = [](double bytes) { return say(bytes / 1e6, " MB"); };
-  refuse(file_, say("memory: expected a file that needs at most ",
-                    megabytes(static_cast<double>(limit_)), ", found one that claims ",
-                    megabytes(static_cast<double>(count) * static_cast<double>(bytes_each)),
-                    " for ", what, " beside ", megabytes(static_cast<double>(held_))));
+  const auto megabytes = [](double bytes) { return message(bytes / 1e6, " MB"); };
+  refuse(file_, message("memory: expected a file that needs at most ",
+                        megabytes(static_cast<double>(limit_)), ", found one that claims ",
+                        megabytes(static_cast<double>(count) * static_cast<double>(bytes_each)),
+                        " for ", what, " beside ", megabytes(static_cast<double>(held_))));
 }
 
 }  // namespace mesamis::detail

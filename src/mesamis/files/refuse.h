@@ -4,22 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <locale>
-#include <sstream>
 #include <string>
 #include <string_view>
 
+#include "mesamis/base/message.h"
+
 /// Errors of one line, the file first, and the parsing of words and numbers.
 namespace mesamis::detail {
-
-/// Joins the parts, numbers as an ostream writes them in the C locale.
-template <class... Part>
-std::string say(const Part&... parts) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  (out << ... << parts);
-  return out.str();
-}
 
 /// @return  a file's text as a message may show it: one line of plain ASCII, other characters as
 /// '?'.

@@ -10,14 +10,14 @@ namespace {
 
 /// "5 volumes (--volume 0 to 4)"
 std::string offer(const char* name, std::int64_t count) {
-  return say(count, " ", name, "s (--", name, " 0 to ", count - 1, ")");
+  return message(count, " ", name, "s (--", name, " 0 to ", count - 1, ")");
 }
 
 std::string offers(const ValueAxes& axes) {
   const bool channels = axes.channels > 1;
   if (axes.volumes == 1) return channels ? offer("channel", axes.channels) : "one value per voxel";
-  return say("a ", channels ? 5 : 4, "-D one: ", offer("volume", axes.volumes),
-             channels ? " of " + offer("channel", axes.channels) : "");
+  return message("a ", channels ? 5 : 4, "-D one: ", offer("volume", axes.volumes),
+                 channels ? " of " + offer("channel", axes.channels) : "");
 }
 
 }  // namespace
@@ -32,8 +32,8 @@ TakenValue take_value(const std::filesystem::path& file, const ValueAxes& axes,
   const TakenValue taken{volume.value_or(0), channel.value_or(0)};
   const auto require_there = [&](const char* name, std::int64_t number, std::int64_t count) {
     if (number >= 0 && number < count) return;
-    refuse(file, say("expected ", name, " 0", count > 1 ? say(" to ", count - 1) : "", ", found ",
-                     number, " (the file is ", offers(axes), ")"));
+    refuse(file, message("expected ", name, " 0", count > 1 ? message(" to ", count - 1) : "",
+                         ", found ", number, " (the file is ", offers(axes), ")"));
   };
   require_there("volume", taken.volume, axes.volumes);
   require_there("channel", taken.channel, axes.channels);

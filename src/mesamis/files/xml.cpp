@@ -96,7 +96,8 @@ class XmlBuilder {
   }
 
   [[noreturn]] void refuse_xml(const std::string& what) const {
-    refuse(file_, say("broken XML in line ", XML_GetCurrentLineNumber(parser_.get()), ": ", what));
+    refuse(file_,
+           message("broken XML in line ", XML_GetCurrentLineNumber(parser_.get()), ": ", what));
   }
 
   void feed(std::string_view chunk, bool last) {
@@ -106,19 +107,20 @@ class XmlBuilder {
     if (stopped_ || status == XML_STATUS_OK) return;
     const XML_Error code = XML_GetErrorCode(parser_.get());
     if (code == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
-    refuse_xml(say("expected well-formed XML, found an error: ", XML_ErrorString(code)));
+    refuse_xml(message("expected well-formed XML, found an error: ", XML_ErrorString(code)));
   }
 
   void require_short_tag(std::size_t fed) const {
     const auto place = XML_GetCurrentByteIndex(parser_.get());
     if (stopped_ || place < 0 || fed - static_cast<std::size_t>(place) <= kLongestTag) return;
-    refuse_xml(
-        say("expected a tag or comment of at most ", kLongestTag, " bytes, found a longer one"));
+    refuse_xml(message("expected a tag or comment of at most ", kLongestTag,
+                       " bytes, found a longer one"));
   }
 
   void begin_element(const XML_Char* name, const XML_Char** attributes) {
     if (open_.size() == kDeepest) {
-      refuse_xml(say("expected at most ", kDeepest, " elements within one another, found more"));
+      refuse_xml(
+          message("expected at most ", kDeepest, " elements within one another, found more"));
     }
     costs_.push_back(0);
     claim(3 * sizeof(XmlElement) + std::strlen(name));  // lists double their room
@@ -133,7 +135,7 @@ class XmlBuilder {
     if (has_doctype_) refuse_entities_in_tag();
     items_ += 1 + element.attributes.size();
     if (items_ > kMostItems) {
-      refuse_xml(say("expected at most ", kMostItems, " elements and attributes, found more"));
+      refuse_xml(message("expected at most ", kMostItems, " elements and attributes, found more"));
     }
     (path_ += path_.empty() ? "" : "/") += element.name;
     const bool is_end = options_.ends_at_appended_data && element.name == "AppendedData";
@@ -169,7 +171,7 @@ class XmlBuilder {
 
   void require_known(const std::string& name) {
     if (names_.insert(name).second && names_.size() > kMostNames) {
-      refuse_xml(say("expected at most ", kMostNames, " different names, found more"));
+      refuse_xml(message("expected at most ", kMostNames, " different names, found more"));
     }
   }
 
@@ -210,8 +212,8 @@ class XmlBuilder {
   }
 
   void refuse_entity(const XML_Char* name) const {
-    refuse_xml(say("expected a character or one of XML's own entities, found ",
-                   in_quotes(say('&', name, ';'))));
+    refuse_xml(message("expected a character or one of XML's own entities, found ",
+                       in_quotes(message('&', name, ';'))));
   }
 
   const fs::path& file_;

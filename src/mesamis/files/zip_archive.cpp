@@ -80,7 +80,8 @@ ZipArchive::ZipArchive(std::filesystem::path file, std::string_view bytes, Memor
     : file_(std::move(file)), bytes_(bytes), budget_(budget) {
   const auto [begin, count] = find_directory();
   if (count > kMostParts) {
-    refuse(file_, say("expected at most ", kMostParts, " parts in the ZIP archive, found ", count));
+    refuse(file_,
+           message("expected at most ", kMostParts, " parts in the ZIP archive, found ", count));
   }
   std::uint64_t at = begin;
   for (std::uint64_t n = 0; n < count; ++n) {
@@ -123,7 +124,7 @@ std::string ZipArchive::inflated(const Part& part, std::string_view stored) cons
   }
   const bool whole = status == Z_STREAM_END && out == plain.size();
   inflateEnd(&stream);
-  if (!whole) refuse(file_, say("the packed part ", in_quotes(part.name), " is broken"));
+  if (!whole) refuse(file_, message("the packed part ", in_quotes(part.name), " is broken"));
   return plain;
 }
 
@@ -140,21 +141,21 @@ std::optional<std::string> ZipArchive::part(std::string_view name) {
   if (found == parts_.end()) return std::nullopt;
   const Part& part = *found;
   if ((part.method != kStored && part.method != kDeflated) || (part.flags & kEncrypted) != 0) {
-    refuse(file_, say("expected the part ", in_quotes(part.name), " stored or deflated, found ",
-                      (part.flags & kEncrypted) != 0 ? "an encrypted one" : "another method"));
+    refuse(file_, message("expected the part ", in_quotes(part.name), " stored or deflated, found ",
+                          (part.flags & kEncrypted) != 0 ? "an encrypted one" : "another method"));
   }
   const std::string_view bytes = stored(part);
   const std::uint64_t most =
       part.method == kStored ? bytes.size() : kMostDeflateRatio * bytes.size();
   if (part.plain_size > most || (part.method == kStored && part.plain_size < most)) {
-    refuse(file_, say("the part ", in_quotes(part.name), " claims ", part.plain_size,
-                      " bytes, found ", bytes.size(), " packed"));
+    refuse(file_, message("the part ", in_quotes(part.name), " claims ", part.plain_size,
+                          " bytes, found ", bytes.size(), " packed"));
   }
   budget_.claim(1, part.plain_size, "a part of the archive");
   std::string plain = part.method == kStored ? std::string(bytes) : inflated(part, bytes);
   const auto sum = crc32_z(0, reinterpret_cast<const Bytef*>(plain.data()), plain.size());
   if (sum != part.checksum) {
-    refuse(file_, say("the part ", in_quotes(part.name), " has a wrong checksum"));
+    refuse(file_, message("the part ", in_quotes(part.name), " has a wrong checksum"));
   }
   return plain;
 }

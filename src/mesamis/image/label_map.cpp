@@ -7,13 +7,14 @@
 #include <set>
 #include <utility>
 
+#include "mesamis/base/error.h"
+#include "mesamis/base/message.h"
 #include "mesamis/base/parallel.h"
-#include "mesamis/image/refuse.h"
 
 namespace mesamis {
 namespace {
 
-using detail::refuse;
+using detail::message;
 
 /// From the voxels of one grid to those of another: both in voxels, the centre of the first at 0.
 class VoxelTransform {
@@ -125,7 +126,7 @@ std::vector<std::uint16_t> labels_of(const std::vector<std::uint16_t>& layer,
 
 void require_count(std::size_t segments) {
   if (segments <= static_cast<std::size_t>(kMaxLabel)) return;
-  refuse("label map: expected at most ", kMaxLabel, " segments, found more");
+  throw InputError(message("label map: expected at most ", kMaxLabel, " segments, found more"));
 }
 
 /// Layer and label of each label that occurs and has no segment.
@@ -149,17 +150,20 @@ void require_segments(const LabelMap& map) {
   std::set<std::pair<Index, Index>> named;
   for (const Segment& s : map.segments) {
     if (s.label < 1 || s.label > kMaxLabel) {
-      refuse("label map: expected labels of 1 to ", kMaxLabel, ", found ", s.label);
+      throw InputError(
+          message("label map: expected labels of 1 to ", kMaxLabel, ", found ", s.label));
     }
     if (s.layer < 0 || static_cast<std::size_t>(s.layer) >= map.layers.size()) {
-      refuse("label map: expected a segment of one of ", map.layers.size(), " layers, found layer ",
-             s.layer);
+      throw InputError(message("label map: expected a segment of one of ", map.layers.size(),
+                               " layers, found layer ", s.layer));
     }
     if (s.name.empty())
-      refuse("label map: expected a name for the label ", s.label, ", found none");
+      throw InputError(
+          message("label map: expected a name for the label ", s.label, ", found none"));
     if (!named.emplace(s.layer, s.label).second) {
-      refuse("label map: expected one segment per layer and label, found two for label ", s.label,
-             " of layer ", s.layer);
+      throw InputError(
+          message("label map: expected one segment per layer and label, found two for label ",
+                  s.label, " of layer ", s.layer));
     }
   }
 }
@@ -206,8 +210,8 @@ std::vector<std::uint8_t> mask_on(const LabelMap& map, std::span<const Segment> 
 
 std::vector<float> probability_on(const Probabilities& from, Index layer, const VoxelGrid& grid) {
   if (std::min({from.size[0], from.size[1], from.size[2]}) < 2) {
-    refuse("probabilities: expected at least 2 voxels in each direction, found ", from.size[0],
-           " x ", from.size[1], " x ", from.size[2]);
+    throw InputError(message("probabilities: expected at least 2 voxels in each direction, found ",
+                             from.size[0], " x ", from.size[1], " x ", from.size[2]));
   }
   const std::span<const float> values = from.layers[static_cast<std::size_t>(layer)];
   std::vector<float> out(grid.voxel_count());
@@ -338,18 +342,19 @@ std::array<std::uint8_t, 3> default_colour(Index label) {
 }
 
 void require_valid(const LabelMap& map) {
-  if (map.layers.empty()) refuse("label map: expected at least one layer, found none");
+  if (map.layers.empty())
+    throw InputError(message("label map: expected at least one layer, found none"));
   for (const auto& layer : map.layers) {
     if (layer.size() != map.voxel_count()) {
-      refuse("label map: expected ", map.voxel_count(), " labels in each layer, found ",
-             layer.size());
+      throw InputError(message("label map: expected ", map.voxel_count(),
+                               " labels in each layer, found ", layer.size()));
     }
   }
   require_segments(map);
   const auto missing = labels_without_segment(map);
   if (!missing.empty()) {
-    refuse("label map: expected a segment for the label ", missing[0].second, " of layer ",
-           missing[0].first, ", found none");
+    throw InputError(message("label map: expected a segment for the label ", missing[0].second,
+                             " of layer ", missing[0].first, ", found none"));
   }
 }
 

@@ -3,38 +3,40 @@
 
 #include <cmath>
 
-#include "mesamis/image/refuse.h"
+#include "mesamis/base/error.h"
+#include "mesamis/base/message.h"
 
 namespace mesamis {
 namespace {
 
-using detail::refuse;
+using detail::message;
 
 constexpr double kDirectionTolerance = 1e-6;
 
 void require_two_voxels(const std::array<Index, 3>& n) {
   if (std::min({n[0], n[1], n[2]}) >= 2) return;
-  refuse("volume: expected at least 2 voxels in each direction, found ", n[0], " x ", n[1], " x ",
-         n[2]);
+  throw InputError(message("volume: expected at least 2 voxels in each direction, found ", n[0],
+                           " x ", n[1], " x ", n[2]));
 }
 
 void require_sizes(const VolumeView& volume) {
   const auto& n = volume.size;
   require_two_voxels(n);
   if (volume.samples.size() != volume.voxel_count()) {
-    refuse("volume: expected ", volume.voxel_count(), " samples for ", n[0], " x ", n[1], " x ",
-           n[2], " voxels, found ", volume.samples.size());
+    throw InputError(message("volume: expected ", volume.voxel_count(), " samples for ", n[0],
+                             " x ", n[1], " x ", n[2], " voxels, found ", volume.samples.size()));
   }
 }
 
 void require_grid(const VoxelGrid& volume) {
   for (int a = 0; a < 3; ++a) {
     if (!(volume.spacing[a] > 0) || !std::isfinite(volume.spacing[a])) {
-      refuse("volume: expected a positive spacing along axis ", a, ", found ", volume.spacing[a],
-             " mm");
+      throw InputError(message("volume: expected a positive spacing along axis ", a, ", found ",
+                               volume.spacing[a], " mm"));
     }
     if (!std::isfinite(volume.origin[a])) {
-      refuse("volume: expected a finite origin, found ", volume.origin[a], " along axis ", a);
+      throw InputError(
+          message("volume: expected a finite origin, found ", volume.origin[a], " along axis ", a));
     }
   }
   const auto& rows = volume.direction.rows;
@@ -42,8 +44,8 @@ void require_grid(const VoxelGrid& volume) {
     for (std::size_t b = a; b < 3; ++b) {
       const double deviation = std::abs(dot(rows[a], rows[b]) - (a == b ? 1 : 0));
       if (!(deviation <= kDirectionTolerance)) {
-        refuse("volume: expected an orthonormal direction to ", kDirectionTolerance,
-               ", found a deviation of ", deviation);
+        throw InputError(message("volume: expected an orthonormal direction to ",
+                                 kDirectionTolerance, ", found a deviation of ", deviation));
       }
     }
   }
@@ -54,10 +56,11 @@ void require_samples(const VolumeView& volume) {
   const auto unknown = std::find_if(f.begin(), f.end(), [](float x) { return !std::isfinite(x); });
   if (unknown != f.end()) {
     const auto [i, j, k] = volume.voxel(static_cast<std::size_t>(unknown - f.begin()));
-    refuse("volume: expected finite samples, found ", *unknown, " at voxel ", i, " ", j, " ", k);
+    throw InputError(message("volume: expected finite samples, found ", *unknown, " at voxel ", i,
+                             " ", j, " ", k));
   }
   if (std::all_of(f.begin(), f.end(), [&f](float x) { return x == f[0]; })) {
-    refuse("volume: expected samples that differ, found ", f[0], " everywhere");
+    throw InputError(message("volume: expected samples that differ, found ", f[0], " everywhere"));
   }
 }
 
@@ -121,12 +124,12 @@ std::array<Index, 3> cropped_size(const VoxelGrid& volume, const CropRange& rang
     const Index n = volume.size[a];
     const Index end = range.end[a] == -1 ? n : range.end[a];
     if (range.begin[a] < 0 || range.begin[a] > n || end < 0 || end > n) {
-      refuse("crop: expected a range within 0:", n, " along axis ", a, ", found ", range.begin[a],
-             ":", end);
+      throw InputError(message("crop: expected a range within 0:", n, " along axis ", a, ", found ",
+                               range.begin[a], ":", end));
     }
     if (end - range.begin[a] < 2) {
-      refuse("crop: expected at least 2 voxels along axis ", a, ", found ", range.begin[a], ":",
-             end);
+      throw InputError(message("crop: expected at least 2 voxels along axis ", a, ", found ",
+                               range.begin[a], ":", end));
     }
     size[a] = end - range.begin[a];
   }
@@ -146,12 +149,14 @@ Volume subsample(const VolumeView& volume, const std::array<Index, 3>& stride) {
   Selection kept{{0, 0, 0}, {}, stride};
   for (std::size_t a = 0; a < 3; ++a) {
     if (stride[a] < 1) {
-      refuse("subsample: expected a stride of at least 1 along axis ", a, ", found ", stride[a]);
+      throw InputError(message("subsample: expected a stride of at least 1 along axis ", a,
+                               ", found ", stride[a]));
     }
     kept.count[a] = (volume.size[a] - 1) / stride[a] + 1;
     if (kept.count[a] < 2) {
-      refuse("subsample: expected at least 2 voxels to remain along axis ", a, ", found ",
-             kept.count[a], " (stride ", stride[a], " on ", volume.size[a], ")");
+      throw InputError(message("subsample: expected at least 2 voxels to remain along axis ", a,
+                               ", found ", kept.count[a], " (stride ", stride[a], " on ",
+                               volume.size[a], ")"));
     }
   }
   return select(volume, kept);

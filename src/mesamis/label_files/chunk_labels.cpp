@@ -39,8 +39,8 @@ fs::path store_of(const fs::path& path) {
     for (const fs::path& one : labels) {
       names += (names.empty() ? "" : ", ") + shown("labels/" + one.filename().string());
     }
-    refuse(path, say("expected one image of labels, found ", labels.size(), ": ", names,
-                     "; name one of them"));
+    refuse(path, message("expected one image of labels, found ", labels.size(), ": ", names,
+                         "; name one of them"));
   }
   return labels.front();
 }
@@ -50,8 +50,8 @@ std::vector<Segment> named_segments(const ChunkedScan& scan) {
   std::vector<Segment> segments;
   for (const NamedNumber& named : scan.named_numbers()) {
     Segment segment;
-    if (named.number == 0 || !set_number(segment, say(named.number))) continue;
-    segment.name = named.name.empty() ? say("label ", named.number) : named.name;
+    if (named.number == 0 || !set_number(segment, message(named.number))) continue;
+    segment.name = named.name.empty() ? message("label ", named.number) : named.name;
     segment.colour = named.colour.value_or(default_colour(segment.label));
     segments.push_back(std::move(segment));
   }

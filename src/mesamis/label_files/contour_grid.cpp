@@ -257,8 +257,8 @@ class GridBuilder {
     if (!(count >= 1)) refuse(file_, "expected contours within the scan, found none");
     constexpr double kMost = 1e6;
     if (!(count <= kMost)) {
-      refuse(file_, say("expected contours on a grid of at most ", kMost,
-                        " voxels along an axis, found ", count));
+      refuse(file_, message("expected contours on a grid of at most ", kMost,
+                            " voxels along an axis, found ", count));
     }
     first_[axis] = first;
     grid_.spacing[axis] = step;
@@ -302,9 +302,9 @@ void require_size(const std::filesystem::path& file, const VoxelGrid& grid,
   const double allowed = kMostPerByte * static_cast<double>(size_of(file)) +
                          (scan ? static_cast<double>(scan->voxel_count()) : 0.0);
   if (voxels <= allowed) return;
-  refuse(file,
-         say("expected contours on at most ", kMostPerByte, " voxels per byte of the file, found ",
-             grid.size[0], " x ", grid.size[1], " x ", grid.size[2], " voxels"));
+  refuse(file, message("expected contours on at most ", kMostPerByte,
+                       " voxels per byte of the file, found ", grid.size[0], " x ", grid.size[1],
+                       " x ", grid.size[2], " voxels"));
 }
 
 }  // namespace
@@ -336,18 +336,18 @@ ContourGrid place_contours(const std::filesystem::path& file, const StructureSet
     out.contours[contour.region].push_back(std::move(placed));
   }
   if (flat.askew > 0) {
-    out.warnings.push_back(say(flat.askew,
-                               " contours left out that do not lie in the planes of the "
-                               "others, across ",
-                               axes.normal.x, " ", axes.normal.y, " ", axes.normal.z));
+    out.warnings.push_back(message(flat.askew,
+                                   " contours left out that do not lie in the planes of the "
+                                   "others, across ",
+                                   axes.normal.x, " ", axes.normal.y, " ", axes.normal.z));
   }
   if (!step.even) {
-    out.warnings.push_back(say("the planes of the contours lie at uneven distances: labels ",
-                               step.mm, " mm apart are taken from the nearest one"));
+    out.warnings.push_back(message("the planes of the contours lie at uneven distances: labels ",
+                                   step.mm, " mm apart are taken from the nearest one"));
   }
   if (!axes.scan_axes) {
-    out.warnings.push_back(say("contours state no pixels: labels of ", grid.spacing.x, " x ",
-                               grid.spacing.y, " x ", grid.spacing.z, " mm are made"));
+    out.warnings.push_back(message("contours state no pixels: labels of ", grid.spacing.x, " x ",
+                                   grid.spacing.y, " x ", grid.spacing.z, " mm are made"));
   }
   return out;
 }

@@ -291,13 +291,13 @@ void require_frame(const DicomFile& file, StructureSet& set, const std::optional
   }
   const std::string found = in_quotes(set.regions.front().frame, 64);
   if (!place_contours(file.path, set, scan).on_scan) {
-    refuse(file.path,
-           say("expected the scan's frame of reference, ", in_quotes(scan->frame_of_reference, 64),
-               ", found ", found, ", and contours that do not lie on the scan's slices"));
+    refuse(file.path, message("expected the scan's frame of reference, ",
+                              in_quotes(scan->frame_of_reference, 64), ", found ", found,
+                              ", and contours that do not lie on the scan's slices"));
   }
-  set.warnings.push_back(say("the frame of reference ", found, " is not the scan's, ",
-                             in_quotes(scan->frame_of_reference, 64),
-                             ": its contours lie on the scan's slices and are taken"));
+  set.warnings.push_back(message("the frame of reference ", found, " is not the scan's, ",
+                                 in_quotes(scan->frame_of_reference, 64),
+                                 ": its contours lie on the scan's slices and are taken"));
 }
 
 }  // namespace

@@ -96,8 +96,8 @@ void fill_labels(const SegFile& seg, LabelMap& map, MemoryBudget& budget) {
     for (std::size_t n = 0; n < pixels.size(); ++n) {
       const auto label = static_cast<Index>(pixels[n]);
       if (label != last && !known.count(label)) {
-        refuse(seg.file.path, say("expected labels of the Segment Sequence, found ", label,
-                                  " in frame ", frame + 1));
+        refuse(seg.file.path, message("expected labels of the Segment Sequence, found ", label,
+                                      " in frame ", frame + 1));
       }
       last = label;
       map.layers[0][begin + n] = static_cast<std::uint16_t>(label);

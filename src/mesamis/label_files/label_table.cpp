@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using detail::in_quotes;
+using detail::message;
 using detail::refuse;
-using detail::say;
 
 constexpr std::uint64_t kMostBytes = 1 << 24;
 
@@ -87,13 +87,13 @@ std::vector<Segment> parse_table(const fs::path& path, std::string_view text) {
     const auto segment = segment_in(content);
     if (!segment) {
       refuse(path,
-             say("line ", number, ": expected IDX R G B A VIS MSH \"NAME\" or IDX NAME R G B A",
-                 " with a whole IDX from 0, found ", in_quotes(content)));
+             message("line ", number, ": expected IDX R G B A VIS MSH \"NAME\" or IDX NAME R G B A",
+                     " with a whole IDX from 0, found ", in_quotes(content)));
     }
     const std::int64_t label = detail::number_of(*segment);
     if (label == 0) continue;
     if (!seen.insert(label).second) {
-      refuse(path, say("line ", number, ": expected each label once, found ", label, " again"));
+      refuse(path, message("line ", number, ": expected each label once, found ", label, " again"));
     }
     table.push_back(*segment);
   }
@@ -115,7 +115,7 @@ std::vector<Segment> read_label_table(const fs::path& path) {
   return detail::in_one_line(path, [&] {
     const std::uint64_t size = detail::size_of(path);
     if (size > kMostBytes) {
-      refuse(path, say("expected a table of at most ", kMostBytes, " bytes, found ", size));
+      refuse(path, message("expected a table of at most ", kMostBytes, " bytes, found ", size));
     }
     std::string text(size, '\0');
     text.resize(detail::ByteSource(path, detail::Packing::kPlain).read(text.data(), size));
@@ -127,8 +127,8 @@ void write_label_table(const fs::path& path, std::span<const Segment> segments) 
   std::set<Index> seen;
   for (const Segment& s : segments) {
     if (s.label < 1 || s.label > kMaxLabel || !seen.insert(s.label).second) {
-      refuse(path, say("cannot be written: expected each label of 1 to ", kMaxLabel,
-                       " once, found ", s.label));
+      refuse(path, message("cannot be written: expected each label of 1 to ", kMaxLabel,
+                           " once, found ", s.label));
     }
   }
   detail::TextWriter out(path);

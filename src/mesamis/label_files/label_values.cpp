@@ -28,7 +28,7 @@ void for_each_sample(const VoxelGrid& grid, const LayerOrder& order,
 
 std::string place_of(const VoxelGrid& grid, std::size_t voxel) {
   const auto [i, j, k] = grid.voxel(voxel);
-  return say("voxel ", i, " ", j, " ", k);
+  return message("voxel ", i, " ", j, " ", k);
 }
 
 }  // namespace
@@ -80,10 +80,11 @@ double LabelBuilder::whole(double sample, double exact) {
   constexpr double kNear = 0.01;  // what scaling and resampling leave of a whole number
   const double number = std::round(sample);
   if (!(std::abs(sample - number) <= kNear) || number < 0 || !(number < exact)) {
-    refuse(file_, say("expected labels, whole numbers of 0 to ",
-                      static_cast<std::int64_t>(exact) - 1, ", found ", sample, " at ", place()));
+    refuse(file_,
+           message("expected labels, whole numbers of 0 to ", static_cast<std::int64_t>(exact) - 1,
+                   ", found ", sample, " at ", place()));
   }
-  if (number != sample && rounded_++ == 0) first_rounded_ = say(sample, " at ", place());
+  if (number != sample && rounded_++ == 0) first_rounded_ = message(sample, " at ", place());
   return number;
 }
 
@@ -92,7 +93,7 @@ std::uint16_t LabelBuilder::code_of(std::int64_t number) {
       number <= kMaxLabel ? small_[static_cast<std::size_t>(number)] : large_[number];
   if (code == 0) {
     if (numbers_.size() > static_cast<std::size_t>(kMaxLabel)) {
-      refuse(file_, say("expected at most ", kMaxLabel, " different labels, found more"));
+      refuse(file_, message("expected at most ", kMaxLabel, " different labels, found more"));
     }
     code = static_cast<std::uint16_t>(numbers_.size());
     numbers_.push_back(number);
@@ -126,11 +127,12 @@ std::string LabelBuilder::place() const { return place_of(grid_, voxel_); }
 
 std::string LabelBuilder::renumbered(const std::vector<std::uint16_t>& label) const {
   constexpr std::size_t kMostShown = 3;
-  std::string text = say(large_.size(), " labels are above ", kMaxLabel, " and get new numbers: ");
+  std::string text =
+      message(large_.size(), " labels are above ", kMaxLabel, " and get new numbers: ");
   std::size_t shown = 0;
   for (std::size_t code = 1; code < numbers_.size() && shown < kMostShown; ++code) {
     if (numbers_[code] <= kMaxLabel) continue;
-    text += say(shown++ ? ", " : "", numbers_[code], " becomes ", label[code]);
+    text += message(shown++ ? ", " : "", numbers_[code], " becomes ", label[code]);
   }
   return text + (large_.size() > kMostShown ? ", ..." : "");
 }
@@ -155,16 +157,16 @@ LabelMap LabelBuilder::finish(LabelMap map, std::vector<std::string>& warnings) 
     for (const auto& [large, code] : large_) number[label[code]] = large;
     for (Segment& segment : map.segments) {
       segment.number_in_file = number[static_cast<std::size_t>(segment.label)];
-      if (segment.number_in_file > 0) segment.name = say("label ", segment.number_in_file);
+      if (segment.number_in_file > 0) segment.name = message("label ", segment.number_in_file);
     }
     map = with_names(std::move(map), names);
     warnings.push_back(renumbered(label));
   }
   if (rounded_ > 0) {
-    warnings.push_back(say(rounded_, " values are nearly whole, the first ", first_rounded_,
-                           ": rounded to labels"));
+    warnings.push_back(message(rounded_, " values are nearly whole, the first ", first_rounded_,
+                               ": rounded to labels"));
   }
-  if (nan_ > 0) warnings.push_back(say(nan_, " values are not a number: taken as background"));
+  if (nan_ > 0) warnings.push_back(message(nan_, " values are not a number: taken as background"));
   return map;
 }
 
@@ -176,8 +178,8 @@ std::vector<std::vector<float>> probability_layers(const std::filesystem::path& 
   for (auto& layer : layers) layer.resize(grid.voxel_count());
   for_each_sample(grid, order, samples, [&](std::size_t layer, std::size_t voxel, float sample) {
     if (!(sample >= -kBeyond && sample <= 1 + kBeyond)) {
-      refuse(file, say("expected probabilities of 0 to 1, found ", sample, " at ",
-                       place_of(grid, voxel)));
+      refuse(file, message("expected probabilities of 0 to 1, found ", sample, " at ",
+                           place_of(grid, voxel)));
     }
     layers[layer][voxel] = std::clamp(sample, 0.0f, 1.0f);
   });

@@ -49,10 +49,10 @@ class LayerStack {
   /// One line about the objects that overlap others; empty if none does.
   std::string overlap_note() const {
     if (objects_ == 0) return {};
-    return say(objects_, objects_ == 1 ? " object overlaps" : " objects overlap",
-               " others: each stays whole. The first is ", in_quotes(first_), " with ",
-               first_voxels_, first_voxels_ == 1 ? " voxel of " : " voxels of ",
-               in_quotes(first_other_));
+    return message(objects_, objects_ == 1 ? " object overlaps" : " objects overlap",
+                   " others: each stays whole. The first is ", in_quotes(first_), " with ",
+                   first_voxels_, first_voxels_ == 1 ? " voxel of " : " voxels of ",
+                   in_quotes(first_other_));
   }
 
  private:

@@ -50,15 +50,16 @@ bool is_page_stack(const fs::path& file, MemoryBudget& budget) {
 /// The one label of a mask; 0 for an empty one.
 std::uint16_t label_of(const fs::path& file, const LabelFile& mask) {
   if (mask.map.layers.size() > 1) {
-    refuse(file, say("expected one object in each file of a folder, found ", mask.map.layers.size(),
-                     " layers; name the file itself if it holds all objects"));
+    refuse(file,
+           message("expected one object in each file of a folder, found ", mask.map.layers.size(),
+                   " layers; name the file itself if it holds all objects"));
   }
   std::uint16_t only = 0;
   for (const std::uint16_t label : mask.map.layers[0]) {
     if (label == 0 || label == only) continue;
     if (only != 0) {
-      refuse(file, say("expected one object in each file of a folder, found the labels ", only,
-                       " and ", label, "; name the file itself if it holds all objects"));
+      refuse(file, message("expected one object in each file of a folder, found the labels ", only,
+                           " and ", label, "; name the file itself if it holds all objects"));
     }
     only = label;
   }
@@ -73,7 +74,8 @@ void add_new(std::vector<std::string>& all, const std::vector<std::string>& more
 
 std::string empty_note(const std::vector<std::string>& names) {
   constexpr std::size_t kMostNamed = 5;
-  std::string text = say(names.size(), names.size() == 1 ? " mask is" : " masks are", " empty: ");
+  std::string text =
+      message(names.size(), names.size() == 1 ? " mask is" : " masks are", " empty: ");
   for (std::size_t n = 0; n < std::min(names.size(), kMostNamed); ++n) {
     text += (n > 0 ? ", " : "") + shown(names[n]);
   }
@@ -116,8 +118,9 @@ class MaskCollector {
     if (out_.map.layers.empty()) stack_.add_layer();
     if (has_grid_) {
       const auto& n = out_.map.size;
-      out_.warnings.push_back(say("the masks have different grids: put together on ", n[0], " x ",
-                                  n[1], " x ", n[2], " voxels by the places they state"));
+      out_.warnings.push_back(message("the masks have different grids: put together on ", n[0],
+                                      " x ", n[1], " x ", n[2],
+                                      " voxels by the places they state"));
     }
     if (!empty_.empty()) out_.warnings.push_back(empty_note(empty_));
     if (const std::string note = stack_.overlap_note(); !note.empty()) {
@@ -175,14 +178,14 @@ void require_same_grid(const fs::path& file, const VoxelGrid& found, const fs::p
   constexpr double kMostShift = 1e-3;
   const std::string grid = "expected the grid of " + shown(first.filename().string());
   const auto text = [](const std::array<Index, 3>& n) {
-    return say(n[0], " x ", n[1], " x ", n[2], " voxels");
+    return message(n[0], " x ", n[1], " x ", n[2], " voxels");
   };
   if (found.size != expected.size) {
-    refuse(file, say(grid, ", ", text(expected.size), ", found ", text(found.size)));
+    refuse(file, message(grid, ", ", text(expected.size), ", found ", text(found.size)));
   }
   const double shift = shift_between(expected, found);
   if (!(shift <= kMostShift)) {
-    refuse(file, say(grid, ", found one that lies ", shift, " voxels away"));
+    refuse(file, message(grid, ", found one that lies ", shift, " voxels away"));
   }
 }
 
@@ -200,7 +203,7 @@ LabelFile read_masks(const std::vector<fs::path>& files, const MaskReader& reade
   if (files.size() == 1) return reader.read(files[0]);
   if (files.size() > static_cast<std::size_t>(kMaxLabel)) {
     refuse(files[0].parent_path(),
-           say("expected at most ", kMaxLabel, " masks, found ", files.size()));
+           message("expected at most ", kMaxLabel, " masks, found ", files.size()));
   }
   MaskCollector collector(files[0], grid_of_all(files, reader, budget), budget);
   for (const fs::path& file : files) {

@@ -29,9 +29,9 @@ Segment segment_of(const std::filesystem::path& file, const XmlElement& element)
   const std::string key = element.attribute("Key");
   Segment segment;
   if (!set_number(segment, key)) {
-    refuse(file, say("expected a whole number from 0 as a label's Key in the header extension, "
-                     "found ",
-                     in_quotes(key)));
+    refuse(file, message("expected a whole number from 0 as a label's Key in the header extension, "
+                         "found ",
+                         in_quotes(key)));
   }
   const std::string red = element.attribute("Red"), green = element.attribute("Green"),
                     blue = element.attribute("Blue");
@@ -109,7 +109,7 @@ std::vector<Segment> segments_in_extensions(const std::filesystem::path& file,
                                             const std::vector<std::string>& extensions,
                                             MemoryBudget& budget) {
   const auto caret = std::find_if(extensions.begin(), extensions.end(), [](const std::string& e) {
-    return e.find(say("<", kRoot)) != std::string::npos;
+    return e.find(message("<", kRoot)) != std::string::npos;
   });
   if (caret == extensions.end()) return {};
   const XmlDocument document = parse_xml(file, trimmed(*caret), budget);
@@ -128,15 +128,15 @@ std::vector<Segment> segments_in_extensions(const std::filesystem::path& file,
 }
 
 std::string caret_extension(std::span<const Segment> segments) {
-  std::string xml = say("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<", kRoot,
-                        "><VolumeInformation Index=\"0\"><LabelTable>\n");
+  std::string xml = message("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<", kRoot,
+                            "><VolumeInformation Index=\"0\"><LabelTable>\n");
   for (const Segment& s : segments) {
-    xml += say("<Label Key=\"", s.label, "\" Red=\"", colour_share(s.colour[0]), "\" Green=\"",
-               colour_share(s.colour[1]), "\" Blue=\"", colour_share(s.colour[2]),
-               "\" Alpha=\"1\">", xml_escaped(s.name), "</Label>\n");
+    xml += message("<Label Key=\"", s.label, "\" Red=\"", colour_share(s.colour[0]), "\" Green=\"",
+                   colour_share(s.colour[1]), "\" Blue=\"", colour_share(s.colour[2]),
+                   "\" Alpha=\"1\">", xml_escaped(s.name), "</Label>\n");
   }
   return xml +
-         say("</LabelTable><VolumeType>Label</VolumeType></VolumeInformation></", kRoot, ">\n");
+         message("</LabelTable><VolumeType>Label</VolumeType></VolumeInformation></", kRoot, ">\n");
 }
 
 std::string nifti_header(const VoxelGrid& grid, std::size_t sample_bytes,

@@ -28,8 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 using detail::LabelBuilder;
 using detail::MemoryBudget;
+using detail::message;
 using detail::refuse;
-using detail::say;
 using detail::ScanFile;
 
 /// A file, and what it is read with.
@@ -70,7 +70,7 @@ std::vector<Segment> named_segments(const Request& request, const ScanFile& scan
   try {
     return detail::segments_in_extensions(path, detail::nifti_extensions(path, budget), budget);
   } catch (const InputError& error) {
-    warnings.push_back(say("the names of the labels are not read: ", error.what()));
+    warnings.push_back(message("the names of the labels are not read: ", error.what()));
     return {};
   }
 }
@@ -78,7 +78,7 @@ std::vector<Segment> named_segments(const Request& request, const ScanFile& scan
 LabelFile labels_of_array(const Request& request, const ScanFile& scan) {
   const fs::path& path = request.path;
   if (scan.format != "NRRD" && scan.outer > 1) {
-    refuse(path, say("expected one label per voxel, found ", scan.outer, " volumes"));
+    refuse(path, message("expected one label per voxel, found ", scan.outer, " volumes"));
   }
   LabelFile out{{scan.grid, {}, {}}, scan.format, scan.warnings};
   out.map.segments = named_segments(request, scan, out.warnings);
@@ -183,9 +183,10 @@ bool holds_labels_alone(const fs::path& folder, const ReadLimits& limits) {
   for (std::size_t n = 0; n < std::min(files.size(), kMostNamed); ++n) {
     text += (n > 0 ? ", " : "") + detail::shown(files[n].filename().string());
   }
-  refuse(folder, say("expected one DICOM segmentation or structure set in the directory, found ",
-                     files.size(), ": ", text, files.size() > kMostNamed ? ", ..." : "",
-                     "; name one of them"));
+  refuse(folder,
+         message("expected one DICOM segmentation or structure set in the directory, found ",
+                 files.size(), ": ", text, files.size() > kMostNamed ? ", ..." : "",
+                 "; name one of them"));
 }
 
 LabelFile read_map(const Request& request);
@@ -210,10 +211,11 @@ LabelFile read_folder(const Request& request) {
   }
   const std::vector<fs::path> slices = detail::slices_in(folder, budget);
   if (dicom.files == 0 && !slices.empty()) return labels_of_pictures(request, slices);
-  refuse(folder, say("expected masks, slices of labels or one DICOM segmentation or structure set "
-                     "in the directory, found ",
-                     dicom.files > 0 ? say(dicom.files, " DICOM files of other kinds")
-                                     : detail::contents_of(folder)));
+  refuse(folder,
+         message("expected masks, slices of labels or one DICOM segmentation or structure set "
+                 "in the directory, found ",
+                 dicom.files > 0 ? message(dicom.files, " DICOM files of other kinds")
+                                 : detail::contents_of(folder)));
 }
 
 LabelFile labels_of_dicom(const Request& request) {
@@ -246,7 +248,8 @@ std::vector<Segment> numbered_segments(std::size_t count) {
   std::vector<Segment> segments;
   for (std::size_t n = 0; n < count; ++n) {
     const auto label = static_cast<Index>(n + 1);
-    segments.push_back({say("label ", label), label, static_cast<Index>(n), default_colour(label)});
+    segments.push_back(
+        {message("label ", label), label, static_cast<Index>(n), default_colour(label)});
   }
   return segments;
 }
@@ -290,8 +293,8 @@ fs::path file_of(const fs::path& path) {
   std::vector<fs::path> files = detail::files_in(path);
   std::erase_if(files, [](const fs::path& file) { return !detail::looks_like_dicom(file); });
   if (files.size() != 1) {
-    refuse(path, say("expected one DICOM segmentation in the directory, found ", files.size(),
-                     " DICOM files"));
+    refuse(path, message("expected one DICOM segmentation in the directory, found ", files.size(),
+                         " DICOM files"));
   }
   return files[0];
 }
@@ -312,8 +315,8 @@ void append_volume(ProbabilityFile& all, const fs::path& path, const fs::path& f
                "probabilities");
   Probabilities& to = all.probabilities;
   if (one.probabilities.layers.size() != 1) {
-    refuse(path, say("expected one volume in each of several files, found ",
-                     one.probabilities.layers.size()));
+    refuse(path, message("expected one volume in each of several files, found ",
+                         one.probabilities.layers.size()));
   }
   if (to.layers.empty()) static_cast<VoxelGrid&>(to) = one.probabilities;
   detail::require_same_grid(path, one.probabilities, first, to);

@@ -19,8 +19,8 @@ void require_seg(const DicomFile& file) {
   if (!file.problem.empty()) refuse(file.path, "broken DICOM file: " + file.problem);
   if (is_seg(file)) return;
   refuse(file.path,
-         say("expected a DICOM segmentation (SOP class ", kSegmentation, " or ", kLabelMap,
-             "), found ", in_quotes(text_of(file.elements, dicom::kSopClass))));
+         message("expected a DICOM segmentation (SOP class ", kSegmentation, " or ", kLabelMap,
+                 "), found ", in_quotes(text_of(file.elements, dicom::kSopClass))));
 }
 
 SegType type_of(const DicomFile& file) {
@@ -28,9 +28,10 @@ SegType type_of(const DicomFile& file) {
   if (name == "BINARY") return SegType::kBinary;
   if (name == "FRACTIONAL") return SegType::kFractional;
   if (name == "LABELMAP") return SegType::kLabels;
-  refuse(file.path, say("expected a Segmentation Type (0062,0001) BINARY, FRACTIONAL or LABELMAP, "
-                        "found ",
-                        in_quotes(name)));
+  refuse(file.path,
+         message("expected a Segmentation Type (0062,0001) BINARY, FRACTIONAL or LABELMAP, "
+                 "found ",
+                 in_quotes(name)));
 }
 
 void require_pixels(const SegFile& seg) {
@@ -43,14 +44,14 @@ void require_pixels(const SegFile& seg) {
     const char* expected = seg.type == SegType::kBinary       ? "1 bit"
                            : seg.type == SegType::kFractional ? "8 bits"
                                                               : "8 or 16 bits";
-    refuse(seg.file.path, say("expected unsigned pixels of ", expected, ", found ",
-                              p.is_signed ? "signed ones of " : "", p.bits_allocated));
+    refuse(seg.file.path, message("expected unsigned pixels of ", expected, ", found ",
+                                  p.is_signed ? "signed ones of " : "", p.bits_allocated));
   }
   const auto groups = seg.file.elements.find(dicom::kFrameGroups);
   const std::size_t found = groups == seg.file.elements.end() ? 0 : groups->second.items.size();
   if (found != static_cast<std::size_t>(p.frames)) {
-    refuse(seg.file.path, say("expected Per-frame Functional Groups (5200,9230) of ", p.frames,
-                              " frames, found ", found));
+    refuse(seg.file.path, message("expected Per-frame Functional Groups (5200,9230) of ", p.frames,
+                                  " frames, found ", found));
   }
 }
 
@@ -62,7 +63,7 @@ Segment segment_of(const DicomFile& file, const DicomSet& item) {
            "found none");
   }
   Segment segment{utf8_text(file, item, dicom::kSegmentLabel), *number, 0, default_colour(*number)};
-  if (segment.name.empty()) segment.name = say("label ", *number);
+  if (segment.name.empty()) segment.name = message("label ", *number);
   if (const auto lab = numbers_of(file, item, dicom::kCieLab, 3)) {
     segment.colour = srgb_from_cielab({(*lab)[0], (*lab)[1], (*lab)[2]});
   }
@@ -78,8 +79,8 @@ std::vector<Segment> segments_of(const DicomFile& file, SegType type) {
       Segment segment = segment_of(file, item);
       if (segment.label == 0 && type == SegType::kLabels) continue;  // the background
       if (segment.label == 0 || !seen.insert(segment.label).second) {
-        refuse(file.path, say("expected each Segment Number from 1 once, found ", segment.label,
-                              segment.label == 0 ? "" : " again"));
+        refuse(file.path, message("expected each Segment Number from 1 once, found ", segment.label,
+                                  segment.label == 0 ? "" : " again"));
       }
       segments.push_back(std::move(segment));
     }
@@ -100,8 +101,8 @@ Index number_of_frame(const DicomFile& file, std::size_t frame) {
     const auto number = item ? number_of(file, *item, dicom::kReferencedSegment) : std::nullopt;
     if (number) return *number;
   }
-  refuse(file.path, say("expected a Referenced Segment Number (0062,000b) of frame ", frame + 1,
-                        ", found none"));
+  refuse(file.path, message("expected a Referenced Segment Number (0062,000b) of frame ", frame + 1,
+                            ", found none"));
 }
 
 std::vector<Index> numbers_of_frames(const SegFile& seg) {
@@ -111,8 +112,8 @@ std::vector<Index> numbers_of_frames(const SegFile& seg) {
   for (std::size_t frame = 0; frame < numbers.size(); ++frame) {
     numbers[frame] = number_of_frame(seg.file, frame);
     if (!known.count(numbers[frame])) {
-      refuse(seg.file.path, say("expected frame ", frame + 1, " to refer to a segment of the ",
-                                "Segment Sequence, found the number ", numbers[frame]));
+      refuse(seg.file.path, message("expected frame ", frame + 1, " to refer to a segment of the ",
+                                    "Segment Sequence, found the number ", numbers[frame]));
     }
   }
   return numbers;
@@ -123,9 +124,10 @@ void require_one_frame_each(const SegFile& seg) {
   for (std::size_t frame = 0; frame < seg.grid.slice.size(); ++frame) {
     const Index number = seg.number.empty() ? 0 : seg.number[frame];
     if (seen.emplace(number, seg.grid.slice[frame]).second) continue;
-    refuse(seg.file.path,
-           say("expected one frame per segment and position, found frame ", frame + 1,
-               seg.number.empty() ? "" : say(" of segment ", number), " at that of another"));
+    refuse(
+        seg.file.path,
+        message("expected one frame per segment and position, found frame ", frame + 1,
+                seg.number.empty() ? "" : message(" of segment ", number), " at that of another"));
   }
 }
 
@@ -153,7 +155,7 @@ SegFile open_seg(const std::filesystem::path& path, MemoryBudget& budget) {
   if (seg.type == SegType::kFractional) {
     seg.most = number_of(seg.file, seg.file.elements, dicom::kMostFraction).value_or(255);
     if (seg.most < 1 || seg.most > 255) {
-      refuse(path, say("expected a Maximum Fractional Value of 1 to 255, found ", seg.most));
+      refuse(path, message("expected a Maximum Fractional Value of 1 to 255, found ", seg.most));
     }
   }
   if (seg.type != SegType::kLabels) seg.number = numbers_of_frames(seg);
@@ -169,7 +171,7 @@ void read_frame(const SegFile& seg, std::size_t frame, std::vector<float>& out,
   out.clear();
   const FrameRescale as_stored{static_cast<int>(frame), 1, 0};
   if (!append_frame(seg.file, seg.pixels, as_stored, out)) {
-    refuse(seg.file.path, say("the pixels of frame ", frame + 1, " are corrupt"));
+    refuse(seg.file.path, message("the pixels of frame ", frame + 1, " are corrupt"));
   }
 }
 

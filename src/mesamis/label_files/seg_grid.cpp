@@ -17,7 +17,7 @@ namespace {
 constexpr double kSameDirection = 1e-3;  // of unit vectors
 constexpr double kSameSpacing = 1e-3;    // relative
 
-std::string frame_text(std::size_t frame) { return say("frame ", frame + 1); }
+std::string frame_text(std::size_t frame) { return message("frame ", frame + 1); }
 
 Vec3 normal_of(const DicomSlice& slice) {
   return unit_or_zero(cross(slice.along_row, slice.along_column));
@@ -28,20 +28,20 @@ void require_same_plane(const DicomFile& file, const DicomSlice& first, const Di
   const double turned = std::max(norm(slice.along_row - first.along_row),
                                  norm(slice.along_column - first.along_column));
   if (!(turned <= kSameDirection)) {
-    refuse(file.path, say("expected one orientation of all frames, found ", frame_text(frame),
-                          " turned by ", turned, " against frame 1"));
+    refuse(file.path, message("expected one orientation of all frames, found ", frame_text(frame),
+                              " turned by ", turned, " against frame 1"));
   }
   const auto differs = [](double a, double b) { return !(std::abs(a - b) <= kSameSpacing * a); };
   if (differs(first.row_step, slice.row_step) || differs(first.column_step, slice.column_step)) {
-    refuse(file.path, say("expected the pixel spacing ", first.row_step, " x ", first.column_step,
-                          " mm of all frames, found ", slice.row_step, " x ", slice.column_step,
-                          " mm in ", frame_text(frame)));
+    refuse(file.path, message("expected the pixel spacing ", first.row_step, " x ",
+                              first.column_step, " mm of all frames, found ", slice.row_step, " x ",
+                              slice.column_step, " mm in ", frame_text(frame)));
   }
   const Vec3 away = slice.position - first.position, n = normal_of(first);
   const double shift = norm(away - dot(away, n) * n);
   if (!(shift <= kDriftTolerance * std::min(first.row_step, first.column_step))) {
-    refuse(file.path, say("expected frames straight above one another, found ", frame_text(frame),
-                          " shifted by ", shift, " mm against frame 1"));
+    refuse(file.path, message("expected frames straight above one another, found ",
+                              frame_text(frame), " shifted by ", shift, " mm against frame 1"));
   }
 }
 
@@ -56,7 +56,8 @@ std::vector<Height> heights_of(const DicomFile& file, const DicomPixels& pixels)
   const DicomSlice first = place_frame(file, pixels, 0);
   const double skew = std::abs(dot(first.along_row, first.along_column));
   if (!(skew <= kSkewTolerance)) {
-    refuse(file.path, say("expected rows and columns at right angles, found a cosine of ", skew));
+    refuse(file.path,
+           message("expected rows and columns at right angles, found a cosine of ", skew));
   }
   const Vec3 n = normal_of(first);
   std::vector<Height> heights;
@@ -130,9 +131,9 @@ Fit find_steps(const DicomFile& file, const std::vector<Height>& heights) {
   if (stated && fit.error > kStepTolerance) fit = fit_step(heights, least);
   if (fit.error > kStepTolerance) {
     const Height &below = heights[fit.worst - 1], &above = heights[fit.worst];
-    refuse(file.path, say("expected positions of a regular grid, a multiple of ", fit.step,
-                          " mm apart, found ", above.mm - below.mm, " mm between ",
-                          frame_text(below.frame), " and ", frame_text(above.frame)));
+    refuse(file.path, message("expected positions of a regular grid, a multiple of ", fit.step,
+                              " mm apart, found ", above.mm - below.mm, " mm between ",
+                              frame_text(below.frame), " and ", frame_text(above.frame)));
   }
   return fit;
 }
@@ -147,7 +148,7 @@ SegGrid grid_of_frames(const DicomFile& file, const DicomPixels& pixels) {
   double slice = 0;
   for (std::size_t n = 0; n < heights.size(); ++n) {
     slice += fit.steps[n];
-    if (slice > 1e9) refuse(file.path, say("more slices than can be read: ", slice));
+    if (slice > 1e9) refuse(file.path, message("more slices than can be read: ", slice));
     out.slice[heights[n].frame] = static_cast<Index>(slice);
   }
   const DicomSlice lowest = place_frame(file, pixels, heights[0].frame);
@@ -165,9 +166,10 @@ void require_voxels(const DicomFile& file, const VoxelGrid& grid, std::size_t la
   const std::uint64_t bytes = size_of(file.path);
   const std::uint64_t per_layer = grid.voxel_count();
   if (layers <= bytes * kMostPerByte / per_layer) return;
-  refuse(file.path, say("expected at most ", kMostPerByte, " voxels per byte of the file, found ",
-                        grid.size[0], " x ", grid.size[1], " x ", grid.size[2], " x ", layers,
-                        " voxels in ", bytes, " bytes"));
+  refuse(file.path,
+         message("expected at most ", kMostPerByte, " voxels per byte of the file, found ",
+                 grid.size[0], " x ", grid.size[1], " x ", grid.size[2], " x ", layers,
+                 " voxels in ", bytes, " bytes"));
 }
 
 }  // namespace mesamis::detail

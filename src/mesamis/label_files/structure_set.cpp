@@ -45,7 +45,7 @@ class PointReader {
     rest = trimmed(rest);
     if (rest.empty()) return {};
     const auto numbers = static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\\')) + 1;
-    if (numbers % 3 != 0) refuse_data(say(numbers, " numbers"));
+    if (numbers % 3 != 0) refuse_data(message(numbers, " numbers"));
     budget_.claim(numbers / 3, sizeof(Vec3), "points of contours");
     std::vector<Vec3> points(numbers / 3);
     for (std::size_t n = 0; n < numbers; ++n) {
@@ -64,9 +64,10 @@ class PointReader {
     return value;
   }
   [[noreturn]] void refuse_data(const std::string& found) const {
-    refuse(file_.path, say("expected x, y, z of points in mm as Contour Data (3006,0050) of the "
-                           "region ",
-                           in_quotes(region_), ", found ", found));
+    refuse(file_.path,
+           message("expected x, y, z of points in mm as Contour Data (3006,0050) of the "
+                   "region ",
+                   in_quotes(region_), ", found ", found));
   }
 
   const DicomFile& file_;
@@ -82,11 +83,12 @@ struct LeftOut {
 
   void warn(std::vector<std::string>& warnings) const {
     for (const auto& [type, count] : types) {
-      warnings.push_back(say(count, count == 1 ? " contour" : " contours", " of the type ",
-                             in_quotes(type), " left out: only CLOSED_PLANAR ones have an inside"));
+      warnings.push_back(message(count, count == 1 ? " contour" : " contours", " of the type ",
+                                 in_quotes(type),
+                                 " left out: only CLOSED_PLANAR ones have an inside"));
     }
     if (short_ones > 0) {
-      warnings.push_back(say(short_ones, " closed contours of fewer than 3 points left out"));
+      warnings.push_back(message(short_ones, " closed contours of fewer than 3 points left out"));
     }
     constexpr std::size_t kMostNamed = 5;
     for (std::size_t n = 0; n < std::min(regions.size(), kMostNamed); ++n) {
@@ -94,7 +96,7 @@ struct LeftOut {
                          " has no contour with an inside: left out");
     }
     if (regions.size() > kMostNamed) {
-      warnings.push_back(say(regions.size() - kMostNamed, " more regions left out likewise"));
+      warnings.push_back(message(regions.size() - kMostNamed, " more regions left out likewise"));
     }
   }
 };
@@ -116,11 +118,11 @@ std::map<std::int64_t, Region> described_regions(const DicomFile& file, MemoryBu
     }
     budget.claim(1, sizeof(Region) + 64, "regions");
     Region region{utf8_text(file, item, dicom::kRegionName), 0, {}, {}, {}};
-    if (region.name.empty()) region.name = say("region ", *number);
+    if (region.name.empty()) region.name = message("region ", *number);
     region.frame = text_of(item, dicom::kRegionFrame);
     if (region.frame.empty()) region.frame = common_frame(file);
     if (!regions.emplace(*number, std::move(region)).second) {
-      refuse(file.path, say("expected each ROI Number once, found ", *number, " again"));
+      refuse(file.path, message("expected each ROI Number once, found ", *number, " again"));
     }
   }
   return regions;
@@ -176,7 +178,7 @@ StructureSet read_structure_set(const DicomFile& file, MemoryBudget& budget) {
   if (!file.problem.empty()) refuse(file.path, "broken DICOM file: " + file.problem);
   std::map<std::int64_t, Region> regions = described_regions(file, budget);
   if (regions.size() > static_cast<std::size_t>(kMaxLabel)) {
-    refuse(file.path, say("expected at most ", kMaxLabel, " regions, found ", regions.size()));
+    refuse(file.path, message("expected at most ", kMaxLabel, " regions, found ", regions.size()));
   }
   number_regions(regions);
   LeftOut left_out;
@@ -185,8 +187,8 @@ StructureSet read_structure_set(const DicomFile& file, MemoryBudget& budget) {
     const auto region = number ? regions.find(*number) : regions.end();
     if (region == regions.end()) {
       refuse(file.path,
-             say("expected contours of regions of the Structure Set ROI Sequence, found ",
-                 number ? say("the number ", *number) : "no number"));
+             message("expected contours of regions of the Structure Set ROI Sequence, found ",
+                     number ? message("the number ", *number) : "no number"));
     }
     if (const auto colour = colour_of(item)) region->second.colour = *colour;
     add_contours(file, item, region->second, left_out, budget);
@@ -200,8 +202,8 @@ StructureSet read_structure_set(const DicomFile& file, MemoryBudget& budget) {
     }
   }
   if (set.regions.empty()) {
-    refuse(file.path, say("expected regions with closed planar contours, found ", regions.size(),
-                          " regions without any"));
+    refuse(file.path, message("expected regions with closed planar contours, found ",
+                              regions.size(), " regions without any"));
   }
   left_out.warn(set.warnings);
   return set;

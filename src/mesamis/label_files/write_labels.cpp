@@ -17,8 +17,8 @@ namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
+using detail::message;
 using detail::refuse;
-using detail::say;
 
 /// 1 if all labels fit into 8 bits, else 2.
 std::size_t bytes_per_label(const LabelMap& map) {
@@ -54,13 +54,13 @@ std::string nrrd_of(const fs::path& path, const LabelMap& map) {
 std::string nifti_of(const fs::path& path, const LabelMap& map) {
   constexpr Index kMostAlongAxis = 32767;
   if (map.layers.size() > 1) {
-    refuse(path, say("cannot be written: expected one layer in a NIfTI file, found ",
-                     map.layers.size(), " (overlapping segments need .seg.nrrd)"));
+    refuse(path, message("cannot be written: expected one layer in a NIfTI file, found ",
+                         map.layers.size(), " (overlapping segments need .seg.nrrd)"));
   }
   if (std::max({map.size[0], map.size[1], map.size[2]}) > kMostAlongAxis) {
-    refuse(path, say("cannot be written: expected at most ", kMostAlongAxis,
-                     " voxels along an axis in a NIfTI file, found ", map.size[0], " x ",
-                     map.size[1], " x ", map.size[2]));
+    refuse(path, message("cannot be written: expected at most ", kMostAlongAxis,
+                         " voxels along an axis in a NIfTI file, found ", map.size[0], " x ",
+                         map.size[1], " x ", map.size[2]));
   }
   const std::size_t width = bytes_per_label(map);
   return detail::nifti_header(map, width, detail::caret_extension(map.segments)) +
@@ -88,7 +88,7 @@ void write_label_map(const fs::path& path, const LabelMap& map) {
   try {
     require_valid(map);
   } catch (const InputError& error) {
-    refuse(path, say("cannot be written: ", error.what()));
+    refuse(path, message("cannot be written: ", error.what()));
   }
   write(path, map);
 }

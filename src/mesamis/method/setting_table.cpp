@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/message.h"
 #include "mesamis/base/written_number.h"
 #include "mesamis/method/setting_rows.h"
 
 namespace mesamis {
 namespace {
+
+using detail::message;
 
 using Numbers = std::vector<double>;
 
@@ -19,15 +21,8 @@ std::string option_name(std::string name) {
   return name;
 }
 
-template <class... Part>
-std::string say(const Part&... parts) {
-  std::ostringstream out;
-  (out << ... << parts);
-  return out.str();
-}
-
 [[noreturn]] void refuse_text(const Setting& setting, std::string_view text) {
-  throw InputError(say("expected ", forms_of(setting), ", found '", text, "'"));
+  throw InputError(message("expected ", forms_of(setting), ", found '", text, "'"));
 }
 
 bool read_number(std::string_view text, double& value) {
@@ -71,12 +66,12 @@ bool is_switch(const Setting& setting) { return setting.count == 0 && setting.wo
 
 void check_number(const Setting& setting, double number) {
   if (setting.whole && number != std::floor(number)) {
-    throw InputError(say("expected a whole number, found ", number));
+    throw InputError(message("expected a whole number, found ", number));
   }
   const auto& more = setting.exceptions;
   if (number >= setting.low && number <= setting.high) return;
   if (std::find(more.begin(), more.end(), number) != more.end()) return;
-  throw InputError(say("expected ", setting.low, " to ", setting.high, ", found ", number));
+  throw InputError(message("expected ", setting.low, " to ", setting.high, ", found ", number));
 }
 
 /// Everything but the setting's name, for errors.
@@ -111,9 +106,9 @@ std::string page_row(const Setting& setting) {
   const std::string preset = setting.paper.empty() ? "" : "`" + setting.paper + "`";
   std::string meaning = setting.help;
   if (!setting.automatic.empty()) meaning += ". `auto`: " + setting.automatic;
-  return say("| `--", option_name(setting.name), "` | `", in_cell(forms_of(setting)), "` | `",
-             in_cell(text_of(setting, setting.get({}))), "` | ", in_cell(preset), " | ",
-             setting.unit, " | ", range_text(setting), " | ", in_cell(meaning), " |\n");
+  return message("| `--", option_name(setting.name), "` | `", in_cell(forms_of(setting)), "` | `",
+                 in_cell(text_of(setting, setting.get({}))), "` | ", in_cell(preset), " | ",
+                 setting.unit, " | ", range_text(setting), " | ", in_cell(meaning), " |\n");
 }
 
 }  // namespace
@@ -188,7 +183,7 @@ void require_valid(const Settings& settings) {
   const auto& window = settings.window;
   if (window && !(window->low < window->high)) {
     throw InputError(
-        say("window: expected low below high, found ", window->low, ",", window->high));
+        message("window: expected low below high, found ", window->low, ",", window->high));
   }
   if (!settings.restore && settings.blur && *settings.blur != std::array<double, 3>{}) {
     const Setting& blur = find_setting("blur");
@@ -200,7 +195,7 @@ void require_valid(const Settings& settings) {
   }
   if (settings.h_max && *settings.h_max < settings.h_min) {
     throw InputError(
-        say("h-max: expected h-min ", settings.h_min, " or more, found ", *settings.h_max));
+        message("h-max: expected h-min ", settings.h_min, " or more, found ", *settings.h_max));
   }
 }
 

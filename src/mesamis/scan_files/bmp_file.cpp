@@ -46,11 +46,11 @@ void require_complete(const std::filesystem::path& file, const Bmp& bmp) {
   const std::uint64_t needed =
       bmp.pixels + static_cast<std::uint64_t>(bmp.height) * bmp.line_bytes();
   if (bmp.bytes.size() < needed) {
-    refuse(file, say("expected ", needed, " bytes for ", bmp.width, " x ", bmp.height,
-                     " pixels of ", bmp.bits, " bits, found ", bmp.bytes.size()));
+    refuse(file, message("expected ", needed, " bytes for ", bmp.width, " x ", bmp.height,
+                         " pixels of ", bmp.bits, " bits, found ", bmp.bytes.size()));
   }
   if (bmp.has_palette() && bmp.palette + 4 * bmp.colors > bmp.bytes.size()) {
-    refuse(file, say("the table of ", bmp.colors, " colours is cut off"));
+    refuse(file, message("the table of ", bmp.colors, " colours is cut off"));
   }
 }
 
@@ -73,8 +73,8 @@ Bmp parse(const std::filesystem::path& file, const Opening& opening) {
   bmp.bits = number<std::uint16_t>(bmp, 28);
   const auto compression = number<std::uint32_t>(bmp, 30);
   if (compression != 0 || !is_bit_depth(bmp.bits)) {
-    refuse(file, say("expected uncompressed pixels of 1, 4, 8, 24 or 32 bits, found ", bmp.bits,
-                     " bits, compression ", compression));
+    refuse(file, message("expected uncompressed pixels of 1, 4, 8, 24 or 32 bits, found ", bmp.bits,
+                         " bits, compression ", compression));
   }
   bmp.pixels = number<std::uint32_t>(bmp, 10);
   bmp.palette = kFileHeader + std::uint64_t{number<std::uint32_t>(bmp, 14)};
@@ -118,7 +118,7 @@ std::array<unsigned, 3> pixel_color(const std::filesystem::path& file, const Bmp
   const unsigned entry = static_cast<unsigned>(byte >> (8 - bmp.bits - x * bmp.bits % 8) &
                                                ((std::size_t{1} << bmp.bits) - 1));
   if (entry >= bmp.colors) {
-    refuse(file, say("a pixel names colour ", entry, " of ", bmp.colors));
+    refuse(file, message("a pixel names colour ", entry, " of ", bmp.colors));
   }
   if (bmp.labels) return {entry, entry, entry};
   return color_at(bmp, bmp.palette + std::uint64_t{4} * entry);

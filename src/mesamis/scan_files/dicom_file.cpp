@@ -41,8 +41,8 @@ struct FolderImages {
   /// A line about what is left out, if anything is.
   void warn(std::vector<std::string>& warnings) const {
     if (unreadable.empty()) return;
-    warnings.push_back(say(unreadable.size(), unreadable.size() == 1 ? " file" : " files",
-                           " left out that cannot be read, the first ", unreadable[0]));
+    warnings.push_back(message(unreadable.size(), unreadable.size() == 1 ? " file" : " files",
+                               " left out that cannot be read, the first ", unreadable[0]));
   }
 };
 
@@ -138,8 +138,8 @@ std::vector<float> decode(const DicomStore& store, const SortedSlices& stack, Me
     if (!append_frame(file, pixels, rescale, samples)) damaged.push_back(&slice);
   }
   if (!damaged.empty()) {
-    warnings.push_back(say("corrupt JPEG data in ", damaged.size(), " slices, the first ",
-                           name_of(*damaged[0]), ": decoded as far as they go"));
+    warnings.push_back(message("corrupt JPEG data in ", damaged.size(), " slices, the first ",
+                               name_of(*damaged[0]), ": decoded as far as they go"));
   }
   return samples;
 }

@@ -124,7 +124,7 @@ std::optional<Phases> phases_by_tags(const DicomStack& stack, const Places& plac
     for (std::size_t b = a + 1; b < kInstance; ++b) {
       for (std::size_t n = 0; n < stack.size(); ++n) values[n] = marks[n][a] + ", " + marks[n][b];
       if (auto phases = phases_by(stack, places, values)) {
-        phases->told_by = say(kTags[a].name, " and ", kTags[b].name);
+        phases->told_by = message(kTags[a].name, " and ", kTags[b].name);
         return phases;
       }
     }
@@ -183,13 +183,13 @@ PhaseChoice choose_phase(const std::filesystem::path& path, const DicomStack& st
       return take_value(path, {static_cast<std::int64_t>(count), 1}, choice).volume;
     } catch (const InputError& error) {
       throw InputError(
-          say(error.what(), ": every place ", count, " times, by ", values_of(phases)));
+          message(error.what(), ": every place ", count, " times, by ", values_of(phases)));
     }
   }();
   const auto n = static_cast<std::size_t>(number);
   const std::string value = phases.values.empty() ? "" : " " + shown(phases.values[n]);
   return {std::move(phases.stacks[n]),
-          say("volume ", n, " of ", count, " is taken, by ", phases.told_by, value)};
+          message("volume ", n, " of ", count, " is taken, by ", phases.told_by, value)};
 }
 
 }  // namespace mesamis::detail

@@ -67,9 +67,10 @@ PictureHeader require_same_picture(const DicomFile& file, const DicomPixels& p, 
   if (!has_end_marker(picture)) refuse(file.path, "the compressed pixels are cut off");
   if (header->columns != p.columns || header->rows != p.rows || header->components != 1 ||
       header->bits > p.bits_allocated) {
-    refuse(file.path, say("expected compressed pixels of ", p.columns, " x ", p.rows, ", 1 x ",
-                          p.bits_allocated, " bits, found ", header->columns, " x ", header->rows,
-                          ", ", header->components, " x ", header->bits, " bits"));
+    refuse(file.path,
+           message("expected compressed pixels of ", p.columns, " x ", p.rows, ", 1 x ",
+                   p.bits_allocated, " bits, found ", header->columns, " x ", header->rows, ", ",
+                   header->components, " x ", header->bits, " bits"));
   }
   return *header;
 }
@@ -90,7 +91,7 @@ std::vector<unsigned char> frame_capsule(const DicomFile& file, const DicomPixel
     if (at < 0 || (p.frames > 1 && begins(fragment))) ++at;
     if (at == frame) capsule.insert(capsule.end(), fragment.begin(), fragment.end());
   }
-  if (capsule.empty()) refuse(file.path, say("frame ", frame, " has no pixel data"));
+  if (capsule.empty()) refuse(file.path, message("frame ", frame, " has no pixel data"));
   return capsule;
 }
 
@@ -128,9 +129,9 @@ void require_bits(const DicomFile& file, const DicomPixels& p, PixelUse use) {
       packed || p.bits_allocated == 8 || p.bits_allocated == 16 || p.bits_allocated == 32;
   if (!whole || p.bits_stored < 1 || p.bits_stored > p.bits_allocated ||
       p.high_bit < p.bits_stored - 1 || p.high_bit >= p.bits_allocated) {
-    refuse(file.path, say("expected pixels of 8, 16 or 32 bits, found ", p.bits_allocated,
-                          " bits allocated, ", p.bits_stored, " stored, high bit ", p.high_bit,
-                          p.bits_allocated == 1 ? " (--labels reads segmentations)" : ""));
+    refuse(file.path, message("expected pixels of 8, 16 or 32 bits, found ", p.bits_allocated,
+                              " bits allocated, ", p.bits_stored, " stored, high bit ", p.high_bit,
+                              p.bits_allocated == 1 ? " (--labels reads segmentations)" : ""));
   }
 }
 
@@ -140,16 +141,16 @@ void require_pixel_bytes(const DicomFile& file, const DicomPixels& p) {
   const std::uint64_t needed = all_bytes(p);
   if (coding_of(file) == Coding::kNative) {
     if (data.value.size() >= needed) return;
-    refuse(file.path, say("expected ", needed, " bytes of pixels (", p.columns, " x ", p.rows,
-                          " x ", p.frames, "), found ", data.value.size()));
+    refuse(file.path, message("expected ", needed, " bytes of pixels (", p.columns, " x ", p.rows,
+                              " x ", p.frames, "), found ", data.value.size()));
   }
   std::uint64_t packed = 0;
   for (const Bytes fragment : data.fragments) packed += fragment.size();
   // An empty picture in JPEG 2000 is compressed some thousands to one, a real one never.
   constexpr std::uint64_t kMostGrowth = 8192;
   if (needed > packed * kMostGrowth) {
-    refuse(file.path,
-           say("expected compressed pixels for ", needed, " bytes, found only ", packed, " bytes"));
+    refuse(file.path, message("expected compressed pixels for ", needed, " bytes, found only ",
+                              packed, " bytes"));
   }
 }
 
@@ -210,7 +211,7 @@ DicomPixels pixels_of(const DicomFile& file, PixelUse use) {
   }
   const auto need = [&](DicomTag tag, const char* name) {
     const auto number = number_of(file, set, tag);
-    if (!number) refuse(file.path, say("expected ", name, ", found none"));
+    if (!number) refuse(file.path, message("expected ", name, ", found none"));
     return *number;
   };
   const std::string photometric = text_of(set, dicom::kPhotometric);
@@ -229,8 +230,8 @@ DicomPixels pixels_of(const DicomFile& file, PixelUse use) {
   // A segmentation has a frame per segment and slice.
   const int most_frames = use == PixelUse::kLabels ? 1 << 24 : 65535;
   if (p.columns < 1 || p.rows < 1 || !(frames >= 1) || frames > most_frames) {
-    refuse(file.path, say("expected a picture, found ", p.columns, " x ", p.rows, " pixels, ",
-                          frames, " frames"));
+    refuse(file.path, message("expected a picture, found ", p.columns, " x ", p.rows, " pixels, ",
+                              frames, " frames"));
   }
   p.frames = static_cast<int>(frames);
   p.bits_allocated = need(dicom::kBitsAllocated, "Bits Allocated (0028,0100)");

@@ -69,15 +69,15 @@ void require_justified(const std::filesystem::path& path, const SortedSlices& so
       1.0 * first.columns * first.rows * static_cast<double>(sorted.slices.size());
   const double wanted = 1.0 * grid.size[0] * grid.size[1] * grid.size[2];
   if (wanted <= kMostGrowth * stored) return;
-  refuse(path, say("expected a regular grid of at most ", kMostGrowth, " times the ", stored,
-                   " samples of the slices, found ", wanted, " voxels"));
+  refuse(path, message("expected a regular grid of at most ", kMostGrowth, " times the ", stored,
+                       " samples of the slices, found ", wanted, " voxels"));
 }
 
 void note_tilt(const SortedSlices& sorted, ResamplePlan& plan) {
   const DicomSlice &first = sorted.slices.front(), &last = sorted.slices.back();
   const Vec3 d = last.position - first.position;
   const double rise = dot(d, sorted.normal), shift = norm(d - rise * sorted.normal);
-  plan.notes.push_back(say(
+  plan.notes.push_back(message(
       "gantry tilt of ", std::atan2(shift, rise) * 180 / std::numbers::pi,
       " degrees: slices shifted by up to ", shift,
       " mm onto a straight grid, linear between pixels, which blurs by up to half a pixel; what no "
@@ -86,10 +86,10 @@ void note_tilt(const SortedSlices& sorted, ResamplePlan& plan) {
 
 /// @param gaps  distances of neighbours, mm, ascending.
 void note_uneven(const std::vector<double>& gaps, ResamplePlan& plan) {
-  plan.notes.push_back(say("slices ", gaps.front(), " to ", gaps.back(), " mm apart: resampled to ",
-                           plan.grid.spacing.z,
-                           " mm, linear between slices; no plane is farther than ", gaps.back() / 2,
-                           " mm from a slice"));
+  plan.notes.push_back(message("slices ", gaps.front(), " to ", gaps.back(),
+                               " mm apart: resampled to ", plan.grid.spacing.z,
+                               " mm, linear between slices; no plane is farther than ",
+                               gaps.back() / 2, " mm from a slice"));
 }
 
 /// A slice as a function of the place in it.
@@ -154,7 +154,8 @@ ResamplePlan plan_resampling(const std::filesystem::path& path, const SortedSlic
   const double planes =
       plan.uneven ? plane_count(range, gaps) : static_cast<double>(sorted.height.size());
   constexpr double kMostPlanes = 1e6;
-  if (!(planes <= kMostPlanes)) refuse(path, say("expected at most 1e6 planes, found ", planes));
+  if (!(planes <= kMostPlanes))
+    refuse(path, message("expected at most 1e6 planes, found ", planes));
   set_size(scan, {first.columns + more_pixels(plan, 0), first.rows + more_pixels(plan, 1),
                   static_cast<std::int64_t>(planes)});
   const double spacing = range / (planes - 1);

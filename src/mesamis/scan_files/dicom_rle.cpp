@@ -32,7 +32,7 @@ std::size_t little32(Bytes in, std::size_t at) {
 std::vector<unsigned char> decode_rle(const std::filesystem::path& file, Bytes packed,
                                       std::size_t pixels, std::size_t width) {
   if (packed.size() < 64 || little32(packed, 0) != width) {
-    refuse(file, say("expected RLE pixels in ", width, " segments"));
+    refuse(file, message("expected RLE pixels in ", width, " segments"));
   }
   std::vector<unsigned char> out(pixels * width);
   for (std::size_t s = 0; s < width; ++s) {
@@ -41,7 +41,7 @@ std::vector<unsigned char> decode_rle(const std::filesystem::path& file, Bytes p
     if (begin < 64 || begin > end || end > packed.size() ||
         !unpack_segment(packed.subspan(begin, end - begin), out.data() + (width - 1 - s), pixels,
                         width)) {
-      refuse(file, say("the RLE pixels are broken in segment ", s));
+      refuse(file, message("the RLE pixels are broken in segment ", s));
     }
   }
   return out;

@@ -65,9 +65,10 @@ class Copies {
     const auto found = found_.find(series.uid);
     if (found == found_.end()) return;
     const auto& [count, copy] = found->second;
-    series.warnings.push_back(say(count, count == 1 ? " file" : " files",
-                                  " left out: copies with the same SOP Instance UID, the first ",
-                                  shown(copy->file.filename().string())));
+    series.warnings.push_back(
+        message(count, count == 1 ? " file" : " files",
+                " left out: copies with the same SOP Instance UID, the first ",
+                shown(copy->file.filename().string())));
   }
 
  private:
@@ -85,14 +86,14 @@ void check_places(DicomSeries& series) {
   const auto& [way, slice] = *ways.rbegin();
   if (ways.size() > 1) {
     series.problem =
-        say(slice->file.string(), ": expected Image Position (0020,0032) as in other slices ",
-            "of the series, found none");
+        message(slice->file.string(), ": expected Image Position (0020,0032) as in other slices ",
+                "of the series, found none");
   } else if (way != PlacedBy::kPosition) {
-    series.warnings.push_back(
-        say("the slices have no Image Position: placed by ",
-            way == PlacedBy::kLocation ? "Slice Location" : "Instance Number",
-            slice->oriented ? ", one straight above another; whether they are mirrored is not known"
-                            : ", axes taken as LPS; whether sides are exchanged is not known"));
+    series.warnings.push_back(message(
+        "the slices have no Image Position: placed by ",
+        way == PlacedBy::kLocation ? "Slice Location" : "Instance Number",
+        slice->oriented ? ", one straight above another; whether they are mirrored is not known"
+                        : ", axes taken as LPS; whether sides are exchanged is not known"));
   }
 }
 
@@ -125,14 +126,15 @@ void drop_localizers(DicomSeries& series) {
   if (main.size() < 2 || (other.size() > 1 && other.size() * kLocalizerShare > main.size())) {
     const bool turned = !close(main[0].along_row, other[0].along_row) ||
                         !close(main[0].along_column, other[0].along_column);
-    series.problem =
-        say(main[0].file.parent_path().string(), ": expected one stack of slices, ", "found ",
-            main.size(), " slices like ", name_of(main[0]), " and ", other.size(), " like ",
-            name_of(other[0]), " of another ", turned ? "orientation" : "size or pixel spacing");
+    series.problem = message(
+        main[0].file.parent_path().string(), ": expected one stack of slices, ", "found ",
+        main.size(), " slices like ", name_of(main[0]), " and ", other.size(), " like ",
+        name_of(other[0]), " of another ", turned ? "orientation" : "size or pixel spacing");
     return;
   }
-  series.warnings.push_back(say(series.frames - main.size(), " slices left out that do not lie ",
-                                "along the stack (localizers)"));
+  series.warnings.push_back(message(series.frames - main.size(),
+                                    " slices left out that do not lie ",
+                                    "along the stack (localizers)"));
   stacks.resize(1);
 }
 
@@ -141,8 +143,9 @@ bool is_volume(const DicomSeries& series) {
 }
 
 std::string title(const DicomSeries& s) {
-  return say(in_quotes(s.uid, kLongestUid), " (", s.modality.empty() ? "?" : s.modality, ", ",
-             s.description.empty() ? "no description" : s.description, ", ", s.frames, " slices)");
+  return message(in_quotes(s.uid, kLongestUid), " (", s.modality.empty() ? "?" : s.modality, ", ",
+                 s.description.empty() ? "no description" : s.description, ", ", s.frames,
+                 " slices)");
 }
 
 std::string titles(const std::vector<DicomSeries>& all, bool volumes_only) {
@@ -193,7 +196,7 @@ const DicomSeries& choose_series(const std::filesystem::path& path,
   const auto volumes = std::count_if(all.begin(), all.end(), is_volume);
   if (volumes == 1) return *std::find_if(all.begin(), all.end(), is_volume);
   refuse(path,
-         say("expected one series of slices, found ", volumes, ": ", titles(all, volumes > 1)));
+         message("expected one series of slices, found ", volumes, ": ", titles(all, volumes > 1)));
 }
 
 }  // namespace mesamis::detail

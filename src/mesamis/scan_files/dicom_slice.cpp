@@ -44,11 +44,12 @@ class FrameTags {
     const auto numbers = find(tag, count);
     if (!numbers) {
       const std::string found = text(tag);
-      refuse(file_.path, say("expected ", count, count == 1 ? " number as " : " numbers as ", name,
-                             ", found ", found.empty() ? "none" : in_quotes(found), hint));
+      refuse(file_.path,
+             message("expected ", count, count == 1 ? " number as " : " numbers as ", name,
+                     ", found ", found.empty() ? "none" : in_quotes(found), hint));
     }
     for (const double number : *numbers) {
-      if (!std::isfinite(number)) refuse(file_.path, say(name, " holds ", number));
+      if (!std::isfinite(number)) refuse(file_.path, message(name, " holds ", number));
     }
     return *numbers;
   }
@@ -70,8 +71,8 @@ void orient(DicomSlice& slice, const FrameTags& tags) {
   constexpr double kUnitTolerance = 0.01;  // cosines are sometimes written with two digits
   for (const Vec3& direction : {slice.along_row, slice.along_column}) {
     if (!(std::abs(norm(direction) - 1) <= kUnitTolerance)) {
-      refuse(slice.file,
-             say("expected an Image Orientation of unit vectors, found length ", norm(direction)));
+      refuse(slice.file, message("expected an Image Orientation of unit vectors, found length ",
+                                 norm(direction)));
     }
   }
 }
@@ -125,8 +126,8 @@ void set_pixel_size(DicomSlice& slice, const FrameTags& tags, const std::optiona
   slice.row_step = s[0];
   slice.column_step = s[1];
   if (!(s[0] > 0) || !(s[1] > 0)) {
-    refuse(slice.file, say("expected a positive Pixel Spacing, found ", s[0], " x ", s[1],
-                           " (--spacing X,Y,Z replaces it)"));
+    refuse(slice.file, message("expected a positive Pixel Spacing, found ", s[0], " x ", s[1],
+                               " (--spacing X,Y,Z replaces it)"));
   }
 }
 
@@ -139,8 +140,8 @@ void scale(DicomSlice& slice, const FrameTags& tags) {
     slice.slope *= dose->front();
   }
   if (slice.slope == 0 || !std::isfinite(slice.slope) || !std::isfinite(slice.intercept)) {
-    refuse(slice.file, say("expected a usable rescale, found slope ", slice.slope, ", intercept ",
-                           slice.intercept));
+    refuse(slice.file, message("expected a usable rescale, found slope ", slice.slope,
+                               ", intercept ", slice.intercept));
   }
 }
 
@@ -190,9 +191,10 @@ FrameStack stack_of_frames(const DicomFile& file, std::size_t frames,
   auto step = stated_step(file, stack.from);
   if (!step && spacing) step = spacing->z;
   if (!step) {
-    refuse(file.path, say("expected a position for each of the ", frames,
-                          " frames, found neither Per-frame Functional Groups nor Spacing Between "
-                          "Slices or Slice Thickness (--spacing X,Y,Z gives it)"));
+    refuse(file.path,
+           message("expected a position for each of the ", frames,
+                   " frames, found neither Per-frame Functional Groups nor Spacing Between "
+                   "Slices or Slice Thickness (--spacing X,Y,Z gives it)"));
   }
   for (std::size_t n = 0; n < frames; ++n) {
     stack.heights.push_back(*step * static_cast<double>(n));
@@ -209,7 +211,7 @@ std::string stack_frames(const DicomFile& file, std::vector<DicomSlice>& slices,
   for (std::size_t n = 0; n < slices.size(); ++n) {
     slices[n].position += stack.heights[n] * normal;
   }
-  return say(
+  return message(
       "the frames have no positions of their own: stacked in their order along the normal, by ",
       stack.from.empty() ? "the spacing given" : stack.from);
 }
@@ -307,7 +309,7 @@ std::array<Vec3, 3> grid_steps(const DicomSlice& slice, const Vec3& up) noexcept
 
 std::string name_of(const DicomSlice& slice) {
   const std::string name = slice.file.filename().string();
-  return slice.frame > 0 ? say(name, " frame ", slice.frame) : name;
+  return slice.frame > 0 ? message(name, " frame ", slice.frame) : name;
 }
 
 DicomImage describe_image(const DicomFile& file, MemoryBudget& budget,

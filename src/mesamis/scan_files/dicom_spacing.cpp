@@ -53,8 +53,8 @@ std::vector<double> gaps_of(const SortedSlices& sorted) {
 void require_apart(const std::filesystem::path& path, const SortedSlices& sorted, std::size_t n) {
   const double gap = sorted.height[n] - sorted.height[n - 1];
   if (gap > kDuplicateDistance) return;
-  refuse(path, say("expected one slice per position, found two at the same: ",
-                   names_around(sorted, n), " (", gap, " mm apart)"));
+  refuse(path, message("expected one slice per position, found two at the same: ",
+                       names_around(sorted, n), " (", gap, " mm apart)"));
 }
 
 void require_even_spacing(const std::filesystem::path& path, const SortedSlices& sorted) {
@@ -66,9 +66,9 @@ void require_even_spacing(const std::filesystem::path& path, const SortedSlices&
     if (std::abs(gap - median) <= kStepTolerance * median) continue;
     const double steps = gap / median;
     const bool missing = steps > 1.5 && std::abs(steps - std::round(steps)) < 0.1;
-    refuse(path,
-           say(missing ? "slices are missing" : "the slices are unevenly spaced", " between ",
-               names_around(sorted, n), ": expected ", median, " mm, found ", gap, " mm", kHint));
+    refuse(path, message(missing ? "slices are missing" : "the slices are unevenly spaced",
+                         " between ", names_around(sorted, n), ": expected ", median, " mm, found ",
+                         gap, " mm", kHint));
   }
 }
 
@@ -89,10 +89,10 @@ void require_no_tilt(const std::filesystem::path& path, const SortedSlices& sort
     const DicomSlice& from = jump ? below : first;
     const double rise = dot(slice.position - from.position, sorted.normal);
     const double angle_deg = std::atan2(jump ? shift : total, rise) * 45 / std::atan(1);
-    refuse(path,
-           say("expected slices straight above one another, found a tilt of ", angle_deg,
-               " degrees (gantry tilt): ", name_of(slice), " is shifted by ", jump ? shift : total,
-               " mm against ", name_of(from), " over ", rise, " mm", kHint));
+    refuse(path, message("expected slices straight above one another, found a tilt of ", angle_deg,
+                         " degrees (gantry tilt): ", name_of(slice), " is shifted by ",
+                         jump ? shift : total, " mm against ", name_of(from), " over ", rise, " mm",
+                         kHint));
   }
 }
 

@@ -47,7 +47,7 @@ void DicomStore::find_in_folder(const fs::path& path) {
   const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
   for (const fs::path& file : fs::is_directory(path) ? files_below(path) : files_in(parent)) {
     if (const std::string why = why_unreadable(file); !why.empty()) {
-      unreadable_.push_back(say(shown(file.filename().string()), ": ", why));
+      unreadable_.push_back(message(shown(file.filename().string()), ": ", why));
     } else if (looks_like_dicom(file)) {
       files_.push_back(file);
     }

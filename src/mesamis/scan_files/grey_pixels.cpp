@@ -11,8 +11,9 @@ void warn_of_screen_resolution(double spacing_mm, std::vector<std::string>& warn
   constexpr double kInch = 25.4, kTolerance = 0.05;
   for (const int per_inch : {72, 96}) {
     if (!(std::abs(kInch / spacing_mm - per_inch) < kTolerance)) continue;
-    warnings.push_back(say("the resolution of ", per_inch,
-                           " pixels per inch is that of a screen: is it the scan's? (--spacing)"));
+    warnings.push_back(
+        message("the resolution of ", per_inch,
+                " pixels per inch is that of a screen: is it the scan's? (--spacing)"));
   }
 }
 
@@ -32,8 +33,8 @@ void set_picture_grid(ScanFile& scan, const std::array<std::int64_t, 2>& size,
 float require_grey(const std::filesystem::path& file, const std::array<unsigned, 3>& color,
                    const std::array<std::int64_t, 2>& pixel) {
   if (color[0] == color[1] && color[1] == color[2]) return static_cast<float>(color[0]);
-  refuse(file, say("expected a grey picture, found red ", color[0], ", green ", color[1], ", blue ",
-                   color[2], " at pixel ", pixel[0], ", ", pixel[1]));
+  refuse(file, message("expected a grey picture, found red ", color[0], ", green ", color[1],
+                       ", blue ", color[2], " at pixel ", pixel[0], ", ", pixel[1]));
 }
 
 void keep_palette(ScanFile& scan, std::string_view palette, std::size_t stride) {

@@ -56,7 +56,8 @@ class Tar {
       const auto size = tar_size(block);
       if (std::string_view(block.data() + 257, 5) != "ustar" || !size ||
           *size > bytes_.most_bytes()) {
-        refuse(file_, say("expected a tar entry at byte ", position_ - kTarBlock, ", found none"));
+        refuse(file_,
+               message("expected a tar entry at byte ", position_ - kTarBlock, ", found none"));
       }
       unread_ = (*size + kTarBlock - 1) / kTarBlock * kTarBlock;
       if (block[156] != '0' && block[156] != '\0') continue;
@@ -68,8 +69,8 @@ class Tar {
   /// The bytes of the entry that next() gave.
   std::string text(const TarEntry& entry) {
     if (entry.size > kLongestPlist) {
-      refuse(file_,
-             say(entry.name, ": expected at most ", kLongestPlist, " bytes, found ", entry.size));
+      refuse(file_, message(entry.name, ": expected at most ", kLongestPlist, " bytes, found ",
+                            entry.size));
     }
     std::string out(entry.size, '\0');
     if (bytes_.read(out.data(), out.size()) < out.size()) refuse(file_, entry.name + " is cut off");
@@ -124,8 +125,8 @@ std::vector<std::string> need(const std::filesystem::path& file, const Plist& pl
                               const std::string& key, std::size_t count) {
   std::vector<std::string> texts = plist.texts(key);
   if (texts.size() != count) {
-    refuse(file, say("main.plist: expected ", count, " values for ", in_quotes(key), ", found ",
-                     texts.size()));
+    refuse(file, message("main.plist: expected ", count, " values for ", in_quotes(key), ", found ",
+                         texts.size()));
   }
   return texts;
 }
@@ -137,8 +138,8 @@ std::array<Number, 3> three(const std::filesystem::path& file, const Plist& plis
   const std::vector<std::string> texts = need(file, plist, key, 3);
   for (std::size_t n = 0; n < 3; ++n) {
     if (!parse_number(std::string_view(texts[n]), numbers[n])) {
-      refuse(file, say("main.plist: expected numbers for ", in_quotes(key), ", found ",
-                       in_quotes(texts[n])));
+      refuse(file, message("main.plist: expected numbers for ", in_quotes(key), ", found ",
+                           in_quotes(texts[n])));
     }
   }
   return numbers;
@@ -152,7 +153,7 @@ NumberType sample_type(const std::filesystem::path& file, const std::string& dty
       {"float32", NumberType::kFloat32}, {"float64", NumberType::kFloat64}};
   const auto type = kTypes.find(dtype);
   if (type == kTypes.end()) {
-    refuse(file, say("main.plist: expected a dtype of one number, found ", in_quotes(dtype)));
+    refuse(file, message("main.plist: expected a dtype of one number, found ", in_quotes(dtype)));
   }
   return type->second;
 }
@@ -178,8 +179,8 @@ void place(ScanFile& scan, const Plist& plist) {
       scan, [&] { return three<double>(scan.file, plist, "spacing"); }, std::array<double, 3>{});
   for (const double step : s) {
     if (step > 0 || scan.given_spacing) continue;
-    refuse(scan.file, say("main.plist: expected a positive spacing, found ", step,
-                          " (--spacing X,Y,Z replaces it)"));
+    refuse(scan.file, message("main.plist: expected a positive spacing, found ", step,
+                              " (--spacing X,Y,Z replaces it)"));
   }
   set_stated_axes(scan, {{Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}}, {s[0], s[1], s[2]}});
 }
@@ -195,14 +196,14 @@ ScanFile open_inv3(const std::filesystem::path& file, const Opening& opening) {
   place(scan, *plist);
   const std::string matrix = need(file, *plist, "matrix/filename", 1)[0];
   const auto entry = find_entry(file, matrix);
-  if (!entry) refuse(file, say("expected the matrix ", in_quotes(matrix), ", found none"));
+  if (!entry) refuse(file, message("expected the matrix ", in_quotes(matrix), ", found none"));
   scan.source.file = file;
   scan.source.type = sample_type(file, need(file, *plist, "matrix/dtype", 1)[0]);
   scan.source.packing = Packing::kSniffed;
   scan.source.skip = entry->begin;
   const std::uint64_t needed = scan.grid.voxel_count() * byte_size(scan.source.type);
   if (entry->size != needed) {
-    refuse(file, say(matrix, ": expected ", needed, " bytes, found ", entry->size));
+    refuse(file, message(matrix, ": expected ", needed, " bytes, found ", entry->size));
   }
   const std::vector<std::string> modality = plist->texts("modality");
   if (modality.size() == 1) scan.grid.modality = shown(modality[0]);

@@ -41,15 +41,15 @@ Jpeg parse(const std::filesystem::path& file, MemoryBudget& budget) {
     refuse(file, "expected a JPEG file, found something else or a cut off one");
   }
   if (header->components != 1 || header->bits > 16) {
-    refuse(file, say("expected a grey JPEG, found ", header->components, " components of ",
-                     header->bits, " bits"));
+    refuse(file, message("expected a grey JPEG, found ", header->components, " components of ",
+                         header->bits, " bits"));
   }
   constexpr std::uint64_t kMostPixelsPerByte = 4096;
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(header->columns) * static_cast<std::uint64_t>(header->rows);
   if (pixels > kMostPixelsPerByte * jpeg.bytes.size()) {
-    refuse(file, say("expected a file that can hold ", header->columns, " x ", header->rows,
-                     " pixels, found ", jpeg.bytes.size(), " bytes"));
+    refuse(file, message("expected a file that can hold ", header->columns, " x ", header->rows,
+                         " pixels, found ", jpeg.bytes.size(), " bytes"));
   }
   if (!has_end_marker(jpeg.picture())) refuse(file, "the JPEG file is cut off");
   jpeg.header = *header;

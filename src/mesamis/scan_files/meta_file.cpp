@@ -29,8 +29,8 @@ struct MetaHeader {
   std::string need(const char* name) const {
     const auto field = fields.find(name);
     if (field == fields.end()) {
-      refuse(file,
-             say("expected the field ", in_quotes(name), " in the MetaImage header, found none"));
+      refuse(file, message("expected the field ", in_quotes(name),
+                           " in the MetaImage header, found none"));
     }
     return field->second;
   }
@@ -52,8 +52,8 @@ MetaHeader read_header(const std::filesystem::path& file) {
     const auto equals = line.find('=');
     if (trimmed(line).empty()) continue;
     if (equals == std::string::npos) {
-      refuse(file,
-             say("expected \"Field = value\" in the MetaImage header, found ", in_quotes(line)));
+      refuse(file, message("expected \"Field = value\" in the MetaImage header, found ",
+                           in_quotes(line)));
     }
     const std::string name = lower(trimmed(std::string_view(line).substr(0, equals)));
     header.fields.emplace(name, std::string(trimmed(std::string_view(line).substr(equals + 1))));
@@ -75,7 +75,7 @@ NumberType sample_type(const MetaHeader& header) {
   const std::string name = header.need("elementtype");
   const auto type = kTypes.find(lower(name));
   if (type == kTypes.end()) {
-    refuse(header.file, say("expected an ElementType of one number, found ", in_quotes(name)));
+    refuse(header.file, message("expected an ElementType of one number, found ", in_quotes(name)));
   }
   return type->second;
 }
@@ -88,7 +88,7 @@ std::int64_t whole_number(const MetaHeader& header, const char* field, const std
 std::size_t axis_count(const MetaHeader& header) {
   const auto axes = whole_number(header, "NDims", header.need("ndims"));
   if (axes == 3 || axes == 4) return static_cast<std::size_t>(axes);
-  refuse(header.file, say("expected a 3-D image, found ", axes, " dimensions"));
+  refuse(header.file, message("expected a 3-D image, found ", axes, " dimensions"));
 }
 
 void set_sizes(ScanFile& scan, const MetaHeader& header, std::size_t axes, const Opening& opening) {
@@ -108,8 +108,8 @@ std::array<Vec3, 3> axis_directions(const MetaHeader& header, std::size_t count)
   for (std::size_t a = 0; a < 3; ++a) {
     axes[a] = {m[count * a], m[count * a + 1], m[count * a + 2]};
     if (!(std::abs(norm(axes[a]) - 1) <= kSkewTolerance)) {
-      refuse(header.file, say("expected a TransformMatrix of unit vectors, found length ",
-                              norm(axes[a]), " for axis ", a));
+      refuse(header.file, message("expected a TransformMatrix of unit vectors, found length ",
+                                  norm(axes[a]), " for axis ", a));
     }
     axes[a] = (1 / norm(axes[a])) * axes[a];
   }
@@ -122,7 +122,8 @@ double unit_in_mm(ScanFile& scan, const MetaHeader& header) {
   if (name.empty() || name == "?") return 1;
   const auto mm = mm_per_unit(name);
   if (!mm) {
-    scan.warnings.push_back(say("the DistanceUnits ", in_quotes(name), " are no length: mm taken"));
+    scan.warnings.push_back(
+        message("the DistanceUnits ", in_quotes(name), " are no length: mm taken"));
   }
   return mm.value_or(1);
 }
@@ -158,8 +159,8 @@ void warn_of_orientation(ScanFile& scan, const MetaHeader& header) {
     from += kSides[kSides.find(letter) ^ 1u];
   }
   if (stated == from || stated == towards) return;
-  scan.warnings.push_back(say("AnatomicalOrientation says ", stated, ", TransformMatrix ", from,
-                              ": TransformMatrix is used"));
+  scan.warnings.push_back(message("AnatomicalOrientation says ", stated, ", TransformMatrix ", from,
+                                  ": TransformMatrix is used"));
 }
 
 void place(ScanFile& scan, const MetaHeader& header, std::size_t count) {
@@ -167,8 +168,8 @@ void place(ScanFile& scan, const MetaHeader& header, std::size_t count) {
   const Vec3 spacing = stated_spacing(scan, header, count);
   for (int a = 0; a < 3; ++a) {
     if (spacing[a] > 0 || scan.given_spacing) continue;
-    refuse(header.file, say("expected a positive ElementSpacing, found ", spacing[a],
-                            " (--spacing X,Y,Z replaces it)"));
+    refuse(header.file, message("expected a positive ElementSpacing, found ", spacing[a],
+                                " (--spacing X,Y,Z replaces it)"));
   }
   set_stated_axes(scan, {axis_directions(header, count), mm * spacing});
   const std::string text = header.get({"offset", "position", "origin"}, "");
@@ -187,8 +188,8 @@ void set_scale(ScanFile& scan, const MetaHeader& header) {
   const double offset =
       number("ElementToIntensityFunctionOffset", "elementtointensityfunctionoffset", "0");
   if (slope == 0 || !std::isfinite(slope) || !std::isfinite(offset)) {
-    scan.warnings.push_back(say("the scale of the values cannot be used (slope ", slope,
-                                ", offset ", offset, "): they are kept as stored"));
+    scan.warnings.push_back(message("the scale of the values cannot be used (slope ", slope,
+                                    ", offset ", offset, "): they are kept as stored"));
     return;
   }
   scan.source.slope = slope;
@@ -212,7 +213,7 @@ void find_data(ScanFile& scan, const MetaHeader& header, bool allow_outside) {
   const auto skip =
       whole_numbers_of(header.file, "HeaderSize", header.get({"headersize"}, "0"), 1)[0];
   if (skip < -1) {
-    refuse(header.file, say("expected a HeaderSize of 0 or more, or -1, found ", skip));
+    refuse(header.file, message("expected a HeaderSize of 0 or more, or -1, found ", skip));
   }
   source.at_end = skip == -1;
   if (!local && skip > 0) source.offset = static_cast<std::uint64_t>(skip);

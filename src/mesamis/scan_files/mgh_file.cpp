@@ -20,8 +20,8 @@ class MghHeader {
     ByteSource source(file, Packing::kSniffed);
     const std::size_t got = source.read(bytes_.data(), bytes_.size());
     if (got < kHeader || whole(0) != 1) {
-      refuse(file, say("expected an MGH header of ", kHeader, " bytes and version 1, found ", got,
-                       " bytes and ", got < 4 ? 0 : whole(0)));
+      refuse(file, message("expected an MGH header of ", kHeader, " bytes and version 1, found ",
+                           got, " bytes and ", got < 4 ? 0 : whole(0)));
     }
   }
   std::int64_t whole(std::size_t at) const {
@@ -49,7 +49,7 @@ NumberType sample_type(const std::filesystem::path& file, std::int64_t code) {
     case 10:
       return NumberType::kUint16;
     default:
-      refuse(file, say("expected the MGH type 0, 1, 3, 4 or 10, found ", code));
+      refuse(file, message("expected the MGH type 0, 1, 3, 4 or 10, found ", code));
   }
 }
 

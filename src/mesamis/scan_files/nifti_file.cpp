@@ -99,7 +99,7 @@ NiftiHeader read_header(const std::filesystem::path& file, bool pair) {
   std::vector<unsigned char> header(kSize2);
   header.resize(bytes.read(header.data(), header.size()));
   if (header.size() < kSize1) {
-    refuse(file, say("expected a NIfTI header of ", kSize1, " bytes, found ", header.size()));
+    refuse(file, message("expected a NIfTI header of ", kSize1, " bytes, found ", header.size()));
   }
   for (const bool big_endian : {false, true}) {
     const Fields fields(header, big_endian);
@@ -109,8 +109,8 @@ NiftiHeader read_header(const std::filesystem::path& file, bool pair) {
     const std::string found = magic_of(header, first), wanted = pair ? "ni" : "n+";
     const bool analyze = pair && first && !found.starts_with("n");
     if (!analyze && found != wanted + (first ? "1" : "2")) {
-      refuse(file, say("expected the NIfTI magic ", wanted, first ? "1" : "2", ", found ",
-                       in_quotes(found)));
+      refuse(file, message("expected the NIfTI magic ", wanted, first ? "1" : "2", ", found ",
+                           in_quotes(found)));
     }
     NiftiHeader h = first ? parse_version_1(fields) : parse_version_2(fields);
     h.big_endian = big_endian;
@@ -162,21 +162,21 @@ NumberType sample_type(const std::filesystem::path& file, std::int64_t code) {
   const auto type = kTypes.find(code);
   if (type != kTypes.end()) return type->second;
   const auto known = kRefused.find(code);
-  refuse(file, say("expected one real number per voxel, found NIfTI data type ", code,
-                   known == kRefused.end() ? "" : say(" (", known->second, ")")));
+  refuse(file, message("expected one real number per voxel, found NIfTI data type ", code,
+                       known == kRefused.end() ? "" : message(" (", known->second, ")")));
 }
 
 /// Volumes lie along the fourth axis, the components of a voxel along the fifth.
 void set_dimensions(ScanFile& scan, const NiftiHeader& h, const Opening& opening) {
   if (h.dim[0] < 3 || h.dim[0] > 7) {
-    refuse(scan.file, say("expected a 3-D image, found ", h.dim[0], " dimensions"));
+    refuse(scan.file, message("expected a 3-D image, found ", h.dim[0], " dimensions"));
   }
   const auto dimensions = static_cast<std::size_t>(h.dim[0]);
   const auto count = [&](std::size_t axis) { return axis <= dimensions ? h.dim[axis] : 1; };
   for (std::size_t axis = 6; axis <= dimensions; ++axis) {
     if (h.dim[axis] == 1) continue;
-    refuse(scan.file, say("expected a 3-D image, found ", h.dim[0], "-D with ", h.dim[axis],
-                          " values along dimension ", axis));
+    refuse(scan.file, message("expected a 3-D image, found ", h.dim[0], "-D with ", h.dim[axis],
+                              " values along dimension ", axis));
   }
   set_size(scan, {h.dim[1], h.dim[2], h.dim[3]});
   set_values(scan, {count(4), count(5)}, ValueOrder::kVolumesFirst, opening);
@@ -186,7 +186,7 @@ void set_dimensions(ScanFile& scan, const NiftiHeader& h, const Opening& opening
 double unit_in_mm(ScanFile& scan, std::int64_t units) {
   const auto length = units & 7;
   if (length > 3) {
-    scan.warnings.push_back(say("the unit of length ", length, " is unknown: mm taken"));
+    scan.warnings.push_back(message("the unit of length ", length, " is unknown: mm taken"));
   }
   return length == 1 ? 1000 : length == 3 ? 0.001 : 1;
 }
@@ -269,8 +269,8 @@ Placement choose_placement(ScanFile& scan, const NiftiHeader& h) {
   }
   const double angle = angle_between_deg(sform, qform);
   if (angle > kSameDeg) {
-    scan.warnings.push_back(say("qform and sform turn the axes differently, by ", angle,
-                                " degrees: the sform is used"));
+    scan.warnings.push_back(message("qform and sform turn the axes differently, by ", angle,
+                                    " degrees: the sform is used"));
   }
   return sform;
 }
@@ -280,8 +280,8 @@ void warn_of_spacing(ScanFile& scan, const Vec3& declared) {
   for (int a = 0; a < 3; ++a) {
     const double used = scan.grid.spacing[a];
     if (!is_length(declared[a]) || std::abs(used - declared[a]) <= 0.01 * used) continue;
-    scan.warnings.push_back(say("pixdim says ", declared[a], " mm along axis ", a, ", the sform ",
-                                used, ": the sform is used"));
+    scan.warnings.push_back(message("pixdim says ", declared[a], " mm along axis ", a,
+                                    ", the sform ", used, ": the sform is used"));
   }
 }
 
@@ -300,8 +300,8 @@ void place(ScanFile& scan, const NiftiHeader& h) {
 void set_scale(ScanFile& scan, const NiftiHeader& h) {
   if (h.slope == 0) return;
   if (!std::isfinite(h.slope) || !std::isfinite(h.intercept)) {
-    scan.warnings.push_back(say("the scale of the values cannot be used (slope ", h.slope,
-                                ", intercept ", h.intercept, "): they are kept as stored"));
+    scan.warnings.push_back(message("the scale of the values cannot be used (slope ", h.slope,
+                                    ", intercept ", h.intercept, "): they are kept as stored"));
     return;
   }
   scan.source.slope = h.slope;
@@ -317,7 +317,8 @@ ScanFile open_nifti(const std::filesystem::path& file, const Opening& opening) {
   set_dimensions(scan, h, opening);
   const double least = files.pair() ? 0 : static_cast<double>(kSize1);
   if (!(h.vox_offset >= least) || h.vox_offset > 1e15) {
-    refuse(file, say("expected the samples behind the header, found vox_offset ", h.vox_offset));
+    refuse(file,
+           message("expected the samples behind the header, found vox_offset ", h.vox_offset));
   }
   place(scan, h);
   scan.source.file = files.samples;
@@ -343,8 +344,8 @@ std::vector<std::string> nifti_extensions(const std::filesystem::path& file, Mem
     if (bytes.read(begin.data(), 8) < 8) break;
     const auto size = load<std::int32_t>(begin.data(), order);
     if (size < 8 || at + size > h.vox_offset || size > static_cast<std::int64_t>(kMostBytes)) {
-      refuse(file, say("expected a header extension of 8 to ", kMostBytes,
-                       " bytes before the samples, found ", size));
+      refuse(file, message("expected a header extension of 8 to ", kMostBytes,
+                           " bytes before the samples, found ", size));
     }
     budget.claim(1, static_cast<std::uint64_t>(size), "header extensions");
     std::string content(static_cast<std::size_t>(size) - 8, '\0');

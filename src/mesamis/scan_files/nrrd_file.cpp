@@ -22,7 +22,8 @@ struct NrrdHeader {
   const std::string& need(const std::string& name) const {
     const auto field = fields.find(name);
     if (field == fields.end()) {
-      refuse(file, say("expected the field ", in_quotes(name), " in the NRRD header, found none"));
+      refuse(file,
+             message("expected the field ", in_quotes(name), " in the NRRD header, found none"));
     }
     return field->second;
   }
@@ -56,7 +57,7 @@ void parse_line(NrrdHeader& header, const std::string& line) {
   const auto end = colon != std::string::npos ? colon : line.find(':');
   if (end == std::string::npos) {
     refuse(header.file,
-           say("expected \"field: value\" in the NRRD header, found ", in_quotes(line)));
+           message("expected \"field: value\" in the NRRD header, found ", in_quotes(line)));
   }
   std::string name = lower(trimmed(std::string_view(line).substr(0, end)));
   // The standard's other spellings.
@@ -73,7 +74,7 @@ NrrdHeader read_header(const std::filesystem::path& file) {
   HeaderLines lines(file);
   std::string line;
   if (!lines.next(line) || !line.starts_with("NRRD000") || line.size() != 8) {
-    refuse(file, say("expected the NRRD magic NRRD000x, found ", in_quotes(line)));
+    refuse(file, message("expected the NRRD magic NRRD000x, found ", in_quotes(line)));
   }
   bool lists = false;
   while (lines.next(line) && !line.empty()) {
@@ -129,7 +130,7 @@ NumberType sample_type(const NrrdHeader& header) {
   const std::string& name = header.need("type");
   const auto type = kTypes.find(lower(name));
   if (type == kTypes.end()) {
-    refuse(header.file, say("expected a NRRD type of one number, found ", in_quotes(name)));
+    refuse(header.file, message("expected a NRRD type of one number, found ", in_quotes(name)));
   }
   return type->second;
 }
@@ -156,7 +157,7 @@ std::size_t find_value_axis(const NrrdHeader& header, const std::vector<std::str
 ValueAxis require_axes(const NrrdHeader& header) {
   const auto dimension = whole_numbers_of(header.file, "dimension", header.need("dimension"), 1)[0];
   if (dimension != 3 && dimension != 4) {
-    refuse(header.file, say("expected a 3-D image, found ", dimension, " dimensions"));
+    refuse(header.file, message("expected a 3-D image, found ", dimension, " dimensions"));
   }
   const auto kinds = words_of(header.or_else("kinds", ""));
   ValueAxis found;
@@ -164,7 +165,7 @@ ValueAxis require_axes(const NrrdHeader& header) {
   for (std::size_t a = 0; a < kinds.size(); ++a) {
     if (!is_domain(kinds[a]) && !(found.is_there() && a == found.axis)) {
       refuse(header.file,
-             say("expected three axes of space, found an axis of kind ", in_quotes(kinds[a])));
+             message("expected three axes of space, found an axis of kind ", in_quotes(kinds[a])));
     }
   }
   return found;
@@ -200,7 +201,7 @@ Vec3 signs_to_lps(const NrrdHeader& header, std::vector<std::string>& warnings) 
     warnings.push_back("the header names no anatomical space: axes taken as left, back and feet");
     return {1, 1, -1};
   }
-  refuse(header.file, say("expected the space LPS, RAS or LAS, found ", in_quotes(space)));
+  refuse(header.file, message("expected the space LPS, RAS or LAS, found ", in_quotes(space)));
 }
 
 /// How many numbers a vector has: a fourth one, of time, does not count.
@@ -212,8 +213,8 @@ std::size_t space_dimension(const NrrdHeader& header) {
 Vec3 parse_vector(const NrrdHeader& header, const std::string& field, const std::string& text) {
   std::string numbers = text;
   if (!numbers.starts_with('(') || !numbers.ends_with(')')) {
-    refuse(header.file, say("expected vectors (x,y,z) in the field ", in_quotes(field), ", found ",
-                            in_quotes(text)));
+    refuse(header.file, message("expected vectors (x,y,z) in the field ", in_quotes(field),
+                                ", found ", in_quotes(text)));
   }
   std::replace_if(
       numbers.begin(), numbers.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
@@ -232,8 +233,8 @@ std::vector<Vec3> vectors_of(const NrrdHeader& header, const std::string& field,
     text.remove_prefix(length);
   }
   if (vectors.size() != expected) {
-    refuse(header.file, say("expected ", expected, " vectors in the field ", in_quotes(field),
-                            ", found ", vectors.size()));
+    refuse(header.file, message("expected ", expected, " vectors in the field ", in_quotes(field),
+                                ", found ", vectors.size()));
   }
   return vectors;
 }
@@ -265,7 +266,7 @@ Vec3 units_in_mm(ScanFile& scan, const NrrdHeader& header, const std::string& fi
     const auto unit = mm_per_unit(name);
     if (!unit && !name.empty() && name != "???") {
       scan.warnings.push_back(
-          say("the ", field, " ", in_quotes(name), " of axis ", a, " is no length: mm taken"));
+          message("the ", field, " ", in_quotes(name), " of axis ", a, " is no length: mm taken"));
     }
     mm[a] = unit.value_or(1);
   }
@@ -373,8 +374,8 @@ void warn_of_values(ScanFile& scan, const NrrdHeader& header) {
   const std::string low = header.or_else("old min", header.or_else("oldmin", ""));
   const std::string high = header.or_else("old max", header.or_else("oldmax", ""));
   if (low.empty() || high.empty() || lower(low) == "nan") return;
-  scan.warnings.push_back(say("the values were quantised from a range of ", in_quotes(low), " to ",
-                              in_quotes(high), ": they are kept as stored"));
+  scan.warnings.push_back(message("the values were quantised from a range of ", in_quotes(low),
+                                  " to ", in_quotes(high), ": they are kept as stored"));
 }
 
 void set_encoding(SampleSource& source, const NrrdHeader& header) {
@@ -383,13 +384,13 @@ void set_encoding(SampleSource& source, const NrrdHeader& header) {
   const bool gzip = encoding == "gzip" || encoding == "gz";
   if (!source.text && !gzip && encoding != "raw") {
     refuse(header.file,
-           say("expected the encoding raw, gzip or ascii, found ", in_quotes(encoding)));
+           message("expected the encoding raw, gzip or ascii, found ", in_quotes(encoding)));
   }
   source.packing = gzip ? Packing::kDeflated : Packing::kPlain;
   if (source.text || byte_size(source.type) == 1) return;
   const std::string endian = lower(header.need("endian"));
   if (endian != "little" && endian != "big") {
-    refuse(header.file, say("expected the endian little or big, found ", in_quotes(endian)));
+    refuse(header.file, message("expected the endian little or big, found ", in_quotes(endian)));
   }
   source.big_endian = endian == "big";
 }
@@ -400,7 +401,7 @@ std::uint64_t offset_behind_lines(const std::filesystem::path& file, std::uint64
   ByteSource bytes(file, Packing::kPlain, offset);
   char c = 0;
   for (; lines > 0 && bytes.read(&c, 1) == 1; ++offset) lines -= c == '\n' ? 1 : 0;
-  if (lines > 0) refuse(file, say("the header skips ", lines, " lines more than there are"));
+  if (lines > 0) refuse(file, message("the header skips ", lines, " lines more than there are"));
   return offset;
 }
 
@@ -420,8 +421,8 @@ void find_data(ScanFile& scan, const NrrdHeader& header, bool allow_outside) {
   };
   const auto lines = skip("line skip"), bytes = skip("byte skip");
   if (lines < 0 || bytes < -1) {
-    refuse(header.file,
-           say("expected a skip of 0 or more (bytes: or -1), found ", lines < 0 ? lines : bytes));
+    refuse(header.file, message("expected a skip of 0 or more (bytes: or -1), found ",
+                                lines < 0 ? lines : bytes));
   }
   source.offset = offset_behind_lines(source.file, source.offset, lines);
   source.at_end = bytes == -1;

@@ -19,10 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 using detail::in_one_line;
 using detail::MemoryBudget;
+using detail::message;
 using detail::Opening;
 using detail::OpenSlices;
 using detail::refuse;
-using detail::say;
 using detail::ScanFile;
 
 OpenSlices open_plain(ScanFile scan) {
@@ -90,8 +90,8 @@ class OpenedSlices final : public FileSlices {
 std::vector<float> OpenedSlices::read_checked(const SliceRange& slices) const {
   const Index all = grid().size[2];
   if (slices.first < 0 || slices.count < 1 || slices.count > all - slices.first) {
-    refuse(path_, say("expected slices within ", all, ", found ", slices.count, " from ",
-                      slices.first, " on"));
+    refuse(path_, message("expected slices within ", all, ", found ", slices.count, " from ",
+                          slices.first, " on"));
   }
   MemoryBudget budget(path_, limits_);
   const ReadRecord record;

@@ -48,14 +48,15 @@ bool is_bit_depth(int color, int bits) {
 }
 
 void read_header(const std::filesystem::path& file, std::string_view data, Png& png) {
-  if (data.size() != 13) refuse(file, say("expected a header of 13 bytes, found ", data.size()));
+  if (data.size() != 13)
+    refuse(file, message("expected a header of 13 bytes, found ", data.size()));
   png.width = word(data, 0);
   png.height = word(data, 4);
   png.bits = static_cast<unsigned char>(data[8]);
   png.color = static_cast<unsigned char>(data[9]);
   if (!is_bit_depth(png.color, png.bits)) {
-    refuse(file, say("expected a colour type and bit depth of PNG, found ", png.color, " and ",
-                     png.bits));
+    refuse(file, message("expected a colour type and bit depth of PNG, found ", png.color, " and ",
+                         png.bits));
   }
   if (data[12] != 0) refuse(file, "interlaced PNG is not read: save it without interlacing");
 }
@@ -107,8 +108,8 @@ std::string unpack(const std::filesystem::path& file, const Png& png, MemoryBudg
   const std::uint64_t needed =
       static_cast<std::uint64_t>(png.height) * (std::uint64_t{png.line_bytes()} + 1);
   if (needed > kMostDeflateRatio * png.packed.size()) {
-    refuse(file, say("expected ", needed, " bytes of pixels for ", png.width, " x ", png.height,
-                     ", found ", png.packed.size(), " packed"));
+    refuse(file, message("expected ", needed, " bytes of pixels for ", png.width, " x ", png.height,
+                         ", found ", png.packed.size(), " packed"));
   }
   budget.claim(needed, 1, "pixels");
   std::string lines(needed, '\0');
@@ -117,8 +118,8 @@ std::string unpack(const std::filesystem::path& file, const Png& png, MemoryBudg
       uncompress(reinterpret_cast<Bytef*>(lines.data()), &size,
                  reinterpret_cast<const Bytef*>(png.packed.data()), png.packed.size());
   if (status != Z_OK || size != needed) {
-    refuse(file, say("broken PNG file: expected ", needed, " bytes of pixels, found ", size,
-                     status == Z_OK ? "" : " and broken data"));
+    refuse(file, message("broken PNG file: expected ", needed, " bytes of pixels, found ", size,
+                         status == Z_OK ? "" : " and broken data"));
   }
   return lines;
 }
@@ -156,7 +157,7 @@ void unfilter(const std::filesystem::path& file, const Png& png, std::string& li
     char* row = lines.data() + static_cast<std::size_t>(y) * (line + 1) + 1;
     const char* before = y > 0 ? row - line - 1 : nullptr;
     const int filter = byte(row - 1);
-    if (filter > 4) refuse(file, say("broken PNG file: filter ", filter, " in line ", y));
+    if (filter > 4) refuse(file, message("broken PNG file: filter ", filter, " in line ", y));
     for (std::size_t x = 0; x < line; ++x) {
       const int left = x >= step ? byte(row + x - step) : 0;
       const int above = before ? byte(before + x) : 0;

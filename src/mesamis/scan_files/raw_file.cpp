@@ -88,9 +88,9 @@ detail::ScanFile detail::open_raw(const std::filesystem::path& file, const RawLa
       std::uint64_t{scan.grid.voxel_count()} * byte_size(scan.source.type);
   const std::uint64_t expected = scan.source.offset + samples, found = size_of(file);
   if (found != expected) {
-    refuse(file, say("expected ", expected, " bytes, ", scan.source.offset, " of header and ",
-                     samples, " of ", layout.size[0], " x ", layout.size[1], " x ", layout.size[2],
-                     " samples, found ", found));
+    refuse(file, message("expected ", expected, " bytes, ", scan.source.offset, " of header and ",
+                         samples, " of ", layout.size[0], " x ", layout.size[1], " x ",
+                         layout.size[2], " samples, found ", found));
   }
   return scan;
 }

@@ -167,8 +167,9 @@ void require_dicom(const fs::path& directory) {
   const std::vector<fs::path> here = detail::files_in(directory);
   const auto volume = std::find_if(here.begin(), here.end(), is_listed);
   refuse(directory,
-         detail::say("expected DICOM images, found none but ", detail::contents_of(directory),
-                     volume == here.end() ? "" : "; name the file itself, as " + volume->string()));
+         detail::message(
+             "expected DICOM images, found none but ", detail::contents_of(directory),
+             volume == here.end() ? "" : "; name the file itself, as " + volume->string()));
 }
 
 VolumeFile read_directory(const Request& request) {

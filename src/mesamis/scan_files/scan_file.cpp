@@ -28,9 +28,9 @@ std::uint64_t sample_count(const ScanFile& scan) {
 
 std::string size_text(const ScanFile& scan) {
   const auto& n = scan.grid.size;
-  const std::string voxels = say(n[0], " x ", n[1], " x ", n[2]);
+  const std::string voxels = message(n[0], " x ", n[1], " x ", n[2]);
   const Index values = scan.inner * scan.outer;
-  return values == 1 ? voxels : say(voxels, " x ", values);
+  return values == 1 ? voxels : message(voxels, " x ", values);
 }
 
 template <class Stored, class Number>
@@ -56,8 +56,8 @@ void convert_any(std::span<const unsigned char> bytes, const SampleSource& sourc
 template <class Found>
 [[noreturn]] void refuse_short(const ScanFile& scan, std::uint64_t expected, const Found& found,
                                const char* unit) {
-  refuse(scan.source.file, say("expected ", expected, " ", unit, " for ", size_text(scan),
-                               " samples, found ", found));
+  refuse(scan.source.file, message("expected ", expected, " ", unit, " for ", size_text(scan),
+                                   " samples, found ", found));
 }
 
 /// How many samples lie together of which one is kept.
@@ -97,7 +97,7 @@ double number_of(const ScanFile& scan, std::string_view word, std::size_t sample
   double value = 0;
   if (!parse_number(word, value)) {
     refuse(scan.source.file,
-           say("expected a number as sample ", sample, ", found ", in_quotes(word)));
+           message("expected a number as sample ", sample, ", found ", in_quotes(word)));
   }
   return scan.source.slope * value + scan.source.intercept;
 }
@@ -154,13 +154,14 @@ std::uint64_t fewest_bytes(const ScanFile& scan) {
 }
 
 [[noreturn]] void refuse_long(const ScanFile& scan) {
-  refuse(scan.source.file, say("expected the data to end after ", fewest_bytes(scan), " bytes for ",
-                               size_text(scan), " samples, but they go on"));
+  refuse(scan.source.file, message("expected the data to end after ", fewest_bytes(scan),
+                                   " bytes for ", size_text(scan), " samples, but they go on"));
 }
 
 [[noreturn]] void refuse_unplain(const ScanFile& scan, std::string_view found) {
-  refuse(scan.file, say("expected uncompressed voxels, which can be read a slice at a time, found ",
-                        found, "; unpack it, or run without --slabs"));
+  refuse(scan.file,
+         message("expected uncompressed voxels, which can be read a slice at a time, found ", found,
+                 "; unpack it, or run without --slabs"));
 }
 
 bool is_usable(double length) { return length > 0 && std::isfinite(length); }
@@ -179,13 +180,13 @@ StatedAxes completed(ScanFile& scan, StatedAxes axes) {
   for (std::size_t a = 0; a < 3; ++a) {
     double& length = axes.spacing[static_cast<int>(a)];
     if (!is_usable(length)) {
-      scan.warnings.push_back(say("the file's spacing along axis ", a, ", ", length,
-                                  " mm, cannot be used: the one given is taken"));
+      scan.warnings.push_back(message("the file's spacing along axis ", a, ", ", length,
+                                      " mm, cannot be used: the one given is taken"));
       length = (*scan.given_spacing)[static_cast<int>(a)];
     }
     if (is_usable(norm(axes.direction[a]))) continue;
     axes.direction[a] = direction_across(axes.direction, a);
-    scan.warnings.push_back(say("the file gives axis ", a, " no direction: across the others"));
+    scan.warnings.push_back(message("the file gives axis ", a, " no direction: across the others"));
   }
   return axes;
 }
@@ -240,8 +241,9 @@ ScanFile scan_of_part(const ScanFile& scan, const std::filesystem::path& file) {
   if (scan.outer == 1 && scan.grid.size[2] % count == 0) {
     part.grid.size[2] /= count;
   } else if (scan.outer != count) {
-    refuse(scan.file, say("expected files with equal numbers of slices, or one per volume, found ",
-                          scan.parts.size(), " files for ", size_text(scan), " samples"));
+    refuse(scan.file,
+           message("expected files with equal numbers of slices, or one per volume, found ",
+                   scan.parts.size(), " files for ", size_text(scan), " samples"));
   }
   return part;
 }
@@ -274,12 +276,12 @@ void set_size(ScanFile& scan, const std::array<std::int64_t, 3>& counts) {
   for (std::size_t a = 0; a < 3; ++a) {
     if (counts[a] < 1 || counts[a] > std::numeric_limits<Index>::max()) {
       refuse(scan.file,
-             say("expected 1 to 2147483647 voxels along axis ", a, ", found ", counts[a]));
+             message("expected 1 to 2147483647 voxels along axis ", a, ", found ", counts[a]));
     }
     left /= counts[a];
     scan.grid.size[a] = static_cast<Index>(counts[a]);
   }
-  if (left < 1) refuse(scan.file, say("more voxels than can be read: ", size_text(scan)));
+  if (left < 1) refuse(scan.file, message("more voxels than can be read: ", size_text(scan)));
 }
 
 void set_values(ScanFile& scan, const ValueAxes& axes, ValueOrder order, const Opening& opening) {
@@ -287,13 +289,13 @@ void set_values(ScanFile& scan, const ValueAxes& axes, ValueOrder order, const O
   const auto most =
       std::min(kMostSamples / static_cast<std::int64_t>(scan.grid.voxel_count()), kMostValues);
   if (std::min(volumes, channels) < 1 || volumes > most || channels > most / volumes) {
-    refuse(scan.file, say("expected 1 to ", most, " values per voxel, found ",
-                          volumes == 1 ? channels : volumes,
-                          volumes == 1 || channels == 1 ? "" : say(" x ", channels)));
+    refuse(scan.file, message("expected 1 to ", most, " values per voxel, found ",
+                              volumes == 1 ? channels : volumes,
+                              volumes == 1 || channels == 1 ? "" : message(" x ", channels)));
   }
   if (opening.values == Values::kMany && volumes > 1 && channels > 1) {
-    refuse(scan.file, say("expected one axis of values beside space, found ", volumes,
-                          " volumes of ", channels, " channels"));
+    refuse(scan.file, message("expected one axis of values beside space, found ", volumes,
+                              " volumes of ", channels, " channels"));
   }
   const bool interleaved = order == ValueOrder::kChannelsFirst;
   scan.inner = static_cast<Index>(interleaved ? channels : 1);
@@ -314,8 +316,9 @@ void set_stated_axes(ScanFile& scan, const StatedAxes& stated) {
   for (std::size_t a = 0; a < 3; ++a) {
     const double length = usable.spacing[static_cast<int>(a)];
     if (!is_usable(length) || !is_usable(norm(usable.direction[a]))) {
-      refuse(scan.file, say("expected a positive voxel spacing along axis ", a, ", found ",
-                            is_usable(length) ? 0 : length, " mm (--spacing X,Y,Z replaces it)"));
+      refuse(scan.file,
+             message("expected a positive voxel spacing along axis ", a, ", found ",
+                     is_usable(length) ? 0 : length, " mm (--spacing X,Y,Z replaces it)"));
     }
   }
   GridAxes axes;
@@ -323,7 +326,7 @@ void set_stated_axes(ScanFile& scan, const StatedAxes& stated) {
     axes = grid_axes(usable.direction);
   } catch (const InputError& error) {
     if (!scan.resample)
-      refuse(scan.file, say(error.what(), " (--resample interpolates such grids)"));
+      refuse(scan.file, message(error.what(), " (--resample interpolates such grids)"));
     scan.sheared.emplace();
     for (std::size_t a = 0; a < 3; ++a) {
       (*scan.sheared)[a] = usable.spacing[static_cast<int>(a)] * unit_or_zero(usable.direction[a]);
@@ -331,7 +334,7 @@ void set_stated_axes(ScanFile& scan, const StatedAxes& stated) {
   }
   if (!scan.sheared && axes.skew > kRoundingSkew) {
     scan.warnings.push_back(
-        say("the voxel axes are not orthogonal (cosine ", axes.skew, "): made orthonormal"));
+        message("the voxel axes are not orthogonal (cosine ", axes.skew, "): made orthonormal"));
   }
   scan.grid.spacing = usable.spacing;
   scan.grid.direction = axes.direction;
@@ -344,7 +347,7 @@ void set_axes(ScanFile& scan, const std::array<Vec3, 3>& steps) {
 void set_origin(ScanFile& scan, const Vec3& origin) {
   for (int a = 0; a < 3; ++a) {
     if (!std::isfinite(origin[a])) {
-      refuse(scan.file, say("expected a finite origin, found ", origin[a], " along axis ", a));
+      refuse(scan.file, message("expected a finite origin, found ", origin[a], " along axis ", a));
     }
   }
   scan.grid.origin = origin + Vec3{};  // -0 becomes 0
@@ -381,7 +384,7 @@ void go_to_samples(const ScanFile& scan, ByteSource& bytes) {
   const std::uint64_t needed = fewest_bytes(scan);
   if (needed > bytes.most_bytes()) {
     refuse_short(scan, needed,
-                 say(source.packing == Packing::kPlain ? "" : "at most ", bytes.most_bytes()),
+                 message(source.packing == Packing::kPlain ? "" : "at most ", bytes.most_bytes()),
                  "bytes");
   }
   bytes.skip(skip);

@@ -83,8 +83,8 @@ NumberType aim_type(const std::filesystem::path& file, std::int32_t code) {
     case 0x001a0004:
       return NumberType::kFloat32;
     default:
-      refuse(file, say("expected an AIM of uncompressed numbers, found the type ", code,
-                       "; save it uncompressed"));
+      refuse(file, message("expected an AIM of uncompressed numbers, found the type ", code,
+                           "; save it uncompressed"));
   }
 }
 
@@ -117,8 +117,8 @@ ScanFile open_isq(const std::filesystem::path& file, const Opening& opening) {
   }
   ScanFile scan = begin_scan(file, "ISQ", opening);
   if (header.at<std::int32_t>(16) != 3) {
-    refuse(file, say("expected 16-bit samples (data type 3), found data type ",
-                     header.at<std::int32_t>(16)));
+    refuse(file, message("expected 16-bit samples (data type 3), found data type ",
+                         header.at<std::int32_t>(16)));
   }
   const auto size = three(header, 44), um = three(header, 56);
   set_size(scan, size);
@@ -128,7 +128,7 @@ ScanFile open_isq(const std::filesystem::path& file, const Opening& opening) {
   set_stated_axes(
       scan, {{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}, {spacing(0), spacing(1), spacing(2)}});
   const std::int64_t blocks = header.at<std::int32_t>(508);
-  if (blocks < 0) refuse(file, say("expected an offset of the samples, found ", blocks));
+  if (blocks < 0) refuse(file, message("expected an offset of the samples, found ", blocks));
   scan.source.file = file;
   scan.source.type = NumberType::kInt16;
   scan.source.offset = (static_cast<std::uint64_t>(blocks) + 1) * kBlock;

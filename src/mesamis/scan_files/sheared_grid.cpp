@@ -52,8 +52,8 @@ Index voxels_between(const std::filesystem::path& file, const std::array<double,
                      double spacing) {
   const double count = std::ceil((ends[1] - ends[0]) / spacing - kRoundOff) + 1;
   if (!(count < std::numeric_limits<Index>::max())) {
-    refuse(file,
-           say("expected a grid that can be resampled, found ", count, " voxels along an axis"));
+    refuse(file, message("expected a grid that can be resampled, found ", count,
+                         " voxels along an axis"));
   }
   return static_cast<Index>(count);
 }
@@ -117,17 +117,17 @@ ShearPlan plan_unsheared(const std::filesystem::path& file, const VoxelGrid& old
     voxels *= plan.grid.size[a];
   }
   if (voxels > kMostPerVoxel * static_cast<double>(old.voxel_count())) {
-    refuse(file, say("expected a grid that can be resampled, found one that needs ", voxels,
-                     " voxels for ", old.voxel_count()));
+    refuse(file, message("expected a grid that can be resampled, found one that needs ", voxels,
+                         " voxels for ", old.voxel_count()));
   }
   plan.grid.origin = old.origin + plan.first;
   plan.grid.direction = transpose(Mat3{axes});
   const double cosine = std::max({std::abs(dot(unit_or_zero(steps[0]), unit_or_zero(steps[1]))),
                                   std::abs(dot(unit_or_zero(steps[1]), unit_or_zero(steps[2]))),
                                   std::abs(dot(unit_or_zero(steps[2]), unit_or_zero(steps[0])))});
-  plan.note = say("the voxel axes are sheared (cosine ", cosine, "): interpolated onto ",
-                  plan.grid.size[0], " x ", plan.grid.size[1], " x ", plan.grid.size[2],
-                  " orthogonal voxels; what none covers has the least value");
+  plan.note = message("the voxel axes are sheared (cosine ", cosine, "): interpolated onto ",
+                      plan.grid.size[0], " x ", plan.grid.size[1], " x ", plan.grid.size[2],
+                      " orthogonal voxels; what none covers has the least value");
   return plan;
 }
 

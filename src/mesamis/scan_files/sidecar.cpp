@@ -32,7 +32,7 @@ std::string modality_in_sidecar(const fs::path& image, MemoryBudget& budget,
     const auto modality = JsonValue(file, json).find("Modality");
     return modality ? shown(modality->text()) : "";
   } catch (const InputError& error) {
-    warnings.push_back(say("the sidecar does not count: ", error.what()));
+    warnings.push_back(message("the sidecar does not count: ", error.what()));
     return "";
   }
 }

@@ -67,9 +67,9 @@ void warn_of_gaps(const std::vector<fs::path>& files, std::vector<std::string>& 
     if (!before || !here) return;
     if (!step) step = *here - *before;
     if (*here - *before == *step) continue;
-    warnings.push_back(say("the slices are numbered in steps of ", *step, ", but ",
-                           shown(files[n].filename().string()), " follows ",
-                           shown(files[n - 1].filename().string()), ": is one missing?"));
+    warnings.push_back(message("the slices are numbered in steps of ", *step, ", but ",
+                               shown(files[n].filename().string()), " follows ",
+                               shown(files[n - 1].filename().string()), ": is one missing?"));
     return;
   }
 }
@@ -79,8 +79,9 @@ void require_like(const ScanFile& first, const ScanFile& slice) {
   const auto& b = slice.grid;
   const auto text = [](const ScanFile& scan) {
     const auto& g = scan.grid;
-    return say(scan.format, " of ", g.size[0], " x ", g.size[1], " x ", g.size[2], " pixels of ",
-               8 * byte_size(scan.source.type), " bits, ", g.spacing.x, " x ", g.spacing.y, " mm");
+    return message(scan.format, " of ", g.size[0], " x ", g.size[1], " x ", g.size[2],
+                   " pixels of ", 8 * byte_size(scan.source.type), " bits, ", g.spacing.x, " x ",
+                   g.spacing.y, " mm");
   };
   const bool same_spacing = first.given_spacing || a.spacing == b.spacing;
   if (first.format == slice.format && a.size == b.size && same_spacing &&
@@ -93,10 +94,10 @@ void require_like(const ScanFile& first, const ScanFile& slice) {
 /// Indices of different tables of colours are no values of one scan.
 void require_same_palette(const ScanFile& first, const ScanFile& slice) {
   if (first.palette == slice.palette) return;
-  refuse(slice.file, say("expected the table of colours of the first slice, ",
-                         shown(first.file.filename().string()),
-                         ", found another one: values are "
-                         "its indices"));
+  refuse(slice.file, message("expected the table of colours of the first slice, ",
+                             shown(first.file.filename().string()),
+                             ", found another one: values are "
+                             "its indices"));
 }
 
 /// The headers of all files, checked, as one volume without samples.
@@ -105,7 +106,7 @@ ScanFile open_headers(const fs::path& directory, const std::vector<fs::path>& fi
   ScanFile first = open_picture(files[0], opening);
   first.given_spacing = opening.spacing;
   if (first.grid.size[2] != 1) {
-    refuse(files[0], say("expected one slice per file, found ", first.grid.size[2]));
+    refuse(files[0], message("expected one slice per file, found ", first.grid.size[2]));
   }
   for (std::size_t n = 1; n < files.size(); ++n) {
     const ScanFile slice = open_picture(files[n], opening);
@@ -119,7 +120,7 @@ ScanFile open_headers(const fs::path& directory, const std::vector<fs::path>& fi
     scan.grid.spacing = log->spacing;
     drop_spacing_warnings(scan.warnings);
     scan.warnings.push_back(
-        say("the spacing is that of SkyScan's log ", shown(log->file.filename().string())));
+        message("the spacing is that of SkyScan's log ", shown(log->file.filename().string())));
   }
   set_size(scan, {first.grid.size[0], first.grid.size[1], std::ssize(files)});
   warn_of_gaps(files, scan.warnings);

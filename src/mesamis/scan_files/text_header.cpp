@@ -24,14 +24,14 @@ std::vector<Number> parse_all(const std::filesystem::path& file, const std::stri
   for (const std::string& word : words_of(text)) {
     Number value{};
     if (!parse_number(std::string_view(word), value)) {
-      refuse(file,
-             say("expected numbers in the field ", in_quotes(field), ", found ", in_quotes(word)));
+      refuse(file, message("expected numbers in the field ", in_quotes(field), ", found ",
+                           in_quotes(word)));
     }
     numbers.push_back(value);
   }
   if (numbers.size() != expected) {
-    refuse(file, say("expected ", expected, " numbers in the field ", in_quotes(field), ", found ",
-                     numbers.size()));
+    refuse(file, message("expected ", expected, " numbers in the field ", in_quotes(field),
+                         ", found ", numbers.size()));
   }
   return numbers;
 }
@@ -53,7 +53,8 @@ bool HeaderLines::next(std::string& line) {
   while (in_.get(c)) {
     any = true;
     if (++position_ > kLongestHeader) {
-      refuse(file_, say("expected a header of at most ", kLongestHeader, " bytes, found no end"));
+      refuse(file_,
+             message("expected a header of at most ", kLongestHeader, " bytes, found no end"));
     }
     if (c == '\n') break;
     line += c;
@@ -67,8 +68,8 @@ std::filesystem::path data_path(const std::filesystem::path& header, const std::
   const std::filesystem::path path(name);
   const bool leaves = path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end();
   if (leaves && !allow_outside) {
-    refuse(header, say("expected a data file in the header's folder, found ", in_quotes(name),
-                       " (--allow-outside allows it)"));
+    refuse(header, message("expected a data file in the header's folder, found ", in_quotes(name),
+                           " (--allow-outside allows it)"));
   }
   return header.parent_path() / path;
 }
@@ -92,8 +93,8 @@ std::vector<std::string> numbered_names(const std::filesystem::path& file, std::
          last >= 0 && first <= kMostNumber && last <= kMostNumber &&
          std::abs(last - first) / std::abs(step) < kMost && (last >= first) == (step > 0);
   if (!good) {
-    refuse(file, say("expected a pattern of data files, such as slice%03d.raw 1 20 1, found ",
-                     in_quotes(text)));
+    refuse(file, message("expected a pattern of data files, such as slice%03d.raw 1 20 1, found ",
+                         in_quotes(text)));
   }
   std::vector<std::string> names;
   for (std::int64_t n = first; step > 0 ? n <= last : n >= last; n += step) {

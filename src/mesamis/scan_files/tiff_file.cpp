@@ -125,9 +125,9 @@ NumberType require_grey(const std::filesystem::path& file, const Page& page) {
                                            page.photometric == PHOTOMETRIC_PALETTE);
   const auto type = sample_type(page);
   if (!grey || !type) {
-    refuse(file, say("expected grey pages of 1, 2, 4, 8, 16, 32 or 64 bits, found ", page.channels,
-                     " channels of ", page.bits, " bits, sample format ", page.format,
-                     ", photometric ", page.photometric));
+    refuse(file, message("expected grey pages of 1, 2, 4, 8, 16, 32 or 64 bits, found ",
+                         page.channels, " channels of ", page.bits, " bits, sample format ",
+                         page.format, ", photometric ", page.photometric));
   }
   return *type;
 }
@@ -139,7 +139,7 @@ void for_each_slice(const std::filesystem::path& file, TIFF* tiff, Visit&& visit
   if (!is_thumbnail(tiff)) visit();
   while (!TIFFLastDirectory(tiff)) {
     const auto next = TIFFCurrentDirectory(tiff) + 1;
-    if (!TIFFReadDirectory(tiff)) refuse(file, say("page ", next, " is broken or cut off"));
+    if (!TIFFReadDirectory(tiff)) refuse(file, message("page ", next, " is broken or cut off"));
     if (!is_thumbnail(tiff)) visit();
   }
 }
@@ -166,16 +166,17 @@ void require_like(const std::filesystem::path& file, const Page& common, const P
   Page other = page;
   other.palette = common.palette;
   if (other == common) {
-    refuse(file, say("expected the table of colours of the first page, found another one on page ",
-                     number, ": values are its indices"));
+    refuse(file,
+           message("expected the table of colours of the first page, found another one on page ",
+                   number, ": values are its indices"));
   }
-  refuse(file, say("expected pages of one size and type (", common.width, " x ", common.height,
-                   ", ", common.bits, " bits), found page ", number, " of ", page.width, " x ",
-                   page.height, ", ", page.bits, " bits"));
+  refuse(file, message("expected pages of one size and type (", common.width, " x ", common.height,
+                       ", ", common.bits, " bits), found page ", number, " of ", page.width, " x ",
+                       page.height, ", ", page.bits, " bits"));
 }
 
 [[noreturn]] void refuse_page(const std::filesystem::path& file, tdir_t number) {
-  refuse(file, say("page ", number, " is broken or cut off"));
+  refuse(file, message("page ", number, " is broken or cut off"));
 }
 
 /// The bytes of a strip or a tile that are read: of a plain strip no more than its lines.
@@ -226,8 +227,8 @@ std::string description_of(TIFF* tiff) {
 double unit_in_mm(TIFF* tiff, const std::string& named, std::vector<std::string>& warnings) {
   if (const auto mm = mm_per_unit(named)) return *mm;
   if (!named.empty()) {
-    warnings.push_back(say("the unit ", in_quotes(named),
-                           " of the description is no length: that of the tag is taken"));
+    warnings.push_back(message("the unit ", in_quotes(named),
+                               " of the description is no length: that of the tag is taken"));
   }
   std::uint16_t unit = RESUNIT_INCH;
   TIFFGetFieldDefaulted(tiff, TIFFTAG_RESOLUTIONUNIT, &unit);
@@ -289,8 +290,8 @@ void refuse_metamorph(const std::filesystem::path& file, TIFF* tiff) {
   std::uint32_t count = 0;
   const void* values = nullptr;
   if (TIFFGetField(tiff, kTag, &count, &values) == 1 && count > 1) {
-    refuse(file, say("expected a page per slice, found a MetaMorph stack (STK) of ", count,
-                     " planes behind one page; save it as TIFF"));
+    refuse(file, message("expected a page per slice, found a MetaMorph stack (STK) of ", count,
+                         " planes behind one page; save it as TIFF"));
   }
 }
 
@@ -299,8 +300,8 @@ void check_compression(ScanFile& scan, TIFF* tiff, bool labels) {
   std::uint16_t compression = COMPRESSION_NONE;
   TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &compression);
   if (!TIFFIsCODECConfigured(compression)) {
-    refuse(scan.file, say("expected pages that libtiff decodes, found compression ", compression,
-                          "; save them uncompressed"));
+    refuse(scan.file, message("expected pages that libtiff decodes, found compression ",
+                              compression, "; save them uncompressed"));
   }
   if (compression != COMPRESSION_JPEG && compression != COMPRESSION_OJPEG) return;
   if (labels) refuse(scan.file, "expected labels, found pages coded as JPEG, which is lossy");
@@ -311,8 +312,8 @@ void warn_of_page_place(TIFF* tiff, std::vector<std::string>& warnings) {
   std::uint16_t orientation = ORIENTATION_TOPLEFT;
   TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &orientation);
   if (orientation != ORIENTATION_TOPLEFT) {
-    warnings.push_back(say("the pages are meant to be shown turned or mirrored (Orientation ",
-                           orientation, "): rows and columns are kept as stored"));
+    warnings.push_back(message("the pages are meant to be shown turned or mirrored (Orientation ",
+                               orientation, "): rows and columns are kept as stored"));
   }
 }
 
@@ -326,7 +327,8 @@ std::array<std::size_t, 2> tile_size(const std::filesystem::path& file, TIFF* ti
   const bool whole_bytes = std::uint64_t{width} * page.bits % 8 == 0;
   if (wanted == 0 || !whole_bytes || wanted > allocation_bound(file) ||
       static_cast<double>(TIFFTileSize64(tiff)) != wanted) {
-    refuse(file, say("expected tiles of a size the file can hold, found ", width, " x ", height));
+    refuse(file,
+           message("expected tiles of a size the file can hold, found ", width, " x ", height));
   }
   return {width, height};
 }
@@ -369,7 +371,7 @@ void read_strips(const PageRead& read, std::vector<unsigned char>& out) {
   TIFF* tiff = read.tiff;
   const std::size_t line = page.bytes_of_line(page.width);
   if (static_cast<std::size_t>(TIFFScanlineSize64(tiff)) != line) {
-    refuse(file, say("page ", read.number, ": expected lines of ", line, " bytes"));
+    refuse(file, message("page ", read.number, ": expected lines of ", line, " bytes"));
   }
   for (std::uint32_t y = 0; y < page.height; ++y) {
     if (TIFFReadScanline(tiff, out.data() + y * line, y, 0) < 0) refuse_page(file, read.number);
@@ -394,7 +396,7 @@ void take_planes_behind(TiffPages& in, TIFF* tiff, const std::vector<std::int64_
   const std::uint64_t directory = TIFFCurrentDirOffset(tiff), begin = in.scan.source.offset;
   const std::uint64_t end = directory > begin ? directory : size_of(file);
   if (begin > end || needed > end) {
-    refuse(file, say("expected ", needed, " bytes for ", last + 1, " images, found ", end));
+    refuse(file, message("expected ", needed, " bytes for ", last + 1, " images, found ", end));
   }
 }
 
@@ -408,8 +410,8 @@ void take_pages(TiffPages& in, const std::vector<std::int64_t>& planes, bool wit
                        : plane < std::ssize(in.places) ? in.places.begin() + plane
                                                        : in.places.end();
     if (plane < 0 || found == in.places.end()) {
-      refuse(in.scan.file, say("expected slice ", places.size(), " in this file, found none ",
-                               plane < 0 ? "(it lies in another one)" : "of its pages"));
+      refuse(in.scan.file, message("expected slice ", places.size(), " in this file, found none ",
+                                   plane < 0 ? "(it lies in another one)" : "of its pages"));
     }
     places.push_back(*found);
   }
@@ -473,7 +475,8 @@ TiffPages open_pages(const std::filesystem::path& file, TIFF* tiff, const Openin
   }
   const std::uint64_t needed = scan.grid.voxel_count() * byte_size(scan.source.type);
   if (static_cast<double>(needed) > allocation_bound(file)) {
-    refuse(file, say("expected ", needed, " bytes of samples, found a file of ", size_of(file)));
+    refuse(file,
+           message("expected ", needed, " bytes of samples, found a file of ", size_of(file)));
   }
   if (in.cut_off) refuse_page(file, *in.cut_off);
   return in;
@@ -514,7 +517,7 @@ void append_planes(const TiffPages& in, const SliceRange& slices, std::vector<Nu
     ByteSource source(in.scan.file, Packing::kPlain,
                       in.scan.source.offset + plane * in.plane_bytes());
     if (source.read(bytes.data(), bytes.size()) < bytes.size()) {
-      refuse(in.scan.file, say("image ", plane, " is cut off"));
+      refuse(in.scan.file, message("image ", plane, " is cut off"));
     }
     append_page(in, bytes, out, budget);
   }

@@ -44,8 +44,8 @@ void require_planes(const Pages& pages, const TiffLayout& layout, const char* so
     return;
   }
   refuse(pages.file,
-         say(source, ": expected as many planes as the file has pages, ", pages.found, ", found ",
-             slices, " slices, ", volumes, " volumes, ", channels, " channels"));
+         message(source, ": expected as many planes as the file has pages, ", pages.found,
+                 ", found ", slices, " slices, ", volumes, " volumes, ", channels, " channels"));
 }
 
 void number_planes(TiffLayout& layout, const Steps& steps) {
@@ -64,7 +64,7 @@ void take_times_as_slices(TiffLayout& layout) {
   auto& [volumes, channels] = layout.axes;
   if (layout.slices != 1 || channels != 1 || volumes < 2) return;
   layout.warnings.push_back(
-      say("the file tells of ", volumes, " times of one slice each: they are taken as slices"));
+      message("the file tells of ", volumes, " times of one slice each: they are taken as slices"));
   std::swap(layout.slices, volumes);
 }
 
@@ -115,8 +115,8 @@ void set_calibration(const ImageJ& text, TiffLayout& layout) {
     layout.slope = *slope;
     return;
   }
-  layout.warnings.push_back(say("the calibration of the values (cf=", shown(text.value("cf")),
-                                ") is no straight line: they are kept as stored"));
+  layout.warnings.push_back(message("the calibration of the values (cf=", shown(text.value("cf")),
+                                    ") is no straight line: they are kept as stored"));
 }
 
 /// Sets the numbers of the planes.
@@ -127,7 +127,7 @@ void set_planes(const Pages& pages, const ImageJ& text, TiffLayout& layout) {
   const std::int64_t planes = behind_one ? images : pages.found;
   if (images > 1 && images != planes) {
     layout.warnings.push_back(
-        say("the description tells of ", images, " images, found ", planes, " pages"));
+        message("the description tells of ", images, " images, found ", planes, " pages"));
   }
   layout.axes = {text.count("frames"), text.count("channels")};
   layout.slices = text.count("slices");
@@ -137,8 +137,8 @@ void set_planes(const Pages& pages, const ImageJ& text, TiffLayout& layout) {
   }
   require_planes(pages, layout, "ImageJ's description");
   if (plane_count(layout) != planes) {
-    refuse(pages.file, say("ImageJ's description: expected slices, frames and channels for ",
-                           planes, " images, found ", plane_count(layout)));
+    refuse(pages.file, message("ImageJ's description: expected slices, frames and channels for ",
+                               planes, " images, found ", plane_count(layout)));
   }
   const std::int64_t channels = layout.axes.channels;
   number_planes(layout, {channels, channels * layout.slices, 1});
@@ -181,7 +181,7 @@ std::int64_t whole(const Pages& pages, const XmlElement& element, const char* ke
   std::int64_t number = otherwise;
   if (!text.empty() && !parse_number(std::string_view(text), number)) {
     refuse(pages.file,
-           say("OME-XML: expected a whole number as ", key, ", found ", in_quotes(text)));
+           message("OME-XML: expected a whole number as ", key, ", found ", in_quotes(text)));
   }
   return number;
 }
@@ -197,8 +197,8 @@ void set_physical_size(const XmlElement& pixels, TiffLayout& layout) {
     if (mm && size > 0) {
       layout.spacing[a] = size * *mm;
     } else {
-      layout.warnings.push_back(
-          say(key, " = ", in_quotes(text), " ", shown(named), " is no length: it does not count"));
+      layout.warnings.push_back(message(key, " = ", in_quotes(text), " ", shown(named),
+                                        " is no length: it does not count"));
     }
   }
 }
@@ -211,7 +211,7 @@ Steps steps_of(const Pages& pages, const TiffLayout& layout, const std::string& 
   std::sort(letters.begin(), letters.end());
   if (letters != "CTZ") {
     refuse(pages.file,
-           say("OME-XML: expected a DimensionOrder such as XYZCT, found ", in_quotes(order)));
+           message("OME-XML: expected a DimensionOrder such as XYZCT, found ", in_quotes(order)));
   }
   for (const char axis : order.substr(2)) {
     (axis == 'Z' ? steps.slice : axis == 'T' ? steps.volume : steps.channel) = step;
@@ -266,7 +266,8 @@ class PlaneMap {
   std::int64_t index(const XmlElement& data, const char* key, std::int64_t count) const {
     const std::int64_t found = whole(pages_, data, key, 0);
     if (found >= 0 && found < count) return found;
-    refuse(pages_.file, say("OME-XML: expected ", key, " of 0 to ", count - 1, ", found ", found));
+    refuse(pages_.file,
+           message("OME-XML: expected ", key, " of 0 to ", count - 1, ", found ", found));
   }
 
   const Pages& pages_;
@@ -285,8 +286,8 @@ void map_planes(const Pages& pages, const XmlElement& pixels, const Steps& steps
   if (!map.any()) return;
   for (std::int64_t& plane : layout.planes) plane = map.page_of(plane);
   if (!map.elsewhere().empty()) {
-    layout.warnings.push_back(
-        say("some planes of the image lie in other files, such as ", in_quotes(map.elsewhere())));
+    layout.warnings.push_back(message("some planes of the image lie in other files, such as ",
+                                      in_quotes(map.elsewhere())));
   }
 }
 
@@ -302,7 +303,8 @@ TiffLayout read_ome(const Pages& pages, std::string_view text, MemoryBudget& bud
     return layout;
   }
   if (images.size() > 1) {
-    layout.warnings.push_back(say("the file holds ", images.size(), " images: the first is taken"));
+    layout.warnings.push_back(
+        message("the file holds ", images.size(), " images: the first is taken"));
   }
   const XmlElement& pixels = *found.front();
   layout.slices = whole(pages, pixels, "SizeZ", 1);
@@ -374,9 +376,9 @@ void take_distance(std::string_view text, TiffLayout& layout) {
   } else if (unit.empty()) {
     layout.between = std::abs(distance);
   } else {
-    layout.warnings.push_back(say("the unit ", in_quotes(unit),
-                                  " of the spacing is no length: it "
-                                  "does not count"));
+    layout.warnings.push_back(message("the unit ", in_quotes(unit),
+                                      " of the spacing is no length: it "
+                                      "does not count"));
   }
 }
 

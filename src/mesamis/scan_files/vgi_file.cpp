@@ -32,7 +32,7 @@ struct Vgi {
   std::string need(std::initializer_list<const char*> names) const {
     std::string value = get(names);
     if (value.empty())
-      refuse(file, say("expected the field ", in_quotes(*names.begin()), ", found none"));
+      refuse(file, message("expected the field ", in_quotes(*names.begin()), ", found none"));
     return value;
   }
 };
@@ -69,8 +69,8 @@ NumberType sample_type(const Vgi& vgi) {
   const auto type = types.find(bits);
   const bool known = name == "float" || is_signed || name == "unsigned integer";
   if (!known || type == types.end()) {
-    refuse(vgi.file, say("expected integers or floating point of 8 to 64 bits, found ",
-                         in_quotes(name), " of ", in_quotes(bits)));
+    refuse(vgi.file, message("expected integers or floating point of 8 to 64 bits, found ",
+                             in_quotes(name), " of ", in_quotes(bits)));
   }
   return type->second;
 }
@@ -79,7 +79,7 @@ void place(ScanFile& scan, const Vgi& vgi) {
   const std::string text = vgi.get({"geometry/resolution"}), unit = vgi.get({"geometry/unit"});
   const auto mm = mm_per_unit(unit);
   if (!unit.empty() && !mm) {
-    scan.warnings.push_back(say("the unit ", in_quotes(unit), " is no length: mm taken"));
+    scan.warnings.push_back(message("the unit ", in_quotes(unit), " is no length: mm taken"));
   }
   if (text.empty()) scan.warnings.emplace_back("the header gives no resolution: 1 mm taken");
   const Vec3 spacing = stated_or(
@@ -122,7 +122,7 @@ ScanFile open_vgi(const fs::path& file, const Opening& opening) {
   const auto skip = whole_numbers_of(
       header, "SkipHeader",
       vgi.get({"file1/skipheader"}).empty() ? "0" : vgi.get({"file1/skipheader"}), 1)[0];
-  if (skip < 0) refuse(header, say("expected a SkipHeader of 0 or more, found ", skip));
+  if (skip < 0) refuse(header, message("expected a SkipHeader of 0 or more, found ", skip));
   scan.source.offset = static_cast<std::uint64_t>(skip);
   scan.source.exact = true;
   return scan;

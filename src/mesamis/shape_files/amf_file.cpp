@@ -49,7 +49,7 @@ double unit_in_mm(const fs::path& file, const std::string& name) {
 const XmlElement& child_of(const fs::path& file, const XmlElement& parent, const char* name) {
   const XmlElement* child = parent.child(name);
   if (child == nullptr)
-    refuse(file, say("expected <", name, "> in <", parent.name, ">, found none"));
+    refuse(file, message("expected <", name, "> in <", parent.name, ">, found none"));
   return *child;
 }
 
@@ -57,7 +57,7 @@ double number_in(const fs::path& file, const XmlElement& parent, const char* nam
   const std::string_view text = trimmed(child_of(file, parent, name).text);
   double value = 0;
   if (!parse_number(text, value)) {
-    refuse(file, say("expected a number in <", name, ">, found ", in_quotes(text)));
+    refuse(file, message("expected a number in <", name, ">, found ", in_quotes(text)));
   }
   return value;
 }

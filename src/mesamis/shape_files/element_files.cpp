@@ -41,7 +41,8 @@ class Checks {
  private:
   void require_size(std::size_t size, const char* what) const {
     if (size == e_.cells.size()) return;
-    refuse(path_, say("expected ", what, " for each of ", e_.cells.size(), " cells, found ", size));
+    refuse(path_,
+           message("expected ", what, " for each of ", e_.cells.size(), " cells, found ", size));
   }
 
   void require_groups(const std::vector<Index>& of_cell, std::size_t count,
@@ -49,7 +50,7 @@ class Checks {
     require_size(of_cell.size(), ("a " + what).c_str());
     for (const Index group : of_cell) {
       if (group >= 0 && group < static_cast<std::int64_t>(count)) continue;
-      refuse(path_, say("a cell names ", what, " ", group, ", there are ", count));
+      refuse(path_, message("a cell names ", what, " ", group, ", there are ", count));
     }
   }
 
@@ -70,25 +71,26 @@ class Checks {
                       m.poisson < 0.5 && m.density >= 0 && std::isfinite(m.density);
     if (fits) return;
     refuse(path_,
-           say("material ", in_quotes(m.name), ": expected a modulus above 0 MPa, a Poisson ",
-               "ratio above -1 and below 0.5 and a density of at least 0 g/cm^3, found ", m.modulus,
-               ", ", m.poisson, ", ", m.density));
+           message("material ", in_quotes(m.name), ": expected a modulus above 0 MPa, a Poisson ",
+                   "ratio above -1 and below 0.5 and a density of at least 0 g/cm^3, found ",
+                   m.modulus, ", ", m.poisson, ", ", m.density));
   }
 
   void require_set(const FiniteElements::FaceSet& set) const {
     require_points(set.nodes, "set " + in_quotes(set.name));
     for (const auto& [cell, vertex] : set.faces) {
       if (cell >= 0 && cell < std::ssize(e_.cells) && vertex >= 0 && vertex < 4) continue;
-      refuse(path_, say("set ", in_quotes(set.name), " names face ", vertex, " of cell ", cell,
-                        ", there are 4 faces (from 0) and ", e_.cells.size(), " cells"));
+      refuse(path_, message("set ", in_quotes(set.name), " names face ", vertex, " of cell ", cell,
+                            ", there are 4 faces (from 0) and ", e_.cells.size(), " cells"));
     }
   }
 
   void require_name(const std::string& name, std::set<std::string>& seen) const {
     if (!is_solver_name(name)) {
-      refuse(path_, say("expected a name of letters, digits and underscores that begins with a ",
-                        "letter and has at most ", kLongestSolverName, " characters, found ",
-                        in_quotes(name)));
+      refuse(path_,
+             message("expected a name of letters, digits and underscores that begins with a ",
+                     "letter and has at most ", kLongestSolverName, " characters, found ",
+                     in_quotes(name)));
     }
     if (!seen.insert(lower(name)).second) {
       refuse(path_,

@@ -109,8 +109,8 @@ std::string encapsulated(const Model& model, const TriMesh& surface,
   constexpr std::size_t kMost = 0xfffffffe;
   const std::string document = model.bytes(surface, options);
   if (document.size() > kMost) {
-    throw InputError(say("surface: expected at most ", kMost, " bytes in a DICOM file, found ",
-                         document.size()));
+    throw InputError(message("surface: expected at most ", kMost, " bytes in a DICOM file, found ",
+                             document.size()));
   }
   const std::string owner = options.subject.study_uid + " " + options.subject.patient_id;
   const std::array<std::string, 2> sop{model.sop_class,

@@ -52,8 +52,8 @@ inline void require_gmsh_scalars(const std::filesystem::path& path,
                                  std::span<const MeshArray> arrays, std::size_t count) {
   for (const MeshArray& array : arrays) {
     if (array.components == 1 && array.values.size() == count) continue;
-    refuse(path, say("array '", array.name, "': expected ", count, " scalars, found ",
-                     array.values.size(), " values, ", array.components, " components"));
+    refuse(path, message("array '", array.name, "': expected ", count, " scalars, found ",
+                         array.values.size(), " values, ", array.components, " components"));
   }
 }
 

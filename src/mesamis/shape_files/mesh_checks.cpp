@@ -8,12 +8,12 @@ namespace mesamis::detail {
 void require_sets(const std::filesystem::path& path, const TetMesh& mesh, const CellSets& sets) {
   if (mesh.cells.empty()) refuse(path, "a mesh without cells cannot be written");
   if (sets.of_cell.size() != mesh.cells.size()) {
-    refuse(path, say("expected a set for each of ", mesh.cells.size(), " cells, found ",
-                     sets.of_cell.size()));
+    refuse(path, message("expected a set for each of ", mesh.cells.size(), " cells, found ",
+                         sets.of_cell.size()));
   }
   for (const Index set : sets.of_cell) {
     if (set < 0 || set >= std::ssize(sets.sets)) {
-      refuse(path, say("a cell names set ", set, ", there are ", sets.sets.size()));
+      refuse(path, message("a cell names set ", set, ", there are ", sets.sets.size()));
     }
   }
   for (const Cell& cell : mesh.cells) {

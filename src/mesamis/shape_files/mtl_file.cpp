@@ -17,7 +17,7 @@ std::optional<Colour> colour_in(const fs::path& file, std::string_view line, std
     if (word == "spectral" || word == "xyz") return std::nullopt;
     double share = 0;
     if (!parse_number(word, share)) {
-      refuse(file, say("line ", number, ": expected three numbers after Kd"));
+      refuse(file, message("line ", number, ": expected three numbers after Kd"));
     }
     channel = channel_of(share);
   }

@@ -75,7 +75,7 @@ class ObjParser {
   }
 
   [[noreturn]] void refuse_line(const std::string& what) const {
-    refuse(file_, say("line ", line_number_, ": ", what));
+    refuse(file_, message("line ", line_number_, ": ", what));
   }
 
   void add_point(std::string_view line) {
@@ -100,7 +100,7 @@ class ObjParser {
       append_within(budget_, result_.object_of, Index{0}, "triangles");
       fan[1] = fan[2];
     }
-    if (corners < 3) refuse_line(say("expected a face of at least 3 points, found ", corners));
+    if (corners < 3) refuse_line(message("expected a face of at least 3 points, found ", corners));
     const Index object = current_object();
     std::fill(result_.object_of.end() - static_cast<std::ptrdiff_t>(corners - 2),
               result_.object_of.end(), object);

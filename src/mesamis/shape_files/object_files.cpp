@@ -51,9 +51,9 @@ void require_labels(Objects objects) {
   std::set<Index> labels;
   for (const NamedSurface& object : objects) {
     if (object.label < 0)
-      throw InputError(say("objects: the label ", object.label, " is negative"));
+      throw InputError(message("objects: the label ", object.label, " is negative"));
     if (!labels.insert(object.label).second) {
-      throw InputError(say("objects: two have the label ", object.label));
+      throw InputError(message("objects: two have the label ", object.label));
     }
   }
 }
@@ -72,7 +72,7 @@ void require_writable(const fs::path& path, Objects objects) {
     triangles += object.surface.triangles.size();
   }
   if (points > kMost || triangles > kMost / 3) {
-    refuse(path, say(points, " points and ", triangles, " triangles exceed 32-bit indices"));
+    refuse(path, message(points, " points and ", triangles, " triangles exceed 32-bit indices"));
   }
 }
 

@@ -126,7 +126,7 @@ class Values {
   std::size_t next_count(NumberType type) {
     const double count = next(type);
     if (!(count >= 0 && count <= static_cast<double>(bytes_.size()))) {
-      refuse(file_, say("a list of ", count, " entries does not fit into the file"));
+      refuse(file_, message("a list of ", count, " entries does not fit into the file"));
     }
     return static_cast<std::size_t>(count);
   }
@@ -226,11 +226,11 @@ bool has_coordinates(const Element& element) {
 std::string ply_bytes(const TriMesh& surface, const SurfaceWriteOptions& options) {
   std::string out = "ply\nformat binary_little_endian 1.0\ncomment " + frame_note(options.frame);
   if (!options.name.empty()) out += "\ncomment " + options.name;
-  out += say("\nelement vertex ", surface.points.size(), "\nproperty double x",
-             "\nproperty double y", "\nproperty double z");
+  out += message("\nelement vertex ", surface.points.size(), "\nproperty double x",
+                 "\nproperty double y", "\nproperty double z");
   for (const PointArray& array : options.point_arrays) out += "\nproperty double " + array.name;
-  out += say("\nelement face ", surface.triangles.size(),
-             "\nproperty list uchar int vertex_indices\nend_header\n");
+  out += message("\nelement face ", surface.triangles.size(),
+                 "\nproperty list uchar int vertex_indices\nend_header\n");
   const std::size_t bytes_per_point = 8 * (3 + options.point_arrays.size());
   out.reserve(out.size() + bytes_per_point * surface.points.size() + 13 * surface.triangles.size());
   for (std::size_t n = 0; n < surface.points.size(); ++n) {

@@ -40,8 +40,8 @@ class PolygonSink {
     for (std::size_t i = 0; i + 1 < offsets.size(); ++i) {
       const double begin = offsets[i], end = offsets[i + 1];
       if (!(begin >= 0 && begin <= end && end <= static_cast<double>(list.size()))) {
-        refuse(file_, say("expected the corners of polygon ", i, " within a list of ", list.size(),
-                          ", found ", begin, " to ", end));
+        refuse(file_, message("expected the corners of polygon ", i, " within a list of ",
+                              list.size(), ", found ", begin, " to ", end));
       }
       const auto from = static_cast<std::size_t>(begin), to = static_cast<std::size_t>(end);
       add(list.subspan(from, to - from), strips);
@@ -53,7 +53,7 @@ class PolygonSink {
     const double place = base_ + number;
     if (!(number >= 0 && place <= std::numeric_limits<Index>::max() &&
           number == std::floor(number))) {
-      refuse(file_, say("expected the number of a point in a polygon, found ", number));
+      refuse(file_, message("expected the number of a point in a polygon, found ", number));
     }
     return static_cast<Index>(place);
   }

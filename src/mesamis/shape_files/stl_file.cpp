@@ -36,7 +36,7 @@ Corner normal_of(const std::array<Corner, 3>& t) {
 TriMesh weld(const fs::path& file, const std::vector<Corner>& corners, MemoryBudget& budget) {
   const ScopedClaim claim(budget, corners.size(), 2 * sizeof(Index), "corners");
   if (corners.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
-    refuse(file, say(corners.size() / 3, " triangles exceed 32-bit indices"));
+    refuse(file, message(corners.size() / 3, " triangles exceed 32-bit indices"));
   }
   std::vector<Index> order(corners.size());
   std::iota(order.begin(), order.end(), 0);
@@ -68,7 +68,7 @@ void require_finite(const fs::path& file, const std::vector<Corner>& corners) {
   for (std::size_t c = 0; c < corners.size(); ++c) {
     for (const float x : corners[c]) {
       if (!std::isfinite(x))
-        refuse(file, say("triangle ", c / 3, " has a corner that is not finite"));
+        refuse(file, message("triangle ", c / 3, " has a corner that is not finite"));
     }
   }
 }
@@ -78,7 +78,7 @@ std::vector<Corner> binary_corners(const fs::path& file, std::string_view bytes,
   const std::uint64_t count = load<std::uint32_t>(bytes.data() + kHeader);
   const std::uint64_t room = (bytes.size() - kBegin) / kRecord;
   if (count > room) {
-    refuse(file, say("the header promises ", count, " triangles, the file ends after ", room));
+    refuse(file, message("the header promises ", count, " triangles, the file ends after ", room));
   }
   std::vector<Corner> corners;
   reserve_within(budget, corners, 3 * count, "corners");
@@ -101,13 +101,13 @@ std::vector<Corner> text_corners(const fs::path& file, std::string_view bytes,
     const std::string keyword = lower(take_word(line));
     if (!keyword.empty()) ended = keyword == "endsolid";
     if (keyword == "endloop" && corners.size() % 3 != 0) {
-      refuse(file, say("line ", number, ": expected three corners in each loop"));
+      refuse(file, message("line ", number, ": expected three corners in each loop"));
     }
     if (keyword != "vertex") continue;
     double x = 0, y = 0, z = 0;
     if (!parse_number(take_word(line), x) || !parse_number(take_word(line), y) ||
         !parse_number(take_word(line), z)) {
-      refuse(file, say("line ", number, ": expected three numbers after vertex"));
+      refuse(file, message("line ", number, ": expected three numbers after vertex"));
     }
     append_within(budget, corners, corner(x, y, z), "corners");
   }

@@ -129,11 +129,11 @@ std::string joined(const std::vector<std::string>& words) {
 void require_values(const fs::path& path, const char* what, const std::vector<double>& values,
                     const TriMesh& surface) {
   if (values.size() != surface.points.size()) {
-    refuse(path, say("expected ", what, " per point (", surface.points.size(), "), found ",
-                     values.size()));
+    refuse(path, message("expected ", what, " per point (", surface.points.size(), "), found ",
+                         values.size()));
   }
   if (std::any_of(values.begin(), values.end(), [](double x) { return !std::isfinite(x); })) {
-    refuse(path, say(what, " is not finite"));
+    refuse(path, message(what, " is not finite"));
   }
 }
 

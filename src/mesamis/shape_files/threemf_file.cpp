@@ -89,7 +89,7 @@ class Package {
   /// The text of a part. @throws InputError  if there is none.
   std::string text_of(const std::string& part) {
     if (auto model = archive_.part(part)) return std::move(*model);
-    refuse(file_, say("expected the model ", in_quotes(part), " in the archive, found none"));
+    refuse(file_, message("expected the model ", in_quotes(part), " in the archive, found none"));
   }
 
   const fs::path& file() const { return file_; }
@@ -174,8 +174,8 @@ class ModelReader {
 
   [[noreturn]] void refuse_value(const XmlElement& element, const char* name,
                                  const char* expected) const {
-    refuse(file_, say("expected ", expected, " as ", name, " of <", shown(element.name),
-                      ">, found ", in_quotes(element.attribute(name))));
+    refuse(file_, message("expected ", expected, " as ", name, " of <", shown(element.name),
+                          ">, found ", in_quotes(element.attribute(name))));
   }
 
   double number(const XmlElement& element, const char* name) const {
@@ -255,7 +255,8 @@ class ModelReader {
     const auto points = std::ssize(object_.mesh.points);
     for (const Triangle& t : object_.mesh.triangles) {
       if (*std::max_element(t.begin(), t.end()) < points) continue;
-      refuse(file_, say("expected triangles of ", points, " points, found one of a missing point"));
+      refuse(file_,
+             message("expected triangles of ", points, " points, found one of a missing point"));
     }
     object_.points = object_.mesh.points.size();
     object_.triangles = object_.mesh.triangles.size();
@@ -275,7 +276,7 @@ class ModelReader {
     object_.depth = std::max(object_.depth, part.depth + 1);
     if (object_.depth > kDeepest) refuse(file_, "too many components within one another");
     if (object_.visits > kMostVisits) {
-      refuse(file_, say("too many components: expected at most ", kMostVisits, ", found more"));
+      refuse(file_, message("too many components: expected at most ", kMostVisits, ", found more"));
     }
   }
 
@@ -304,7 +305,7 @@ std::optional<std::size_t> Package::find(const std::string& part, const std::str
   const auto [model, is_new] = read_.emplace(part, std::nullopt);
   if (is_new) {
     if (read_.size() > kMostModels) {
-      refuse(file_, say("expected at most ", kMostModels, " models, found more"));
+      refuse(file_, message("expected at most ", kMostModels, " models, found more"));
     }
     budget_.claim(1, part.size() + 256, "models");
     const std::string text = text_of(part);
@@ -336,13 +337,14 @@ class Builder {
       all.triangles += part.triangles;
       all.name_bytes += part.name_bytes;
       if (all.visits > kMostVisits) {
-        refuse(file_, say("too many components: expected at most ", kMostVisits, ", found more"));
+        refuse(file_,
+               message("too many components: expected at most ", kMostVisits, ", found more"));
       }
     }
     if (all.points > most_items || all.triangles > most_items) {
       refuse(file_,
-             say("expected at most ", most_items, " points and triangles in all components, ",
-                 "found ", all.points, " and ", all.triangles));
+             message("expected at most ", most_items, " points and triangles in all components, ",
+                     "found ", all.points, " and ", all.triangles));
     }
     reserve_within(budget, result_.file.surface.points, all.points, "points");
     reserve_within(budget, result_.file.surface.triangles, all.triangles, "triangles");

@@ -154,7 +154,7 @@ class LegacyParser {
 
   std::vector<double> next_named_values(const char* name, std::size_t count) {
     const std::string found = lower(take_word(rest_));
-    if (found != name) refuse(file_, say("expected ", name, ", found ", in_quotes(found)));
+    if (found != name) refuse(file_, message("expected ", name, ", found ", in_quotes(found)));
     return next_values(count, next_type());
   }
 
@@ -169,7 +169,7 @@ class LegacyParser {
       const double count = list[at];
       const auto left = static_cast<double>(list.size() - at - 1);
       if (!(count >= 0 && count <= left)) {
-        refuse(file_, say("a polygon of ", count, " corners does not fit its list"));
+        refuse(file_, message("a polygon of ", count, " corners does not fit its list"));
       }
       sink_.add(list.subspan(at + 1, static_cast<std::size_t>(count)), strips);
       at += 1 + static_cast<std::size_t>(count);

@@ -120,8 +120,8 @@ std::size_t components_in(const fs::path& file, const XmlElement& data_array) {
   if (data_array.attribute("NumberOfComponents").empty()) return 1;
   const std::size_t count = count_in(file, data_array, "NumberOfComponents");
   if (count >= 1 && count <= std::size_t{kMostComponents}) return count;
-  refuse(file, say("expected 1 to ", kMostComponents, " components in the array ",
-                   in_quotes(data_array.attribute("Name")), ", found ", count));
+  refuse(file, message("expected 1 to ", kMostComponents, " components in the array ",
+                       in_quotes(data_array.attribute("Name")), ", found ", count));
 }
 
 VtkXml::VtkXml(fs::path file, std::string_view bytes, const std::string& type, MemoryBudget& budget)
@@ -151,8 +151,8 @@ const XmlElement& VtkXml::data_set() const { return *root_.child(type_); }
 std::vector<double> VtkXml::values(const XmlElement& data_array, std::size_t count) {
   auto require_count = [&](std::uint64_t found) {
     if (found == count) return;
-    refuse(file_, say("expected ", count, " values in the array ",
-                      in_quotes(data_array.attribute("Name")), ", found ", found));
+    refuse(file_, message("expected ", count, " values in the array ",
+                          in_quotes(data_array.attribute("Name")), ", found ", found));
   };
   if (data_array.attribute("format") == "ascii") {
     std::vector<double> numbers = numbers_in(file_, data_array.text, budget_);
@@ -182,7 +182,7 @@ std::string VtkXml::text_bytes(const XmlElement& array, std::uint64_t most_bytes
     const Layout layout = layout_of(stored);
     if (layout.plain_size <= most_bytes) return unpack(stored, layout);
     refuse(file_,
-           say("expected texts of at most ", most_bytes, " bytes, found ", layout.plain_size));
+           message("expected texts of at most ", most_bytes, " bytes, found ", layout.plain_size));
   }
   std::string bytes;
   std::vector<double> codes = numbers_in(file_, array.text, budget_);

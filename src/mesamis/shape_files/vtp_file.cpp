@@ -29,7 +29,7 @@ const XmlElement* named_child(const XmlElement* parent, std::string_view name) {
 std::size_t bounded_count(const fs::path& file, const XmlElement& piece, const std::string& what) {
   const std::size_t count = count_in(file, piece, "NumberOf" + what);
   if (count <= kMost) return count;
-  refuse(file, say("expected at most ", kMost, " ", lower(what), ", found ", count));
+  refuse(file, message("expected at most ", kMost, " ", lower(what), ", found ", count));
 }
 
 /// The texts and the numbers of the field data.
@@ -51,7 +51,8 @@ class Fields {
     const std::vector<std::string> found = xml_.texts(*texts);
     const std::vector<double> labels = xml_.values(*numbers, found.size());
     for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (!is_label(labels[i])) refuse(file_, say("expected labels of objects, found ", labels[i]));
+      if (!is_label(labels[i]))
+        refuse(file_, message("expected labels of objects, found ", labels[i]));
       names[static_cast<Index>(labels[i])] = found[i];
     }
     return names;
@@ -125,18 +126,19 @@ class VtpParser {
   const XmlElement& cell_array(const XmlElement& cells, const char* name) const {
     const XmlElement* array = named_child(&cells, name);
     if (array != nullptr) return *array;
-    refuse(file_, say("expected an array ", name, " in ", cells.name, ", found none"));
+    refuse(file_, message("expected an array ", name, " in ", cells.name, ", found none"));
   }
 
   void add_cells(const XmlElement& piece, const std::string& kind, PolygonSink& sink) {
     const std::size_t count = bounded_count(file_, piece, kind);
     if (count == 0) return;
     const XmlElement* cells = piece.child(kind);
-    if (cells == nullptr) refuse(file_, say("expected ", count, " cells, found no list of them"));
+    if (cells == nullptr)
+      refuse(file_, message("expected ", count, " cells, found no list of them"));
     const std::vector<double> ends = xml_.values(cell_array(*cells, "offsets"), count);
     const double corners = ends.back();
     if (!(corners >= 0 && corners <= kMost)) {
-      refuse(file_, say("expected at most ", kMost, " corners in ", kind, ", found ", corners));
+      refuse(file_, message("expected at most ", kMost, " corners in ", kind, ", found ", corners));
     }
     std::vector<double> connectivity =
         xml_.values(cell_array(*cells, "connectivity"), static_cast<std::size_t>(corners));
@@ -262,8 +264,9 @@ std::vector<double> parse_vtp_array(const fs::path& file, std::string_view bytes
     }
     return xml.values(array, count_in(file, piece, "NumberOfPoints"));
   }
-  refuse(file, say("has no array ", in_quotes(name), " of one component to colour by, there is ",
-                   known.empty() ? "none" : known));
+  refuse(file,
+         message("has no array ", in_quotes(name), " of one component to colour by, there is ",
+                 known.empty() ? "none" : known));
 }
 
 }  // namespace mesamis::detail

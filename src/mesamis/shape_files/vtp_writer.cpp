@@ -41,7 +41,7 @@ VtkArrayGroup no_cells(const char* element) {
 
 VtkArrayGroup triangle_cells(const std::vector<Triangle>& triangles) {
   if (triangles.size() > std::numeric_limits<std::int32_t>::max() / 3) {
-    throw InputError(say("mesh: ", triangles.size(), " cells are too many for a VTK file"));
+    throw InputError(message("mesh: ", triangles.size(), " cells are too many for a VTK file"));
   }
   auto corner = [&triangles](std::size_t i) { return triangles[i / 3][i % 3]; };
   auto end_of_triangle = [](std::size_t t) { return 3 * (t + 1); };

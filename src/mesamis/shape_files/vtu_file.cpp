@@ -61,7 +61,7 @@ class VtuParser {
   std::size_t index_count(const XmlElement& piece, const char* name) const {
     const std::size_t count = count_in(file_, piece, name);
     if (count > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
-      refuse(file_, say(name, " is ", count, ", more than 32-bit indices can name"));
+      refuse(file_, message(name, " is ", count, ", more than 32-bit indices can name"));
     }
     return count;
   }
@@ -77,7 +77,8 @@ class VtuParser {
         return xml_.values(array, count);
       }
     }
-    refuse(file_, say("expected an array of ", name == nullptr ? parent : name, ", found none"));
+    refuse(file_,
+           message("expected an array of ", name == nullptr ? parent : name, ", found none"));
   }
 
   void read_points(const XmlElement& piece) {
@@ -94,7 +95,7 @@ class VtuParser {
   }
 
   [[noreturn]] void refuse_cell(std::size_t cell, const std::string& what) const {
-    refuse(file_, say("cell ", cell, " ", what));
+    refuse(file_, message("cell ", cell, " ", what));
   }
 
   void read_cells(const XmlElement& piece) {
@@ -103,8 +104,8 @@ class VtuParser {
     std::vector<double> types = values_of(piece, "Cells", "types", count);
     for (std::size_t c = 0; c < count; ++c) {
       if (types[c] != kTetrahedronType) {
-        refuse_cell(c, say("is of VTK type ", types[c], ", expected tetrahedra (type ",
-                           kTetrahedronType, ")"));
+        refuse_cell(c, message("is of VTK type ", types[c], ", expected tetrahedra (type ",
+                               kTetrahedronType, ")"));
       }
     }
     free_within(budget_, types);
@@ -166,13 +167,14 @@ void turn(std::vector<Vec3>& points) {
 }
 
 void require_size(const MeshArray& array, std::size_t count, const char* kind) {
-  const std::string what = say("mesh: ", kind, " array '", array.name, "' has ");
+  const std::string what = message("mesh: ", kind, " array '", array.name, "' has ");
   if (array.components < 1 || array.components > kMostComponents) {
-    throw InputError(say(what, array.components, " components, expected 1 to ", kMostComponents));
+    throw InputError(
+        message(what, array.components, " components, expected 1 to ", kMostComponents));
   }
   if (array.values.size() != count * static_cast<std::size_t>(array.components)) {
-    throw InputError(
-        say(what, array.values.size(), " values, expected ", count, " times ", array.components));
+    throw InputError(message(what, array.values.size(), " values, expected ", count, " times ",
+                             array.components));
   }
 }
 
@@ -198,7 +200,7 @@ VtkArrayGroup group_of_points(std::span<const Vec3> points, Frame frame) {
 VtkArrayGroup group_of_cells(const VtuGrid& grid) {
   const std::size_t nodes = grid.mid_nodes.empty() ? 4 : 10, cells = grid.cells.size();
   if (cells > std::numeric_limits<std::int32_t>::max() / nodes) {
-    throw InputError(say("mesh: ", cells, " cells are too many for a VTK file"));
+    throw InputError(message("mesh: ", cells, " cells are too many for a VTK file"));
   }
   auto node = [&grid, nodes](std::size_t i) {
     const std::size_t cell = i / nodes, place = i % nodes;

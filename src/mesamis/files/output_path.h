@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <type_traits>
+#include <utility>
+
+namespace mesamis {
+
+class OutputSet;
+
+/// Where a writer puts its file, and the set of files that it appears with, see OutputSet::file().
+/// A path alone converts to one: the file then appears on its own.
+struct OutputPath : std::filesystem::path {
+  /// A file on its own. Converts whatever a path is made of.
+  template <class Path>
+  requires(std::is_constructible_v<std::filesystem::path, Path> &&
+           !std::is_base_of_v<OutputPath, std::remove_cvref_t<Path>>)
+  OutputPath(Path&& path)  // NOLINT(google-explicit-constructor)
+      : std::filesystem::path(std::forward<Path>(path)) {}
+  /// A file of a set.
+  /// @param with  lives until the file is written; nullptr: none.
+  OutputPath(std::filesystem::path path, OutputSet* with)
+      : std::filesystem::path(std::move(path)), set(with) {}
+
+  OutputSet* set = nullptr;
+};
+
+}  // namespace mesamis
