@@ -112,8 +112,7 @@ ordered_json chosen(const BaselineCommand& command) {
   return names;
 }
 
-void write_report(const BaselineCommand& command, const BaselineSurface& made,
-                  const OutputSet& set) {
+void write_report(const BaselineCommand& command, const BaselineSurface& made, OutputSet& set) {
   ordered_json report;
   report["program"] = program_json();
   report["input"] = {{"path", command.input.string()}};
@@ -130,7 +129,7 @@ void write_report(const BaselineCommand& command, const BaselineSurface& made,
   report["seconds_parts"] = {{"method", made.seconds}};
   report["files"] = files_json(set);
   add_costs(report);
-  write_json(command.report, report);
+  write_json(set.file(command.report), report);
 }
 
 std::string why_not_converged(const GeodesicReport& contour, const GeodesicOptions& options) {
@@ -156,7 +155,7 @@ int run_baseline(const BaselineCommand& command, const CommonOptions& common) {
   const BaselineSurface made = run_method(file.volume, command, common.quiet);
   warn_of_triangles(command.isosurface.triangles, made.surface.triangles.size());
   OutputSet set;
-  write_surface(command.output, made.surface);
+  write_surface(set.file(command.output), made.surface);
   if (!command.report.empty()) write_report(command, made, set);
   commit(set);
   std::cout << made.surface.triangles.size() << " triangles ";

@@ -48,7 +48,7 @@ Box box_of(const std::string& text) {
 }
 
 void write_report(const CompareCommand& command, const SurfacePair& pair,
-                  const std::vector<DirectedDistances>& directions, const OutputSet& set) {
+                  const std::vector<DirectedDistances>& directions, OutputSet& set) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   report["reference"] = command.reference.string();
@@ -63,11 +63,11 @@ void write_report(const CompareCommand& command, const SurfacePair& pair,
   report["paper"] = paper_distances_json(directions[1]);
   report["files"] = files_json(set);
   add_costs(report);
-  write_json(command.report, report);
+  write_json(set.file(command.report), report);
 }
 
 /// The surface where it was compared, in the frame it has there, with each vertex's distance.
-void write_colored(const fs::path& path, const SurfacePair& pair,
+void write_colored(const OutputPath& path, const SurfacePair& pair,
                    const std::vector<double>& distances) {
   SurfaceWriteOptions options{.frame = pair.frame()};
   options.point_arrays = {{"distance", distances}};
@@ -98,10 +98,10 @@ int run_compare(const CompareCommand& command, const ReadLimits& limits) {
       measure_distances("reference_to_surface", pair.reference, pair.surface, command.part)};
   OutputSet set;
   if (!command.histogram.empty()) {
-    write_file(command.histogram, to_csv(histogram_of(directions)));
+    write_file(set.file(command.histogram), to_csv(histogram_of(directions)));
   }
   if (!command.colored.empty()) {
-    write_colored(command.colored, pair,
+    write_colored(set.file(command.colored), pair,
                   command.part ? distances_to_surface(pair.surface.points, pair.reference)
                                : directions[0].from_vertices);
   }

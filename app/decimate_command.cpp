@@ -85,7 +85,7 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
   }
   const auto frame = file.frame ? std::optional(Frame::kLps) : std::nullopt;
   OutputSet set;
-  write_surface(command.output, result, {.frame = frame, .name = command.name});
+  write_surface(set.file(command.output), result, {.frame = frame, .name = command.name});
   const SurfaceCheck check = check_surface(result);
   if (!command.report.empty()) {
     nlohmann::ordered_json report;
@@ -96,7 +96,7 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
     report["surface"]["self_intersections"] = find_self_intersections(result).size();
     report["files"] = files_json(set);
     add_costs(report);
-    write_json(command.report, report);
+    write_json(set.file(command.report), report);
   }
   commit(set);
   std::cout << result.triangles.size() << " of " << surface.triangles.size()

@@ -24,12 +24,12 @@ struct ManualOptions {
   std::string date;         ///< of the pages
 };
 
-void write_pages(const CLI::App& program, const ManualOptions& options) {
+void write_pages(const CLI::App& program, const ManualOptions& options, OutputSet& outputs) {
   if (!fs::is_directory(options.man)) {
     throw InputError(options.man.string() + ": expected a folder that exists, found none");
   }
   for (const ManPage& page : man_pages(program, options.date)) {
-    write_file(options.man / page.name, page.text);
+    write_file(outputs.file(options.man / page.name), page.text);
   }
 }
 
@@ -39,9 +39,9 @@ int write_manual(const CLI::App& program, const ManualOptions& options) {
   }
   require_distinct_files({options.bash, options.zsh}, {});
   OutputSet outputs;
-  if (!options.man.empty()) write_pages(program, options);
-  if (!options.bash.empty()) write_file(options.bash, bash_completion(program));
-  if (!options.zsh.empty()) write_file(options.zsh, zsh_completion(program));
+  if (!options.man.empty()) write_pages(program, options, outputs);
+  if (!options.bash.empty()) write_file(outputs.file(options.bash), bash_completion(program));
+  if (!options.zsh.empty()) write_file(outputs.file(options.zsh), zsh_completion(program));
   commit(outputs);
   return kExitDone;
 }

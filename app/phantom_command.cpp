@@ -100,14 +100,14 @@ int status_of(const PhantomTruth& truth) {
 }
 
 void write_report(const PhantomCommand& command, const Phantom& phantom, const PhantomTruth& truth,
-                  const OutputSet& set) {
+                  OutputSet& set) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   report["settings"] = phantom_settings(command, phantom);
   if (!command.truth.empty()) report["truth"] = truth_json(truth, phantom);
   report["files"] = files_json(set);
   add_costs(report);
-  write_json(command.report, report);
+  write_json(set.file(command.report), report);
 }
 
 int run_phantom(const PhantomCommand& command) {
@@ -116,14 +116,14 @@ int run_phantom(const PhantomCommand& command) {
   OutputSet set;
   const PhantomSlices sharp(phantom, command.samples);
   const DegradedSlices scan(sharp, command.degrade);
-  write_nrrd(command.output, scan,
+  write_nrrd(set.file(command.output), scan,
              {.type = command.type == "short" ? SampleType::kShort : SampleType::kFloat,
               .gzip = command.gzip,
               .slab = scan.slab()});
   PhantomTruth truth;
   if (!command.truth.empty()) {
     truth = make_truth(phantom);
-    write_surface(command.truth, truth.surface, {.name = phantom.name});
+    write_surface(set.file(command.truth), truth.surface, {.name = phantom.name});
   }
   if (!command.report.empty()) write_report(command, phantom, truth, set);
   commit(set);

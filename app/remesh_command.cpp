@@ -64,7 +64,7 @@ AdaptedMesh build(const Background& background, const RemeshCommand& command, bo
 }
 
 void write_report(const RemeshCommand& command, const Background& background,
-                  const AdaptedMesh& adapted, const OutputSet& set) {
+                  const AdaptedMesh& adapted, OutputSet& set) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   report["input"] = {{"mesh", command.mesh.string()},
@@ -79,7 +79,7 @@ void write_report(const RemeshCommand& command, const Background& background,
   report["converged"] = adapted.report.converged;
   report["files"] = files_json(set);
   add_costs(report);
-  write_json(command.report, report);
+  write_json(set.file(command.report), report);
 }
 
 int run_remesh(const RemeshCommand& command, const CommonOptions& common) {
@@ -89,7 +89,7 @@ int run_remesh(const RemeshCommand& command, const CommonOptions& common) {
   const Background background = read_background(command, common.limits);
   const AdaptedMesh adapted = build(background, command, common.quiet);
   OutputSet set;
-  write_medit_mesh(command.output, adapted.mesh);
+  write_medit_mesh(set.file(command.output), adapted.mesh);
   if (!command.report.empty()) write_report(command, background, adapted, set);
   commit(set);
   std::cout << adapted.mesh.cells.size() << " tetrahedra, " << adapted.mesh.points.size()

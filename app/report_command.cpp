@@ -206,7 +206,7 @@ int run_report(const ReportCommand& command) {
   page.grey = grey;
   page.names = command.page.names;
   OutputSet set;
-  write_page(command.page, page);
+  write_page(command.page, page, set);
   commit(set);
   return kExitDone;
 }

@@ -174,12 +174,13 @@ int run_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Setti
   const VolumeFile& head = source->head();
   for (const std::string& warning : head.warnings) log_warning(warning);
   ProgressDisplay display(common.quiet || common.is_helper());
-  SlabRunOptions options = slab_options(run, slabs);
-  options.progress = display.callback();
-  const SlabRequest request{*source, settings, std::move(options), meshes_of(run, true),
-                            run.scan.frame};
   std::optional<OutputSet> set;
   if (team.rank() == 0) set.emplace();
+  SlabRequest request{*source, settings, slab_options(run, slabs), {}, run.scan.frame};
+  request.slabs.progress = display.callback();
+  for (const fs::path& path : meshes_of(run, true)) {
+    request.piece_meshes.emplace_back(path, set ? &*set : nullptr);
+  }
   fs::path folder;  // of a copy of the scan
   if (!run.out.meshes.empty()) folder = fs::absolute(run.out.meshes.front()).parent_path();
   const auto found = segment_in_slabs(request, folder, team);

@@ -189,8 +189,8 @@ int run_for_slicer(const SlicerArguments& arguments, const CommonOptions& common
   if (!arguments.results.empty()) {
     require_writable(arguments.results);
     options.report_reader_file = arguments.results;
-    options.out.facts.written = [&](const Json& report) {
-      write_file(arguments.results, result_lines(results_of(report)));
+    options.out.facts.written = [&](const Json& report, OutputSet& set) {
+      write_file(set.file(arguments.results), result_lines(results_of(report)));
     };
   }
   const int status = run_segment(std::move(options), common);

@@ -21,8 +21,8 @@ TEST(OutputSet, FilesAppearTogether) {
   const TempFolder folder;
   write_bytes(folder / "b", "old");
   OutputSet set;
-  write_file(folder / "a", "new a");
-  write_file(folder / "b", "new b");
+  write_file(set.file(folder / "a"), "new a");
+  write_file(set.file(folder / "b"), "new b");
   EXPECT_FALSE(fs::exists(folder / "a"));
   EXPECT_EQ(read_bytes(folder / "b"), "old");
   set.commit();
@@ -35,21 +35,21 @@ TEST(OutputSet, NoneAppearsWithoutCommit) {
   const TempFolder folder;
   write_bytes(folder / "a", "old");
   {
-    const OutputSet set;
-    write_file(folder / "a", "new");
-    write_file(folder / "b", "new");
+    OutputSet set;
+    write_file(set.file(folder / "a"), "new");
+    write_file(set.file(folder / "b"), "new");
+    write_file(folder / "c", "alone");
+    EXPECT_TRUE(fs::exists(folder / "c")) << "is no file of the set";
   }
   EXPECT_EQ(read_bytes(folder / "a"), "old");
-  EXPECT_EQ(folder.file_count(), 1);
-  write_file(folder / "c", "alone");  // the set is over
-  EXPECT_TRUE(fs::exists(folder / "c"));
+  EXPECT_EQ(folder.file_count(), 2);
 }
 
 TEST(OutputSet, TellsItsMembersWhileTheyWait) {
   const TempFolder folder;
   OutputSet set;
-  write_file(folder / "a", "1");
-  write_file(folder / "b", "22");
+  write_file(set.file(folder / "a"), "1");
+  write_file(set.file(folder / "b"), "22");
   const auto members = set.members();
   ASSERT_EQ(members.size(), 2u);
   EXPECT_EQ(members[0].target, folder / "a");
@@ -62,13 +62,13 @@ TEST(OutputSet, ASetInASetHandsItsFilesOn) {
   const TempFolder folder;
   OutputSet outer;
   {
-    OutputSet inner;
-    write_file(folder / "a", "1");
+    OutputSet inner(&outer);
+    write_file(inner.file(folder / "a"), "1");
     inner.commit();
   }
   {
-    const OutputSet given_up;
-    write_file(folder / "b", "2");
+    OutputSet given_up(&outer);
+    write_file(given_up.file(folder / "b"), "2");
   }
   EXPECT_FALSE(fs::exists(folder / "a"));
   outer.commit();
@@ -80,7 +80,7 @@ TEST(OutputSet, AllAreAsTheyWereIfOneCannotBeRenamed) {
   const TempFolder folder;
   write_bytes(folder / "a", "old");
   OutputSet set;
-  for (const char* name : {"a", "b", "c"}) write_file(folder / name, "new");
+  for (const char* name : {"a", "b", "c"}) write_file(set.file(folder / name), "new");
   fs::create_directory(folder / "c");
   EXPECT_REFUSED(set.commit(), HasSubstr("c: cannot be written"));
   EXPECT_EQ(read_bytes(folder / "a"), "old");
@@ -89,8 +89,8 @@ TEST(OutputSet, AllAreAsTheyWereIfOneCannotBeRenamed) {
 
 TEST(OutputSet, AnUnfinishedMemberIsRemovedBySignalHandlers) {
   const TempFolder folder;
-  const OutputSet set;
-  write_file(folder / "a", "whole, but not renamed");
+  OutputSet set;
+  write_file(set.file(folder / "a"), "whole, but not renamed");
   remove_unfinished_files();
   EXPECT_EQ(folder.file_count(), 0);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "mesamis/files/output_set.h"
 #include "page/sample_run.h"
 #include "support/temp_folder.h"
 
@@ -17,7 +18,9 @@ TEST(PageFiles, WritesNoFileThatWasNotNamed) {
   const TempFolder folder;
   const SampleRun run;
   const PageFiles files{folder / "a.html", folder / "pictures"};
-  write_page(files, run.page());
+  OutputSet set;
+  write_page(files, run.page(), set);
+  set.commit();
   const std::vector<fs::path> named = page_outputs(files);
   std::size_t found = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
@@ -31,7 +34,10 @@ TEST(PageFiles, WritesNoFileThatWasNotNamed) {
 TEST(PageFiles, AreWrittenWhereAskedFor) {
   const TempFolder folder;
   EXPECT_TRUE(page_outputs({}).empty());
-  write_page({folder / "a.html"}, SampleRun().page());
+  OutputSet set;
+  write_page({folder / "a.html"}, SampleRun().page(), set);
+  EXPECT_FALSE(fs::exists(folder / "a.html"));
+  set.commit();
   EXPECT_TRUE(fs::exists(folder / "a.html"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }

@@ -56,8 +56,7 @@ TEST(LabelSurfaceFiles, PathsNameEachObjectOrAll) {
 
 TEST(LabelSurfaceFiles, WritesAllInOneOrOneOfEach) {
   const TempFolder folder;
-  const std::vector<std::filesystem::path> paths{folder / "all.vtp", folder / "{label}.ply",
-                                                 folder / "x.stl"};
+  const std::vector<OutputPath> paths{folder / "all.vtp", folder / "{label}.ply", folder / "x.stl"};
   write_label_surfaces(paths, two_cubes(), {.error = true}, true);
   EXPECT_EQ(folder.file_count(), 5);
   const auto all = read_objects(folder / "all.vtp");

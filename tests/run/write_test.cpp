@@ -62,7 +62,7 @@ TEST(WriteOutcome, AReportMayBeCompletedAndSeen) {
   RunFiles out;
   out.facts.complete = [](nlohmann::ordered_json& report) { report["seconds"] = 7; };
   nlohmann::ordered_json seen;
-  out.facts.written = [&](const nlohmann::ordered_json& report) { seen = report; };
+  out.facts.written = [&](const nlohmann::ordered_json& report, OutputSet&) { seen = report; };
   out.facts.command = {"segment", "a"};
   out.facts.warnings = {"a warning of a label file"};
   write(ball_outcome().details(), out);

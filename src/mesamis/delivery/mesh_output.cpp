@@ -192,17 +192,17 @@ std::vector<std::vector<double>> values_of(const std::vector<MeshArray>& arrays,
   return values;
 }
 
-void write_medit(const fs::path& path, const MeshOutput& mesh, Frame frame) {
-  OutputSet both;
-  write_medit_mesh(path, mesh.grid.mesh, frame, set_numbers(mesh));
+void write_medit(const OutputPath& path, const MeshOutput& mesh, Frame frame) {
+  OutputSet both(path.set);
+  write_medit_mesh(both.file(path), mesh.grid.mesh, frame, set_numbers(mesh));
   fs::path fields = path;
-  write_medit_scalars(fields.replace_extension(".sol"),
+  write_medit_scalars(both.file(fields.replace_extension(".sol")),
                       values_of(mesh.grid.point_arrays, {"u", "v", "f", "u_native", "native"}),
                       values_of(mesh.grid.cell_arrays, {"u", "u_native", "native"}));
   both.commit();
 }
 
-void write_gmsh(const fs::path& path, const MeshOutput& mesh, Frame frame) {
+void write_gmsh(const OutputPath& path, const MeshOutput& mesh, Frame frame) {
   MeshWithArrays grid{mesh.grid.mesh, {}, {}};
   for (const auto* name : {"u", "u_native", "native"}) {
     grid.point_arrays.push_back(array_of(mesh.grid.point_arrays, name));
@@ -275,7 +275,7 @@ MeshWithArrays make_mesh_piece(const Result& piece, const VolumeView& volume) {
   return grid;
 }
 
-void write_mesh(const fs::path& path, const MeshOutput& mesh, Frame frame) {
+void write_mesh(const OutputPath& path, const MeshOutput& mesh, Frame frame) {
   const std::string extension = detail::lower(path.extension().string());
   if (extension == ".mesh") {
     write_medit(path, mesh, frame);
@@ -290,7 +290,7 @@ void write_mesh(const fs::path& path, const MeshOutput& mesh, Frame frame) {
 
 std::vector<std::string> written_mesh_formats() { return {".vtu", ".mesh", ".msh", ".inp"}; }
 
-void write_band_mesh(const fs::path& path, const Result& result, Frame frame) {
+void write_band_mesh(const OutputPath& path, const Result& result, Frame frame) {
   const RestrictedMesh band = restrict_mesh(
       result.mesh, band_cells(result.mesh, result.v, result.parameters.band_threshold));
   const std::vector<MeshArray> points{{"v", 1, values_at(band.nodes, result.v)}};

@@ -69,7 +69,7 @@ MeshWithArrays make_mesh_piece(const Result& piece, const VolumeView& volume);
 /// name that holds its fields.
 /// @param frame  of the points, vectors and tensors in the file.
 /// @throws InputError  as write_vtu(), write_medit_mesh(), write_gmsh() or write_abaqus().
-void write_mesh(const std::filesystem::path& path, const MeshOutput& mesh, Frame frame);
+void write_mesh(const OutputPath& path, const MeshOutput& mesh, Frame frame);
 
 /// The extensions of write_mesh(), with their dots. O(1) time and memory.
 std::vector<std::string> written_mesh_formats();
@@ -78,6 +78,6 @@ std::vector<std::string> written_mesh_formats();
 /// @param result  of mes_amis().
 /// @param frame   of the points in the file.
 /// @throws InputError  as write_vtu().
-void write_band_mesh(const std::filesystem::path& path, const Result& result, Frame frame);
+void write_band_mesh(const OutputPath& path, const Result& result, Frame frame);
 
 }  // namespace mesamis

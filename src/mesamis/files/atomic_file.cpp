@@ -11,22 +11,23 @@ namespace mesamis {
 
 namespace fs = std::filesystem;
 
-AtomicFile::AtomicFile(fs::path target)
-    : file_(std::make_unique<detail::PendingFile>(std::move(target))),
-      temporary_(file_->temporary()) {}
+AtomicFile::AtomicFile(const OutputPath& target)
+    : file_(std::make_unique<detail::PendingFile>(target)),
+      temporary_(file_->temporary()),
+      set_(target.set) {}
 
 AtomicFile::~AtomicFile() = default;
 
 void AtomicFile::commit() {
   file_->harden();
-  if (OutputSet* set = OutputSet::current()) return set->add(std::move(file_));
+  if (set_ != nullptr) return set_->add(std::move(file_));
   file_->replace();
   const fs::path folder = file_->folder();
   file_.reset();
   detail::flush_folder(folder);
 }
 
-void write_file(const fs::path& path, std::string_view bytes) {
+void write_file(const OutputPath& path, std::string_view bytes) {
   AtomicFile file(path);
   std::ofstream out(file.temporary_path(), std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

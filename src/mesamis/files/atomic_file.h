@@ -5,6 +5,8 @@
 #include <memory>
 #include <string_view>
 
+#include "mesamis/files/output_path.h"
+
 namespace mesamis {
 
 namespace detail {
@@ -25,7 +27,7 @@ class AtomicFile {
   ///                file lies in the same directory, under a name of its own.
   /// @throws InputError  if the directory does not exist or cannot be written to, if the name is
   ///                     too long, or if the target exists and is not a regular file.
-  explicit AtomicFile(std::filesystem::path target);
+  explicit AtomicFile(const OutputPath& target);
   /// Removes the temporary file, unless it was committed.
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -33,9 +35,9 @@ class AtomicFile {
 
   /// @return  the absolute path of the temporary file.
   const std::filesystem::path& temporary_path() const noexcept { return temporary_; }
-  /// Brings the temporary file to the disk and renames it to the target, replacing it; while an
-  /// OutputSet lives on this thread, the set renames it. Call it once, when the file is closed and
-  /// everything is known to be written.
+  /// Brings the temporary file to the disk and renames it to the target, replacing it; the set of a
+  /// target that has one does so later. Call it once, when the file is closed and everything is
+  /// known to be written.
   /// @throws InputError  if a byte does not reach the disk or the file cannot be renamed; the
   ///                     target is then as it was.
   void commit();
@@ -43,6 +45,7 @@ class AtomicFile {
  private:
   std::unique_ptr<detail::PendingFile> file_;  ///< none once it is committed
   std::filesystem::path temporary_;
+  OutputSet* set_;
 };
 
 /// Writes a whole file at once, through an AtomicFile.
@@ -50,7 +53,7 @@ class AtomicFile {
 /// @param path   as the target of an AtomicFile.
 /// @param bytes  the whole content.
 /// @throws InputError  if the file cannot be written; it is then as it was.
-void write_file(const std::filesystem::path& path, std::string_view bytes);
+void write_file(const OutputPath& path, std::string_view bytes);
 
 /// Removes the temporary files that are not renamed, of all AtomicFile objects of the process. A
 /// signal handler may call it: it allocates nothing, takes no lock and keeps errno. It reaches at

@@ -16,12 +16,12 @@ struct OutputPath : std::filesystem::path {
   template <class Path>
   requires(std::is_constructible_v<std::filesystem::path, Path> &&
            !std::is_base_of_v<OutputPath, std::remove_cvref_t<Path>>)
-  OutputPath(Path&& path)  // NOLINT(google-explicit-constructor)
-      : std::filesystem::path(std::forward<Path>(path)) {}
+      OutputPath(Path&& name)  // NOLINT(google-explicit-constructor)
+      : std::filesystem::path(std::forward<Path>(name)) {}
   /// A file of a set.
   /// @param with  lives until the file is written; nullptr: none.
-  OutputPath(std::filesystem::path path, OutputSet* with)
-      : std::filesystem::path(std::move(path)), set(with) {}
+  OutputPath(std::filesystem::path name, OutputSet* with)
+      : std::filesystem::path(std::move(name)), set(with) {}
 
   OutputSet* set = nullptr;
 };

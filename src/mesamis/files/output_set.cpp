@@ -14,8 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-thread_local OutputSet* innermost = nullptr;
-
 /// The one name of a file that is there or not.
 fs::path identity(const fs::path& path) {
   const fs::path place = detail::without_links(path);
@@ -36,11 +34,9 @@ bool is_same_file(const fs::path& output, const fs::path& input) {
 
 }  // namespace
 
-OutputSet::OutputSet() : outer_(innermost) { innermost = this; }
+OutputSet::OutputSet(OutputSet* outer) : outer_(outer) {}
 
-OutputSet::~OutputSet() { innermost = outer_; }
-
-OutputSet* OutputSet::current() noexcept { return innermost; }
+OutputSet::~OutputSet() = default;
 
 void OutputSet::add(std::unique_ptr<detail::PendingFile> file) {
   files_.push_back(std::move(file));

@@ -4,7 +4,10 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
+
+#include "mesamis/files/output_path.h"
 
 namespace mesamis {
 
@@ -14,11 +17,10 @@ class PendingFile;
 
 /// Files that appear together, when all of them are whole on the disk, or none of them.
 ///
-/// While one lives, AtomicFile::commit() on its thread, and with it every writer, hands the file to
-/// the set instead of renaming it. commit() renames them all, in the order in which they came; the
-/// destructor removes those that it has not renamed. A set in a set hands its files to the outer
-/// one. What is to be read again before the end, like the input of another program, is written
-/// before a set begins.
+/// A writer whose path is a file() of the set hands its file to the set instead of renaming it.
+/// commit() renames them all, in the order in which they came; the destructor removes those that it
+/// has not renamed. What is to be read again before the end, like the input of another program, is
+/// written without a set.
 class OutputSet {
  public:
   /// A file that is whole but not in its place yet.
@@ -27,12 +29,15 @@ class OutputSet {
   };
 
   /// Begins an empty set.
-  OutputSet();
-  /// Removes the files that are not renamed. On the thread of the constructor, sets within first.
+  /// @param outer  optional: commit() hands the files to this set, which lives longer.
+  explicit OutputSet(OutputSet* outer = nullptr);
+  /// Removes the files that are not renamed.
   ~OutputSet();
   OutputSet(const OutputSet&) = delete;
   OutputSet& operator=(const OutputSet&) = delete;
 
+  /// Where a writer puts a file of this set.
+  OutputPath file(std::filesystem::path path) { return {std::move(path), this}; }
   /// Tells which files wait in this set, in the order in which they came.
   std::vector<Member> members() const;
   /// Renames all files, and brings the names to the disk.
@@ -44,7 +49,6 @@ class OutputSet {
 
  private:
   friend class AtomicFile;
-  static OutputSet* current() noexcept;
   void add(std::unique_ptr<detail::PendingFile> file);
   void replace_all();
 

@@ -15,6 +15,7 @@ set(ROOM_HEADERS
   length_unit.h
   memory_budget.h
   number_type.h
+  output_path.h
   output_set.h
   owned_file.h
   read_record.h

@@ -24,7 +24,7 @@ inline void append_shortest(std::string& out, double value) {
 class TextWriter {
  public:
   /// @throws InputError  as AtomicFile.
-  explicit TextWriter(const std::filesystem::path& path)
+  explicit TextWriter(const OutputPath& path)
       : name_(path.string()), file_(path), out_(file_.temporary_path(), std::ios::binary) {}
 
   TextWriter& operator<<(std::string_view text) {

@@ -123,7 +123,7 @@ std::vector<Segment> read_label_table(const fs::path& path) {
   });
 }
 
-void write_label_table(const fs::path& path, std::span<const Segment> segments) {
+void write_label_table(const OutputPath& path, std::span<const Segment> segments) {
   std::set<Index> seen;
   for (const Segment& s : segments) {
     if (s.label < 1 || s.label > kMaxLabel || !seen.insert(s.label).second) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "mesamis/files/output_path.h"
 #include "mesamis/image/label_map.h"
 
 /// Tables of labels in files of their own; with_names() applies one to a label map.
@@ -32,6 +33,6 @@ std::vector<Segment> read_label_table(const std::filesystem::path& path);
 ///                     and if the file cannot be written.
 ///
 /// O(segments), up to a logarithm.
-void write_label_table(const std::filesystem::path& path, std::span<const Segment> segments);
+void write_label_table(const OutputPath& path, std::span<const Segment> segments);
 
 }  // namespace mesamis

@@ -67,7 +67,7 @@ std::string nifti_of(const fs::path& path, const LabelMap& map) {
          label_bytes(map, width);
 }
 
-void write(const fs::path& path, const LabelMap& map) {
+void write(const OutputPath& path, const LabelMap& map) {
   const std::string name = detail::lower(path.filename().string());
   if (name.ends_with(".nrrd")) {
     write_file(path, nrrd_of(path, map));
@@ -84,7 +84,7 @@ void write(const fs::path& path, const LabelMap& map) {
 
 }  // namespace
 
-void write_label_map(const fs::path& path, const LabelMap& map) {
+void write_label_map(const OutputPath& path, const LabelMap& map) {
   try {
     require_valid(map);
   } catch (const InputError& error) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "mesamis/files/output_path.h"
 #include "mesamis/image/label_map.h"
 
 namespace mesamis {
@@ -23,6 +24,6 @@ namespace mesamis {
 ///                     written.
 ///
 /// O(voxels * layers). Memory: the samples once, gzipped twice.
-void write_label_map(const std::filesystem::path& path, const LabelMap& map);
+void write_label_map(const OutputPath& path, const LabelMap& map);
 
 }  // namespace mesamis

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "mesamis/files/atomic_file.h"
+#include "mesamis/files/output_set.h"
 #include "mesamis/page/run_page.h"
 
 namespace mesamis {
@@ -23,12 +24,12 @@ std::vector<std::filesystem::path> page_outputs(const PageFiles& files) {
   return outputs;
 }
 
-void write_page(const PageFiles& files, const RunPage& page) {
-  if (!files.html.empty()) write_run_page(files.html, page);
+void write_page(const PageFiles& files, const RunPage& page, OutputSet& set) {
+  if (!files.html.empty()) write_run_page(set.file(files.html), page);
   if (files.pictures.empty()) return;
   std::filesystem::create_directory(files.pictures);
   for (const RunPicture& picture : run_pictures(page)) {
-    write_file(files.pictures / picture.name, picture.png);
+    write_file(set.file(files.pictures / picture.name), picture.png);
   }
 }
 

@@ -6,6 +6,7 @@
 
 namespace mesamis {
 
+class OutputSet;
 struct RunPage;
 
 /// Where a page and pictures go.
@@ -21,9 +22,9 @@ struct PageFiles {
 /// The files that write_page() may write. O(1) time and memory.
 std::vector<std::filesystem::path> page_outputs(const PageFiles& files);
 
-/// Writes the page and the pictures that are asked for.
+/// Writes the page and the pictures that are asked for into a set.
 /// @throws InputError  as run_page() and run_pictures(), or if a file cannot be written. Cost as
 ///                     there.
-void write_page(const PageFiles& files, const RunPage& page);
+void write_page(const PageFiles& files, const RunPage& page, OutputSet& set);
 
 }  // namespace mesamis

@@ -363,7 +363,7 @@ std::string run_page(const RunPage& page) {
   return text;
 }
 
-void write_run_page(const std::filesystem::path& file, const RunPage& page) {
+void write_run_page(const OutputPath& file, const RunPage& page) {
   write_file(file, run_page(page));
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "mesamis/files/output_path.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/tri_mesh.h"
@@ -60,7 +61,7 @@ std::string run_page(const RunPage& page);
 /// Writes run_page() to a file, which appears whole or not at all.
 /// @param file  its folder must exist.
 /// @throws InputError  as run_page(), or if the file cannot be written. Cost as there.
-void write_run_page(const std::filesystem::path& file, const RunPage& page);
+void write_run_page(const OutputPath& file, const RunPage& page);
 
 /// A picture of a run.
 struct RunPicture {

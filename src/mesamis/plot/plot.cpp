@@ -343,7 +343,7 @@ std::string plot_svg(std::span<const PlotSeries> series, const PlotOptions& opti
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + page.to_string();
 }
 
-void draw_plot(const std::filesystem::path& file, std::span<const PlotSeries> series,
+void draw_plot(const OutputPath& file, std::span<const PlotSeries> series,
                const PlotOptions& options) {
   write_file(file, plot_svg(series, options));
 }

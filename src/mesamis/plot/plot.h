@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "mesamis/files/output_path.h"
+
 /// Diagrams of numbers as SVG. Nothing but this library is needed to draw them, and any browser
 /// shows them.
 namespace mesamis {
@@ -54,7 +56,7 @@ std::string plot_svg(std::span<const PlotSeries> series, const PlotOptions& opti
 /// @throws InputError  as plot_svg() does, or if the file cannot be written.
 ///
 /// O(n) time and memory for n points.
-void draw_plot(const std::filesystem::path& file, std::span<const PlotSeries> series,
+void draw_plot(const OutputPath& file, std::span<const PlotSeries> series,
                const PlotOptions& options = {});
 
 }  // namespace mesamis

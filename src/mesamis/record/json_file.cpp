@@ -46,7 +46,7 @@ class Strictness {
 
 }  // namespace
 
-void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& value) {
+void write_json(const OutputPath& path, const nlohmann::ordered_json& value) {
   write_file(path,
              value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }

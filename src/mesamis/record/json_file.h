@@ -5,13 +5,14 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "mesamis/base/types.h"
+#include "mesamis/files/output_path.h"
 
 namespace mesamis {
 
 /// Writes an indented JSON file, which appears whole or not at all. Numbers that are not finite
 /// become null, text that is not UTF-8 is repaired.
 /// @throws InputError  if the file cannot be written.
-void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& value);
+void write_json(const OutputPath& path, const nlohmann::ordered_json& value);
 
 /// Reads a JSON file.
 /// @throws InputError  if the file cannot be read, is not JSON, nests more than 64 lists and

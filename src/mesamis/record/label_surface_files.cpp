@@ -77,11 +77,11 @@ std::vector<fs::path> label_paths(const fs::path& path, std::span<const NamedSur
   return paths;
 }
 
-void write_label_surfaces(std::span<const fs::path> paths, const LabelResult& result,
+void write_label_surfaces(std::span<const OutputPath> paths, const LabelResult& result,
                           const RunSurfaceOptions& options, bool several) {
   const std::vector<NamedSurface> objects = named_surfaces(result);
   std::vector<NamedSurface> rounded;  // for files of one object each in single precision
-  for (const fs::path& path : paths) {
+  for (const OutputPath& path : paths) {
     if (holds_all(path)) {
       write_objects(path, objects, write_options(options, options.name));
       continue;
@@ -95,7 +95,7 @@ void write_label_surfaces(std::span<const fs::path> paths, const LabelResult& re
       if (options.error && !expected.empty()) {
         as.point_arrays.push_back({"expected_error", expected});
       }
-      write_surface(files[n], (single ? rounded : objects)[n].surface, as);
+      write_surface({files[n], path.set}, (single ? rounded : objects)[n].surface, as);
     }
   }
 }

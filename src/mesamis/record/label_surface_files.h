@@ -43,7 +43,7 @@ std::vector<std::filesystem::path> label_paths(const std::filesystem::path& path
 /// @throws InputError  as write_objects(), write_surface() and rounded_together().
 ///
 /// O(points and triangles) for each path.
-void write_label_surfaces(std::span<const std::filesystem::path> paths, const LabelResult& result,
+void write_label_surfaces(std::span<const OutputPath> paths, const LabelResult& result,
                           const RunSurfaceOptions& options, bool several);
 
 }  // namespace mesamis

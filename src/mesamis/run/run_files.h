@@ -23,8 +23,8 @@ struct ReportFacts {
   std::string mask{};                   ///< the file of the mask; empty: none
   /// Adds entries at the end, before the report is written. May be empty.
   std::function<void(nlohmann::ordered_json& report)> complete{};
-  /// Sees the report; what it writes appears with the other files. May be empty.
-  std::function<void(const nlohmann::ordered_json& report)> written{};
+  /// Sees the report, and may write files of the set. May be empty.
+  std::function<void(const nlohmann::ordered_json& report, OutputSet& set)> written{};
 };
 
 /// The files of a run, and what is known of it beside its outcome.
@@ -40,7 +40,7 @@ struct RunFiles : Outputs {
 nlohmann::ordered_json report_json(const OutcomeDetails& outcome, const RunFiles& files);
 
 /// Writes the files of a run into a set that the caller commits.
-/// @param set  empty; that of the calling thread.
+/// @param set  empty.
 /// @throws InputError  as write().
 void write(const OutcomeDetails& outcome, const RunFiles& files, OutputSet& set);
 

@@ -23,10 +23,10 @@ class PieceWriter {
   /// Its cells have the mean of the voxels in them.
   void write(Index slab, const Result& piece, const VolumeView& scan) {
     const MeshWithArrays grid = make_mesh_piece(piece, scan);
-    for (const fs::path& path : request_.piece_meshes) {
+    for (const OutputPath& path : request_.piece_meshes) {
       const std::string name = path.stem().string() + "_" + std::to_string(slab) + ".vtu";
       pieces_[path].push_back(name);
-      write_vtu(fs::path(path).replace_filename(name), grid.mesh,
+      write_vtu({fs::path(path).replace_filename(name), path.set}, grid.mesh,
                 {grid.point_arrays, grid.cell_arrays, request_.frame});
     }
     for (const MeshArray& array : grid.point_arrays) keep(array, index_.point_arrays);
@@ -48,8 +48,8 @@ class PieceWriter {
   }
 
   const SlabRequest& request_;
-  std::map<fs::path, std::vector<std::string>> pieces_;  // names, by index
-  MeshWithArrays index_;                                 // names and components of the arrays
+  std::map<OutputPath, std::vector<std::string>> pieces_;  // names, by index
+  MeshWithArrays index_;                                   // names and components of the arrays
 };
 
 OutcomeDetails outcome_of(const SlabRequest& request, SlabRunResult& work) {

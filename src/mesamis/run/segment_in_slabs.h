@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "mesamis/files/output_path.h"
 #include "mesamis/image/slice_source.h"
 #include "mesamis/run/outcome.h"
 #include "mesamis/slabs/map_scan.h"
@@ -20,7 +21,7 @@ struct SlabRequest {
   SlabRunOptions slabs{};  ///< `mesh`: whether the outcome has its mesh; take_piece is not used
   /// Meshes that are written slab by slab as they come: a .vtu for each slab, "NAME_3.vtu", beside
   /// the index NAME.pvtu.
-  std::vector<std::filesystem::path> piece_meshes{};
+  std::vector<OutputPath> piece_meshes{};
   Frame frame = Frame::kLps;  ///< of these
 };
 
@@ -32,7 +33,6 @@ struct SlabOutcome {
 };
 
 /// Does what segment() does for one object, without ever holding the scan: see run_in_slabs().
-/// Pieces of meshes go into the OutputSet of the calling thread, if there is one.
 /// @param scratch  folder for a copy of the scan, where a mesh needs the grey values below it.
 /// @return on rank 0; nothing elsewhere.
 /// @throws InputError, Cancelled  as run_in_slabs(), map_scan() and write_vtu(). Cost as

@@ -40,8 +40,9 @@ std::optional<MeshOutput> mesh_output(const OutcomeDetails& o, const MeshOptions
   return make_mesh_output(*mesh, o.image(), options, objects);
 }
 
-void write_surfaces(const OutcomeDetails& o, const RunFiles& w) {
-  const auto& files = w.surfaces;
+void write_surfaces(const OutcomeDetails& o, const RunFiles& w, OutputSet& set) {
+  std::vector<OutputPath> files;
+  for (const fs::path& path : w.surfaces) files.push_back(set.file(path));
   if (o.several) {
     const RunSurfaceOptions as{w.frame, w.name, w.error, false, w.subject};
     return write_label_surfaces(files, *o.several, as, o.wanted.size() > 1);
@@ -51,16 +52,16 @@ void write_surfaces(const OutcomeDetails& o, const RunFiles& w) {
       surface_options(*o.one, o.image().voxel_size(),
                       {w.frame, w.name, w.error, grey && o.grey.empty(), w.subject});
   if (!o.grey.empty()) as.grey = o.grey;
-  for (const fs::path& path : files) write_surface(path, o.one->surface, as);
+  for (const OutputPath& path : files) write_surface(path, o.one->surface, as);
 }
 
-void write_meshes(const OutcomeDetails& o, const RunFiles& w,
-                  const std::optional<MeshOutput>& mesh) {
+void write_meshes(const OutcomeDetails& o, const RunFiles& w, const std::optional<MeshOutput>& mesh,
+                  OutputSet& set) {
   if (mesh) {
-    for (const fs::path& path : w.meshes) write_mesh(path, *mesh, w.frame);
+    for (const fs::path& path : w.meshes) write_mesh(set.file(path), *mesh, w.frame);
   }
   if (o.mesh() == nullptr) return;
-  for (const fs::path& path : w.band_meshes) write_band_mesh(path, *o.mesh(), w.frame);
+  for (const fs::path& path : w.band_meshes) write_band_mesh(set.file(path), *o.mesh(), w.frame);
 }
 
 /// What the report says of the method and of the elements.
@@ -89,7 +90,8 @@ ordered_json warnings_json(const OutcomeDetails& o, const ReportFacts& facts) {
 }
 
 /// The page has what a reader of the report file would find.
-void write_page_of(const OutcomeDetails& o, const RunFiles& w, const ordered_json& report) {
+void write_page_of(const OutcomeDetails& o, const RunFiles& w, const ordered_json& report,
+                   OutputSet& set) {
   const auto shown = w.shown_scan ? w.shown_scan() : std::nullopt;
   const auto replace = ordered_json::error_handler_t::replace;
   RunPage page{nlohmann::json::parse(report.dump(-1, ' ', false, replace))};
@@ -104,17 +106,16 @@ void write_page_of(const OutcomeDetails& o, const RunFiles& w, const ordered_jso
     page.grey = mesh->u;
   }
   page.names = w.page.names;
-  write_page(w.page, page);
+  write_page(w.page, page, set);
 }
 
-void write_report(const OutcomeDetails& o, const RunFiles& w, ordered_json report,
-                  const OutputSet& set) {
-  if (w.page.given()) write_page_of(o, w, report);
+void write_report(const OutcomeDetails& o, const RunFiles& w, ordered_json report, OutputSet& set) {
+  if (w.page.given()) write_page_of(o, w, report, set);
   if (w.report.empty() && !w.facts.written) return;
   report["files"] = files_json(set);
   if (w.facts.complete) w.facts.complete(report);
-  if (!w.report.empty()) write_json(w.report, report);
-  if (w.facts.written) w.facts.written(report);
+  if (!w.report.empty()) write_json(set.file(w.report), report);
+  if (w.facts.written) w.facts.written(report, set);
 }
 
 }  // namespace
@@ -141,14 +142,14 @@ void write(const OutcomeDetails& o, const RunFiles& w, OutputSet& set) {
   std::optional<MeshOutput> mesh;  // before any file is written: it may be refused
   if (!w.meshes.empty()) mesh = mesh_output(o, w.mesh);
   if (o.one && !w.surfaces.empty()) require_surface(*o.one);
-  if (!w.surfaces.empty()) write_surfaces(o, w);
-  write_meshes(o, w, mesh);
+  if (!w.surfaces.empty()) write_surfaces(o, w, set);
+  write_meshes(o, w, mesh, set);
   if (o.elements.body) {
     for (const fs::path& path : w.bodies) {
-      write_elements(path, o.elements.body->elements, {.frame = w.frame, .gmsh = w.gmsh});
+      write_elements(set.file(path), o.elements.body->elements, {.frame = w.frame, .gmsh = w.gmsh});
     }
   }
-  if (!w.labelmap.empty()) write_label_map(w.labelmap, label_map_of(o.grid, o.objects()));
+  if (!w.labelmap.empty()) write_label_map(set.file(w.labelmap), label_map_of(o.grid, o.objects()));
   if (!w.wants_report()) return;
   ordered_json report = report_json(o, w);
   if (mesh) report["mesh"]["region"] = region_json(*mesh);

@@ -45,7 +45,7 @@ std::string_view bytes_of(std::span<const Number> numbers) {
 /// A .nrrd file, written from its begin to its end.
 class NrrdFile {
  public:
-  NrrdFile(const fs::path& path, const VoxelGrid& grid, const NrrdOptions& options)
+  NrrdFile(const OutputPath& path, const VoxelGrid& grid, const NrrdOptions& options)
       : path_(path),
         type_(options.type),
         file_(path),
@@ -89,7 +89,7 @@ class NrrdFile {
 
 }  // namespace
 
-void write_nrrd(const fs::path& path, const Volume& volume, const NrrdOptions& options) {
+void write_nrrd(const OutputPath& path, const Volume& volume, const NrrdOptions& options) {
   if (volume.samples.size() != volume.voxel_count()) {
     detail::refuse(path, "cannot be written: expected " + std::to_string(volume.voxel_count()) +
                              " samples, found " + std::to_string(volume.samples.size()));
@@ -97,7 +97,7 @@ void write_nrrd(const fs::path& path, const Volume& volume, const NrrdOptions& o
   write_nrrd(path, VolumeSlices(volume), options);
 }
 
-void write_nrrd(const fs::path& path, const SliceSource& source, const NrrdOptions& options) {
+void write_nrrd(const OutputPath& path, const SliceSource& source, const NrrdOptions& options) {
   if (path.extension() != ".nrrd" && path.extension() != ".NRRD") {
     detail::refuse(path, "cannot be written: expected a name that ends with .nrrd");
   }

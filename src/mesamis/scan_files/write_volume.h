@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "mesamis/files/output_path.h"
 #include "mesamis/image/slice_source.h"
 #include "mesamis/image/volume.h"
 
@@ -30,8 +31,7 @@ struct NrrdOptions {
 ///                     do not fit into 16 bits, or a file that cannot be written.
 ///
 /// Memory: a slab's samples, see slab_slices().
-void write_nrrd(const std::filesystem::path& path, const Volume& volume,
-                const NrrdOptions& options = {});
+void write_nrrd(const OutputPath& path, const Volume& volume, const NrrdOptions& options = {});
 
 /// Writes a volume that need not fit into the memory, a few slices at a time: the bytes of the
 /// function above.
@@ -39,7 +39,6 @@ void write_nrrd(const std::filesystem::path& path, const Volume& volume,
 /// @throws InputError  as the function above, and as source.read().
 ///
 /// Memory: a slab's samples.
-void write_nrrd(const std::filesystem::path& path, const SliceSource& source,
-                const NrrdOptions& options = {});
+void write_nrrd(const OutputPath& path, const SliceSource& source, const NrrdOptions& options = {});
 
 }  // namespace mesamis

@@ -97,7 +97,7 @@ void write_face_set(TextWriter& out, const FiniteElements::FaceSet& set) {
 
 }  // namespace
 
-void write_abaqus_elements(const std::filesystem::path& path, const FiniteElements& elements,
+void write_abaqus_elements(const OutputPath& path, const FiniteElements& elements,
                            const ElementWriteOptions& options) {
   TextWriter out(path);
   write_abaqus_head(out, options.frame);

@@ -33,8 +33,7 @@ void write_template(TextWriter& out, const CellSets& sets,
 
 }  // namespace
 
-void write_abaqus(const std::filesystem::path& path, const TetMesh& mesh, const CellSets& sets,
-                  Frame frame) {
+void write_abaqus(const OutputPath& path, const TetMesh& mesh, const CellSets& sets, Frame frame) {
   require_sets(path, mesh, sets);
   std::vector<std::vector<Index>> cells_of(sets.sets.size());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {

@@ -129,7 +129,7 @@ std::vector<MeshArray> set_arrays(const FiniteElements& elements) {
   return arrays;
 }
 
-void write_vtu_elements(const std::filesystem::path& path, const FiniteElements& elements,
+void write_vtu_elements(const OutputPath& path, const FiniteElements& elements,
                         const ElementWriteOptions& options) {
   VtuGrid grid{elements.points, elements.cells, elements.mid_nodes};
   grid.field_data.push_back(vtk_text_bytes("PartNames", names_of(elements.parts)));
@@ -143,7 +143,7 @@ void write_vtu_elements(const std::filesystem::path& path, const FiniteElements&
   write_vtu_grid(path, grid, {point_arrays, arrays, options.frame});
 }
 
-void write_medit_elements(const std::filesystem::path& path, const FiniteElements& elements,
+void write_medit_elements(const OutputPath& path, const FiniteElements& elements,
                           const ElementWriteOptions& options) {
   if (!elements.mid_nodes.empty()) {
     refuse(path,
@@ -189,7 +189,7 @@ std::vector<MeshArray> material_arrays(const FiniteElements& elements) {
 
 }  // namespace detail
 
-void write_elements(const std::filesystem::path& path, const FiniteElements& elements,
+void write_elements(const OutputPath& path, const FiniteElements& elements,
                     const ElementWriteOptions& options) {
   Checks(path, elements).run();
   const std::string extension = lower(path.extension().string());

@@ -40,7 +40,7 @@ struct ElementWriteOptions {
 ///                     not finite, or the file cannot be written.
 ///
 /// Memory: 1 MiB of text, and 4 bytes per cell and part's node.
-void write_elements(const std::filesystem::path& path, const FiniteElements& elements,
+void write_elements(const OutputPath& path, const FiniteElements& elements,
                     const ElementWriteOptions& options = {});
 
 }  // namespace mesamis

@@ -14,11 +14,11 @@ namespace mesamis::detail {
 std::vector<std::vector<Index>> cells_by_group(const std::vector<Index>& group_of_cell,
                                                std::size_t count);
 
-void write_abaqus_elements(const std::filesystem::path& path, const FiniteElements& elements,
+void write_abaqus_elements(const OutputPath& path, const FiniteElements& elements,
                            const ElementWriteOptions& options);
-void write_febio(const std::filesystem::path& path, const FiniteElements& elements,
+void write_febio(const OutputPath& path, const FiniteElements& elements,
                  const ElementWriteOptions& options);
-void write_gmsh_elements(const std::filesystem::path& path, const FiniteElements& elements,
+void write_gmsh_elements(const OutputPath& path, const FiniteElements& elements,
                          const ElementWriteOptions& options);
 
 /// Part, and where there are materials material (from 1), modulus, density and Poisson ratio of

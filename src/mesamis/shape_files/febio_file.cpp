@@ -139,7 +139,7 @@ void write_mesh_domains(TextWriter& out, const FiniteElements& e,
 
 }  // namespace
 
-void write_febio(const std::filesystem::path& path, const FiniteElements& elements,
+void write_febio(const OutputPath& path, const FiniteElements& elements,
                  const ElementWriteOptions& options) {
   const std::vector<Domain> domains = domains_of(elements);
   TextWriter out(path);

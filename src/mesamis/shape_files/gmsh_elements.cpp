@@ -18,8 +18,7 @@ constexpr int kTriangle3 = 2, kTetrahedron4 = 4, kTriangle6 = 9, kTetrahedron10 
 
 class Writer {
  public:
-  Writer(const std::filesystem::path& path, const FiniteElements& elements,
-         const ElementWriteOptions& options)
+  Writer(const OutputPath& path, const FiniteElements& elements, const ElementWriteOptions& options)
       : out_(path),
         e_(elements),
         options_(options),
@@ -214,7 +213,7 @@ class Writer {
 
 }  // namespace
 
-void write_gmsh_elements(const std::filesystem::path& path, const FiniteElements& elements,
+void write_gmsh_elements(const OutputPath& path, const FiniteElements& elements,
                          const ElementWriteOptions& options) {
   require_gmsh_scalars(path, options.point_arrays, elements.points.size());
   require_gmsh_scalars(path, options.cell_arrays, elements.cells.size());

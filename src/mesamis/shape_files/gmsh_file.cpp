@@ -46,7 +46,7 @@ void write_comments(TextWriter& out, const CellSets& sets, Frame frame) {
 
 }  // namespace
 
-void write_gmsh(const std::filesystem::path& path, const MeshWithArrays& grid, const CellSets& sets,
+void write_gmsh(const OutputPath& path, const MeshWithArrays& grid, const CellSets& sets,
                 Frame frame) {
   require_sets(path, grid.mesh, sets);
   require_gmsh_scalars(path, grid.point_arrays, grid.mesh.points.size());

@@ -243,7 +243,7 @@ std::vector<Sym3> read_solution(Words& words) {
 
 }  // namespace
 
-void write_medit_mesh(const std::filesystem::path& path, const TetMesh& mesh, Frame frame,
+void write_medit_mesh(const OutputPath& path, const TetMesh& mesh, Frame frame,
                       std::span<const Index> references) {
   if (!references.empty() && references.size() != mesh.cells.size()) {
     detail::refuse(path, "expected a reference for each of " + std::to_string(mesh.cells.size()) +
@@ -290,8 +290,7 @@ TetMesh read_medit_mesh(const std::filesystem::path& path, const ReadLimits& lim
   return mesh;
 }
 
-void write_medit_scalars(const std::filesystem::path& path,
-                         std::span<const std::vector<double>> fields,
+void write_medit_scalars(const OutputPath& path, std::span<const std::vector<double>> fields,
                          std::span<const std::vector<double>> cell_fields) {
   require_equal_sizes(path, fields);
   require_equal_sizes(path, cell_fields);
@@ -303,7 +302,7 @@ void write_medit_scalars(const std::filesystem::path& path,
   out.commit();
 }
 
-void write_medit_metric(const std::filesystem::path& path, std::span<const Sym3> metrics) {
+void write_medit_metric(const OutputPath& path, std::span<const Sym3> metrics) {
   TextWriter out(path);
   out << kSolutionHeader;
   write_section_header(out, "SolAtVertices", metrics.size(), 1, 3);

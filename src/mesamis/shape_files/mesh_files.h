@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/files/output_path.h"
 #include "mesamis/files/reading.h"
 #include "mesamis/mesh/tet_mesh.h"
 
@@ -56,8 +57,7 @@ struct VtuOptions {
 ///                     2^31 / 4 cells, or the file cannot be written.
 ///
 /// Memory: one block of 32 KiB beside the arguments.
-void write_vtu(const std::filesystem::path& path, const TetMesh& mesh,
-               const VtuOptions& options = {});
+void write_vtu(const OutputPath& path, const TetMesh& mesh, const VtuOptions& options = {});
 
 /// Writes the index of a mesh in pieces, VTK XML (.pvtu), as parallel programs leave it. The file
 /// appears whole or not at all.
@@ -66,7 +66,7 @@ void write_vtu(const std::filesystem::path& path, const TetMesh& mesh,
 /// @param point_arrays, cell_arrays as every piece has them: names and components; their values are
 ///                      not read.
 /// @throws InputError  if the file cannot be written.
-void write_pvtu(const std::filesystem::path& path, std::span<const std::string> pieces,
+void write_pvtu(const OutputPath& path, std::span<const std::string> pieces,
                 std::span<const MeshArray> point_arrays, std::span<const MeshArray> cell_arrays);
 
 /// A mesh with its arrays.
@@ -108,7 +108,7 @@ struct CellSets {
 ///                     range, a value is not finite or the file cannot be written.
 ///
 /// Memory: 1 MiB of text.
-void write_gmsh(const std::filesystem::path& path, const MeshWithArrays& grid, const CellSets& sets,
+void write_gmsh(const OutputPath& path, const MeshWithArrays& grid, const CellSets& sets,
                 Frame frame = Frame::kLps);
 
 /// Writes Abaqus .inp, which CalculiX reads too: C3D4 elements, *NSET and *ELSET named ALL, after a
@@ -120,7 +120,7 @@ void write_gmsh(const std::filesystem::path& path, const MeshWithArrays& grid, c
 /// @param sets   of_cell has m entries.
 /// @param frame  of the points in the file.
 /// @throws InputError  as write_gmsh(). Cost as write_gmsh().
-void write_abaqus(const std::filesystem::path& path, const TetMesh& mesh, const CellSets& sets,
+void write_abaqus(const OutputPath& path, const TetMesh& mesh, const CellSets& sets,
                   Frame frame = Frame::kLps);
 
 /// Writes Medit ASCII .mesh with decimals that read back to the same bits. The file appears whole
@@ -133,8 +133,8 @@ void write_abaqus(const std::filesystem::path& path, const TetMesh& mesh, const 
 ///                     file cannot be written.
 ///
 /// Memory: 1 MiB of text.
-void write_medit_mesh(const std::filesystem::path& path, const TetMesh& mesh,
-                      Frame frame = Frame::kLps, std::span<const Index> references = {});
+void write_medit_mesh(const OutputPath& path, const TetMesh& mesh, Frame frame = Frame::kLps,
+                      std::span<const Index> references = {});
 
 /// Reads Vertices and Tetrahedra of a Medit ASCII .mesh; other sections and all references are left
 /// out.
@@ -154,8 +154,7 @@ TetMesh read_medit_mesh(const std::filesystem::path& path, const ReadLimits& lim
 /// @throws InputError  if the sizes differ, a value is not finite or the file cannot be written.
 ///
 /// Memory: 1 MiB of text.
-void write_medit_scalars(const std::filesystem::path& path,
-                         std::span<const std::vector<double>> fields,
+void write_medit_scalars(const OutputPath& path, std::span<const std::vector<double>> fields,
                          std::span<const std::vector<double>> cell_fields = {});
 
 /// Writes a metric as Medit ASCII .sol at the vertices, in the order m11 m12 m22 m13 m23 m33. The
@@ -165,7 +164,7 @@ void write_medit_scalars(const std::filesystem::path& path,
 /// @throws InputError  if a value is not finite or the file cannot be written.
 ///
 /// Memory: 1 MiB of text.
-void write_medit_metric(const std::filesystem::path& path, std::span<const Sym3> metrics);
+void write_medit_metric(const OutputPath& path, std::span<const Sym3> metrics);
 
 /// Reads a metric of a Medit ASCII .sol at the vertices. A scalar size h in mm becomes 1/h^2 times
 /// the identity.

@@ -93,13 +93,13 @@ std::vector<NamedSurface> prepared(Objects objects, const Format& format,
 }
 
 /// Both files appear together.
-void write_obj(const fs::path& path, Objects objects, const SurfaceWriteOptions& options) {
+void write_obj(const OutputPath& path, Objects objects, const SurfaceWriteOptions& options) {
   const fs::path materials = fs::path(path).replace_extension(".mtl");
   const std::string name = materials.filename().string();
   if (one_line(name) != name) refuse(path, "expected a name of one line");
-  OutputSet both;
-  write_file(materials, mtl_bytes(objects));
-  write_file(path, obj_object_bytes(objects, options, name));
+  OutputSet both(path.set);
+  write_file(both.file(materials), mtl_bytes(objects));
+  write_file(both.file(path), obj_object_bytes(objects, options, name));
   both.commit();
 }
 
@@ -249,7 +249,7 @@ std::vector<std::string> written_object_formats() {
   return extensions;
 }
 
-void write_objects(const fs::path& path, std::span<const NamedSurface> objects,
+void write_objects(const OutputPath& path, std::span<const NamedSurface> objects,
                    const SurfaceWriteOptions& options) {
   const Format* format = format_named(lower(path.extension().string()));
   if (format == nullptr) refuse_extension(path, ".3mf .vtp .obj .amf .glb");

@@ -46,7 +46,7 @@ struct NamedSurface {
 ///
 /// O(points and triangles), with a logarithm for .3mf. Memory: the file's bytes and a copy of the
 /// surfaces.
-void write_objects(const std::filesystem::path& path, std::span<const NamedSurface> objects,
+void write_objects(const OutputPath& path, std::span<const NamedSurface> objects,
                    const SurfaceWriteOptions& options = {});
 
 /// The extensions of write_objects(), with their dots. O(1) time and memory.

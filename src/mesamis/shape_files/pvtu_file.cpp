@@ -20,7 +20,7 @@ void write_arrays(TextWriter& out, const char* element, std::span<const MeshArra
 
 }  // namespace
 
-void write_pvtu(const std::filesystem::path& path, std::span<const std::string> pieces,
+void write_pvtu(const OutputPath& path, std::span<const std::string> pieces,
                 std::span<const MeshArray> point_arrays, std::span<const MeshArray> cell_arrays) {
   TextWriter out(path);
   out << "<?xml version=\"1.0\"?>\n"

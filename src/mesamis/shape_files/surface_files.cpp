@@ -173,7 +173,7 @@ bool carries_arrays(const fs::path& path) {
   return format != nullptr && format->parse_array != nullptr;
 }
 
-void write_surface(const fs::path& path, const TriMesh& surface,
+void write_surface(const OutputPath& path, const TriMesh& surface,
                    const SurfaceWriteOptions& options) {
   if (surface.triangles.empty()) refuse(path, "an empty surface is not written");
   require_sound(surface);

@@ -9,6 +9,7 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/files/dicom_subject.h"
+#include "mesamis/files/output_path.h"
 #include "mesamis/files/reading.h"
 #include "mesamis/surface/tri_mesh.h"
 
@@ -63,7 +64,7 @@ struct SurfaceWriteOptions {
 ///                     same name; a file that cannot be written.
 ///
 /// Memory: the file's bytes, and for RAS a copy of the surface.
-void write_surface(const std::filesystem::path& path, const TriMesh& surface,
+void write_surface(const OutputPath& path, const TriMesh& surface,
                    const SurfaceWriteOptions& options = {});
 
 /// The extensions of write_surface(), with their dots. O(1) time and memory.

@@ -245,7 +245,7 @@ VtkArray vtk_text_bytes(std::string name, const std::vector<std::string>& texts)
   return array;
 }
 
-void write_vtk_xml(const std::filesystem::path& path, const VtkFile& file) {
+void write_vtk_xml(const OutputPath& path, const VtkFile& file) {
   require_distinct_names(file);
   AtomicFile target(path);
   std::ofstream out(target.temporary_path(), std::ios::binary);

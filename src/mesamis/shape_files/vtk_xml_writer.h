@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesamis/files/bytes.h"
+#include "mesamis/files/output_path.h"
 
 /// VTK's XML files, written without VTK: raw appended data, blocks packed by zlib at level 1,
 /// 64-bit headers, little endian. The bytes are those of VTK 9.1's own writers.
@@ -90,7 +91,7 @@ struct VtkFile {
 /// Writes the file: whole or not at all. Memory: one block of 32 KiB and the sizes of the blocks of
 /// one array.
 /// @throws InputError  if two arrays of a group have the same name or the file cannot be written.
-void write_vtk_xml(const std::filesystem::path& path, const VtkFile& file);
+void write_vtk_xml(const OutputPath& path, const VtkFile& file);
 
 /// The bytes of the same file.
 /// @throws InputError  if two arrays of a group have the same name.

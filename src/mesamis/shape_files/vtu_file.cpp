@@ -216,7 +216,7 @@ VtkArrayGroup group_of_cells(const VtuGrid& grid) {
 
 }  // namespace
 
-void detail::write_vtu_grid(const std::filesystem::path& path, const VtuGrid& grid,
+void detail::write_vtu_grid(const OutputPath& path, const VtuGrid& grid,
                             const VtuOptions& options) {
   const Frame frame = options.frame;
   const std::size_t points = grid.points.size(), cells = grid.cells.size();
@@ -231,7 +231,7 @@ void detail::write_vtu_grid(const std::filesystem::path& path, const VtuGrid& gr
   write_vtk_xml(path, file);
 }
 
-void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const VtuOptions& options) {
+void write_vtu(const OutputPath& path, const TetMesh& mesh, const VtuOptions& options) {
   write_vtu_grid(path, {mesh.points, mesh.cells}, options);
 }
 

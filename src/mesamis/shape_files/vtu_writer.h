@@ -23,7 +23,6 @@ struct VtuGrid {
 
 /// Writes the grid: whole or not at all.
 /// @throws InputError  as write_vtu().
-void write_vtu_grid(const std::filesystem::path& path, const VtuGrid& grid,
-                    const VtuOptions& options);
+void write_vtu_grid(const OutputPath& path, const VtuGrid& grid, const VtuOptions& options);
 
 }  // namespace mesamis::detail
