@@ -81,7 +81,7 @@ int run_label(const LabelCommand& command) {
   for (const NamedSurface& object : objects) {
     found.push_back({object.surface, {object.name, object.label, 0, object.colour}});
   }
-  const SurfaceLabels labels = label_surfaces(grid_like(command), found);
+  const SurfaceLabels labels = labels_of_surfaces(grid_like(command), found);
   for (const std::string& warning : labels.warnings) log_warning(warning);
   write_label_map(command.output, labels.map);
   print_labels(labels.map);

@@ -10,8 +10,8 @@
 #include "mesamis/base/stopwatch.h"
 #include "mesamis/image/grey_values.h"
 #include "mesamis/label_files/read_labels.h"
-#include "mesamis/object/body.h"
 #include "mesamis/object/padding.h"
+#include "mesamis/object/patient.h"
 #include "mesamis/object/tissue_level.h"
 #include "mesamis/scan_files/read_volume.h"
 
@@ -36,24 +36,24 @@ void print_padding(const VolumeView& scan) {
   std::printf(" (%.2f s)\n", seconds);
 }
 
-std::optional<Body> print_body(const VolumeView& scan) {
+std::optional<Patient> print_patient(const VolumeView& scan) {
   Stopwatch watch;
-  auto body = find_body(scan);
-  std::printf("body: %s (%.2f s)\n", body ? "found" : "none", watch.lap());
-  if (!body) return body;
-  std::printf("  %.0f cm3 on a grain of %.2g mm\n", body->mm3 / 1000, body->grain);
-  for (const Surroundings& thing : body->removed) {
+  auto patient = find_patient(scan);
+  std::printf("body: %s (%.2f s)\n", patient ? "found" : "none", watch.lap());
+  if (!patient) return patient;
+  std::printf("  %.0f cm3 on a grain of %.2g mm\n", patient->mm3 / 1000, patient->grain);
+  for (const Surroundings& thing : patient->removed) {
     std::printf("  without %s: %.1f cm3\n", thing.what.c_str(), thing.mm3 / 1000);
   }
-  return body;
+  return patient;
 }
 
-void print_missing(const VolumeView& scan, const Body& body, const char* labels) {
+void print_missing(const VolumeView& scan, const Patient& patient, const char* labels) {
   const LabelMap map = read_label_map(labels).map;
   const auto anatomy = mask_on(map, map.segments, scan);
   std::size_t missing = 0;
   for (std::size_t n = 0; n < anatomy.size(); ++n) {
-    missing += anatomy[n] != 0 && body.mask[n] == 0;
+    missing += anatomy[n] != 0 && patient.mask[n] == 0;
   }
   std::printf("  lacks %zu of %zu labelled voxels\n", missing, count_marked(anatomy));
 }
@@ -91,8 +91,8 @@ int main(int count, char** arguments) {
   try {
     const Volume scan = read_volume(arguments[1]).volume;
     print_padding(scan);
-    const auto body = print_body(scan);
-    if (body && count == 3) print_missing(scan, *body, arguments[2]);
+    const auto patient = print_patient(scan);
+    if (patient && count == 3) print_missing(scan, *patient, arguments[2]);
     print_levels(scan);
   } catch (const std::exception& failure) {
     std::fprintf(stderr, "bench_objects: %s\n", failure.what());

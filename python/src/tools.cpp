@@ -238,7 +238,7 @@ py::tuple write_labels(const NamedParts& parts, const std::shared_ptr<Scan>& sca
   SurfaceLabels labels;
   {
     const py::gil_scoped_release lock_released;
-    labels = label_surfaces(scan->view, objects);
+    labels = labels_of_surfaces(scan->view, objects);
     write_label_map(path, labels.map);
   }
   const std::vector<std::size_t> counts = voxel_counts(labels.map);

@@ -192,18 +192,19 @@ TEST(DecimatePartition, HasTheSameBytesForAnyNumberOfThreads) {
 /// Through patches, as large partitions are decimated.
 TEST(DecimatePartition, KeepsItsPromisesPatchByPatch) {
   for (const PartitionSurface& partition : {blobs(), layers()}) {
-    const Sheets sheets = cut_into_sheets(partition);
+    const Interfaces interfaces = cut_into_interfaces(partition);
     PatchworkReport work;
     const double tolerance = 0.1;
-    const TriMesh result = decimate_sheets(sheets, {.tolerance = tolerance}, 1500, work);
+    const TriMesh result = decimate_interfaces(interfaces, {.tolerance = tolerance}, 1500, work);
     PartitionSurface joined{partition.points, {}, {}};
     std::map<Index, std::array<Index, 2>> sides;
     for (std::size_t t = 0; t < partition.sides.size(); ++t) {
-      sides[sheets.of_point[sheets.surface.triangles[t][0]]] = partition.sides[t];
+      sides[interfaces.of_point[interfaces.surface.triangles[t][0]]] = partition.sides[t];
     }
     for (const Triangle& t : result.triangles) {
-      joined.triangles.push_back({sheets.origin[t[0]], sheets.origin[t[1]], sheets.origin[t[2]]});
-      joined.sides.push_back(sides[sheets.of_point[t[0]]]);
+      joined.triangles.push_back(
+          {interfaces.origin[t[0]], interfaces.origin[t[1]], interfaces.origin[t[2]]});
+      joined.sides.push_back(sides[interfaces.of_point[t[0]]]);
     }
     expect_promises_kept(partition, joined, tolerance);
     EXPECT_LT(joined.triangles.size(), partition.triangles.size());

@@ -136,7 +136,7 @@ TEST(Decimate, FlatSidesGoBeforeCorners) {
 }
 
 TEST(Decimate, ThinPlatesDoNotMerge) {
-  // Two sheets 0.2 apart, bent and rough; the tolerance would let them pass through each other.
+  // Two layers 0.2 apart, bent and rough; the tolerance would let them pass through each other.
   std::mt19937 generator(1);
   std::uniform_real_distribution<double> uniform(-0.03, 0.03);
   const Box box{{0, 0, -1}, {12, 12, 3}};

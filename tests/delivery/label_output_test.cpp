@@ -109,7 +109,7 @@ TEST(LabelSurfaces, KeepOverlappingObjectsWhole) {
   for (Vec3& p : beside.points) p.x += 100;
   const std::vector<FoundObject> objects{
       {large, {"a", 1, 0, {}}}, {small, {"b", 2, 5, {}}}, {beside, {"c", 3, 0, {}}}};
-  const SurfaceLabels labels = label_surfaces(kGrid, objects);
+  const SurfaceLabels labels = labels_of_surfaces(kGrid, objects);
   EXPECT_NO_THROW(require_valid(labels.map));
   EXPECT_EQ(labels.map.layers.size(), 2u);
   const auto counts = voxel_counts(labels.map);
@@ -119,7 +119,7 @@ TEST(LabelSurfaces, KeepOverlappingObjectsWhole) {
   EXPECT_EQ(counts[2], 0u);
   EXPECT_THAT(labels.warnings, testing::ElementsAre(testing::HasSubstr("'b' overlaps"),
                                                     testing::HasSubstr("'c' has no voxel")));
-  EXPECT_REFUSED(label_surfaces(kGrid, std::span(objects).last(1)),
+  EXPECT_REFUSED(labels_of_surfaces(kGrid, std::span(objects).last(1)),
                  testing::HasSubstr("found none inside"));
 }
 

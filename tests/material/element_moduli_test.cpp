@@ -157,7 +157,7 @@ TEST(ElementModuli, WhatCannotBeUsedIsRefused) {
     change(options);
     EXPECT_REFUSED(element_moduli(mesh, volume, options), matcher);
   };
-  refused([](auto& o) { o.law = {}; }, HasSubstr("no piece"));
+  refused([](auto& o) { o.law = {}; }, HasSubstr("no range"));
   refused([](auto& o) { o.calibration = {}; }, HasSubstr("positive slope, found 0"));
   refused([](auto& o) { o.density_min = -1; }, HasSubstr("found -1"));
   refused([](auto& o) { o.density_max = 0; }, HasSubstr("above the least, found 0"));

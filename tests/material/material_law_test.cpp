@@ -28,7 +28,7 @@ TEST(MaterialLaw, NamedLawsHaveTheFormulasOfTheirSources) {
               1e-8);
 }
 
-/// The sources join the pieces at 0.27 and 0.6 g/cm^3: a wrong digit would leave a step.
+/// The sources join the ranges at 0.27 and 0.6 g/cm^3: a wrong digit would leave a step.
 TEST(MaterialLaw, PiecesOfKeyakMeet) {
   for (const double at : {0.27, 0.6}) {
     const double below = modulus("keyak-1994", at), above = modulus("keyak-1994", at + 1e-12);

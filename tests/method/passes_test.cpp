@@ -216,7 +216,7 @@ TEST(GridLogMetric, LeadsToTheFirstMesh) {
   EXPECT_TRUE(record.bounded);
   EXPECT_GT(record.estimator, 0);
   const GridMetricField field(run.box, found.grid.size, logs);
-  EXPECT_NEAR(predicted_cells(field, run.box) / cells, 1, 0.1);
+  EXPECT_NEAR(cells_for_metric(field, run.box) / cells, 1, 0.1);
   logs_for(1e12);
   EXPECT_FALSE(record.bounded);
 }

@@ -161,12 +161,12 @@ Volume slices_of(const Volume& volume, Index begin, Index end) {
 TEST(ChooseParameters, ChoosesAsPrepareImage) {
   const Volume scan = make_ball({.size = 40, .noise = 8, .radius = 9});
   const Parameters whole = prepare_image(scan, {}).parameters;
-  const Choice all = choose_parameters(scan, scan, {});
+  const ChosenParameters all = choose_parameters(scan, scan, {});
   EXPECT_EQ(all.parameters.level, whole.level);
   EXPECT_EQ(all.parameters.functional.gamma, whole.functional.gamma);
   EXPECT_EQ(all.parameters.max_tets, whole.max_tets);
   // From a part of it; but what follows from the grid is that of the whole.
-  const Choice part = choose_parameters(slices_of(scan, 8, 30), scan, {});
+  const ChosenParameters part = choose_parameters(slices_of(scan, 8, 30), scan, {});
   EXPECT_EQ(part.parameters.h_max, whole.h_max);
   EXPECT_EQ(part.parameters.unit_mm, whole.unit_mm);
   EXPECT_NEAR(part.parameters.level, whole.level, 3);
@@ -180,7 +180,7 @@ TEST(PrepareSlab, IsAPieceOfThePreparedWholeAwayFromItsEnds) {
       scan.samples[n] = n % 2 == 0 ? 0 : 255;
     }
     const Prepared whole = prepare_image(scan, {});
-    const Choice choice = choose_parameters(scan, scan, {});
+    const ChosenParameters choice = choose_parameters(scan, scan, {});
     EXPECT_EQ(choice.impulse_height > 0, impulses);
     const Index begin = 10, end = 50, outer = 12;
     const Prepared slab = prepare_slab(slices_of(scan, begin, end), choice);

@@ -293,7 +293,7 @@ TEST(Remesh, RefusesAStartThatIsNotAMeshOfItsBox) {
 /// A box of volume 8 in a metric of size 1/4: the complexity is 8 * 4^3.
 TEST(PredictedCells, AreTheComplexityTimesTheCellsOfOne) {
   const FormulaMetric metric = uniform_metric(0.25);
-  EXPECT_NEAR(predicted_cells(metric, {{0, 0, 0}, {2, 2, 2}}), kCellsPerComplexity * 8 * 64, 1e-3);
+  EXPECT_NEAR(cells_for_metric(metric, {{0, 0, 0}, {2, 2, 2}}), kCellsPerComplexity * 8 * 64, 1e-3);
 }
 
 TEST(Remesh, RefusesAMetricThatAsksForMoreCellsThanFit) {

@@ -107,7 +107,7 @@ double narrow_share(std::span<const TriMesh> surfaces, const BodySurface& shape,
 /// Refuses sizes that ask for more elements than may be made, before they are.
 void require_elements_fit(const MetricField& sizes, const Box& box, const BodyOptions& options,
                           double size) {
-  const double asked = predicted_cells(sizes, box);
+  const double asked = cells_for_metric(sizes, box);
   const auto most = static_cast<double>(options.most_elements);
   if (asked <= most) return;
   throw InputError("body: elements of " + number_text(size) + " mm would be about " +

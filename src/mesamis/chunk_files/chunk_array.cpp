@@ -50,23 +50,23 @@ struct SliceRange {
 };
 
 /// A box of voxels in the scan and where it begins in a chunk: k, j, i.
-struct Piece {
+struct ChunkPart {
   std::array<std::uint64_t, 3> from{}, size{}, in_chunk{};
 };
 
 /// The part of a chunk that lies in some slices.
-Piece piece_of(const ChunkLayout& layout, const std::array<std::uint64_t, 3>& chunk,
-               const SliceRange& slices) {
+ChunkPart part_of(const ChunkLayout& layout, const std::array<std::uint64_t, 3>& chunk,
+                  const SliceRange& slices) {
   const std::size_t lead = layout.shape.size() - 3;
-  Piece piece;
+  ChunkPart part;
   for (std::size_t a = 0; a < 3; ++a) {
     const std::uint64_t length = layout.chunk[lead + a], begin = chunk[a] * length;
     const std::uint64_t end = std::min(begin + length, layout.shape[lead + a]);
-    piece.from[a] = a == 0 ? std::max(begin, slices.first) : begin;
-    piece.size[a] = (a == 0 ? std::min(end, slices.end()) : end) - piece.from[a];
-    piece.in_chunk[a] = piece.from[a] - begin;
+    part.from[a] = a == 0 ? std::max(begin, slices.first) : begin;
+    part.size[a] = (a == 0 ? std::min(end, slices.end()) : end) - part.from[a];
+    part.in_chunk[a] = part.from[a] - begin;
   }
-  return piece;
+  return part;
 }
 
 /// Elements of a chunk between neighbours along each axis.
@@ -176,7 +176,7 @@ class ChunkArray : public ChunkedScan {
   void decode_chunk(const std::array<std::uint64_t, 3>& place, const SliceRange& slices,
                     MemoryBudget& budget, std::span<Number> out) const;
   template <class Number>
-  void put(const Piece& piece, const std::string* bytes, const SliceRange& slices,
+  void put(const ChunkPart& part, const std::string* bytes, const SliceRange& slices,
            std::span<Number> out) const;
 
   OpenedArray array_;
@@ -188,14 +188,14 @@ class ChunkArray : public ChunkedScan {
   mutable std::vector<float> kept_;
 };
 
-/// Writes a piece to its place in the slices; without bytes the fill value.
+/// Writes a part to its place in the slices; without bytes the fill value.
 template <class Number>
-void ChunkArray::put(const Piece& piece, const std::string* bytes, const SliceRange& slices,
+void ChunkArray::put(const ChunkPart& part, const std::string* bytes, const SliceRange& slices,
                      std::span<Number> out) const {
   const ChunkLayout& layout = array_.layout;
   const auto nx = static_cast<std::uint64_t>(array_.grid.size[0]);
   const auto ny = static_cast<std::uint64_t>(array_.grid.size[1]);
-  const auto& [from, size, in_chunk] = piece;
+  const auto& [from, size, in_chunk] = part;
   for (std::uint64_t k = 0; k < size[0]; ++k) {
     for (std::uint64_t j = 0; j < size[1]; ++j) {
       const std::uint64_t line = ((from[0] + k - slices.first) * ny + from[1] + j) * nx + from[2];
@@ -217,7 +217,7 @@ void ChunkArray::put(const Piece& piece, const std::string* bytes, const SliceRa
 template <class Number>
 void ChunkArray::decode_chunk(const std::array<std::uint64_t, 3>& place, const SliceRange& slices,
                               MemoryBudget& budget, std::span<Number> out) const {
-  const Piece piece = piece_of(array_.layout, place, slices);
+  const ChunkPart part = part_of(array_.layout, place, slices);
   std::vector<std::uint64_t> index;
   for (std::size_t a = 0; a < array_.layout.lead.size(); ++a) {
     index.push_back(array_.layout.lead[a] / array_.layout.chunk[a]);
@@ -225,11 +225,11 @@ void ChunkArray::decode_chunk(const std::array<std::uint64_t, 3>& place, const S
   index.insert(index.end(), place.begin(), place.end());
   const ScopedFile scope(budget, array_.path);
   std::optional<StoredChunk> chunk = array_.fetch(index, budget);
-  if (!chunk) return put(piece, nullptr, slices, out);
+  if (!chunk) return put(part, nullptr, slices, out);
   const std::size_t size = chunk_bytes(array_.layout);
   budget.claim(chunk->codecs.empty() ? 0 : 2, size, "a chunk");
   const std::string bytes = unpack_chunk(chunk->file, std::move(chunk->bytes), chunk->codecs, size);
-  put(piece, &bytes, slices, out);
+  put(part, &bytes, slices, out);
 }
 
 template <class Number>

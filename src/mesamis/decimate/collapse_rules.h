@@ -54,8 +54,8 @@ class ModCreases : public PointRule {
   float collapse_priority(const CollapseInfo& collapse) override;
 };
 
-/// Refuses new edges between points at the rims of sheets: another sheet might have the same edge,
-/// which would join four triangles then.
+/// Refuses new edges between points at the rims of interfaces: another one might have the same
+/// edge, which would join four triangles then.
 class ModRims : public CollapseRule {
  public:
   explicit ModRims(HalfedgeMesh& mesh) : CollapseRule(mesh, true) {}

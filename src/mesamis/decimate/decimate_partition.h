@@ -8,28 +8,29 @@ namespace mesamis {
 
 /// Reduces the number of triangles of several objects at once, within a tolerance.
 ///
-/// The boundaries are cut into sheets along the curves where three or more objects meet (or two and
-/// the outside of the box). The points and edges of these curves stay exactly as they are; each
-/// sheet is decimated between them as decimate() does. So objects go on sharing their triangles.
+/// The boundaries are cut into interfaces along the curves where three or more objects meet (or two
+/// and the outside of the box). The points and edges of these curves stay exactly as they are; each
+/// interface is decimated between them as decimate() does. So objects go on sharing their
+/// triangles.
 ///
 /// The result always keeps these properties: each object is closed and 2-manifold if it was, and
 /// has as many components and handles; no pair of triangles intersects unless it did before, within
-/// one object or between two; every point of each sheet is within the tolerance of the same sheet
-/// before, and the reverse.
+/// one object or between two; every point of each interface is within the tolerance of the same
+/// interface before, and the reverse.
 ///
 /// @param partition  n triangles, mm; of extract_partition() or extract_partition_on_grid(). It may
 ///                   be open: rims stay as they are.
 /// @param options    as for decimate(); the number of triangles is that of all boundaries.
-/// @param report     optional; its distances are the greatest over all sheets.
+/// @param report     optional; its distances are the greatest over all interfaces.
 /// @return the points in their order, those that are still used. The same bits for any number of
 ///         threads.
 /// @throws InputError  if the triangles have no sides, the edges between two triangles do not make
-///                     2-manifold sheets of one orientation, or an option is out of range.
+///                     2-manifold interfaces of one orientation, or an option is out of range.
 /// @throws Cancelled   if progress returns false.
 ///
 /// Costs as much as decimate(). Limits: the curves keep their fine edges, so that one triangle or
 /// two per edge stay beside them; and no edge is made that joins two points of curves, so that a
-/// sheet narrower than a few triangles is hardly decimated.
+/// interface narrower than a few triangles is hardly decimated.
 PartitionSurface decimate_partition(const PartitionSurface& partition,
                                     const DecimateOptions& options,
                                     DecimateReport* report = nullptr);

@@ -22,19 +22,19 @@ using Info = CollapseInfo;
 
 constexpr double kMaxNormalChange = 75;  // degrees, of a triangle in one collapse
 
-std::vector<char> rims_of(const Sheets& sheets, const Patch& patch) {
+std::vector<char> rims_of(const Interfaces& interfaces, const Patch& patch) {
   std::vector<char> rims;
   rims.reserve(patch.points.size());
-  for (const Index p : patch.points) rims.push_back(sheets.at_rim[p]);
+  for (const Index p : patch.points) rims.push_back(interfaces.at_rim[p]);
   return rims;
 }
 
 /// Of each point of a patch, the first of its points that is a copy of the same. Copies follow each
 /// other.
-/// @return empty without sheets.
+/// @return empty without interfaces.
 std::vector<Index> first_copies(const DecimateTask& task, const Patch& patch) {
   std::vector<Index> firsts;
-  if (!task.sheets) return firsts;
+  if (!task.interfaces) return firsts;
   for (Index p = 0; p < std::ssize(patch.points); ++p) {
     const bool is_copy =
         p > 0 && task.first_copy(patch.points[p]) == task.first_copy(patch.points[p - 1]);
@@ -65,10 +65,10 @@ class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
       add(creases);
       module(creases).set_surface(surface);
     }
-    if (task.sheets) {
+    if (task.interfaces) {
       ModuleHandle<ModRims> rims;
       add(rims);
-      module(rims).set_rims(rims_of(*task.sheets, patch));
+      module(rims).set_rims(rims_of(*task.interfaces, patch));
     }
     add(hausdorff_);
     add(intersection_);

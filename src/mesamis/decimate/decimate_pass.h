@@ -4,8 +4,8 @@
 #include <functional>
 #include <span>
 
+#include "mesamis/decimate/interfaces.h"
 #include "mesamis/decimate/patch.h"
-#include "mesamis/decimate/sheets.h"
 #include "mesamis/surface/triangle_tree.h"
 
 namespace mesamis {
@@ -13,23 +13,23 @@ namespace mesamis {
 /// The input that all passes of decimate() share.
 struct DecimateTask {
   const TriMesh& surface;               ///< the original: a 2-manifold, closed or a part
-  std::span<const TriangleTree> trees;  ///< of the original; of each of its sheets, if any
+  std::span<const TriangleTree> trees;  ///< of the original; of each of its interfaces, if any
   double tolerance;                     ///< mm; infinity: none
   std::int64_t triangles;               ///< a pass stops at so many
   std::function<void(double)> progress;
   bool quick = false;  ///< only the drift proves that triangles are near; what they stand for is
                        ///< not kept
   /// Of the surface, if it is a partition's; nullptr: none.
-  const Sheets* sheets = nullptr;
+  const Interfaces* interfaces = nullptr;
 
-  /// The sheet of a point of the surface; 0 if there are none.
-  Index sheet_at(Index point) const { return sheets ? sheets->of_point[point] : 0; }
+  /// The interface of a point of the surface; 0 if there are none.
+  Index interface_at(Index point) const { return interfaces ? interfaces->of_point[point] : 0; }
   /// The tree of what a point of the surface must stay near.
   const TriangleTree& tree_at(Index point) const {
-    return trees[static_cast<std::size_t>(sheet_at(point))];
+    return trees[static_cast<std::size_t>(interface_at(point))];
   }
   /// Of points that are copies of one, the first.
-  Index first_copy(Index point) const { return sheets ? sheets->first_copy[point] : point; }
+  Index first_copy(Index point) const { return interfaces ? interfaces->first_copy[point] : point; }
 };
 
 /// Makes one pass over a patch: collapses in the order of the quadrics while the guarantees of

@@ -62,17 +62,17 @@ class Decimation {
 
   Corners original(Index t) const { return corners_of(task_.surface, task_.surface.triangles[t]); }
 
-  /// A sheet, or the whole surface: originals, and what is to be near them.
+  /// An interface, or the whole surface: originals, and what is to be near them.
   struct Part {
     std::vector<Index> originals;
     TriMesh placed;
   };
 
-  /// Triangles over the patch's points, and what touches the patch, sheet by sheet.
+  /// Triangles over the patch's points, and what touches the patch, interface by interface.
   std::map<Index, Part> in_their_place(const std::vector<Triangle>& triangles) const {
     std::map<Index, Part> parts;
     const auto place = [&](const Triangle& t) {
-      TriMesh& placed = parts[task_.sheet_at(t[0])].placed;
+      TriMesh& placed = parts[task_.interface_at(t[0])].placed;
       const auto first = static_cast<Index>(placed.points.size());
       for (const Index p : t) placed.points.push_back(task_.surface.points[p]);
       placed.triangles.push_back({first, first + 1, first + 2});
@@ -82,7 +82,7 @@ class Decimation {
     }
     for (const Triangle& t : patch_.around) place(t);
     for (const Index t : originals_) {
-      parts[task_.sheet_at(task_.surface.triangles[t][0])].originals.push_back(t);
+      parts[task_.interface_at(task_.surface.triangles[t][0])].originals.push_back(t);
     }
     return parts;
   }
@@ -92,8 +92,8 @@ class Decimation {
   /// @return whether any original was too far.
   bool hold_what_is_too_far(DecimatedPatch& done) {
     std::vector<Index> lost;
-    for (const auto& of_sheet : in_their_place(done.cover.triangles)) {
-      const Part& part = of_sheet.second;
+    for (const auto& of_interface : in_their_place(done.cover.triangles)) {
+      const Part& part = of_interface.second;
       const std::vector<Index> beyond = triangles_beyond(
           part.originals.size(), [&](std::size_t i) { return original(part.originals[i]); },
           TriangleTree(part.placed), task_.tolerance);

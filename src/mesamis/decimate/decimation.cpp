@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The side of the boxes that hold a patch each, mm. A box cuts the surface in about two sheets.
+/// The side of the boxes that hold a patch each, mm. A box cuts the surface in about two layers.
 double patch_side(const TriMesh& surface, const DecimateOptions& options, double per_patch) {
   const auto triangles = static_cast<double>(surface.triangles.size());
   if (triangles < 2 * per_patch || options.triangles > 0) return kInfinity;
@@ -34,15 +34,15 @@ bool stands_for_itself(const Cover& cover) {
 
 class Decimation {
  public:
-  /// @param sheets  of the surface; nullptr: it is closed.
-  Decimation(const TriMesh& surface, const Sheets* sheets, const DecimateOptions& options,
+  /// @param interfaces  of the surface; nullptr: it is closed.
+  Decimation(const TriMesh& surface, const Interfaces* interfaces, const DecimateOptions& options,
              PatchworkReport& report)
-      : surface_(surface), sheets_(sheets), options_(options), report_(report) {
-    if (!sheets) {
+      : surface_(surface), interfaces_(interfaces), options_(options), report_(report) {
+    if (!interfaces) {
       trees_.emplace_back(surface);
     } else {
-      for (const TriMesh& sheet : split_sheets(*sheets, surface.triangles)) {
-        trees_.emplace_back(sheet);
+      for (const TriMesh& interface : split_interfaces(*interfaces, surface.triangles)) {
+        trees_.emplace_back(interface);
       }
     }
   }
@@ -50,7 +50,7 @@ class Decimation {
   /// @param side  of the patches' boxes, mm; infinity: one patch.
   TriMesh run(double side) {
     const std::vector<char> held =
-        sheets_ ? sheets_->at_rim : std::vector<char>(surface_.points.size(), 0);
+        interfaces_ ? interfaces_->at_rim : std::vector<char>(surface_.points.size(), 0);
     Cover cover = run(cover_of(surface_), held, side);
     for (const double drift : cover.drift) report_.drift = std::max(report_.drift, drift);
     return {surface_.points, std::move(cover.triangles)};
@@ -95,7 +95,7 @@ class Decimation {
             .triangles = options_.triangles,
             .progress = tell,
             .quick = options_.quick,
-            .sheets = sheets_};
+            .interfaces = interfaces_};
   }
 
   static void hold_too(const std::vector<char>& held, Patch& patch) {
@@ -112,9 +112,9 @@ class Decimation {
   }
 
   const TriMesh& surface_;
-  const Sheets* sheets_;
+  const Interfaces* interfaces_;
   const DecimateOptions& options_;
-  std::vector<TriangleTree> trees_;  // of each sheet, or one
+  std::vector<TriangleTree> trees_;  // of each interface, or one
   PatchworkReport& report_;
   double told_ = 0;  // share of the work
 };
@@ -141,10 +141,10 @@ TriMesh decimate_surface(const TriMesh& surface, const DecimateOptions& options,
       .run(patch_side(surface, options, triangles_per_patch));
 }
 
-TriMesh decimate_sheets(const Sheets& sheets, const DecimateOptions& options,
-                        double triangles_per_patch, PatchworkReport& report) {
-  return Decimation(sheets.surface, &sheets, options, report)
-      .run(patch_side(sheets.surface, options, triangles_per_patch));
+TriMesh decimate_interfaces(const Interfaces& interfaces, const DecimateOptions& options,
+                            double triangles_per_patch, PatchworkReport& report) {
+  return Decimation(interfaces.surface, &interfaces, options, report)
+      .run(patch_side(interfaces.surface, options, triangles_per_patch));
 }
 
 Cover decimate_part(const TriMesh& original, Cover part, const std::vector<char>& held,

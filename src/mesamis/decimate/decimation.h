@@ -2,8 +2,8 @@
 #pragma once
 
 #include "mesamis/decimate/decimate.h"
+#include "mesamis/decimate/interfaces.h"
 #include "mesamis/decimate/patchwork.h"
-#include "mesamis/decimate/sheets.h"
 
 namespace mesamis {
 
@@ -34,9 +34,9 @@ TriMesh decimate_surface(const TriMesh& surface, const DecimateOptions& options,
 Cover decimate_patches(const TriMesh& original, Cover part, const std::vector<char>& held,
                        const DecimateOptions& options, double triangles_per_patch);
 
-/// The same for sheets, whose points at rims stay.
-/// @return over the points of the sheets.
-TriMesh decimate_sheets(const Sheets& sheets, const DecimateOptions& options,
-                        double triangles_per_patch, PatchworkReport& report);
+/// The same for interfaces, whose points at rims stay.
+/// @return over the points of the interfaces.
+TriMesh decimate_interfaces(const Interfaces& interfaces, const DecimateOptions& options,
+                            double triangles_per_patch, PatchworkReport& report);
 
 }  // namespace mesamis

@@ -18,7 +18,7 @@ set(ROOM_SOURCES
   patch.cpp
   patchwork.cpp
   round_together.cpp
-  sheets.cpp
+  interfaces.cpp
   NEXT decimation.cpp
   round_to_single.cpp
   NEXT decimate_pass.cpp)

@@ -161,7 +161,7 @@ void add_object(LabelMap& map, Segment segment, std::vector<std::uint16_t> objec
 
 }  // namespace
 
-SurfaceLabels label_surfaces(const VoxelGrid& grid, std::span<const FoundObject> objects) {
+SurfaceLabels labels_of_surfaces(const VoxelGrid& grid, std::span<const FoundObject> objects) {
   SurfaceLabels out;
   static_cast<VoxelGrid&>(out.map) = grid;
   for (const FoundObject& object : objects) {

@@ -53,6 +53,6 @@ struct SurfaceLabels {
 /// @throws InputError  if no voxel centre of the grid lies inside of any object.
 ///
 /// As label_map_of(), and a copy of the labels of one layer.
-SurfaceLabels label_surfaces(const VoxelGrid& grid, std::span<const FoundObject> objects);
+SurfaceLabels labels_of_surfaces(const VoxelGrid& grid, std::span<const FoundObject> objects);
 
 }  // namespace mesamis

@@ -31,7 +31,7 @@ void require_range(bool fits, const char* what, double found) {
 }
 
 void require_options(const ElementModuliOptions& o) {
-  if (o.law.pieces.empty()) throw InputError("materials: expected a law, found one of no piece");
+  if (o.law.ranges.empty()) throw InputError("materials: expected a law, found one of no range");
   require_range(o.calibration.slope > 0 && std::isfinite(o.calibration.slope),
                 "a calibration of positive slope", o.calibration.slope);
   require_range(o.density_min >= 0 && std::isfinite(o.density_min),

@@ -113,9 +113,9 @@ std::optional<MaterialLaw> power_law(std::string_view text) {
 
 double modulus_at(const MaterialLaw& law, double density) noexcept {
   const double rho = density < 0 ? 0 : density;
-  const auto piece = std::find_if(law.pieces.begin(), law.pieces.end() - 1,
-                                  [rho](const LawPiece& p) { return rho <= p.up_to; });
-  return piece->offset + piece->coefficient * std::pow(rho, piece->exponent);
+  const auto range = std::find_if(law.ranges.begin(), law.ranges.end() - 1,
+                                  [rho](const LawRange& p) { return rho <= p.up_to; });
+  return range->offset + range->coefficient * std::pow(rho, range->exponent);
 }
 
 const std::vector<MaterialLaw>& material_laws() {

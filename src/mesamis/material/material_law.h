@@ -82,8 +82,8 @@ struct DensityModel {
 Calibration calibration_to(DensityKind kind, const DensityModel& model);
 
 /// One range of densities of a law: E = offset + coefficient * rho^exponent.
-struct LawPiece {
-  double up_to;        ///< g/cm^3; the piece holds up to this density, included
+struct LawRange {
+  double up_to;        ///< g/cm^3; the range holds up to this density, included
   double coefficient;  ///< MPa per (g/cm^3)^exponent
   double exponent;     ///< no unit
   double offset = 0;   ///< MPa
@@ -93,7 +93,7 @@ struct LawPiece {
 struct MaterialLaw {
   std::string name;
   DensityKind density = DensityKind::kApparent;  ///< that the law takes
-  std::vector<LawPiece> pieces;                  ///< at least one, in increasing order of up_to
+  std::vector<LawRange> ranges;                  ///< at least one, in increasing order of up_to
   /// g/cm^3: the densities of the specimens; none where we do not know them.
   std::optional<std::array<double, 2>> valid{};
   double poisson = 0.3;    ///< no unit; the usual choice beside the law, not part of it

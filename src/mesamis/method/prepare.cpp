@@ -145,7 +145,7 @@ void require_contrast(const VolumeView& volume, const Parameters& p) {
 
 /// A choice, and the image that it was made from.
 struct Chosen {
-  Choice choice;
+  ChosenParameters choice;
   Restored restored;
   LocalLevel local{};  ///< no samples: there is one level
 
@@ -203,7 +203,7 @@ Chosen choose(const VolumeView& volume, const VoxelGrid& whole, const Settings& 
 }
 
 /// @param restored  in native units; taken over.
-Prepared prepared_from(const Choice& choice, Volume restored) {
+Prepared prepared_from(const ChosenParameters& choice, Volume restored) {
   const GreyMap& map = choice.parameters.grey;
   Prepared prepared{choice.parameters, choice.measured, {}, spline_image(map, restored)};
   prepared.grey = apply(map, std::move(restored));
@@ -228,11 +228,12 @@ Prepared prepare_image(const VolumeView& volume, const Settings& settings) {
   return prepared;
 }
 
-Choice choose_parameters(const VolumeView& part, const VoxelGrid& whole, const Settings& settings) {
+ChosenParameters choose_parameters(const VolumeView& part, const VoxelGrid& whole,
+                                   const Settings& settings) {
   return choose(part, whole, settings).choice;
 }
 
-Prepared prepare_slab(const VolumeView& slab, const Choice& choice) {
+Prepared prepare_slab(const VolumeView& slab, const ChosenParameters& choice) {
   const Parameters& p = choice.parameters;
   Volume scan = clamped(slab, {p.grey.low, p.grey.high});
   if (!p.restore) return prepared_from(choice, std::move(scan));

@@ -26,7 +26,7 @@ struct Prepared {
 };
 
 /// What a run uses, chosen from a scan or from a part of it that stands for the whole.
-struct Choice {
+struct ChosenParameters {
   Parameters parameters;  ///< max_tets counts the surface of the part
   MeasuredImage measured;
   HalfMaximumLevel object;    ///< at whose surface the image is restored, native units
@@ -59,7 +59,8 @@ Prepared prepare_image(const VolumeView& volume, const Settings& settings);
 /// @throws InputError  as prepare_image().
 ///
 /// O(voxels of the part); two copies of its samples at a time.
-Choice choose_parameters(const VolumeView& part, const VoxelGrid& whole, const Settings& settings);
+ChosenParameters choose_parameters(const VolumeView& part, const VoxelGrid& whole,
+                                   const Settings& settings);
 
 /// Prepares some slices of a scan as prepare_image() would with this choice.
 /// @param slab    native units. The outer slices lack neighbours: twelve of them are not as they
@@ -68,7 +69,7 @@ Choice choose_parameters(const VolumeView& part, const VoxelGrid& whole, const S
 /// @return parameters and measured values as chosen; image and grey of the slab.
 ///
 /// As choose_parameters().
-Prepared prepare_slab(const VolumeView& slab, const Choice& choice);
+Prepared prepare_slab(const VolumeView& slab, const ChosenParameters& choice);
 
 /// How much surface at the level of a choice a prepared slab has; of its own grey values.
 SurfaceExtent extent_of(const Prepared& slab);

@@ -52,7 +52,7 @@ double value_around(const VolumeView& volume, const VoxelMask& grown) {
   return values.empty() ? sample_range(volume.samples).first : median(values);
 }
 
-[[noreturn]] void refuse_without_body() {
+[[noreturn]] void refuse_without_patient() {
   throw InputError("remove: expected a patient's body in a CT scan, found none");
 }
 
@@ -67,9 +67,9 @@ void warn_of_labels(const VolumeView& scan, std::vector<std::string>& warnings) 
 }
 
 /// The steps of choose_object().
-class Choice {
+class ObjectChooser {
  public:
-  Choice(Volume scan, const ObjectRequest& request)
+  ObjectChooser(Volume scan, const ObjectRequest& request)
       : request_(request), in_hounsfield_(is_hounsfield(scan)) {
     chosen_.volume = std::move(scan);
     if (in_hounsfield_) chosen_.volume.modality = "CT";  // a part without air tells it no more
@@ -87,7 +87,7 @@ class Choice {
     fill_padding();
     remove_surroundings();
     if (chosen_.kind == TissueKind::kBright) remove_marked();
-    if (chosen_.kind == TissueKind::kDark && request_.tissue->in_body) fill_around_body();
+    if (chosen_.kind == TissueKind::kDark && request_.tissue->in_patient) fill_around_patient();
     find_level();
     crop_all();
     if (needs_level_of_crop()) set_level(find_tissue_level(chosen_.volume, bright_tissue()), true);
@@ -120,25 +120,25 @@ class Choice {
   void remove_surroundings() {
     if (request_.surroundings == SurroundingsRule::kKeep) return;
     const bool asked = request_.surroundings == SurroundingsRule::kRemove;
-    body_ = find_body(chosen_.volume);
-    if (!body_ && asked) refuse_without_body();
-    if (!body_ || body_->removed.empty()) return;
-    chosen_.volume = without_surroundings(std::move(chosen_.volume), *body_);
-    chosen_.removed = body_->removed;
+    patient_ = find_patient(chosen_.volume);
+    if (!patient_ && asked) refuse_without_patient();
+    if (!patient_ || patient_->removed.empty()) return;
+    chosen_.volume = without_surroundings(std::move(chosen_.volume), *patient_);
+    chosen_.removed = patient_->removed;
     std::string things;
-    for (const Surroundings& thing : body_->removed) {
+    for (const Surroundings& thing : patient_->removed) {
       things += line("%s, %.3g cm^3; ", thing.what.c_str(), thing.mm3 / 1000);
     }
     chosen_.notes.push_back("removed: " + things + "--keep-surroundings leaves it");
   }
 
   /// The air around the patient is as dark as that within, and has more surface: it goes first.
-  void fill_around_body() {
-    if (!body_) {
+  void fill_around_patient() {
+    if (!patient_) {
       chosen_.warnings.push_back("tissue: no body was found; the air around it comes along");
       return;
     }
-    const VoxelMask inside = eroded(body_->mask, chosen_.volume, body_->grain);
+    const VoxelMask inside = eroded(patient_->mask, chosen_.volume, patient_->grain);
     chosen_.volume = mirrored(kept_to(mirrored(std::move(chosen_.volume)), inside,
                                       {.margin = 0, .background = mirrored(kSoftHu)}));
   }
@@ -279,14 +279,14 @@ class Choice {
   const ObjectRequest& request_;
   bool in_hounsfield_;
   ChosenObject chosen_;
-  std::optional<Body> body_;
+  std::optional<Patient> patient_;
   std::optional<double> background_;  // measured at the object's surface
 };
 
 }  // namespace
 
 ChosenObject choose_object(Volume scan, const ObjectRequest& request) {
-  return Choice(std::move(scan), request).run();
+  return ObjectChooser(std::move(scan), request).run();
 }
 
 std::optional<ChosenObject> choose_in_place(const VolumeView& scan, const ObjectRequest& request) {
@@ -295,9 +295,9 @@ std::optional<ChosenObject> choose_in_place(const VolumeView& scan, const Object
     return std::nullopt;
   }
   if (request.surroundings != SurroundingsRule::kKeep) {
-    const std::optional<Body> body = find_body(scan);
-    if (body && !body->removed.empty()) return std::nullopt;
-    if (!body && request.surroundings == SurroundingsRule::kRemove) refuse_without_body();
+    const std::optional<Patient> patient = find_patient(scan);
+    if (patient && !patient->removed.empty()) return std::nullopt;
+    if (!patient && request.surroundings == SurroundingsRule::kRemove) refuse_without_patient();
   }
   ChosenObject chosen;
   static_cast<VoxelGrid&>(chosen.volume) = scan;

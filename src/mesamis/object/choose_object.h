@@ -7,8 +7,8 @@
 
 #include "mesamis/image/label_map.h"
 #include "mesamis/image/volume.h"
-#include "mesamis/object/body.h"
 #include "mesamis/object/object_request.h"
+#include "mesamis/object/patient.h"
 #include "mesamis/object/voxel_distance.h"
 
 /// From a scan and what a user says of the object to an image that shows this object alone.
@@ -71,7 +71,7 @@ struct ChosenObject {
 ///                     find_tissue_level() and split_at_seeds().
 ///
 /// O(voxels), as the steps asked for; one or two copies of the samples at a time, and about 30
-/// bytes per voxel that find_body() looks at.
+/// bytes per voxel that find_patient() looks at.
 ChosenObject choose_object(Volume scan, const ObjectRequest& request);
 
 /// Finds out whether choose_object() would leave a scan's samples as they are, so that the scan can

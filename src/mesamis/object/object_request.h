@@ -27,7 +27,7 @@ struct Tissue {
   Window levels{};  ///< of its surface: the half maximum is looked for between these
   std::optional<double> start{};  ///< level from which the search starts; nothing: Otsu's threshold
   std::string help{};             ///< one line for a user
-  bool in_body = true;            ///< what is outside of the patient is no part of it
+  bool in_patient = true;         ///< what is outside of the patient is no part of it
   bool hounsfield = true;         ///< the values mean something only in CT
 
   /// Whether the user named the level, by a range of values: nothing is measured.
@@ -55,9 +55,9 @@ PaddingRule parse_padding(std::string_view text);
 
 /// What happens to table, head rest and whatever else is outside of the patient.
 enum class SurroundingsRule {
-  kRemoveIfBody,  ///< removed where find_body() finds a patient
-  kRemove,        ///< removed; refused where there is no patient
-  kKeep           ///< they stay
+  kRemoveIfPatient,  ///< removed where find_patient() finds a patient
+  kRemove,           ///< removed; refused where there is no patient
+  kKeep              ///< they stay
 };
 
 /// Which object of a scan is meant.
@@ -67,7 +67,7 @@ struct ObjectRequest {
   std::optional<double> level{};   ///< native units of the scan; comes before the tissue's
   bool measure_level = true;       ///< false: nobody needs one but tissues and seeds
   bool has_labels = false;         ///< labels choose the objects: the scan is no label map itself
-  SurroundingsRule surroundings = SurroundingsRule::kRemoveIfBody;
+  SurroundingsRule surroundings = SurroundingsRule::kRemoveIfPatient;
   PaddingRule padding{};             ///< which voxels were not measured
   std::optional<LabelMap> remove{};  ///< what is marked in any of its segments goes
   std::optional<LabelMap> mask{};    ///< what is marked in any of its segments stays

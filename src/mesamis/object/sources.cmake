@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
-  body.h
+  patient.h
   choose_object.h
   keep.h
   mirror.h
@@ -14,7 +14,7 @@ set(ROOM_HEADERS
   voxel_islands.h
   whole_values.h)
 set(ROOM_SOURCES
-  body.cpp
+  patient.cpp
   choose_object.cpp
   keep.cpp
   mirror.cpp

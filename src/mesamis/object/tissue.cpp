@@ -48,7 +48,7 @@ const std::array<Tissue, 8>& table() {
              .values = {-kInfinity, kInfinity},
              .levels = {-kInfinity, kInfinity},
              .help = "whatever is darker than its surroundings, in any scan: bone in MR",
-             .in_body = false,
+             .in_patient = false,
              .hounsfield = false}};
   return kTable;
 }
@@ -76,7 +76,7 @@ Tissue parse_range(std::string_view text, std::size_t colon) {
   const double level = low ? *low : *high;
   tissue.levels = {level, level};
   tissue.start = level;
-  tissue.in_body = false;
+  tissue.in_patient = false;
   tissue.hounsfield = false;
   tissue.help = "samples from " + std::string(text);
   return tissue;

@@ -13,15 +13,15 @@ namespace {
 using Edge = std::pair<Index, Index>;
 
 /// What a triangle leaves on the plane.
-struct Piece {
+struct Crossing {
   std::array<Edge, 2> edges;
   std::array<std::array<double, 2>, 2> ends;
 };
 
-std::vector<Piece> pieces_of(const TriMesh& surface, const std::vector<Vec3>& points) {
-  std::vector<Piece> pieces;
+std::vector<Crossing> crossings_of(const TriMesh& surface, const std::vector<Vec3>& points) {
+  std::vector<Crossing> crossings;
   for (const Triangle& t : surface.triangles) {
-    Piece piece;
+    Crossing crossing;
     std::size_t found = 0;
     for (std::size_t e = 0; e < 3 && found < 2; ++e) {
       // From the lower index on: both triangles of an edge find the same point.
@@ -29,35 +29,35 @@ std::vector<Piece> pieces_of(const TriMesh& surface, const std::vector<Vec3>& po
       const Vec3 &a = points[static_cast<std::size_t>(i)], &b = points[static_cast<std::size_t>(j)];
       if ((a.z < 0) == (b.z < 0)) continue;
       const Vec3 at = a + (a.z / (a.z - b.z)) * (b - a);
-      piece.edges[found] = {i, j};
-      piece.ends[found++] = {at.x, at.y};
+      crossing.edges[found] = {i, j};
+      crossing.ends[found++] = {at.x, at.y};
     }
-    if (found == 2) pieces.push_back(piece);
+    if (found == 2) crossings.push_back(crossing);
   }
-  return pieces;
+  return crossings;
 }
 
-/// Joins pieces that end at the same edge of the surface.
+/// Joins crossings that end at the same edge of the surface.
 class Chains {
  public:
-  explicit Chains(std::vector<Piece> pieces)
-      : pieces_(std::move(pieces)), used_(pieces_.size(), false) {
-    for (std::size_t n = 0; n < pieces_.size(); ++n) {
-      for (const Edge& edge : pieces_[n].edges) at_.push_back({edge, n});
+  explicit Chains(std::vector<Crossing> crossings)
+      : crossings_(std::move(crossings)), used_(crossings_.size(), false) {
+    for (std::size_t n = 0; n < crossings_.size(); ++n) {
+      for (const Edge& edge : crossings_[n].edges) at_.push_back({edge, n});
     }
     std::sort(at_.begin(), at_.end());
   }
 
   std::vector<PageLine> lines() {
     std::vector<PageLine> found;
-    for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    for (std::size_t n = 0; n < crossings_.size(); ++n) {
       if (used_[n]) continue;
       used_[n] = true;
-      PageLine line{pieces_[n].ends[0], pieces_[n].ends[1]};
-      walk(pieces_[n].edges[1], line);
+      PageLine line{crossings_[n].ends[0], crossings_[n].ends[1]};
+      walk(crossings_[n].edges[1], line);
       if (line.front() != line.back()) {  // open: its other part too
         std::reverse(line.begin(), line.end());
-        walk(pieces_[n].edges[0], line);
+        walk(crossings_[n].edges[0], line);
       }
       found.push_back(std::move(line));
     }
@@ -66,24 +66,24 @@ class Chains {
 
  private:
   void walk(Edge edge, PageLine& line) {
-    for (std::size_t next = unused(edge); next < pieces_.size(); next = unused(edge)) {
+    for (std::size_t next = unused(edge); next < crossings_.size(); next = unused(edge)) {
       used_[next] = true;
-      const std::size_t far = pieces_[next].edges[0] == edge ? 1 : 0;
-      line.push_back(pieces_[next].ends[far]);
-      edge = pieces_[next].edges[far];
+      const std::size_t far = crossings_[next].edges[0] == edge ? 1 : 0;
+      line.push_back(crossings_[next].ends[far]);
+      edge = crossings_[next].edges[far];
     }
   }
 
-  /// A piece at this edge that no line has; none: the number of pieces.
+  /// A crossing at this edge that no line has; none: the number of crossings.
   std::size_t unused(const Edge& edge) const {
     auto at = std::lower_bound(at_.begin(), at_.end(), std::pair{edge, std::size_t{0}});
     for (; at != at_.end() && at->first == edge; ++at) {
       if (!used_[at->second]) return at->second;
     }
-    return pieces_.size();
+    return crossings_.size();
   }
 
-  std::vector<Piece> pieces_;
+  std::vector<Crossing> crossings_;
   std::vector<bool> used_;
   std::vector<std::pair<Edge, std::size_t>> at_;
 };
@@ -95,7 +95,7 @@ std::vector<PageLine> cross_section(const TriMesh& surface, const VoxelGrid& gri
   std::vector<Vec3> points;
   points.reserve(surface.points.size());
   for (const Vec3& p : surface.points) points.push_back(to_page(grid, plane, p));
-  return Chains(pieces_of(surface, points)).lines();
+  return Chains(crossings_of(surface, points)).lines();
 }
 
 double middle_of(const std::vector<const TriMesh*>& surfaces, int axis) {

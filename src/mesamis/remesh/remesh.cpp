@@ -10,7 +10,7 @@
 
 namespace mesamis {
 
-double predicted_cells(const MetricField& metric, const Box& box) {
+double cells_for_metric(const MetricField& metric, const Box& box) {
   return kCellsPerComplexity * remeshing::probe_complexity({metric, box}, box);
 }
 

@@ -47,7 +47,7 @@ struct RemeshReport {
 /// @param box     mm.
 ///
 /// O(1) look-ups. The same bits for any number of threads.
-double predicted_cells(const MetricField& metric, const Box& box);
+double cells_for_metric(const MetricField& metric, const Box& box);
 
 /// Builds a mesh of the start mesh's box whose edges have length one in the metric.
 ///

@@ -11,7 +11,7 @@
 #include "mesamis/remesh/balance.h"
 #include "mesamis/remesh/collapse.h"
 #include "mesamis/remesh/explore.h"
-#include "mesamis/remesh/partition.h"
+#include "mesamis/remesh/mesh_parts.h"
 #include "mesamis/remesh/repair.h"
 #include "mesamis/remesh/shape_repair.h"
 #include "mesamis/remesh/smooth.h"

@@ -17,7 +17,7 @@ set(ROOM_SOURCES
   explore.cpp
   manifold_skin.cpp
   metric_sampler.cpp
-  partition.cpp
+  mesh_parts.cpp
   piece.cpp
   remesh.cpp
   remesher.cpp

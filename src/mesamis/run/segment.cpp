@@ -26,7 +26,7 @@ ObjectRequest completed(const Request& request) {
   object.measure_level = by_settings.measure_level && !request.labels;
   object.has_labels = request.labels.has_value();
   if (object.crop == CropRange{}) object.crop = by_settings.crop;
-  if (object.has_labels && object.surroundings == SurroundingsRule::kRemoveIfBody) {
+  if (object.has_labels && object.surroundings == SurroundingsRule::kRemoveIfPatient) {
     object.surroundings = SurroundingsRule::kKeep;
   }
   return object;

@@ -64,7 +64,7 @@ std::vector<double> cells_of_slabs(const MeshRun& run, int k) {
 /// The cells of each slice of mesh k + 1, any unit: as the metric has it, and as each slab of mesh
 /// k came to have more or fewer cells than were predicted.
 /// @param cells  of the slabs of mesh k.
-std::vector<double> predicted_cells(const MeshRun& run, int k,
+std::vector<double> cells_of_slices(const MeshRun& run, int k,
                                     const std::vector<Complexities>& slices,
                                     const std::vector<double>& cells, double factor) {
   std::vector<double> predicted;
@@ -116,7 +116,7 @@ void plan_next_mesh(MeshRun& run) {
   MeshPlan next;
   next.complexity = static_cast<double>(run.input.cells_after(k + 1)) / per_complexity;
   next.factor = factor_for(sum_of(slices), next.complexity);
-  cut_mesh(run.slabs, predicted_cells(run, k, slices, cells, next.factor), false, next);
+  cut_mesh(run.slabs, cells_of_slices(run, k, slices, cells, next.factor), false, next);
   run.meshes.push_back(std::move(next));
 }
 

@@ -48,9 +48,9 @@ ChosenObject choose_in(Volume scan, const Settings& settings) {
   return choose_object(std::move(scan), object_request(settings));
 }
 
-Choice choose_of_object(const ChosenObject& object, const VoxelGrid& whole,
-                        const Settings& settings) {
-  Choice choice = choose_parameters(object.volume, whole, settings_for(object, settings));
+ChosenParameters choose_of_object(const ChosenObject& object, const VoxelGrid& whole,
+                                  const Settings& settings) {
+  ChosenParameters choice = choose_parameters(object.volume, whole, settings_for(object, settings));
   if (object.level_uncertainty > 0) choice.measured.level_uncertainty = object.level_uncertainty;
   return choice;
 }
@@ -86,7 +86,7 @@ SlabRun begin_run(const SliceSource& source, const Settings& settings, const Scr
   const VoxelGrid& whole = source.grid();
   const SliceRange sample = slices_to_look_at(source, scratch, stages);
   stages.run("choose", 1, [&](Index) {
-    Choice choice = choose_of_object(
+    ChosenParameters choice = choose_of_object(
         choose_in(read_slab(source, sample.first, sample.count), settings), whole, settings);
     choice.parameters.max_tets = settings.max_tets.value_or(0);  // else as the slabs' surfaces need
     ArchiveWriter archive;
@@ -94,7 +94,7 @@ SlabRun begin_run(const SliceSource& source, const Settings& settings, const Scr
     scratch.write("choice", archive);
     return SlabWork{};
   });
-  auto choice = scratch.read("choice").next_one<Choice>();
+  auto choice = scratch.read("choice").next_one<ChosenParameters>();
   Parameters& p = choice.parameters;
   const SlabPlan plan = even_plan(whole, {p.unit_mm, p.functional.beta, slabs});
   p.h_max = std::max(p.h_min, std::min(p.h_max, plan.least_thickness()));

@@ -28,7 +28,8 @@ struct SlabRun {
   const SliceSource& source;
   const Scratch& scratch;
   SlabPlan plan;  ///< of voxels
-  Choice choice;  ///< h_max at most least_thickness(): larger cells would reach over whole slabs
+  /// h_max at most least_thickness(): larger cells would reach over whole slabs.
+  ChosenParameters choice;
 };
 
 /// What the surface in a slab asks for.

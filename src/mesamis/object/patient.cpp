@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/object/body.h"
+#include "mesamis/object/patient.h"
 
 #include <algorithm>
 #include <cmath>
@@ -128,41 +128,42 @@ std::vector<std::uint8_t> touch(const VoxelIslands& islands, const VoxelMask& ma
 
 /// Gives back what the opening took from the body: short parts that hang on, and what lies in its
 /// hollows.
-void add_thin_parts(VoxelMask& body, const VoxelMask& solid, const VoxelGrid& grid) {
-  const VoxelMask rest = only_in(solid, body);
+void add_thin_parts(VoxelMask& patient, const VoxelMask& solid, const VoxelGrid& grid) {
+  const VoxelMask rest = only_in(solid, patient);
   const VoxelIslands parts = find_islands(rest, grid);
   const std::vector<CropRange> ranges = ranges_of(parts, grid);
-  const std::vector<std::uint8_t> hangs_on = touch(parts, body, grid);
-  const VoxelMask in_hollow = closed(body, grid, kHollow);
+  const std::vector<std::uint8_t> hangs_on = touch(parts, patient, grid);
+  const VoxelMask in_hollow = closed(patient, grid, kHollow);
   for (std::size_t n = 0; n < rest.size(); ++n) {
     if (rest[n] == 0) continue;
     const std::size_t part = at(parts.of_voxel[n] - 1);
     const bool is_short = longest_side(ranges[part], grid) <= kLongPart;
-    body[n] = in_hollow[n] != 0 || (hangs_on[part] != 0 && is_short);
+    patient[n] = in_hollow[n] != 0 || (hangs_on[part] != 0 && is_short);
   }
 }
 
 /// Fills what the outside does not reach, and lungs that the scan's border cuts.
-void fill_enclosed(VoxelMask& body, const VolumeView& volume) {
+void fill_enclosed(VoxelMask& patient, const VolumeView& volume) {
   constexpr double kLung = -950;  // HU; air is darker
-  body = without_cavities(without_cavities_in_slices(body, volume, patient_axis(volume)), volume);
-  const VoxelIslands gaps = find_islands(complement(body), volume);
+  patient =
+      without_cavities(without_cavities_in_slices(patient, volume, patient_axis(volume)), volume);
+  const VoxelIslands gaps = find_islands(complement(patient), volume);
   std::vector<std::vector<double>> values(gaps.voxels.size() + 1);
-  for (std::size_t n = 0; n < body.size(); ++n) {
-    if (body[n] == 0) values[at(gaps.of_voxel[n])].push_back(volume.samples[n]);
+  for (std::size_t n = 0; n < patient.size(); ++n) {
+    if (patient[n] == 0) values[at(gaps.of_voxel[n])].push_back(volume.samples[n]);
   }
   std::vector<std::uint8_t> is_lung(values.size(), 0);
   for (std::size_t gap = 1; gap < values.size(); ++gap) {
     const double middle = median(values[gap]);
     is_lung[gap] = middle > kLung && middle < kNoAir;
   }
-  for (std::size_t n = 0; n < body.size(); ++n) body[n] |= is_lung[at(gaps.of_voxel[n])];
+  for (std::size_t n = 0; n < patient.size(); ++n) patient[n] |= is_lung[at(gaps.of_voxel[n])];
 }
 
 /// What is dense and not in the body, by name.
-std::vector<Surroundings> name_surroundings(const VoxelMask& body, const VoxelMask& dense,
+std::vector<Surroundings> name_surroundings(const VoxelMask& patient, const VoxelMask& dense,
                                             const VoxelGrid& grid) {
-  const VoxelIslands islands = find_islands(only_in(dense, body), grid);
+  const VoxelIslands islands = find_islands(only_in(dense, patient), grid);
   const std::vector<CropRange> ranges = ranges_of(islands, grid);
   const auto axis = at(patient_axis(grid));
   std::vector<Surroundings> kinds{{"table or head rest", 0}, {"other objects", 0}};
@@ -193,7 +194,7 @@ VoxelMask spread_out(const VoxelMask& coarse, const VoxelGrid& from, const Voxel
 
 }  // namespace
 
-std::optional<Body> find_body(const VolumeView& volume) {
+std::optional<Patient> find_patient(const VolumeView& volume) {
   if (volume.samples.empty() || !is_hounsfield(volume)) return std::nullopt;
   if (*std::min_element(volume.size.begin(), volume.size.end()) < 2) return std::nullopt;
   const std::array<Index, 3> stride = coarse_stride(volume);
@@ -206,17 +207,17 @@ std::optional<Body> find_body(const VolumeView& volume) {
   VoxelMask inside = dilated(core, coarse, kOpening);
   add_thin_parts(inside, solid, coarse);
   fill_enclosed(inside, coarse);
-  Body body;
-  body.grain = std::max({coarse.spacing.x, coarse.spacing.y, coarse.spacing.z});
-  body.removed = name_surroundings(inside, dense, coarse);
-  body.mm3 = static_cast<double>(count_marked(inside)) * coarse.voxel_volume();
-  body.mask = spread_out(inside, coarse, volume, stride);
-  return body;
+  Patient patient;
+  patient.grain = std::max({coarse.spacing.x, coarse.spacing.y, coarse.spacing.z});
+  patient.removed = name_surroundings(inside, dense, coarse);
+  patient.mm3 = static_cast<double>(count_marked(inside)) * coarse.voxel_volume();
+  patient.mask = spread_out(inside, coarse, volume, stride);
+  return patient;
 }
 
-Volume without_surroundings(Volume volume, const Body& body) {
+Volume without_surroundings(Volume volume, const Patient& patient) {
   constexpr double kAir = -1000;  // HU
-  return kept_to(std::move(volume), body.mask, {.margin = body.grain, .background = kAir});
+  return kept_to(std::move(volume), patient.mask, {.margin = patient.grain, .background = kAir});
 }
 
 }  // namespace mesamis

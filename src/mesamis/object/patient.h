@@ -18,7 +18,7 @@ struct Surroundings {
 };
 
 /// The patient in a CT scan.
-struct Body {
+struct Patient {
   VoxelMask mask;                     ///< 1 within the patient, lungs and airways included; else 0
   double mm3 = 0;                     ///< volume of the mask
   double grain = 0;                   ///< mm: the mask is as coarse as this
@@ -47,7 +47,7 @@ struct Body {
 ///         MR, micro-CT and dry bones have none.
 ///
 /// O(voxels); about 30 bytes per voxel that is looked at, and the mask.
-std::optional<Body> find_body(const VolumeView& volume);
+std::optional<Patient> find_patient(const VolumeView& volume);
 
 /// Replaces what is bright outside of the body by air, see kept_to(): within the mask's grain of
 /// the body nothing changes.
@@ -57,6 +57,6 @@ std::optional<Body> find_body(const VolumeView& volume);
 /// @throws InputError  if the mask does not fit the volume or is empty.
 ///
 /// O(voxels), as kept_to().
-Volume without_surroundings(Volume volume, const Body& body);
+Volume without_surroundings(Volume volume, const Patient& patient);
 
 }  // namespace mesamis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/decimate/sheets.h"
+#include "mesamis/decimate/interfaces.h"
 
 #include <algorithm>
 #include <string>
@@ -37,24 +37,24 @@ class CornerPoints {
     for_each_edge(half_edges, [this](std::span<const HalfEdge> edge) { visit(edge); });
   }
 
-  Sheets sheets() {
-    Sheets sheets;
+  Interfaces interfaces() {
+    Interfaces interfaces;
     const std::vector<std::size_t> firsts = first_corners();
     std::vector<Index> number(at_rim_.size(), kNoIndex);
     for (const std::size_t corner : firsts) {
-      number[corner] = static_cast<Index>(sheets.origin.size());
-      sheets.origin.push_back(point_at(corner));
-      sheets.surface.points.push_back(partition_.points[point_at(corner)]);
+      number[corner] = static_cast<Index>(interfaces.origin.size());
+      interfaces.origin.push_back(point_at(corner));
+      interfaces.surface.points.push_back(partition_.points[point_at(corner)]);
     }
-    sheets.at_rim.assign(sheets.origin.size(), 0);
+    interfaces.at_rim.assign(interfaces.origin.size(), 0);
     for (std::size_t t = 0; t < partition_.triangles.size(); ++t) {
-      Triangle& triangle = sheets.surface.triangles.emplace_back();
+      Triangle& triangle = interfaces.surface.triangles.emplace_back();
       for (std::size_t i = 0; i < 3; ++i) {
         triangle[i] = number[sets_.find(3 * t + i)];
-        sheets.at_rim[triangle[i]] |= at_rim_[3 * t + i];
+        interfaces.at_rim[triangle[i]] |= at_rim_[3 * t + i];
       }
     }
-    return sheets;
+    return interfaces;
   }
 
  private:
@@ -78,7 +78,7 @@ class CornerPoints {
                      " alone share an edge, but their sides differ");
   }
 
-  /// One corner for each point of a sheet, in the order of the partition's points.
+  /// One corner for each point of an interface, in the order of the partition's points.
   std::vector<std::size_t> first_corners() {
     std::vector<std::size_t> firsts;
     for (std::size_t corner = 0; corner < at_rim_.size(); ++corner) {
@@ -94,53 +94,54 @@ class CornerPoints {
   std::vector<char> at_rim_;
 };
 
-void find_copies(Sheets& sheets) {
-  for (Index p = 0; p < std::ssize(sheets.origin); ++p) {
-    const bool is_copy = p > 0 && sheets.origin[p] == sheets.origin[p - 1];
-    sheets.first_copy.push_back(is_copy ? sheets.first_copy.back() : p);
-    if (is_copy) sheets.at_rim[p] = sheets.at_rim[p - 1] = 1;
+void find_copies(Interfaces& interfaces) {
+  for (Index p = 0; p < std::ssize(interfaces.origin); ++p) {
+    const bool is_copy = p > 0 && interfaces.origin[p] == interfaces.origin[p - 1];
+    interfaces.first_copy.push_back(is_copy ? interfaces.first_copy.back() : p);
+    if (is_copy) interfaces.at_rim[p] = interfaces.at_rim[p - 1] = 1;
   }
 }
 
-void number_sheets(Sheets& sheets) {
-  DisjointSets sets(sheets.origin.size());
-  for (const Triangle& t : sheets.surface.triangles) {
+void number_interfaces(Interfaces& interfaces) {
+  DisjointSets sets(interfaces.origin.size());
+  for (const Triangle& t : interfaces.surface.triangles) {
     sets.unite(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]));
     sets.unite(static_cast<std::size_t>(t[1]), static_cast<std::size_t>(t[2]));
   }
   DisjointSets::Numbers numbers = sets.numbers();
-  sheets.of_point = std::move(numbers.of_item);
-  sheets.count = numbers.count;
+  interfaces.of_point = std::move(numbers.of_item);
+  interfaces.count = numbers.count;
 }
 
-void require_manifold(const TriMesh& sheets) {
-  const SurfaceCheck check = check_surface(sheets);
+void require_manifold(const TriMesh& interfaces) {
+  const SurfaceCheck check = check_surface(interfaces);
   if (check.manifold()) return;
-  throw InputError("partition: expected sheets that are 2-manifolds with rims, found " +
+  throw InputError("partition: expected interfaces that are 2-manifolds with rims, found " +
                    flaws_of(check));
 }
 
 }  // namespace
 
-Sheets cut_into_sheets(const PartitionSurface& partition) {
+Interfaces cut_into_interfaces(const PartitionSurface& partition) {
   require_sides(partition);
-  Sheets sheets = CornerPoints(partition).sheets();
-  require_manifold(sheets.surface);
-  find_copies(sheets);
-  number_sheets(sheets);
-  return sheets;
+  Interfaces interfaces = CornerPoints(partition).interfaces();
+  require_manifold(interfaces.surface);
+  find_copies(interfaces);
+  number_interfaces(interfaces);
+  return interfaces;
 }
 
-std::vector<TriMesh> split_sheets(const Sheets& sheets, const std::vector<Triangle>& triangles) {
-  std::vector<TriMesh> split(static_cast<std::size_t>(sheets.count));
-  std::vector<Index> place(sheets.origin.size());  // in its sheet
+std::vector<TriMesh> split_interfaces(const Interfaces& interfaces,
+                                      const std::vector<Triangle>& triangles) {
+  std::vector<TriMesh> split(static_cast<std::size_t>(interfaces.count));
+  std::vector<Index> place(interfaces.origin.size());  // in its interface
   for (std::size_t p = 0; p < place.size(); ++p) {
-    std::vector<Vec3>& points = split[sheets.of_point[p]].points;
+    std::vector<Vec3>& points = split[interfaces.of_point[p]].points;
     place[p] = static_cast<Index>(points.size());
-    points.push_back(sheets.surface.points[p]);
+    points.push_back(interfaces.surface.points[p]);
   }
   for (const Triangle& t : triangles) {
-    split[sheets.of_point[t[0]]].triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
+    split[interfaces.of_point[t[0]]].triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
   }
   return split;
 }

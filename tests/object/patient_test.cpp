@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/object/body.h"
+#include "mesamis/object/patient.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -60,16 +60,16 @@ Volume scene(const VoxelGrid& grid) {
 
 const VoxelGrid kGrid = grid_of({161, 120, 14}, {2, 2, 4});
 
-TEST(FindBody, LosesNothingOfThePatient) {
-  const auto body = find_body(scene(kGrid));
+TEST(FindPatient, LosesNothingOfThePatient) {
+  const auto body = find_patient(scene(kGrid));
   ASSERT_TRUE(body);
   const VoxelMask patient = mask_where(kGrid, is_patient);
   EXPECT_EQ(count_missing(patient, dilated(body->mask, kGrid, body->grain)), 0u);
   EXPECT_LT(double(count_missing(patient, body->mask)), 0.001 * double(count_marked(patient)));
 }
 
-TEST(FindBody, LeavesTheTableOut) {
-  const auto body = find_body(scene(kGrid));
+TEST(FindPatient, LeavesTheTableOut) {
+  const auto body = find_patient(scene(kGrid));
   ASSERT_TRUE(body);
   const VoxelMask far = mask_where(kGrid, [](const Vec3& p) { return p.y > 172; });
   for (std::size_t n = 0; n < far.size(); ++n) ASSERT_FALSE(far[n] != 0 && body->mask[n] != 0) << n;
@@ -79,17 +79,17 @@ TEST(FindBody, LeavesTheTableOut) {
   EXPECT_NEAR(body->removed[0].mm3, table, 0.1 * table);
 }
 
-TEST(FindBody, MeasuresItsVolume) {
-  const auto body = find_body(scene(kGrid));
+TEST(FindPatient, MeasuresItsVolume) {
+  const auto body = find_patient(scene(kGrid));
   ASSERT_TRUE(body);
   const double patient = double(count_marked(mask_where(kGrid, is_patient))) * 16;
   EXPECT_NEAR(body->mm3, patient, 0.02 * patient);
 }
 
 /// The same on fine voxels, of which every second one is looked at.
-TEST(FindBody, IsTheSameOnFinerVoxels) {
+TEST(FindPatient, IsTheSameOnFinerVoxels) {
   const VoxelGrid fine = grid_of({321, 240, 6}, {1, 1, 4});
-  const auto body = find_body(scene(fine));
+  const auto body = find_patient(scene(fine));
   ASSERT_TRUE(body);
   EXPECT_EQ(body->grain, 4);
   const VoxelMask patient = mask_where(fine, is_patient);
@@ -108,30 +108,30 @@ Values turned(const Values& values, const VoxelGrid& from, const VoxelGrid& to) 
   return result;
 }
 
-TEST(FindBody, KnowsWhichAxisRunsAlongThePatient) {
+TEST(FindPatient, KnowsWhichAxisRunsAlongThePatient) {
   const Volume volume = scene(kGrid);
   Volume other = volume;
   other.size = {kGrid.size[2], kGrid.size[0], kGrid.size[1]};
   other.spacing = {4, 2, 2};
   other.direction = Mat3{{Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{1, 0, 0}}};  // i runs along z
   other.samples = turned(volume.samples, kGrid, other);
-  const auto body = find_body(volume), found = find_body(other);
+  const auto body = find_patient(volume), found = find_patient(other);
   ASSERT_TRUE(body && found);
   EXPECT_EQ(found->mask, turned(body->mask, kGrid, other));
 }
 
-TEST(FindBody, HoldsLungsThatTheBorderCuts) {
+TEST(FindPatient, HoldsLungsThatTheBorderCuts) {
   CropRange range;
   range.begin = {55, 20, 0};  // all of it within the trunk
   range.end = {105, 80, 14};
   const Volume part = crop(scene(kGrid), range);
-  const auto body = find_body(part);
+  const auto body = find_patient(part);
   ASSERT_TRUE(body);
   EXPECT_EQ(count_marked(body->mask), body->mask.size());
 }
 
 /// Two legs with a web of skin between them that is longer than what hangs on may be.
-TEST(FindBody, HoldsThinPartsInItsHollows) {
+TEST(FindPatient, HoldsThinPartsInItsHollows) {
   const VoxelGrid grid = grid_of({76, 40, 65}, {2, 2, 2});
   const VoxelMask legs = mask_where(grid, [](const Vec3& p) {
     const bool is_leg = std::hypot(std::abs(p.x - 75) - 35, p.y - 39) < 30;
@@ -139,14 +139,14 @@ TEST(FindBody, HoldsThinPartsInItsHollows) {
   });
   Volume volume = volume_of(grid, legs, 40, -1000);
   volume.modality = "CT";
-  const auto body = find_body(volume);
+  const auto body = find_patient(volume);
   ASSERT_TRUE(body);
   EXPECT_EQ(count_missing(legs, body->mask), 0u);
   EXPECT_TRUE(body->removed.empty());
 }
 
 /// A chest whose wall is thinner than what the opening leaves.
-TEST(FindBody, HoldsThinWallsAroundLungs) {
+TEST(FindPatient, HoldsThinWallsAroundLungs) {
   const VoxelGrid grid = grid_of({66, 66, 70}, {2, 2, 2});
   const auto from_axis = [](const Vec3& p) { return std::hypot(p.x - 65, p.y - 65); };
   const VoxelMask chest = mask_where(grid, [&](const Vec3& p) { return from_axis(p) < 60; });
@@ -154,20 +154,20 @@ TEST(FindBody, HoldsThinWallsAroundLungs) {
       mask_where(grid, [&](const Vec3& p) { return from_axis(p) < 51 && p.z > 20; });
   Volume volume = filled(volume_of(grid, chest, 40, -1000), lung, -820);
   volume.modality = "CT";
-  const auto body = find_body(volume);
+  const auto body = find_patient(volume);
   ASSERT_TRUE(body);
   EXPECT_EQ(body->mask, chest);
 }
 
 /// Two legs side by side on a table: between them and its skin is a gap that is not theirs.
-TEST(FindBody, LeavesOutTheTableBelowAGap) {
+TEST(FindPatient, LeavesOutTheTableBelowAGap) {
   const VoxelGrid grid = grid_of({100, 50, 65}, {2, 2, 2});
   const VoxelMask legs = mask_where(
       grid, [](const Vec3& p) { return std::hypot(std::abs(p.x - 99) - 30, p.y - 41) < 31; });
   const VoxelMask table = mask_where(grid, [](const Vec3& p) { return p.y >= 72 && p.y < 76; });
   Volume volume = filled(volume_of(grid, legs, 40, -1000), table, 100);
   volume.modality = "CT";
-  const auto body = find_body(volume);
+  const auto body = find_patient(volume);
   ASSERT_TRUE(body);
   EXPECT_EQ(count_missing(legs, dilated(body->mask, grid, body->grain)), 0u);
   for_each_voxel(grid, [&](const std::array<Index, 3>& v, std::size_t n) {
@@ -177,46 +177,46 @@ TEST(FindBody, LeavesOutTheTableBelowAGap) {
   });
 }
 
-TEST(FindBody, NamesSmallThingsBesideThePatient) {
+TEST(FindPatient, NamesSmallThingsBesideThePatient) {
   Volume volume = scene(kGrid);
   for (Index i = 5; i < 9; ++i) {
     for (Index j = 5; j < 9; ++j) volume.samples[volume.offset(i, j, 7)] = 2000;
   }
-  const auto body = find_body(volume);
+  const auto body = find_patient(volume);
   ASSERT_TRUE(body);
   ASSERT_EQ(body->removed.size(), 2u);
   EXPECT_EQ(body->removed[1].what, "other objects");
   EXPECT_EQ(body->removed[1].mm3, 16 * 16);
 }
 
-TEST(FindBody, FindsNoneInMr) {
+TEST(FindPatient, FindsNoneInMr) {
   Volume volume = scene(kGrid);
   volume.modality = "MR";
-  EXPECT_FALSE(find_body(volume));
+  EXPECT_FALSE(find_patient(volume));
 }
 
-TEST(FindBody, FindsNoneInDryBones) {
+TEST(FindPatient, FindsNoneInDryBones) {
   Volume volume = scene(kGrid);
   for (float& x : volume.samples) x = x > -300 ? 900 : -1000;
-  EXPECT_FALSE(find_body(volume));
+  EXPECT_FALSE(find_patient(volume));
 }
 
-TEST(FindBody, FindsNoneInAirOrInNothing) {
+TEST(FindPatient, FindsNoneInAirOrInNothing) {
   Volume volume = scene(kGrid);
   std::fill(volume.samples.begin(), volume.samples.end(), -1000.F);
-  EXPECT_FALSE(find_body(volume));
-  EXPECT_FALSE(find_body(VolumeView{}));
+  EXPECT_FALSE(find_patient(volume));
+  EXPECT_FALSE(find_patient(VolumeView{}));
 }
 
-TEST(FindBody, HasTheSameMaskForAnyNumberOfThreads) {
+TEST(FindPatient, HasTheSameMaskForAnyNumberOfThreads) {
   const Volume volume = scene(kGrid);
-  const auto mask = [&] { return find_body(volume)->mask; };
+  const auto mask = [&] { return find_patient(volume)->mask; };
   EXPECT_EQ(with_threads(2, mask), with_threads(1, mask));
 }
 
 TEST(WithoutSurroundings, LeavesThePatientAndTakesTheTable) {
   const Volume volume = scene(kGrid);
-  const auto body = find_body(volume);
+  const auto body = find_patient(volume);
   ASSERT_TRUE(body);
   const Volume cleared = without_surroundings(volume, *body);
   for_each_voxel(kGrid, [&](const std::array<Index, 3>& v, std::size_t n) {
@@ -232,7 +232,7 @@ TEST(WithoutSurroundings, LeavesThePatientAndTakesTheTable) {
 
 TEST(WithoutSurroundings, RefusesTheBodyOfAnotherVolume) {
   const Volume volume = scene(kGrid);
-  EXPECT_REFUSED(without_surroundings(volume, Body{VoxelMask(3), 0, 1, {}}), HasSubstr("mask"));
+  EXPECT_REFUSED(without_surroundings(volume, Patient{VoxelMask(3), 0, 1, {}}), HasSubstr("mask"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/remesh/partition.h"
+#include "mesamis/remesh/mesh_parts.h"
 
 #include <algorithm>
 #include <cmath>
