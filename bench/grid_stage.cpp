@@ -13,8 +13,8 @@
 #include "mesamis/adapt/grid_estimator.h"
 #include "mesamis/adapt/size_control.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/fem/grid_amis.h"
 #include "mesamis/fem/grid_space.h"
-#include "mesamis/segment/grid_amis.h"
 
 namespace {
 

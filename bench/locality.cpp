@@ -8,10 +8,10 @@
 #include <iostream>
 #include <vector>
 
+#include "mesamis/fem/amis.h"
 #include "mesamis/fem/grid_space.h"
 #include "mesamis/phantom/degrade.h"
 #include "mesamis/phantom/phantom.h"
-#include "mesamis/segment/amis.h"
 
 namespace {
 

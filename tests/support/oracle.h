@@ -5,8 +5,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
+#include "mesamis/fem/functional.h"
 #include "mesamis/mesh/tet_mesh.h"
-#include "mesamis/segment/functional.h"
 #include "support/test_data.h"
 
 namespace mesamis {

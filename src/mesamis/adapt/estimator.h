@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "mesamis/adapt/cell_shape.h"
+#include "mesamis/fem/functional.h"
 #include "mesamis/mesh/tet_mesh.h"
-#include "mesamis/segment/functional.h"
 
 /// The anisotropic a posteriori error estimator of Prop. 3.1, with recovered gradients.
 namespace mesamis {

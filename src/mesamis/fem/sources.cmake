@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  amis.h
+  functional.h
+  grid_amis.h
   grid_mass.h
   grid_space.h
   mesh_space.h
@@ -18,4 +21,7 @@ set(ROOM_SOURCES
   single_grid_system.cpp
   solve.cpp
   sparse_matrix.cpp
-  transfer.cpp)
+  transfer.cpp
+  NEXT amis.cpp
+  functional.cpp
+  grid_amis.cpp)

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "mesamis/segment/amis.h"
+#include "mesamis/fem/amis.h"
 
 namespace mesamis {
 

@@ -7,9 +7,9 @@
 
 #include "mesamis/base/available_memory.h"
 #include "mesamis/base/error.h"
+#include "mesamis/fem/grid_amis.h"
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/prepare.h"
-#include "mesamis/segment/grid_amis.h"
 
 namespace mesamis {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "mesamis/fem/functional.h"
 #include "mesamis/image/grey_values.h"
 #include "mesamis/method/settings.h"
-#include "mesamis/segment/functional.h"
 
 namespace mesamis {
 

@@ -12,6 +12,7 @@
 #include "mesamis/adapt/size_control.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/stopwatch.h"
+#include "mesamis/fem/grid_amis.h"
 #include "mesamis/fem/mesh_space.h"
 #include "mesamis/fem/transfer.h"
 #include "mesamis/mesh/gradation.h"
@@ -19,7 +20,6 @@
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/method/surface_change.h"
 #include "mesamis/remesh/remesh.h"
-#include "mesamis/segment/grid_amis.h"
 #include "mesamis/surface/extract.h"
 
 namespace mesamis {

@@ -10,6 +10,8 @@
 #include "mesamis/adapt/size_control.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/progress.h"
+#include "mesamis/fem/amis.h"
+#include "mesamis/fem/grid_amis.h"
 #include "mesamis/fem/grid_space.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/method/expected_error.h"
@@ -17,8 +19,6 @@
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/prepare.h"
 #include "mesamis/remesh/remesh.h"
-#include "mesamis/segment/amis.h"
-#include "mesamis/segment/grid_amis.h"
 
 /// The steps of Algorithm 2: each takes what is known on one mesh and returns what is known next.
 /// Meshes lie in the grid's own axes, in length units.

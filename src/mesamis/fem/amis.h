@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "mesamis/fem/functional.h"
 #include "mesamis/fem/p1_space.h"
 #include "mesamis/fem/solve.h"
-#include "mesamis/segment/functional.h"
 
 namespace mesamis {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/segment/functional.h"
+#include "mesamis/fem/functional.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "mesamis/fem/amis.h"
 #include "mesamis/fem/mesh_space.h"
-#include "mesamis/segment/amis.h"
 #include "support/perturbed_box.h"
 
 namespace mesamis {

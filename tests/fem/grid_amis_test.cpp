@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/segment/grid_amis.h"
+#include "mesamis/fem/grid_amis.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/segment/functional.h"
+#include "mesamis/fem/functional.h"
 
 #include <cmath>
 #include <string>

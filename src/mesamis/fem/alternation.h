@@ -8,7 +8,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
-#include "mesamis/segment/amis.h"
+#include "mesamis/fem/amis.h"
 
 /// What the half steps of Algorithm 1 share, in double and in single precision.
 namespace mesamis {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "mesamis/fem/amis.h"
 #include "mesamis/fem/grid_space.h"
-#include "mesamis/segment/amis.h"
 
 namespace mesamis {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/segment/grid_amis.h"
+#include "mesamis/fem/grid_amis.h"
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/fem/alternation.h"
 #include "mesamis/fem/single_grid_system.h"
-#include "mesamis/segment/alternation.h"
 
 namespace mesamis {
 namespace {

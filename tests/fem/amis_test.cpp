@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/segment/amis.h"
+#include "mesamis/fem/amis.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

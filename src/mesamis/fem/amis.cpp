@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/segment/amis.h"
+#include "mesamis/fem/amis.h"
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
-#include "mesamis/segment/alternation.h"
+#include "mesamis/fem/alternation.h"
 
 namespace mesamis {
 namespace {
