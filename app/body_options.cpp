@@ -10,8 +10,8 @@
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/written_number.h"
+#include "mesamis/body/material_law.h"
 #include "mesamis/delivery/body_request.h"
-#include "mesamis/material/material_law.h"
 #include "outputs.h"
 
 namespace mesamis {

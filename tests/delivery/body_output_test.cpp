@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "mesamis/base/error.h"
-#include "mesamis/material/rim.h"
+#include "mesamis/body/rim.h"
 #include "support/solids.h"
 #include "support/throws.h"
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "mesamis/material/rim.h"
+#include "mesamis/body/rim.h"
 #include "support/throws.h"
 
 namespace mesamis {

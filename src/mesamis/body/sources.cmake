@@ -4,10 +4,15 @@ set(ROOM_HEADERS
   body_options.h
   body_skin.h
   body_surface.h
+  element_moduli.h
   face_sets.h
   junction_lines.h
   make_body.h
+  material_bins.h
+  material_law.h
+  materials.h
   mid_nodes.h
+  rim.h
   size_field.h
   wall_width.h)
 set(ROOM_SOURCES
@@ -19,4 +24,10 @@ set(ROOM_SOURCES
   make_body.cpp
   mid_nodes.cpp
   size_field.cpp
-  wall_width.cpp)
+  wall_width.cpp
+  NEXT density.cpp
+  element_moduli.cpp
+  material_bins.cpp
+  material_law.cpp
+  materials.cpp
+  rim.cpp)

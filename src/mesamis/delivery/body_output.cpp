@@ -10,9 +10,9 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/written_number.h"
+#include "mesamis/body/rim.h"
 #include "mesamis/delivery/filled_objects.h"
 #include "mesamis/delivery/solver_name.h"
-#include "mesamis/material/rim.h"
 #include "mesamis/mesh/tet_mesh.h"
 
 namespace mesamis {

@@ -8,9 +8,9 @@
 
 #include "mesamis/body/face_sets.h"
 #include "mesamis/body/make_body.h"
+#include "mesamis/body/materials.h"
 #include "mesamis/delivery/label_output.h"
 #include "mesamis/image/volume.h"
-#include "mesamis/material/materials.h"
 #include "mesamis/mesh/finite_elements.h"
 
 namespace mesamis {

@@ -7,8 +7,8 @@
 #include "mesamis/base/available_memory.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/written_number.h"
+#include "mesamis/body/rim.h"
 #include "mesamis/delivery/filled_objects.h"
-#include "mesamis/material/rim.h"
 
 namespace mesamis {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesamis/body/body_options.h"
-#include "mesamis/material/material_law.h"
+#include "mesamis/body/material_law.h"
 
 namespace mesamis {
 

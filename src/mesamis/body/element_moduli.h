@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "mesamis/body/material_law.h"
 #include "mesamis/image/volume.h"
-#include "mesamis/material/material_law.h"
 #include "mesamis/mesh/tet_mesh.h"
 
 /// The stiffness of each element of a mesh from the voxels inside.

@@ -4,7 +4,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/written_number.h"
-#include "mesamis/material/material_law.h"
+#include "mesamis/body/material_law.h"
 
 namespace mesamis {
 

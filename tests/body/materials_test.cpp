@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole way from grey values to bins, beside Bonemat's rule written down naively.
-#include "mesamis/material/materials.h"
+#include "mesamis/body/materials.h"
 
 #include <gmock/gmock.h>
 

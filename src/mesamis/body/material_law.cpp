@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/material/material_law.h"
+#include "mesamis/body/material_law.h"
 
 #include <algorithm>
 #include <cmath>

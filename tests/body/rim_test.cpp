@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/material/rim.h"
+#include "mesamis/body/rim.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/material/material_bins.h"
+#include "mesamis/body/material_bins.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/material/element_moduli.h"
+#include "mesamis/body/element_moduli.h"
 
 #include <gmock/gmock.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
-#include "mesamis/material/material_law.h"
+#include "mesamis/body/material_law.h"
 
 /// Elements of nearly equal stiffness share a material: solvers take a limited number of them.
 namespace mesamis {

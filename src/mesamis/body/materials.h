@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "mesamis/body/material_bins.h"
+#include "mesamis/body/material_law.h"
 #include "mesamis/image/volume.h"
-#include "mesamis/material/material_bins.h"
-#include "mesamis/material/material_law.h"
 #include "mesamis/mesh/finite_elements.h"
 #include "mesamis/mesh/tet_mesh.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "mesamis/material/material_law.h"
+#include "mesamis/body/material_law.h"
 #include "support/throws.h"
 
 namespace mesamis {

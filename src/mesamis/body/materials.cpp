@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/material/materials.h"
+#include "mesamis/body/materials.h"
 
 #include <algorithm>
 
 #include "mesamis/base/error.h"
+#include "mesamis/body/element_moduli.h"
 #include "mesamis/image/grey_values.h"
-#include "mesamis/material/element_moduli.h"
 
 namespace mesamis {
 namespace {
