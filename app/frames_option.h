@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "mesamis/comparison/surface_pair.h"
+#include "mesamis/shape_files/surface_pair.h"
 
 namespace CLI {
 class App;

@@ -8,8 +8,6 @@
 #include "binding.h"
 #include "call.h"
 #include "mesamis/base/error.h"
-#include "mesamis/comparison/comparison.h"
-#include "mesamis/comparison/surface_pair.h"
 #include "mesamis/delivery/label_output.h"
 #include "mesamis/label_files/write_labels.h"
 #include "mesamis/mesh/tet_mesh.h"
@@ -22,6 +20,8 @@
 #include "mesamis/record/report.h"
 #include "mesamis/record/verdict.h"
 #include "mesamis/remesh/adapt_mesh.h"
+#include "mesamis/shape_files/surface_pair.h"
+#include "mesamis/surface/comparison.h"
 #include "request.h"
 #include "run.h"
 

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "mesamis/comparison/comparison.h"
-#include "mesamis/comparison/surface_pair.h"
+#include "mesamis/shape_files/surface_pair.h"
+#include "mesamis/surface/comparison.h"
 
 namespace mesamis {
 

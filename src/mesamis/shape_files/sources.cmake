@@ -4,7 +4,8 @@ set(ROOM_HEADERS
   file_kind.h
   mesh_files.h
   object_files.h
-  surface_files.h)
+  surface_files.h
+  surface_pair.h)
 set(ROOM_SOURCES
   abaqus_elements.cpp
   abaqus_file.cpp
@@ -33,4 +34,5 @@ set(ROOM_SOURCES
   NEXT surface_files.cpp
   vtk_file.cpp
   NEXT encapsulated_file.cpp
-  NEXT glb_file.cpp)
+  NEXT glb_file.cpp
+  NEXT surface_pair.cpp)

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/comparison/surface_pair.h"
 #include "mesamis/record/report.h"
+#include "mesamis/shape_files/surface_pair.h"
 #include "mesamis/study/study_run.h"
 
 /// A study as JSON, as docs/formats.md describes study.json.

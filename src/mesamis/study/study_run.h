@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "mesamis/base/progress.h"
-#include "mesamis/comparison/comparison.h"
 #include "mesamis/record/run_summary.h"
 #include "mesamis/record/verdict.h"
 #include "mesamis/study/experiment.h"
+#include "mesamis/surface/comparison.h"
 
 /// The runs of a study: segmentation, and comparison with the reference.
 namespace mesamis {

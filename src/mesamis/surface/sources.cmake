@@ -2,6 +2,7 @@
 set(ROOM_HEADERS
   axis_flip.h
   box_tree.h
+  comparison.h
   components.h
   depth_maximum.h
   disjoint_sets.h
@@ -60,4 +61,5 @@ set(ROOM_SOURCES
   triangle_shapes.cpp
   triangle_tree.cpp
   unused_points.cpp
-  yield_nodes.cpp)
+  yield_nodes.cpp
+  NEXT comparison.cpp)

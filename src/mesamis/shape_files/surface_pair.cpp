@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/comparison/surface_pair.h"
+#include "mesamis/shape_files/surface_pair.h"
 
 #include <sstream>
 

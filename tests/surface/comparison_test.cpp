@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/comparison/comparison.h"
+#include "mesamis/surface/comparison.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
