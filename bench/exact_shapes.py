@@ -2,7 +2,7 @@
 """Shapes known exactly, for the simulated scanner: functions of points in mm that are positive inside.
 
 A shape is about 56 mm across, its middle at the origin; its values near the surface are about the
-distance to it. The femur, the fracture and the wing follow src/mesamis/phantom. `relative_grey` is 1
+distance to it. The femur, the fracture and the wing follow tools/mesamis/phantom. `relative_grey` is 1
 for dense bone and 0 for what surrounds the object.
 """
 import numpy as np

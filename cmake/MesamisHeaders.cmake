@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Which headers are public: those that a header leads to, itself included.
-#   mesamis_reached(RESULT ROOT header...)   names below ROOT, sorted
-function(mesamis_reached result root)
+#   mesamis_reached(RESULT ROOTS header...)   names below one of the roots, sorted
+function(mesamis_reached result roots)
   set(reached)
   set(open ${ARGN})
   while(open)
@@ -10,7 +10,11 @@ function(mesamis_reached result root)
       continue()
     endif()
     list(APPEND reached ${header})
-    file(STRINGS ${root}/${header} includes REGEX "^#include \"mesamis/")
+    foreach(root IN LISTS roots)
+      if(EXISTS ${root}/${header})
+        file(STRINGS ${root}/${header} includes REGEX "^#include \"mesamis/")
+      endif()
+    endforeach()
     list(TRANSFORM includes REPLACE "^#include \"([^\"]+)\".*$" "\\1")
     list(APPEND open ${includes})
   endwhile()

@@ -22,7 +22,7 @@ function(mesamis_add_test room)
   target_include_directories(test_${room} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(test_${room} PRIVATE MESAMIS_TEST_DATA="${MESAMIS_TEST_DATA}"
                              MESAMIS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_link_libraries(test_${room} PRIVATE mesamis::core ${ARG_LIBRARIES}
+  target_link_libraries(test_${room} PRIVATE mesamis::phantom ${ARG_LIBRARIES}
                         nlohmann_json::nlohmann_json GTest::gmock GTest::gtest_main)
   mesamis_compile_options(test_${room})
   set(labels)

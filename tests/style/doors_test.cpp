@@ -22,9 +22,11 @@ bool is_door(const std::map<std::string, Room>& rooms, const std::string& room,
 
 /// The room a file lives in; for the program and the like the name of their folder.
 std::string room_of(const fs::path& file) {
-  const fs::path source = fs::path(MESAMIS_SOURCE_DIR) / "src/mesamis";
-  const fs::path relative = fs::relative(file, source);
-  return *relative.begin() == ".." ? file.parent_path().filename() : *relative.begin();
+  for (const char* root : {"src/mesamis", "tools/mesamis"}) {
+    const fs::path relative = fs::relative(file, fs::path(MESAMIS_SOURCE_DIR) / root);
+    if (*relative.begin() != "..") return *relative.begin();
+  }
+  return file.parent_path().filename();
 }
 
 /// Calls visit(room, header) for each #include "mesamis/room/header" of a file.
@@ -43,7 +45,7 @@ TEST(Doors, EverySourceAndDoorOfARoomIsThereAndListed) {
   for (const auto& [name, room] : rooms) {
     EXPECT_FALSE(room.doors.empty()) << name << " has no door";
     for (const auto& door : room.doors) EXPECT_TRUE(fs::exists(room.folder / door)) << door;
-    for (const auto& file : project_files("src/mesamis/" + name, {".cpp"})) {
+    for (const auto& file : project_files(room.folder, {".cpp"})) {
       const std::string relative = fs::relative(file, room.folder).string();
       EXPECT_TRUE(room.sources.count(relative)) << file << " is not in sources.cmake";
     }
@@ -89,7 +91,7 @@ TEST(Doors, TheFrontDoorLeadsToDoorsOnly) {
 
 TEST(Doors, AreTheOnlyWayIntoAnotherRoom) {
   const auto rooms = read_rooms();
-  for (const std::string folder : {"src", "app", "bench", "examples"}) {
+  for (const std::string folder : {"src", "tools", "app", "bench", "examples"}) {
     for (const auto& file : project_files(folder, {".h", ".cpp"})) {
       const std::string from = room_of(file);
       for_each_include(file, [&](const std::string& to, const std::string& header) {

@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kCodeFolders{"src", "app", "tests", "bench", "examples", "python"};
+const std::vector<std::string> kCodeFolders{"src",   "tools",    "app",   "tests",
+                                            "bench", "examples", "python"};
 
 TEST(Files, SourcesNameTheirLicence) {
   auto folders = kCodeFolders;

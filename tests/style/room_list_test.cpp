@@ -49,7 +49,7 @@ Edges picture_arrows(const std::string& page) {
 /// The other rooms that a room's files include.
 std::set<std::string> included_rooms(const std::string& room) {
   std::set<std::string> rooms;
-  for (const auto& file : project_files("src/mesamis/" + room, {".h", ".cpp"})) {
+  for (const auto& file : project_files(read_rooms().at(room).folder, {".h", ".cpp"})) {
     for (const std::string& header : includes_of(file)) {
       const std::string to = between(header, "mesamis/", "/");
       if (!to.empty() && to != room) rooms.insert(to);
@@ -126,7 +126,7 @@ TEST(RoomList, NamesTheOtherLibrariesThatARoomIncludes) {
   for (const std::string& room : list.names) {
     const auto found = list.libraries.find(room);
     const auto allowed = found == list.libraries.end() ? std::set<std::string>() : found->second;
-    for (const auto& file : project_files("src/mesamis/" + room, {".h", ".cpp"})) {
+    for (const auto& file : project_files(read_rooms().at(room).folder, {".h", ".cpp"})) {
       for (const std::string& header : includes_of(file)) {
         for (const std::string& prefix : known) {
           EXPECT_TRUE(header.rfind(prefix, 0) != 0 || allowed.count(prefix))
@@ -139,7 +139,7 @@ TEST(RoomList, NamesTheOtherLibrariesThatARoomIncludes) {
 
 /// ITK brings an older Eigen along.
 TEST(RoomList, NoFileIncludesBothItkAndEigen) {
-  for (const auto& file : project_files("src/mesamis", {".h", ".cpp"})) {
+  for (const auto& file : project_files(read_rooms().at("baseline").folder, {".h", ".cpp"})) {
     bool itk = false, eigen = false;
     for (const std::string& header : includes_of(file)) {
       itk |= header.rfind("itk", 0) == 0;

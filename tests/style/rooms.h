@@ -27,13 +27,15 @@ inline std::set<std::string> cmake_list(const std::string& text, const std::stri
   return {std::sregex_token_iterator(words.begin(), words.end(), word), {}};
 }
 
-/// Every room of src/mesamis/ by its name.
+/// Every room of src/mesamis/ and tools/mesamis/ by its name.
 inline std::map<std::string, Room> read_rooms() {
   std::map<std::string, Room> rooms;
-  for (const auto& file : project_files("src/mesamis", {".cmake"})) {
-    const std::string text = file_text(file);
-    rooms[file.parent_path().filename().string()] = {
-        file.parent_path(), cmake_list(text, "ROOM_HEADERS"), cmake_list(text, "ROOM_SOURCES")};
+  for (const char* root : {"src/mesamis", "tools/mesamis"}) {
+    for (const auto& file : project_files(root, {".cmake"})) {
+      const std::string text = file_text(file);
+      rooms[file.parent_path().filename().string()] = {
+          file.parent_path(), cmake_list(text, "ROOM_HEADERS"), cmake_list(text, "ROOM_SOURCES")};
+    }
   }
   return rooms;
 }

@@ -46,7 +46,7 @@ bool is_tested(const std::string& source) {
 
 TEST(Sources, HaveATestOfTheirName) {
   for (const auto& [room, files] : read_rooms()) {
-    for (const auto& file : project_files("src/mesamis/" + room, {".cpp"})) {
+    for (const auto& file : project_files(files.folder, {".cpp"})) {
       const std::string source = room + "/" + file.stem().string();
       EXPECT_TRUE(is_tested(source)) << "src/mesamis/" << source << ".cpp has no tests/" << source
                                      << "_test.cpp, and the table names no other test";
@@ -57,7 +57,8 @@ TEST(Sources, HaveATestOfTheirName) {
 TEST(Sources, OfTheTableExistAndHaveNoTestOfTheirName) {
   const fs::path root(MESAMIS_SOURCE_DIR);
   for (const auto& [source, test, reason] : kTestedElsewhere) {
-    EXPECT_TRUE(fs::exists(root / "src/mesamis" / (std::string(source) + ".cpp"))) << source;
+    const std::string name = std::string("mesamis/") + source + ".cpp";
+    EXPECT_TRUE(fs::exists(root / "src" / name) || fs::exists(root / "tools" / name)) << source;
     EXPECT_TRUE(fs::exists(root / "tests" / test)) << test;
     EXPECT_FALSE(fs::exists(root / "tests" / (std::string(source) + "_test.cpp"))) << source;
   }
@@ -78,7 +79,7 @@ std::string gdcm_headers(const fs::path& file) {
 /// pictures, whose headers were checked, and never a file or a data set.
 TEST(Sources, GdcmIsGivenSinglePicturesAlone) {
   std::size_t seen = 0;
-  for (const char* folder : {"src", "app"}) {
+  for (const char* folder : {"src", "tools", "app"}) {
     for (const fs::path& file : project_files(folder, {".h", ".cpp"})) {
       const std::string headers = gdcm_headers(file);
       if (headers.empty()) continue;
