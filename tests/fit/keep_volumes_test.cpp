@@ -20,8 +20,8 @@ TriMesh shrunk(TriMesh ball, double factor) {
 
 TriMesh kept(const TriMesh& before, const TriMesh& now, const std::array<Index, 2>& sides) {
   const std::vector<std::array<Index, 2>> of_all(now.triangles.size(), sides);
-  return keep_volumes(before, now, of_all, ball_image().grid,
-                      std::vector<char>(now.points.size(), 0));
+  const std::vector<char> on_curve(now.points.size(), 0);
+  return keep_volumes({before, now, of_all, on_curve}, ball_image().grid);
 }
 
 /// Whichever side of the triangles the ball lies on.
@@ -49,7 +49,7 @@ TEST(KeepVolumes, ObjectsThatTouchEachHaveTheirs) {
   grid.size = {30, 22, 22};
   const std::vector<char> on_curve(before.points.size(), 0);
   const TriMesh smooth = smooth_surface(before, grid, on_curve, {.bending = 2000, .rounds = 1});
-  const TriMesh now = keep_volumes(before, smooth, partition.sides, grid, on_curve);
+  const TriMesh now = keep_volumes({before, smooth, partition.sides, on_curve}, grid);
   EXPECT_TRUE(find_self_intersections(now).empty());
   for (const Index m : {1, 2}) {
     const double volume = check_surface(object_surface(partition, m)).volume;

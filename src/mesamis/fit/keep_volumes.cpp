@@ -50,8 +50,8 @@ std::vector<double> areas_of(const TriMesh& surface, Sides sides) {
 
 }  // namespace
 
-TriMesh keep_volumes(const TriMesh& before, const TriMesh& now, Sides sides, const VoxelGrid& grid,
-                     const std::vector<char>& on_curve) {
+TriMesh keep_volumes(const MovedBoundaries& boundaries, const VoxelGrid& grid) {
+  const auto& [before, now, sides, on_curve] = boundaries;
   constexpr int kSteps = 4;
   const SurfaceSpace space(grid, 1);
   std::vector<std::array<Index, 2>> sides_of(now.points.size(), {0, 0});
@@ -69,7 +69,7 @@ TriMesh keep_volumes(const TriMesh& before, const TriMesh& now, Sides sides, con
     const auto of = [&](Index m) { return m > 0 ? distance[m] : 0.0; };
     const std::vector<Vec3> normals = vertex_normals(moved);
     parallel_for(moved.points.size(), [&](std::size_t p) {
-      if (on_curve[p] != 0 || space.on_box(moved.points[p])) return;
+      if (boundaries.on_curve[p] != 0 || space.on_box(moved.points[p])) return;
       const Vec3 move = (of(sides_of[p][0]) - of(sides_of[p][1])) * normals[p];
       moved.points[p] += space.within_box(moved.points[p], move);
     });

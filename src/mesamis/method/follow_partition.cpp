@@ -191,7 +191,7 @@ PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& 
   const std::vector<char> on_curve = curve_points(partition);
   const TriMesh start = taken_from(partition);
   const TriMesh smooth = smooth_surface(start, grid, on_curve);
-  TriMesh kept = keep_volumes(start, smooth, partition.sides, grid, on_curve);
+  TriMesh kept = keep_volumes({start, smooth, partition.sides, on_curve}, grid);
   return put_back(std::move(kept), std::move(partition));
 }
 
