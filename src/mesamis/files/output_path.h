@@ -16,7 +16,9 @@ struct OutputPath : std::filesystem::path {
   template <class Path>
   requires(std::is_constructible_v<std::filesystem::path, Path> &&
            !std::is_base_of_v<OutputPath, std::remove_cvref_t<Path>>)
-      OutputPath(Path&& name)  // NOLINT(google-explicit-constructor)
+      OutputPath(
+          Path&&
+              name)  // NOLINT(google-explicit-constructor,bugprone-forwarding-reference-overload)
       : std::filesystem::path(std::forward<Path>(name)) {}
   /// A file of a set.
   /// @param with  lives until the file is written; nullptr: none.
