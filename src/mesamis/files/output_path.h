@@ -13,13 +13,12 @@ class OutputSet;
 /// A path alone converts to one: the file then appears on its own.
 struct OutputPath : std::filesystem::path {
   /// A file on its own. Converts whatever a path is made of.
+  // NOLINTBEGIN(google-explicit-constructor,bugprone-forwarding-reference-overload)
   template <class Path>
   requires(std::is_constructible_v<std::filesystem::path, Path> &&
            !std::is_base_of_v<OutputPath, std::remove_cvref_t<Path>>)
-      OutputPath(
-          Path&&
-              name)  // NOLINT(google-explicit-constructor,bugprone-forwarding-reference-overload)
-      : std::filesystem::path(std::forward<Path>(name)) {}
+      OutputPath(Path&& name) : std::filesystem::path(std::forward<Path>(name)) {}
+  // NOLINTEND(google-explicit-constructor,bugprone-forwarding-reference-overload)
   /// A file of a set.
   /// @param with  lives until the file is written; nullptr: none.
   OutputPath(std::filesystem::path name, OutputSet* with)
