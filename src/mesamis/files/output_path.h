@@ -16,8 +16,8 @@ struct OutputPath : std::filesystem::path {
   // NOLINTBEGIN(google-explicit-constructor,bugprone-forwarding-reference-overload)
   template <class Path>
   requires(std::is_constructible_v<std::filesystem::path, Path> &&
-           !std::is_base_of_v<OutputPath, std::remove_cvref_t<Path>>)
-      OutputPath(Path&& name) : std::filesystem::path(std::forward<Path>(name)) {}
+           !std::is_base_of_v<OutputPath, std::remove_cvref_t<Path>>) OutputPath(Path&& name)
+      : std::filesystem::path(std::forward<Path>(name)) {}
   // NOLINTEND(google-explicit-constructor,bugprone-forwarding-reference-overload)
   /// A file of a set.
   /// @param with  lives until the file is written; nullptr: none.
