@@ -201,6 +201,19 @@ TEST(FindPatient, FindsNoneInDryBones) {
   EXPECT_FALSE(find_patient(volume));
 }
 
+/// The rest has the values of tissue and the bone does not; the bone is not to be removed.
+TEST(FindPatient, FindsNoneInADryBoneOnARest) {
+  Volume volume{kGrid, {}};
+  volume.modality = "CT";
+  for_each_voxel(kGrid, [&](const std::array<Index, 3>& v, std::size_t) {
+    const Vec3 p{v[0] * kGrid.spacing.x, v[1] * kGrid.spacing.y, v[2] * kGrid.spacing.z};
+    const double shell = std::abs(norm(Vec3{p.x - 160, p.y - 100, p.z - 26}) - 60);
+    const bool is_rest = p.y > 190 && p.y < 215 && p.x > 40 && p.x < 280;
+    volume.samples.push_back(shell < 5 ? 900.0F : is_rest ? -120.0F : -1000.0F);
+  });
+  EXPECT_FALSE(find_patient(volume));
+}
+
 TEST(FindPatient, FindsNoneInAirOrInNothing) {
   Volume volume = scene(kGrid);
   std::fill(volume.samples.begin(), volume.samples.end(), -1000.F);

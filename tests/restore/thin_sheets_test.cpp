@@ -66,6 +66,17 @@ TEST(LiftThinSheets, WallsAndGapsGetTheirThickness) {
   }
 }
 
+TEST(LiftThinSheets, WallsThatAreLessDenseThanTheObjectAreFound) {
+  for (const double density : {0.4, 0.45}) {
+    const Volume wall = slab(2.5, kOutside, kOutside + density * (kInside - kOutside));
+    EXPECT_EQ(thickness_at_middle(wall, 1), 0) << "one level loses it";
+    EXPECT_NEAR(thickness_at_middle(lifted(wall), 1), 2, 1) << density;
+  }
+  // A gap that is filled halfway with something is none.
+  const Volume gap = slab(2.5, kInside, kInside + 0.4 * (kOutside - kInside));
+  EXPECT_LT(thickness_at_middle(lifted(gap), -1), 1);
+}
+
 TEST(LiftThinSheets, KnowsWhatWasUndoneAlongTheNormal) {
   // Across x 0.7 voxels of blur were undone, across z none: each wall gets its thickness.
   for (const int axis : {0, 2}) {

@@ -160,6 +160,17 @@ void fill_enclosed(VoxelMask& patient, const VolumeView& volume) {
   for (std::size_t n = 0; n < patient.size(); ++n) patient[n] |= is_lung[at(gaps.of_voxel[n])];
 }
 
+/// Whether most of what is as bright as bone lies in the body. Of a dry skull on a head rest of foam
+/// it does not: there the rest is what looks like tissue.
+bool has_the_bones(const VoxelMask& patient, const VolumeView& volume) {
+  constexpr float kBone = 250;  // HU
+  std::array<std::size_t, 2> bright{};
+  for (std::size_t n = 0; n < patient.size(); ++n) {
+    if (volume.samples[n] > kBone) ++bright[patient[n] != 0 ? 1 : 0];
+  }
+  return bright[1] >= bright[0];
+}
+
 /// What is dense and not in the body, by name.
 std::vector<Surroundings> name_surroundings(const VoxelMask& patient, const VoxelMask& dense,
                                             const VoxelGrid& grid) {
@@ -207,6 +218,7 @@ std::optional<Patient> find_patient(const VolumeView& volume) {
   VoxelMask inside = dilated(core, coarse, kOpening);
   add_thin_parts(inside, solid, coarse);
   fill_enclosed(inside, coarse);
+  if (!has_the_bones(inside, coarse)) return std::nullopt;
   Patient patient;
   patient.grain = std::max({coarse.spacing.x, coarse.spacing.y, coarse.spacing.z});
   patient.removed = name_surroundings(inside, dense, coarse);

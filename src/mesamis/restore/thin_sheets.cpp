@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/image/gaussian.h"
 #include "mesamis/image/spline_image.h"
 #include "mesamis/restore/level_crossings.h"
 #include "mesamis/restore/nearby_range.h"
@@ -26,6 +27,15 @@ constexpr int kMostSteps = 16;
 /// How far the middle of a sheet rises above its faces, of the contrast: a flatter one would be
 /// lost in noise, and to a level that is slightly off.
 constexpr double kRise = 0.25, kMostGain = 2;
+/// Walls that are found thinner than kThinnest voxels are drawn down to this share of their peak:
+/// a thinner one would be full of holes, which the samples cannot show.
+constexpr double kThinnest = 0.4, kThickEnough = 0.6, kLeastFace = 0.5;
+/// The lift of walls is the mean of what the voxels around say, by a Gaussian of so many voxels.
+constexpr double kWallSpread = 1.5;
+/// Of the weight of a voxel: where fewer speak for a wall, there is none.
+constexpr double kFewest = 0.02;
+/// Brighter voxels (of the contrast) that are of no sheet speak against a lift.
+constexpr double kBright = 0.7;
 /// The gradients around agree if the second main direction has less than this share of the first.
 constexpr double kLeastPlanar = 0.5, kPlanar = 0.7;
 
@@ -115,10 +125,17 @@ class SheetProfiles {
   std::array<std::array<SheetProfile, kCount>, kShares> tables_{};
 };
 
-/// What becomes of a voxel: the distance from the half maximum, after the lift, times the gain.
+/// How far a sheet has to rise for its faces to have half of the contrast.
 struct Lift {
-  double lift = 0;  ///< of the contrast
-  double gain = 1;
+  double rise = 0;    ///< of the contrast
+  double weight = 0;  ///< 0 to 1: how surely there is a sheet, and how near to the voxel
+  double gain = 1;    ///< of the distance from the half maximum, after the rise
+};
+
+/// What a voxel tells of the sheets at it.
+struct Finding {
+  Lift wall, gap;
+  double gain() const { return std::max(wall.gain, gap.gain); }
 };
 
 /// The main direction of the gradients around a voxel and how well they agree.
@@ -158,6 +175,7 @@ enum class SheetKind { kWall, kGap };
 struct Peak {
   double height = 0;    ///< of the contrast; 0: there is none
   double distance = 0;  ///< of the place looked at from it, mm
+  Vec3 place{};         ///< mm
 };
 
 /// How far along each axis the way goes on which a peak is looked for and falls off, voxels: its
@@ -179,11 +197,13 @@ std::array<double, 3> farthest_looked_at(const VoxelGrid& grid,
   return reach;
 }
 
-class Lifter {
+/// Looks for the sheets of a restored image.
+class SheetFinder {
  public:
-  Lifter(const VolumeView& guide, const SheetOptions& options)
+  SheetFinder(const VolumeView& restored, const VolumeView& guide, const SheetOptions& options)
       : guide_(guide),
         spline_(interpolating_spline(copy_volume(guide))),
+        restored_(interpolating_spline(copy_volume(restored))),
         options_(options),
         profiles_(options.regularization),
         contrast_(options.contrast.difference()),
@@ -194,13 +214,25 @@ class Lifter {
     least_ = std::max(kLeastPeak, kPeakOfNoise * left * options.noise / contrast_);
   }
 
-  /// What becomes of a voxel of the restored image.
-  /// @param value  what it was, native units.
-  double lifted(const std::array<Index, 3>& voxel, double value) const {
-    const Lift l = lift_at(voxel);
-    if (l.lift == 0) return value;
-    const double half = options_.contrast.half_maximum();
-    return half + l.gain * (value + contrast_ * l.lift - half);
+  Finding at(const std::array<Index, 3>& voxel) const {
+    const double share = share_of(guide_.at(voxel[0], voxel[1], voxel[2]));
+    const Finding none{{0, share > kBright ? 1.0 : 0.0, 1}, {}};
+    if (share < kFlank * least_ || share > 1 - kFlank * least_) return none;
+    const NearbyRange::Range& near = near_.at(voxel[0], voxel[1], voxel[2]);
+    const bool may_be_wall = may_hold_sheet(share_of(near.low), share_of(near.high));
+    const bool may_be_gap = may_hold_sheet(1 - share_of(near.high), 1 - share_of(near.low));
+    if (!may_be_wall && !may_be_gap) return none;
+    const Direction way = direction_at(guide_, voxel);
+    const double agree =
+        std::clamp((way.planarity - kLeastPlanar) / (kPlanar - kLeastPlanar), 0.0, 1.0);
+    if (agree == 0) return {};
+    const Vec3& s = guide_.spacing;
+    const Vec3 p{voxel[0] * s.x, voxel[1] * s.y, voxel[2] * s.z};
+    const Blur blur = blur_along(way.normal);
+    const Start start = start_at(p, way.normal, kStep * blur.guide);
+    const Finding found{may_be_wall ? lift(start, blur, SheetKind::kWall, agree) : Lift{},
+                        may_be_gap ? lift(start, blur, SheetKind::kGap, agree) : Lift{}};
+    return found.wall.weight == 0 && found.gap.weight == 0 ? none : found;
   }
 
  private:
@@ -226,41 +258,22 @@ class Lifter {
     return reach;
   }
 
-  Lift lift_at(const std::array<Index, 3>& voxel) const {
-    const double share = share_of(guide_.at(voxel[0], voxel[1], voxel[2]));
-    if (share < kFlank * least_ || share > 1 - kFlank * least_) return {};
-    const NearbyRange::Range& near = near_.at(voxel[0], voxel[1], voxel[2]);
-    const bool may_be_wall = may_hold_sheet(share_of(near.low), share_of(near.high));
-    const bool may_be_gap = may_hold_sheet(1 - share_of(near.high), 1 - share_of(near.low));
-    if (!may_be_wall && !may_be_gap) return {};
-    const Direction way = direction_at(guide_, voxel);
-    const double agree =
-        std::clamp((way.planarity - kLeastPlanar) / (kPlanar - kLeastPlanar), 0.0, 1.0);
-    if (agree == 0) return {};
-    const Vec3& s = guide_.spacing;
-    const Vec3 p{voxel[0] * s.x, voxel[1] * s.y, voxel[2] * s.z};
-    const Blur blur = blur_along(way.normal);
-    const Start start = start_at(p, way.normal, kStep * blur.guide);
-    const Lift wall = may_be_wall ? lift(start, blur, SheetKind::kWall) : Lift{};
-    const Lift gap = may_be_gap ? lift(start, blur, SheetKind::kGap) : Lift{};
-    return {agree * (wall.lift - gap.lift), 1 + agree * (std::max(wall.gain, gap.gain) - 1)};
-  }
-
-  /// Deviations of the blur along a direction, mm.
+  /// Deviations of the blur along a direction, and a voxel, mm.
   struct Blur {
-    double scan, undone, guide;
+    double scan, undone, guide, voxel;
   };
 
   Blur blur_along(const Vec3& n) const {
-    double scan = 0, undone = 0, guide = 0;
+    double scan = 0, undone = 0, guide = 0, voxel = 0;
     for (std::size_t a = 0; a < 3; ++a) {
       const auto axis = static_cast<int>(a);
       const double length = n[axis] * guide_.spacing[axis], blur = options_.blur[a];
+      voxel += length * length;
       scan += length * length * blur * blur;
       undone += length * length * options_.undone[a] * options_.undone[a];
       guide += length * length * (blur * blur + kOfGuide);
     }
-    return {std::sqrt(scan), std::sqrt(undone), std::sqrt(guide)};
+    return {std::sqrt(scan), std::sqrt(undone), std::sqrt(guide), std::sqrt(voxel)};
   }
 
   /// The guide's share of the contrast; in gaps what is missing of it.
@@ -284,16 +297,29 @@ class Lifter {
     return {p, normal, step, share(p), share(p + step * normal), share(p - step * normal)};
   }
 
-  Lift lift(const Start& start, const Blur& blur, SheetKind kind) const {
+  /// @param agree  the gradients around, 0 to 1.
+  Lift lift(const Start& start, const Blur& blur, SheetKind kind, double agree) const {
     const Peak peak = find_peak(start, kind);
     if (peak.height < least_ || peak.height > kMostPeak) return {};
     const double thickness = thickness_of(peak.height) * blur.guide;
     const double scan = std::max(blur.scan, 0.05 * blur.guide);
     const SheetProfile seen = profiles_.at(thickness / scan, std::min(blur.undone / scan, 1.0));
-    const double share = std::clamp((peak.height - least_) / (0.3 * least_), 0.0, 1.0) *
-                         taper((peak.distance - thickness / 2) / blur.guide);
+    const double weight = agree * std::clamp((peak.height - least_) / (0.3 * least_), 0.0, 1.0) *
+                          taper((peak.distance - thickness / 2) / blur.guide);
     const double gain = std::clamp(kRise / std::max(seen.middle - seen.face, 1e-3), 1.0, kMostGain);
-    return {std::max(0.0, 0.5 - seen.face) * share, 1 + (gain - 1) * share};
+    const double face =
+        kind == SheetKind::kWall ? face_of_wall(seen, peak, thickness / blur.voxel) : seen.face;
+    return {std::max(0.0, 0.5 - face), weight, 1 + (gain - 1) * weight};
+  }
+
+  /// What the faces of a wall have: less than E(t) where the image is below what it would be of a
+  /// whole sheet of the object's value, as it is in less dense bone, and in sheets so thin that
+  /// samples do not show them as a whole.
+  double face_of_wall(const SheetProfile& seen, const Peak& peak, double voxels) const {
+    const double middle = share_of(spline_value_at(restored_, peak.place));
+    const double face = seen.face * std::clamp(middle / std::max(seen.middle, 1e-3), 0.0, 1.0);
+    const double thin = std::clamp((kThickEnough - voxels) / (kThickEnough - kThinnest), 0.0, 1.0);
+    return face + thin * std::min(0.0, kLeastFace * middle - face);
   }
 
   /// 1 within a sheet and at its faces, then down to 0.
@@ -325,7 +351,7 @@ class Lifter {
     if (!within_.contains(ridge)) return {};
     const bool falls = falls_off(ridge, reach, kFall * here, kind) &&
                        falls_off(ridge, -1.0 * reach, kFall * here, kind);
-    return falls ? Peak{here, std::abs(distance)} : Peak{};
+    return falls ? Peak{here, std::abs(distance), ridge} : Peak{};
   }
 
   bool falls_off(const Vec3& ridge, const Vec3& reach, double below, SheetKind kind) const {
@@ -336,7 +362,7 @@ class Lifter {
   }
 
   const VolumeView guide_;
-  SplineImage spline_;
+  SplineImage spline_, restored_;
   SheetOptions options_;
   SheetProfiles profiles_;
   double contrast_, least_;
@@ -347,16 +373,33 @@ class Lifter {
 }  // namespace
 
 void lift_thin_sheets(Volume& restored, const VolumeView& guide, const SheetOptions& options) {
-  const Lifter lifter(guide, options);
   const auto& size = restored.size;
-  parallel_for_each(static_cast<std::size_t>(size[2]), [&](std::size_t slice) {
-    const auto k = static_cast<Index>(slice);
-    for (Index j = 0; j < size[1]; ++j) {
-      for (Index i = 0; i < size[0]; ++i) {
-        float& sample = restored.samples[restored.offset(i, j, k)];
-        sample = static_cast<float>(lifter.lifted({i, j, k}, sample));
+  Volume walls{restored, std::vector<float>(restored.samples.size())}, weights = walls,
+                                                                       gaps = walls, gains = walls;
+  {
+    const SheetFinder finder(restored, guide, options);
+    parallel_for_each(static_cast<std::size_t>(size[2]), [&](std::size_t slice) {
+      const auto k = static_cast<Index>(slice);
+      for (Index j = 0; j < size[1]; ++j) {
+        for (Index i = 0; i < size[0]; ++i) {
+          const Finding found = finder.at({i, j, k});
+          const std::size_t n = restored.offset(i, j, k);
+          walls.samples[n] = static_cast<float>(found.wall.weight * found.wall.rise);
+          weights.samples[n] = static_cast<float>(found.wall.weight);
+          gaps.samples[n] = static_cast<float>(found.gap.weight * found.gap.rise);
+          gains.samples[n] = static_cast<float>(found.gain());
+        }
       }
-    }
+    });
+  }
+  walls = gaussian_smoothed(std::move(walls), kWallSpread);
+  weights = gaussian_smoothed(std::move(weights), kWallSpread);
+  const double contrast = options.contrast.difference(), half = options.contrast.half_maximum();
+  parallel_for(restored.samples.size(), [&](std::size_t n) {
+    const double rise = walls.samples[n] / (weights.samples[n] + kFewest) - gaps.samples[n];
+    if (rise == 0 && gains.samples[n] == 1) return;
+    const double above = restored.samples[n] + contrast * rise - half;
+    restored.samples[n] = static_cast<float>(half + gains.samples[n] * above);
   });
 }
 

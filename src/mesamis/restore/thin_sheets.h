@@ -28,6 +28,12 @@ struct SheetOptions {
 /// value E(t) that the restored image has at the sheet's faces. The difference of E(t) and one half
 /// of the contrast is added to the sheet, so that the level of half maximum runs along its faces.
 ///
+/// Where the restored image is lower in the middle of a wall than the model has it (bone that is
+/// less dense, a wall that bends), E is lowered in proportion, and walls thinner than half a voxel
+/// are drawn at half of their own peak: nearer to it, samples leave holes in them. What is added
+/// for walls is the mean of what the voxels within some 1.5 voxels say, so that a wall is lifted as a
+/// whole; what is taken off for gaps is each voxel's own.
+///
 /// A voxel belongs to a sheet if the smoothed scan, followed both ways along the main direction of
 /// its gradients, has a maximum (or, for gaps, a minimum) and falls off again on both sides, and if
 /// the gradients around agree in that direction. Peaks of less than 0.15 of the contrast, or that
@@ -35,7 +41,7 @@ struct SheetOptions {
 /// @param restored  native units; changed in place.
 /// @param guide     the scan as it came, smoothed() once, on the same grid, native units.
 ///
-/// O(voxels); a spline of the guide. The same bits for any number of threads.
+/// O(voxels); two splines and four copies of the samples. The same bits for any number of threads.
 void lift_thin_sheets(Volume& restored, const VolumeView& guide, const SheetOptions& options);
 
 }  // namespace mesamis
