@@ -153,10 +153,10 @@ TEST(MesAmis, DecimatesNoCloserThanTheSurfaceIsKnown) {
   Settings settings = small_run();
   const Result result = mes_amis(volume, settings);
   const double tolerance = result.parameters.tolerance;
-  EXPECT_GT(tolerance, 0.03);
-  EXPECT_LT(tolerance, 0.1);
+  EXPECT_GT(tolerance, 0.06);
+  EXPECT_LT(tolerance, 0.2);
   const double expected = summarize_error(result.surface, result.expected_error).mean;
-  EXPECT_NEAR(expected, tolerance, 0.01) << "told of the surface before";
+  EXPECT_NEAR(2 * expected, tolerance, 0.02) << "told of the surface before";
   settings.tolerance = 0.05;
   EXPECT_EQ(mes_amis(volume, settings).parameters.tolerance, 0.05);
 }

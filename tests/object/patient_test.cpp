@@ -208,7 +208,7 @@ TEST(FindPatient, FindsNoneInADryBoneOnARest) {
   for_each_voxel(kGrid, [&](const std::array<Index, 3>& v, std::size_t) {
     const Vec3 p{v[0] * kGrid.spacing.x, v[1] * kGrid.spacing.y, v[2] * kGrid.spacing.z};
     const double shell = std::abs(norm(Vec3{p.x - 160, p.y - 100, p.z - 26}) - 60);
-    const bool is_rest = p.y > 190 && p.y < 215 && p.x > 40 && p.x < 280;
+    const bool is_rest = p.y > 190 && p.y < 215 && p.x > 130 && p.x < 190;
     volume.samples.push_back(shell < 5 ? 900.0F : is_rest ? -120.0F : -1000.0F);
   });
   EXPECT_FALSE(find_patient(volume));

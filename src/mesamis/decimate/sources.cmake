@@ -6,6 +6,7 @@ set(ROOM_HEADERS
   decimate_part.h
   decimate_partition.h
   patch.h
+  refit.h
   round_to_single.h
   round_together.h
   single_places.h)
@@ -20,5 +21,6 @@ set(ROOM_SOURCES
   round_together.cpp
   interfaces.cpp
   NEXT decimation.cpp
+  refit.cpp
   round_to_single.cpp
   NEXT decimate_pass.cpp)

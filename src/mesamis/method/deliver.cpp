@@ -60,7 +60,8 @@ void finish_surface(const RunInput& run, const Settings& settings, const Progres
   result.printable.triangles_extracted = std::ssize(result.surface.triangles);
   if (p.surface == SurfaceKind::kBand) return;
   p.tolerance =
-      chosen_tolerance(settings, run.grey.voxel_size(), mean_expected_error(run, result.surface));
+      chosen_tolerance(settings, run.grey.voxel_size(), mean_expected_error(run, result.surface),
+                       p.preview ? Refitted::kNo : Refitted::kYes);
   result.surface = make_printable(result.surface,
                                   {p.min_volume, p.keep_largest, p.fill_cavities, p.tolerance,
                                    p.triangles, progress, p.preview},

@@ -14,6 +14,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/stopwatch.h"
 #include "mesamis/decimate/decimate_partition.h"
+#include "mesamis/decimate/refit.h"
 #include "mesamis/decimate/round_together.h"
 #include "mesamis/fem/grid_amis.h"
 #include "mesamis/labels/flow_memberships.h"
@@ -329,8 +330,14 @@ double decimate(const LabelRun& run, const Parameters& p, PartitionSurface& part
   options.progress = run.progress;
   options.quick = run.settings.preview && std::isfinite(options.tolerance);
   DecimateReport report;
-  partition = decimate_partition(partition, options, &report);
-  return shift + std::max(report.original_to_result, report.result_to_original);
+  PartitionSurface few = decimate_partition(partition, options, &report);
+  double moved = std::max(report.original_to_result, report.result_to_original);
+  if (moved > 0 && std::isfinite(options.tolerance) && !options.quick) {
+    few = refit_partition(std::move(few), partition, options.tolerance);
+    moved = options.tolerance;
+  }
+  partition = std::move(few);
+  return shift + moved;
 }
 
 /// The parts that the settings leave; unless they say so, all of them.
@@ -386,7 +393,7 @@ void finish_layers(const LabelRun& run, std::vector<LayerBoundaries> layers, con
   Stopwatch watch;
   const double voxel = input ? input->grey.voxel_size() : run.request.map.voxel_size();
   result.parameters.tolerance =
-      chosen_tolerance(run.settings, voxel, mean_error_of(run, layers, input));
+      chosen_tolerance(run.settings, voxel, mean_error_of(run, layers, input), Refitted::kNo);
   result.parameters.triangles = run.settings.triangles.value_or(0);
   for (LayerBoundaries& layer : layers) {
     result.flow_converged &= layer.converged;

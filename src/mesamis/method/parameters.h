@@ -117,21 +117,27 @@ std::array<Index, 3> preview_stride(const std::array<Index, 3>& voxels, const Ve
 std::array<Index, 3> stride_of(const Settings& settings, const std::array<Index, 3>& voxels,
                                const Vec3& spacing);
 
+/// Whether points are moved after decimation, see refit(): the surface lies on both sides of what was
+/// decimated then, and a tolerance costs less than half.
+enum class Refitted { kNo, kYes };
+
 /// The default of tolerance: how far the surface is expected to be from the truth, but no less than
 /// 0.03 and no more than 0.1 voxel: a surface that is kept closer keeps detail smaller than its
-/// error. Half of the accuracy, if that is asked for, but no less than 0.01 voxel.
+/// error. Twice that where points are refitted. Half of the accuracy, if that is asked for, but no
+/// less than 0.01 voxel.
 /// @param voxel           geometric mean of the spacing, mm, > 0.
 /// @param expected_error  in the mean over the surface, see expected_error(), mm, >= 0.
 /// @param accuracy        mean distance to the truth that is asked for, mm, >= 0; 0: none.
 /// @return mm.
-double default_tolerance(double voxel, double expected_error, double accuracy);
+double default_tolerance(double voxel, double expected_error, double accuracy, Refitted refitted);
 
 /// The tolerance of a run: what the settings give; infinite where they give a number of triangles
 /// instead; else default_tolerance().
 /// @param voxel           mm, as for default_tolerance().
 /// @param expected_error  mm, >= 0; infinite where nothing is known of it.
 /// @return mm.
-double chosen_tolerance(const Settings& settings, double voxel, double expected_error);
+double chosen_tolerance(const Settings& settings, double voxel, double expected_error,
+                        Refitted refitted);
 
 /// The default of gamma, 4 epsilon beta (0.07 c + 0.25 n)^2.
 ///

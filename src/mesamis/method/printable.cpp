@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "mesamis/decimate/decimate.h"
+#include "mesamis/decimate/refit.h"
 #include "mesamis/decimate/round_to_single.h"
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/select_parts.h"
@@ -13,8 +14,8 @@
 namespace mesamis {
 namespace {
 
-/// First rounded, then decimated: what is left is where it was, so that what decimation promises
-/// is true of every file.
+/// First rounded, then decimated and refitted, to values of single precision: what these promise is
+/// true of every file.
 TriMesh decimated(const TriMesh& surface, const PrintableOptions& printable,
                   PrintableReport& report) {
   RoundReport rounding;
@@ -26,6 +27,9 @@ TriMesh decimated(const TriMesh& surface, const PrintableOptions& printable,
   options.quick = printable.quick && std::isfinite(options.tolerance);
   if (!options.quick) {
     TriMesh result = decimate(rounded, options);
+    if (std::isfinite(options.tolerance) && options.tolerance > 0) {
+      result = refit(std::move(result), rounded, options.tolerance);
+    }
     const double fine = fine_enough(surface, printable.tolerance);
     report.extracted_to_result = max_distance(surface, result, fine);
     report.result_to_extracted = max_distance(result, surface, fine);

@@ -362,8 +362,9 @@ std::vector<Setting> surface_rows() {
                    .words = {"auto", "none"}, .unit = "mm",
                    .help = "Decimation keeps the solid surface within this distance; 0: no "
                        "decimation; none: no bound",
-                   .automatic = "the error to expect, 0.03 to 0.1 voxel, or half of accuracy, if that is asked for; none where "
-                                "triangles says where to stop"}),
+                   .automatic = "twice the error to expect, 0.06 to 0.2 voxel (previews, labels, slabs: half of "
+                                "that), or half of accuracy, if that is asked for; none where triangles says where "
+                                "to stop"}),
     bound({.name = "preview", .form = "yes|no",
            .help = "The solid of the first grid, quickly: no mesh is adapted, decimation is quick"},
           &Settings::preview, &Parameters::preview),

@@ -160,15 +160,18 @@ void fill_enclosed(VoxelMask& patient, const VolumeView& volume) {
   for (std::size_t n = 0; n < patient.size(); ++n) patient[n] |= is_lung[at(gaps.of_voxel[n])];
 }
 
-/// Whether most of what is as bright as bone lies in the body. Of a dry skull on a head rest of foam
-/// it does not: there the rest is what looks like tissue.
-bool has_the_bones(const VoxelMask& patient, const VolumeView& volume) {
+/// Whether the rest has more of what is dense than the body, and more of what is as bright as bone: a
+/// dry skull on a head rest of foam has.
+bool is_the_lesser_part(const VoxelMask& patient, const VoxelMask& dense,
+                        const VolumeView& volume) {
   constexpr float kBone = 250;  // HU
-  std::array<std::size_t, 2> bright{};
+  std::array<std::size_t, 2> solid{}, bright{};
   for (std::size_t n = 0; n < patient.size(); ++n) {
-    if (volume.samples[n] > kBone) ++bright[patient[n] != 0 ? 1 : 0];
+    const std::size_t inside = patient[n] != 0 ? 1 : 0;
+    solid[inside] += dense[n];
+    bright[inside] += volume.samples[n] > kBone ? 1 : 0;
   }
-  return bright[1] >= bright[0];
+  return solid[0] > solid[1] && bright[0] > bright[1];
 }
 
 /// What is dense and not in the body, by name.
@@ -218,7 +221,7 @@ std::optional<Patient> find_patient(const VolumeView& volume) {
   VoxelMask inside = dilated(core, coarse, kOpening);
   add_thin_parts(inside, solid, coarse);
   fill_enclosed(inside, coarse);
-  if (!has_the_bones(inside, coarse)) return std::nullopt;
+  if (is_the_lesser_part(inside, dense, coarse)) return std::nullopt;
   Patient patient;
   patient.grain = std::max({coarse.spacing.x, coarse.spacing.y, coarse.spacing.z});
   patient.removed = name_surroundings(inside, dense, coarse);

@@ -42,9 +42,9 @@ struct Patient {
 /// Of what is left out, islands that reach through at least half of the slices are called table or
 /// head rest.
 /// @param volume  finite samples.
-/// @return nothing unless the scan is in Hounsfield units, half of its largest part is soft tissue,
-///         and most of what is brighter than 250 HU lies in the body: MR, micro-CT and dry bones,
-///         also beside foam that looks like tissue, have none.
+/// @return nothing unless the scan is in Hounsfield units, and half of its largest part is soft
+///         tissue: MR, micro-CT and dry bones have none. Nothing either where what would be left
+///         out is both more, and more of what is brighter than 250 HU: a dry bone beside foam.
 ///
 /// O(voxels); about 30 bytes per voxel that is looked at, and the mask.
 std::optional<Patient> find_patient(const VolumeView& volume);
