@@ -23,12 +23,15 @@ namespace {
 
 /// Cosine between the triangles of a sharp edge, 40 degrees, and of a flat part.
 constexpr double kSharp = 0.766, kFlat = 1 - 1e-9;
+/// Cosine of a crease, 25 degrees: no edge may bend by more that did not bend as much before.
+constexpr double kCrease = 0.9063;
 /// Cosine by which a triangle may turn.
 constexpr double kTurn = 0.9;
 /// Against moves that the samples say little of, of the mean weight of a point.
 constexpr double kPull = 0.02;
 /// Of the tolerance: no point moves farther.
 constexpr double kFarthest = 0.7;
+constexpr double kRounding = 1e-6;  // of cosines
 constexpr int kHalvings = 3, kMostChecks = 9;
 
 /// The closest place of a triangle to a point, in its barycentric coordinates.
@@ -125,6 +128,7 @@ class Refit {
         nearest_(original.points.size(), kNoIndex) {
     for (Vec3& n : normals_) n = unit_or_zero(n);
     find_what_stays();
+    pair_triangles();
   }
 
   TriMesh run() {
@@ -176,6 +180,26 @@ class Refit {
           if (c < kSharp || c > kFlat) stays_[p] = 1;
         }
       }
+    }
+  }
+
+  /// The pairs of triangles that share an edge which no third one has.
+  void pair_triangles() {
+    std::vector<std::array<Index, 3>> sides;  // lower corner, upper corner, triangle
+    for (Index t = 0; t < std::ssize(start_.triangles); ++t) {
+      const Triangle& k = start_.triangles[t];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [low, high] = std::minmax(k[i], k[(i + 1) % 3]);
+        sides.push_back({low, high, t});
+      }
+    }
+    std::sort(sides.begin(), sides.end());
+    const auto same = [&](std::size_t a, std::size_t b) {
+      return b < sides.size() && sides[a][0] == sides[b][0] && sides[a][1] == sides[b][1];
+    };
+    for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
+      for (end = first + 1; same(first, end);) ++end;
+      if (end == first + 2) pairs_.push_back({sides[first][2], sides[first + 1][2]});
     }
   }
 
@@ -274,8 +298,8 @@ class Refit {
     });
   }
 
-  /// Where points have changed: the corners of triangles that have turned, meet others or are too
-  /// far from the original, and of those that are nearest to what is too far of the original.
+  /// Where points have changed: the corners of triangles that have turned or bend at a crease, meet
+  /// others or are too far from the original, and of those that are nearest to what is too far of the original.
   std::vector<char> corners_at_fault(const std::vector<char>& changed, SelfIntersections& meeting,
                                      bool all) const {
     std::vector<Index> touched;
@@ -301,6 +325,15 @@ class Refit {
       }
     });
     for (const Index t : nearest_to_what_is_far(is_touched)) at_fault[t] = 1;
+    for (const auto& [a, b] : pairs_) {
+      if (is_touched[a] + is_touched[b] == 0) continue;
+      const auto bend = [&](const TriMesh& surface) {
+        return dot(normal_of(corners_of(surface, surface.triangles[a])),
+                   normal_of(corners_of(surface, surface.triangles[b])));
+      };
+      const double now = bend(moved_);
+      if (now < kCrease && now < bend(start_) - kRounding) at_fault[a] = at_fault[b] = 1;
+    }
     for (const TrianglePair& pair : all ? meeting.all() : meeting.after_move_of(touched)) {
       for (const Index t : pair) at_fault[t] = 1;
     }
@@ -344,6 +377,7 @@ class Refit {
   std::vector<Interface> originals_;
   std::vector<Vec3> normals_;
   std::vector<char> stays_;
+  std::vector<TrianglePair> pairs_;
   std::vector<Index> nearest_;  // to each original point, the triangle before any move
 };
 

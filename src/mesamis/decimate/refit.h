@@ -13,10 +13,11 @@ namespace mesamis {
 /// to the least squares of the distances of the original's points, weighted by area. This halves
 /// the distance of the surfaces and more, at the same number of triangles.
 ///
-/// What decimate() promises stays: moves that would make triangles meet, turn one over, or take
-/// either surface out of the tolerance of the other are halved, and in the end taken back. Points of
-/// sharp edges and of flat parts, as where the box of a scan cuts the object, stay. All points are
-/// values of single precision, as those of the original must be.
+/// What decimate() promises stays: moves that would make triangles meet, turn one over, make a
+/// crease of more than 25 degrees, or take either surface out of the tolerance of the other are
+/// halved, and in the end taken back. Points of sharp edges and of flat parts, as where the box of
+/// a scan cuts the object, stay. All points are values of single precision, as those of the original
+/// must be.
 /// @param decimated  as decimate() returns it; taken over.
 /// @param original   what was decimated, mm; n triangles.
 /// @param tolerance  mm, > 0, finite.
