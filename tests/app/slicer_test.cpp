@@ -358,7 +358,7 @@ TEST_F(Slicer, IsToldInOneLineWhatIsWrong) {
     EXPECT_FALSE(std::filesystem::exists(model()));
     EXPECT_FALSE(std::filesystem::exists(results()));
   };
-  fails({{"level", {"5x"}}}, 2, "--level: expected X|auto, found '5x'");
+  fails({{"level", {"5x"}}}, 2, "--level: expected X|auto|local, found '5x'");
   fails({{"max_tets", {"1"}}}, 2, "--max_tets: expected 100 to");
   fails({{"margin", {"wide"}}}, 2, "--margin: expected a number above 0, found 'wide'");
   fails({{"region", {"1,2,3"}}}, 2, "--region: expected 6 numbers");

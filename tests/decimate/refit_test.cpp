@@ -32,7 +32,7 @@ TriMesh sphere() {
 
 /// Thin walls and bends of all sizes.
 TriMesh shells() {
-  return single(24, [](const Vec3& p) {
+  return single(20, [](const Vec3& p) {
     const double waves =
         0.06 * std::sin(7 * p.x + 1) * std::cos(6 * p.y) + 0.05 * std::sin(8 * p.z);
     return 0.07 - std::abs(norm(p) - 0.6 + waves);

@@ -94,6 +94,7 @@ std::vector<Interface> split(const TriMesh& surface, const InterfaceNumbers& num
     of[static_cast<std::size_t>(numbers[t])].push_back(static_cast<Index>(t));
   }
   std::vector<Interface> interfaces;
+  interfaces.reserve(count);
   for (std::vector<Index>& chosen : of) interfaces.emplace_back(surface, std::move(chosen));
   return interfaces;
 }
@@ -203,14 +204,15 @@ class Refit {
     }
   }
 
-  /// How far each point moves along its normal.
-  std::vector<double> least_squares() {
+  /// What an original point says: where it is nearest to the decimated surface, and how far above.
+  struct Sample {
+    Index triangle = kNoIndex;  ///< none: it lies where interfaces meet
+    std::array<double, 3> share{};
+    double distance = 0;
+  };
+
+  std::vector<Sample> sampled() const {
     const std::vector<Interface> starts = split(start_, of_decimated_, originals_.size());
-    struct Sample {
-      Index triangle = kNoIndex;
-      std::array<double, 3> share{};
-      double distance = 0;
-    };
     std::vector<Sample> samples(original_.points.size());
     parallel_blocks(samples.size(), 512, [&](std::size_t begin, std::size_t end) {
       std::vector<std::size_t> hints(starts.size(), 0);
@@ -222,69 +224,106 @@ class Refit {
         const Vec3& x = original_.points[p];
         start.tree().squared_distance_to(x, hint);
         const Corners& t = start.tree().triangle(hint);
-        Sample& s = samples[p];
-        s.triangle = start.index_of(hint);
-        s.share = closest_in(x, t);
-        const Vec3 q = s.share[0] * t[0] + s.share[1] * t[1] + s.share[2] * t[2];
-        s.distance = dot(x - q, normal_of(t));
-        nearest_[p] = s.triangle;
+        const std::array<double, 3> share = closest_in(x, t);
+        const Vec3 q = share[0] * t[0] + share[1] * t[1] + share[2] * t[2];
+        samples[p] = {start.index_of(hint), share, dot(x - q, normal_of(t))};
       }
     });
-    std::vector<double> weights(samples.size(), 0);
+    return samples;
+  }
+
+  /// A third of the area of the triangles at each point.
+  std::vector<double> areas() const {
+    std::vector<double> areas(original_.points.size(), 0);
     for (const Triangle& t : original_.triangles) {
       const Corners c = corners_of(original_, t);
       const double area = norm(cross(c[1] - c[0], c[2] - c[0])) / 6;
-      for (const Index p : t) weights[p] += area;
+      for (const Index p : t) areas[p] += area;
     }
-    const auto n = static_cast<Eigen::Index>(start_.points.size());
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(n), diagonal = Eigen::VectorXd::Zero(n);
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(9 * start_.triangles.size());
-    std::vector<std::array<double, 9>> blocks(start_.triangles.size(), std::array<double, 9>{});
+    return areas;
+  }
+
+  /// The normal equations of the least squares: a block of the matrix for each triangle.
+  struct Equations {
+    std::vector<std::array<double, 9>> blocks;
+    Eigen::VectorXd right;
+  };
+
+  Equations equations(const std::vector<Sample>& samples) const {
+    const std::vector<double> weights = areas();
+    Equations all{std::vector<std::array<double, 9>>(start_.triangles.size()),
+                  Eigen::VectorXd::Zero(static_cast<Eigen::Index>(start_.points.size()))};
     for (std::size_t p = 0; p < samples.size(); ++p) {
       const Sample& s = samples[p];
       if (s.triangle == kNoIndex) continue;
       const Triangle& k = start_.triangles[s.triangle];
       const Vec3 up = normal_of(corners_of(start_, k));
+      auto& block = all.blocks[static_cast<std::size_t>(s.triangle)];
       std::array<double, 3> row{};
       for (std::size_t a = 0; a < 3; ++a) row[a] = s.share[a] * dot(normals_[k[a]], up);
       for (std::size_t a = 0; a < 3; ++a) {
-        right[k[a]] += weights[p] * row[a] * s.distance;
-        for (std::size_t b = 0; b < 3; ++b) {
-          blocks[static_cast<std::size_t>(s.triangle)][3 * a + b] += weights[p] * row[a] * row[b];
-        }
+        all.right[k[a]] += weights[p] * row[a] * s.distance;
+        for (std::size_t b = 0; b < 3; ++b) block[3 * a + b] += weights[p] * row[a] * row[b];
       }
     }
+    return all;
+  }
+
+  /// The matrix, in which points that stay have an equation of their own.
+  Eigen::SparseMatrix<double> matrix_of(const Equations& all) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(9 * all.blocks.size());
     double sum = 0;
-    for (std::size_t t = 0; t < blocks.size(); ++t) {
+    for (std::size_t t = 0; t < all.blocks.size(); ++t) {
       const Triangle& k = start_.triangles[t];
       for (std::size_t a = 0; a < 3; ++a) {
-        sum += blocks[t][4 * a];
+        sum += all.blocks[t][4 * a];
         for (std::size_t b = 0; b < 3; ++b) {
           if (stays_[k[a]] != 0 || stays_[k[b]] != 0) continue;
-          entries.emplace_back(k[a], k[b], blocks[t][3 * a + b]);
+          entries.emplace_back(k[a], k[b], all.blocks[t][3 * a + b]);
         }
       }
     }
+    const auto n = all.right.size();
     const double pull = kPull * sum / static_cast<double>(n);
     for (Eigen::Index p = 0; p < n; ++p) {
-      const bool stays = stays_[static_cast<std::size_t>(p)] != 0;
-      if (stays) right[p] = 0;
-      entries.emplace_back(p, p, stays ? 1 : pull);
+      entries.emplace_back(p, p, stays_[static_cast<std::size_t>(p)] != 0 ? 1 : pull);
     }
     Eigen::SparseMatrix<double> matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  }
+
+  /// How far each point moves along its normal.
+  std::vector<double> least_squares() {
+    const std::vector<Sample> samples = sampled();
+    for (std::size_t p = 0; p < samples.size(); ++p) nearest_[p] = samples[p].triangle;
+    Equations all = equations(samples);
+    for (std::size_t p = 0; p < stays_.size(); ++p) {
+      if (stays_[p] != 0) all.right[static_cast<Eigen::Index>(p)] = 0;
+    }
+    const Eigen::SparseMatrix<double> matrix = matrix_of(all);
     Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
     solver.setMaxIterations(60);
     solver.setTolerance(1e-3);
     solver.compute(matrix);
-    const Eigen::VectorXd found = solver.solve(right);
+    const Eigen::VectorXd found = solver.solve(all.right);
     std::vector<double> moves(start_.points.size());
     const double most = kFarthest * tolerance_;
     for (std::size_t p = 0; p < moves.size(); ++p) {
       moves[p] = std::clamp(found[static_cast<Eigen::Index>(p)], -most, most);
     }
     return moves;
+  }
+
+  /// The cosine between two triangles.
+  static double bend(const TriMesh& surface, const TrianglePair& pair) {
+    return dot(normal_of(corners_of(surface, surface.triangles[pair[0]])),
+               normal_of(corners_of(surface, surface.triangles[pair[1]])));
+  }
+  bool has_become_a_crease(const TrianglePair& pair) const {
+    const double now = bend(moved_, pair);
+    return now < kCrease && now < bend(start_, pair) - kRounding;
   }
 
   /// Whether one moved triangle that is nearest to a corner of an original is near all of it.
@@ -299,7 +338,7 @@ class Refit {
   }
 
   /// Where points have changed: the corners of triangles that have turned or bend at a crease, meet
-  /// others or are too far from the original, and of those that are nearest to what is too far of the original.
+  /// others or are too far from the original, and of those nearest to what is too far of that.
   std::vector<char> corners_at_fault(const std::vector<char>& changed, SelfIntersections& meeting,
                                      bool all) const {
     std::vector<Index> touched;
@@ -325,14 +364,9 @@ class Refit {
       }
     });
     for (const Index t : nearest_to_what_is_far(is_touched)) at_fault[t] = 1;
-    for (const auto& [a, b] : pairs_) {
-      if (is_touched[a] + is_touched[b] == 0) continue;
-      const auto bend = [&](const TriMesh& surface) {
-        return dot(normal_of(corners_of(surface, surface.triangles[a])),
-                   normal_of(corners_of(surface, surface.triangles[b])));
-      };
-      const double now = bend(moved_);
-      if (now < kCrease && now < bend(start_) - kRounding) at_fault[a] = at_fault[b] = 1;
+    for (const TrianglePair& pair : pairs_) {
+      if (is_touched[pair[0]] + is_touched[pair[1]] == 0) continue;
+      if (has_become_a_crease(pair)) at_fault[pair[0]] = at_fault[pair[1]] = 1;
     }
     for (const TrianglePair& pair : all ? meeting.all() : meeting.after_move_of(touched)) {
       for (const Index t : pair) at_fault[t] = 1;

@@ -64,7 +64,7 @@ void finish_surface(const RunInput& run, const Settings& settings, const Progres
                        p.preview ? Refitted::kNo : Refitted::kYes);
   result.surface = make_printable(result.surface,
                                   {p.min_volume, p.keep_largest, p.fill_cavities, p.tolerance,
-                                   p.triangles, progress, p.preview},
+                                   p.triangles, progress, p.preview, !p.preview},
                                   &result.printable);
   tell_error(run, result);
 }

@@ -14,8 +14,8 @@
 namespace mesamis {
 namespace {
 
-/// First rounded, then decimated and refitted, to values of single precision: what these promise is
-/// true of every file.
+/// First rounded, then decimated and, if asked for, refitted, to values of single precision: what
+/// these promise is true of every file.
 TriMesh decimated(const TriMesh& surface, const PrintableOptions& printable,
                   PrintableReport& report) {
   RoundReport rounding;
@@ -27,7 +27,7 @@ TriMesh decimated(const TriMesh& surface, const PrintableOptions& printable,
   options.quick = printable.quick && std::isfinite(options.tolerance);
   if (!options.quick) {
     TriMesh result = decimate(rounded, options);
-    if (std::isfinite(options.tolerance) && options.tolerance > 0) {
+    if (printable.refit && std::isfinite(options.tolerance) && options.tolerance > 0) {
       result = refit(std::move(result), rounded, options.tolerance);
     }
     const double fine = fine_enough(surface, printable.tolerance);

@@ -35,6 +35,7 @@ struct PrintableOptions {
   std::int64_t triangles = 0;  ///< where decimation stops; 0: nowhere
   Progress progress = {};      ///< optional; may stop the work
   bool quick = false;          ///< see DecimateOptions::quick; where tolerance is finite
+  bool refit = false;          ///< see refit(); where tolerance is finite and not quick
 };
 
 /// Makes the solid surface ready to be written in any format: the parts asked for; coordinates
