@@ -151,7 +151,7 @@ void require_material(const MaterialOptions& options) {
   require_law(options.law && options.calibration, "a material without law or calibration");
   require_law(std::isfinite(options.calibration->offset) && options.calibration->slope > 0,
               "a calibration that does not rise");
-  require_law(!options.law->pieces.empty(), "a law without a piece");
+  require_law(!options.law->ranges.empty(), "a law without a range");
   const double low = modulus_at(*options.law, 0.1), high = modulus_at(*options.law, 1);
   require_law(low >= 0 && high >= low, "a law whose modulus falls");
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the seeds of every fuzz target of a program once, without libFuzzer.
 //
-//   replay_readers FOLDER     as fuzz_seeds fills it: FOLDER/fuzz_NAME/SEED
+//   replay_FAMILY FOLDER     as fuzz_seeds fills it: FOLDER/fuzz_NAME/SEED
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
