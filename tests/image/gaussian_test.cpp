@@ -110,6 +110,23 @@ TEST(Gaussian, GivesTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one.samples, four.samples);
 }
 
+/// One voxel of value 5 and weight 2, one of value -1 and weight 1.
+TEST(WeightedMeans, AreThoseNearbyAndNothingFarAway) {
+  Volume weights = waves({40, 9, 9}), weighted = weights;
+  std::fill(weights.samples.begin(), weights.samples.end(), 0.0F);
+  weighted.samples = weights.samples;
+  const std::size_t one = weights.offset(6, 4, 4), other = weights.offset(8, 4, 4);
+  weights.samples[one] = 2;
+  weighted.samples[one] = 10;
+  weights.samples[other] = 1;
+  weighted.samples[other] = -1;
+  const WeightedMeans means(weighted, weights, 1.5, 1e-6);
+  EXPECT_NEAR(means.at(weights.offset(7, 4, 4)), 3, 1e-3) << "equally far: by weight";
+  EXPECT_GT(means.at(one), 3);
+  EXPECT_LT(means.at(other), 3);
+  EXPECT_EQ(means.at(weights.offset(30, 4, 4)), 0);
+}
+
 TEST(Gaussian, RefusesAWidthOutOfRangeAndMissingSamples) {
   Volume volume = waves({6, 5, 4});
   for (const double sigma : {-0.1, 100.1, std::nan("")}) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -32,6 +33,21 @@ TEST(SquaredDistance, ToATriangleWithoutAreaIsThatToItsEdges) {
     EXPECT_NEAR(squared_distance({13, 4, 0}, t), 25, 1e-13);
   }
   EXPECT_NEAR(squared_distance({3, 4, 0}, {a, a, a}), 25, 1e-13);
+}
+
+TEST(NearestPlace, IsWhereTheDistanceIsMeasured) {
+  const TriMesh surface = random_triangles(300, {1, 1, 1});
+  for (const Triangle& k : surface.triangles) {
+    const Corners t = corners_of(surface, k);
+    for (const Vec3& p : random_points(20, {-3, -3, -3}, {3, 3, 3}, 12)) {
+      const auto [a, b, c] = nearest_place(p, t);
+      const double least = -1e-6;
+      EXPECT_TRUE(a >= least && b >= least && c >= least) << a << ' ' << b << ' ' << c;
+      EXPECT_NEAR(a + b + c, 1, 1e-6);
+      const Vec3 way = p - (a * t[0] + b * t[1] + c * t[2]);
+      EXPECT_NEAR(norm(way), std::sqrt(squared_distance(p, t)), 1e-5);
+    }
+  }
 }
 
 double nearest_of_all(const Vec3& p, const TriMesh& surface) {

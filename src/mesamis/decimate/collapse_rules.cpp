@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesamis/decimate/crease.h"
 #include "mesamis/decimate/fan_distance.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/triangle_intersection.h"
@@ -37,10 +38,6 @@ double flatness(const std::vector<Vec3>& p, const Triangle& t) {
   return longest > 0 ? dot(n, n) / (longest * longest) : 0;
 }
 
-/// Cosine of the angle of a crease: 25 degrees.
-constexpr double kSharpest = 0.9063;
-constexpr double kSlack = 1e-6;  // of rounding
-
 /// The normals of the triangles around the point to be removed, one per edge of its ring, from the
 /// point on that it is collapsed to.
 struct Fan {
@@ -56,8 +53,7 @@ Fan fan_of(const HalfedgeMesh& mesh, const std::vector<Vec3>& points,
            const CollapseInfo& collapse) {
   const auto normal = [&](OpenMesh::VertexHandle a, OpenMesh::VertexHandle b,
                           OpenMesh::VertexHandle c) {
-    const Vec3& p = points[index(a)];
-    return unit_or_zero(cross(points[index(b)] - p, points[index(c)] - p));
+    return unit_normal({points[index(a)], points[index(b)], points[index(c)]});
   };
   Fan fan;
   auto h = collapse.v0v1;
@@ -92,13 +88,13 @@ float ModFlatness::collapse_priority(const CollapseInfo& collapse) {
 float ModCreases::collapse_priority(const CollapseInfo& collapse) {
   const Fan fan = fan_of(mesh(), points(), collapse);
   const std::size_t n = fan.before.size();
-  double sharpest = kSharpest;
+  double sharpest = 1;
   for (std::size_t i = 0; i < n; ++i) {
     sharpest = std::min(sharpest, dot(fan.before[i], fan.before[(i + 1) % n]));
     if (fan.has_beyond(i)) sharpest = std::min(sharpest, dot(fan.before[i], fan.beyond[i]));
   }
   const auto bends = [&](const Vec3& one, const Vec3& other) {
-    return norm(one) > 0 && norm(other) > 0 && dot(one, other) < sharpest - kSlack;
+    return norm(one) > 0 && norm(other) > 0 && makes_crease(sharpest, dot(one, other));
   };
   for (std::size_t i = 0; i + 1 < n; ++i) {
     if (bends(fan.after[i], fan.after[i + 1])) return ILLEGAL_COLLAPSE;
@@ -241,7 +237,7 @@ bool ModHausdorff::is_near_one(const Corners& triangle, const std::vector<Triang
 }
 
 /// The triangles after the collapse, those of the ring's other points included.
-TriMesh ModHausdorff::surroundings(const CollapseInfo& collapse, const Star& star) {
+std::vector<Corners> ModHausdorff::surroundings(const CollapseInfo& collapse, const Star& star) {
   std::vector<Triangle> triangles = star.after;
   for (auto v = mesh().cvv_iter(collapse.v0); v.is_valid(); ++v) {
     for (auto f = mesh().cvf_iter(*v); f.is_valid(); ++f) {
@@ -249,13 +245,10 @@ TriMesh ModHausdorff::surroundings(const CollapseInfo& collapse, const Star& sta
       if (std::find(t.begin(), t.end(), collapse.v0.idx()) == t.end()) triangles.push_back(t);
     }
   }
-  TriMesh local;
-  for (const Triangle& t : triangles) {
-    const auto first = static_cast<Index>(local.points.size());
-    for (const Vec3& p : shape(t)) local.points.push_back(p);
-    local.triangles.push_back({first, first + 1, first + 2});
-  }
-  return local;
+  std::vector<Corners> corners;
+  corners.reserve(triangles.size());
+  for (const Triangle& t : triangles) corners.push_back(shape(t));
+  return corners;
 }
 
 void ModIntersection::set_surface(const TriMesh& surface, std::vector<Index> first_copies) {

@@ -101,7 +101,7 @@ class ModHausdorff : public CollapseRule {
   bool new_are_near(const CollapseInfo& collapse, const Star& star);
   bool old_are_near(const CollapseInfo& collapse, const Star& star);
   bool is_near_one(const Corners& triangle, const std::vector<Triangle>& others) const;
-  TriMesh surroundings(const CollapseInfo& collapse, const Star& star);
+  std::vector<Corners> surroundings(const CollapseInfo& collapse, const Star& star);
 
   const DecimateTask* task_ = nullptr;
   const TriMesh* surface_ = nullptr;

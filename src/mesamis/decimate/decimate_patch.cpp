@@ -65,17 +65,14 @@ class Decimation {
   /// An interface, or the whole surface: originals, and what is to be near them.
   struct Part {
     std::vector<Index> originals;
-    TriMesh placed;
+    std::vector<Corners> placed;
   };
 
   /// Triangles over the patch's points, and what touches the patch, interface by interface.
   std::map<Index, Part> in_their_place(const std::vector<Triangle>& triangles) const {
     std::map<Index, Part> parts;
     const auto place = [&](const Triangle& t) {
-      TriMesh& placed = parts[task_.interface_at(t[0])].placed;
-      const auto first = static_cast<Index>(placed.points.size());
-      for (const Index p : t) placed.points.push_back(task_.surface.points[p]);
-      placed.triangles.push_back({first, first + 1, first + 2});
+      parts[task_.interface_at(t[0])].placed.push_back(corners_of(task_.surface, t));
     };
     for (const Triangle& t : triangles) {
       place({patch_.points[t[0]], patch_.points[t[1]], patch_.points[t[2]]});

@@ -2,9 +2,12 @@
 # The only room that includes OpenMesh.
 set(ROOM_HEADERS
   cover.h
+  crease.h
   decimate.h
   decimate_part.h
   decimate_partition.h
+  interface_trees.h
+  normal_moves.h
   patch.h
   refit.h
   round_to_single.h
@@ -21,6 +24,8 @@ set(ROOM_SOURCES
   round_together.cpp
   interfaces.cpp
   NEXT decimation.cpp
+  interface_trees.cpp
+  normal_moves.cpp
   refit.cpp
   round_to_single.cpp
   NEXT decimate_pass.cpp)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <utility>
+
 #include "mesamis/image/volume.h"
 
 namespace mesamis {
@@ -23,5 +26,26 @@ Index gaussian_reach(double sigma);
 ///
 /// O(n sigma) for n voxels.
 Volume gaussian_smoothed(Volume volume, double sigma);
+
+/// Means around each voxel, of values that have weights.
+class WeightedMeans {
+ public:
+  /// @param weighted  of each voxel its weight, >= 0, times its value.
+  /// @param weights   on the same grid.
+  /// @param sigma     of the Gaussian, voxels, 0 to 100.
+  /// @param pull      > 0: a weight of the value 0, so that the mean is about 0 far from all others.
+  /// @throws InputError  as gaussian_smoothed().
+  WeightedMeans(Volume weighted, Volume weights, double sigma, double pull)
+      : sums_(gaussian_smoothed(std::move(weighted), sigma)),
+        weights_(gaussian_smoothed(std::move(weights), sigma)),
+        pull_(pull) {}
+
+  /// The mean around a voxel, in the unit of the values.
+  double at(std::size_t n) const { return sums_.samples[n] / (weights_.samples[n] + pull_); }
+
+ private:
+  Volume sums_, weights_;
+  double pull_;
+};
 
 }  // namespace mesamis

@@ -61,10 +61,16 @@ void finish_surface(const RunInput& run, const Settings& settings, const Progres
   if (p.surface == SurfaceKind::kBand) return;
   p.tolerance =
       chosen_tolerance(settings, run.grey.voxel_size(), mean_expected_error(run, result.surface),
-                       p.preview ? Refitted::kNo : Refitted::kYes);
+                       p.preview ? ErrorsLost::kOne : ErrorsLost::kTwo);
   result.surface = make_printable(result.surface,
-                                  {p.min_volume, p.keep_largest, p.fill_cavities, p.tolerance,
-                                   p.triangles, progress, p.preview, !p.preview},
+                                  {.min_volume = p.min_volume,
+                                   .keep_largest = p.keep_largest,
+                                   .fill_cavities = p.fill_cavities,
+                                   .tolerance = p.tolerance,
+                                   .triangles = p.triangles,
+                                   .progress = progress,
+                                   .quick = p.preview,
+                                   .refit = !p.preview},
                                   &result.printable);
   tell_error(run, result);
 }

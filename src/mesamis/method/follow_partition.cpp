@@ -90,17 +90,6 @@ std::vector<Vec3> faired(const FollowSpace& space, const std::vector<Vec3>& star
   return points;
 }
 
-/// The surface of a partition, which is left without.
-TriMesh taken_from(PartitionSurface& partition) {
-  return {std::move(partition.points), std::move(partition.triangles)};
-}
-
-PartitionSurface put_back(TriMesh surface, PartitionSurface partition) {
-  partition.points = std::move(surface.points);
-  partition.triangles = std::move(surface.triangles);
-  return partition;
-}
-
 }  // namespace
 
 bool shows_edge(const PairLevel& pair, double noise) {

@@ -329,15 +329,15 @@ double decimate(const LabelRun& run, const Parameters& p, PartitionSurface& part
   options.triangles = p.triangles;
   options.progress = run.progress;
   options.quick = run.settings.preview && std::isfinite(options.tolerance);
-  DecimateReport report;
-  PartitionSurface few = decimate_partition(partition, options, &report);
-  double moved = std::max(report.original_to_result, report.result_to_original);
-  if (moved > 0 && std::isfinite(options.tolerance) && !options.quick) {
-    few = refit_partition(std::move(few), partition, options.tolerance);
-    moved = options.tolerance;
+  if (std::isfinite(options.tolerance) && !options.quick) {
+    PartitionSurface few = decimate_partition(partition, options);
+    if (few.triangles.size() == partition.triangles.size()) return shift;
+    partition = refit_partition(std::move(few), partition, options.tolerance);
+    return shift + options.tolerance;
   }
-  partition = std::move(few);
-  return shift + moved;
+  DecimateReport report;
+  partition = decimate_partition(partition, options, &report);
+  return shift + std::max(report.original_to_result, report.result_to_original);
 }
 
 /// The parts that the settings leave; unless they say so, all of them.
@@ -393,7 +393,7 @@ void finish_layers(const LabelRun& run, std::vector<LayerBoundaries> layers, con
   Stopwatch watch;
   const double voxel = input ? input->grey.voxel_size() : run.request.map.voxel_size();
   result.parameters.tolerance =
-      chosen_tolerance(run.settings, voxel, mean_error_of(run, layers, input), Refitted::kNo);
+      chosen_tolerance(run.settings, voxel, mean_error_of(run, layers, input), ErrorsLost::kOne);
   result.parameters.triangles = run.settings.triangles.value_or(0);
   for (LayerBoundaries& layer : layers) {
     result.flow_converged &= layer.converged;

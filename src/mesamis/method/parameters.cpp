@@ -66,18 +66,17 @@ std::array<Index, 3> stride_of(const Settings& settings, const std::array<Index,
                                                    : default_stride(voxels, spacing));
 }
 
-double default_tolerance(double voxel, double expected_error, double accuracy, Refitted refitted) {
+double default_tolerance(double voxel, double expected_error, double accuracy, ErrorsLost errors) {
   constexpr double kLeast = 0.03, kMost = 0.1, kFinest = 0.01;  // voxels
   if (accuracy > 0) return std::max(accuracy / 2, kFinest * voxel);
-  const double errors = refitted == Refitted::kYes ? 2 : 1;
-  return errors * std::clamp(expected_error, kLeast * voxel, kMost * voxel);
+  return static_cast<int>(errors) * std::clamp(expected_error, kLeast * voxel, kMost * voxel);
 }
 
 double chosen_tolerance(const Settings& settings, double voxel, double expected_error,
-                        Refitted refitted) {
+                        ErrorsLost errors) {
   if (settings.tolerance) return *settings.tolerance;
   if (settings.triangles) return std::numeric_limits<double>::infinity();
-  return default_tolerance(voxel, expected_error, settings.accuracy.value_or(0), refitted);
+  return default_tolerance(voxel, expected_error, settings.accuracy.value_or(0), errors);
 }
 
 double default_gamma(double epsilon, double beta, double contrast, double noise) {

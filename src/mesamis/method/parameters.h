@@ -117,19 +117,20 @@ std::array<Index, 3> preview_stride(const std::array<Index, 3>& voxels, const Ve
 std::array<Index, 3> stride_of(const Settings& settings, const std::array<Index, 3>& voxels,
                                const Vec3& spacing);
 
-/// Whether points are moved after decimation, see refit(): the surface lies on both sides of what was
-/// decimated then, and a tolerance costs less than half.
-enum class Refitted { kNo, kYes };
+/// How many times the error to expect decimation may take. Twice costs an object about as little,
+/// once its points have been moved, see refit(), as once does without; labels, slabs and previews
+/// keep to once.
+enum class ErrorsLost { kOne = 1, kTwo = 2 };
 
 /// The default of tolerance: how far the surface is expected to be from the truth, but no less than
 /// 0.03 and no more than 0.1 voxel: a surface that is kept closer keeps detail smaller than its
-/// error. Twice that where points are refitted. Half of the accuracy, if that is asked for, but no
+/// error. Or twice that. Half of the accuracy, if that is asked for, but no
 /// less than 0.01 voxel.
 /// @param voxel           geometric mean of the spacing, mm, > 0.
 /// @param expected_error  in the mean over the surface, see expected_error(), mm, >= 0.
 /// @param accuracy        mean distance to the truth that is asked for, mm, >= 0; 0: none.
 /// @return mm.
-double default_tolerance(double voxel, double expected_error, double accuracy, Refitted refitted);
+double default_tolerance(double voxel, double expected_error, double accuracy, ErrorsLost errors);
 
 /// The tolerance of a run: what the settings give; infinite where they give a number of triangles
 /// instead; else default_tolerance().
@@ -137,7 +138,7 @@ double default_tolerance(double voxel, double expected_error, double accuracy, R
 /// @param expected_error  mm, >= 0; infinite where nothing is known of it.
 /// @return mm.
 double chosen_tolerance(const Settings& settings, double voxel, double expected_error,
-                        Refitted refitted);
+                        ErrorsLost errors);
 
 /// The default of gamma, 4 epsilon beta (0.07 c + 0.25 n)^2.
 ///

@@ -139,12 +139,9 @@ LocalLevel find_local_level(const VolumeView& volume, const ObjectContrast& cont
   const auto ends = quantiles(levels, {0.05, 0.95});
   local.range = {ends[0], ends[1]};
   const double pull = kPull * quantiles(weights, {0.5})[0];
-  weight = gaussian_smoothed(std::move(weight), kSpread);
-  local.excess = gaussian_smoothed(std::move(local.excess), kSpread);
-  parallel_for(weight.samples.size(), [&](std::size_t n) {
-    local.excess.samples[n] =
-        static_cast<float>(local.excess.samples[n] / (weight.samples[n] + pull));
-  });
+  const WeightedMeans means(local.excess, std::move(weight), kSpread, pull);
+  parallel_for(local.excess.samples.size(),
+               [&](std::size_t n) { local.excess.samples[n] = static_cast<float>(means.at(n)); });
   return local;
 }
 

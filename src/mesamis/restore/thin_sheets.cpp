@@ -392,11 +392,10 @@ void lift_thin_sheets(Volume& restored, const VolumeView& guide, const SheetOpti
       }
     });
   }
-  walls = gaussian_smoothed(std::move(walls), kWallSpread);
-  weights = gaussian_smoothed(std::move(weights), kWallSpread);
+  const WeightedMeans rises(std::move(walls), std::move(weights), kWallSpread, kFewest);
   const double contrast = options.contrast.difference(), half = options.contrast.half_maximum();
   parallel_for(restored.samples.size(), [&](std::size_t n) {
-    const double rise = walls.samples[n] / (weights.samples[n] + kFewest) - gaps.samples[n];
+    const double rise = rises.at(n) - gaps.samples[n];
     if (rise == 0 && gains.samples[n] == 1) return;
     const double above = restored.samples[n] + contrast * rise - half;
     restored.samples[n] = static_cast<float>(half + gains.samples[n] * above);

@@ -134,7 +134,7 @@ void run_surface(SurfaceRun& run, Stages& stages, const Settings& settings, bool
   stages.for_slabs("parts", slabs, [&](Index s) { return list_parts(run, s); });
   learn_parts(run);
   p.tolerance = chosen_tolerance(settings, run.mesh.input.grey.voxel_size(), run.parts.mean_error,
-                                 Refitted::kNo);
+                                 ErrorsLost::kOne);
   if (!decimates_in_slabs(run)) return;
   stages.for_slabs("nesting", slabs, [&](Index s) { return cross_rays(run, s); });
   learn_choice(run, {p.min_volume, p.keep_largest, p.fill_cavities});

@@ -7,11 +7,6 @@
 
 namespace mesamis {
 
-/// The corners of a triangle of a surface, mm.
-inline Corners corners_of(const TriMesh& surface, const Triangle& t) {
-  return {surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]};
-}
-
 /// A bound exceeds the true value by this factor at most.
 inline constexpr double kDistanceSlack = 1.004;
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesamis/mesh/tet_mesh.h"
@@ -20,6 +21,18 @@ struct PartitionSurface {
   /// counter-clockwise. The first is the smaller one; kNoIndex is second and means outside the box.
   std::vector<std::array<Index, 2>> sides;
 };
+
+/// The surface of a partition, which is left without.
+inline TriMesh taken_from(PartitionSurface& partition) {
+  return {std::move(partition.points), std::move(partition.triangles)};
+}
+
+/// A partition with another surface of as many triangles.
+inline PartitionSurface put_back(TriMesh surface, PartitionSurface partition) {
+  partition.points = std::move(surface.points);
+  partition.triangles = std::move(surface.triangles);
+  return partition;
+}
 
 /// How extract_partition() treats the box.
 struct PartitionOptions {

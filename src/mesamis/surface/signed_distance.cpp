@@ -84,7 +84,7 @@ void SignedDistance::compute_normals() {
   point_normals_.resize(surface_.points.size());
   for (std::size_t t = 0; t < m; ++t) {
     const Corners k = corners_of(surface_, surface_.triangles[t]);
-    face_normals_[t] = unit_or_zero(cross(k[1] - k[0], k[2] - k[0]));
+    face_normals_[t] = unit_normal(k);
     for (std::size_t i = 0; i < 3; ++i) {
       point_normals_[surface_.triangles[t][i]] += angle_at(k, i) * face_normals_[t];
     }

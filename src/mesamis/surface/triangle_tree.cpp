@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace mesamis {
 namespace {
@@ -36,11 +37,52 @@ double squared_distance_to_side(const Vec3& p, const Corners& t) {
                    squared_distance_to_segment(p, t[2], t[0])});
 }
 
+/// Finds the corner, edge or side that the nearest point is on from dot products alone (Ericson:
+/// Real-time collision detection, 5.1.5). Most distances of a search are to corners and edges, which
+/// need no normal.
+/// @param corner  is given its number, and the way from it to p.
+/// @param edge    is given its corners, the share of the way between them, and the way from the
+///                first to p.
+/// @param side    is given the barycentric coordinates, up to a factor.
+template <class Corner, class Edge, class Side>
+auto at_nearest(const Vec3& p, const Corners& t, Corner&& corner, Edge&& edge, Side&& side) {
+  const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
+  const double ab_ap = dot(ab, ap), ac_ap = dot(ac, ap);
+  if (ab_ap <= 0 && ac_ap <= 0) return corner(0, ap);
+  const Vec3 bp = p - t[1];
+  const double ab_bp = dot(ab, bp), ac_bp = dot(ac, bp);
+  if (ab_bp >= 0 && ac_bp <= ab_bp) return corner(1, bp);
+  const double beyond_ab = ab_ap * ac_bp - ab_bp * ac_ap;
+  if (beyond_ab <= 0 && ab_ap >= 0 && ab_bp <= 0 && ab_ap > ab_bp) {
+    return edge(0, 1, ab_ap / (ab_ap - ab_bp), ap);
+  }
+  const Vec3 cp = p - t[2];
+  const double ab_cp = dot(ab, cp), ac_cp = dot(ac, cp);
+  if (ac_cp >= 0 && ab_cp <= ac_cp) return corner(2, cp);
+  const double beyond_ac = ab_cp * ac_ap - ab_ap * ac_cp;
+  if (beyond_ac <= 0 && ac_ap >= 0 && ac_cp <= 0 && ac_ap > ac_cp) {
+    return edge(0, 2, ac_ap / (ac_ap - ac_cp), ap);
+  }
+  const double beyond_bc = ab_bp * ac_cp - ab_cp * ac_bp;
+  const double from_b = ac_bp - ab_bp, from_c = ab_cp - ac_cp;
+  if (beyond_bc <= 0 && from_b >= 0 && from_c >= 0 && from_b + from_c > 0) {
+    return edge(1, 2, from_b / (from_b + from_c), bp);
+  }
+  return side(beyond_bc, beyond_ac, beyond_ab);
+}
+
 void extend(Box& box, const Vec3& p) {
   for (int axis = 0; axis < 3; ++axis) {
     box.lo[axis] = std::min(box.lo[axis], p[axis]);
     box.hi[axis] = std::max(box.hi[axis], p[axis]);
   }
+}
+
+std::vector<Corners> corners_of(const TriMesh& surface) {
+  std::vector<Corners> corners;
+  corners.reserve(surface.triangles.size());
+  for (const Triangle& t : surface.triangles) corners.push_back(corners_of(surface, t));
+  return corners;
 }
 
 constexpr Box kEmptyBox{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
@@ -53,33 +95,34 @@ int longest_axis(const Box& box) {
 
 }  // namespace
 
-// Finds the corner, edge or side that the nearest point is on from dot products alone (Ericson:
-// Real-time collision detection, 5.1.5). Most distances of a search are to corners and edges, which
-// need no normal.
 double squared_distance(const Vec3& p, const Corners& t) {
-  const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
-  const double ab_ap = dot(ab, ap), ac_ap = dot(ac, ap);
-  if (ab_ap <= 0 && ac_ap <= 0) return squared_norm(ap);
-  const Vec3 bp = p - t[1];
-  const double ab_bp = dot(ab, bp), ac_bp = dot(ac, bp);
-  if (ab_bp >= 0 && ac_bp <= ab_bp) return squared_norm(bp);
-  const double beyond_ab = ab_ap * ac_bp - ab_bp * ac_ap;
-  if (beyond_ab <= 0 && ab_ap >= 0 && ab_bp <= 0 && ab_ap > ab_bp) {
-    return squared_norm(ap - (ab_ap / (ab_ap - ab_bp)) * ab);
-  }
-  const Vec3 cp = p - t[2];
-  const double ab_cp = dot(ab, cp), ac_cp = dot(ac, cp);
-  if (ac_cp >= 0 && ab_cp <= ac_cp) return squared_norm(cp);
-  const double beyond_ac = ab_cp * ac_ap - ab_ap * ac_cp;
-  if (beyond_ac <= 0 && ac_ap >= 0 && ac_cp <= 0 && ac_ap > ac_cp) {
-    return squared_norm(ap - (ac_ap / (ac_ap - ac_cp)) * ac);
-  }
-  const double beyond_bc = ab_bp * ac_cp - ab_cp * ac_bp;
-  const double from_b = ac_bp - ab_bp, from_c = ab_cp - ac_cp;
-  if (beyond_bc <= 0 && from_b >= 0 && from_c >= 0 && from_b + from_c > 0) {
-    return squared_norm(bp - (from_b / (from_b + from_c)) * (t[2] - t[1]));
-  }
-  return squared_distance_to_side(p, t);
+  return at_nearest(
+      p, t, [](std::size_t, const Vec3& way) { return squared_norm(way); },
+      [&](std::size_t from, std::size_t to, double share, const Vec3& way) {
+        return squared_norm(way - share * (t[to] - t[from]));
+      },
+      [&](double, double, double) { return squared_distance_to_side(p, t); });
+}
+
+std::array<double, 3> nearest_place(const Vec3& p, const Corners& t) {
+  using Place = std::array<double, 3>;
+  return at_nearest(
+      p, t,
+      [](std::size_t corner, const Vec3&) {
+        Place place{};
+        place[corner] = 1;
+        return place;
+      },
+      [](std::size_t from, std::size_t to, double share, const Vec3&) {
+        Place place{};
+        place[from] = 1 - share;
+        place[to] = share;
+        return place;
+      },
+      [](double a, double b, double c) {
+        const double sum = a + b + c;
+        return Place{a / sum, b / sum, c / sum};
+      });
 }
 
 struct TriangleTree::Item {
@@ -87,17 +130,15 @@ struct TriangleTree::Item {
   Index triangle;
 };
 
-TriangleTree::TriangleTree(const TriMesh& surface) {
-  std::vector<Corners> corners(surface.triangles.size());
-  std::vector<Item> items(surface.triangles.size());
+TriangleTree::TriangleTree(const TriMesh& surface) : TriangleTree(corners_of(surface)) {}
+
+TriangleTree::TriangleTree(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
+  std::vector<Item> items(triangles_.size());
   for (std::size_t t = 0; t < items.size(); ++t) {
-    const Triangle& k = surface.triangles[t];
-    corners[t] = {surface.points[k[0]], surface.points[k[1]], surface.points[k[2]]};
     Box box = kEmptyBox;
-    for (const Vec3& p : corners[t]) extend(box, p);
+    for (const Vec3& p : triangles_[t]) extend(box, p);
     items[t] = {box.lo + box.hi, static_cast<Index>(t)};
   }
-  triangles_ = std::move(corners);
   build(items, 0, items.size());
   std::vector<Corners> sorted(items.size());
   order_.resize(items.size());

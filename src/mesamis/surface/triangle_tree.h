@@ -10,14 +10,28 @@ namespace mesamis {
 
 using Corners = std::array<Vec3, 3>;
 
+/// The corners of a triangle of a surface, mm.
+inline Corners corners_of(const TriMesh& surface, const Triangle& t) {
+  return {surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]};
+}
+
+/// The unit normal of a triangle; zero where it has no area.
+inline Vec3 unit_normal(const Corners& t) { return unit_or_zero(cross(t[1] - t[0], t[2] - t[0])); }
+
 /// Squared distance from p to the triangle.
 double squared_distance(const Vec3& p, const Corners& triangle);
+
+/// The barycentric coordinates of the place of a triangle that is nearest to p.
+/// @param triangle  with an area.
+std::array<double, 3> nearest_place(const Vec3& p, const Corners& triangle);
 
 /// A bounding volume hierarchy over triangles; finds the nearest one to a point.
 class TriangleTree {
  public:
   /// @param surface  sound, at least one triangle.
   explicit TriangleTree(const TriMesh& surface);
+  /// @param triangles  at least one; their places in the vector are their indices.
+  explicit TriangleTree(std::vector<Corners> triangles);
 
   /// Squared distance from p to the nearest triangle.
   /// @param hint  where the last search ended; start with 0. It speeds the search up when the last
