@@ -29,6 +29,17 @@ TEST(SurfaceMoves, StayInTheBox) {
   EXPECT_EQ(space.within_box({3, 5, 5}, {-1, 0, 0}).x, -1);
 }
 
+TEST(SurfaceMoves, ArePutInSinglePrecisionOnEveryAxis) {
+  VoxelGrid grid;
+  grid.size = {10, 10, 10};
+  grid.spacing = {0.3, 0.7, 1.1};
+  const SurfaceSpace space(grid, 1.1);
+  for (int i = 1; i < 100; ++i) {
+    const Vec3 p = space.as_in_a_file({i / 30.0, i / 7.0, i / 3.0});
+    for (const double x : {p.x, p.y, p.z}) EXPECT_EQ(x, static_cast<double>(static_cast<float>(x)));
+  }
+}
+
 TEST(SurfaceMoves, KnowTheNeighboursOfEachPoint) {
   const TriMesh tetrahedron{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                             {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
