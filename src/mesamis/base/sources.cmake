@@ -6,6 +6,7 @@ set(ROOM_HEADERS
   message.h
   parallel.h
   progress.h
+  single_precision.h
   stopwatch.h
   sym3.h
   threads.h

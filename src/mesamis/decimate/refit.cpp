@@ -9,10 +9,10 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/base/single_precision.h"
 #include "mesamis/decimate/crease.h"
 #include "mesamis/decimate/interface_trees.h"
 #include "mesamis/decimate/normal_moves.h"
-#include "mesamis/decimate/single_places.h"
 #include "mesamis/surface/farthest.h"
 #include "mesamis/surface/half_edges.h"
 #include "mesamis/surface/measure.h"

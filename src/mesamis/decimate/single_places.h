@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/single_precision.h"
 #include "mesamis/base/types.h"
 
 /// Places that single precision can name.
@@ -26,10 +27,6 @@ inline void require_single(std::span<const Vec3> points) {
                      ": expected coordinates below 1e38, which single precision holds, found more");
   }
 }
-
-/// Adding zero turns -0 into +0.
-inline double rounded(double x) { return static_cast<float>(x) + 0.0f; }
-inline Vec3 rounded(const Vec3& p) { return {rounded(p.x), rounded(p.y), rounded(p.z)}; }
 
 struct ByPlace {
   bool operator()(const Vec3& a, const Vec3& b) const {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/base/single_precision.h"
 #include "mesamis/surface/normals.h"
 #include "mesamis/surface/self_intersections.h"
 
@@ -144,11 +145,7 @@ Vec3 SurfaceSpace::within_box(const Vec3& p, const Vec3& move) const {
 }
 
 Vec3 SurfaceSpace::as_in_a_file(const Vec3& point) const {
-  // The addition of zero stays: without it GCC 12 leaves out the rounding of two coordinates that it
-  // computes at once.
-  const auto single = [](double x) { return static_cast<float>(x) + 0.0F; };
-  const Vec3 p = grid_.to_world(point_scale_ * point);
-  return {single(p.x), single(p.y), single(p.z)};
+  return rounded(grid_.to_world(point_scale_ * point));
 }
 
 Neighbors::Neighbors(const TriMesh& surface) : start(surface.points.size() + 1, 0) {

@@ -6,9 +6,9 @@
 #include <span>
 #include <utility>
 
+#include "mesamis/base/single_precision.h"
 #include "mesamis/decimate/decimate_part.h"
 #include "mesamis/decimate/patch.h"
-#include "mesamis/decimate/single_places.h"
 #include "mesamis/slabs/point_numbers.h"
 #include "mesamis/slabs/surface_files.h"
 #include "mesamis/surface/distance.h"

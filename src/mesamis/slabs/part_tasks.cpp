@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mesamis/decimate/single_places.h"
+#include "mesamis/base/single_precision.h"
 #include "mesamis/method/expected_error.h"
 #include "mesamis/slabs/point_numbers.h"
 #include "mesamis/slabs/surface_files.h"
