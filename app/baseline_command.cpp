@@ -61,6 +61,9 @@ void require_all(const BaselineCommand& command) {
   require_output(command.output, written_surface_formats(), "--output");
   if (!command.report.empty()) require_output(command.report, {".json"}, "--report");
   require_distinct_files({command.output, command.report}, {command.input});
+  if (!has_isosurface()) {
+    throw CLI::ValidationError("baseline: not in this program, which was built without VTK");
+  }
   if (command.is_geodesic() && !has_geodesic_contour()) {
     throw CLI::ValidationError(
         "--method geodesic: not in this program, which was built without ITK");

@@ -19,7 +19,6 @@
 #include "mesamis/shape_files/surface_files.h"
 #include "outputs.h"
 #include "scan.h"
-#include "virtual_display.h"
 
 namespace mesamis {
 namespace {
@@ -52,21 +51,7 @@ Window parse_window(std::string text) {
   return {ends[0], ends[1]};
 }
 
-/// Draws on the display that the environment names, or else on one of the program's own.
-/// @param draw  called with the options, the display among them.
-template <class Draw>
-void draw_on_display(PictureOptions options, const Draw& draw) {
-  const SilentStderr silent;  // software renderers report there
-  try {
-    draw(options);
-  } catch (const DisplayError&) {
-    const VirtualDisplay display;
-    options.display = display.name();
-    draw(options);
-  }
-}
-
-/// VTK does not survive the end of memory: what does not fit is refused before.
+/// What does not fit into memory is refused before it is drawn.
 void require_memory_to_draw(const PictureCommand& command, std::size_t cells) {
   constexpr double kGigabyte = 1e9;
   const auto limit = memory_limit(command.read.limits.memory_gb);
@@ -91,9 +76,7 @@ void draw_volume(const PictureCommand& command) {
   if (!command.outline.empty())
     outline = in_lps(read_surface_file(command.outline, command.read.limits));
   require_memory_to_draw(command, outline ? outline->triangles.size() : 0);
-  draw_on_display(command.picture, [&](const PictureOptions& options) {
-    draw_slice(command.output, file.volume, outline ? &*outline : nullptr, options);
-  });
+  draw_slice(command.output, file.volume, outline ? &*outline : nullptr, command.picture);
 }
 
 /// Views are named in LPS: a surface that says it is in RAS is turned.
@@ -103,9 +86,7 @@ void draw_in_one_piece(const PictureCommand& command, const TriMesh& surface) {
     values = read_point_array(command.input, command.picture.color, command.read.limits);
   }
   require_memory_to_draw(command, surface.triangles.size());
-  draw_on_display(command.picture, [&](const PictureOptions& options) {
-    draw_surface(command.output, surface, options, values);
-  });
+  draw_surface(command.output, surface, command.picture, values);
 }
 
 void draw_surface_file(const PictureCommand& command) {
@@ -124,16 +105,13 @@ void draw_surface_file(const PictureCommand& command) {
   std::size_t triangles = 0;
   for (const NamedSurface& object : objects) triangles += object.surface.triangles.size();
   require_memory_to_draw(command, triangles);
-  draw_on_display(command.picture, [&](const PictureOptions& options) {
-    draw_objects(command.output, objects, options);
-  });
+  draw_objects(command.output, objects, command.picture);
 }
 
 void draw_mesh_file(const PictureCommand& command) {
   const MeshWithArrays mesh = read_mesh(command.input, command.read.limits);
   require_memory_to_draw(command, mesh.mesh.cells.size());
-  draw_on_display(command.picture,
-                  [&](const PictureOptions& options) { draw_mesh(command.output, mesh, options); });
+  draw_mesh(command.output, mesh, command.picture);
 }
 
 int run_picture(const PictureCommand& command) {

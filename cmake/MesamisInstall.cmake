@@ -14,7 +14,7 @@ install(TARGETS mesamis mesamis_core ${rooms} EXPORT mesamisTargets COMPONENT de
 install(EXPORT mesamisTargets NAMESPACE mesamis:: DESTINATION ${MESAMIS_CMAKE_DIR}
         COMPONENT development)
 foreach(component picture baseline)
-  if(TARGET mesamis_${component})
+  if(component STREQUAL picture OR MESAMIS_BUILD_BASELINE)
     install(TARGETS mesamis_${component} EXPORT mesamis_${component} COMPONENT development
             FILE_SET HEADERS COMPONENT development)
     install(EXPORT mesamis_${component} NAMESPACE mesamis:: DESTINATION ${MESAMIS_CMAKE_DIR}

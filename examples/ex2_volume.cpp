@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Example 2: read a scan, print its facts, draw its middle slice.
 //
-//   ex2_volume SCAN [OUT.png]      (without a screen: xvfb-run ex2_volume ...)
+//   ex2_volume SCAN [OUT.png]
 #include <mesamis/mesamis.h>
 #include <mesamis/picture/picture.h>
 

@@ -99,7 +99,6 @@ READ_ME = """mesamis {version}, for Linux with glibc {glibc} or newer, {machine}
   man -l share/man/man1/mesamis.1  the manual
   share/bash-completion, share/zsh completion of the command line
 
-"mesamis picture" draws under Xvfb, or on your display; install Xvfb from your distribution.
 The licences of the libraries in lib/mesamis are in share/doc/mesamis/licences.
 """
 

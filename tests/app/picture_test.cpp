@@ -4,7 +4,6 @@
 #include "mesamis/shape_files/mesh_files.h"
 #include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
-#include "support/can_draw.h"
 #include "support/run_program.h"
 #include "support/shapes.h"
 
@@ -29,7 +28,6 @@ std::string draw(const TempFolder& folder, std::vector<std::string> arguments) {
 }
 
 TEST(PictureCommand, DrawsSurfacesMeshesAndSlices) {
-  MESAMIS_REQUIRE_DISPLAY();
   const TempFolder folder;
   write_bytes(folder / "s.obj", kTriangle);
   const std::string front = draw(folder, {folder / "s.obj", "--view", "front"});
@@ -54,7 +52,6 @@ TEST(PictureCommand, DrawsSurfacesMeshesAndSlices) {
 }
 
 TEST(PictureCommand, ColoursSurfacesAndTurnsThoseInRas) {
-  MESAMIS_REQUIRE_DISPLAY();
   const TempFolder folder;
   const TriMesh surface{{{0, 0, 0}, {10, 0, 0}, {0, 0, 10}}, {{0, 1, 2}}};
   const std::vector<PointArray> arrays{{"distance", {0, 1, 2}}};
@@ -72,7 +69,6 @@ TEST(PictureCommand, ColoursSurfacesAndTurnsThoseInRas) {
 
 /// The same picture from each format, other than that of one surface.
 TEST(PictureCommand, ShowsObjectsInTheirColours) {
-  MESAMIS_REQUIRE_DISPLAY();
   const TempFolder folder;
   std::vector<NamedSurface> objects{{"a", {255, 0, 0}, 1, cube({0, 0, 0}, 8)},
                                     {"b", {0, 0, 255}, 2, cube({16, 0, 0}, 8)}};

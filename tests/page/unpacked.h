@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "mesamis/page/raster.h"
+#include "mesamis/raster/raster.h"
 
 namespace mesamis::detail {
 

@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include "picture/drawing_test.h"
 #include "support/png_image.h"
 #include "support/temp_folder.h"
 
@@ -27,14 +26,14 @@ struct Ink {
   }
 };
 
-class AnnotationTest : public DrawingTest {
+class AnnotationTest : public testing::Test {
  protected:
   /// What a scene of 500 x 400 pixels looks like after add(scene); 10 mm wide inside the margins.
   template <class Add>
   Image drawn(const Add& add) {
-    Scene scene({500, 400}, display());
+    Scene scene({500, 400});
     scene.fit(camera_axes("front"), std::vector<Vec3>{{0, 0, 0}, {10, 0, 1}}, {});
-    mm_per_pixel_ = scene.mm_per_pixel() * scene.rendered_size()[0] / 500;
+    mm_per_pixel_ = scene.mm_per_pixel();
     add(scene);
     scene.save(folder_ / "a.png");
     return Image(folder_ / "a.png");
@@ -56,7 +55,7 @@ TEST(ShortNumber, HasFourDigitsAndNoNeedlessZeros) {
 TEST_F(AnnotationTest, LabelsAreAlignedToTheirPlace) {
   const auto ink = [this](Align align) {
     return Ink(drawn([align](Scene& scene) {
-      const auto [width, height] = scene.rendered_size();
+      const auto [width, height] = scene.size();
       add_label(scene, {"12345678", {width / 2.0, height / 2.0}, align});
     }));
   };

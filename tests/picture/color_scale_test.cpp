@@ -55,8 +55,8 @@ TEST(PercentileRange, AlwaysHasAnExtent) {
 }
 
 TEST(Grey, RunsFromBlackToWhite) {
-  EXPECT_EQ(grey(0), (Rgb{0, 0, 0}));
-  EXPECT_EQ(grey(1), (Rgb{255, 255, 255}));
+  EXPECT_EQ(grey(0), (Colour{0, 0, 0}));
+  EXPECT_EQ(grey(1), (Colour{255, 255, 255}));
   EXPECT_EQ(grey(-3), grey(0));
   EXPECT_EQ(grey(3), grey(1));
   EXPECT_EQ(grey(0.5)[0], 128);
@@ -65,14 +65,14 @@ TEST(Grey, RunsFromBlackToWhite) {
 TEST(Viridis, GrowsLighterAllTheWay) {
   double before = -1;
   for (int i = 0; i <= 200; ++i) {
-    const Rgb c = viridis(i / 200.0);
+    const Colour c = viridis(i / 200.0);
     const double luminance = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
     EXPECT_GE(luminance, before - 0.8) << i;  // colours are rounded to whole numbers
     before = luminance;
   }
   EXPECT_EQ(viridis(-1), viridis(0));
   EXPECT_EQ(viridis(2), viridis(1));
-  const Rgb dark = viridis(0), light = viridis(1);
+  const Colour dark = viridis(0), light = viridis(1);
   EXPECT_GT(dark[2], dark[1]) << "violet";
   EXPECT_GT(light[0], light[2] + 50) << "yellow";
 }

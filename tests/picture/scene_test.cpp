@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "picture/drawing_test.h"
 #include "support/png_image.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"
@@ -14,8 +13,6 @@ namespace mesamis::detail {
 namespace {
 
 using testing::HasSubstr;
-
-class SceneTest : public DrawingTest {};
 
 TEST(CameraAxes, AreARightHandedFrameOfUnitVectors) {
   for (const char* view : {"front", "back", "left", "right", "top", "bottom", "oblique"}) {
@@ -30,13 +27,13 @@ TEST(CameraAxes, AreARightHandedFrameOfUnitVectors) {
   EXPECT_REFUSED(camera_axes("up"), HasSubstr("no view 'up', expected front, back"));
 }
 
-TEST_F(SceneTest, FitPutsAllPointsInsideTheMargins) {
+TEST(Scene, FitPutsAllPointsInsideTheMargins) {
   const std::vector<Vec3> points{{1, 2, 3}, {11, 2, 3}, {1, 27, 3}, {1, 2, 8}};
   const Margins margins{0.1, 0.2, 0.15, 0.05};
   for (const char* view : {"front", "oblique", "top"}) {
-    Scene scene({300, 200}, display());
+    Scene scene({300, 200});
     scene.fit(camera_axes(view), points, margins);
-    const auto [width, height] = scene.rendered_size();
+    const auto [width, height] = scene.size();
     std::array<double, 2> lo{1e9, 1e9}, hi{-1e9, -1e9};
     for (const Vec3& p : points) {
       const auto pixel = scene.to_pixel(p);
@@ -54,39 +51,39 @@ TEST_F(SceneTest, FitPutsAllPointsInsideTheMargins) {
   }
 }
 
-TEST_F(SceneTest, ZoomMagnifiesAroundTheFocus) {
-  Scene scene({300, 200}, display());
+TEST(Scene, ZoomMagnifiesAroundTheFocus) {
+  Scene scene({300, 200});
   scene.fit(camera_axes("front"), std::vector<Vec3>{{0, 0, 0}, {10, 0, 10}}, {});
   const double before = scene.mm_per_pixel();
   const Vec3 focus{2, 0, 9};
   scene.zoom_in(4, focus);
   EXPECT_NEAR(scene.mm_per_pixel(), before / 4, 1e-12);
   const auto pixel = scene.to_pixel(focus);
-  EXPECT_NEAR(pixel[0], scene.rendered_size()[0] / 2.0, 1e-9);
-  EXPECT_NEAR(pixel[1], scene.rendered_size()[1] / 2.0, 1e-9);
+  EXPECT_NEAR(pixel[0], scene.size()[0] / 2.0, 1e-9);
+  EXPECT_NEAR(pixel[1], scene.size()[1] / 2.0, 1e-9);
   EXPECT_NEAR(scene.to_pixel(focus + Vec3{1, 0, 0})[0] - pixel[0], 1 / scene.mm_per_pixel(), 1e-9);
   for (const double zoom : {0.0, -1.0, std::nan("")}) {
     EXPECT_REFUSED(scene.zoom_in(zoom, {}), HasSubstr("zoom"));
   }
 }
 
-TEST_F(SceneTest, SavesTheSizeThatWasOrdered) {
+TEST(Scene, SavesTheSizeThatWasOrdered) {
   const TempFolder folder;
   for (const std::array<int, 2> size : {std::array{64, 100}, {321, 77}}) {
-    Scene scene(size, display());
+    Scene scene(size);
     scene.save(folder / "a.png");
     const Image image(folder / "a.png");
     EXPECT_EQ(image.size(), size);
     EXPECT_TRUE(image.at(10, 10).is_white()) << "an empty scene";
   }
   EXPECT_EQ(folder.file_count(), 1);
-  Scene scene({64, 64}, display());
+  Scene scene({64, 64});
   EXPECT_THROW(scene.save(folder / "none/a.png"), InputError);
 }
 
 TEST(Scene, RefusesASizeOutOfRange) {
   for (const std::array<int, 2> size : {std::array{63, 100}, {100, 8193}, {-1, 100}}) {
-    EXPECT_REFUSED(Scene(size, ""), HasSubstr("expected 64 to 8192 pixels"));
+    EXPECT_REFUSED(Scene{size}, HasSubstr("expected 64 to 8192 pixels"));
   }
 }
 

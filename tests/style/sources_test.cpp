@@ -22,6 +22,10 @@ struct TestedBy {
 constexpr std::array kTestedElsewhere{
     TestedBy{"baseline/itk_absent", "baseline/geodesic_contour_test.cpp",
              "the stand-in of itk_level_set where ITK is missing"},
+    TestedBy{"baseline/vtk_absent", "baseline/isosurface_test.cpp",
+             "the stand-in of vtk_isosurface where VTK is missing"},
+    TestedBy{"baseline/vtk_isosurface", "baseline/isosurface_test.cpp",
+             "isosurface() is this function with its options checked"},
     TestedBy{"method/setting_rows", "method/setting_table_test.cpp",
              "the rows of the table: each is set, read and written there"},
     TestedBy{"picture/draw_slice", "picture/picture_test.cpp",

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vtkImageData.h>
-#include <vtkPNGReader.h>
-#include <vtkSmartPointer.h>
-
 #include <array>
 #include <filesystem>
+
+#include "support/png_pixels.h"
+#include "support/temp_folder.h"
 
 namespace mesamis {
 
@@ -20,22 +19,18 @@ struct Rgb {
 /// A picture read back; row 0 is the lowest.
 class Image {
  public:
-  explicit Image(const std::filesystem::path& png) {
-    reader_->SetFileName(png.c_str());
-    reader_->Update();
-  }
+  explicit Image(const std::filesystem::path& png) : pixels_(read_bytes(png)) {}
   std::array<int, 2> size() const {
-    const int* d = reader_->GetOutput()->GetDimensions();
-    return {d[0], d[1]};
+    return {static_cast<int>(pixels_.width), static_cast<int>(pixels_.height)};
   }
   Rgb at(int x, int y) const {
-    const auto* p =
-        static_cast<const unsigned char*>(reader_->GetOutput()->GetScalarPointer(x, y, 0));
-    return {p[0], p[1], p[2]};
+    const auto c =
+        pixels_.at(static_cast<std::size_t>(x), pixels_.height - 1 - static_cast<std::size_t>(y));
+    return {c.r, c.g, c.b};
   }
 
  private:
-  vtkSmartPointer<vtkPNGReader> reader_ = vtkSmartPointer<vtkPNGReader>::New();
+  PngPixels pixels_;
 };
 
 }  // namespace mesamis

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "mesamis/mesh/tet_mesh.h"
-#include "mesamis/page/raster.h"
+#include "mesamis/raster/raster.h"
 #include "mesamis/page/slice_view.h"
 
 namespace mesamis::detail {

@@ -100,7 +100,7 @@ Raster cut_picture(const ShownRun& run, int pixels) {
         const auto at = [&](std::size_t i) {
           return std::array{scale * (line[i][0] - box.left), scale * (box.top - line[i][1])};
         };
-        draw_line(picture, at(p - 1), at(p), 1.6, run.surfaces[n].outline);
+        draw_line(picture, {at(p - 1), at(p)}, 1.6, run.surfaces[n].outline);
       }
     }
   }

@@ -221,8 +221,8 @@ Raster slice_picture(const SliceView& view, std::span<const ShownSurface> surfac
     for (const PageLine& line : view.outlines[n]) {
       for (std::size_t p = 1; p < line.size(); ++p) {
         const auto a = in_box(view.box, line[p - 1]), b = in_box(view.box, line[p]);
-        draw_line(picture, {a[0] * scale_x, a[1] * scale_y}, {b[0] * scale_x, b[1] * scale_y}, 1.8,
-                  surfaces[n].outline);
+        draw_line(picture, {{{a[0] * scale_x, a[1] * scale_y}, {b[0] * scale_x, b[1] * scale_y}}},
+                  1.8, surfaces[n].outline);
       }
     }
   }

@@ -11,7 +11,6 @@ set(ROOM_SOURCES
   mesh_cut.cpp
   page_files.cpp
   public_report.cpp
-  raster.cpp
   run_page.cpp
   run_pictures.cpp
   scan_copy.cpp

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/page/raster.h"
+#include "mesamis/raster/raster.h"
 #include "mesamis/page/slice_view.h"
 
 namespace mesamis::detail {

@@ -7,7 +7,7 @@
 #include "mesamis/picture/color_scale.h"
 #include "mesamis/picture/scene.h"
 
-/// Text, scale bar and colour bar over a picture, in rendered pixels from the lower left corner.
+/// Text, scale bar and colour bar over a picture, in pixels from the lower left corner.
 namespace mesamis::detail {
 
 enum class Align { kLeft, kCenter, kRight };
@@ -34,8 +34,8 @@ void add_tick(Scene& scene, const std::array<double, 2>& at, bool below, const s
 
 struct ColorBar {
   std::string title;
-  ValueRange range;                ///< values at its lower and upper end
-  Rgb (*color)(double) = viridis;  ///< of a share of the range, 0 to 1
+  ValueRange range;                   ///< values at its lower and upper end
+  Colour (*color)(double) = viridis;  ///< of a share of the range, 0 to 1
 };
 /// Adds a vertical colour bar with labelled ticks at the right edge, within kColorBarMargin.
 void add_color_bar(Scene& scene, const ColorBar& bar);

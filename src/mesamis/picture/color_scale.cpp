@@ -9,15 +9,15 @@ namespace mesamis::detail {
 namespace {
 
 // Viridis (matplotlib, CC0) at nine even steps, interpolated linearly.
-constexpr std::array<Rgb, 9> kViridis{{{68, 1, 84},
-                                       {71, 44, 122},
-                                       {59, 81, 139},
-                                       {44, 113, 142},
-                                       {33, 144, 141},
-                                       {39, 173, 129},
-                                       {92, 200, 99},
-                                       {170, 220, 50},
-                                       {253, 231, 37}}};
+constexpr std::array<Colour, 9> kViridis{{{68, 1, 84},
+                                          {71, 44, 122},
+                                          {59, 81, 139},
+                                          {44, 113, 142},
+                                          {33, 144, 141},
+                                          {39, 173, 129},
+                                          {92, 200, 99},
+                                          {170, 220, 50},
+                                          {253, 231, 37}}};
 // Share of white in each colour, so that the dark edges of a mesh are visible on all of them.
 constexpr double kWhite = 0.25;
 constexpr std::size_t kSampleSize = 1 << 20;
@@ -52,16 +52,16 @@ ValueRange percentile_range(std::span<const Value> values, double lo, double hi)
 template ValueRange percentile_range(std::span<const float>, double, double);
 template ValueRange percentile_range(std::span<const double>, double, double);
 
-Rgb grey(double share) {
+Colour grey(double share) {
   const std::uint8_t level = to_byte(255 * share);
   return {level, level, level};
 }
 
-Rgb viridis(double share) {
+Colour viridis(double share) {
   const double x = std::clamp(share, 0.0, 1.0) * (kViridis.size() - 1);
   const auto i = std::min(static_cast<std::size_t>(x), kViridis.size() - 2);
   const double t = x - static_cast<double>(i);
-  Rgb rgb{};
+  Colour rgb{};
   for (std::size_t c = 0; c < 3; ++c) {
     const double value = (1 - t) * kViridis[i][c] + t * kViridis[i + 1][c];
     rgb[c] = to_byte((1 - kWhite) * value + kWhite * 255);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <span>
 
-namespace mesamis::detail {
+#include "mesamis/raster/raster.h"
 
-using Rgb = std::array<std::uint8_t, 3>;
+namespace mesamis::detail {
 
 struct ValueRange {
   double lo = 0, hi = 1;  ///< lo < hi
@@ -24,10 +22,10 @@ template <class Value>
 ValueRange percentile_range(std::span<const Value> values, double lo, double hi);
 
 /// Black at 0 to white at 1; clamped beyond.
-Rgb grey(double share);
+Colour grey(double share);
 
 /// Matplotlib's viridis, lightened: violet at 0, green, yellow at 1; clamped beyond. Perceptually
 /// uniform, and monotonic in lightness, so that it can be read without colour vision.
-Rgb viridis(double share);
+Colour viridis(double share);
 
 }  // namespace mesamis::detail

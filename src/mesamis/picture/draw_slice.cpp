@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vtkCellArray.h>
-#include <vtkImageActor.h>
-#include <vtkImageData.h>
-#include <vtkImageMapper3D.h>
-#include <vtkImageProperty.h>
-#include <vtkPoints.h>
-#include <vtkProperty.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
 #include "mesamis/picture/annotation.h"
 #include "mesamis/picture/color_scale.h"
 #include "mesamis/picture/picture.h"
@@ -23,58 +18,105 @@ using namespace detail;
 
 namespace {
 
-constexpr Paint kOutline{1.0, 0.42, 0.05};
+constexpr Colour kOutline{255, 107, 13};
 
-vtkSmartPointer<vtkImageData> slice_image(const Volume& volume, const SlicePlane& plane,
-                                          const ValueRange& window) {
-  const auto [right, up, deep] = plane.axis;
-  const std::array<Index, 2> size{volume.size[static_cast<std::size_t>(right)],
-                                  volume.size[static_cast<std::size_t>(up)]};
-  const auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(size[0], size[1], 1);
-  image->SetSpacing(volume.spacing[right], volume.spacing[up], 1);
-  image->SetOrigin(plane.sign[0] < 0 ? -(size[0] - 1) * volume.spacing[right] : 0,
-                   plane.sign[1] < 0 ? -(size[1] - 1) * volume.spacing[up] : 0, 0);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  std::array<Index, 3> voxel{};
-  voxel[static_cast<std::size_t>(deep)] = plane.index;
-  for (Index y = 0; y < size[1]; ++y) {
-    voxel[static_cast<std::size_t>(up)] = plane.sign[1] < 0 ? size[1] - 1 - y : y;
-    for (Index x = 0; x < size[0]; ++x) {
-      voxel[static_cast<std::size_t>(right)] = plane.sign[0] < 0 ? size[0] - 1 - x : x;
-      const double value = volume.at(voxel[0], voxel[1], voxel[2]);
-      const Rgb rgb =
-          grey(std::isfinite(value) ? (value - window.lo) / (window.hi - window.lo) : 0);
-      std::copy(rgb.begin(), rgb.end(),
-                static_cast<std::uint8_t*>(image->GetScalarPointer(x, y, 0)));
+/// A slice of a volume as it lies on the page: grey values, the first row is the lowest.
+class SliceImage {
+ public:
+  SliceImage(const Volume& volume, const SlicePlane& plane, const ValueRange& window) {
+    const auto [right, up, deep] = plane.axis;
+    size_ = {volume.size[static_cast<std::size_t>(right)],
+             volume.size[static_cast<std::size_t>(up)]};
+    spacing_ = {volume.spacing[right], volume.spacing[up]};
+    for (std::size_t n = 0; n < 2; ++n) {
+      corner_[n] = plane.sign[n] < 0 ? -(size_[n] - 1) * spacing_[n] : 0;
+    }
+    std::array<Index, 3> voxel{};
+    voxel[static_cast<std::size_t>(deep)] = plane.index;
+    for (Index y = 0; y < size_[1]; ++y) {
+      voxel[static_cast<std::size_t>(up)] = plane.sign[1] < 0 ? size_[1] - 1 - y : y;
+      for (Index x = 0; x < size_[0]; ++x) {
+        voxel[static_cast<std::size_t>(right)] = plane.sign[0] < 0 ? size_[0] - 1 - x : x;
+        const double value = volume.at(voxel[0], voxel[1], voxel[2]);
+        const double share = (value - window.lo) / (window.hi - window.lo);
+        greys_.push_back(std::isfinite(value) ? grey(share)[0] : grey(0)[0]);
+      }
     }
   }
-  return image;
+
+  /// The corners of the slice, through the middles of its outer voxels, mm on the page.
+  std::array<Vec3, 2> corners() const {
+    return {Vec3{corner_[0], corner_[1], 0}, Vec3{corner_[0] + (size_[0] - 1) * spacing_[0],
+                                                  corner_[1] + (size_[1] - 1) * spacing_[1], 0}};
+  }
+
+  /// The grey value at a place on the page, between the voxels; those outside are at the border.
+  double at(const std::array<double, 2>& page) const {
+    std::array<Index, 2> voxel{};
+    std::array<double, 2> share{};
+    for (std::size_t n = 0; n < 2; ++n) {
+      const double place =
+          std::clamp((page[n] - corner_[n]) / spacing_[n], 0.0, double{1} * (size_[n] - 1));
+      voxel[n] = std::min(static_cast<Index>(place), size_[n] - 2);
+      share[n] = place - voxel[n];
+    }
+    const auto row = [&](Index y) {
+      const std::size_t first =
+          static_cast<std::size_t>(voxel[1] + y) * static_cast<std::size_t>(size_[0]) +
+          static_cast<std::size_t>(voxel[0]);
+      return (1 - share[0]) * greys_[first] + share[0] * greys_[first + 1];
+    };
+    return (1 - share[1]) * row(0) + share[1] * row(1);
+  }
+
+ private:
+  std::array<Index, 2> size_{};
+  std::array<double, 2> spacing_{}, corner_{};
+  std::vector<std::uint8_t> greys_;
+};
+
+/// The share of a pixel that lies between two places.
+double share_between(int pixel, double lo, double hi) {
+  return std::clamp(std::min(hi, pixel + 1.0) - std::max(lo, double{1} * pixel), 0.0, 1.0);
 }
 
-void add_image(Scene& scene, vtkImageData* image) {
-  const auto actor = vtkSmartPointer<vtkImageActor>::New();
-  actor->GetMapper()->SetInputData(image);
-  actor->GetProperty()->SetInterpolationTypeToLinear();
-  scene.renderer().AddActor(actor);
+/// Draws the slice, each pixel as the mean of 3 x 3 places in it.
+void add_image(Scene& scene, const SliceImage& image) {
+  constexpr int kSamples = 3;
+  const auto [lo, hi] = image.corners();
+  const Place first = scene.on_canvas(scene.to_pixel(lo)),
+              last = scene.on_canvas(scene.to_pixel(hi));
+  const double mm = scene.mm_per_pixel();
+  const auto mean_of = [&](int x, int y) {
+    double sum = 0;
+    for (int s = 0; s < kSamples * kSamples; ++s) {
+      const double px = x + (s % kSamples + 0.5) / kSamples - first[0];
+      const double py = first[1] - y - (s / kSamples + 0.5) / kSamples;
+      sum += image.at({lo.x + mm * px, lo.y + mm * py});
+    }
+    return static_cast<std::uint8_t>(std::lround(sum / (kSamples * kSamples)));
+  };
+  parallel_for_each(static_cast<std::size_t>(scene.size()[1]), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    const double height = share_between(y, last[1], first[1]);
+    if (height == 0) return;
+    for (int x = 0; x < scene.size()[0]; ++x) {
+      const double share = height * share_between(x, first[0], last[0]);
+      if (share == 0) continue;
+      const std::uint8_t value = mean_of(x, y);
+      mix(scene.canvas(), {x, y}, {value, value, value}, share);
+    }
+  });
 }
 
 void add_outline(Scene& scene, const std::vector<std::array<Vec3, 2>>& segments) {
-  const auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataTypeToDouble();
-  const auto lines = vtkSmartPointer<vtkCellArray>::New();
-  const double lift = scene.mm_per_pixel();  // in front of the image
-  for (const auto& [a, b] : segments) {
-    const vtkIdType ends[2] = {points->InsertNextPoint(a.x, a.y, lift),
-                               points->InsertNextPoint(b.x, b.y, lift)};
-    lines->InsertNextCell(2, ends);
+  std::vector<std::array<Place, 2>> lines;
+  lines.reserve(segments.size());
+  for (const auto& ends : segments) {
+    lines.push_back({scene.on_canvas(scene.to_pixel({ends[0].x, ends[0].y, 0})),
+                     scene.on_canvas(scene.to_pixel({ends[1].x, ends[1].y, 0}))});
   }
-  const auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(points);
-  data->SetLines(lines);
-  const auto actor = add_actor(scene, data, kOutline);
-  actor->GetProperty()->LightingOff();
-  actor->GetProperty()->SetLineWidth(static_cast<float>(1.6 * scene.unit()));
+  draw_lines(scene.canvas(), lines, 1.6 * scene.unit(), kOutline);
 }
 
 void add_side_ticks(Scene& scene, const std::array<std::vector<SideTick>, 2>& ticks,
@@ -123,11 +165,9 @@ void draw_slice(const std::filesystem::path& png, const Volume& volume, const Tr
   const SlicePlane plane =
       slice_plane(volume, axis, options.clip ? &options.clip->position : nullptr);
   const ColorBar bar{volume.modality == "CT" ? "HU" : "value", window_of(volume, options), grey};
-  Scene scene(options.pixels, options.display);
-  const auto image = slice_image(volume, plane, bar.range);
-  double bounds[6];
-  image->GetBounds(bounds);
-  const std::array<Vec3, 2> corners{Vec3{bounds[0], bounds[2], 0}, Vec3{bounds[1], bounds[3], 0}};
+  Scene scene(options.pixels);
+  const SliceImage image(volume, plane, bar.range);
+  const std::array<Vec3, 2> corners = image.corners();
   scene.fit({{0, 0, -1}, {0, 1, 0}}, corners, {0.09, kColorBarMargin, 0.14, 0.06});
   add_image(scene, image);
   if (surface != nullptr) add_outline(scene, outline(volume, plane, *surface));

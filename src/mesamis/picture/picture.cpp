@@ -1,17 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/picture/picture.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDataSetSurfaceFilter.h>
-#include <vtkLookupTable.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkPolyDataNormals.h>
-#include <vtkProperty.h>
-#include <vtkUnsignedCharArray.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -19,8 +8,9 @@
 #include "mesamis/base/error.h"
 #include "mesamis/picture/annotation.h"
 #include "mesamis/picture/color_scale.h"
+#include "mesamis/surface/crease_normals.h"
 #include "mesamis/picture/scene.h"
-#include "mesamis/picture/vtk_data.h"
+#include "mesamis/picture/shaded_surface.h"
 
 namespace mesamis {
 
@@ -30,10 +20,10 @@ namespace {
 
 constexpr double kCreaseAngleInDegrees = 40;  // sharper edges are not smoothed by the shading
 
-constexpr Paint kBone{0.95, 0.90, 0.81};
-constexpr Paint kInside{0.70, 0.56, 0.49};  // the back faces of an open surface
-constexpr Paint kCell{0.74, 0.81, 0.90};
-constexpr Paint kEdge{0.12, 0.13, 0.18};
+constexpr Colour kBone{242, 230, 207};
+constexpr Colour kInside{179, 143, 125};  // the back faces of an open surface
+constexpr Colour kCell{189, 207, 230};
+constexpr Colour kNoNumber{255, 0, 255};
 
 void require_drawable(std::span<const Vec3> points, std::size_t cells) {
   if (cells == 0) throw InputError("picture: nothing to draw, there are no cells");
@@ -48,14 +38,12 @@ std::string size_label(const Box& box) {
   return short_number(e.x) + " × " + short_number(e.y) + " × " + short_number(e.z) + " mm";
 }
 
-/// The points that polygons of a data set use.
-std::vector<Vec3> used_points(vtkPolyData& data) {
+/// The points that triangles use, once per corner.
+std::vector<Vec3> used_points(const TriMesh& surface) {
   std::vector<Vec3> points;
-  vtkDataArray& corners = *data.GetPolys()->GetConnectivityArray();
-  for (vtkIdType i = 0; i < corners.GetNumberOfValues(); ++i) {
-    double p[3];
-    data.GetPoint(static_cast<vtkIdType>(corners.GetComponent(i, 0)), p);
-    points.push_back({p[0], p[1], p[2]});
+  points.reserve(3 * surface.triangles.size());
+  for (const Triangle& t : surface.triangles) {
+    for (const Index p : t) points.push_back(surface.points[static_cast<std::size_t>(p)]);
   }
   return points;
 }
@@ -87,42 +75,43 @@ class Clipper {
                    short_number(box.hi[clip.axis]) + " mm");
 }
 
-void show_edges(Scene& scene, vtkActor& actor) {
-  vtkProperty& property = *actor.GetProperty();
-  property.EdgeVisibilityOn();
-  property.SetEdgeColor(kEdge.r, kEdge.g, kEdge.b);
-  property.SetLineWidth(static_cast<float>(std::max(1.0, 0.75 * scene.unit())));
-}
-
 // ---------------------------------------------------------------- colours
 
-vtkSmartPointer<vtkLookupTable> lookup_table(const ColorBar& bar) {
-  constexpr int kSteps = 256;
-  const auto table = vtkSmartPointer<vtkLookupTable>::New();
-  table->SetNumberOfTableValues(kSteps);
-  table->SetTableRange(bar.range.lo, bar.range.hi);
-  for (int i = 0; i < kSteps; ++i) {
-    const Rgb rgb = bar.color((i + 0.5) / kSteps);
-    table->SetTableValue(i, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+/// The colours of a bar at its 256 steps, and one for what is no number.
+class ColorTable {
+ public:
+  explicit ColorTable(const ColorBar& bar) : range_(bar.range) {
+    for (std::size_t i = 0; i < kSteps; ++i) {
+      colours_[i] = bar.color((static_cast<double>(i) + 0.5) / kSteps);
+    }
   }
-  table->SetNanColor(1, 0, 1, 1);
-  return table;
-}
+  Colour at(double value) const {
+    if (std::isnan(value)) return kNoNumber;
+    const double step = kSteps * (value - range_.lo) / (range_.hi - range_.lo);
+    return colours_[static_cast<std::size_t>(std::clamp(step, 0.0, kSteps - 1.0))];
+  }
 
-void color_by(vtkActor& actor, bool on_points, const ColorBar& bar) {
-  vtkMapper& mapper = *actor.GetMapper();
-  mapper.ScalarVisibilityOn();
-  if (on_points) {
-    mapper.SetScalarModeToUsePointData();
-  } else {
-    mapper.SetScalarModeToUseCellData();
-  }
-  mapper.SetLookupTable(lookup_table(bar));
-  mapper.UseLookupTableScalarRangeOn();
-  mapper.InterpolateScalarsBeforeMappingOn();
-  // Mostly ambient light, so that the colours agree with those of the bar.
-  actor.GetProperty()->SetAmbient(0.58);
-  actor.GetProperty()->SetDiffuse(0.44);
+ private:
+  static constexpr std::size_t kSteps = 256;
+  ValueRange range_;
+  std::array<Colour, kSteps> colours_{};
+};
+
+/// Mostly ambient light, so that the colours agree with those of the bar.
+constexpr Reflectance kMeasured{0.58, 0.44, 0};
+
+/// Colours a surface by values of its points; they must outlive it.
+void color_by_points(ShadedSurface& shown, std::span<const double> values, const ColorBar& bar) {
+  shown.reflectance = kMeasured;
+  shown.paint = [&triangles = shown.surface.triangles, values,
+                 table = ColorTable(bar)](const Fragment& fragment) {
+    double value = 0;
+    for (std::size_t n = 0; n < 3; ++n) {
+      const Index point = triangles[fragment.triangle][n];
+      value += fragment.weights[n] * values[static_cast<std::size_t>(point)];
+    }
+    return table.at(value);
+  };
 }
 
 // ---------------------------------------------------------------- surfaces
@@ -137,58 +126,34 @@ TriMesh clipped(const TriMesh& surface, const PictureOptions& options, const Cam
   return kept;
 }
 
-vtkSmartPointer<vtkPolyData> with_normals(vtkPolyData* data) {
-  const auto normals = vtkSmartPointer<vtkPolyDataNormals>::New();
-  normals->SetInputData(data);
-  normals->SetFeatureAngle(kCreaseAngleInDegrees);
-  normals->ConsistencyOff();
-  normals->Update();
-  return normals->GetOutput();
+/// Flat triangles with their edges, or smooth ones with a gloss.
+void set_relief(ShadedSurface& shown, bool edges) {
+  shown.edges = edges;
+  if (edges) return;
+  shown.normals = crease_normals(shown.surface, kCreaseAngleInDegrees);
+  shown.reflectance.specular = 0.12;
 }
 
-/// @param data  triangles; the colours that it has, if any, are shown by the caller.
-vtkSmartPointer<vtkActor> add_surface(Scene& scene, vtkPolyData* data, bool edges, bool coloured) {
-  const auto actor = add_actor(scene, edges ? data : with_normals(data).Get(), kBone);
-  vtkProperty& property = *actor->GetProperty();
-  const auto inside = vtkSmartPointer<vtkProperty>::New();
-  if (edges) {
-    show_edges(scene, *actor);
-    property.SetInterpolationToFlat();
-  } else {
-    property.SetSpecular(0.12);
-    property.SetSpecularPower(18);
-  }
-  inside->DeepCopy(&property);
-  inside->SetColor(kInside.r, kInside.g, kInside.b);
-  inside->SetSpecular(0);
-  if (!coloured) actor->SetBackfaceProperty(inside);
-  return actor;
-}
-
-/// @param values  one per point to colour by, or none for one colour.
-vtkSmartPointer<vtkPolyData> with_values(const TriMesh& surface, std::span<const double> values) {
-  auto data = vtk_surface(surface);
-  if (!values.empty()) {
-    add_array(*data->GetPointData(), {"color", 1, {values.begin(), values.end()}},
-              surface.points.size(), "point");
-    data->GetPointData()->SetActiveScalars("color");
-  }
-  return data;
-}
-
-/// What is drawn, and how it is shown.
+/// Where a surface is seen from, and what stands beside it.
 struct View {
   CameraAxes axes;
-  std::vector<Vec3> points;  ///< that fill the picture
-  Margins margins;
   std::string label;
+  std::optional<ColorBar> bar;
+
+  Margins margins() const {
+    Margins margins;
+    if (bar) margins.right = kColorBarMargin;
+    return margins;
+  }
 };
 
-void save_view(const std::filesystem::path& png, Scene& scene, const View& view,
+void save_view(const std::filesystem::path& png, const View& view, const ShadedSurface& shown,
                const PictureOptions& options) {
-  scene.add_lights();
-  scene.fit(view.axes, view.points, view.margins);
+  Scene scene(options.pixels);
+  scene.fit(view.axes, used_points(shown.surface), view.margins());
   scene.zoom_in(options.zoom, options.focus);
+  draw_shaded(scene, shown);
+  if (view.bar) add_color_bar(scene, *view.bar);
   add_scale_bar(scene);
   add_corner_label(scene, view.label);
   scene.save(png);
@@ -199,7 +164,7 @@ void save_view(const std::filesystem::path& png, Scene& scene, const View& view,
 /// The triangles of all objects, each in the colour of its object.
 struct ColouredTriangles {
   TriMesh surface;  ///< with the points of the hidden triangles too
-  std::vector<Rgb> colours;
+  std::vector<Colour> colours;
 };
 
 ColouredTriangles visible_triangles(std::span<const NamedSurface> objects,
@@ -217,15 +182,6 @@ ColouredTriangles visible_triangles(std::span<const NamedSurface> objects,
   shown.surface.points = std::move(all.surface.points);
   if (shown.colours.empty()) refuse_empty(*options.clip, bounding_box(shown.surface.points));
   return shown;
-}
-
-vtkSmartPointer<vtkPolyData> with_colours(const ColouredTriangles& triangles) {
-  auto data = vtk_surface(triangles.surface);
-  const auto colours = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  colours->SetNumberOfComponents(3);
-  for (const Rgb& rgb : triangles.colours) colours->InsertNextTypedTuple(rgb.data());
-  data->GetCellData()->SetScalars(colours);
-  return data;
 }
 
 // ---------------------------------------------------------------- meshes
@@ -252,40 +208,57 @@ ColorArray find_array(const MeshWithArrays& mesh, const std::string& name) {
                    (known.empty() ? "none" : known));
 }
 
-/// The boundary of the cells that the clip plane does not hide, with the values to colour by.
-vtkSmartPointer<vtkPolyData> visible_boundary(const MeshWithArrays& mesh,
-                                              const PictureOptions& options, const CameraAxes& axes,
-                                              const ColorArray& color) {
+/// The boundary of cells.
+struct Boundary {
+  TriMesh surface;                   ///< with all points of the mesh
+  std::vector<std::size_t> cell_of;  ///< of each triangle
+};
+
+/// The boundary of the cells that the clip plane does not hide.
+Boundary visible_boundary(const TetMesh& mesh, const PictureOptions& options,
+                          const CameraAxes& axes) {
   const Clipper clipper(options.clip, axes);
-  TetMesh kept{mesh.mesh.points, {}};
-  MeshArray cell_values{"color", 1, {}};
-  for (std::size_t c = 0; c < mesh.mesh.cells.size(); ++c) {
-    if (!clipper.keeps(mesh.mesh.points, mesh.mesh.cells[c])) continue;
-    kept.cells.push_back(mesh.mesh.cells[c]);
-    if (color.array && !color.on_points) cell_values.values.push_back(color.array->values[c]);
+  TetMesh kept{mesh.points, {}};
+  std::vector<std::size_t> number;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    if (!clipper.keeps(mesh.points, mesh.cells[c])) continue;
+    kept.cells.push_back(mesh.cells[c]);
+    number.push_back(c);
   }
-  if (kept.cells.empty()) refuse_empty(*options.clip, bounding_box(mesh.mesh.points));
-  const auto grid = vtk_grid(kept);
-  if (color.array && color.on_points) {
-    add_array(*grid->GetPointData(), {"color", 1, color.array->values}, kept.points.size(),
-              "point");
-    grid->GetPointData()->SetActiveScalars("color");
-  } else if (color.array) {
-    add_array(*grid->GetCellData(), cell_values, kept.cells.size(), "cell");
-    grid->GetCellData()->SetActiveScalars("color");
+  if (kept.cells.empty()) refuse_empty(*options.clip, bounding_box(mesh.points));
+  const auto neighbours = cell_neighbors(kept);
+  Boundary boundary;
+  for (std::size_t c = 0; c < kept.cells.size(); ++c) {
+    for (std::size_t face = 0; face < 4; ++face) {
+      if (neighbours[c][face] != kNoIndex) continue;
+      Triangle corners{};
+      for (std::size_t n = 0; n < 3; ++n)
+        corners[n] = kept.cells[c][static_cast<std::size_t>(kCellFaces[face][n])];
+      boundary.surface.triangles.push_back(corners);
+      boundary.cell_of.push_back(number[c]);
+    }
   }
-  const auto filter = vtkSmartPointer<vtkDataSetSurfaceFilter>::New();
-  filter->SetInputData(grid);
-  filter->Update();
-  return filter->GetOutput();
+  boundary.surface.points = std::move(kept.points);
+  return boundary;
+}
+
+/// Colours the boundary of a mesh by an array; both must outlive it.
+void color_by_array(ShadedSurface& shown, const ColorArray& color, const Boundary& boundary,
+                    const ColorBar& bar) {
+  if (color.on_points) return color_by_points(shown, color.array->values, bar);
+  shown.reflectance = kMeasured;
+  shown.paint = [&cell_of = boundary.cell_of, &values = color.array->values,
+                 table = ColorTable(bar)](const Fragment& fragment) {
+    return table.at(values[cell_of[fragment.triangle]]);
+  };
 }
 
 }  // namespace
 
 double drawing_memory(std::size_t cells, const PictureOptions& options) noexcept {
-  constexpr double kOfVtk = 3e8, kPerCell = 600, kPerPixel = 180;
+  constexpr double kAtLeast = 3e7, kPerCell = 320, kPerPixel = 12;
   const double pixels = double{1} * options.pixels[0] * options.pixels[1];
-  return kOfVtk + kPerCell * static_cast<double>(cells) + kPerPixel * pixels;
+  return kAtLeast + kPerCell * static_cast<double>(cells) + kPerPixel * pixels;
 }
 
 void draw_surface(const std::filesystem::path& png, const TriMesh& surface,
@@ -296,58 +269,50 @@ void draw_surface(const std::filesystem::path& png, const TriMesh& surface,
                      " points has no array '" + options.color + "' to colour by, found " +
                      std::to_string(values.size()) + " values");
   }
-  if (options.color.empty()) values = {};
-  const CameraAxes axes = camera_axes(options.view);
-  const TriMesh shown = clipped(surface, options, axes);
-  Scene scene(options.pixels, options.display);
-  const auto data = with_values(shown, values);
-  const auto actor = add_surface(scene, data, options.edges, !values.empty());
-  Margins margins;
-  if (!values.empty()) {
-    const ColorBar bar{options.color, percentile_range(values, 0.005, 0.995)};
-    color_by(*actor, true, bar);
-    add_color_bar(scene, bar);
-    margins.right = kColorBarMargin;
+  View view{camera_axes(options.view), size_label(bounding_box(surface.points)), {}};
+  ShadedSurface shown;
+  shown.surface = clipped(surface, options, view.axes);
+  shown.paint = [](const Fragment&) { return kBone; };
+  if (!options.color.empty()) {
+    view.bar = ColorBar{options.color, percentile_range(values, 0.005, 0.995)};
+    color_by_points(shown, values, *view.bar);
+  } else {
+    shown.inside = kInside;
   }
-  const std::string label = size_label(bounding_box(surface.points));
-  save_view(png, scene, {axes, used_points(*data), margins, label}, options);
+  set_relief(shown, options.edges);
+  save_view(png, view, shown, options);
 }
 
 void draw_objects(const std::filesystem::path& png, std::span<const NamedSurface> objects,
                   const PictureOptions& options) {
   const CameraAxes axes = camera_axes(options.view);
-  const ColouredTriangles shown = visible_triangles(objects, options, axes);
-  Scene scene(options.pixels, options.display);
-  const auto data = with_colours(shown);
-  vtkMapper& mapper = *add_surface(scene, data, options.edges, true)->GetMapper();
-  mapper.ScalarVisibilityOn();
-  mapper.SetScalarModeToUseCellData();
-  mapper.SetColorModeToDirectScalars();
-  const std::string label = size_label(bounding_box(shown.surface.points));
-  save_view(png, scene, {axes, used_points(*data), {}, label}, options);
+  ColouredTriangles visible = visible_triangles(objects, options, axes);
+  ShadedSurface shown;
+  shown.surface = std::move(visible.surface);
+  shown.paint = [&visible](const Fragment& fragment) { return visible.colours[fragment.triangle]; };
+  set_relief(shown, options.edges);
+  save_view(png, {axes, size_label(bounding_box(shown.surface.points)), {}}, shown, options);
 }
 
 void draw_mesh(const std::filesystem::path& png, const MeshWithArrays& mesh,
                const PictureOptions& options) {
   require_drawable(mesh.mesh.points, mesh.mesh.cells.size());
-  const CameraAxes axes = camera_axes(options.view);
   const ColorArray color = options.color.empty() ? ColorArray{} : find_array(mesh, options.color);
-  const auto shown = visible_boundary(mesh, options, axes, color);
-  Scene scene(options.pixels, options.display);
-  const auto actor = add_actor(scene, shown, kCell);
-  actor->GetProperty()->SetInterpolationToFlat();
-  if (options.edges) show_edges(scene, *actor);
-  Margins margins;
-  if (color.array) {
+  View view{camera_axes(options.view),
+            size_label(bounding_box(mesh.mesh.points)) + "   " +
+                std::to_string(mesh.mesh.cells.size()) + " cells",
+            {}};
+  const Boundary boundary = visible_boundary(mesh.mesh, options, view.axes);
+  ShadedSurface shown;
+  shown.surface = boundary.surface;
+  shown.paint = [](const Fragment&) { return kCell; };
+  shown.edges = options.edges;
+  if (color.array != nullptr) {
     const std::span<const double> values = color.array->values;
-    const ColorBar bar{options.color, percentile_range(values, 0.005, 0.995)};
-    color_by(*actor, color.on_points, bar);
-    add_color_bar(scene, bar);
-    margins.right = kColorBarMargin;
+    view.bar = ColorBar{options.color, percentile_range(values, 0.005, 0.995)};
+    color_by_array(shown, color, boundary, *view.bar);
   }
-  const std::string label = size_label(bounding_box(mesh.mesh.points)) + "   " +
-                            std::to_string(mesh.mesh.cells.size()) + " cells";
-  save_view(png, scene, {axes, used_points(*shown), margins, label}, options);
+  save_view(png, view, shown, options);
 }
 
 }  // namespace mesamis

@@ -13,15 +13,9 @@
 #include "mesamis/shape_files/object_files.h"
 #include "mesamis/surface/tri_mesh.h"
 
-/// Pictures of surfaces, meshes and slices as PNG, rendered off screen by VTK in parallel
-/// projection.
-///
-/// VTK renders through X: every function that draws needs an X display with GLX, a server without
-/// a screen will do: Xvfb -noreset (without this option it refuses clients for a moment after each
-/// picture). None is started here. Xlib ends the process if the server ends while a picture is
-/// drawn. While drawing, VTK's output window and the verbosity of its log, which exist once per
-/// process, are replaced, so that VTK prints nothing; they are restored afterwards. Therefore draw
-/// in one thread at a time. OpenGL drivers may write to stderr.
+/// Pictures of surfaces, meshes and slices as PNG, in parallel projection. They are drawn here, by the
+/// processor: no display and no graphics library is needed, and the same input gives the same
+/// bytes.
 namespace mesamis {
 
 /// A plane across one of the axes.
@@ -40,23 +34,15 @@ struct PictureOptions {
                                  ///< volumes: selects the nearest slice
   std::string color;             ///< meshes: name of the point or cell array to colour by;
                                  ///< surfaces: title of their values; empty: one colour
-  std::string display;  ///< X display as ":99"; empty: the one the environment's DISPLAY names
   /// Volumes: native values that are black and white; default: from the samples.
   std::optional<Window> window{};
 };
 
-/// The X display cannot be opened or has no GLX.
-class DisplayError : public InputError {
- public:
-  using InputError::InputError;
-};
-
-/// Predicts what VTK and a software renderer take to draw, so that a caller can refuse what does
-/// not fit: they end the process where memory ends. Measured with VTK 9.1 and Mesa's llvmpipe: 0.25
-/// GB, 400 bytes per triangle, 145 per pixel.
+/// Predicts what drawing takes, so that a caller can refuse what does not fit. Measured: 250 bytes per
+/// triangle, 10 per pixel.
 /// @param cells    triangles of surfaces or cells of a mesh.
 /// @param options  their pixels count.
-/// @return bytes, a fifth to two fifths above what was measured. O(1) time and memory.
+/// @return bytes, above what was measured. O(1) time and memory.
 double drawing_memory(std::size_t cells, const PictureOptions& options) noexcept;
 
 /// Draws a surface with a scale bar and its size.
@@ -69,7 +55,6 @@ double drawing_memory(std::size_t cells, const PictureOptions& options) noexcept
 /// @param surface  at least one triangle, finite points, LPS mm.
 /// @param options  see there.
 /// @param values   one per point of the surface if options.color is set, else not used.
-/// @throws DisplayError  if there is no display to draw on.
 /// @throws InputError  if the surface is empty or not finite, the view is
 ///                     unknown, the number of values is wrong, a number of the options is out of
 ///                     range, the clip plane leaves nothing, or the file cannot be written.
@@ -84,7 +69,6 @@ void draw_surface(const std::filesystem::path& png, const TriMesh& surface,
 /// @param png      appears whole or not at all; its folder must exist.
 /// @param objects  at least one triangle in all, finite points, LPS mm.
 /// @param options  see there; `color` is not used.
-/// @throws DisplayError  if there is no display to draw on.
 /// @throws InputError  as draw_surface().
 ///
 /// O(triangles), and the memory of drawing_memory().
@@ -98,7 +82,6 @@ void draw_objects(const std::filesystem::path& png, std::span<const NamedSurface
 /// @param mesh     at least one cell, finite points, LPS mm; options.color names one of its
 ///                 point or cell arrays, of one component.
 /// @param options  see there.
-/// @throws DisplayError  if there is no display to draw on.
 /// @throws InputError  as draw_surface(), or if there is no array of that name or it has more than
 ///                     one component.
 ///
@@ -121,7 +104,6 @@ void draw_mesh(const std::filesystem::path& png, const MeshWithArrays& mesh,
 /// @param volume   as require_usable() wants it.
 /// @param surface  LPS mm; where it crosses the slice, an outline is drawn. nullptr: none.
 /// @param options  see there.
-/// @throws DisplayError  if there is no display to draw on.
 /// @throws InputError  if the volume is not usable or does not reach the clip
 ///                     plane, the window's low end is not below its high one, the size is out of
 ///                     range, or the file cannot be written.

@@ -4,10 +4,9 @@ set(ROOM_HEADERS
 set(ROOM_SOURCES
   annotation.cpp
   color_scale.cpp
-  display.cpp
   draw_slice.cpp
+  lighting.cpp
   picture.cpp
   scene.cpp
-  slice.cpp
-  vtk_data.cpp
-  vtk_messages.cpp)
+  shaded_surface.cpp
+  slice.cpp)

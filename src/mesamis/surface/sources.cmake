@@ -4,6 +4,7 @@ set(ROOM_HEADERS
   box_tree.h
   comparison.h
   components.h
+  crease_normals.h
   depth_maximum.h
   disjoint_sets.h
   distance.h
@@ -32,6 +33,7 @@ set(ROOM_SOURCES
   axis_flip.cpp
   box_tree.cpp
   components.cpp
+  crease_normals.cpp
   depth_maximum.cpp
   distance.cpp
   exact_predicates.cpp

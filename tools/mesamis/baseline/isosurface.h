@@ -19,6 +19,9 @@ struct IsosurfaceOptions {
 /// @throws InputError  for a standard deviation that is not 0 to 100 voxels.
 void require_valid(const IsosurfaceOptions& options);
 
+/// Whether isosurface() can do anything: false where the program was built without VTK.
+bool has_isosurface();
+
 /// Extracts the isosurface of a volume, to compare with.
 ///
 /// VTK's flying edges, which gives the triangles of marching cubes, optionally after smoothing and

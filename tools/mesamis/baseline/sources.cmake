@@ -8,4 +8,6 @@ set(ROOM_SOURCES
   geodesic_contour.cpp
   isosurface.cpp
   NEXT itk_absent.cpp
-  NEXT itk_level_set.cpp)
+  NEXT itk_level_set.cpp
+  NEXT vtk_absent.cpp
+  NEXT vtk_isosurface.cpp)

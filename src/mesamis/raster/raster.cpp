@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/page/raster.h"
+#include "mesamis/raster/raster.h"
 
 #include <zlib.h>
 
@@ -93,6 +93,33 @@ double distance_to(const std::array<double, 2>& p, const std::array<double, 2>& 
   return std::hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
 }
 
+/// The first pixel at or after a place, within a picture of that size.
+int first_pixel(double at, int size) {
+  return static_cast<int>(std::clamp(std::floor(at), 0.0, double{1} * size));
+}
+int last_pixel(double at, int size) {
+  return static_cast<int>(std::clamp(std::floor(at), -1.0, size - 1.0));
+}
+
+/// Calls visit(x, y, share) for each pixel that a line of round ends covers in part.
+template <class Visit>
+void visit_line(const std::array<Place, 2>& ends, double width, const std::array<int, 2>& size,
+                const Visit& visit) {
+  const auto& [from, to] = ends;
+  const double reach = width / 2 + 1;
+  const int first_x = first_pixel(std::min(from[0], to[0]) - reach, size[0]);
+  const int last_x = last_pixel(std::max(from[0], to[0]) + reach, size[0]);
+  const int first_y = first_pixel(std::min(from[1], to[1]) - reach, size[1]);
+  const int last_y = last_pixel(std::max(from[1], to[1]) + reach, size[1]);
+  for (int y = first_y; y <= last_y; ++y) {
+    for (int x = first_x; x <= last_x; ++x) {
+      const double share =
+          std::clamp(width / 2 + 0.5 - distance_to({x + 0.5, y + 0.5}, from, to), 0.0, 1.0);
+      if (share > 0) visit(x, y, share);
+    }
+  }
+}
+
 }  // namespace
 
 Raster blank(int width, int height, const Colour& colour) {
@@ -132,25 +159,47 @@ Raster enlarged(const Raster& grey, int columns, int rows) {
   return large;
 }
 
-void draw_line(Raster& on, std::array<double, 2> from, std::array<double, 2> to, double width,
-               const Colour& colour) {
-  const auto pixel = [](double at, int size) {
-    return std::clamp(static_cast<int>(std::floor(std::clamp(at, -1e6, 1e6))), 0, size - 1);
+void mix(Raster& on, const std::array<int, 2>& pixel, const Colour& colour, double share) {
+  std::uint8_t* bytes = on.bytes.data() + on.offset(pixel[0], pixel[1]);
+  for (std::size_t c = 0; c < 3; ++c) {
+    bytes[c] = static_cast<std::uint8_t>(std::lround((1 - share) * bytes[c] + share * colour[c]));
+  }
+}
+
+void draw_line(Raster& on, const std::array<Place, 2>& ends, double width, const Colour& colour) {
+  visit_line(ends, width, {on.width, on.height}, [&](int x, int y, double share) {
+    mix(on, {x, y}, colour, share);
+  });
+}
+
+void draw_lines(Raster& on, std::span<const std::array<Place, 2>> lines, double width,
+                const Colour& colour) {
+  const auto columns = static_cast<std::size_t>(on.width);
+  std::vector<float> covered(columns * static_cast<std::size_t>(on.height), 0.0F);
+  for (const auto& ends : lines) {
+    visit_line(ends, width, {on.width, on.height}, [&](int x, int y, double share) {
+      float& most = covered[static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x)];
+      most = std::max(most, static_cast<float>(share));
+    });
+  }
+  for (int y = 0; y < on.height; ++y) {
+    for (int x = 0; x < on.width; ++x) {
+      const float share =
+          covered[static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x)];
+      if (share > 0) mix(on, {x, y}, colour, share);
+    }
+  }
+}
+
+void fill_rectangle(Raster& on, const std::array<Place, 2>& corners, const Colour& colour) {
+  const auto [left, right] = std::minmax(corners[0][0], corners[1][0]);
+  const auto [top, bottom] = std::minmax(corners[0][1], corners[1][1]);
+  const auto covered = [](int pixel, double lo, double hi) {
+    return std::clamp(std::min(hi, pixel + 1.0) - std::max(lo, double{1} * pixel), 0.0, 1.0);
   };
-  const double reach = width / 2 + 1;
-  const int first_x = pixel(std::min(from[0], to[0]) - reach, on.width);
-  const int last_x = pixel(std::max(from[0], to[0]) + reach, on.width);
-  const int first_y = pixel(std::min(from[1], to[1]) - reach, on.height);
-  const int last_y = pixel(std::max(from[1], to[1]) + reach, on.height);
-  for (int y = first_y; y <= last_y; ++y) {
-    for (int x = first_x; x <= last_x; ++x) {
-      const double share =
-          std::clamp(width / 2 + 0.5 - distance_to({x + 0.5, y + 0.5}, from, to), 0.0, 1.0);
-      std::uint8_t* bytes = on.bytes.data() + on.offset(x, y);
-      for (std::size_t c = 0; c < 3; ++c) {
-        bytes[c] =
-            static_cast<std::uint8_t>(std::lround((1 - share) * bytes[c] + share * colour[c]));
-      }
+  for (int y = first_pixel(top, on.height); y <= last_pixel(bottom, on.height); ++y) {
+    for (int x = first_pixel(left, on.width); x <= last_pixel(right, on.width); ++x) {
+      mix(on, {x, y}, colour, covered(x, left, right) * covered(y, top, bottom));
     }
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/page/raster.h"
+#include "mesamis/raster/raster.h"
 
 #include <gtest/gtest.h>
 
@@ -50,10 +50,34 @@ TEST(Enlarged, RepeatsPixels) {
 
 TEST(DrawLine, ColoursWhatIsNearIt) {
   Raster picture = blank(20, 20, {0, 0, 0});
-  draw_line(picture, {-50, 10}, {70, 10}, 2, {255, 128, 0});
+  draw_line(picture, {{{-50, 10}, {70, 10}}}, 2, {255, 128, 0});
   EXPECT_EQ(pixel(picture, 3, 10), (Colour{255, 128, 0}));
   EXPECT_EQ(pixel(picture, 3, 14), (Colour{0, 0, 0}));
-  draw_line(picture, {1e9, 1e9}, {1e9, 2e9}, 2, {255, 255, 255});  // far away: nothing breaks
+  const Raster before = picture;
+  draw_line(picture, {{{1e9, 1e9}, {1e9, 2e9}}}, 2, {255, 255, 255});  // far away
+  draw_line(picture, {{{-9, -9}, {-5, 30}}}, 2, {255, 255, 255});
+  EXPECT_EQ(picture.bytes, before.bytes);
+}
+
+TEST(DrawLines, AreOneShape) {
+  Raster once = blank(20, 20, {0, 0, 0}), often = once;
+  const std::array<Place, 2> line{{{2, 3}, {17, 11}}};
+  draw_line(once, line, 1.5, {200, 200, 200});
+  draw_lines(often, std::vector(5, line), 1.5, {200, 200, 200});
+  EXPECT_EQ(once.bytes, often.bytes);
+}
+
+TEST(FillRectangle, MixesWhatItCoversInPart) {
+  Raster picture = blank(8, 8, {0, 0, 0});
+  fill_rectangle(picture, {{{5.25, 6}, {2.5, -3}}}, {200, 100, 40});
+  EXPECT_EQ(pixel(picture, 3, 0), (Colour{200, 100, 40}));
+  EXPECT_EQ(pixel(picture, 2, 5), (Colour{100, 50, 20}));
+  EXPECT_EQ(pixel(picture, 5, 5), (Colour{50, 25, 10}));
+  EXPECT_EQ(pixel(picture, 6, 5), (Colour{0, 0, 0}));
+  EXPECT_EQ(pixel(picture, 3, 6), (Colour{0, 0, 0}));
+  const Raster before = picture;
+  fill_rectangle(picture, {{{20, 20}, {30, 30}}}, {255, 255, 255});
+  EXPECT_EQ(picture.bytes, before.bytes);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct Raster {
 };
 
 /// A picture in one colour.
+/// @param width,height  pixels, at least 0.
 Raster blank(int width, int height, const Colour& colour);
 
 /// Means of blocks of 2 x 2 pixels: what was drawn twice as large gets smooth edges.
@@ -68,11 +70,27 @@ void visit_pixels(const std::array<std::array<double, 2>, 3>& corners,
   }
 }
 
-/// Draws a line of round ends onto a coloured picture.
-/// @param from, to  pixels from the upper left corner.
-/// @param width     pixels.
-void draw_line(Raster& on, std::array<double, 2> from, std::array<double, 2> to, double width,
-               const Colour& colour);
+/// A place in a picture: pixels to the right and downwards from its upper left corner.
+using Place = std::array<double, 2>;
+
+/// Draws a line of round ends onto a coloured picture, with smooth edges.
+/// @param width  pixels.
+void draw_line(Raster& on, const std::array<Place, 2>& ends, double width, const Colour& colour);
+
+/// Draws lines as one shape: where they meet or cross nothing is drawn twice.
+/// @param width  pixels.
+///
+/// Four bytes per pixel of the picture beside it.
+void draw_lines(Raster& on, std::span<const std::array<Place, 2>> lines, double width,
+                const Colour& colour);
+
+/// Fills an upright rectangle of a coloured picture; pixels that it covers in part are mixed.
+/// @param corners  any two that are opposite; what lies outside the picture is left out.
+void fill_rectangle(Raster& on, const std::array<Place, 2>& corners, const Colour& colour);
+
+/// Mixes a colour into one pixel of a coloured picture.
+/// @param share  of the new colour, 0 to 1.
+void mix(Raster& on, const std::array<int, 2>& pixel, const Colour& colour, double share);
 
 /// A PNG file: 8 bits per channel, no interlacing, each row filtered in the way that makes it
 /// smallest, no words. The same picture gives the same bytes.

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+namespace mesamis::detail {
+
+/// The bytes of a TrueType font without serifs, DejaVu Sans, that is part of the library.
+std::string_view font_bytes(bool bold) noexcept;
+
+}  // namespace mesamis::detail

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mesamis/baseline/isosurface.h"
+
+namespace mesamis::detail {
+
+/// Whether VTK was there when the program was built.
+bool have_vtk();
+
+/// isosurface() by VTK's filters.
+/// @param options  that are valid.
+/// @throws InputError  as isosurface(), or if there is no VTK.
+TriMesh vtk_isosurface(const Volume& volume, double level, const IsosurfaceOptions& options);
+
+}  // namespace mesamis::detail
