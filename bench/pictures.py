@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The pictures of README.md and docs/, each made by commands from scans and phantoms; tables.py --all calls this."""
+import pathlib
 import shutil
 import subprocess
 import sys
@@ -8,6 +9,7 @@ from mesamis_runs import once, run
 
 BROWSERS = ("chromium-headless-shell", "chromium")
 ELEMENTS = 2  # mm, of the body
+TUTORIAL = pathlib.Path(__file__).resolve().parent.parent / "examples/tutorial"
 
 
 def small(*size):
@@ -85,6 +87,51 @@ def body(runs, out):
     draw(out, filled, "--view", "oblique", "--clip", "x,0", "--edges", *small(560, 440))
 
 
+def example(name, *arguments):
+    """A script of the tutorial; it needs what docs/tutorial.md says."""
+    subprocess.run([sys.executable, TUTORIAL / name, *arguments], check=True, stdout=subprocess.DEVNULL)
+
+
+def hip_in_dicom(runs):
+    """Folder of slices and surface of the tutorial's hip bone."""
+    scan = runs.folder / "tutorial_hip.nrrd"
+    once(scan.with_suffix(".json"), "phantom", "hemipelvis", "--size", "102,122,152", "--spacing", "2,2,2",
+         "--noise", "5", "--type", "short", "-o", scan)
+    slices = runs.folder / "tutorial_dicom"
+    example("make_dicom.py", scan, slices)
+    hip = runs.folder / "tutorial_hip.stl"
+    once(hip.with_suffix(".run.json"), "segment", slices, "--tissue", "bone", "--keep-largest", 1, "-o", hip)
+    return slices, hip
+
+
+def tutorial_hip(runs, out):
+    draw(out, hip_in_dicom(runs)[1], "--view", "left", *small(420, 520))
+
+
+def tutorial_slice(runs, out):
+    slices, hip = hip_in_dicom(runs)
+    draw(out, slices, "--clip", "z,200", "--outline", hip, *small(420, 520))
+
+
+def tutorial_stiffness(runs, out):
+    scan = runs.folder / "tutorial_femur.nrrd"
+    truth, labels, filled = (scan.with_suffix(end) for end in (".ply", ".nii.gz", ".vtu"))
+    once(scan.with_suffix(".json"), "phantom", "femur", "--noise", 4, "-o", scan, "--truth", truth)
+    run("label", truth, "--like", scan, "-o", labels)
+    once(filled.with_suffix(".run.json"), "segment", scan, "--labels", labels, "--body", filled, "--element-size", 4,
+         "--material", "keyak-1994", "--calibration", "120:0,230:1.2")
+    draw(out, filled, "--color", "modulus", "--view", "front", "--clip", "y,32", "--edges", *small(420, 520))
+
+
+def tutorial_thickness(runs, out):
+    scan = runs.folder / "tutorial_wall.nrrd"
+    wall, coloured = scan.with_suffix(".ply"), scan.with_suffix(".vtp")
+    once(scan.with_suffix(".json"), "phantom", "wall", "--spacing", "0.05,0.05,0.05", "--noise", 5, "-o", scan)
+    once(wall.with_suffix(".run.json"), "segment", scan, "--tolerance", "0.002", "-o", wall)
+    example("thickness.py", wall, coloured)
+    draw(out, coloured, "--color", "thickness", "--view", "front", *small(420, 520))
+
+
 # Name of the file in docs/images: the page that shows it, the scans that it needs, and how it is made.
 PICTURES = {
     "surface.png": ("README.md", ["head"], surface),
@@ -97,4 +144,8 @@ PICTURES = {
     "phantom_femur.png": ("docs/phantoms.md", [], femur),
     "phantom_fracture.png": ("docs/phantoms.md", [], fracture),
     "body.png": ("docs/body.md", [], body),
+    "tutorial_hip.png": ("docs/tutorial.md", [], tutorial_hip),
+    "tutorial_slice.png": ("docs/tutorial.md", [], tutorial_slice),
+    "tutorial_stiffness.png": ("docs/tutorial.md", [], tutorial_stiffness),
+    "tutorial_thickness.png": ("docs/tutorial.md", [], tutorial_thickness),
 }

@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Thickness of an object at each point of its surface, mm: the diameter of the largest ball inside that touches there.
+
+    examples/tutorial/thickness.py SURFACE.ply OUT.vtp    then: mesamis picture OUT.vtp --color thickness -o out.png
+
+Needs the package mesamis, NumPy and SciPy. The ball is found by shrinking: it starts large, and each point of the
+surface inside it makes it smaller, until none is left.
+"""
+import sys
+
+import mesamis
+import numpy as np
+from scipy.spatial import cKDTree
+
+
+def vertex_normals(points, triangles):
+    """Outward unit normals, the mean of those around a vertex, weighted by area."""
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    normals = np.zeros_like(points)
+    for k in range(3):
+        np.add.at(normals, triangles[:, k], np.cross(b - a, c - a))
+    return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+
+
+def thickness(points, triangles, rounds=40):
+    """A point with nearly the same normal does not count: there the surface is not the other side, but rough."""
+    normals, tree = vertex_normals(points, triangles), cKDTree(points)
+    radius = np.full(len(points), np.ptp(points, axis=0).max())
+    for _ in range(rounds):
+        near = tree.query(points - radius[:, None] * normals)[1]
+        way = points - points[near]
+        depth = (way * normals).sum(axis=1)
+        smaller = np.divide((way**2).sum(axis=1), 2 * depth, out=radius.copy(), where=depth > 1e-9)
+        shrinks = (smaller < 0.999 * radius) & ((normals * normals[near]).sum(axis=1) < 0.7)
+        if not shrinks.any():
+            break
+        radius = np.where(shrinks, smaller, radius)
+    return 2 * radius
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    surface = mesamis.read_surface(sys.argv[1])
+    values = thickness(np.array(surface.points), np.array(surface.triangles))
+    mesamis.write_surface(sys.argv[2], surface, arrays={"thickness": values})
+    print(f"median {np.median(values):.3f} mm, nine tenths between {np.quantile(values, 0.05):.3f} and "
+          f"{np.quantile(values, 0.95):.3f} mm")
+
+
+if __name__ == "__main__":
+    main()
