@@ -69,10 +69,11 @@ TEST(DeliverLoop, StopsWhereProgressSays) {
   EXPECT_THROW(Ball({}).delivered([](std::string_view, double) { return false; }), Cancelled);
 }
 
-TEST(DeliverSurface, FollowsTheImageOnlyIfAsked) {
-  for (const bool follow : {false, true}) {
+TEST(DeliverSurface, MovesPointsOnlyIfAsked) {
+  for (const auto& [follow, fit] : {std::pair{false, false}, {true, false}, {false, true}}) {
     Settings settings;
     settings.follow = follow;
+    settings.fit = fit;
     const Ball ball(settings);
     const RunInput run(ball.prepared);
     const Parameters& p = ball.prepared.parameters;
@@ -89,7 +90,7 @@ TEST(DeliverSurface, FollowsTheImageOnlyIfAsked) {
     EXPECT_GT(result.seconds.surface, 0);
     TriMesh in_world = extracted;
     bring_to_world(run, in_world.points);
-    EXPECT_EQ(result.surface.points == in_world.points, !follow);
+    EXPECT_EQ(result.surface.points == in_world.points, !follow && !fit);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/self_intersections.h"
+#include "mesamis/surface/split_edges.h"
 #include "support/ball_volume.h"
 #include "support/level_set.h"
 #include "support/shapes.h"
@@ -147,10 +148,96 @@ TEST(FollowImage, TheUnitOfTheSurfaceDoesNotMatter) {
   }
 }
 
+/// A ball of small triangles whose points lie off the sphere by so many voxels of white noise.
+TriMesh rippled_ball(double radius, double ripple) {
+  TriMesh ball = level_set({{0, 0, 0}, {39, 39, 39}}, {39, 39, 39},
+                           [radius](const Vec3& p) { return radius - norm(p - kCenter); });
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0, ripple);
+  for (Vec3& p : ball.points) p += noise(random) * unit_or_zero(p - kCenter);
+  return ball;
+}
+
+/// Root mean square distance of the points from their own mean radius.
+double ripple_of(const TriMesh& ball) {
+  double sum = 0, squares = 0;
+  for (const Vec3& p : ball.points) {
+    const double r = norm(p - kCenter);
+    sum += r;
+    squares += r * r;
+  }
+  const auto n = static_cast<double>(ball.points.size());
+  return std::sqrt(squares / n - sum / n * sum / n);
+}
+
+/// Smoothing alone.
+FollowOptions smoothing(double noise) {
+  return {.level = kLevel, .noise = noise, .to_image = false, .smooth = true};
+}
+
+TEST(FollowImage, SmoothsRipples) {
+  const double seen = middle_radius(kRadius, 1);
+  const TriMesh rippled = rippled_ball(seen, 0.08);
+  const TriMesh smooth = follow_image(rippled, ball_image(0), smoothing(12));
+  EXPECT_EQ(smooth.triangles, rippled.triangles);
+  EXPECT_LT(ripple_of(smooth), 0.4 * ripple_of(rippled));
+  EXPECT_NEAR(check_surface(smooth).volume, check_surface(rippled).volume,
+              0.005 * check_surface(rippled).volume);
+}
+
+TEST(FollowImage, SmoothsLessWhereThereIsLittleNoise) {
+  const double seen = middle_radius(kRadius, 1);
+  const TriMesh rippled = rippled_ball(seen, 0.08);
+  const auto left = [&](double noise) {
+    return ripple_of(follow_image(rippled, ball_image(0), smoothing(noise)));
+  };
+  EXPECT_GT(left(0.1), 1.1 * left(20));
+}
+
+TEST(FollowImage, HoldsMoreFirmlyWhatTheImageShowsThin) {
+  const TriMesh strut = level_set({{0, 0, 0}, {39, 39, 39}}, {39, 39, 39}, [](const Vec3& p) {
+    return 1.5 - std::hypot(p.x - kCenter.x, p.y - kCenter.y);
+  });
+  const auto shrunk_in_ball_of = [&](double radius) {
+    const SplineImage image = interpolating_spline(make_ball({.noise = 0, .radius = radius}));
+    const TriMesh smooth = follow_image(strut, image, smoothing(20));
+    return check_surface(strut).volume - check_surface(smooth).volume;
+  };
+  const double thick = shrunk_in_ball_of(30), thin = shrunk_in_ball_of(1.2);
+  EXPECT_GT(thin, 0);
+  EXPECT_LT(thin, 0.7 * thick);
+}
+
+TEST(FollowImage, SmoothsNoPointThatIsHeld) {
+  const TriMesh rippled = rippled_ball(kRadius, 0.08);
+  FollowedPart part{rippled, rippled.points, std::vector<char>(rippled.points.size(), kFree)};
+  for (std::size_t p = 0; p < part.held.size(); p += 3) part.held[p] = p % 2 == 0 ? kHeld : kFixed;
+  const std::vector<char> held = part.held;
+  const SplineImage image = ball_image(0);
+  follow_part(part, image, smoothing(12));
+  int moved = 0;
+  for (std::size_t p = 0; p < held.size(); ++p) {
+    if (held[p] != kFree) {
+      EXPECT_EQ(part.moved[p], rippled.points[p]);
+    } else if (part.moved[p] != rippled.points[p]) {
+      ++moved;
+      EXPECT_LT(norm(part.moved[p] - rippled.points[p]), 0.2501);
+    }
+  }
+  EXPECT_GT(moved, 100);
+}
+
+TEST(FollowImage, ChangesNothingThatItIsNotAskedTo) {
+  const TriMesh rippled = rippled_ball(kRadius, 0.08);
+  const TriMesh same =
+      follow_image(rippled, ball_image(0), {.level = kLevel, .noise = 1, .to_image = false});
+  EXPECT_EQ(same.points, rippled.points);
+}
+
 TEST(FollowImage, SameBitsForAnyNumberOfThreads) {
   const SplineImage image = ball_image(6);
   const TriMesh coarse = coarse_ball(kRadius);
-  const FollowOptions options{.level = kLevel, .noise = 6};
+  const FollowOptions options{.level = kLevel, .noise = 6, .smooth = true};
   const auto follow = [&] { return follow_image(coarse, image, options); };
   const TriMesh one = with_threads(1, follow), three = with_threads(3, follow);
   ASSERT_EQ(one.points.size(), three.points.size());

@@ -14,8 +14,8 @@ namespace {
 
 TriMesh followed(const RunInput& run, TriMesh extracted) {
   const Parameters& p = run.parameters;
-  if (!p.follow) return extracted;
-  return follow_image(extracted, run.image, {p.grey.to_grey(p.level), run.error.noise, p.unit_mm});
+  return follow_image(extracted, run.image,
+                      {p.grey.to_grey(p.level), run.error.noise, p.unit_mm, p.follow, p.fit});
 }
 
 void bring_surface_to_world(const RunInput& run, TriMesh& surface) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/fit/bending.h"
 #include "mesamis/fit/surface_moves.h"
 #include "mesamis/surface/normals.h"
 #include "mesamis/surface/split_edges.h"
@@ -19,6 +20,12 @@ constexpr double kShortestEdge = 1;  // voxels: shorter ones are not split
 constexpr double kLeastBend = 0.03;  // voxels between an edge and the level set that are worth it
 constexpr double kLeastHeight = 0.002;  // voxels: edges of less high triangles are not split
 constexpr int kMostRounds = 8;          // of splitting: about two halve every edge of a triangle
+constexpr double kBending = 8;          // against a weight of 1 of the place where a point is
+constexpr double kMostSmoothed = 0.25;  // voxels
+/// Voxels: points that noise moves by more are held with the weight 1, by half of it or less with 4.
+constexpr double kNoiseOfWeight = 0.15, kMostWeight = 4;
+constexpr int kRings = 1;  // of neighbours whose least depth counts
+constexpr double kThick = 3, kThinnest = 0.75, kDepthStep = 0.25;  // voxels behind the surface
 
 class Follower {
  public:
@@ -39,24 +46,16 @@ class Follower {
   }
 
   void run(FollowedPart& part) const {
-    TriMesh& surface = part.extracted;
     hold_on_box(part);
-    surface = split_edges(std::move(surface),
-                          [this](const Vec3& a, const Vec3& b) { return is_bent(a, b); },
-                          {kMostRounds, kLeastHeight * space_.voxel(), part.held});
-    part.held.resize(surface.points.size(), 0);
-    part.moved.insert(part.moved.end(), surface.points.begin() + std::ssize(part.moved),
-                      surface.points.end());
-    const Neighbors neighbors(surface);
-    const std::vector<Vec3> normals = smoothed_normals(surface, neighbors);
-    const std::vector<double> moves = filtered_moves(space_, measure(surface, normals), neighbors);
-    std::vector<Vec3> shifts(moves.size());
-    for (std::size_t p = 0; p < moves.size(); ++p) {
-      if (part.held[p] != kFree) continue;
-      shifts[p] = space_.within_box(surface.points[p], moves[p] * normals[p]);
-    }
+    if (options_.to_image) split(part);
+    const Neighbors neighbors(part.extracted);
+    std::vector<Vec3> goals = part.moved;
+    if (options_.to_image) move_to_image(part, neighbors, goals);
+    if (options_.smooth) smooth(part, neighbors, goals);
+    for (std::size_t p = 0; p < goals.size(); ++p) goals[p] = goals[p] - part.moved[p];
     part.moved =
-        moved_without_folds(space_, {part.moved, surface.triangles}, std::move(shifts)).points;
+        moved_without_folds(space_, {part.moved, part.extracted.triangles}, std::move(goals))
+            .points;
   }
 
  private:
@@ -65,6 +64,83 @@ class Follower {
     for (std::size_t p = 0; p < part.held.size(); ++p) {
       if (part.held[p] == kFree && space_.on_box(part.extracted.points[p])) part.held[p] = kHeld;
     }
+  }
+
+  /// Splits edges that the level set leaves.
+  void split(FollowedPart& part) const {
+    part.extracted = split_edges(std::move(part.extracted),
+                                 [this](const Vec3& a, const Vec3& b) { return is_bent(a, b); },
+                                 {kMostRounds, kLeastHeight * space_.voxel(), part.held});
+    part.held.resize(part.extracted.points.size(), kFree);
+    part.moved.insert(part.moved.end(), part.extracted.points.begin() + std::ssize(part.moved),
+                      part.extracted.points.end());
+  }
+
+  void move_to_image(const FollowedPart& part, const Neighbors& neighbors,
+                     std::vector<Vec3>& points) const {
+    const TriMesh& surface = part.extracted;
+    const std::vector<Vec3> normals = smoothed_normals(surface, neighbors);
+    const std::vector<double> moves = filtered_moves(space_, measure(surface, normals), neighbors);
+    for (std::size_t p = 0; p < moves.size(); ++p) {
+      if (part.held[p] != kFree) continue;
+      points[p] += space_.within_box(surface.points[p], moves[p] * normals[p]);
+    }
+  }
+
+  void smooth(const FollowedPart& part, const Neighbors& neighbors,
+              std::vector<Vec3>& points) const {
+    const std::vector<Vec3> normals =
+        smoothed_normals({points, part.extracted.triangles}, neighbors);
+    const std::vector<double> depths = least_around(neighbors, depths_behind(points, normals));
+    Springs springs{std::vector<double>(points.size()), points, std::vector<char>(points.size())};
+    parallel_for(points.size(), [&](std::size_t p) {
+      springs.held[p] = part.held[p] == kFree ? 0 : 1;
+      springs.weight[p] = std::pow(kThick / depths[p], 2) * weight_by_noise(points[p]);
+    });
+    // Held points, those of a wall of the box among them, do not bend what is free beside them.
+    const Umbrella umbrella(neighbors, springs.held);
+    const std::vector<Vec3> goals = relax(umbrella, springs, kBending, points);
+    const double most = kMostSmoothed * space_.voxel();
+    parallel_for(points.size(), [&](std::size_t p) {
+      if (springs.held[p] != 0) return;
+      const Vec3 shift = goals[p] - points[p];
+      const double length = norm(shift);
+      points[p] += space_.within_box(points[p], (length > most ? most / length : 1) * shift);
+    });
+  }
+
+  /// How far the object goes behind the points, kThinnest to kThick, voxels.
+  std::vector<double> depths_behind(const std::vector<Vec3>& points,
+                                    const std::vector<Vec3>& normals) const {
+    std::vector<double> depths(points.size());
+    parallel_for(points.size(), [&](std::size_t p) {
+      const Vec3 step = (-space_.voxel()) * normals[p];
+      double& depth = depths[p] = kThinnest;
+      while (depth < kThick && space_.at(points[p] + depth * step).value >= options_.level) {
+        depth += kDepthStep;
+      }
+    });
+    return depths;
+  }
+
+  /// A rim is as thin as the faces beside it, though much is behind it.
+  static std::vector<double> least_around(const Neighbors& neighbors, std::vector<double> values) {
+    for (int ring = 0; ring < kRings; ++ring) {
+      const std::vector<double> before = values;
+      parallel_for(values.size(), [&](std::size_t p) {
+        for (std::size_t n = neighbors.start[p]; n < neighbors.start[p + 1]; ++n) {
+          values[p] = std::min(values[p], before[neighbors.points[n]]);
+        }
+      });
+    }
+    return values;
+  }
+
+  double weight_by_noise(const Vec3& p) const {
+    const auto offset = offset_at(p);
+    if (!offset) return 1;
+    const double ratio = kNoiseOfWeight / std::max(offset->noise, 1e-3 * kNoiseOfWeight);
+    return std::clamp(ratio * ratio, 1.0, kMostWeight);
   }
 
   /// Along the gradient.
@@ -91,9 +167,11 @@ class Follower {
 
 TriMesh follow_image(const TriMesh& surface, const SplineImage& image,
                      const FollowOptions& options) {
-  if (!look_along(surface, image, options).is_worthwhile()) return surface;
+  FollowOptions what = options;
+  what.to_image &= look_along(surface, image, options).is_worthwhile();
+  if (!what.to_image && !what.smooth) return surface;
   FollowedPart whole{surface, surface.points, std::vector<char>(surface.points.size(), 0)};
-  follow_part(whole, image, options);
+  follow_part(whole, image, what);
   return {std::move(whole.moved), std::move(whole.extracted.triangles)};
 }
 

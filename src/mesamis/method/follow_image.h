@@ -12,10 +12,12 @@ struct FollowOptions {
   double level = 0;        ///< of the surface, grey values
   double noise = 0;        ///< standard deviation in the image, grey values, >= 0
   double point_scale = 1;  ///< mm per unit of the surface's coordinates, > 0
+  bool to_image = true;    ///< points move towards the level set
+  bool smooth = false;     ///< then towards their neighbours
 };
 
 /// Moves a surface that was extracted from a mesh towards the level set of the image, as far as the
-/// image's noise can be told from what the mesh's cells could not follow.
+/// image's noise can be told from what the mesh's cells could not follow, and smooths it.
 ///
 /// Where a scan has little noise, cells of several voxels are the larger error: they cut bends and
 /// fine structures. Edges of more than a voxel are split where the level set leaves them by more
@@ -25,11 +27,20 @@ struct FollowOptions {
 /// the point moves by
 ///   a m + k (d - m),   k = max(0, 1 - N^2 / V),   a = max(0, 1 - 0.2 N^2 / m^2),
 /// by no more than 0.7 voxels, and never out of the image's box. Points where the image is too flat
-/// to tell stay, as do those on the box; edges between two of these are not split. Moves that would
-/// make the surface meet itself are taken back.
+/// to tell stay, as do those on the box; edges between two of these are not split.
+///
+/// Smoothing takes the ripples of noise, of single voxels and of thick slices off: the points x
+/// move, by no more than a quarter of a voxel, from where they are, x_0, to the least of
+///   sum of w |x - x_0|^2 + 8 |L x|^2,   w = (3 / t)^2 min(max((0.15 / N)^2, 1), 4),
+/// with the umbrella operator L and the thickness t, at most 3 voxels, that the object has behind
+/// the point or a neighbour: thin walls and struts, which bending would shrink, are held more
+/// firmly.
+///
+/// Moves that would make the surface meet itself are taken back.
 /// @param surface  in the grid's own axes; without self-intersections.
 /// @param image    in grey values; its bounds do not count here.
-/// @return the surface as it was, where noise outweighs everything that the image could tell.
+/// Where noise outweighs everything that the image could tell, points do not move towards it.
+/// @return the surface as it was, if it is not smoothed either.
 /// @throws InputError  as require_sound().
 ///
 /// O(n log n) for n points after splitting, at most about two per square voxel of the surface.

@@ -55,7 +55,8 @@ double level_of(const SurfaceRun& run) {
 
 FollowOptions follow_options(const SurfaceRun& run) {
   const RunInput& input = run.mesh.input;
-  return {level_of(run), input.error.noise, input.parameters.unit_mm};
+  const Parameters& p = input.parameters;
+  return {level_of(run), input.error.noise, p.unit_mm, run.follows, p.fit};
 }
 
 /// The heights that a slab's own task keeps within: away from rims, which lie at its borders, and
@@ -78,13 +79,14 @@ HeightRange range_between_rims(const SurfacePiece& piece, const SlabPlan& plan, 
 
 /// Moves the points of a piece that are not settled.
 void follow(const SurfaceRun& run, SurfacePiece& piece) {
-  if (!run.follows) return;
+  const FollowOptions options = follow_options(run);
+  if (!options.to_image && !options.smooth) return;
   FollowedPart part{mesh_of(piece, &SurfacePoint::key), {}, {}};
   for (const SurfacePoint& p : piece.points) {
     part.moved.push_back(p.at);
     part.held.push_back(!p.settled ? kFree : p.at == p.key ? kHeld : kFixed);
   }
-  follow_part(part, run.mesh.input.image, follow_options(run));
+  follow_part(part, run.mesh.input.image, options);
   piece.triangles = std::move(part.extracted.triangles);
   piece.points.resize(part.moved.size());
   for (std::size_t p = 0; p < part.moved.size(); ++p) {
