@@ -172,9 +172,11 @@ TEST(SettingsFor, LeaveTheLevelOpenWhereNobodyMeasuredIt) {
   const ChosenObject plain;
   EXPECT_FALSE(settings_for(plain, {}).level);
   ChosenObject measured;
-  measured.level = 70;
-  measured.level_from = LevelSource::kScan;
-  EXPECT_EQ(settings_for(measured, {}).level, 70);
+  measured.level = {70, LevelSource::kScan, 5};
+  const auto level = settings_for(measured, {}).level;
+  ASSERT_TRUE(level);
+  EXPECT_EQ(level->value, 70);
+  EXPECT_EQ(level->uncertainty, 5);
   Settings paper;
   paper.threshold_rule = ThresholdRule::kPaper;
   EXPECT_FALSE(settings_for(measured, paper).level) << "it lies between T and the object";
@@ -184,13 +186,12 @@ TEST(SettingsFor, LeaveTheLevelOpenWhereNobodyMeasuredIt) {
 TEST(InScanUnits, TurnsWhatSettingsForTurned) {
   ChosenObject dark;
   dark.kind = TissueKind::kDark;
-  dark.level = 400;
-  dark.level_from = LevelSource::kScan;
+  dark.level = {400, LevelSource::kScan};
   Settings asked;
   asked.window = Window{-900, 100};
   asked.threshold_rule = ThresholdRule::kValue;
   asked.threshold = -20;
-  const Settings run = settings_for(dark, asked);
+  const Settings run = settings_for(dark, asked).asked;
   EXPECT_EQ(run.window->low, -100);
   EXPECT_EQ(run.window->high, 900);
   EXPECT_EQ(run.threshold, 20);

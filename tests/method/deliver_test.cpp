@@ -59,7 +59,7 @@ TEST(DeliverLoop, ABandIsDeliveredAsItIs) {
   Result result = ball.delivered();
   ASSERT_FALSE(result.surface.triangles.empty());
   const TriMesh before = result.surface;
-  finish_surface(RunInput(ball.prepared), ball.settings, {}, result);
+  finish_surface(RunInput(ball.prepared), {}, result);
   EXPECT_TRUE(result.surface.points == before.points);
   EXPECT_TRUE(result.surface.triangles == before.triangles);
   EXPECT_EQ(result.printable.triangles_extracted, std::ssize(before.triangles));
@@ -98,19 +98,19 @@ TEST(FinishSurface, SetsTheToleranceThatIsLeftOpen) {
   const Ball open({});
   const Result extracted = open.delivered();
   Result result = extracted;
-  finish_surface(RunInput(open.prepared), open.settings, {}, result);
-  EXPECT_TRUE(std::isfinite(result.parameters.tolerance));
-  EXPECT_GT(result.parameters.tolerance, 0);
+  finish_surface(RunInput(open.prepared), {}, result);
+  ASSERT_TRUE(result.parameters.tolerance);
+  EXPECT_GT(*result.parameters.tolerance, 0);
   EXPECT_LT(result.surface.triangles.size(), extracted.surface.triangles.size());
   EXPECT_EQ(result.printable.triangles_extracted, std::ssize(extracted.surface.triangles));
-  EXPECT_TRUE(result.printable.within(result.parameters.tolerance));
+  EXPECT_TRUE(result.printable.within(*result.parameters.tolerance));
   EXPECT_EQ(result.expected_error.size(), result.surface.points.size());
 
   Settings settings;
   settings.tolerance = 0.3;
   const Ball given(settings);
   Result other = given.delivered();
-  finish_surface(RunInput(given.prepared), given.settings, {}, other);
+  finish_surface(RunInput(given.prepared), {}, other);
   EXPECT_EQ(other.parameters.tolerance, 0.3);
 }
 

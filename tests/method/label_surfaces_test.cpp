@@ -114,8 +114,8 @@ std::size_t shared_points(const LabelResult& found) {
 
 /// Of the usual scan and a label for each of its voxels.
 const LabelResult& objects_by_one_thread() {
-  static const LabelResult found =
-      with_threads(1, [] { return find_labelled_objects(usual_scan(), {labels_of(1, 0)}, {}); });
+  static const LabelResult found = with_threads(
+      1, [] { return find_labelled_objects(usual_scan(), {labels_of(1, 0)}, Settings{}); });
   return found;
 }
 
@@ -123,7 +123,7 @@ TEST(LabelSurfaces, TheImagePlacesWhatLabelsChoose) {
   const Volume& scan = usual_scan();
   for (const auto& [every, shift] : {std::pair{1, 0.5}, {2, 1.0}, {3, 0.0}}) {
     const LabelMap labels = labels_of(every, shift);
-    const LabelResult found = find_labelled_objects(scan, {labels}, {});
+    const LabelResult found = find_labelled_objects(scan, {labels}, Settings{});
     const std::string what = std::to_string(every) + " shifted by " + std::to_string(shift);
     ASSERT_EQ(found.objects.size(), 2U) << what;
     EXPECT_TRUE(found.flow_converged) << what;
@@ -137,7 +137,7 @@ TEST(LabelSurfaces, TheImagePlacesWhatLabelsChoose) {
 TEST(LabelSurfaces, TheLabelsDecideWhereTheImageShowsNothing) {
   const Volume scan = scan_of(200, 200, 50, 4);  // no edge between the balls
   const LabelMap labels = labels_of(1, 0);
-  const LabelResult found = find_labelled_objects(scan, {labels}, {});
+  const LabelResult found = find_labelled_objects(scan, {labels}, Settings{});
   expect_closed(found);
   EXPECT_LT(mean_error(1, found.objects[0].surface), 0.3);
   for (const LabelBoundary& b : found.boundaries) {
@@ -148,7 +148,8 @@ TEST(LabelSurfaces, TheLabelsDecideWhereTheImageShowsNothing) {
 TEST(LabelSurfaces, OneObjectEndsWhereAnotherBegins) {
   const LabelMap labels = labels_of(1, 0);
   const LabelResult& both = objects_by_one_thread();
-  const LabelResult one = find_labelled_objects(usual_scan(), {labels, {labels.segments[1]}}, {});
+  const LabelResult one =
+      find_labelled_objects(usual_scan(), {labels, {labels.segments[1]}}, Settings{});
   ASSERT_EQ(one.objects.size(), 1U);
   EXPECT_EQ(one.objects[0].segment.name, "second");
   EXPECT_NEAR(check_surface(one.objects[0].surface).volume,
@@ -188,7 +189,7 @@ TEST(LabelSurfaces, OfMirroredGridsFaceOutward) {
   LabelMap labels = labels_of(1, 0);
   scan.direction.rows[0] = {-1, 0, 0};
   labels.direction.rows[0] = {-1, 0, 0};
-  expect_closed(find_labelled_objects(scan, {labels}, {}));
+  expect_closed(find_labelled_objects(scan, {labels}, Settings{}));
   expect_closed(surfaces_of_labels({labels}, {}));
 }
 
@@ -223,12 +224,12 @@ LabelMap layered_labels(bool second_first) {
 
 /// A run has one level, one window and one tolerance, whichever layer comes last.
 TEST(LabelSurfaces, DoNotDependOnTheOrderOfLayers) {
-  const LabelResult one = find_labelled_objects(usual_scan(), {layered_labels(false)}, {}),
-                    other = find_labelled_objects(usual_scan(), {layered_labels(true)}, {});
+  const LabelResult one = find_labelled_objects(usual_scan(), {layered_labels(false)}, Settings{}),
+                    other = find_labelled_objects(usual_scan(), {layered_labels(true)}, Settings{});
   ASSERT_EQ(one.objects.size(), 2U);
   ASSERT_EQ(other.objects.size(), 2U);
   EXPECT_EQ(one.parameters.level, other.parameters.level);
-  EXPECT_NEAR(one.parameters.tolerance, other.parameters.tolerance, 1e-9);
+  EXPECT_NEAR(*one.parameters.tolerance, *other.parameters.tolerance, 1e-9);
   EXPECT_EQ(one.parameters.blur, other.parameters.blur);
   for (std::size_t n = 0; n < 2; ++n) {
     EXPECT_EQ(one.objects[n].segment.name, other.objects[1 - n].segment.name);
@@ -238,8 +239,8 @@ TEST(LabelSurfaces, DoNotDependOnTheOrderOfLayers) {
 
 TEST(LabelSurfaces, AreTheSameForAnyNumberOfThreads) {
   const LabelResult& one = objects_by_one_thread();
-  const LabelResult two =
-      with_threads(2, [] { return find_labelled_objects(usual_scan(), {labels_of(1, 0)}, {}); });
+  const LabelResult two = with_threads(
+      2, [] { return find_labelled_objects(usual_scan(), {labels_of(1, 0)}, Settings{}); });
   ASSERT_EQ(one.objects.size(), two.objects.size());
   for (std::size_t n = 0; n < one.objects.size(); ++n) {
     EXPECT_EQ(one.objects[n].surface.triangles, two.objects[n].surface.triangles);
@@ -252,7 +253,7 @@ TEST(LabelSurfaces, RefuseWhatIsNotThere) {
   const Volume& scan = usual_scan();
   LabelMap labels = labels_of(1, 0);
   labels.origin.x = 500;
-  EXPECT_REFUSED(find_labelled_objects(scan, {labels}, {}),
+  EXPECT_REFUSED(find_labelled_objects(scan, {labels}, Settings{}),
                  ::testing::HasSubstr("expected voxels of chosen labels"));
   LabelMap many = labels_of(1, 0);
   for (Index label = 3; label < 5000; ++label) many.segments.push_back({"one", label, 0, {}});

@@ -65,7 +65,7 @@ TEST(MesAmis, PreviewsTheSolidWithoutAMesh) {
   EXPECT_EQ(flaws_of(check_surface(result.surface)), "");
   EXPECT_LT(mean_radius_error(result, 0.5 * volume.box().extent(), 7), 0.25);
   EXPECT_LT(std::ssize(result.surface.triangles), result.printable.triangles_extracted);
-  EXPECT_TRUE(result.printable.within(result.parameters.tolerance));
+  EXPECT_TRUE(result.printable.within(*result.parameters.tolerance));
   EXPECT_EQ(result.expected_error.size(), result.surface.points.size());
   const Result again =
       with_threads(1, [&] { return mes_amis(volume, settings_of(result.parameters)); });
@@ -152,7 +152,7 @@ TEST(MesAmis, DecimatesNoCloserThanTheSurfaceIsKnown) {
   const Volume volume = make_ball(quiet);
   Settings settings = small_run();
   const Result result = mes_amis(volume, settings);
-  const double tolerance = result.parameters.tolerance;
+  const double tolerance = *result.parameters.tolerance;
   EXPECT_GT(tolerance, 0.06);
   EXPECT_LT(tolerance, 0.2);
   const double expected = summarize_error(result.surface, result.expected_error).mean;
@@ -327,10 +327,10 @@ TEST(MesAmis, ProgressCanStopTheRun) {
 TEST(MesAmis, RefusesWhatItCannotUse) {
   Volume constant = make_ball(ball());
   constant.samples.assign(constant.samples.size(), 5);
-  EXPECT_THROW(mes_amis(constant, {}), InputError);
+  EXPECT_THROW(mes_amis(constant, Settings{}), InputError);
   Volume broken = make_ball(ball());
   broken.samples[100] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(mes_amis(broken, {}), InputError);
+  EXPECT_THROW(mes_amis(broken, Settings{}), InputError);
   Settings settings;
   settings.gamma = 0;
   EXPECT_THROW(mes_amis(make_ball(ball()), settings), InputError);

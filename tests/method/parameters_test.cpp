@@ -15,7 +15,8 @@ TEST(Parameters, AsSettingsTheyLeadToTheSameParameters) {
   Settings asked;
   asked.keep_largest = 2;
   asked.gradation = 1.5;
-  const Parameters first = prepare_image(volume, asked).parameters;
+  Parameters first = prepare_image(volume, asked).parameters;
+  choose_tolerance(first, 1, 0.05, ErrorsLost::kOne);  // when there is a surface
   const Settings repeated = settings_of(first);
   EXPECT_NO_THROW(require_valid(repeated));
   const Settings again = settings_of(prepare_image(volume, repeated).parameters);
@@ -40,22 +41,20 @@ TEST(DefaultGamma, IsAPriceOfGreyValuesSquared) {
   EXPECT_GT(default_gamma(1e-3, 2, 100, 10), one);
 }
 
-TEST(DefaultMaxTets, GrowsWithTheEdgesWithinBounds) {
-  EXPECT_EQ(default_max_tets(0, 0, {1, 1, 1}), 20'000);
-  EXPECT_EQ(default_max_tets(50'000, 0, {1, 1, 1}), 225'000);
-  EXPECT_EQ(default_max_tets(1e9, 0, {1, 1, 1}), 2'000'000);
+TEST(CellsForSurface, GrowWithTheEdges) {
+  EXPECT_EQ(cells_for_surface(50'000, 0, {1, 1, 1}), 225'000);
   // The same surface in voxels half as wide, and in slices four times as thick.
-  EXPECT_EQ(default_max_tets(12'500, 0, {0.5, 0.5, 0.5}), 225'000);
-  EXPECT_EQ(default_max_tets(50'000, 0, {1, 1, 4}), 225'000);
-  EXPECT_EQ(default_max_tets(50'000, 0, {0.1, 0.1, 8}), 225'000);
+  EXPECT_EQ(cells_for_surface(12'500, 0, {0.5, 0.5, 0.5}), 225'000);
+  EXPECT_EQ(cells_for_surface(50'000, 0, {1, 1, 4}), 225'000);
+  EXPECT_NEAR(cells_for_surface(50'000, 0, {0.1, 0.1, 8}), 225'000, 1e-6);
   // Thin walls and gaps take four times as many.
-  EXPECT_EQ(default_max_tets(50'000, 1, {1, 1, 1}), 900'000);
+  EXPECT_EQ(cells_for_surface(50'000, 1, {1, 1, 1}), 900'000);
+  EXPECT_EQ(cells_for_surface(50'000, 0.5, {1, 1, 1}), 562'500);
   // The distance asked for: half of the usual one takes twice the cells.
-  EXPECT_EQ(default_max_tets(50'000, 0, {1, 1, 1}, 0.05), 450'000);
-  EXPECT_EQ(default_max_tets(50'000, 0, {1, 1, 1}, 0.2), 112'500);
-  EXPECT_EQ(default_max_tets(50'000, 0, {1, 1, 1}, 1e-6), 900'000);
-  EXPECT_EQ(default_max_tets(50'000, 0, {2, 2, 2}, 0.2), 56'250) << "as usual";
-  EXPECT_EQ(default_max_tets(50'000, 0.5, {1, 1, 1}), 562'500);
+  EXPECT_EQ(cells_for_surface(50'000, 0, {1, 1, 1}, 0.05), 450'000);
+  EXPECT_EQ(cells_for_surface(50'000, 0, {1, 1, 1}, 0.2), 112'500);
+  EXPECT_EQ(cells_for_surface(50'000, 0, {1, 1, 1}, 1e-6), 900'000);
+  EXPECT_NEAR(cells_for_surface(50'000, 0, {2, 2, 2}, 0.2), 56'250, 1e-6) << "as usual";
 }
 
 TEST(DefaultStride, ThinsTheGridsOfLargeVolumes) {
@@ -91,19 +90,10 @@ TEST(StrideOf, IsTheGivenOneOrThatOfTheRun) {
   EXPECT_EQ(stride_of(settings, voxels, spacing), *settings.stride);
 }
 
-TEST(CellsForSurface, OfPartsAddUpAndAreTheDefaultBeforeItsBounds) {
-  const Vec3 spacing{0.5, 0.5, 2};
-  for (const double thin : {0.0, 0.3}) {
-    for (const double accuracy : {0.0, 0.05}) {
-      const auto cells = [&](double area) {
-        return cells_for_surface(area, thin, spacing, accuracy);
-      };
-      EXPECT_NEAR(cells(10'000) + cells(2'500), cells(12'500), 1e-6);
-      EXPECT_EQ(std::llround(cells(12'500)), default_max_tets(12'500, thin, spacing, accuracy));
-    }
-  }
-  EXPECT_EQ(cells_for_surface(0, 0, spacing), 0);
-  EXPECT_GT(cells_for_surface(1e9, 0, {1, 1, 1}), kMostTets);
+TEST(CellsForSurface, OfPartsAddUp) {
+  const auto cells = [](double area) { return cells_for_surface(area, 0.3, {0.5, 0.5, 2}, 0.05); };
+  EXPECT_NEAR(cells(10'000) + cells(2'500), cells(12'500), 1e-6);
+  EXPECT_EQ(cells(0), 0);
 }
 
 }  // namespace

@@ -46,7 +46,8 @@ TEST(PrepareImage, WhatIsGivenIsNotMeasured) {
 }
 
 TEST(PrepareImage, MeasuresWhatIsLeftOpen) {
-  const Prepared prepared = prepare_image(make_ball({.size = 32, .noise = 8, .radius = 9}), {});
+  const Prepared prepared =
+      prepare_image(make_ball({.size = 32, .noise = 8, .radius = 9}), Settings{});
   const Parameters& p = prepared.parameters;
   EXPECT_NEAR(p.noise, 8, 2);
   EXPECT_NEAR(p.level, 175, 8);
@@ -54,7 +55,7 @@ TEST(PrepareImage, MeasuresWhatIsLeftOpen) {
   EXPECT_EQ(p.functional.eta, 1e-6);
   EXPECT_EQ(p.h_max, 31.0 / 4);
   EXPECT_EQ(p.min_volume, 4);
-  EXPECT_TRUE(std::isinf(p.tolerance)) << "it follows from the surface";
+  EXPECT_FALSE(p.tolerance) << "it follows from the surface";
   EXPECT_GE(p.max_tets, kFewestTets);
   EXPECT_GT(p.functional.gamma, 0);
   EXPECT_FALSE(p.grey.has_threshold()) << "two classes need no T";
@@ -65,7 +66,7 @@ TEST(PrepareImage, LengthsFollowTheUnit) {
   fine.spacing = {0.2, 0.2, 0.2};
   fine.blur = 0.2;
   const Volume volume = make_ball(fine);
-  EXPECT_NEAR(prepare_image(volume, {}).parameters.unit_mm, 0.2, 1e-12);
+  EXPECT_NEAR(prepare_image(volume, Settings{}).parameters.unit_mm, 0.2, 1e-12);
   Settings mm;
   mm.length_unit = LengthUnit::kMm;
   EXPECT_EQ(prepare_image(volume, mm).parameters.unit_mm, 1);
@@ -102,15 +103,6 @@ TEST(PrepareImage, ALevelBelowTheThresholdMovesAboveIt) {
   EXPECT_NEAR(prepare_image(ball, settings).parameters.level, (190 + 230) / 2.0, 5);
   settings.threshold = 140;
   EXPECT_NEAR(prepare_image(ball, settings).parameters.level, 175, 5);
-}
-
-TEST(PrepareImage, ATrianglesGoalLiftsTheTolerance) {
-  Settings settings;
-  settings.triangles = 500;
-  const Volume volume = make_ball({.size = 24, .radius = 7});
-  EXPECT_TRUE(std::isinf(prepare_image(volume, settings).parameters.tolerance));
-  settings.tolerance = 0.2;
-  EXPECT_EQ(prepare_image(volume, settings).parameters.tolerance, 0.2);
 }
 
 TEST(PrepareImage, RefusesSettingsThatLeaveNothingToSee) {
@@ -158,29 +150,14 @@ Volume slices_of(const Volume& volume, Index begin, Index end) {
   return crop(volume, range);
 }
 
-TEST(ChooseParameters, ChoosesAsPrepareImage) {
-  const Volume scan = make_ball({.size = 40, .noise = 8, .radius = 9});
-  const Parameters whole = prepare_image(scan, {}).parameters;
-  const ChosenParameters all = choose_parameters(scan, scan, {});
-  EXPECT_EQ(all.parameters.level, whole.level);
-  EXPECT_EQ(all.parameters.functional.gamma, whole.functional.gamma);
-  EXPECT_EQ(all.parameters.max_tets, whole.max_tets);
-  // From a part of it; but what follows from the grid is that of the whole.
-  const ChosenParameters part = choose_parameters(slices_of(scan, 8, 30), scan, {});
-  EXPECT_EQ(part.parameters.h_max, whole.h_max);
-  EXPECT_EQ(part.parameters.unit_mm, whole.unit_mm);
-  EXPECT_NEAR(part.parameters.level, whole.level, 3);
-  EXPECT_NEAR(part.parameters.noise, whole.noise, 1);
-}
-
 TEST(PrepareSlab, IsAPieceOfThePreparedWholeAwayFromItsEnds) {
   for (const bool impulses : {false, true}) {
     Volume scan = make_ball({.size = 56, .noise = 6, .radius = 16});
     for (std::size_t n = 0; impulses && n < scan.samples.size(); n += 97) {
       scan.samples[n] = n % 2 == 0 ? 0 : 255;
     }
-    const Prepared whole = prepare_image(scan, {});
-    const ChosenParameters choice = choose_parameters(scan, scan, {});
+    const Prepared whole = prepare_image(scan, Settings{});
+    const Chosen choice = choose_from_part(scan, scan, Settings{});
     EXPECT_EQ(choice.impulse_height > 0, impulses);
     const Index begin = 10, end = 50, outer = 12;
     const Prepared slab = prepare_slab(slices_of(scan, begin, end), choice);
@@ -204,22 +181,21 @@ TEST(PrepareSlab, WithoutRestoringItIsAPieceToTheBit) {
   settings.restore = false;
   const Prepared whole = prepare_image(scan, settings);
   const Prepared slab =
-      prepare_slab(slices_of(scan, 5, 25), choose_parameters(scan, scan, settings));
+      prepare_slab(slices_of(scan, 5, 25), choose_from_part(scan, scan, settings));
   EXPECT_EQ(slab.grey.samples, slices_of(whole.grey, 5, 25).samples);
 }
 
-TEST(ExtentOf, OfSlabsAddsUp) {
+TEST(CellsOf, OfSlabsAddUp) {
   const Volume scan = make_ball({.size = 40, .noise = 4, .radius = 11});
-  const Prepared whole = prepare_image(scan, {});
-  const double area = extent_of(whole).area;
-  EXPECT_NEAR(area / (4 * 3.14159265 * 11 * 11), 1, 0.05);
+  const Prepared whole = prepare_image(scan, Settings{});
+  const double cells = cells_of(whole);
+  EXPECT_NEAR(cells / (4.5 * 4 * 3.14159265 * 11 * 11), 1, 0.05);
   double sum = 0;
   for (const auto& [begin, end] : {std::pair{0, 19}, {18, 40}}) {  // they share a slice
-    const Prepared part{whole.parameters, whole.measured, slices_of(whole.grey, begin, end), {}};
-    sum += extent_of(part).area;
+    sum += cells_of({whole.parameters, whole.measured, slices_of(whole.grey, begin, end), {}});
   }
-  EXPECT_GE(sum, area);
-  EXPECT_LT(sum / area, 1.05) << "edges within the common slice count twice";
+  EXPECT_GE(sum, cells);
+  EXPECT_LT(sum / cells, 1.05) << "edges within the common slice count twice";
 }
 
 }  // namespace

@@ -46,6 +46,12 @@ LabelMap marks(const VoxelGrid& grid, const VoxelMask& mask) {
   return map;
 }
 
+double level_of(const ChosenObject& chosen) { return chosen.level ? chosen.level->value : -1e9; }
+
+LevelSource source_of(const ChosenObject& chosen) {
+  return chosen.level ? chosen.level->from : LevelSource::kRun;
+}
+
 /// All above the level are in the mask, and all of the mask above.
 void expect_only(const ChosenObject& chosen, const VoxelMask& mask, double level) {
   EXPECT_EQ(mask_above(chosen.volume, level), mask);
@@ -63,8 +69,8 @@ TEST(ChooseInPlace, IsChooseObjectWithoutTheSamples) {
     EXPECT_EQ(copied.volume.samples, scan.samples);
     EXPECT_EQ(found->volume.size, copied.volume.size);
     EXPECT_EQ(found->volume.modality, copied.volume.modality);
-    EXPECT_EQ(found->level, copied.level);
-    EXPECT_EQ(found->level_from, copied.level_from);
+    EXPECT_EQ(level_of(*found), level_of(copied));
+    EXPECT_EQ(source_of(*found), source_of(copied));
     EXPECT_EQ(found->crop, copied.crop);
     EXPECT_EQ(surface_warnings(*found, scan, 50), surface_warnings(copied, 50));
   }
@@ -90,7 +96,6 @@ TEST(ChooseObject, LeavesAScanAsItIsIfNothingIsAsked) {
   const ChosenObject chosen = choose_object(scan, {});
   EXPECT_EQ(chosen.volume.samples, scan.samples);
   EXPECT_FALSE(chosen.level);
-  EXPECT_EQ(chosen.level_from, LevelSource::kRun);
   EXPECT_TRUE(chosen.notes.empty());
   EXPECT_TRUE(chosen.warnings.empty());
 }
@@ -99,9 +104,9 @@ TEST(ChooseObject, OneSeedLeavesItsIslandAlone) {
   for (const Vec3& seed : {kLeft, kRight}) {
     const ChosenObject chosen = choose_object(two_balls(), {.seeds = {seed}});
     ASSERT_TRUE(chosen.level);
-    EXPECT_NEAR(*chosen.level, 50, 5);
+    EXPECT_NEAR(level_of(chosen), 50, 5);
     EXPECT_TRUE(chosen.alone);
-    expect_only(chosen, ball_mask(seed), *chosen.level);
+    expect_only(chosen, ball_mask(seed), level_of(chosen));
   }
 }
 
@@ -223,15 +228,15 @@ TEST(ChooseObject, TheTableGoesUnlessItIsKept) {
 
 TEST(ChooseObject, TheLevelOfACropIsThatOfTheWholeScan) {
   const ChosenObject whole = choose_object(ct(), {});
-  const double level = prepare_image(whole.volume, {}).parameters.level;
+  const double level = prepare_image(whole.volume, Settings{}).parameters.level;
   const CropRange lower{{0, 0, 0}, {-1, -1, 6}}, upper{{0, 0, 7}, {-1, -1, -1}};
   for (const CropRange& range : {lower, upper}) {
     const ChosenObject part = choose_object(ct(), {.crop = range});
-    EXPECT_EQ(part.level_from, LevelSource::kScan);
-    EXPECT_NEAR(part.level.value(), level, 1e-6);
+    EXPECT_EQ(source_of(part), LevelSource::kScan);
+    EXPECT_NEAR(level_of(part), level, 1e-6);
   }
   const double alone =
-      prepare_image(choose_object(crop(ct(), lower), {}).volume, {}).parameters.level;
+      prepare_image(choose_object(crop(ct(), lower), {}).volume, Settings{}).parameters.level;
   EXPECT_GT(std::abs(alone - level), 30) << "or this test shows nothing";
 }
 
@@ -239,28 +244,28 @@ TEST(ChooseObject, APartWithoutAirIsStillCt) {
   Volume scan = ct();
   scan.modality = "";
   const ChosenObject part = choose_object(scan, {.crop = {{50, 35, 0}, {70, 55, -1}}});
-  EXPECT_EQ(part.level_from, LevelSource::kScan);
+  EXPECT_EQ(source_of(part), LevelSource::kScan);
   EXPECT_TRUE(is_hounsfield(part.volume));
   EXPECT_NO_THROW(choose_object(scan, {.tissue = parse_tissue("lung")}));
 }
 
 TEST(ChooseObject, ALevelThatIsGivenComesFirst) {
   const ChosenObject chosen = choose_object(ct(), {.tissue = parse_tissue("bone"), .level = 333});
-  EXPECT_EQ(chosen.level, 333);
-  EXPECT_EQ(chosen.level_from, LevelSource::kUser);
+  EXPECT_EQ(level_of(chosen), 333);
+  EXPECT_EQ(source_of(chosen), LevelSource::kUser);
 }
 
 TEST(ChooseObject, OfDarkTissuesOnlyWhatIsInThePatientIsBright) {
   const ChosenObject chosen = choose_object(ct(), {.tissue = parse_tissue("lung")});
   EXPECT_EQ(chosen.kind, TissueKind::kDark);
-  EXPECT_NEAR(*chosen.level, 390, 40) << "mirrored";
+  EXPECT_NEAR(level_of(chosen), 390, 40) << "mirrored";
   const VoxelMask lung = mask_where(kCtGrid, is_lung);
-  EXPECT_EQ(mask_above(chosen.volume, *chosen.level), lung);
+  EXPECT_EQ(mask_above(chosen.volume, level_of(chosen)), lung);
 }
 
 TEST(ChooseObject, ARangeIsBrightWhereSamplesAreWithin) {
   const ChosenObject chosen = choose_object(ct(), {.tissue = parse_tissue("-100:150")});
-  EXPECT_EQ(chosen.level, 0);
+  EXPECT_EQ(level_of(chosen), 0);
   EXPECT_GT(chosen.volume.samples[chosen.volume.offset(80, 45, 6)], 0) << "soft";
   EXPECT_LT(chosen.volume.samples[chosen.volume.offset(60, 60, 6)], 0) << "spine";
   EXPECT_LT(chosen.volume.samples[chosen.volume.offset(2, 2, 6)], 0) << "air";
@@ -285,7 +290,7 @@ TEST(ChooseObject, IsTheSameForAnyNumberOfThreads) {
   const auto run = [&request] { return choose_object(ct(), request); };
   const ChosenObject one = with_threads(1, run), two = with_threads(2, run);
   EXPECT_EQ(one.volume.samples, two.volume.samples);
-  EXPECT_EQ(one.level, two.level);
+  EXPECT_EQ(level_of(one), level_of(two));
 }
 
 /// A scan of two values is likely a label map, but not where labels are beside it.

@@ -36,7 +36,7 @@ TEST(TissueLevel, OfBoneIsThatOfARunWithoutATissue) {
   for (const double value : {500.0, 1000.0, 1400.0}) {
     const Volume volume = bone_ball(value);
     EXPECT_NEAR(find_tissue_level(volume, parse_tissue("bone")).level,
-                prepare_image(volume, {}).parameters.level, 1e-6);
+                prepare_image(volume, Settings{}).parameters.level, 1e-6);
   }
 }
 
@@ -58,11 +58,11 @@ TEST(TissueLevel, OfSkinAndOfBoneDifferInOneScan) {
 
 TEST(TissueLevel, OfADarkObjectIsThatOfTheMirroredBrightOne) {
   const Volume bright = make_ball({.background = 100, .object = 300, .noise = 3});
-  const TissueLevel dark = find_tissue_level(mirrored(copy_volume(bright)), parse_tissue("dark"));
-  EXPECT_NEAR(dark.level, -200, 4);
-  EXPECT_NEAR(dark.contrast.object, -300, 8);
-  EXPECT_LT(dark.contrast.object, dark.contrast.background);
-  EXPECT_NEAR(dark.level, -prepare_image(bright, {}).parameters.level, 1e-6);
+  const Tissue dark = ImageUnits(TissueKind::kDark).turned(parse_tissue("dark"));
+  const TissueLevel found = find_tissue_level(bright, dark);
+  EXPECT_NEAR(found.level, 200, 4);
+  EXPECT_NEAR(found.contrast.object, 300, 8);
+  EXPECT_NEAR(found.level, prepare_image(bright, Settings{}).parameters.level, 1e-6);
 }
 
 TEST(TissueLevel, OfARangeIsAsWritten) {
@@ -86,8 +86,8 @@ TEST(TissueLevel, WithoutItsSurfaceIsTheStart) {
 TEST(TissueLevel, RefusesWhatCannotBeMeasured) {
   Volume volume = bone_ball(1000);
   volume.modality = "MR";
-  EXPECT_REFUSED(find_tissue_level(volume, parse_tissue("bone")), HasSubstr("CT scan"));
-  EXPECT_NO_THROW(find_tissue_level(volume, parse_tissue("300:")));
+  EXPECT_REFUSED(require_hounsfield(volume, parse_tissue("bone")), HasSubstr("CT scan"));
+  EXPECT_NO_THROW(require_hounsfield(volume, parse_tissue("300:")));
   const Volume noise = make_ball({.background = 100, .object = 100, .noise = 10});
   EXPECT_REFUSED(find_tissue_level(noise, parse_tissue("dark")), HasSubstr("out of the noise"));
 }

@@ -31,7 +31,7 @@ TEST(ObjectJson, TellsWhatWasDone) {
   ChosenObject chosen;
   chosen.tissue = "airway";
   chosen.kind = TissueKind::kDark;
-  chosen.level_from = LevelSource::kScan;
+  chosen.level = {400, LevelSource::kScan};
   chosen.removed = {{"table or head rest", 146'000}};
   chosen.padding = FilledPadding{12, -3024, -1000};
   const ordered_json json = object_json(request, chosen);
@@ -47,12 +47,13 @@ TEST(ObjectJson, TellsWhatWasDone) {
 TEST(ObjectJson, NamesEachSourceOfALevelDifferently) {
   ChosenObject chosen;
   std::set<std::string> names;
-  for (const LevelSource source : {LevelSource::kRun, LevelSource::kUser, LevelSource::kScan,
-                                   LevelSource::kCrop, LevelSource::kTissue}) {
-    chosen.level_from = source;
+  for (const LevelSource source :
+       {LevelSource::kRun, LevelSource::kUser, LevelSource::kScan, LevelSource::kCrop,
+        LevelSource::kTissue, LevelSource::kLabels}) {
+    chosen.level = {0, source};
     names.insert(object_json({}, chosen)["level_from"].get<std::string>());
   }
-  EXPECT_EQ(names.size(), 5U);
+  EXPECT_EQ(names.size(), 6U);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ Result made_up_result() {
   result.parameters.unit_mm = 0.5;
   result.converged = true;
   result.seconds.total = 7;
+  result.parameters.tolerance = 0.1;
   return result;
 }
 

@@ -236,7 +236,7 @@ TEST(SlabRun, KeepsAllPartsOfALeftHandedGrid) {
   EXPECT_NEAR(check.volume / check_surface(whole.surface).volume, 1, 0.01);
   EXPECT_EQ(result.printable.parts->islands, 3);
   EXPECT_EQ(result.printable.parts->cavities, 1);
-  EXPECT_NEAR(2 * result.parameters.tolerance / whole.parameters.tolerance, 1, 0.1)
+  EXPECT_NEAR(2 * *result.parameters.tolerance / *whole.parameters.tolerance, 1, 0.1)
       << "the whole is refitted after decimation, see refit()";
 }
 
@@ -288,7 +288,7 @@ TEST(SlabRun, LongTrianglesReachOverBorders) {
     EXPECT_EQ(check.components, 1);
     EXPECT_TRUE(find_self_intersections(run.result.surface).empty());
     EXPECT_NEAR(check.volume / (10.4 * 10.7 * (slices - 7.6)), 1, 0.05) << "the blur rounds edges";
-    EXPECT_TRUE(run.result.printable.within(run.result.parameters.tolerance));
+    EXPECT_TRUE(run.result.printable.within(*run.result.parameters.tolerance));
   }
 }
 

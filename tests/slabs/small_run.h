@@ -53,9 +53,8 @@ struct SmallRun {
       : scan(scan_of_rod(slices)),
         source(scan),
         scratch(folder.path()),
-        run{source, scratch, {}, choose_parameters(scan, scan, settings)} {
+        run{source, scratch, {}, choose_from_part(scan, scan, settings)} {
     Parameters& p = run.choice.parameters;
-    p.max_tets = settings.max_tets.value_or(0);
     const std::vector<double> work(static_cast<std::size_t>(slices), 1.0);
     run.plan =
         plan_slabs(scan, work, {p.unit_mm, p.functional.beta, static_cast<Index>(cuts.size()) - 1});

@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "mesamis/object/mirror.h"
-
 namespace mesamis {
 namespace {
 
@@ -12,12 +10,6 @@ namespace {
 bool has_own_threshold(const Settings& settings) {
   return settings.threshold_rule == ThresholdRule::kPaper ||
          settings.threshold_rule == ThresholdRule::kValue;
-}
-
-GreyMap mirrored_map(const GreyMap& map) {
-  GreyMap turned{mirrored(map.high), mirrored(map.low), 0};
-  turned.threshold = map.has_threshold() ? mirrored(map.threshold) : turned.low;
-  return turned;
 }
 
 }  // namespace
@@ -31,16 +23,17 @@ ObjectRequest object_request(const Settings& settings) {
   return request;
 }
 
-Settings settings_for(const ChosenObject& object, Settings settings) {
+ImageSettings settings_for(const ChosenObject& object, Settings settings) {
+  const bool measured = object_request(settings).measure_level;
+  const ImageUnits units = object.units();
   settings.crop = {};
-  const bool asked = !object.tissue.empty() || object.level_from == LevelSource::kUser;
-  if (asked || object_request(settings).measure_level) settings.level = object.level;
   if (object.kind == TissueKind::kRange) settings.local_level = false;
   if (object.alone && settings.keep_largest == 0) settings.keep_largest = 1;
-  if (object.kind == TissueKind::kDark) {
-    if (settings.window) settings.window = mirrored(*settings.window);
-    settings.threshold = mirrored(settings.threshold);
-  }
+  if (settings.window) settings.window = units.turned(*settings.window);
+  settings.threshold = units.turned(settings.threshold);
+  if (settings.level) settings.level = units.turned(*settings.level);
+  const bool given = object.level && object.level->from == LevelSource::kUser;
+  if (!object.tissue.empty() || given || measured) return {settings, object.level};
   return settings;
 }
 
@@ -50,9 +43,8 @@ Parameters in_scan_units(Parameters p, const ChosenObject& object) {
     p.crop.begin[a] += begin;
     p.crop.end[a] = p.crop.end[a] < 0 ? object.crop.end[a] : p.crop.end[a] + begin;
   }
-  if (object.kind != TissueKind::kDark) return p;
-  p.level = mirrored(p.level);
-  p.grey = mirrored_map(p.grey);
+  p.level = object.units().turned(p.level);
+  p.grey = object.units().turned(p.grey);
   return p;
 }
 
@@ -66,9 +58,6 @@ Result run_on_object(const ObjectInPlace& in_place, const Settings& settings,
   const auto& [object, image] = in_place;
   Result result = mes_amis(image, settings_for(object, settings), progress, enough);
   result.parameters = in_scan_units(result.parameters, object);
-  if (object.level_uncertainty > 0) {
-    result.image.level_uncertainty = object.level_uncertainty;
-  }
   return result;
 }
 
@@ -84,11 +73,9 @@ LabelResult run_on_labels(const ObjectInPlace& in_place, const LabelRequest& req
       find_labelled_objects(image, request, settings_for(object, settings), progress);
   result.parameters = in_scan_units(result.parameters, object);
   if (result.mesh) result.mesh->parameters = in_scan_units(result.mesh->parameters, object);
-  if (object.kind == TissueKind::kDark) {
-    for (LabelBoundary& boundary : result.boundaries) {
-      boundary.level = mirrored(boundary.level);
-      boundary.contrast = -boundary.contrast;
-    }
+  for (LabelBoundary& boundary : result.boundaries) {
+    boundary.level = object.units().turned(boundary.level);
+    boundary.contrast = object.units().turned(boundary.contrast);
   }
   return result;
 }

@@ -15,10 +15,10 @@ namespace mesamis {
 /// level is needed.
 ObjectRequest object_request(const Settings& settings);
 
-/// Makes the settings of mes_amis() for the image of a chosen object: no crop, which has been done;
-/// the object's level; window and T mirrored for a dark object; of one seed the largest island.
+/// Makes the settings of mes_amis() for the image of a chosen object, in its units: no crop, which
+/// has been done; the object's level; of one seed the largest island.
 /// @param settings  as the user gave them, units of the scan.
-Settings settings_for(const ChosenObject& object, Settings settings);
+ImageSettings settings_for(const ChosenObject& object, Settings settings);
 
 /// Turns what a run on the image used back to the units and the voxels of the scan: the settings of
 /// these parameters repeat the run.

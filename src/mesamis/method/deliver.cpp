@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mesamis/base/stopwatch.h"
+#include "mesamis/method/choose.h"
 #include "mesamis/method/expected_error.h"
 #include "mesamis/method/follow_image.h"
 #include "mesamis/surface/extract.h"
@@ -54,19 +55,17 @@ void deliver_loop(const RunInput& run, Loop loop, const Progress& progress, Resu
   deliver_mesh(run, std::move(loop), result);
 }
 
-void finish_surface(const RunInput& run, const Settings& settings, const Progress& progress,
-                    Result& result) {
+void finish_surface(const RunInput& run, const Progress& progress, Result& result) {
   Parameters& p = result.parameters;
   result.printable.triangles_extracted = std::ssize(result.surface.triangles);
   if (p.surface == SurfaceKind::kBand) return;
-  p.tolerance =
-      chosen_tolerance(settings, run.grey.voxel_size(), mean_expected_error(run, result.surface),
-                       p.preview ? ErrorsLost::kOne : ErrorsLost::kTwo);
+  choose_tolerance(p, run.grey.voxel_size(), mean_expected_error(run, result.surface),
+                   p.preview ? ErrorsLost::kOne : ErrorsLost::kTwo);
   result.surface = make_printable(result.surface,
                                   {.min_volume = p.min_volume,
                                    .keep_largest = p.keep_largest,
                                    .fill_cavities = p.fill_cavities,
-                                   .tolerance = p.tolerance,
+                                   .tolerance = *p.tolerance,
                                    .triangles = p.triangles,
                                    .progress = progress,
                                    .quick = p.preview,

@@ -23,10 +23,9 @@ void deliver_loop(const RunInput& run, Loop loop, const Progress& progress, Resu
 void turn_as_grid(const RunInput& run, TriMesh& surface);
 
 /// Makes a solid printable, and tells its error; the paper's band is delivered as it is.
-/// @param result  with a surface; Parameters::tolerance is set where the settings leave it open.
+/// @param result  with a surface; the tolerance is chosen where it is open.
 /// @throws Cancelled  if progress says stop.
-void finish_surface(const RunInput& run, const Settings& settings, const Progress& progress,
-                    Result& result);
+void finish_surface(const RunInput& run, const Progress& progress, Result& result);
 
 /// Tells the error of a result's surface, which has been made printable.
 void tell_error(const RunInput& run, Result& result);

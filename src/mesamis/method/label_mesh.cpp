@@ -27,7 +27,7 @@ Prepared prepare_labels(const Volume& labels, const Prepared& image, double cont
 }  // namespace
 
 Result mesh_beside_labels(const VolumeView& image, std::span<const Volume> labels,
-                          const Settings& settings, const Progress& progress) {
+                          const ImageSettings& settings, const Progress& progress) {
   Stopwatch watch;
   Result result;
   begin_stage(progress, "preparation");

@@ -25,6 +25,6 @@ namespace mesamis {
 /// Cost as mes_amis(), times one more than there are label images. The same bits for any number of
 /// threads.
 Result mesh_beside_labels(const VolumeView& image, std::span<const Volume> labels,
-                          const Settings& settings, const Progress& progress = {});
+                          const ImageSettings& settings, const Progress& progress = {});
 
 }  // namespace mesamis

@@ -86,8 +86,8 @@ struct Edges {
   std::vector<float> v;
 };
 
-/// @param settings  with a level, or the run looks for one of its own.
-Edges find_edges(const Volume& scan, Settings settings, bool flows) {
+Edges find_edges(const Volume& scan, ImageSettings of_image, bool flows) {
+  Settings& settings = of_image.asked;
   settings.crop = {};
   settings.stride = {1, 1, 1};
   settings.preview = true;  // no mesh is made
@@ -95,7 +95,7 @@ Edges find_edges(const Volume& scan, Settings settings, bool flows) {
   if (settings.threshold_rule == ThresholdRule::kAuto) {
     settings.threshold_rule = ThresholdRule::kNone;
   }
-  Edges edges{prepare_image(scan, settings), {}};
+  Edges edges{prepare_image(scan, of_image), {}};
   if (!flows) return edges;
   const RunInput run(edges.prepared);
   const Parameters& p = run.parameters;
@@ -148,14 +148,16 @@ void require_chosen(const std::vector<Segment>& chosen, const LabelMap& map) {
 /// What the steps of a run on labels know.
 struct LabelRun {
   const LabelRequest& request;
+  const ImageSettings& of_image;
   const Settings& settings;
   const Progress& progress;
   std::vector<Segment> chosen;
   double margin = 0;  ///< mm
 
-  LabelRun(const LabelRequest& asked, const Settings& how, const Progress& tell)
+  LabelRun(const LabelRequest& asked, const ImageSettings& how, const Progress& tell)
       : request(asked),
-        settings(how),
+        of_image(how),
+        settings(how.asked),
         progress(tell),
         chosen(asked.chosen.empty() ? asked.map.segments : asked.chosen) {
     require_chosen(chosen, asked.map);
@@ -197,12 +199,12 @@ GridMemberships without_image(const LabelRun& run, const VoxelGrid& grid,
   return found;
 }
 
-/// The settings with a level: the given one, or that between the voxels of all chosen labels and
-/// the rest.
-Settings with_level(const LabelRun& run, const Volume& part, const LabelMap& map,
-                    const LabelBlock& block) {
-  Settings settings = run.settings;
-  settings.local_level = false;  // each boundary has its own
+/// The settings with a level, if there is one: that which is known, or that between the voxels of all
+/// chosen labels and the rest.
+ImageSettings with_level(const LabelRun& run, const Volume& part, const LabelMap& map,
+                         const LabelBlock& block) {
+  ImageSettings settings = run.of_image;
+  settings.asked.local_level = false;  // each boundary has its own
   if (settings.level) return settings;
   std::vector<char> chosen(part.samples.size(), 0);
   for (const Index layer : layers_of(run.chosen)) {
@@ -210,7 +212,9 @@ Settings with_level(const LabelRun& run, const Volume& part, const LabelMap& map
     const auto labels = labels_in(map, layer, block);
     for (std::size_t n = 0; n < chosen.size(); ++n) chosen[n] |= marks[labels[n]];
   }
-  settings.level = level_between(part, chosen);
+  if (const auto level = level_between(part, chosen)) {
+    settings.level = {*level, LevelSource::kLabels};
+  }
   return settings;
 }
 
@@ -316,7 +320,8 @@ double mean_error_of(const LabelRun& run, const std::vector<LayerBoundaries>& la
 /// Decimates what objects share in one.
 /// @return how far boundaries were moved at most, mm.
 double decimate(const LabelRun& run, const Parameters& p, PartitionSurface& partition) {
-  if (p.tolerance == 0 || partition.triangles.empty()) return 0;
+  const double tolerance = *p.tolerance;
+  if (tolerance == 0 || partition.triangles.empty()) return 0;
   run.begin("decimation");
   std::vector<Vec3> rounded = round_together(partition.points);
   double shift = 0;
@@ -325,7 +330,7 @@ double decimate(const LabelRun& run, const Parameters& p, PartitionSurface& part
   }
   partition.points = std::move(rounded);
   DecimateOptions options;
-  options.tolerance = std::max(0.0, p.tolerance - shift);
+  options.tolerance = std::max(0.0, tolerance - shift);
   options.triangles = p.triangles;
   options.progress = run.progress;
   options.quick = run.settings.preview && std::isfinite(options.tolerance);
@@ -392,9 +397,7 @@ void finish_layers(const LabelRun& run, std::vector<LayerBoundaries> layers, con
                    LabelResult& result) {
   Stopwatch watch;
   const double voxel = input ? input->grey.voxel_size() : run.request.map.voxel_size();
-  result.parameters.tolerance =
-      chosen_tolerance(run.settings, voxel, mean_error_of(run, layers, input), ErrorsLost::kOne);
-  result.parameters.triangles = run.settings.triangles.value_or(0);
+  choose_tolerance(result.parameters, voxel, mean_error_of(run, layers, input), ErrorsLost::kOne);
   for (LayerBoundaries& layer : layers) {
     result.flow_converged &= layer.converged;
     result.boundaries.insert(result.boundaries.end(), layer.boundaries.begin(),
@@ -412,10 +415,10 @@ Result mesh_of(const LabelRun& run, const Volume& part, std::vector<LayerBoundar
   for (LayerBoundaries& layer : layers) images.push_back(std::move(*layer.image));
   Settings settings = run.settings;
   settings.crop = {};
-  settings.level = p.level;
   settings.local_level = false;
   settings.surface = SurfaceKind::kSolid;
-  Result mesh = mesh_beside_labels(part, images, settings, run.progress);
+  const KnownLevel level{p.level, LevelSource::kLabels};
+  Result mesh = mesh_beside_labels(part, images, {settings, level}, run.progress);
   mesh.parameters.crop = p.crop;
   return mesh;
 }
@@ -453,6 +456,7 @@ LabelResult by_labels(const LabelRun& run) {
   run.begin("preparation");
   LabelResult result;
   const LabelBlock block = require_block(run, run.request.map);
+  result.parameters = parameters_asked(run.settings);
   result.seconds.prepare = all.lap();
   std::vector<LayerBoundaries> layers;
   for (const Index layer : layers_of(run.chosen)) {
@@ -471,7 +475,7 @@ double label_margin(const VoxelGrid& scan, const VoxelGrid& labels) {
 }
 
 LabelResult find_labelled_objects(const VolumeView& scan, const LabelRequest& request,
-                                  const Settings& settings, const Progress& progress) {
+                                  const ImageSettings& settings, const Progress& progress) {
   require_usable(scan);
   require_valid(request.map);
   const double margin = request.margin.value_or(label_margin(scan, request.map));

@@ -90,7 +90,7 @@ double label_margin(const VoxelGrid& scan, const VoxelGrid& labels);
 /// O(voxels of the scan * layers) to bring the labels onto its grid; then O(voxels around the
 /// labels) per layer, about 100 bytes for each. The same bits for any number of threads.
 LabelResult find_labelled_objects(const VolumeView& scan, const LabelRequest& request,
-                                  const Settings& settings, const Progress& progress = {});
+                                  const ImageSettings& settings, const Progress& progress = {});
 
 /// Makes smooth surfaces of a label map alone, see smooth_memberships().
 /// @return one object per chosen segment that has voxels.

@@ -36,7 +36,7 @@ bool stops_at_preview(const Parameters& p, const HasEnough& enough) {
   return !p.preview && p.surface == SurfaceKind::kSolid && enough && enough();
 }
 
-Result run_on(const VolumeView& volume, const Settings& settings, const Progress& progress,
+Result run_on(const VolumeView& volume, const ImageSettings& settings, const Progress& progress,
               const HasEnough& enough) {
   Stopwatch watch;
   Result result;
@@ -57,21 +57,21 @@ Result run_on(const VolumeView& volume, const Settings& settings, const Progress
   }
   result.converged &= !result.stopped;
   watch.lap();
-  finish_surface(run, settings, progress, result);
+  finish_surface(run, progress, result);
   result.seconds.printable = watch.lap();
   return result;
 }
 
 }  // namespace
 
-Result mes_amis(const VolumeView& volume, const Settings& settings, const Progress& progress,
+Result mes_amis(const VolumeView& volume, const ImageSettings& settings, const Progress& progress,
                 const HasEnough& enough) {
   Stopwatch watch;
-  require_valid(settings);
+  const CropRange& range = settings.asked.crop;
+  require_valid(settings.asked);
   require_usable(volume);
-  Result result = settings.crop == CropRange{}
-                      ? run_on(volume, settings, progress, enough)
-                      : run_on(crop(volume, settings.crop), settings, progress, enough);
+  Result result = range == CropRange{} ? run_on(volume, settings, progress, enough)
+                                       : run_on(crop(volume, range), settings, progress, enough);
   result.seconds.total = watch.lap();
   return result;
 }

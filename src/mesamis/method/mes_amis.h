@@ -8,11 +8,11 @@
 #include "mesamis/image/volume.h"
 #include "mesamis/mesh/metric.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/method/choose.h"
 #include "mesamis/method/iteration.h"
 #include "mesamis/method/measured_image.h"
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/printable.h"
-#include "mesamis/method/settings.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// The whole method: a scan in, a surface and an adapted mesh out.
@@ -52,7 +52,7 @@ struct Result {
 /// that u and v belong to the mesh they are delivered with. docs/method.md lists all of them.
 ///
 /// @param volume    native units; read in place, nothing is kept of it.
-/// @param settings  valid, see require_valid().
+/// @param settings  valid, see require_valid(); those of a Settings, where no level is known.
 /// @param progress  optional; stages "preparation", "adaptation k of n", "final minimisation",
 ///                  "surface", "decimation".
 /// @param enough    optional; asked before each pass. Stopped before the first one, a run for a
@@ -66,8 +66,8 @@ struct Result {
 ///
 /// Time grows with the number of voxels and with the number of cells times the adaptations; memory
 /// is about memory_needed().
-Result mes_amis(const VolumeView& volume, const Settings& settings, const Progress& progress = {},
-                const HasEnough& enough = {});
+Result mes_amis(const VolumeView& volume, const ImageSettings& settings,
+                const Progress& progress = {}, const HasEnough& enough = {});
 
 /// Finds grey values for the points of the result's surface: of a band u itself; of a solid, where
 /// u is the level everywhere, the maximum within two voxels below it.

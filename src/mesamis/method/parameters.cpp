@@ -8,6 +8,12 @@
 
 namespace mesamis {
 
+Parameters parameters_asked(const Settings& settings) {
+  Parameters p;
+  for (const Setting& setting : setting_table()) setting.use(settings, p);
+  return p;
+}
+
 Settings settings_of(const Parameters& parameters) {
   Settings settings;
   for (const Setting& setting : setting_table()) setting.repeat(parameters, settings);
@@ -24,12 +30,6 @@ double cells_for_surface(double area, double thin_share, const Vec3& spacing, do
   const double finer =
       accuracy > 0 ? std::clamp(kUsual * voxel / accuracy, 1 / kMostFiner, kMostFiner) : 1;
   return finer * per_square * area / (side * side);
-}
-
-std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing,
-                              double accuracy) {
-  const double cells = cells_for_surface(area, thin_share, spacing, accuracy);
-  return std::llround(std::clamp<double>(cells, kFewestTets, kMostTets));
 }
 
 std::array<Index, 3> default_stride(const std::array<Index, 3>& voxels, const Vec3& spacing) {
@@ -64,19 +64,6 @@ std::array<Index, 3> stride_of(const Settings& settings, const std::array<Index,
                                const Vec3& spacing) {
   return settings.stride.value_or(settings.preview ? preview_stride(voxels, spacing)
                                                    : default_stride(voxels, spacing));
-}
-
-double default_tolerance(double voxel, double expected_error, double accuracy, ErrorsLost errors) {
-  constexpr double kLeast = 0.03, kMost = 0.1, kFinest = 0.01;  // voxels
-  if (accuracy > 0) return std::max(accuracy / 2, kFinest * voxel);
-  return static_cast<int>(errors) * std::clamp(expected_error, kLeast * voxel, kMost * voxel);
-}
-
-double chosen_tolerance(const Settings& settings, double voxel, double expected_error,
-                        ErrorsLost errors) {
-  if (settings.tolerance) return *settings.tolerance;
-  if (settings.triangles) return std::numeric_limits<double>::infinity();
-  return default_tolerance(voxel, expected_error, settings.accuracy.value_or(0), errors);
 }
 
 double default_gamma(double epsilon, double beta, double contrast, double noise) {

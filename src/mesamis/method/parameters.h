@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <optional>
 
 #include "mesamis/fem/functional.h"
 #include "mesamis/image/grey_values.h"
@@ -11,8 +11,8 @@
 
 namespace mesamis {
 
-/// What a run uses: every choice made, nothing left open. origin_of() tells of each setting whether
-/// it was given, is the default, or was measured.
+/// What a run uses, see choose.h. origin_of() tells of each setting whether it was given, is the
+/// default, or was measured.
 struct Parameters {
   // The image.
   CropRange crop;                 ///< voxels
@@ -31,7 +31,7 @@ struct Parameters {
   double solver_tolerance = 0;  ///< relative residual of each solve
 
   // The mesh.
-  std::int64_t max_tets = 0;            ///< NMAX
+  std::int64_t max_tets = 0;            ///< NMAX; 0: open, or no mesh is made
   double tau = 0;                       ///< tolerance on the estimator
   int adaptations = 0;                  ///< at most
   double tol_mesh = 0, tol_energy = 0;  ///< relative changes that count as settled
@@ -52,25 +52,28 @@ struct Parameters {
   std::int64_t keep_largest = 0;  ///< islands; 0: all
   bool fill_cavities = false;     ///< every cavity
   double accuracy = 0;            ///< asked for, mm; 0: none was
-  /// Of decimation, mm, both ways; 0: none done; infinite: no bound. The default, see
-  /// default_tolerance(), is set when there is a surface; before, it is infinite.
-  double tolerance = std::numeric_limits<double>::infinity();
+  /// Of decimation, mm, both ways; 0: none done; infinite: no bound; nothing: open until there is a
+  /// surface, see choose_tolerance().
+  std::optional<double> tolerance{};
   std::int64_t triangles = 0;  ///< where decimation stops; 0: nowhere
 
   bool preview = false;  ///< the solid of the first grid; no mesh is made
 };
 
-/// Makes the settings that repeat a run with these parameters: none of them is "auto" but the level
-/// of a band, which has none, the number of cells of a preview, which makes none, and a number of
-/// triangles and an accuracy that the user did not ask for.
+/// Takes over what the settings give, and nothing else.
+Parameters parameters_asked(const Settings& settings);
+
+/// Makes the settings that repeat a run with these parameters: none of them is "auto" but level and
+/// tolerance of a band, which has neither, the number of cells of a preview, which makes none, and a
+/// number of triangles and an accuracy that the user did not ask for.
 Settings settings_of(const Parameters& parameters);
 
 /// Bounds of what "auto" chooses for max_tets.
 inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
 
-/// The default of max_tets: four and a half cells for every square on the object's surface whose
-/// side is the voxel's shortest, between kFewestTets and kMostTets. Marching cubes make about three
-/// triangles there in cubic voxels.
+/// The cells that the surface of an object asks for: four and a half for every square whose side is
+/// the voxel's shortest. Marching cubes make about three triangles there in cubic voxels. Surfaces
+/// of parts of a scan add up to that of the whole.
 ///
 /// The count grows with the extent of the edges, not with the empty space around them. Thick slices
 /// do not lower it, because the mesh has to hold the shape between them; only where slices are
@@ -81,18 +84,11 @@ inline constexpr std::int64_t kFewestTets = 20'000, kMostTets = 2'000'000;
 /// more than it needs.
 ///
 /// A cell of size h leaves a bend by h^2: the number goes with the inverse of the distance that is
-/// asked for, from a quarter of the usual to four times it. The bounds hold after that.
+/// asked for, from a quarter of the usual to four times it.
 /// @param area        of the object's surface, mm^2, >= 0, see measure_extent().
 /// @param thin_share  of the area: walls and gaps thinner than two voxels, 0 to 1.
 /// @param spacing     of the voxels, mm, > 0.
 /// @param accuracy    mean distance to the truth that is asked for, mm, >= 0; 0: the usual.
-/// @return cells.
-std::int64_t default_max_tets(double area, double thin_share, const Vec3& spacing,
-                              double accuracy = 0);
-
-/// The cells of default_max_tets() before its bounds: surfaces of parts of a scan add up to that of
-/// the whole.
-/// @param area, thin_share, spacing, accuracy  as there: mm^2, no unit, mm and mm.
 /// @return a number, no unit.
 double cells_for_surface(double area, double thin_share, const Vec3& spacing, double accuracy = 0);
 
@@ -116,29 +112,6 @@ std::array<Index, 3> preview_stride(const std::array<Index, 3>& voxels, const Ve
 /// @return voxels per node, at least 1.
 std::array<Index, 3> stride_of(const Settings& settings, const std::array<Index, 3>& voxels,
                                const Vec3& spacing);
-
-/// How many times the error to expect decimation may take. Twice costs an object about as little,
-/// once its points have been moved, see refit(), as once does without; labels, slabs and previews
-/// keep to once.
-enum class ErrorsLost { kOne = 1, kTwo = 2 };
-
-/// The default of tolerance: how far the surface is expected to be from the truth, but no less than
-/// 0.03 and no more than 0.1 voxel: a surface that is kept closer keeps detail smaller than its
-/// error. Or twice that. Half of the accuracy, if that is asked for, but no
-/// less than 0.01 voxel.
-/// @param voxel           geometric mean of the spacing, mm, > 0.
-/// @param expected_error  in the mean over the surface, see expected_error(), mm, >= 0.
-/// @param accuracy        mean distance to the truth that is asked for, mm, >= 0; 0: none.
-/// @return mm.
-double default_tolerance(double voxel, double expected_error, double accuracy, ErrorsLost errors);
-
-/// The tolerance of a run: what the settings give; infinite where they give a number of triangles
-/// instead; else default_tolerance().
-/// @param voxel           mm, as for default_tolerance().
-/// @param expected_error  mm, >= 0; infinite where nothing is known of it.
-/// @return mm.
-double chosen_tolerance(const Settings& settings, double voxel, double expected_error,
-                        ErrorsLost errors);
 
 /// The default of gamma, 4 epsilon beta (0.07 c + 0.25 n)^2.
 ///

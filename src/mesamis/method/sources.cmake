@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  choose.h
   chosen_run.h
   deliver.h
   expected_error.h
@@ -18,6 +19,7 @@ set(ROOM_HEADERS
   setting_table.h
   settings.h)
 set(ROOM_SOURCES
+  choose.cpp
   chosen_run.cpp
   deliver.cpp
   expected_error.cpp

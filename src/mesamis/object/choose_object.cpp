@@ -70,7 +70,9 @@ void warn_of_labels(const VolumeView& scan, std::vector<std::string>& warnings) 
 class ObjectChooser {
  public:
   ObjectChooser(Volume scan, const ObjectRequest& request)
-      : request_(request), in_hounsfield_(is_hounsfield(scan)) {
+      : request_(request),
+        units_(request.tissue ? request.tissue->kind : TissueKind::kBright),
+        in_hounsfield_(is_hounsfield(scan)) {
     chosen_.volume = std::move(scan);
     if (in_hounsfield_) chosen_.volume.modality = "CT";  // a part without air tells it no more
     chosen_.crop = request.crop;
@@ -83,15 +85,17 @@ class ObjectChooser {
   ChosenObject run() {
     cropped_size(chosen_.volume, request_.crop);  // refused before any work
     for (const Vec3& seed : request_.seeds) voxel_at(chosen_.volume, seed);
+    if (request_.tissue && !is_level_given()) require_hounsfield(chosen_.volume, *request_.tissue);
     if (!request_.has_labels) warn_of_labels(chosen_.volume, chosen_.warnings);
     fill_padding();
     remove_surroundings();
     if (chosen_.kind == TissueKind::kBright) remove_marked();
+    turn();
     if (chosen_.kind == TissueKind::kDark && request_.tissue->in_patient) fill_around_patient();
     find_level();
     crop_all();
     if (needs_level_of_crop()) set_level(find_tissue_level(chosen_.volume, bright_tissue()), true);
-    if (chosen_.kind != TissueKind::kBright) turn();
+    if (chosen_.kind != TissueKind::kBright) remove_marked();
     if (request_.mask) keep_mask();
     if (!request_.seeds.empty()) keep_seeds();
     return std::move(chosen_);
@@ -139,8 +143,8 @@ class ObjectChooser {
       return;
     }
     const VoxelMask inside = eroded(patient_->mask, chosen_.volume, patient_->grain);
-    chosen_.volume = mirrored(kept_to(mirrored(std::move(chosen_.volume)), inside,
-                                      {.margin = 0, .background = mirrored(kSoftHu)}));
+    chosen_.volume = kept_to(std::move(chosen_.volume), inside,
+                             {.margin = 0, .background = units_.turned(kSoftHu)});
   }
 
   void remove_marked() {
@@ -161,16 +165,19 @@ class ObjectChooser {
     return !(request_.crop == CropRange{}) || request_.mask || !request_.seeds.empty();
   }
 
-  /// In the units of the scan, but 0 for a range.
+  /// Whether no tissue's level is looked for.
+  bool is_level_given() const {
+    return request_.level || request_.tissue->kind == TissueKind::kRange;
+  }
+
+  /// That of a range is 0 unless it is given: by how much a sample lies within.
   void find_level() {
-    if (request_.tissue && request_.tissue->kind == TissueKind::kRange) {
-      chosen_.level = request_.level.value_or(0);
-      chosen_.level_from = request_.level ? LevelSource::kUser : LevelSource::kTissue;
-    } else if (request_.level) {
-      chosen_.level = request_.level;
-      chosen_.level_from = LevelSource::kUser;
+    if (request_.level) {
+      chosen_.level = {units_.turned(*request_.level), LevelSource::kUser};
+    } else if (chosen_.kind == TissueKind::kRange) {
+      chosen_.level = {0, LevelSource::kTissue};
     } else if (request_.tissue) {
-      set_level(find_tissue_level(chosen_.volume, *request_.tissue), false);
+      set_level(find_tissue_level(chosen_.volume, units_.turned(*request_.tissue)), false);
     } else if (in_hounsfield_ && is_part() && wants_level()) {
       set_level(find_tissue_level(chosen_.volume, bright_tissue()), false);
     }
@@ -183,16 +190,15 @@ class ObjectChooser {
   }
 
   void set_level(const TissueLevel& found, bool in_crop) {
-    chosen_.level = found.level;
-    chosen_.level_uncertainty = found.uncertainty;
+    const LevelSource from = !found.measured ? LevelSource::kTissue
+                             : in_crop       ? LevelSource::kCrop
+                                             : LevelSource::kScan;
+    chosen_.level = {found.level, from, found.uncertainty};
     if (found.contrast.difference() != 0) background_ = found.contrast.background;
-    chosen_.level_from = !found.measured ? LevelSource::kTissue
-                         : in_crop       ? LevelSource::kCrop
-                                         : LevelSource::kScan;
     const bool given = request_.tissue && request_.tissue->level_is_given();
     if (found.measured || given) return;
     chosen_.warnings.push_back(line(
-        "tissue: the level %.4g is %s; %s may not be in this scan", found.level,
+        "tissue: the level %.4g is %s; %s may not be in this scan", units_.turned(found.level),
         found.bounded ? "an end of its range" : "where the search starts, as nothing was found",
         request_.tissue ? chosen_.tissue.c_str() : "the object"));
   }
@@ -210,20 +216,18 @@ class ObjectChooser {
     if (chosen_.kind == TissueKind::kRange) {
       chosen_.volume = within_range(std::move(chosen_.volume), request_.tissue->values);
       chosen_.volume.modality = "within range";
-    } else {
+    } else if (chosen_.kind == TissueKind::kDark) {
       chosen_.volume = mirrored(std::move(chosen_.volume));
       chosen_.volume.modality = "mirrored";
-      chosen_.level = mirrored(*chosen_.level);
-      if (background_) background_ = mirrored(*background_);
     }
-    remove_marked();
   }
 
   /// What falls away falls to this: what is around the object.
   double background() const {
-    if (background_ && (!chosen_.level || *background_ < *chosen_.level)) return *background_;
-    if (!chosen_.level) return otsu_split(chosen_.volume.samples).mean_below;
-    return otsu_split(chosen_.volume.samples, *chosen_.level).mean_above;
+    const auto& level = chosen_.level;
+    if (background_ && (!level || *background_ < level->value)) return *background_;
+    if (!level) return otsu_split(chosen_.volume.samples).mean_below;
+    return otsu_split(chosen_.volume.samples, level->value).mean_above;
   }
 
   void keep_mask() {
@@ -236,7 +240,8 @@ class ObjectChooser {
   /// A seed in a cavity, as in a marrow canal, counts for what encloses it.
   void keep_seeds() {
     const VolumeView volume = chosen_.volume;
-    const VoxelMask above = mask_above(volume, *chosen_.level);
+    const double level = chosen_.level->value;
+    const VoxelMask above = mask_above(volume, level);
     const VoxelMask solid = without_cavities(above, volume);
     std::vector<std::array<Index, 3>> places;
     for (const Vec3& seed : request_.seeds) places.push_back(place_of(seed, solid));
@@ -245,7 +250,7 @@ class ObjectChooser {
       darken_others(above, island_at(solid, volume, places[0]));
       return;
     }
-    chosen_.parts = split_at_seeds(volume, solid, *chosen_.level, places);
+    chosen_.parts = split_at_seeds(volume, solid, level, places);
     const auto& labels = chosen_.parts->layers[0];
     VoxelMask wanted(labels.size());
     for (std::size_t n = 0; n < wanted.size(); ++n) wanted[n] = labels[n] != 0;
@@ -259,7 +264,7 @@ class ObjectChooser {
     throw InputError(
         line("seed: expected values %s %.4g within %g mm of %g,%g,%g (LPS), found "
              "none",
-             dark ? "below" : "above", dark ? -*chosen_.level : *chosen_.level, kBesideMm, seed.x,
+             dark ? "below" : "above", units_.turned(chosen_.level->value), kBesideMm, seed.x,
              seed.y, seed.z));
   }
 
@@ -277,10 +282,11 @@ class ObjectChooser {
   }
 
   const ObjectRequest& request_;
+  ImageUnits units_;
   bool in_hounsfield_;
   ChosenObject chosen_;
   std::optional<Patient> patient_;
-  std::optional<double> background_;  // measured at the object's surface
+  std::optional<double> background_;  // measured at the object's surface, units of the image
 };
 
 }  // namespace
@@ -303,8 +309,7 @@ std::optional<ChosenObject> choose_in_place(const VolumeView& scan, const Object
   static_cast<VoxelGrid&>(chosen.volume) = scan;
   if (is_hounsfield(scan)) chosen.volume.modality = "CT";
   if (!request.has_labels) warn_of_labels(scan, chosen.warnings);
-  chosen.level = request.level;
-  if (request.level) chosen.level_from = LevelSource::kUser;
+  if (request.level) chosen.level = {*request.level, LevelSource::kUser};
   return chosen;
 }
 
@@ -315,9 +320,10 @@ std::vector<std::string> surface_warnings(const ChosenObject& object, double lev
 std::vector<std::string> surface_warnings(const ChosenObject& object, const VolumeView& image,
                                           double level) {
   constexpr double kMostAtBorder = 0.05;
-  const double in_image = object.kind == TissueKind::kDark ? mirrored(level) : level;
+  const double in_image = object.units().turned(level);
   std::vector<std::string> warnings;
-  const bool guessed = object.tissue.empty() && object.level_from != LevelSource::kUser;
+  const bool given = object.level && object.level->from == LevelSource::kUser;
+  const bool guessed = object.tissue.empty() && !given;
   if (guessed && surface_at_level(image, in_image) == "skin") {
     warnings.push_back(
         line("surface: the level %.4g HU is likely that of the skin; --tissue says what is meant",

@@ -7,21 +7,14 @@
 
 #include "mesamis/image/label_map.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/object/known_level.h"
+#include "mesamis/object/mirror.h"
 #include "mesamis/object/object_request.h"
 #include "mesamis/object/patient.h"
 #include "mesamis/object/voxel_distance.h"
 
 /// From a scan and what a user says of the object to an image that shows this object alone.
 namespace mesamis {
-
-/// Where a level comes from.
-enum class LevelSource {
-  kRun,    ///< the run measures it
-  kUser,   ///< given
-  kScan,   ///< measured in the whole scan
-  kCrop,   ///< measured in the cropped scan
-  kTissue  ///< an end of the tissue's range, or where its search starts
-};
 
 /// Padding that was filled.
 struct FilledPadding {
@@ -35,17 +28,18 @@ struct ChosenObject {
   Volume volume;                          ///< the object is brighter than what is around it
   TissueKind kind = TissueKind::kBright;  ///< dark: mirrored(); range: within_range()
   std::string tissue;                     ///< its name; empty: none was asked for
-  std::optional<double> level;            ///< units of the volume; nothing: the run measures it
-  double level_uncertainty = 0;           ///< native units; 0: not known
-  LevelSource level_from = LevelSource::kRun;
-  CropRange crop;                        ///< the part of the scan that the volume is
-  std::vector<Surroundings> removed;     ///< from the whole scan
-  std::optional<FilledPadding> padding;  ///< of the whole scan
-  VoxelMask unmeasured;                  ///< the padding, by voxels of the volume; empty: none
-  std::optional<LabelMap> parts;         ///< of two seeds and more, see split_at_seeds()
-  bool alone = false;                    ///< one seed: the volume shows a single island
-  std::vector<std::string> notes;        ///< one line each: what was done unasked
-  std::vector<std::string> warnings;     ///< one line each: what may not be what was meant
+  std::optional<KnownLevel> level;        ///< nothing: the run measures it
+  CropRange crop;                         ///< the part of the scan that the volume is
+  std::vector<Surroundings> removed;      ///< from the whole scan
+  std::optional<FilledPadding> padding;   ///< of the whole scan
+  VoxelMask unmeasured;                   ///< the padding, by voxels of the volume; empty: none
+  std::optional<LabelMap> parts;          ///< of two seeds and more, see split_at_seeds()
+  bool alone = false;                     ///< one seed: the volume shows a single island
+  std::vector<std::string> notes;         ///< one line each: what was done unasked
+  std::vector<std::string> warnings;      ///< one line each: what may not be what was meant
+
+  /// From the units of the scan to those of the volume, and back.
+  ImageUnits units() const noexcept { return ImageUnits(kind); }
 };
 
 /// Makes the image of the object that is meant.
@@ -54,9 +48,9 @@ struct ChosenObject {
 /// of the other samples do not exceed); what is outside of the patient goes, see
 /// without_surroundings(), and for a dark tissue of the body the air around it too; what is marked
 /// to be removed falls to the median of what is around it (for a dark object or a range of values
-/// later, in the cropped image that has become bright); the level is measured in the whole scan;
-/// the scan is cropped; a dark object or a range of values becomes bright; what lies beyond the
-/// mask goes; at the level, islands without a seed go, and several seeds split what touches.
+/// later, in the cropped image); a dark object or a range of values becomes bright; the level is
+/// measured in the whole scan; the scan is cropped; what lies beyond the mask goes; at the level,
+/// islands without a seed go, and several seeds split what touches.
 ///
 /// A level is measured here for a tissue, in CT for a crop, a mask or seeds, and in other scans for
 /// a mask or seeds, there in the crop. Without a tissue it is the number that a run finds in the

@@ -15,6 +15,18 @@ Volume mirrored(Volume volume) {
   return volume;
 }
 
+GreyMap ImageUnits::turned(const GreyMap& map) const noexcept {
+  const Window window = turned(Window{map.low, map.high});
+  return {window.low, window.high, map.has_threshold() ? turned(map.threshold) : window.low};
+}
+
+Tissue ImageUnits::turned(Tissue tissue) const {
+  tissue.values = turned(tissue.values);
+  tissue.levels = turned(tissue.levels);
+  if (tissue.start) tissue.start = turned(*tissue.start);
+  return tissue;
+}
+
 Volume within_range(Volume volume, const Window& range) {
   if (!(range.low < range.high)) {
     std::ostringstream message;

@@ -3,6 +3,7 @@
 
 #include "mesamis/image/grey_values.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/object/object_request.h"
 
 /// Dark objects (airways in CT, bone in MR): in the mirrored image they are bright.
 namespace mesamis {
@@ -13,12 +14,29 @@ namespace mesamis {
 /// @return native units, mirrored.
 Volume mirrored(Volume volume);
 
-/// The level, native units, that belongs to a mirrored one, and the other way round.
-inline double mirrored(double level) noexcept { return -level; }
+/// From the native units of a scan to those of an object's image, and back: the same function both
+/// ways. For a dark object all values change their sign, and the ends of a window change places; for
+/// others nothing does.
+class ImageUnits {
+ public:
+  /// Of the image of such a tissue.
+  explicit ImageUnits(TissueKind kind = TissueKind::kBright) noexcept
+      : mirrored_(kind == TissueKind::kDark) {}
 
-/// The window, native units, that belongs to a mirrored one, and the other way round: its ends
-/// change places.
-inline Window mirrored(const Window& window) noexcept { return {-window.high, -window.low}; }
+  /// A value, or a difference of two.
+  double turned(double value) const noexcept { return mirrored_ ? -value : value; }
+  /// A range of values.
+  Window turned(const Window& window) const noexcept {
+    return mirrored_ ? Window{-window.high, -window.low} : window;
+  }
+  /// Window and threshold.
+  GreyMap turned(const GreyMap& map) const noexcept;
+  /// A tissue: a dark one is bright where all values have changed their sign.
+  Tissue turned(Tissue tissue) const;
+
+ private:
+  bool mirrored_;
+};
 
 /// Makes an image in which all that lies between two values is bright: that many native units above
 /// 0 by which a sample is within the range, and below 0 those outside. Its level is 0.

@@ -3,6 +3,7 @@ set(ROOM_HEADERS
   patient.h
   choose_object.h
   keep.h
+  known_level.h
   mirror.h
   object_request.h
   padding.h

@@ -2,11 +2,9 @@
 #include "mesamis/object/tissue_level.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "mesamis/base/error.h"
 #include "mesamis/image/grey_values.h"
-#include "mesamis/object/mirror.h"
 #include "mesamis/restore/object_edge.h"
 
 namespace mesamis {
@@ -20,17 +18,7 @@ HalfMaximumLevel measure(const VolumeView& volume, const std::optional<double>& 
   return find_object_edge(clamped(volume, window), seen);
 }
 
-/// The same for the dark object, in the units of the volume.
-HalfMaximumLevel measure_dark(const VolumeView& volume, const std::optional<double>& start) {
-  Volume mirror = mirrored(copy_volume(volume));
-  mirror.modality = "mirrored";  // its values are no Hounsfield units
-  const auto from = start ? std::optional(mirrored(*start)) : std::nullopt;
-  HalfMaximumLevel object = measure(mirror, from);
-  object.level = mirrored(object.level);
-  object.contrast.background = -object.contrast.background;
-  object.contrast.object = -object.contrast.object;
-  return object;
-}
+}  // namespace
 
 void require_hounsfield(const VolumeView& scan, const Tissue& tissue) {
   if (!tissue.hounsfield || is_hounsfield(scan)) return;
@@ -38,18 +26,13 @@ void require_hounsfield(const VolumeView& scan, const Tissue& tissue) {
                    ", found other values; dark and LO:HI fit any scan");
 }
 
-}  // namespace
-
-TissueLevel find_tissue_level(const VolumeView& scan, const Tissue& tissue) {
-  require_hounsfield(scan, tissue);
+TissueLevel find_tissue_level(const VolumeView& image, const Tissue& tissue) {
   TissueLevel result;
   if (tissue.level_is_given()) {
     result.level = tissue.levels.low;
     return result;
   }
-  const bool dark = tissue.kind == TissueKind::kDark;
-  const HalfMaximumLevel object =
-      dark ? measure_dark(scan, tissue.start) : measure(scan, tissue.start);
+  const HalfMaximumLevel object = measure(image, tissue.start);
   if (object.contrast.difference() == 0 || object.in_noise) {
     if (!tissue.start) {
       throw InputError("tissue: expected an object that stands out of the noise, found none");

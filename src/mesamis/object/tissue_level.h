@@ -9,8 +9,8 @@ namespace mesamis {
 
 /// The level of a tissue's surface.
 struct TissueLevel {
-  double level = 0;         ///< native units of the scan, also for dark tissues
-  ObjectContrast contrast;  ///< at the surface; object below background for dark tissues
+  double level = 0;         ///< units of the image
+  ObjectContrast contrast;  ///< at the surface, units of the image
   double uncertainty = 0;   ///< native units, see HalfMaximumLevel; 0 if the user gave the level
   bool measured = false;    ///< false: given by the user, or nothing was found in Tissue::levels
   bool bounded = false;     ///< the half maximum was beyond Tissue::levels, and their end is taken
@@ -26,15 +26,18 @@ struct TissueLevel {
 ///
 /// The steps are those of a run without a tissue (find_half_maximum_level() from Tissue::start,
 /// then find_object_edge() in the default window), and for bone the result is the same number,
-/// unless it lies beyond Tissue::levels. Dark tissues are measured in the mirrored image.
-/// @param scan    whole, usable, see require_usable(); without_surroundings() and without padding
-///                where there are such.
-/// @param tissue  of tissue_table() or parse_tissue(). For a range LO:HI the level is LO.
+/// unless it lies beyond Tissue::levels.
+/// @param image   of the whole scan, in which the tissue is bright (see ImageUnits); usable, see
+///                require_usable(); without_surroundings() and without padding where there are such.
+/// @param tissue  in the units of the image. For a range LO:HI the level is LO.
 /// @return a level within Tissue::levels; where nothing can be measured, Tissue::start.
-/// @throws InputError  if the tissue needs Hounsfield units and the scan has none, or there is
-///                     nothing to measure and no start.
+/// @throws InputError  if there is nothing to measure and no start.
 ///
 /// O(voxels) per iteration, see find_half_maximum_level(); two copies of the samples.
-TissueLevel find_tissue_level(const VolumeView& scan, const Tissue& tissue);
+TissueLevel find_tissue_level(const VolumeView& image, const Tissue& tissue);
+
+/// Refuses a tissue whose values mean something in CT alone, in a scan that is none.
+/// @throws InputError  if the tissue needs Hounsfield units and the scan has none.
+void require_hounsfield(const VolumeView& scan, const Tissue& tissue);
 
 }  // namespace mesamis

@@ -48,7 +48,7 @@ ordered_json label_run_json(const LabelResult& result, std::span<const SurfaceCh
   ordered_json report;
   if (result.has_image) report["settings"] = to_json(settings_of(p));
   report["object"] = {{"margin_mm", result.has_image ? ordered_json(result.margin) : nullptr},
-                      {"tolerance_mm", p.tolerance},
+                      {"tolerance_mm", p.tolerance.value()},
                       {"surfaces", std::move(objects)},
                       {"boundaries", std::move(boundaries)}};
   if (result.has_image) report["converged"] = result.flow_converged;

@@ -20,6 +20,8 @@ const char* source_name(LevelSource source) {
       return "crop";
     case LevelSource::kTissue:
       return "tissue";
+    case LevelSource::kLabels:
+      return "labels";
   }
   return "";
 }
@@ -53,7 +55,7 @@ ordered_json object_json(const ObjectRequest& request, const ChosenObject& chose
   if (request.mask) mask = {{"margin_mm", request.margin}};
   return {{"tissue", chosen.tissue.empty() ? ordered_json(nullptr) : ordered_json(chosen.tissue)},
           {"image", image_name(chosen.kind)},
-          {"level_from", source_name(chosen.level_from)},
+          {"level_from", source_name(chosen.level ? chosen.level->from : LevelSource::kRun)},
           {"mask", std::move(mask)},
           {"seeds_mm", std::move(seeds)},
           {"removed", std::move(removed)},

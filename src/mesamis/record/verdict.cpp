@@ -60,8 +60,8 @@ Verdict judge(const Result& result, const SurfaceCheck& check) {
     return {VerdictKind::kNotClosed,
             "expected a closed 2-manifold surface that faces outward, found " + flaws};
   }
-  if (solid && !result.printable.within(p.tolerance)) {
-    return {VerdictKind::kNotConverged, tolerance_unmet(p.tolerance, result.printable)};
+  if (solid && !result.printable.within(p.tolerance.value())) {
+    return {VerdictKind::kNotConverged, tolerance_unmet(*p.tolerance, result.printable)};
   }
   if (!result.converged) return {VerdictKind::kNotConverged, why_not_converged(result)};
   if (solid && p.accuracy > 0) {

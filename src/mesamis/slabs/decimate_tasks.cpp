@@ -61,7 +61,7 @@ CoverPiece read_cover(const Scratch& scratch, const std::string& name, SlabWork*
 
 DecimateOptions decimate_options(const SurfaceRun& run) {
   DecimateOptions options;
-  options.tolerance = run.parameters.tolerance - run.parts.shift;
+  options.tolerance = *run.parameters.tolerance - run.parts.shift;
   return options;
 }
 
@@ -327,7 +327,7 @@ SlabWork measure_slab(const SurfaceRun& run, Index s) {
   measured.triangles = std::ssize(originals[0].triangles);
   const auto distance = [&](const TriMesh& from, const TriMesh& to) {
     if (from.triangles.empty()) return 0.0;
-    return max_distance(from, to, fine_enough(from, run.parameters.tolerance));
+    return max_distance(from, to, fine_enough(from, *run.parameters.tolerance));
   };
   const TriMesh own = rounded_in_world(run, join(delivered));
   // A border's piece is delivered by the slab below, and stands for parts of both.
@@ -347,7 +347,7 @@ SlabWork measure_slab(const SurfaceRun& run, Index s) {
 
 bool decimates_in_slabs(const SurfaceRun& run) {
   const Parameters& p = run.parameters;
-  return p.triangles == 0 && std::isfinite(p.tolerance) && p.tolerance > run.parts.shift;
+  return p.triangles == 0 && std::isfinite(*p.tolerance) && *p.tolerance > run.parts.shift;
 }
 
 std::vector<SurfacePiece> decimated_by(const SurfaceRun& run, Index s, SlabWork* work) {

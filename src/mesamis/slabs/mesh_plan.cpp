@@ -87,13 +87,9 @@ MeshRun::MeshRun(const SlabRun& run)
       input(prepared),
       grid(grid_slabs(run)) {
   const VoxelGrid& whole = run.plan.whole;
-  Parameters& p = prepared.parameters;
-  if (p.max_tets == 0) {
-    double cells = 0;
-    for (const GridSlab& slab : grid) cells += slab.extent.cells;
-    p.max_tets = std::llround(
-        std::clamp<double>(cells, kFewestTets, static_cast<double>(kMostTets) * count()));
-  }
+  double cells = 0;
+  for (const GridSlab& slab : grid) cells += slab.extent.cells;
+  choose_max_tets(prepared.parameters, cells, count());
   static_cast<VoxelGrid&>(prepared.grey) = whole;
   auto mapped = map_items<float>(run.scratch.path(kImageFile), whole.voxel_count());
   prepared.image = {whole, mapped.values, grid[0].extent.low, grid[0].extent.high, mapped.owner};

@@ -48,13 +48,6 @@ ChosenObject choose_in(Volume scan, const Settings& settings) {
   return choose_object(std::move(scan), object_request(settings));
 }
 
-ChosenParameters choose_of_object(const ChosenObject& object, const VoxelGrid& whole,
-                                  const Settings& settings) {
-  ChosenParameters choice = choose_parameters(object.volume, whole, settings_for(object, settings));
-  if (object.level_uncertainty > 0) choice.measured.level_uncertainty = object.level_uncertainty;
-  return choice;
-}
-
 /// The slices that stand for the scan.
 SliceRange slices_to_look_at(const SliceSource& source, const Scratch& scratch, Stages& stages) {
   const VoxelGrid& whole = source.grid();
@@ -86,15 +79,13 @@ SlabRun begin_run(const SliceSource& source, const Settings& settings, const Scr
   const VoxelGrid& whole = source.grid();
   const SliceRange sample = slices_to_look_at(source, scratch, stages);
   stages.run("choose", 1, [&](Index) {
-    ChosenParameters choice = choose_of_object(
-        choose_in(read_slab(source, sample.first, sample.count), settings), whole, settings);
-    choice.parameters.max_tets = settings.max_tets.value_or(0);  // else as the slabs' surfaces need
+    const ChosenObject object = choose_in(read_slab(source, sample.first, sample.count), settings);
     ArchiveWriter archive;
-    archive.add_one(choice);
+    archive.add_one(choose_from_part(object.volume, whole, settings_for(object, settings)));
     scratch.write("choice", archive);
     return SlabWork{};
   });
-  auto choice = scratch.read("choice").next_one<ChosenParameters>();
+  auto choice = scratch.read("choice").next_one<Chosen>();
   Parameters& p = choice.parameters;
   const SlabPlan plan = even_plan(whole, {p.unit_mm, p.functional.beta, slabs});
   p.h_max = std::max(p.h_min, std::min(p.h_max, plan.least_thickness()));
@@ -124,7 +115,7 @@ int run_meshes(MeshRun& run, Stages& stages) {
 }
 
 /// All tasks on the surface.
-void run_surface(SurfaceRun& run, Stages& stages, const Settings& settings, bool grey) {
+void run_surface(SurfaceRun& run, Stages& stages, bool grey) {
   const Index slabs = run.count();
   Parameters& p = run.parameters;
   stages.for_slabs("surface", slabs, [&](Index s) { return extract_slab(run, s); });
@@ -133,8 +124,7 @@ void run_surface(SurfaceRun& run, Stages& stages, const Settings& settings, bool
   stages.for_borders("follow at borders", slabs, [&](Index s) { return follow_border(run, s); });
   stages.for_slabs("parts", slabs, [&](Index s) { return list_parts(run, s); });
   learn_parts(run);
-  p.tolerance = chosen_tolerance(settings, run.mesh.input.grey.voxel_size(), run.parts.mean_error,
-                                 ErrorsLost::kOne);
+  choose_tolerance(p, run.mesh.input.grey.voxel_size(), run.parts.mean_error, ErrorsLost::kOne);
   if (!decimates_in_slabs(run)) return;
   stages.for_slabs("nesting", slabs, [&](Index s) { return cross_rays(run, s); });
   learn_choice(run, {p.min_volume, p.keep_largest, p.fill_cavities});
@@ -192,17 +182,16 @@ bool take_decimated(const SurfaceRun& run, Result& result) {
   result.printable.result_to_extracted += rounding.shift;
   tell_error(run.mesh.input, result);
   return std::max(result.printable.extracted_to_result, result.printable.result_to_extracted) <=
-         run.parameters.tolerance;
+         *run.parameters.tolerance;
 }
 
 /// The surface as it is delivered, and what is known of it.
 /// @return whether it is what the slabs have decimated; else all of it was finished at once.
-bool deliver_surface_of(const SurfaceRun& run, const Settings& settings, const Progress& progress,
-                        Result& result) {
+bool deliver_surface_of(const SurfaceRun& run, const Progress& progress, Result& result) {
   if (take_decimated(run, result)) return true;
   result.surface = followed_surface(run);
   turn_as_grid(run.mesh.input, result.surface);
-  finish_surface(run.mesh.input, settings, progress, result);
+  finish_surface(run.mesh.input, progress, result);
   return false;
 }
 
@@ -224,15 +213,14 @@ void drop_mesh(Result& result) {
   result.metric = {};
 }
 
-SlabRunResult deliver(const SurfaceRun& run, const Settings& settings,
-                      const SlabRunOptions& options, const Stages& stages) {
+SlabRunResult deliver(const SurfaceRun& run, const SlabRunOptions& options, const Stages& stages) {
   const MeshRun& mesh = run.mesh;
   SlabRunResult all;
   Result& result = all.result;
   result.parameters = run.parameters;
   result.image = mesh.prepared.measured;
   Stopwatch watch;
-  const bool in_slabs = deliver_surface_of(run, settings, options.progress, result);
+  const bool in_slabs = deliver_surface_of(run, options.progress, result);
   result.seconds.printable = watch.lap();
   // Of the whole surface, the grey values come from the whole mesh.
   const bool needs_mesh = options.mesh || (options.grey && !in_slabs);
@@ -359,10 +347,10 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
   MeshRun meshes(run);
   SurfaceRun surface(meshes, run_meshes(meshes, stages));
   require_full(meshes, surface.last);
-  run_surface(surface, stages, settings, options.grey);
+  run_surface(surface, stages, options.grey);
   team.wait_for_all();  // all have read what rank 0 removes at the end
   if (team.rank() != 0) return std::nullopt;
-  return deliver(surface, settings, options, stages);
+  return deliver(surface, options, stages);
 }
 
 }  // namespace

@@ -57,10 +57,7 @@ SlabExtent extent_in(const SlabRun& run, Index s, const Prepared& prepared, cons
   // To where the next one begins; crossings within that slice count for both, which is little.
   own.end = std::min(own.end + 1, run.plan.whole.size[2]);
   Prepared part{prepared.parameters, prepared.measured, cut_out(prepared.grey, held, own), {}};
-  const SurfaceExtent extent = extent_of(part);
-  const double cells = cells_for_surface(extent.area, extent.thin_share, run.plan.whole.spacing,
-                                         run.choice.parameters.accuracy);
-  return {cells, prepared.image.low, prepared.image.high};
+  return {cells_of(part), prepared.image.low, prepared.image.high};
 }
 
 /// The share of all cells that the first mesh has, where no bound acts on their number.

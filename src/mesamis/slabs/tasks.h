@@ -29,7 +29,7 @@ struct SlabRun {
   const Scratch& scratch;
   SlabPlan plan;  ///< of voxels
   /// h_max at most least_thickness(): larger cells would reach over whole slabs.
-  ChosenParameters choice;
+  Chosen choice;
 };
 
 /// What the surface in a slab asks for.

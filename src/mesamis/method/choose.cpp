@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/choose.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "mesamis/base/error.h"
+#include "mesamis/image/grey_values.h"
+#include "mesamis/method/setting_table.h"
+#include "mesamis/restore/level_crossings.h"
+#include "mesamis/restore/object_edge.h"
+#include "mesamis/restore/surface_extent.h"
+#include "mesamis/restore/tissue_threshold.h"
+
+namespace mesamis {
+namespace {
+
+/// Voxels: what is smaller cannot be told from noise.
+constexpr double kDefaultMinVolume = 4;
+/// The paper's T of (13), of 255 grey values.
+constexpr double kPaperThreshold = 140;
+
+/// A quarter of the box's longest side, in length units.
+double default_h_max(const VoxelGrid& volume, double unit_mm) {
+  const Vec3 extent = volume.box().extent();
+  return std::max({extent.x, extent.y, extent.z}) / 4 / unit_mm;
+}
+
+/// Settings that are taken over, and those that follow from the volume's grid alone.
+Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
+  Parameters p;
+  p.unit_mm = s.length_unit == LengthUnit::kMm ? 1 : volume.voxel_size();
+  p.stride = stride_of(s, volume.size, volume.spacing);
+  p.functional.eta = s.epsilon * s.epsilon;
+  p.h_max = std::max(s.h_min, default_h_max(volume, p.unit_mm));
+  p.min_volume = kDefaultMinVolume * volume.voxel_volume();
+  for (const Setting& setting : setting_table()) setting.use(s, p);
+  return p;
+}
+
+/// What restore() makes of the image; where restoring is off, the image as it is, with its noise.
+Restored restore_if_asked(Volume image, const HalfMaximumLevel& object, const Settings& settings) {
+  if (settings.restore) return restore(std::move(image), object, {settings.noise, settings.blur});
+  constexpr std::array<double, 3> kNone{};
+  Restored as_it_is = restore(image, object, {settings.noise, kNone});
+  as_it_is.volume = std::move(image);
+  as_it_is.noise_left = as_it_is.noise;
+  as_it_is.impulses = 0;
+  return as_it_is;
+}
+
+/// T of (13), in native units; the window's low end if it does not act.
+/// @param measured  see find_tissue_threshold().
+double choose_threshold(const Settings& settings, const GreyMap& map,
+                        const std::optional<double>& measured, double level) {
+  switch (settings.threshold_rule) {
+    case ThresholdRule::kNone:
+      return map.low;
+    case ThresholdRule::kPaper:
+      return map.to_native(kPaperThreshold);
+    case ThresholdRule::kValue:
+      return std::max(map.low, settings.threshold);
+    case ThresholdRule::kAuto:
+      break;
+  }
+  // A level below T would be everywhere: what the user asks to see comes first.
+  return measured && *measured < level ? std::max(map.low, *measured) : map.low;
+}
+
+/// The level of the object's edge. Where T lies above it, T is the background that is left: midway
+/// between T and the object.
+double level_above(const GreyMap& map, const HalfMaximumLevel& object) {
+  if (!map.has_threshold() || object.level > map.threshold) return object.level;
+  return (map.threshold + object.contrast.object) / 2;
+}
+
+/// See default_gamma(); the paper's value where there is no object to tell the contrast from.
+double choose_gamma(const Parameters& p, double native_contrast, double native_noise) {
+  constexpr double kPaper = 0.1;
+  const double grey_per_native = p.grey.grey_per_native();
+  const double contrast = native_contrast * grey_per_native;
+  if (!(contrast > 0)) return kPaper;
+  return default_gamma(p.functional.epsilon, p.functional.beta, contrast,
+                       native_noise * grey_per_native);
+}
+
+/// A level that no voxel, or every voxel, lies above has no surface, whatever the window is: it is
+/// refused before any work.
+void require_level_in_data(const VolumeView& volume, const ImageSettings& settings) {
+  if (!settings.level || settings.asked.surface != SurfaceKind::kSolid) return;
+  const auto [least, most] = sample_range(volume.samples);
+  const double level = settings.level->value;
+  if (least < level && level < most) return;
+  std::ostringstream message;
+  message << "level: expected a value between the least and the greatest of the data, " << least
+          << " to " << most << ", found " << level;
+  throw InputError(message.str());
+}
+
+/// Settings that leave nothing to see, or nothing at the level, are refused.
+void require_contrast(const VolumeView& volume, const Parameters& p) {
+  const double level = p.level;
+  const double low = p.grey.threshold, high = p.grey.high;
+  const auto [least, most] = sample_range(volume.samples);
+  const bool sees_samples = least < high && most > low;
+  const bool sees_level = low < level && level < high;
+  std::ostringstream message;
+  if (!sees_samples) {
+    message << "window: expected one that holds some of the samples, which go from " << least
+            << " to " << most << ", found " << low << "," << high;
+  } else if (p.surface == SurfaceKind::kSolid && !sees_level) {
+    message << "level: expected a value between the window's ends and above the threshold, " << low
+            << " to " << high << ", found " << level;
+  }
+  if (!message.str().empty()) throw InputError(message.str());
+}
+
+/// A preview makes no cells.
+bool cells_are_open(const Parameters& p) { return p.max_tets == 0 && !p.preview; }
+
+/// The level that is known, or one that was measured.
+double level_or(const ImageSettings& settings, double measured) {
+  return settings.level ? settings.level->value : measured;
+}
+
+/// Takes what the level of each place exceeds the object's off the image.
+LocalLevel level_out(Restored& restored, const ObjectContrast& contrast, double level) {
+  if (!(contrast.difference() > 0)) return {};
+  LocalLevel local = find_local_level(restored.volume, contrast, level, restored.noise);
+  take_off(local, restored.volume);
+  return local;
+}
+
+/// The window and the object that is seen in it.
+struct Seen {
+  HalfMaximumLevel object;  ///< through all of the surface
+  Window window;
+};
+
+Seen look_at(const VolumeView& image, const ImageSettings& settings) {
+  const HalfMaximumLevel seen = find_half_maximum_level(image);
+  if (seen.in_noise && !settings.level && settings.asked.surface == SurfaceKind::kSolid) {
+    throw InputError("level: found no object that stands out of the noise; expected --level");
+  }
+  return {seen, settings.asked.window.value_or(
+                    window_with_room(image, seen.contrast, level_or(settings, seen.level)))};
+}
+
+/// What was found out about the image beside the parameters.
+MeasuredImage measured_of(const Restored& restored, const HalfMaximumLevel& object,
+                          const ImageSettings& settings, const LocalLevel& local) {
+  return {restored.noise_left,
+          restored.noise_correlation,
+          restored.impulses,
+          object.contrast.difference(),
+          settings.level ? settings.level->uncertainty : object.uncertainty,
+          local.range};
+}
+
+ChosenImage choose_but_cells(const VolumeView& image, const VoxelGrid& whole,
+                             const ImageSettings& settings) {
+  require_level_in_data(image, settings);
+  const Settings& asked = settings.asked;
+  const auto [seen, window] = look_at(image, settings);
+  Volume scan = clamped(image, window);
+  const HalfMaximumLevel object = find_object_edge(scan, seen);
+  Restored restored = restore_if_asked(std::move(scan), object, asked);
+
+  ChosenImage found{{parameters_from_grid(whole, asked), {}, object, restored.impulse_height}, {}};
+  Parameters& p = found.chosen.parameters;
+  p.grey = {window.low, window.high, window.low};
+  p.noise = restored.noise;
+  p.blur = restored.blur;
+  const double level = level_or(settings, object.level);
+  if (p.local_level) found.local = level_out(restored, object.contrast, level);
+  const auto threshold = find_tissue_threshold(image, seen.contrast, seen.level, restored.noise);
+  p.grey.threshold = choose_threshold(asked, p.grey, threshold, level);
+  p.level = settings.level ? level : level_above(p.grey, object);
+  found.chosen.measured = measured_of(restored, object, settings, found.local);
+  if (!asked.gamma) {
+    p.functional.gamma = choose_gamma(p, object.contrast.difference(), restored.noise_left);
+  }
+  require_contrast(restored.volume, p);
+  found.restored = std::move(restored.volume);
+  return found;
+}
+
+}  // namespace
+
+ChosenImage choose(const VolumeView& image, const ImageSettings& settings) {
+  ChosenImage found = choose_but_cells(image, image, settings);
+  Parameters& p = found.chosen.parameters;
+  if (!cells_are_open(p)) return found;
+  const MeasuredImage& measured = found.chosen.measured;
+  const ImageEdge edge{p.level, measured.contrast, measured.noise_left};
+  choose_max_tets(p, cells_of_image(found.restored, edge, p.accuracy));
+  return found;
+}
+
+Chosen choose_from_part(const VolumeView& part, const VoxelGrid& whole,
+                        const ImageSettings& settings) {
+  return choose_but_cells(part, whole, settings).chosen;
+}
+
+double cells_of_image(const VolumeView& image, const ImageEdge& edge, double accuracy) {
+  constexpr double kQuiet = 0.1;  // of the contrast: noise reaches the level at five deviations
+  const SurfaceExtent extent = edge.noise < kQuiet * edge.contrast
+                                   ? measure_extent(image, edge.level)
+                                   : SurfaceExtent{level_area(smoothed(image), edge.level), 0};
+  return cells_for_surface(extent.area, extent.thin_share, image.spacing, accuracy);
+}
+
+void choose_max_tets(Parameters& p, double cells, Index slabs) {
+  if (!cells_are_open(p)) return;
+  p.max_tets =
+      std::llround(std::clamp<double>(cells, kFewestTets, static_cast<double>(kMostTets) * slabs));
+}
+
+void choose_tolerance(Parameters& p, double voxel, double expected_error, ErrorsLost errors) {
+  constexpr double kLeast = 0.03, kMost = 0.1, kFinest = 0.01;  // voxels
+  if (p.tolerance) return;
+  if (p.triangles > 0) {
+    p.tolerance = std::numeric_limits<double>::infinity();
+  } else if (p.accuracy > 0) {
+    p.tolerance = std::max(p.accuracy / 2, kFinest * voxel);
+  } else {
+    p.tolerance =
+        static_cast<int>(errors) * std::clamp(expected_error, kLeast * voxel, kMost * voxel);
+  }
+}
+
+}  // namespace mesamis

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/choose.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/ball_volume.h"
+
+namespace mesamis {
+namespace {
+
+Volume ball() { return make_ball({.size = 40, .noise = 8, .radius = 9}); }
+
+TEST(Choose, TellsHowSurelyItKnowsTheLevel) {
+  const Volume scan = ball();
+  const Chosen open = choose(scan, Settings{}).chosen;
+  EXPECT_EQ(open.measured.level_uncertainty, open.object.uncertainty);
+  Settings settings;
+  settings.level = 160;
+  const Chosen given = choose(scan, settings).chosen;
+  EXPECT_EQ(given.parameters.level, 160);
+  EXPECT_EQ(given.measured.level_uncertainty, 0) << "the user's";
+  const Chosen found = choose(scan, {settings, KnownLevel{170, LevelSource::kScan, 7}}).chosen;
+  EXPECT_EQ(found.parameters.level, 170) << "before the user's";
+  EXPECT_EQ(found.measured.level_uncertainty, 7);
+}
+
+TEST(Choose, LeavesTheToleranceOpenUnlessItIsGiven) {
+  Settings settings;
+  settings.triangles = 500;
+  EXPECT_FALSE(choose(ball(), settings).chosen.parameters.tolerance);
+  settings.tolerance = 0.2;
+  EXPECT_EQ(choose(ball(), settings).chosen.parameters.tolerance, 0.2);
+}
+
+TEST(ChooseFromPart, ChoosesAllButTheCells) {
+  const Volume scan = ball();
+  const Parameters whole = choose(scan, Settings{}).chosen.parameters;
+  const Chosen all = choose_from_part(scan, scan, Settings{});
+  EXPECT_EQ(all.parameters.level, whole.level);
+  EXPECT_EQ(all.parameters.functional.gamma, whole.functional.gamma);
+  EXPECT_GT(whole.max_tets, 0);
+  EXPECT_EQ(all.parameters.max_tets, 0);
+  // From a part of it; but what follows from the grid is that of the whole.
+  const Chosen part = choose_from_part(crop(scan, {{0, 0, 8}, {-1, -1, 30}}), scan, Settings{});
+  EXPECT_EQ(part.parameters.h_max, whole.h_max);
+  EXPECT_EQ(part.parameters.unit_mm, whole.unit_mm);
+  EXPECT_NEAR(part.parameters.level, whole.level, 3);
+  EXPECT_NEAR(part.parameters.noise, whole.noise, 1);
+}
+
+TEST(CellsOfImage, CountNothingThinInNoise) {
+  const Volume scan = ball();
+  const double usual = cells_of_image(scan, {175, 110, 8}, 0);
+  EXPECT_EQ(usual, cells_of_image(scan, {175, 110, 0}, 0));
+  EXPECT_LT(cells_of_image(scan, {175, 110, 50}, 0), usual);
+  EXPECT_EQ(cells_of_image(scan, {175, 110, 0}, 0.05), 2 * usual);
+}
+
+TEST(ChooseMaxTets, KeepsToItsBoundsAndToWhatIsGiven) {
+  const auto chosen = [](double cells, Index slabs) {
+    Parameters p;
+    choose_max_tets(p, cells, slabs);
+    return p.max_tets;
+  };
+  EXPECT_EQ(chosen(100, 1), kFewestTets);
+  EXPECT_EQ(chosen(123'456.4, 1), 123'456);
+  EXPECT_EQ(chosen(1e9, 1), kMostTets);
+  EXPECT_EQ(chosen(1e9, 3), 3 * kMostTets);
+  Parameters given;
+  given.max_tets = 77;
+  choose_max_tets(given, 1e6);
+  EXPECT_EQ(given.max_tets, 77);
+  Parameters preview;
+  preview.preview = true;
+  choose_max_tets(preview, 1e6);
+  EXPECT_EQ(preview.max_tets, 0);
+}
+
+TEST(ChooseTolerance, FollowsTheErrorWithinBounds) {
+  const auto chosen = [](Parameters p, double error, ErrorsLost errors) {
+    choose_tolerance(p, 0.5, error, errors);
+    return *p.tolerance;
+  };
+  EXPECT_EQ(chosen({}, 0.03, ErrorsLost::kOne), 0.03);
+  EXPECT_EQ(chosen({}, 0.03, ErrorsLost::kTwo), 0.06);
+  EXPECT_EQ(chosen({}, 0, ErrorsLost::kOne), 0.03 * 0.5);
+  EXPECT_EQ(chosen({}, 1, ErrorsLost::kOne), 0.1 * 0.5);
+  Parameters p;
+  p.accuracy = 0.2;
+  EXPECT_EQ(chosen(p, 1, ErrorsLost::kTwo), 0.1);
+  p.accuracy = 1e-6;
+  EXPECT_EQ(chosen(p, 1, ErrorsLost::kTwo), 0.01 * 0.5);
+  p.triangles = 500;
+  EXPECT_TRUE(std::isinf(chosen(p, 1, ErrorsLost::kOne)));
+  p.tolerance = 0.3;
+  EXPECT_EQ(chosen(p, 1, ErrorsLost::kOne), 0.3);
+}
+
+}  // namespace
+}  // namespace mesamis
