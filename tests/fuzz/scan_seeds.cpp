@@ -4,6 +4,7 @@
 #include "fuzz_seeds.h"
 #include "mesamis/scan_files/write_volume.h"
 #include "support/jpeg_bytes.h"
+#include "support/matlab_bytes.h"
 #include "support/picture_bytes.h"
 #include "support/scan_bytes.h"
 
@@ -156,6 +157,11 @@ void write_binary_headers(const SeedFolder& seeds) {
   seeds.add("hdr", "pair", pair.header());
   pair.magic = std::string(4, '\0');
   seeds.add("hdr", "analyze", pair.header());
+  const MatlabVariable m{"M", {0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 10, 20, 30, 1}};
+  seeds.add("spm", "level_4", matlab_4_bytes({{"x", {1, 2}, 2, 1}, m}));
+  seeds.add("spm", "level_4_big", matlab_4_bytes({m}, true));
+  seeds.add("spm", "level_5", matlab_5_bytes({{"x", {1, 2}, 2, 1}, {"mat", m.values}}, false));
+  seeds.add("spm", "level_5_packed", matlab_5_bytes({m, {"mat", m.values}}, true));
   std::string mgh;
   for (const std::int32_t n : {1, 4, 3, 5, 1, 4, 0}) mgh += bytes_of(n, true);
   mgh += bytes_of(std::int16_t{1}, true);

@@ -225,6 +225,20 @@ void run_text_beside(std::string_view bytes) {
   }
 }
 
+/// The matrix beside an image of Analyze.
+void run_spm(std::string_view bytes) {
+  static const fs::path image = [] {
+    NiftiBytes analyze;
+    analyze.magic = std::string(4, '\0');
+    analyze.vox_offset = 0;
+    input_folder().write("spm.img", bytes_of_all(ramp<std::int16_t>(60)));
+    return input_folder().write("spm.hdr", analyze.header());
+  }();
+  input_folder().write("spm.mat", bytes);
+  const ReadOptions options{.resample = true, .limits = fuzz_limits()};
+  read_or_refuse(image, [&](const fs::path& path) { require_scan(read_volume(path, options)); });
+}
+
 constexpr char kNifti[] = "scan.nii", kNrrd[] = "scan.nrrd", kMeta[] = "scan.mha",
                kTiff[] = "scan.tif", kInv3[] = "scan.inv3", kBmp[] = "scan.bmp",
                kPair[] = "scan.hdr", kMgh[] = "scan.mgz", kIsq[] = "scan.isq", kAim[] = "scan.aim",
@@ -236,7 +250,7 @@ constexpr FuzzTarget kTargets[] = {
     {"png", run_png},          {"bmp", run_picture<kBmp>},   {"raw", run_raw},
     {"zarr", run_zarr},        {"hdr", run_scan<kPair>},     {"mgh", run_scan<kMgh>},
     {"isq", run_scan<kIsq>},   {"aim", run_scan<kAim>},      {"vgi", run_scan<kVgi>},
-    {"jpeg", run_scan<kJpeg>}, {"beside", run_text_beside},
+    {"jpeg", run_scan<kJpeg>}, {"beside", run_text_beside},  {"spm", run_spm},
 };
 
 }  // namespace

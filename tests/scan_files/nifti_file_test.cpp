@@ -318,6 +318,61 @@ TEST(Nifti, AnalyzeHasNoOrientation) {
   EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("no orientation")));
 }
 
+/// The fields that Analyze 7.5 has where NIfTI has others.
+class Analyze : public testing::Test {
+ protected:
+  Analyze() {
+    analyze.magic = std::string(4, '\0');
+    analyze.vox_offset = 0;
+    analyze.sform_code = 0;
+    analyze.units = 0;
+    header = analyze.header().substr(0, 348);
+  }
+  template <class Number>
+  void put(std::size_t at, Number value) {
+    header.replace(at, sizeof(value), bytes_of(value));
+  }
+  VolumeFile read() const {
+    write_bytes(folder / "a.hdr", header);
+    write_bytes(folder / "a.img", bytes_of_all(kRamp));
+    return read_volume(folder / "a.hdr");
+  }
+
+  TempFolder folder;
+  NiftiBytes analyze;
+  std::string header;
+};
+
+TEST_F(Analyze, ZeroLiesInTheMiddleOrAtTheVoxelThatSpmHasNoted) {
+  expect_near(read().volume.origin, {-0.75, 1.25, -4});
+  put(253, std::int16_t{2}), put(255, std::int16_t{3}), put(257, std::int16_t{1});
+  expect_near(read().volume.origin, {-0.5, 2.5, 0});
+  put(253, std::int16_t{80});  // far outside: some other field
+  expect_near(read().volume.origin, {-0.75, 1.25, -4});
+}
+
+TEST_F(Analyze, ItsUnitIsAWord) {
+  header[123] = 1;  // metres in NIfTI; here a part of an unused number
+  expect_near(read().volume.spacing, {0.5, 1.25, 2});
+  header.replace(56, 2, "um");
+  expect_near(read().volume.spacing, {0.0005, 0.00125, 0.002});
+  header.replace(56, 3, "sec");
+  EXPECT_THAT(read().warnings, testing::Contains(HasSubstr("\"sec\" is no length")));
+}
+
+TEST_F(Analyze, OtherOrientationsAndRangesGiveAWarning) {
+  EXPECT_EQ(read().warnings.size(), 1U);
+  header[252] = 2;
+  EXPECT_THAT(read().warnings, testing::Contains(HasSubstr("orientation 2")));
+  header[252] = 0;
+  put(124, 100.F), put(128, 0.F), put(140, std::int32_t{50}), put(144, std::int32_t{0});
+  EXPECT_THAT(read().warnings, testing::Contains(HasSubstr("a slope of 2")));
+  put(112, 3.F);  // SPM's scale
+  const VolumeFile scaled = read();
+  EXPECT_EQ(scaled.volume.samples[0], -120);
+  EXPECT_EQ(scaled.warnings.size(), 1U);
+}
+
 /// The volume of a sheared grid is that of its voxels, and each keeps its place.
 TEST(Nifti, AShearedSformIsResampledWhereItIsAskedFor) {
   const TempFolder folder;

@@ -6,11 +6,22 @@
 #include <map>
 #include <system_error>
 
+#include "mesamis/files/length_unit.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/formats.h"
+#include "mesamis/scan_files/spm_matrix.h"
 
 namespace mesamis::detail {
 namespace {
+
+/// What Analyze 7.5 has where NIfTI has other fields.
+struct AnalyzeHeader {
+  std::string unit;                      // of length
+  std::array<double, 2> shown{};         // cal_max and cal_min: values of ...
+  std::array<std::int64_t, 2> stored{};  // ... glmax and glmin
+  int orient = 0;                        // 0: axial slices, as SPM and others write
+  std::array<std::int64_t, 3> origin{};  // SPM's: the voxel at 0, counted from 1; or zeros
+};
 
 /// The fields of both header versions that matter here.
 struct NiftiHeader {
@@ -22,7 +33,7 @@ struct NiftiHeader {
   double vox_offset = 0, slope = 0, intercept = 0;
   std::array<double, 6> quatern{};  // b c d, then the offsets x y z
   std::array<double, 12> srow{};
-  bool analyze = false;  // 7.5: no magic, and no forms
+  std::optional<AnalyzeHeader> analyze;  // 7.5: no magic, and no forms
 };
 
 /// Fields at byte positions, in the file's byte order.
@@ -70,6 +81,17 @@ NiftiHeader parse_version_1(const Fields& f) {
   return h;
 }
 
+AnalyzeHeader parse_analyze(const Fields& f) {
+  AnalyzeHeader h;
+  for (std::size_t n = 0; n < 4; ++n) h.unit += static_cast<char>(f.at<std::uint8_t>(56 + n));
+  h.unit = std::string(trimmed(h.unit.substr(0, h.unit.find('\0'))));
+  f.fill<float>(124, h.shown);
+  f.fill<std::int32_t>(140, h.stored);
+  h.orient = f.at<std::uint8_t>(252);
+  f.fill<std::int16_t>(253, h.origin);
+  return h;
+}
+
 NiftiHeader parse_version_2(const Fields& f) {
   NiftiHeader h;
   h.datatype = f.at<std::int16_t>(12);
@@ -114,7 +136,7 @@ NiftiHeader read_header(const std::filesystem::path& file, bool pair) {
     }
     NiftiHeader h = first ? parse_version_1(fields) : parse_version_2(fields);
     h.big_endian = big_endian;
-    h.analyze = analyze;
+    if (analyze) h.analyze = parse_analyze(fields);
     h.size = static_cast<std::size_t>(declared);
     if (h.vox_offset == 0 && !pair) h.vox_offset = first ? 352 : 544;
     return h;
@@ -225,9 +247,10 @@ Placement from_qform(const NiftiHeader& h) {
   return {{columns, stated_spacing(h)}, {h.quatern[3], h.quatern[4], h.quatern[5]}};
 }
 
-Placement without_form(const NiftiHeader& h) {
-  return {{{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}, stated_spacing(h)}, {}};
-}
+constexpr std::array<Vec3, 3> kRas{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}},
+    kLas{Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+
+Placement without_form(const NiftiHeader& h) { return {{kRas, stated_spacing(h)}, {}}; }
 
 bool is_length(double length) { return length > 0 && std::isfinite(length); }
 
@@ -245,16 +268,61 @@ double angle_between_deg(const Placement& a, const Placement& b) {
   return angle * 45 / std::atan(1);
 }
 
+/// The matrix of SPM beside an image.
+std::filesystem::path matrix_beside(std::filesystem::path file) {
+  if (lower(file.extension().string()) == ".gz") file.replace_extension();
+  return file.replace_extension(".mat");
+}
+
+std::optional<SpmMatrix> matrix_of(const ScanFile& scan) {
+  return read_spm_matrix(matrix_beside(scan.file), scan.picked ? scan.picked->outer : 0);
+}
+
+/// The voxel at 0 where Analyze states no place: the one that SPM has noted, else the middle.
+Vec3 zero_voxel(const NiftiHeader& h) {
+  const auto& noted = h.analyze->origin;
+  bool any = false, near = true;
+  Vec3 middle, voxel;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::int64_t n = h.dim[a + 1];
+    any = any || noted[a] != 0;
+    near = near && noted[a] > -n && noted[a] < 2 * n;
+    middle[static_cast<int>(a)] = static_cast<double>(n - 1) / 2;
+    voxel[static_cast<int>(a)] = static_cast<double>(noted[a] - 1);
+  }
+  return any && near ? voxel : middle;
+}
+
+Placement without_matrix(ScanFile& scan, const NiftiHeader& h) {
+  scan.warnings.push_back(
+      "Analyze 7.5 states no orientation: axes taken as LAS; sides may be exchanged");
+  if (h.analyze->orient != 0) {
+    scan.warnings.push_back(message("the slices have orientation ", h.analyze->orient,
+                                    " of Analyze 7.5, which is not axial: they are not turned"));
+  }
+  const Vec3 zero = zero_voxel(h), spacing = stated_spacing(h);
+  Placement placed{{kLas, spacing}, {}};
+  for (int a = 0; a < 3; ++a) {
+    const double step = spacing[a] * kLas[static_cast<std::size_t>(a)][a];
+    if (std::isfinite(step)) placed.origin[a] = -zero[a] * step;
+  }
+  return placed;
+}
+
+/// Analyze 7.5, which states no orientation: the matrix of SPM beside it, if there is one.
+Placement place_analyze(ScanFile& scan, const NiftiHeader& h) {
+  try {
+    const auto matrix = matrix_of(scan);
+    if (matrix) return {StatedAxes::of_steps(matrix->steps), matrix->origin};
+  } catch (const InputError& error) {
+    scan.warnings.push_back(message("no place is taken from ", error.what()));
+  }
+  return without_matrix(scan, h);
+}
+
 /// The sform where its code is above 0 and it has axes, else the qform.
 Placement choose_placement(ScanFile& scan, const NiftiHeader& h) {
   constexpr double kSameDeg = 0.1;
-  if (h.analyze) {
-    scan.warnings.push_back(
-        "Analyze 7.5 states no orientation: axes taken as LAS; sides may be exchanged");
-    Placement placed = without_form(h);
-    placed.axes.direction[0] = {-1, 0, 0};
-    return placed;
-  }
   const bool has_sform = h.sform_code > 0, has_qform = h.qform_code > 0;
   if (!has_sform && !has_qform) {
     scan.warnings.push_back("no orientation (sform and qform codes are 0): axes taken as RAS");
@@ -276,29 +344,99 @@ Placement choose_placement(ScanFile& scan, const NiftiHeader& h) {
 }
 
 /// Where the axes are not those of pixdim.
-void warn_of_spacing(ScanFile& scan, const Vec3& declared) {
+void warn_of_spacing(ScanFile& scan, const Vec3& declared, const char* used_in_place) {
   for (int a = 0; a < 3; ++a) {
     const double used = scan.grid.spacing[a];
     if (!is_length(declared[a]) || std::abs(used - declared[a]) <= 0.01 * used) continue;
-    scan.warnings.push_back(message("pixdim says ", declared[a], " mm along axis ", a,
-                                    ", the sform ", used, ": the sform is used"));
+    scan.warnings.push_back(message("pixdim says ", declared[a], " mm along axis ", a, ", ",
+                                    used_in_place, " ", used, ": ", used_in_place, " is used"));
   }
 }
 
-void place(ScanFile& scan, const NiftiHeader& h) {
-  Placement p = choose_placement(scan, h);
-  const double mm = unit_in_mm(scan, h.units);
+/// The greatest distance between the places of a voxel.
+double farthest(const ScanFile& scan, const Placement& a, const SpmMatrix& b) {
+  double most = 0;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Vec3 apart = b.origin - a.origin;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if ((corner >> axis & 1) == 0) continue;
+      const Vec3 step =
+          a.axes.spacing[static_cast<int>(axis)] * unit_or_zero(a.axes.direction[axis]);
+      apart = apart + static_cast<double>(scan.grid.size[axis] - 1) * (b.steps[axis] - step);
+    }
+    most = std::max(most, norm(apart));
+  }
+  return most;
+}
+
+/// SPM takes the matrix beside a NIfTI file for its place; the header counts for other programs.
+void warn_of_matrix(ScanFile& scan, const Placement& placed) {
+  constexpr double kSame = 1e-3;  // of the smallest spacing
+  try {
+    const auto matrix = matrix_of(scan);
+    if (!matrix) return;
+    const Vec3& s = placed.axes.spacing;
+    const double apart = farthest(scan, placed, *matrix);
+    if (apart <= kSame * std::min({s.x, s.y, s.z})) return;
+    scan.warnings.push_back(
+        message("the matrix of SPM in ", in_quotes(matrix_beside(scan.file).filename().string()),
+                " puts voxels up to ", apart, " mm elsewhere: the place in the header is used"));
+  } catch (const InputError&) {  // a file of another kind, which is no part of this one
+  }
+}
+
+/// The unit of Analyze, a word.
+double analyze_unit_in_mm(ScanFile& scan, const std::string& unit) {
+  if (unit.empty()) return 1;
+  const auto mm = mm_per_unit(unit);
+  if (!mm)
+    scan.warnings.push_back(message("the unit ", in_quotes(unit), " is no length: mm taken"));
+  return mm.value_or(1);
+}
+
+/// RAS, mm.
+Placement placement_of(ScanFile& scan, NiftiHeader& h) {
+  const double mm =
+      h.analyze ? analyze_unit_in_mm(scan, h.analyze->unit) : unit_in_mm(scan, h.units);
+  for (std::size_t axis = 1; axis <= 3; ++axis) h.pixdim[axis] *= mm;
+  if (h.analyze) return place_analyze(scan, h);
+  for (double& length : h.srow) length *= mm;
+  for (std::size_t n = 3; n < 6; ++n) h.quatern[n] *= mm;
+  const Placement placed = choose_placement(scan, h);
+  warn_of_matrix(scan, placed);
+  return placed;
+}
+
+void place(ScanFile& scan, NiftiHeader h) {
+  Placement p = placement_of(scan, h);
   const auto to_lps = [](const Vec3& v) { return Vec3{-v.x, -v.y, v.z}; };
   for (Vec3& direction : p.axes.direction) direction = to_lps(direction);
-  p.axes.spacing = mm * p.axes.spacing;
   set_stated_axes(scan, p.axes);
-  set_origin(scan, mm * to_lps(p.origin));
-  if (!scan.sheared) warn_of_spacing(scan, mm * stated_spacing(h));
+  set_origin(scan, to_lps(p.origin));
+  if (!scan.sheared) {
+    warn_of_spacing(scan, stated_spacing(h), h.analyze ? "the matrix of SPM" : "the sform");
+  }
+}
+
+/// Analyze 7.5 has a range of values for the range that is stored; SPM's scale counts before it.
+void warn_of_range(ScanFile& scan, const AnalyzeHeader& h) {
+  const double stored = static_cast<double>(h.stored[0]) - static_cast<double>(h.stored[1]);
+  const double shown = h.shown[0] - h.shown[1];
+  if (stored == 0 || shown == 0 || !std::isfinite(shown)) return;
+  const double slope = shown / stored,
+               intercept = h.shown[0] - slope * static_cast<double>(h.stored[0]);
+  if (std::abs(slope - 1) < 1e-6 && std::abs(intercept) < 1e-6) return;
+  scan.warnings.push_back(
+      message("the header's ranges of values (cal_max, glmax) imply a slope of ", slope,
+              " and an intercept of ", intercept, ": the values are kept as stored"));
 }
 
 /// Native values; a slope of 0 says that there is none.
 void set_scale(ScanFile& scan, const NiftiHeader& h) {
-  if (h.slope == 0) return;
+  if (h.slope == 0) {
+    if (h.analyze) warn_of_range(scan, *h.analyze);
+    return;
+  }
   if (!std::isfinite(h.slope) || !std::isfinite(h.intercept)) {
     scan.warnings.push_back(message("the scale of the values cannot be used (slope ", h.slope,
                                     ", intercept ", h.intercept, "): they are kept as stored"));

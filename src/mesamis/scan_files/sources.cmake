@@ -46,6 +46,7 @@ set(ROOM_SOURCES
   tiff_layout.cpp
   vgi_file.cpp
   NEXT nifti_file.cpp
+  spm_matrix.cpp
   NEXT nrrd_file.cpp
   NEXT dicom_jpeg8.cpp
   NEXT dicom_jpeg12.cpp
