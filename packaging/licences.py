@@ -60,7 +60,9 @@ STAND_INS = {"libjbig.so.0": ("jbig_absent.c", None), "libcurl.so.4": ("curl_abs
 HEADERS = {
     "libcli11-dev": ("BSD-3-Clause", ("mesamis",)),
     "libeigen3-dev": ("MPL-2.0", ("mesamis", "libmesamis-dev", "python3-mesamis")),
+    "fonts-dejavu-core": ("Bitstream-Vera", ("mesamis", "libmesamis-dev")),
     "libopenmesh-dev": ("BSD-3-Clause", ("mesamis", "libmesamis-dev", "python3-mesamis")),
+    "libstb-dev": ("MIT", ("mesamis", "libmesamis-dev")),
     "nlohmann-json3-dev": ("MIT", ("mesamis", "libmesamis-dev", "python3-mesamis")),
     "pybind11-dev": ("BSD-3-Clause", ("python3-mesamis",)),
 }

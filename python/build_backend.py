@@ -3,7 +3,8 @@
 
 Nothing is downloaded: CMake, a compiler, pybind11 and the libraries that scripts/setup lists must be
 there. MESAMIS_BUILD_FOLDER names the build folder (default: build/wheel), MESAMIS_JOBS the parallel
-jobs, MESAMIS_CMAKE_ARGS further options of CMake.
+jobs, MESAMIS_CMAKE_ARGS further options of CMake. packaging/wheel.py makes the wheel for other
+machines, with the program and all libraries.
 """
 
 import base64
@@ -22,19 +23,19 @@ ROOT = Path(__file__).resolve().parents[1]
 SUMMARY = "From a 3D scan to a printable surface and a mesh that follows the image"
 
 
-def version():
+def project_version():
     text = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
     return re.search(r"project\(mesamis VERSION ([0-9.]+)", text).group(1)
 
 
-def metadata():
+def metadata(version):
     page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
-    return (f"Metadata-Version: 2.1\nName: mesamis\nVersion: {version()}\nSummary: {SUMMARY}\n"
+    return (f"Metadata-Version: 2.1\nName: mesamis\nVersion: {version}\nSummary: {SUMMARY}\n"
             "License: Apache-2.0\nRequires-Python: >=3.9\nRequires-Dist: numpy>=1.20\n"
             f"Description-Content-Type: text/markdown\n\n{page}")
 
 
-def tag():
+def platform_tag():
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
     return f"{python}-{python}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
 
@@ -46,7 +47,7 @@ def installed(stage):
     options = ["-DMESAMIS_BUILD_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}"]
     if not (folder / "CMakeCache.txt").exists():
         options += ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DMESAMIS_BUILD_APP=OFF",
-                    "-DMESAMIS_BUILD_TESTS=OFF", "-DMESAMIS_BUILD_EXAMPLES=OFF"]
+                    "-DMESAMIS_BUILD_BASELINE=OFF", "-DMESAMIS_BUILD_TESTS=OFF", "-DMESAMIS_BUILD_EXAMPLES=OFF"]
     options += shlex.split(os.environ.get("MESAMIS_CMAKE_ARGS", ""))
     for command in (["cmake", "-S", ROOT, "-B", folder, *options],
                     ["cmake", "--build", folder, "-j", jobs, "--target", "mesamis_python"],
@@ -55,33 +56,44 @@ def installed(stage):
     return next(Path(stage).rglob("mesamis"))
 
 
-def contents(package):
-    """What is in the wheel: names and bytes."""
-    info = f"mesamis-{version()}.dist-info"
-    files = {f"mesamis/{p.relative_to(package)}": p.read_bytes() for p in sorted(package.rglob("*")) if p.is_file()}
-    files[f"{info}/METADATA"] = metadata().encode()
-    files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: mesamis {version()}\nRoot-Is-Purelib: false\n"
-                              f"Tag: {tag()}\n").encode()
+def files_below(folder, name):
+    """Each file below a folder, by its name in the wheel, which begins with `name`."""
+    return {f"{name}/{p.relative_to(folder)}": p for p in sorted(folder.rglob("*")) if p.is_file()}
+
+
+def with_lists(contents, version, tag):
+    """Adds what each wheel has: METADATA, WHEEL, LICENSE and RECORD. Contents are bytes by name."""
+    info = f"mesamis-{version}.dist-info"
+    files = dict(contents)
+    files[f"{info}/METADATA"] = metadata(version).encode()
+    files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: mesamis {version}\nRoot-Is-Purelib: false\n"
+                              f"Tag: {tag}\n").encode()
     files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
     rows = []
-    for name, data in files.items():
+    for name, data in sorted(files.items()):
         digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
         rows.append(f"{name},sha256={digest},{len(data)}\n")
     files[f"{info}/RECORD"] = ("".join(rows) + f"{info}/RECORD,,\n").encode()
     return files
 
 
-def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    """Writes the wheel; the same sources give the same bytes. Returns its name."""
-    name = f"mesamis-{version()}-{tag()}.whl"
-    with tempfile.TemporaryDirectory() as stage:
-        files = contents(installed(stage))
-    with zipfile.ZipFile(Path(wheel_directory) / name, "w", zipfile.ZIP_DEFLATED) as wheel:
-        for path, data in files.items():
-            entry = zipfile.ZipInfo(path, (1980, 1, 1, 0, 0, 0))
+def write_wheel(path, files, programs=()):
+    """The same files give the same bytes. `programs` are the names of those that can be run."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as wheel:
+        for name, data in sorted(files.items()):
+            entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
             entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = 0o644 << 16
+            entry.external_attr = (0o100755 if name in programs else 0o100644) << 16
             wheel.writestr(entry, data)
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    """Writes the wheel for this machine; the same sources give the same bytes. Returns its name."""
+    version, tag = project_version(), platform_tag()
+    name = f"mesamis-{version}-{tag}.whl"
+    with tempfile.TemporaryDirectory() as stage:
+        files = {name: path.read_bytes() for name, path in files_below(installed(stage), "mesamis").items()}
+    write_wheel(Path(wheel_directory) / name, with_lists(files, version, tag))
     return name
 
 
