@@ -5,8 +5,7 @@
   bundle.py --prefix FOLDER --version VERSION
 
 lib/mesamis holds libraries that are ours to bring, as Debian built them, byte for byte.
-lib/mesamis/fallback holds those that belong to a display or to the compiler: the system's own go
-first, because its graphics drivers are made for them. glibc is the system's. The program finds
+lib/mesamis/fallback holds those of the compiler: the system's own go first. glibc is the system's. The program finds
 them by its DT_RPATH, which holds for the libraries' own needs too."""
 
 import argparse
@@ -20,8 +19,7 @@ import sys
 import licences
 
 OF_GLIBC = re.compile(r"^(ld-linux.*|lib(c|m|dl|pthread|rt|resolv|util|mvec|nsl)\.so\.\d+)$")
-SYSTEM_FIRST = {"libgl1", "libglx0", "libglvnd0", "libopengl0", "libx11-6", "libxcb1", "libxau6", "libxdmcp6",
-                "libbsd0", "libmd0", "libstdc++6", "libgcc-s1"}
+SYSTEM_FIRST = {"libstdc++6", "libgcc-s1"}
 
 
 def output_of(*command):

@@ -13,7 +13,7 @@ import tarfile
 
 # The identifiers of the SPDX licence list that we use; a new one is looked up there before it is added.
 LICENCES = {"0BSD", "Apache-2.0", "BSD-2-Clause", "BSD-3-Clause", "Beerware", "FTL", "GPL-3.0-or-later", "IJG", "ISC",
-            "MIT", "MPL-2.0", "X11", "Zlib", "bzip2-1.0.6", "libpng-2.0", "libtiff"}
+            "Bitstream-Vera", "MIT", "MPL-2.0", "X11", "Zlib", "bzip2-1.0.6", "libpng-2.0", "libtiff"}
 EXCEPTIONS = {"GCC-exception-3.1"}
 KINDS = {"DESCRIBES", "CONTAINS", "DYNAMIC_LINK", "STATIC_LINK", "DEPENDS_ON"}
 IDENTIFIER = re.compile(r"SPDXRef-[A-Za-z0-9.-]+")
