@@ -16,7 +16,7 @@ import trimesh
 
 import mesamis
 
-SIZE, SPACING = 28, 2.0  # a ball of radius 20 mm
+GRID = {"size": (28, 28, 28), "spacing": (2.0, 2.0, 2.0)}
 
 
 def same(a, b):
@@ -24,15 +24,16 @@ def same(a, b):
 
 
 def main():
-    scan = mesamis.phantom("sphere", size=(SIZE,) * 3, spacing=(SPACING,) * 3)
+    scan = mesamis.phantom("sphere", **GRID)
     found = mesamis.segment(scan, preview=True)
     assert found.closed
-    volume = 4 / 3 * np.pi * 20**3
+    truth = mesamis.phantom_surface("sphere", **GRID)
+    volume = trimesh.Trimesh(truth.points, truth.triangles).volume
 
     # In: the same scan as an image of nibabel and of SimpleITK gives the same surface.
-    nifti = nibabel.Nifti1Image(np.ascontiguousarray(scan.array.transpose(2, 1, 0)), scan.affine)
+    nifti = nibabel.Nifti1Image(scan.array, scan.affine)
     same(found, mesamis.segment(nifti, preview=True))
-    image = SimpleITK.GetImageFromArray(scan.array)
+    image = SimpleITK.GetImageFromArray(np.ascontiguousarray(scan.array.T))
     image.SetSpacing(tuple(scan.spacing))
     image.SetOrigin(tuple(scan.origin))
     same(found, mesamis.segment(image, preview=True))
