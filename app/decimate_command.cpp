@@ -123,7 +123,7 @@ void add_decimate_command(CLI::App& app, CommonOptions& common, Action& action) 
   sub->add_option("--tolerance", command->tolerance, "Distance in both directions, mm");
   sub->add_option("--triangles", command->triangles, "Stop at this many triangles");
   sub->add_option("--min-volume", command->min_volume,
-                  "Drop islands and fill cavities below so many mm^3 (default 0)");
+                  "Drop islands and fill cavities smaller than this, mm^3 (default 0)");
   sub->add_option("--keep-largest", command->keep_largest, "Islands to keep (default 0: all)");
   sub->add_flag("--fill-cavities", command->fill_cavities, "Fill every cavity");
   sub->add_option("--name", command->name, "The object's name in the file written");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// mesamis label: closed surfaces, edited elsewhere perhaps, as a label map on the grid of a scan.
+// mesamis label: converts closed surfaces to a label map on the grid of a scan.
 #include <algorithm>
 #include <iterator>
 #include <memory>
@@ -92,8 +92,8 @@ int run_label(const LabelCommand& command) {
 
 void add_label_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<LabelCommand>();
-  CLI::App* command = app.add_subcommand(
-      "label", "A label map from closed surfaces, edited elsewhere perhaps, on the grid of a scan");
+  CLI::App* command =
+      app.add_subcommand("label", "Convert closed surfaces to a label map on the grid of a scan");
   command
       ->add_option("surfaces", options->surfaces,
                    listed("Surfaces, an object each or several in a file:", read_surface_formats()))

@@ -73,7 +73,7 @@ void tell(const char* line) {
     end_without_memory();
   } catch (...) {  // a bug: ends as one
   }
-  tell("mesamis: internal error: an exception that nobody expects\n");
+  tell("mesamis: internal error: unexpected exception\n");
   _exit(kExitInternal);
 }
 

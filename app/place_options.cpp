@@ -34,7 +34,9 @@ void add_padding_option(CLI::App& command, PlaceArguments& a) {
 }
 
 void add_place_options(CLI::App& command, PlaceArguments& a) {
-  command.add_option("--tissue", a.tissue, "What is meant, in native units: " + tissue_names())
+  command
+      .add_option("--tissue", a.tissue,
+                  "Tissue to segment, by name or by a range of native values: " + tissue_names())
       ->group(kGroup);
   command
       .add_option("--mask", a.mask,

@@ -139,7 +139,7 @@ void add_slab_options(CLI::App& command, SlabArguments& arguments) {
       "larger than the memory; the surface does not depend on N; scratch files lie beside the "
       "first output");
   command.add_option("--checkpoint", arguments.checkpoint,
-                     "Folder for the scratch files of --slabs: a run that was killed goes on "
+                     "Folder for the scratch files of --slabs: a killed run resumes "
                      "there; removed at the end");
 }
 

@@ -236,7 +236,7 @@ std::string tissue_help() {
 ModuleGroup object_group() {
   const std::string lps = " coordinateSystem=\"lps\"";
   return {"Which object",
-          "What of the scan is meant: docs/objects.md and docs/labels.md",
+          "Which object of the scan to segment: docs/objects.md and docs/labels.md",
           false,
           {{.tag = "string-enumeration",
             .name = "tissue",

@@ -227,9 +227,9 @@ std::string settings_page() {
       "Every setting of a run: an option of `mesamis segment` and `mesamis study`, and, with "
       "underscores for\nhyphens, an entry of the file that `--settings` reads and of a report's "
       "`settings`. A switch is\n`--name` or `--no-name` as an option, `true` or `false` in a file. "
-      "One number stands for all three where\nthree are asked for. An empty part of a range is the "
+      "One number stands for all three axes.\nAn empty end of a range is the "
       "volume's own bound: `--crop 10:20,,5:`. A file takes such\ntext too (`\"crop\": "
-      "\"10:20,,5:\"`), or lists with `null` for what is open: `[[10, 20], null, [5, null]]`.\n"
+      "\"10:20,,5:\"`), or lists with `null` for an open end: `[[10, 20], null, [5, null]]`.\n"
       "`--preset paper` sets the column of that name; options and files go on top of it.\n\n"
       "This page is made by `mesamis settings --markdown` from the program's table of settings.\n";
   std::string group;

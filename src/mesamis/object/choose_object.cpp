@@ -325,9 +325,8 @@ std::vector<std::string> surface_warnings(const ChosenObject& object, const Volu
   const bool given = object.level && object.level->from == LevelSource::kUser;
   const bool guessed = object.tissue.empty() && !given;
   if (guessed && surface_at_level(image, in_image) == "skin") {
-    warnings.push_back(
-        line("surface: the level %.4g HU is likely that of the skin; --tissue says what is meant",
-             level));
+    warnings.push_back(line(
+        "surface: the level %.4g HU is likely that of the skin; --tissue selects another", level));
   }
   if (object.unmeasured.empty()) return warnings;
   const double share = share_at_border(image, object.unmeasured, in_image);

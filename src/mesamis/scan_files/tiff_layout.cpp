@@ -64,7 +64,7 @@ void take_times_as_slices(TiffLayout& layout) {
   auto& [volumes, channels] = layout.axes;
   if (layout.slices != 1 || channels != 1 || volumes < 2) return;
   layout.warnings.push_back(
-      message("the file tells of ", volumes, " times of one slice each: they are taken as slices"));
+      message("the file has ", volumes, " times of one slice each: they are taken as slices"));
   std::swap(layout.slices, volumes);
 }
 
@@ -127,7 +127,7 @@ void set_planes(const Pages& pages, const ImageJ& text, TiffLayout& layout) {
   const std::int64_t planes = behind_one ? images : pages.found;
   if (images > 1 && images != planes) {
     layout.warnings.push_back(
-        message("the description tells of ", images, " images, found ", planes, " pages"));
+        message("the description states ", images, " images, found ", planes, " pages"));
   }
   layout.axes = {text.count("frames"), text.count("channels")};
   layout.slices = text.count("slices");

@@ -92,7 +92,7 @@ void place(ScanFile& scan, const Vgi& vgi) {
   set_stated_axes(scan, {{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}, mm.value_or(1) * spacing});
   const std::string mirror = vgi.get({"representation/mirror"});
   if (mirror.find('1') != std::string::npos) {
-    scan.warnings.push_back("the volume is meant to be shown mirrored: it is kept as stored");
+    scan.warnings.push_back("the file asks for a mirrored view: the values are kept as stored");
   }
 }
 
