@@ -10,7 +10,7 @@ level. The width of the Gaussian is the one of WIDTHS that gives the smallest di
 The rival is taken in full, and decimated by quadrics to a tenth of the triangles of the noiseless
 scan's isosurface. Ours is taken as extracted, and decimated to the same count. Distances are means by
 area in mm, truth to surface and back, added; the ratio is ours to the rival's. The script leaves
-surfaces and reports in FOLDER and prints the tables of docs/accuracy.md. It does not repeat a run
+surfaces and reports in FOLDER and prints tables, whose ratios docs/accuracy.md sums up. It does not repeat a run
 whose report is there. `mesamis` is the one in build/release, or that of the variable MESAMIS.
 """
 import argparse
