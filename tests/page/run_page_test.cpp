@@ -91,7 +91,8 @@ TEST(RunPage, HostileNamesStayText) {
       "</script><script>alert(1)</script><img src=x onerror=alert(1)>\" onload=\"";
   page.report["input"]["format"] = hostile;
   page.report["warnings"] = {hostile};
-  page.report["chosen"]["gamma"] = hostile;
+  page.report["chosen"]["gamma"] = hostile;  // as reports were once
+  page.report["chosen"]["max_tets"]["reason"] = hostile;
   page.report["verdict"] = {{"kept", false}, {"message", hostile}};
   page.report["settings"]["gamma"] = hostile;
   page.report["command"] = {"segment", "x", "--label", hostile};

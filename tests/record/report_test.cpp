@@ -27,14 +27,34 @@ TEST(RunJson, HoldsTheValuesUsedAndWhereTheyCameFrom) {
   EXPECT_EQ(report["given"], (nlohmann::json{"max_tets", "adaptations"}));
   EXPECT_EQ(report["settings"]["level"], report["surface"]["level_native"]);
   for (const Setting& setting : setting_table()) {
+    ASSERT_EQ(report["chosen"].contains(setting.name), !setting.automatic.empty()) << setting.name;
+    if (setting.automatic.empty()) continue;
+    const auto& chosen = report["chosen"][setting.name];
     const bool measured = origin_of(setting, asked) == Origin::kMeasured;
-    EXPECT_EQ(report["chosen"].contains(setting.name), measured) << setting.name;
-    if (!measured) continue;
-    EXPECT_EQ(report["chosen"][setting.name], setting.automatic);
+    EXPECT_EQ(chosen["value"], report["settings"][setting.name]) << setting.name;
+    EXPECT_EQ(chosen["source"], measured ? "measured" : "given") << setting.name;
+    EXPECT_EQ(chosen["reason"].is_null(), !measured) << setting.name;
   }
+  EXPECT_EQ(report["chosen"]["level"]["uncertainty"], report["quality"]["level_uncertainty"]);
+  EXPECT_TRUE(report["chosen"]["max_tets"]["uncertainty"].is_null());
   EXPECT_EQ(report["iterations"].size(), result.iterations.size());
   EXPECT_TRUE(report["iterations"][0]["energy_change"].is_null()) << "nothing to compare with";
   EXPECT_EQ(report["surface"]["closed"], true);
+}
+
+TEST(RunJson, TellsThePresetFromTheUser) {
+  RunSummary run;
+  run.parameters.tolerance = 0.1;
+  run.iterations.resize(2);
+  Settings asked = preset_settings("paper");
+  asked.noise = 3;
+  run.parameters.surface = SurfaceKind::kBand;
+  run.image.level_uncertainty = 7;
+  const auto chosen = run_json(asked, run)["chosen"];
+  EXPECT_EQ(chosen["gamma"]["source"], "preset");
+  EXPECT_EQ(chosen["noise"]["source"], "given");
+  EXPECT_EQ(chosen["blur"]["source"], "measured");
+  EXPECT_TRUE(chosen["level"]["uncertainty"].is_null()) << "a band has none";
 }
 
 TEST(PrintableJson, NoBoundIsNull) {

@@ -77,12 +77,20 @@ std::string unit_of(const Setting& setting, const json& report) {
   return setting.unit == "mm^3" ? "mm³" : setting.unit;
 }
 
+/// The pointer to the words that tell how a setting was found; empty: it was not left to the program.
+/// Reports of earlier versions hold these words alone.
+std::string reason_at(const json& report, const std::string& name) {
+  const std::string at = "/chosen/" + name;
+  if (entry(report, at).is_string()) return at;
+  return has(report, at + "/reason") ? at + "/reason" : std::string();
+}
+
 /// How a setting came to its value.
 std::string origin_of(const json& report, const std::string& name) {
   for (const json& given : entry(report, "/given")) {
     if (given == name) return "given";
   }
-  return has(report, "/chosen/" + name) ? "chosen" : "default";
+  return reason_at(report, name).empty() ? "default" : "chosen";
 }
 
 // ---------------------------------------------------------------- words
@@ -310,11 +318,12 @@ Html scan_section(const json& report) {
 Html choices_section(const json& report) {
   Html rows("tbody");
   for (const Setting& setting : setting_table()) {
-    if (!has(report, "/chosen/" + setting.name)) continue;
+    const std::string reason = reason_at(report, setting.name);
+    if (reason.empty()) continue;
     Html row("tr");
     row.add(row_head(setting.name));
     row.add(cell(datum(report, "/settings/" + setting.name, unit_of(setting, report))));
-    rows.add(row.add(cell(datum(report, "/chosen/" + setting.name))));
+    rows.add(row.add(cell(datum(report, reason))));
   }
   if (rows.is_empty()) return Html();
   Html made =

@@ -118,11 +118,28 @@ ordered_json quality_json(const RunSummary& run) {
   return quality;
 }
 
-/// The settings that were left to the program, each with how it was found.
-ordered_json chosen_json(const Settings& asked) {
+/// Whether a setting has the value of the preset of the paper, whoever wrote it.
+bool is_of_preset(const Setting& setting, const Settings& asked) {
+  return !setting.paper.empty() && setting.get(asked) == parse_value(setting, setting.paper);
+}
+
+/// The settings that can be left to the program: the value, where it came from, how surely it is
+/// known, and how it was found.
+/// @param used  all settings of the run.
+ordered_json chosen_json(const Settings& asked, const ordered_json& used,
+                         const MeasuredImage& image) {
   ordered_json chosen = ordered_json::object();
   for (const Setting& setting : setting_table()) {
-    if (origin_of(setting, asked) == Origin::kMeasured) chosen[setting.name] = setting.automatic;
+    if (setting.automatic.empty()) continue;
+    const bool measured = origin_of(setting, asked) == Origin::kMeasured;
+    const bool is_level = setting.name == "level" && used["level"].is_number();
+    chosen[setting.name] = {
+        {"value", used[setting.name]},
+        {"source", measured                       ? "measured"
+                   : is_of_preset(setting, asked) ? "preset"
+                                                  : "given"},
+        {"uncertainty", known(is_level && image.level_uncertainty > 0, image.level_uncertainty)},
+        {"reason", measured ? ordered_json(setting.automatic) : ordered_json()}};
   }
   return chosen;
 }
@@ -252,7 +269,7 @@ ordered_json loop_json(const RunSummary& run) {
 ordered_json run_json(const Settings& asked, const RunSummary& run) {
   ordered_json report;
   report["settings"] = to_json(settings_of(run.parameters));
-  report["chosen"] = chosen_json(asked);
+  report["chosen"] = chosen_json(asked, report["settings"], run.image);
   report["given"] = given_json(asked);
   report["grey"] = grey_json(run.parameters);
   report["quality"] = quality_json(run);
