@@ -98,14 +98,16 @@ void draw_glyph(Raster& on, const Font& font, int glyph, const Place& origin) {
   const auto [left, top, right, bottom] = bounds_of(font, glyph, within);
   const int width = right - left, height = bottom - top;
   if (width <= 0 || height <= 0) return;
-  std::vector<unsigned char> covered(static_cast<std::size_t>(width) *
-                                     static_cast<std::size_t>(height));
+  const auto columns = static_cast<std::size_t>(width);
+  std::vector<unsigned char> covered(columns * static_cast<std::size_t>(height));
   stbtt_MakeGlyphBitmapSubpixel(&font.info(), covered.data(), width, height, width, font.scale(),
                                 font.scale(), within[0], within[1], glyph);
   for (int row = 0; row < height; ++row) {
     for (int column = 0; column < width; ++column) {
       const double x = whole[0] + left + column, y = whole[1] + top + row;
-      const auto share = covered[static_cast<std::size_t>(row * width + column)] / 255.0;
+      const double share =
+          covered[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)] /
+          255.0;
       if (share == 0 || x < 0 || y < 0 || x >= on.width || y >= on.height) continue;
       mix(on, {static_cast<int>(x), static_cast<int>(y)}, font.colour(), share);
     }
