@@ -25,6 +25,7 @@
 #include "mesamis/shape_files/surface_files.h"
 #include "outputs.h"
 #include "process.h"
+#include "ranges.h"
 #include "run_action.h"
 #include "scan.h"
 #include "segment_run.h"
@@ -261,7 +262,7 @@ void add_made_options(CLI::App& c, BidsArguments& a) {
   add_frame_option(c, a.segment.scan.frame);
   c.add_option("--time-limit", a.segment.time_limit,
                "Seconds per image after which no further mesh is begun")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "mesamis/body/material_law.h"
 #include "mesamis/delivery/body_request.h"
 #include "outputs.h"
+#include "ranges.h"
 
 namespace mesamis {
 namespace {
@@ -46,25 +47,25 @@ void add_element_options(CLI::App& c, BodyArguments& a) {
        "--element-size", a.options.element_size,
        "Edge length of --body and of --surface-quality meshing, mm (default: three voxels); "
        "less where it is curved or thin")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->each(note("--element-size"));
   c.add_option("--least-size", a.options.least_size,
                "Their edges are not wanted shorter, mm (default: a quarter of --element-size)")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->each(note("--least-size"));
   c.add_option(
        "--skin-tolerance", a.skin_tolerance,
        "How far their skin may lie from the surface, mm (default: --tolerance if given, else a "
        "tenth of --element-size); more allows larger elements where it is curved")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->each(note("--skin-tolerance"));
   c.add_option("--element-gradation", a.options.gradation,
                "By how much their sizes may grow over a length (default 0.5)")
-      ->check(CLI::Range(kGradations[0], kGradations[1]))
+      ->check(from_to(kGradations[0], kGradations[1]))
       ->each(note("--element-gradation"));
   c.add_option("--wall-elements", a.options.through_wall,
                "Their elements between two sides of a wall (default 1; 0: any)")
-      ->check(CLI::Range(kWallElements[0], kWallElements[1]))
+      ->check(from_to(kWallElements[0], kWallElements[1]))
       ->each(note("--wall-elements"));
 }
 
@@ -73,23 +74,25 @@ void add_material_options(CLI::App& c, BodyArguments& a) {
   c.add_option("--material", a.material,
                "Stiffness of --body from the grey values: a law of docs/materials.md, or "
                "E=c*rho^p in MPa and g/cm^3; needs --calibration")
+      ->type_name("LAW")
       ->each(noted(a.of_body, "--material"));
   c.add_option("--calibration", a.calibration,
                "Density g/cm^3 of a native value: a,b for a + b * value, or HU1:rho1,HU2:rho2")
+      ->type_name("A,B")
       ->each(note("--calibration"));
   c.add_option("--ash", a.ash, "Ash density of the calibration's: schileo-2008 (default), equal")
       ->each(note("--ash"));
   c.add_option("--material-gap", a.gap, "MPa between the ends of a bin of materials (default 50)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->each(note("--material-gap"));
   c.add_option(
        "--material-rim", a.rim,
        "Depth below the surface, mm, down to which the surroundings dim the scan: there the "
        "value below counts where it is greater (default: from the scan's blur; 0: none)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->each(note("--material-rim"));
   c.add_option("--poisson", a.poisson, "Poisson ratio (default: the law's)")
-      ->check(CLI::Range(kPoissonRatios[0], kPoissonRatios[1]))
+      ->check(from_to(kPoissonRatios[0], kPoissonRatios[1]))
       ->each(note("--poisson"));
 }
 
@@ -156,6 +159,7 @@ void add_body_options(CLI::App& c, BodyArguments& a) {
                "Faces and nodes of --body for loads: NAME=top:z,2mm, bottom:AXIS,MM, "
                "box:X0,Y0,Z0,X1,Y1,Z1, normal:X,Y,Z,DEGREES, between:1,2 (the first and the second "
                "object), outer, inner; in the frame of --frame")
+      ->type_name("NAME=PLACE")
       ->each(note("--set"));
 }
 

@@ -8,6 +8,7 @@
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/label_files/label_table.h"
+#include "ranges.h"
 
 namespace mesamis {
 namespace {
@@ -29,13 +30,14 @@ void add_label_options(CLI::App& command, LabelArguments& a) {
                   "Instead of --labels: one volume of probabilities per object, or one of four "
                   "dimensions")
       ->excludes(labels);
-  command.add_option("--label", a.chosen,
-                     "Objects of the label map, by name or number; all if none");
+  command
+      .add_option("--label", a.chosen, "Objects of the label map, by name or number; all if none")
+      ->type_name("NAME|N");
   command.add_option(
       "--label-names", a.names,
       "Names and colours of the labels: ITK-SNAP .label, Slicer .ctbl, N NAME R G B");
   command.add_option("--margin", a.margin, "How far labels may be wrong, or around --mask, mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 LabelMap read_marks(const std::filesystem::path& path, const LabelOptions& options,

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <sstream>
 
+#include "command_guide.h"
 #include "commands.h"
 #include "mesamis/base/version.h"
 #include "mesamis/method/setting_table.h"
@@ -59,17 +60,11 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
-
 /// A page while it is written. Its text is wrapped and cannot be taken for commands of roff.
 class Page {
  public:
   void line(const std::string& roff) { text_ += roff + "\n"; }
-  void section(const std::string& title) { line(".SH " + escaped(upper(title))); }
+  void section(const std::string& title) { line(".SH " + escaped(in_capitals(title))); }
   void tagged(const std::string& tag, const std::string& text) {
     line(".TP");
     line(tag);
@@ -108,7 +103,7 @@ std::string page_name(const CLI::App* command) {
 void write_head(Page& page, const CLI::App* command, const std::string& description,
                 const std::string& date) {
   page.line(".\\\" SPDX-License-Identifier: Apache-2.0");
-  page.line(".TH " + upper(escaped(page_name(command))) + " 1 \"" + date + "\" \"mesamis " +
+  page.line(".TH " + in_capitals(escaped(page_name(command))) + " 1 \"" + date + "\" \"mesamis " +
             version() + "\" \"mesamis\"");
   page.section("Name");
   // What finds pages by their purpose wants a small letter.
@@ -128,14 +123,14 @@ void write_synopsis(Page& page, const CLI::App& command, const std::vector<Optio
   line += " [" + italic("OPTION") + "...]";
   for (const OptionFacts& option : options) {
     if (!option.positional) continue;
-    const std::string name = italic(upper(option.names.front()));
+    const std::string name = italic(in_capitals(option.names.front()));
     line += option.required ? " " + name : " [" + name + "]";
   }
   page.line(line);
 }
 
 std::string tag_of(const OptionFacts& option) {
-  if (option.positional) return italic(upper(option.names.front()));
+  if (option.positional) return italic(in_capitals(option.names.front()));
   std::string tag;
   for (const std::string& name : option.names) tag += (tag.empty() ? "" : ", ") + bold(name);
   if (!option.value.empty()) tag += " " + italic(option.value);
@@ -178,9 +173,20 @@ void write_options(Page& page, const std::vector<OptionFacts>& options) {
   for (const OptionFacts& option : options) {
     if (option.group != group) {
       group = option.group;
-      page.section(group == "Options" || group == "Positionals" ? group : group + " options");
+      const bool complete = group == "Positionals" || group.starts_with("Options");
+      page.section(complete ? group : group + " options");
     }
     write_option(page, option);
+  }
+}
+
+void write_examples(Page& page, const CommandGuide& guide) {
+  if (guide.examples.empty()) return;
+  page.section("Examples");
+  for (const CommandExample& example : guide.examples) {
+    page.line(".TP");
+    page.prose(example.purpose + ":");
+    page.prose(example.line);
   }
 }
 
@@ -241,6 +247,7 @@ ManPage command_page(const CLI::App& program, const CLI::App& command, const std
       "of the program.");
   write_options(page, options);
   if (command.get_name() == "settings") write_settings(page);
+  write_examples(page, guide_of(command.get_name()));
   write_statuses(page);
   write_see_also(page, program, &command);
   return {page_name(&command) + ".1", page.text()};

@@ -56,13 +56,12 @@ std::vector<std::string> words_of(const CLI::Option& option) {
   return words.empty() ? words_of_lines(option.get_description()) : words;
 }
 
-/// "INT:INT in [1 - 999]" says "1 to 999"; "FLOAT:POSITIVE" says "above 0".
+/// "INT:1 to 999" says "1 to 999"; "FLOAT:above 0" says "above 0". See ranges.h.
 std::string range_of(const std::string& type) {
-  static const std::regex bounds(R"(in \[(\S+) - (\S+)\])");
-  std::smatch found;
-  if (std::regex_search(type, found, bounds)) return found[1].str() + " to " + found[2].str();
-  if (type.ends_with(":POSITIVE")) return "above 0";
-  return type.ends_with(":NONNEGATIVE") ? "0 or more" : "";
+  const std::size_t colon = type.find(':');
+  const std::string kind = type.substr(0, colon);
+  const bool number = kind == "FLOAT" || kind == "INT" || kind == "UINT";
+  return number && colon != std::string::npos ? type.substr(colon + 1) : "";
 }
 
 /// "Surface: .stl .ply; ..." and "Mesh: .vtu, Gmsh .msh": the endings behind the colon, where each
@@ -122,8 +121,9 @@ OptionFacts facts_of(const CLI::Option& option) {
   facts.words = words_of(option);
   facts.range = range_of(option.get_type_name());
   const std::string type = option.get_type_name();
-  facts.file = option.get_type_size_max() != 0 && (type == "TEXT" || type == "TEXT:PNG") &&
-               facts.words.empty() && !begins_with_form(facts.help);
+  facts.file = option.get_type_size_max() != 0 &&
+               (type == "TEXT" || type == "TEXT:PNG" || type == "DIR") && facts.words.empty() &&
+               !begins_with_form(facts.help);
   if (facts.file) facts.endings = endings_in(facts.help);
   facts.value = value_of(option, facts);
   if (!option.get_default_str().empty()) {
@@ -145,6 +145,12 @@ std::vector<OptionFacts> option_facts(const CLI::App& command) {
     }
   }
   return all;
+}
+
+std::string in_capitals(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; });
+  return name;
 }
 
 std::vector<const CLI::App*> shown_commands(const CLI::App& program) {

@@ -34,4 +34,7 @@ std::vector<OptionFacts> option_facts(const CLI::App& command);
 /// The commands of the program in the order of its help, the hidden ones left out.
 std::vector<const CLI::App*> shown_commands(const CLI::App& program);
 
+/// A name as a usage line has it: "INPUT".
+std::string in_capitals(std::string name);
+
 }  // namespace mesamis

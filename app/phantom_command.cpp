@@ -19,6 +19,7 @@
 #include "mesamis/scan_files/write_volume.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "outputs.h"
+#include "ranges.h"
 
 namespace mesamis {
 namespace {
@@ -147,7 +148,7 @@ void add_degrade_options(CLI::App& sub, DegradeOptions& degrade) {
   sub.add_option("--salt-pepper", degrade.salt_pepper, "Share of voxels that become 0 or 255")
       ->capture_default_str();
   sub.add_option("--seed", degrade.seed, "Of the noise")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->capture_default_str();
 }
 
@@ -174,7 +175,7 @@ void add_grid_options(CLI::App& sub, const std::shared_ptr<PhantomCommand>& comm
       },
       "Of the voxels X,Y,Z, mm (default 1,1,1)");
   sub.add_option("--samples", command->samples, "Points per voxel and direction at the surface")
-      ->check(CLI::Range(1, 16))
+      ->check(from_to(1, 16))
       ->capture_default_str();
 }
 

@@ -18,6 +18,7 @@
 #include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "outputs.h"
+#include "ranges.h"
 #include "scan.h"
 
 namespace mesamis {
@@ -154,7 +155,7 @@ void add_picture_command(CLI::App& app, CommonOptions& common, Action& action) {
   command->add_option("--view", options->picture.view, "Where it is seen from (not for volumes)")
       ->check(CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "oblique"}));
   command->add_option("--zoom", options->picture.zoom, "So many times larger (not for volumes)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option_function<std::string>(
       "--focus",
       [options](const std::string& text) {

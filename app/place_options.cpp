@@ -30,6 +30,7 @@ void add_padding_option(CLI::App& command, PlaceArguments& a) {
       .add_option("--padding", a.padding,
                   "Voxels that the scanner did not measure, which are filled: auto (default), "
                   "found by their signs; none; or all of a value, native units")
+      ->type_name("auto|none|VALUE")
       ->group(kGroup);
 }
 
@@ -37,6 +38,7 @@ void add_place_options(CLI::App& command, PlaceArguments& a) {
   command
       .add_option("--tissue", a.tissue,
                   "Tissue to segment, by name or by a range of native values: " + tissue_names())
+      ->type_name("NAME|LO:HI")
       ->group(kGroup);
   command
       .add_option("--mask", a.mask,
@@ -46,12 +48,14 @@ void add_place_options(CLI::App& command, PlaceArguments& a) {
       .add_option("--seed", a.seeds,
                   "X,Y,Z, mm, in the frame of --frame: the island with this point alone; several: "
                   "what touches is split, an object for each")
+      ->type_name("X,Y,Z")
       ->allow_extra_args(false)
       ->group(kGroup);
   command
       .add_option("--box", a.box,
                   "X0:X1,Y0:Y1,Z0:Z1, mm, in the frame of --frame: the part of the scan; ends may "
                   "be left out")
+      ->type_name("RANGES")
       ->group(kGroup);
   command
       .add_option("--remove", a.remove,

@@ -14,6 +14,7 @@
 #include "mesamis/chunk_files/chunked_scan.h"
 #include "mesamis/files/read_record.h"
 #include "mesamis/image/not_numbers.h"
+#include "ranges.h"
 
 namespace mesamis {
 namespace {
@@ -109,31 +110,37 @@ void add_modality_option(CLI::App& command, ReadOptions& options) {
 }
 
 void add_read_options(CLI::App& command, ReadOptions& options) {
-  command.add_option("--series", options.series, "DICOM series UID");
-  command.add_option_function<std::string>(
-      "--raw",
-      [&options](const std::string& text) {
-        options.raw = parsed("--raw", [&] { return parse_raw_layout(text); });
-      },
-      "NX,NY,NZ,TYPE[,HEADERBYTES]: the input is a raw file; TYPE uint8 int16 uint16 int32 float32 "
-      "float64, with be behind it if big endian");
-  command.add_option_function<std::string>(
-      "--spacing",
-      [&options](const std::string& text) {
-        const auto mm = parse_numbers(text, 3, "--spacing");
-        if (std::any_of(mm.begin(), mm.end(), [](double x) { return !(x > 0); })) {
-          throw CLI::ValidationError("--spacing", "expected numbers above 0, found '" + text + "'");
-        }
-        options.spacing = Vec3{mm[0], mm[1], mm[2]};
-      },
-      "X,Y,Z: distance of voxels, mm, for raw files, slices and whatever does not state it or "
-      "states it wrongly");
+  command.add_option("--series", options.series, "DICOM series UID")->type_name("UID");
+  command
+      .add_option_function<std::string>(
+          "--raw",
+          [&options](const std::string& text) {
+            options.raw = parsed("--raw", [&] { return parse_raw_layout(text); });
+          },
+          "NX,NY,NZ,TYPE[,HEADERBYTES]: the input is a raw file; TYPE uint8 int16 uint16 int32 "
+          "float32 "
+          "float64, with be behind it if big endian")
+      ->type_name("LAYOUT");
+  command
+      .add_option_function<std::string>(
+          "--spacing",
+          [&options](const std::string& text) {
+            const auto mm = parse_numbers(text, 3, "--spacing");
+            if (std::any_of(mm.begin(), mm.end(), [](double x) { return !(x > 0); })) {
+              throw CLI::ValidationError("--spacing",
+                                         "expected numbers above 0, found '" + text + "'");
+            }
+            options.spacing = Vec3{mm[0], mm[1], mm[2]};
+          },
+          "X,Y,Z: distance of voxels, mm, for raw files, slices and whatever does not state it or "
+          "states it wrongly")
+      ->type_name("X,Y,Z");
   command.add_flag(
       "--resample", options.resample,
       "Interpolate DICOM slices of a tilted gantry or at uneven distances, and sheared "
       "grids of NIfTI, NRRD and MetaImage, onto a regular grid, instead of refusing "
       "them");
-  const CLI::Range whole(0, std::numeric_limits<Index>::max());
+  const CLI::Validator whole = from_to(0, std::numeric_limits<Index>::max());
   command
       .add_option("--volume", options.volume,
                   "N, from 0: which volume of a 4-D file, time of a hyperstack or phase of a DICOM "

@@ -22,6 +22,7 @@
 #include "place_options.h"
 #include "process.h"
 #include "progress.h"
+#include "ranges.h"
 #include "run_plan.h"
 #include "scan.h"
 #include "segment_checks.h"
@@ -47,8 +48,20 @@ void add_mesh_options(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
       ->check(CLI::IsMember({"box", "object"}));
   c.add_option("--bins", o->out.mesh.bins,
                "Sets of cells of --mesh, by equal ranges of their native value (default 10)")
-      ->check(CLI::Range(1, kMostBins));
+      ->check(from_to(1, kMostBins));
   c.add_option("--band-mesh", o->out.band_meshes, "The band's cells with v: .vtu");
+}
+
+/// Options of how the run goes.
+void add_run_options(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
+  c.add_option("--time-limit", o->time_limit,
+               "Seconds after which no further mesh is begun; the surface of the last one is "
+               "written (exit status 4)")
+      ->check(above_zero());
+  c.add_flag("--plan", o->plan,
+             "Read headers alone and print what the run needs of memory, as JSON; outputs "
+             "are neither needed nor written");
+  add_slab_options(c, o->slabs);
 }
 
 /// Enough once the limit has passed.
@@ -176,6 +189,8 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   CLI::App* command = app.add_subcommand("segment", "Segment a scan: surface, mesh, report");
   command->add_option("input", options->scan.input,
                       "Volume file, DICOM directory or file; with --labels it may be left out");
+  const auto group = [command](const char* name) { command->option_defaults()->group(name); };
+  group("Files written");
   command->add_option("-o,--output", options->out.surfaces,
                       listed("Surface:", written_surface_formats()));
   command->add_flag("--error", options->out.error,
@@ -185,26 +200,23 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
                     "Copy patient, study and frame of reference of the DICOM scan into --output "
                     ".dcm; without it a .dcm names no patient");
   add_mesh_options(*command, options);
-  add_body_options(*command, options->body);
-  add_place_options(*command, options->scan.places);
-  add_label_options(*command, options->scan.labels);
   command->add_option("--labelmap", options->out.labelmap,
                       "What was found, voxel by voxel on the scan's grid: .nii .nii.gz .nrrd "
                       ".seg.nrrd");
   command->add_option("--report", options->out.report, "Report: .json");
   add_page_options(*command, options->out.page);
-  add_read_options(*command, options->scan.read);
   add_frame_option(*command, options->scan.frame);
-  command
-      ->add_option("--time-limit", options->time_limit,
-                   "Seconds after which no further mesh is begun; the surface of the last one is "
-                   "written (exit status 4)")
-      ->check(CLI::PositiveNumber);
-  command->add_flag("--plan", options->plan,
-                    "Read headers alone and print what the run needs of memory, as JSON; outputs "
-                    "are neither needed nor written");
-  command->add_option("--name", options->out.name, "The object's name in the surfaces written");
-  add_slab_options(*command, options->slabs);
+  command->add_option("--name", options->out.name, "The object's name in the surfaces written")
+      ->type_name("NAME");
+  group("Which object");
+  add_label_options(*command, options->scan.labels);
+  add_place_options(*command, options->scan.places);
+  group("Scan");
+  add_read_options(*command, options->scan.read);
+  group("Finite elements");
+  add_body_options(*command, options->body);
+  group("Run");
+  add_run_options(*command, options);
   add_settings_options(*command, options->settings);
   command->callback([options, &common, &action] {
     action = [options, &common] { return run_segment(*options, common); };

@@ -127,20 +127,24 @@ RunFiles outputs_of(const SegmentOptions& run, const FileSlices& source, const S
 }  // namespace
 
 void add_slab_options(CLI::App& command, SlabArguments& arguments) {
-  command.add_option_function<std::string>(
-      "--slabs",
-      [&arguments](const std::string& text) {
-        arguments.slabs = text == "auto" ? 0 : parse_integers(text, 1, "--slabs").front();
-        if (*arguments.slabs < (text == "auto" ? 0 : 1)) {
-          throw CLI::ValidationError("--slabs", "expected at least 1, found " + text);
-        }
-      },
-      "Work on an Nth of the scan at a time (auto: on 67 million voxels), for scans that are "
-      "larger than the memory; the surface does not depend on N; scratch files lie beside the "
-      "first output");
-  command.add_option("--checkpoint", arguments.checkpoint,
-                     "Folder for the scratch files of --slabs: a killed run resumes "
-                     "there; removed at the end");
+  command
+      .add_option_function<std::string>(
+          "--slabs",
+          [&arguments](const std::string& text) {
+            arguments.slabs = text == "auto" ? 0 : parse_integers(text, 1, "--slabs").front();
+            if (*arguments.slabs < (text == "auto" ? 0 : 1)) {
+              throw CLI::ValidationError("--slabs", "expected at least 1, found " + text);
+            }
+          },
+          "Work on an Nth of the scan at a time (auto: on 67 million voxels), for scans that are "
+          "larger than the memory; the surface does not depend on N; scratch files lie beside the "
+          "first output")
+      ->type_name("N|auto");
+  command
+      .add_option("--checkpoint", arguments.checkpoint,
+                  "Folder for the scratch files of --slabs: a killed run resumes "
+                  "there; removed at the end")
+      ->type_name("DIR");
 }
 
 void require_slabs(const SegmentOptions& run, const Settings& settings) {

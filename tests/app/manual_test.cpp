@@ -56,12 +56,15 @@ std::string without_backslashes(std::string text) {
 TEST_F(ManualTest, HasAPageOfEachCommandWithAllItsOptions) {
   const ProgramRun help = run_program(folder, {"--help"});
   static const std::regex command("\n  ([a-z-]+) +[A-Z]");
-  const std::string commands = help.out.substr(help.out.find("Subcommands:"));
+  const std::string commands = help.out.substr(
+      help.out.find("Commands:"), help.out.find("\nOptions:") - help.out.find("Commands:"));
   std::size_t seen = 0;
   for (std::sregex_iterator at(commands.begin(), commands.end(), command), end; at != end; ++at) {
     const std::string name = (*at)[1];
     const std::string text = without_backslashes(page("mesamis-" + name + ".1"));
-    for (const std::string& option : long_options(run_program(folder, {name, "--help"}).out)) {
+    const std::string all =
+        run_program(folder, {name, "--help-all"}).out;  // the program's own last
+    for (const std::string& option : long_options(all.substr(0, all.find("  --version")))) {
       EXPECT_THAT(text, HasSubstr(option)) << name;
       EXPECT_THAT(read_bytes(folder / "_mesamis"), HasSubstr(option)) << name;
       EXPECT_THAT(read_bytes(folder / "bash"), HasSubstr(option)) << name;
@@ -80,6 +83,7 @@ TEST_F(ManualTest, TellsTheSettingsAndTheExitStatus) {
   EXPECT_THAT(settings, HasSubstr("Range: "));
   EXPECT_THAT(page("mesamis-segment.1"), HasSubstr(".SH EXIT STATUS"));
   EXPECT_THAT(page("mesamis-segment.1"), HasSubstr("2026-11-24"));
+  EXPECT_THAT(page("mesamis-segment.1"), HasSubstr(".SH EXAMPLES"));
 }
 
 TEST_F(ManualTest, IsTheSameEveryTime) {

@@ -5,6 +5,7 @@ set(ROOM_HEADERS
   error.h
   median.h
   message.h
+  nearest_names.h
   parallel.h
   progress.h
   single_precision.h
@@ -16,6 +17,7 @@ set(ROOM_HEADERS
   written_number.h)
 set(ROOM_SOURCES
   available_memory.cpp
+  nearest_names.cpp
   sym3.cpp
   written_number.cpp
   NEXT parallel.cpp)

@@ -6,6 +6,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/message.h"
+#include "mesamis/base/nearest_names.h"
 #include "mesamis/base/written_number.h"
 #include "mesamis/method/setting_rows.h"
 
@@ -124,7 +125,9 @@ const Setting& find_setting(std::string_view name) {
   for (const Setting& setting : setting_table()) {
     if (setting.name == wanted) return setting;
   }
-  throw InputError("there is no setting '" + std::string(name) + "'");
+  std::vector<std::string> names;
+  for (const Setting& setting : setting_table()) names.push_back(setting.name);
+  throw InputError("there is no setting " + quoted_text(name) + did_you_mean(wanted, names));
 }
 
 std::string forms_of(const Setting& setting) {
