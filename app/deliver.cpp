@@ -24,11 +24,14 @@ RunFiles outputs_of(const SegmentOptions& options, const CommonOptions& common) 
   return out;
 }
 
-int deliver(const OutcomeDetails& outcome, const RunFiles& outputs, OutputSet& set) {
+int deliver(const OutcomeDetails& outcome, const RunFiles& outputs, OutputSet& set,
+            ProgressDisplay& display) {
+  display.begin("writing");
   write(outcome, outputs, set);
   RunFigures figures = figures_of(outcome);
   figures.files = files_of(set);
   commit(set);
+  display.finish();
   show_summary(figures);
   const Verdict& verdict = outcome.verdict;
   if (verdict.kind != VerdictKind::kKept) log_error(verdict.message);

@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "mesamis/files/output_set.h"
 #include "mesamis/run/run_files.h"
+#include "progress.h"
 #include "segment_run.h"
 
 namespace mesamis {
@@ -12,9 +13,11 @@ namespace mesamis {
 RunFiles outputs_of(const SegmentOptions& options, const CommonOptions& common);
 
 /// Writes the files of a run, shows its figures, and logs what it has missed.
-/// @param set  of this thread; what is in it already appears with the files.
+/// @param set      of this thread; what is in it already appears with the files.
+/// @param display  learns that files are written.
 /// @return the exit status.
 /// @throws InputError  as write() and OutputSet::commit().
-int deliver(const OutcomeDetails& outcome, const RunFiles& outputs, OutputSet& set);
+int deliver(const OutcomeDetails& outcome, const RunFiles& outputs, OutputSet& set,
+            ProgressDisplay& display);
 
 }  // namespace mesamis

@@ -101,12 +101,17 @@ void log_error(const std::string& message) {
 bool log_is_json() { return is_json; }
 bool log_is_for_slicer() { return is_for_slicer; }
 
-void log_progress(const std::string& stage, double fraction) {
+void log_progress(const StageProgress& progress) {
   auto formatter = std::make_unique<spdlog::pattern_formatter>();
   formatter->set_pattern(std::string(kJsonTime) + R"("level":"progress",%v})");
   spdlog::logger logger("progress", std::make_shared<spdlog::sinks::stderr_sink_mt>());
   logger.set_formatter(std::move(formatter));
-  logger.info(R"("stage":)" + quoted(stage) + R"(,"fraction":)" + nlohmann::json(fraction).dump());
+  const auto number = [](double x) { return nlohmann::json(x).dump(); };
+  std::string entries =
+      R"("stage":)" + quoted(progress.stage) + R"(,"fraction":)" + number(progress.fraction);
+  if (progress.done) entries += R"(,"done":)" + number(*progress.done);
+  if (progress.seconds_left) entries += R"(,"seconds_left":)" + number(*progress.seconds_left);
+  logger.info(entries);
 }
 
 bool log_allows_bar() { return bar_allowed; }

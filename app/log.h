@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "commands.h"
@@ -26,9 +27,16 @@ bool log_is_json();
 /// which Slicer shows as errors.
 bool log_is_for_slicer();
 
-/// For programs: how far a stage has come, in a line of its own, level "progress".
-/// @param fraction  0 to 1.
-void log_progress(const std::string& stage, double fraction);
+/// How far a run has come.
+struct StageProgress {
+  std::string stage;
+  double fraction = 0;                 ///< of the stage, 0 to 1
+  std::optional<double> done;          ///< of the whole, 0 to 1; none: not known
+  std::optional<double> seconds_left;  ///< of the whole, or of the stage where it is not known
+};
+
+/// For programs: a line of its own, level "progress".
+void log_progress(const StageProgress& progress);
 
 /// Whether a progress bar may be drawn: stderr is a terminal and its lines are for people.
 bool log_allows_bar();

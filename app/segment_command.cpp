@@ -135,19 +135,32 @@ std::function<std::optional<Volume>()> shown_scan(const SegmentOptions& options,
   return [&options, sum] { return read_shown_scan({options.scan.input, options.scan.read, sum}); };
 }
 
+/// Which stages the progress of the run has.
+RunStages stages_of(const SegmentOptions& options, const Settings& settings) {
+  const ScanArguments& scan = options.scan;
+  RunStages stages;
+  stages.labels = scan.labels.given() || scan.places.seeds.size() > 1;
+  stages.scan = !scan.input.empty();
+  stages.preview = settings.preview;
+  stages.mesh = options.wants_mesh();
+  stages.elements = options.body.elements();
+  return stages;
+}
+
 int run_whole(const SegmentOptions& options, const Settings& settings,
               const CommonOptions& common) {
   RunFiles out = outputs_of(options, common);
+  ProgressDisplay display(common.quiet, stage_shares(stages_of(options, settings)));
+  display.begin("reading");
   Request request = read_request(options, settings, common, out);
   out.shown_scan = shown_scan(options, out);
-  ProgressDisplay display(common.quiet);
   const Outcome found = segment(std::move(request), listener_of(display, options));
   const OutcomeDetails& outcome = found.details();
   display.finish();
   warn_of_missing_meshes(options, outcome);
   warn_of_elements(options.body, outcome);
   OutputSet set;
-  return deliver(outcome, out, set);
+  return deliver(outcome, out, set, display);
 }
 
 int print_plan(const SegmentOptions& options, const Settings& settings) {

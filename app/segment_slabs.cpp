@@ -177,7 +177,7 @@ int run_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Setti
   const std::unique_ptr<FileSlices> source = open_any_slices(run.scan.input, run.scan.read);
   const VolumeFile& head = source->head();
   for (const std::string& warning : head.warnings) log_warning(warning);
-  ProgressDisplay display(common.quiet || common.is_helper());
+  ProgressDisplay display(common.quiet || common.is_helper(), stage_shares({.slabs = true}));
   std::optional<OutputSet> set;
   if (team.rank() == 0) set.emplace();
   SlabRequest request{*source, settings, slab_options(run, slabs), {}, run.scan.frame};
@@ -190,7 +190,7 @@ int run_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Setti
   const auto found = segment_in_slabs(request, folder, team);
   display.finish();
   if (!found) return kExitDone;
-  return deliver(found->outcome.details(), outputs_of(run, *source, *found, common), *set);
+  return deliver(found->outcome.details(), outputs_of(run, *source, *found, common), *set, display);
 }
 
 }  // namespace mesamis

@@ -15,11 +15,6 @@ using namespace std::chrono_literals;
 
 constexpr auto kBetween = 100ms;
 
-/// How much of what is left a stage usually takes: three meshes, then what is quick.
-double usual_share(std::string_view stage) {
-  return stage.starts_with("preparation") ? 0.05 : stage.starts_with("adaptation") ? 0.35 : 0.3;
-}
-
 std::string element(const char* name, const std::string& text) {
   return fmt::format("<{0}>{1}</{0}>", name, text);
 }
@@ -33,28 +28,29 @@ void tell_slicer(const std::string& line) {
 
 void tell_slicer_done() { tell_slicer(element("filter-progress", "1")); }
 
-void SlicerProgress::show(std::string_view stage, double fraction) {
-  if (stage != stage_) enter(stage);
+void SlicerProgress::show(std::string_view stage, double fraction, double done) {
+  if (stage != stage_) {
+    enter(stage);
+    tell(0, done);
+  }
   const auto now = Clock::now();
   if (fraction <= told_ || now - last_told_ < kBetween) return;
   last_told_ = now;
-  tell(fraction);
+  tell(fraction, done);
 }
 
 void SlicerProgress::enter(std::string_view stage) {
   finish();
   stage_ = stage;
-  share_ = (1 - begin_) * usual_share(stage);
   start_ = last_told_ = Clock::now();
   const std::string name = xml_escaped(stage);
   tell_slicer("<filter-start>\n" + element("filter-name", name) + "\n" +
               element("filter-comment", name) + "\n</filter-start>");
-  tell(0);
 }
 
-void SlicerProgress::tell(double fraction) {
+void SlicerProgress::tell(double fraction, double done) {
   told_ = std::clamp(fraction, 0.0, 1.0);
-  tell_slicer(element("filter-progress", fmt::format("{:.4f}", begin_ + share_ * told_)) + "\n" +
+  tell_slicer(element("filter-progress", fmt::format("{:.4f}", done)) + "\n" +
               element("filter-stage-progress", fmt::format("{:.4f}", told_)));
 }
 
@@ -63,7 +59,6 @@ void SlicerProgress::finish() {
   const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
   tell_slicer("<filter-end>\n" + element("filter-name", xml_escaped(stage_)) + "\n" +
               element("filter-time", fmt::format("{:.3f}", seconds)) + "\n</filter-end>");
-  begin_ += share_;
   stage_.clear();
 }
 

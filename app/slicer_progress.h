@@ -16,24 +16,23 @@ void tell_slicer(const std::string& line);
 void tell_slicer_done();
 
 /// Tells Slicer how far long work has come: each stage begins and ends as a filter, with its name,
-/// its seconds, its own progress and that of the whole. How many stages follow is not known: each
-/// takes a share of what is left of the whole.
+/// its seconds, its own progress and that of the whole.
 class SlicerProgress {
  public:
   /// @param fraction  of the stage, 0 to 1. Told at once where the stage is new, else at most every
   ///                  tenth of a second.
-  void show(std::string_view stage, double fraction);
+  /// @param done      of the whole, 0 to 1.
+  void show(std::string_view stage, double fraction, double done);
   /// Ends the stage, if there is one.
   void finish();
 
  private:
   using Clock = std::chrono::steady_clock;
   void enter(std::string_view stage);
-  void tell(double fraction);
+  void tell(double fraction, double done);
 
   std::string stage_;
-  double begin_ = 0, share_ = 0;  ///< of the whole: done before the stage, and its own part
-  double told_ = 0;               ///< of the stage
+  double told_ = 0;  ///< of the stage
   Clock::time_point start_, last_told_;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "log.h"
+#include "mesamis/base/written_number.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/method/expected_error.h"
 
@@ -18,37 +19,71 @@ std::string plural(std::int64_t count, const std::string& what) {
   return digits + " " + what + (count == 1 ? "" : "s");
 }
 
-std::string level_line(const RunFigures& run) {
-  std::string line = run.level ? fmt::format("{:.4g} {}", *run.level, run.unit) : "none";
-  if (run.expected_error) line += fmt::format(", expected error {:.3g} mm", *run.expected_error);
-  return line;
+/// "0.30 mm"
+std::string error_text(double mm) { return significant_text(mm, 2) + " mm"; }
+
+/// "320 x 219 x 98.4 mm, 803 cm³"
+std::string size_text(const Vec3& size, double mm3) {
+  constexpr int kDigits = 3;
+  return significant_text(size.x, kDigits) + " x " + significant_text(size.y, kDigits) + " x " +
+         significant_text(size.z, kDigits) + " mm, " + significant_text(mm3 / 1000, kDigits) +
+         " cm³";
 }
 
-std::string size_line(const RunFigures& run) {
-  std::vector<Vec3> points;
+std::string closed_text(const SurfaceCheck& check) {
+  return check.closed() ? "closed" : "not closed";
+}
+
+/// One of several.
+std::string object_text(const ObjectFigures& object) {
+  if (object.triangles == 0) return object.name + ": no surface";
+  std::string text = object.name + ": " + plural(object.triangles, "triangle") + ", " +
+                     size_text(object.size, object.check.volume);
+  if (object.expected_error) text += ", error " + error_text(*object.expected_error);
+  return text + ", " + closed_text(object.check);
+}
+
+/// The lines that name the objects, without their heads.
+std::vector<std::string> object_texts(const RunFigures& run) {
+  constexpr std::size_t kMost = 12;
+  if (run.objects.empty()) return {"none"};
+  if (!run.several) {
+    const ObjectFigures& one = run.objects.front();
+    return {one.name + ", " + plural(one.check.components, "part") + ", " + closed_text(one.check)};
+  }
+  std::vector<ObjectFigures> sorted = run.objects;
+  if (sorted.size() > kMost) {
+    std::stable_partition(sorted.begin(), sorted.end(),
+                          [](const ObjectFigures& o) { return !o.check.closed(); });
+  }
+  std::vector<std::string> texts;
+  for (std::size_t n = 0; n < std::min(kMost, sorted.size()); ++n) {
+    texts.push_back(object_text(sorted[n]));
+  }
+  if (sorted.size() > kMost) {
+    texts.push_back("and " + std::to_string(sorted.size() - kMost) + " more");
+  }
+  return texts;
+}
+
+std::string whole_size(const RunFigures& run) {
   double volume = 0;
-  for (const TriMesh* surface : run.surfaces) {
-    points.insert(points.end(), surface->points.begin(), surface->points.end());
-  }
-  for (const SurfaceCheck& check : run.checks) volume += check.volume;
-  if (points.empty()) return "none";
-  const Vec3 size = bounding_box(points).extent();
-  return fmt::format("{:.4g} x {:.4g} x {:.4g} mm, {:.4g} cm^3", size.x, size.y, size.z,
-                     volume / 1000);
+  for (const ObjectFigures& object : run.objects) volume += object.check.volume;
+  return run.objects.empty() ? "none" : size_text(run.size, volume);
 }
 
-std::string surface_line(const RunFigures& run) {
-  std::int64_t triangles = 0, parts = 0;
-  bool closed = true;
-  for (const TriMesh* surface : run.surfaces) {
-    triangles += static_cast<std::int64_t>(surface->triangles.size());
-  }
-  for (const SurfaceCheck& check : run.checks) {
-    parts += check.components;
-    closed &= check.closed();
-  }
-  return plural(triangles, "triangle") + ", " + plural(parts, "part") +
-         (closed ? ", closed" : ", not closed");
+std::string surface_text(const RunFigures& run) {
+  std::int64_t triangles = 0;
+  for (const ObjectFigures& object : run.objects) triangles += object.triangles;
+  const std::string text = plural(triangles, "triangle");
+  if (!run.level) return text;
+  return text + fmt::format(", level {} {}", significant_text(*run.level, 4), run.unit);
+}
+
+std::string expected_text(const RunFigures& run) {
+  if (!run.expected_error) return "not known";
+  const std::string text = error_text(*run.expected_error) + " expected in the mean";
+  return run.largest_error ? text + ", 95 % below " + error_text(*run.largest_error) : text;
 }
 
 /// Those of one folder together.
@@ -63,34 +98,60 @@ std::string files_line(const RunFigures& run) {
   return line.empty() ? "none" : line;
 }
 
+/// The one object, and its level.
+void name_object(const OutcomeDetails& outcome, RunFigures& figures) {
+  const Result& result = *outcome.one;
+  const bool named = outcome.object && !outcome.object->tissue.empty();
+  if (!figures.objects.empty()) {
+    figures.objects.front().name = named ? outcome.object->tissue : "all that is bright";
+  }
+  if (result.parameters.surface == SurfaceKind::kSolid) figures.level = result.parameters.level;
+  figures.unit = outcome.grid.modality == "CT" ? "HU" : "native units";
+}
+
 }  // namespace
 
 RunFigures figures_of(const OutcomeDetails& outcome) {
   RunFigures figures;
-  figures.checks = outcome.checks;
-  for (const FoundObject& object : outcome.objects()) {
-    figures.object += (figures.object.empty() ? "" : ", ") + object.segment.name;
-    figures.surfaces.push_back(&object.surface);
+  std::vector<Vec3> points;
+  double area = 0, error = 0;
+  const std::vector<FoundObject> objects = outcome.objects();
+  for (std::size_t n = 0; n < objects.size(); ++n) {
+    const TriMesh& surface = objects[n].surface;
+    ObjectFigures& object = figures.objects.emplace_back();
+    object.name = objects[n].segment.name;
+    object.triangles = std::ssize(surface.triangles);
+    object.check = outcome.checks[n];
+    if (surface.points.empty()) continue;
+    object.size = bounding_box(surface.points).extent();
+    points.insert(points.end(), surface.points.begin(), surface.points.end());
+    const std::vector<double>& expected = outcome.expected_error(n);
+    if (expected.empty()) continue;
+    const ErrorSummary summary = summarize_error(surface, expected);
+    object.expected_error = summary.mean;
+    figures.largest_error = summary.percentile95;
+    error += summary.mean * summary.area;
+    area += summary.area;
   }
-  if (!outcome.one) return figures;
-  const Result& result = *outcome.one;
-  const bool named = outcome.object && !outcome.object->tissue.empty();
-  figures.object = named ? outcome.object->tissue : "all that is bright";
-  if (result.parameters.surface == SurfaceKind::kSolid) figures.level = result.parameters.level;
-  figures.unit = outcome.grid.modality == "CT" ? "HU" : "native units";
-  if (!result.expected_error.empty()) {
-    figures.expected_error = summarize_error(result.surface, result.expected_error).mean;
-  }
+  if (!points.empty()) figures.size = bounding_box(points).extent();
+  if (area > 0) figures.expected_error = error / area;
+  figures.several = !outcome.one;
+  if (figures.several) figures.largest_error.reset();
+  if (outcome.one) name_object(outcome, figures);
   return figures;
 }
 
 std::vector<std::string> summary_lines(const RunFigures& run) {
-  return {"object   " + run.object, "level    " + level_line(run), "size     " + size_line(run),
-          "surface  " + surface_line(run), "files    " + files_line(run)};
+  std::vector<std::string> lines;
+  for (const std::string& text : object_texts(run)) lines.push_back("object   " + text);
+  lines.push_back("size     " + whole_size(run));
+  lines.push_back("surface  " + surface_text(run));
+  lines.push_back("error    " + expected_text(run));
+  lines.push_back("files    " + files_line(run));
+  return lines;
 }
 
 void show_summary(const RunFigures& run) {
-  if (!log_allows_bar()) return;
   for (const std::string& line : summary_lines(run)) log_info(line);
 }
 

@@ -11,24 +11,36 @@
 
 namespace mesamis {
 
-/// What came out of a run, for people at a terminal.
+/// What came out of a run for one object.
+struct ObjectFigures {
+  std::string name;
+  std::int64_t triangles = 0;
+  SurfaceCheck check;                    ///< of its surface
+  Vec3 size;                             ///< of the box around its surface, mm
+  std::optional<double> expected_error;  ///< in the mean over its surface, mm
+};
+
+/// What came out of a run, for people.
 struct RunFigures {
-  std::string object;                    ///< what was meant
+  std::vector<ObjectFigures> objects;
+  bool several = false;                  ///< objects that were named, or parts of several seeds
   std::optional<double> level;           ///< native units
   std::string unit;                      ///< of the level
-  std::vector<const TriMesh*> surfaces;  ///< mm
-  std::vector<SurfaceCheck> checks;      ///< of the surfaces
-  std::optional<double> expected_error;  ///< in the mean, mm
+  Vec3 size;                             ///< of the box around all surfaces, mm
+  std::optional<double> expected_error;  ///< in the mean over all surfaces, mm
+  std::optional<double> largest_error;   ///< that 95 % of the one surface stay below, mm
   std::vector<std::filesystem::path> files;
 };
 
-/// The figures of a run, but for the files; refer to the outcome.
+/// The figures of a run, but for the files.
 RunFigures figures_of(const OutcomeDetails& outcome);
 
-/// Five lines: object; level and expected error; size; triangles, parts, closed or not; files.
+/// Five lines: object; size and volume; triangles, level; expected error; files. Of several objects
+/// a line for each in place of the first, twelve at most: those that are not closed, then the first
+/// ones; a further line counts the others.
 std::vector<std::string> summary_lines(const RunFigures& run);
 
-/// Shows them where stderr is a terminal whose lines are for people, and nowhere else.
+/// Logs them.
 void show_summary(const RunFigures& run);
 
 }  // namespace mesamis

@@ -58,6 +58,19 @@ TEST(WrittenNumber, ItsTextReadsBackAsTheSameNumber) {
   EXPECT_EQ(number_text(0.1), "0.1");
 }
 
+TEST(WrittenNumber, ItsSignificantDigitsAreKept) {
+  EXPECT_EQ(significant_text(0.3004, 2), "0.30");
+  EXPECT_EQ(significant_text(0.0996, 2), "0.10");
+  EXPECT_EQ(significant_text(9.96, 2), "10");
+  EXPECT_EQ(significant_text(0.00012345, 2), "0.00012");
+  EXPECT_EQ(significant_text(-802.71, 3), "-803");
+  EXPECT_EQ(significant_text(1234.4, 3), "1234");
+  EXPECT_EQ(significant_text(105158, 3), "105 158");
+  EXPECT_EQ(significant_text(-1234567.8, 3), "-1 234 568");
+  EXPECT_EQ(significant_text(0, 2), "0.0");
+  EXPECT_EQ(significant_text(1e300, 2).find('e'), std::string::npos);
+}
+
 TEST(WrittenNumber, QuotesAreOneShortLine) {
   EXPECT_EQ(quotable("a\nb\tc"), "a b c");
   EXPECT_EQ(quotable(std::string(1000, 'x')), std::string(kMostQuoted, 'x'));

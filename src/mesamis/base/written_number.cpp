@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/base/written_number.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -30,6 +31,29 @@ bool take(std::string_view& text, std::string_view word) {
 std::string number_text(double value) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+std::string significant_text(double value, int digits) {
+  const auto decimals_of = [&](double x) {
+    const double size = std::abs(x);
+    const int before = size > 0 ? static_cast<int>(std::floor(std::log10(size))) + 1 : 1;
+    return std::clamp(digits - before, 0, 300);
+  };
+  const auto write = [](double x, int decimals) {
+    char text[700];
+    const auto end = std::to_chars(text, text + sizeof text, x, std::chars_format::fixed, decimals);
+    return std::string(text, end.ptr);
+  };
+  const int decimals = decimals_of(value);
+  std::string written = write(value, decimals);
+  // Rounding may carry: 9.96 becomes 10, which has a digit more before the point.
+  const int fewer = decimals_of(written_number(written).value_or(value));
+  if (fewer < decimals && value != 0) written = write(value, fewer);
+  const std::size_t first = written.starts_with('-') ? 1 : 0;
+  const std::size_t end = std::min(written.find('.'), written.size());
+  if (end - first < 5) return written;
+  for (std::size_t at = end; at > first + 3;) written.insert(at -= 3, " ");
+  return written;
 }
 
 std::string quotable(std::string_view text) {

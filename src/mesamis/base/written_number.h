@@ -23,6 +23,13 @@ bool take(std::string_view& text, std::string_view word);
 /// @param value  in any unit.
 std::string number_text(double value);
 
+/// A number in decimals, rounded to so many significant digits, without an exponent: 0.30, 12, 803,
+/// 105 158 (groups of three from 10 000 on). Digits before the point are never cut: 105158 keeps
+/// six.
+/// @param value   in any unit, finite.
+/// @param digits  1 to 17.
+std::string significant_text(double value, int digits);
+
 /// As many characters of a text go into a message.
 inline constexpr std::size_t kMostQuoted = 60;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/run/elements.h"
 
+#include <string_view>
 #include <utility>
 
 #include "mesamis/delivery/body_request.h"
@@ -16,7 +17,9 @@ ElementResults make_elements(const ElementRequest& asked, const ElementSource& s
       complete_request(asked.wishes, source.objects,
                        {source.grid, source.tolerance, source.used.blur, asked.memory_gb});
   BodyOptions options = request.elements;
-  options.progress = progress;
+  options.progress = [&](std::string_view, double share) {
+    return !progress || progress("elements", share);
+  };
   options.skins = asked.skins;
   FilledObjects filled = fill_objects(source.objects, source.grid, options);
   results.skins = std::move(filled.skins);

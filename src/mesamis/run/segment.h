@@ -80,7 +80,8 @@ struct Listener {
 /// 4. Checks the surfaces: closed, 2-manifold, within the tolerance.
 /// @param request   a scan of three axes, labels, or both; what the settings leave open is measured.
 /// @param listener  optional. The stages of its progress are "preparation", "adaptation k of n",
-///                  "final minimisation", "surface", "decimation".
+///                  "final minimisation", "surface", "decimation", "elements"; see
+///                  stage_shares() for those of other runs.
 /// @throws InputError  one line that says what was expected and found: if neither a scan nor labels
 ///                     are given, what needs a scan is asked of labels alone, or a scan, a label
 ///                     map or a setting cannot be used.

@@ -4,6 +4,7 @@ set(ROOM_HEADERS
   outcome.h
   outcome_details.h
   run_files.h
+  run_share.h
   segment.h
   segment_in_slabs.h
   write.h)
@@ -11,6 +12,7 @@ set(ROOM_SOURCES
   elements.cpp
   outcome.cpp
   outcome_details.cpp
+  run_share.cpp
   segment.cpp
   segment_in_slabs.cpp
   write.cpp)
