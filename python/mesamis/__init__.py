@@ -20,13 +20,13 @@ from ._result import LabelResult, Object, Result
 from ._segment import segment
 from ._settings import Setting, presets, settings
 from ._tools import Comparison, box_mesh, compare, decimate, label, phantom, phantom_surface, phantoms, remesh
-from ._volume import Volume, read_volume, write_volume
+from ._volume import Volume, from_sitk, read_volume, write_volume
 from ._warnings import MesamisWarning
 
 __all__ = [
     "Body", "Cancelled", "Comparison", "InputError", "LabelResult", "MesamisWarning", "Mesh",
     "NumericalError", "Object", "Result", "Setting", "Surface", "Volume", "box_mesh", "compare",
-    "decimate", "label", "make_body", "phantom", "phantom_surface", "phantoms", "presets", "read_mesh",
+    "decimate", "from_sitk", "label", "make_body", "phantom", "phantom_surface", "phantoms", "presets", "read_mesh",
     "read_surface", "read_volume", "remesh", "segment", "settings", "write_mesh", "write_surface",
     "write_volume",
 ]

@@ -7,6 +7,7 @@ import os
 import numpy as np
 
 from . import _core
+from ._progress import Follow
 from ._result import LabelResult, Result
 from ._warnings import warn
 
@@ -87,6 +88,7 @@ def make_body(result, *, element_size=None, least_size=None, tolerance=None, gra
               "sets": sets if sets is None or isinstance(sets, str) else list(sets), "material": material,
               "calibration": calibration, "ash": ash, "material_gap": material_gap,
               "material_rim": material_rim, "poisson": poisson, "memory": float(memory)}
-    body = Body(_core.make_body(result._run, wanted, progress, int(threads)), result.frame)
+    with Follow(progress) as tell:
+        body = Body(_core.make_body(result._run, wanted, tell, int(threads)), result.frame)
     warn(body.warnings)
     return body

@@ -6,9 +6,10 @@ import os
 import numpy as np
 
 from . import _core
+from ._shapes import Shape, table
 
 
-class Surface:
+class Surface(Shape):
     """Triangles: `points` (n, 3) in mm and `triangles` (m, 3), indices of points.
 
     `frame` is "lps", "ras" or None where it is not known; `report` tells how it was made.
@@ -59,6 +60,27 @@ class Mesh:
         """
         a, b, c, d = (self.nodes[self.tets[:, corner]] for corner in range(4))
         return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
+
+    def to_meshio(self):
+        """The mesh as a Mesh of meshio, with its arrays."""
+        import meshio
+
+        cells = {name: [np.asarray(values)] for name, values in self.cell_arrays.items()}
+        return meshio.Mesh(np.array(self.nodes), [("tetra", np.array(self.tets))],
+                           point_data={name: np.asarray(v) for name, v in self.point_arrays.items()},
+                           cell_data=cells)
+
+    def to_pyvista(self):
+        """The mesh as PyVista's UnstructuredGrid, with its arrays."""
+        import pyvista
+
+        data = pyvista.UnstructuredGrid({pyvista.CellType.TETRA: np.array(self.tets)}, np.array(self.nodes))
+        data.point_data.update({name: np.asarray(v) for name, v in self.point_arrays.items()})
+        data.cell_data.update({name: np.asarray(v) for name, v in self.cell_arrays.items()})
+        return data
+
+    def _repr_html_(self):
+        return table("Mesh", [("nodes", len(self.nodes)), ("tetrahedra", len(self.tets))])
 
     def save(self, path):
         """Writes .vtu, with the arrays, or Medit's .mesh."""

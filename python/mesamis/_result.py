@@ -4,11 +4,14 @@
 import json
 import os
 import tempfile
+import webbrowser
 
 import numpy as np
 
-from . import _core
+from ._kept import KeptRun, state_of
+from ._shapes import Shape, significant, table
 
+PAGE_FORMATS = (".html", ".htm")
 MESH_FORMATS = (".vtu", ".mesh", ".msh", ".inp")
 
 
@@ -59,6 +62,21 @@ class _AnyResult:
         """What was done to the scan unasked, a line each: padding filled, a table removed."""
         return list(self._run.notes)
 
+    def __getstate__(self):
+        return {"frame": self.frame, "run": state_of(self._run, self.report)}
+
+    def __setstate__(self, state):
+        self.frame, self._report = state["frame"], state["run"]["report"]
+        self._run = KeptRun({**state["run"], "frame": self.frame})
+
+    def _plot_page(self):
+        """Opens the page of the run in a browser."""
+        folder = tempfile.mkdtemp(prefix="mesamis-")
+        path = os.path.join(folder, "result.html")
+        self.save(path)
+        webbrowser.open("file://" + path)
+        return path
+
     def save_labelmap(self, path):
         """Writes what was found, voxel by voxel: .nii .nii.gz .nrrd .seg.nrrd."""
         self._run.save_labelmap(os.fspath(path))
@@ -85,7 +103,7 @@ class _AnyResult:
         return self._run.v
 
 
-class Result(_AnyResult):
+class Result(_AnyResult, Shape):
     """The result of `segment` for one object. Arrays share the library's memory and cannot be
     written to; with `frame="ras"` points and metric are turned copies."""
 
@@ -135,8 +153,9 @@ class Result(_AnyResult):
 
     def save(self, path, *, name="mesamis surface", error=False, region="box", bins=10, band=False,
              patient=False):
-        """Writes the surface (.stl .ply .obj .vtp .3mf .amf .glb .dcm), the mesh (.vtu .mesh .msh .inp) or the
-        report (.json): the extension decides. The bytes are those of the program.
+        """Writes the surface (.stl .ply .obj .vtp .3mf .amf .glb .dcm), the mesh (.vtu .mesh .msh .inp), the
+        page to look at in a browser (.html) or the report (.json): the extension decides. Surfaces and meshes
+        have the bytes of the program.
 
         `error` adds the expected error to a .vtp or .ply. Of the mesh, `region` is "box" or "object",
         `bins` the number of sets of cells; `band` writes the cells near edges with v alone (.vtu).
@@ -145,6 +164,8 @@ class Result(_AnyResult):
         path = os.fspath(path)
         if _extension(path) == ".json":
             _write_json(path, self.report)
+        elif _extension(path) in PAGE_FORMATS:
+            self._run.save_page(path)
         elif band:
             self._run.save_band(path)
         elif _extension(path) in MESH_FORMATS:
@@ -152,12 +173,29 @@ class Result(_AnyResult):
         else:
             self._run.save_surface(path, name, bool(error), bool(patient))
 
+    def plot(self, **options):
+        """Shows the surface: with PyVista, whose function `plot` takes the options, or, where that is not
+        installed, the page of the run in a browser; its path is then returned."""
+        try:
+            import pyvista  # noqa: F401
+        except ImportError:
+            return self._plot_page()
+        return super().plot(**options)
+
+    def _rows(self):
+        rows = [row for row in super()._rows() if not row[0].startswith("expected")]
+        error = (self.report.get("quality") or {}).get("expected_error_mm") or {}
+        if error.get("mean"):
+            rows.append(("expected error, mean", significant(error["mean"], 2) + " mm"))
+        return [*rows, ("closed", "yes" if self.closed else "no"), ("level", significant(self.level, 4)),
+                ("tetrahedra", len(self._run.tets))]
+
     def __repr__(self):
         return (f"<mesamis.Result {len(self.triangles)} triangles, {len(self._run.tets)} "
                 f"tetrahedra, level {self.level:.6g}>")
 
 
-class Object:
+class Object(Shape):
     """One object of a label map: `name`, `label`, `layer`, `colour` (red, green, blue), `points`,
     `triangles`, `expected_error`."""
 
@@ -170,6 +208,14 @@ class Object:
         self.triangles = values["triangles"]
         self.expected_error = values["expected_error"]
         self.frame = frame
+
+    def save(self, path, *, name=None, error=False):
+        """Writes the object's surface alone: .stl .ply .obj .vtp .3mf .amf .glb .dcm. `name` is what the file
+        calls it (default: its own name); `error` adds the expected error to a .vtp or .ply."""
+        from ._files import write_surface
+
+        arrays = self._point_arrays() if error else None
+        write_surface(path, self, name=self.name if name is None else name, arrays=arrays)
 
     def __repr__(self):
         return f"<mesamis.Object {self.name!r}, label {self.label}, {len(self.triangles)} triangles>"
@@ -198,14 +244,56 @@ class LabelResult(_AnyResult):
 
     def save(self, path, *, name="mesamis surface", error=False, region="box", bins=10, patient=False):
         """Writes all objects into one file (.3mf .vtp .obj .amf .glb), one file per object ({label} in
-        the name, or a format of one object), the mesh, or the report. `patient` is as for Result."""
+        the name, or a format of one object), the mesh, the page (.html), or the report. `patient` is as for
+        Result. One object alone: `result["hip"].save("hip.stl")`."""
         path = os.fspath(path)
         if _extension(path) == ".json":
             _write_json(path, self.report)
+        elif _extension(path) in PAGE_FORMATS:
+            self._run.save_page(path)
         elif _extension(path) in MESH_FORMATS:
             self._run.save_mesh(path, region, int(bins))
         else:
             self._run.save_surface(path, name, bool(error), bool(patient))
+
+    def to_pyvista(self):
+        """The surfaces as PyVista's MultiBlock, a PolyData for each object under its name."""
+        import pyvista
+
+        return pyvista.MultiBlock({o.name: o.to_pyvista() for o in self.objects})
+
+    def to_trimesh(self):
+        """The surfaces as a Scene of trimesh, a Trimesh for each object under its name."""
+        import trimesh
+
+        return trimesh.Scene({o.name: o.to_trimesh() for o in self.objects})
+
+    def to_meshio(self):
+        """The surfaces as one Mesh of meshio; the cell data "label" says which object a triangle belongs to."""
+        import meshio
+
+        objects = self.objects
+        starts = np.cumsum([0, *(len(o.points) for o in objects)])
+        triangles = np.concatenate([o.triangles + s for o, s in zip(objects, starts)])
+        labels = np.concatenate([np.full(len(o.triangles), o.label) for o in objects])
+        return meshio.Mesh(np.concatenate([o.points for o in objects]), [("triangle", triangles)],
+                           cell_data={"label": [labels]})
+
+    def plot(self, **options):
+        """Shows the surfaces in their colours: with PyVista, whose Plotter takes the options, or, where that
+        is not installed, the page of the run in a browser; its path is then returned."""
+        try:
+            import pyvista
+        except ImportError:
+            return self._plot_page()
+        plotter = pyvista.Plotter(**options)
+        for o in self.objects:
+            plotter.add_mesh(o.to_pyvista(), color=[c / 255 for c in o.colour], label=o.name, smooth_shading=True)
+        return plotter.show()
+
+    def _repr_html_(self):
+        rows = [(o.name, ", ".join(str(value) for _, value in o._rows()[1:])) for o in self.objects]
+        return table(f"{len(rows)} objects: size, volume, expected error", rows)
 
     def __repr__(self):
         return f"<mesamis.LabelResult {', '.join(o.name for o in self.objects)}>"

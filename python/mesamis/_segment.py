@@ -6,6 +6,7 @@ import os
 import numpy as np
 
 from . import _core
+from ._progress import Follow
 from ._result import result_of
 from ._settings import table_text, to_json
 from ._volume import is_path, labels_on, read_scan, refuse, scan_of
@@ -95,7 +96,10 @@ def segment(
         "memory": float(memory),
         "time_limit": time_limit,
     }
-    result = result_of(_core.segment(marks_scan, ours, arguments, progress, int(threads)), frame)
+    share = _core.RunShare(labels is not None or len(arguments["seeds"] or []) > 1, volume is not None,
+                           settings.get("preview") is True, bool(mesh))
+    with Follow(progress, share) as tell:
+        result = result_of(_core.segment(marks_scan, ours, arguments, tell, int(threads)), frame)
     warn(result.warnings)
     result._run.require_surface()
     return result
@@ -137,7 +141,8 @@ frame
 preset, settings_file
     What the settings start from.
 progress
-    Called as progress(stage, fraction); if it returns False, `Cancelled` is raised.
+    True: a bar of the whole run with the time left, of tqdm where that is installed, else a line for each
+    stage. Or a function, called as progress(stage, fraction); if it returns False, `Cancelled` is raised.
 threads, memory, time_limit
     At most so many threads, GB and seconds.
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _core
 from ._geometry import Mesh, Surface, mesh_parts, surface_parts
+from ._progress import Follow
 from ._volume import Volume, is_path, read_scan, scan_of
 from ._warnings import warn
 
@@ -37,7 +38,8 @@ def decimate(surface, *, tolerance=None, triangles=None, min_volume=0, keep_larg
     points = np.asarray(points) * turn
     wanted = {"tolerance": tolerance, "triangles": triangles, "min_volume": min_volume,
               "keep_largest": keep_largest, "fill_cavities": bool(fill_cavities)}
-    points, corners, report, flaw = _core.decimate(points, corners, wanted, progress, threads)
+    with Follow(progress) as tell:
+        points, corners, report, flaw = _core.decimate(points, corners, wanted, tell, threads)
     warn([flaw])
     return Surface(points * turn, corners, frame or None, json.loads(report))
 
@@ -151,7 +153,8 @@ def remesh(mesh, metric, *, max_tets=None, progress=None, threads=0):
     nodes, tets, frame = mesh_parts(mesh)
     if max_tets is not None and not max_tets >= 1:
         raise _core.InputError(f"max_tets: expected 1 or more, found {max_tets}")
-    nodes, tets, report = _core.remesh(nodes, tets, _tensors(metric), int(max_tets or 0), progress, threads)
+    with Follow(progress) as tell:
+        nodes, tets, report = _core.remesh(nodes, tets, _tensors(metric), int(max_tets or 0), tell, threads)
     report = json.loads(report)
     if not report["converged"]:
         warn([f"remesh: not converged after {report['remesh']['rounds']} rounds; the mesh is valid"])

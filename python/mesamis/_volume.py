@@ -7,6 +7,7 @@ import sys
 import numpy as np
 
 from . import _core
+from ._shapes import significant, table
 from ._warnings import warn
 
 _LPS = np.diag([-1.0, -1.0, 1.0])
@@ -73,10 +74,36 @@ class Volume:
         """What the reader had to say, a line each."""
         return list(self._scan.warnings)
 
+    def __reduce__(self):
+        direction = np.asarray(self._scan.direction, dtype=float).ravel().tolist()
+        return _volume_of, (np.array(self.array, order="F"), list(self.spacing), list(self.origin), direction,
+                            self.modality)
+
+    def _repr_html_(self):
+        low, high = (significant(float(x), 3) for x in (self.array.min(), self.array.max()))
+        return table("Volume", [
+            ("voxels", " x ".join(str(n) for n in self._scan.size)),
+            ("voxel", " x ".join(significant(s, 3) for s in self.spacing) + " mm"),
+            ("values", f"{low} to {high}" + (" HU" if self.modality == "CT" else "")),
+            ("modality", self.modality or "unknown"), ("orientation", self.orientation)])
+
     def __repr__(self):
         size = " x ".join(str(n) for n in self._scan.size)
         spacing = " x ".join(f"{s:.4g}" for s in self.spacing)
         return f"<mesamis.Volume {size} voxels of {spacing} mm, {self.orientation}>"
+
+
+def _volume_of(array, spacing, origin, direction, modality):
+    """A Volume that was pickled."""
+    return Volume(_core.scan_with_axes(array, spacing, origin, direction, modality))
+
+
+def from_sitk(image, *, modality=None):
+    """A Volume of an image of SimpleITK, with its place; samples are shared where they are in single
+    precision. `modality` ("CT", "MR") is what the image is; CT is also recognised by its values."""
+    if not _is_itk(image):
+        raise _core.InputError(f"image: expected one of SimpleITK, found {type(image).__name__}")
+    return Volume(_of_itk(image, modality or ""))
 
 
 def is_path(value):

@@ -100,6 +100,17 @@ void save_band(const Run& run, const std::string& path) {
   write(run.details(), out);
 }
 
+/// The scan is shown as it was given; where the run took its samples over, as the run used it.
+void save_page(const Run& run, const std::string& path) {
+  RunFiles out = run.files();
+  out.page.html = path;
+  out.shown_scan = [&run]() -> std::optional<Volume> {
+    if (!run.scan) return std::nullopt;
+    return copy_volume(run.scan->spent ? run.details().image() : run.scan->view);
+  };
+  write(run.details(), out);
+}
+
 void save_labelmap(const Run& run, const std::string& path) {
   RunFiles out = run.files();
   out.labelmap = path;
@@ -189,6 +200,10 @@ void bind_run(py::module_& module) {
       .def(
           "save_band",
           [](const Run& r, const std::string& path) { without_lock([&] { save_band(r, path); }); },
+          "path"_a)
+      .def(
+          "save_page",
+          [](const Run& r, const std::string& path) { without_lock([&] { save_page(r, path); }); },
           "path"_a)
       .def(
           "save_labelmap",

@@ -10,6 +10,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/label_files/label_table.h"
 #include "mesamis/method/memory.h"
+#include "mesamis/run/run_share.h"
 #include "request.h"
 #include "run.h"
 
@@ -107,6 +108,13 @@ std::shared_ptr<Run> segment(const std::shared_ptr<Scan>& scan, bool ours,
 
 void bind_segment(py::module_& module) {
   using namespace py::literals;
+  py::class_<RunShare>(module, "RunShare")
+      .def(py::init([](bool labels, bool scan, bool preview, bool mesh) {
+             return RunShare(stage_shares(
+                 {.labels = labels, .scan = scan, .preview = preview, .mesh = mesh}));
+           }),
+           "labels"_a, "scan"_a, "preview"_a, "mesh"_a)
+      .def("done", &RunShare::done, "stage"_a, "fraction"_a);
   module.def("segment", &segment, "scan"_a, "ours"_a, "arguments"_a, "progress"_a, "threads"_a);
 }
 
