@@ -128,31 +128,49 @@ Paths listed_files(const ReportCommand& command, const json& report, FileKind ki
   return found;
 }
 
-std::vector<NamedSurface> read_surfaces(const ReportCommand& command, const json& report) {
+/// A surface of the run, with the error expected at its points where its file has it.
+struct ReadSurface {
+  NamedSurface named;
+  std::vector<double> error;
+};
+
+/// Of the one surface of a file; empty where it has none.
+std::vector<double> read_error(const fs::path& path, const ReadLimits& limits) {
+  if (!carries_arrays(path)) return {};
+  try {
+    return read_point_array(path, "expected_error", limits);
+  } catch (const InputError&) {
+    return {};  // written without --error
+  }
+}
+
+std::vector<ReadSurface> read_surfaces(const ReportCommand& command, const json& report) {
   const Paths paths = command.surfaces.empty() ? listed_files(command, report, FileKind::kSurface)
                                                : command.surfaces;
   const bool several = entries(report, "/object/surfaces").size() > 1;
-  std::vector<NamedSurface> surfaces;
+  std::vector<ReadSurface> surfaces;
   for (const fs::path& path : paths) {
     if (!several) {
-      surfaces.push_back({});
-      surfaces.back().surface = in_lps(read_surface_file(path, command.read.limits));
+      ReadSurface& one = surfaces.emplace_back();
+      one.named.surface = in_lps(read_surface_file(path, command.read.limits));
+      one.error = read_error(path, command.read.limits);
       break;
     }
     for (NamedSurface& s : in_lps(read_object_file(path, command.read.limits))) {
-      surfaces.push_back(std::move(s));
+      surfaces.push_back({std::move(s), {}});
     }
   }
   return surfaces;
 }
 
 /// Names and colours are those of the report where there is one entry per surface.
-std::vector<PageSurface> named(const std::vector<NamedSurface>& surfaces, const json& report) {
+std::vector<PageSurface> named(const std::vector<ReadSurface>& surfaces, const json& report) {
   const json objects = entries(report, "/object/surfaces");
   const bool known = objects.size() == surfaces.size();
   std::vector<PageSurface> shown;
   for (std::size_t n = 0; n < surfaces.size(); ++n) {
-    PageSurface s{&surfaces[n].surface, surfaces[n].name, surfaces[n].colour};
+    const NamedSurface& named = surfaces[n].named;
+    PageSurface s{&named.surface, named.name, named.colour, surfaces[n].error};
     if (known) {
       s.name = text_at(objects[n], "/name");
       const json colour = objects[n].value("colour", json());
@@ -196,7 +214,7 @@ int run_report(const ReportCommand& command) {
   const fs::path scan_file =
       command.scan.empty() ? found_file(command, text_at(report, "/input/path")) : command.scan;
   const auto scan = read_shown_scan({scan_file, command.read, text_at(report, "/input/sha256")});
-  const std::vector<NamedSurface> surfaces = read_surfaces(command, report);
+  const std::vector<ReadSurface> surfaces = read_surfaces(command, report);
   std::vector<double> grey;
   const auto mesh = read_shown_mesh(command, report, grey);
   RunPage page{report};

@@ -122,9 +122,6 @@ def main():
         if "mesamis" in holders:
             copy_licence(package, texts)
     root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    for text in licences.NPM_TEXTS:
-        if os.path.exists(f"{root}/{text}"):
-            shutil.copyfile(f"{root}/{text}", f"{texts}/{os.path.basename(text)}")
     shutil.copyfile(f"{root}/LICENSE", f"{arguments.prefix}/LICENSE")
     subprocess.run(["patchelf", "--force-rpath", "--set-rpath", search_path(), program], check=True)
     files = [program, *glob.glob(f"{libraries}/**/*.so*", recursive=True)]

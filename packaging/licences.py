@@ -51,8 +51,3 @@ HEADERS = {
     "nlohmann-json3-dev": ("MIT", ("mesamis", "libmesamis-dev", "python3-mesamis")),
     "pybind11-dev": ("BSD-3-Clause", ("python3-mesamis",)),
 }
-
-# What npm fetched and the program embeds, where there is such a list; it names the licences itself.
-NPM_LIST = "web/package-lock.json"
-NPM_VIEWER = "web/node_modules/@niivue/niivue/dist/niivue.umd.js"  # is there where it was embedded
-NPM_TEXTS = ("web/NIIVUE_LICENSE.txt",)

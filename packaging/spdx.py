@@ -77,18 +77,6 @@ def compiled_in(holder):
     return {name: licence for name, (licence, holders) in licences.HEADERS.items() if holder in holders}
 
 
-def embedded():
-    """Packages of npm that the program embeds: the viewer of pages and what is bundled into it."""
-    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    if not os.path.exists(os.path.join(root, licences.NPM_VIEWER)):
-        return []
-    with open(os.path.join(root, licences.NPM_LIST), encoding="utf-8") as file:
-        entries = json.load(file)["packages"].items()
-    return [package_entry(name.split("node_modules/")[-1], one["version"], one["license"], "NOASSERTION",
-                          downloadLocation=one.get("resolved", "NOASSERTION"))
-            for name, one in sorted(entries) if name and not one.get("dev") and not one.get("optional")]
-
-
 def owner_of(path, prefix):
     """The Debian package of a file in the tar, told by the file of the same name on this system."""
     name = os.path.basename(path)
@@ -128,9 +116,6 @@ def tar_document(arguments):
     for name, licence in compiled_in("mesamis").items():
         packages[name] = debian_entry(name, licence)
         relations.append(relation(main["SPDXID"], "STATIC_LINK", packages[name]["SPDXID"]))
-    for entry in embedded():
-        packages[entry["name"]] = entry
-        relations.append(relation(main["SPDXID"], "STATIC_LINK", entry["SPDXID"]))
     return document(arguments.name, list(packages.values()), files, relations, [main["SPDXID"]])
 
 
@@ -160,10 +145,6 @@ def debian_document(arguments):
         for other, kind, licence in wanted:
             packages.setdefault(other, debian_entry(other, licence))
             relations.append(relation(packages[name]["SPDXID"], kind, packages[other]["SPDXID"]))
-    holders = [name for name in ("mesamis", "libmesamis-dev") if name in packages]
-    for entry in embedded() if holders else []:
-        packages[entry["name"]] = entry
-        relations += [relation(packages[name]["SPDXID"], "STATIC_LINK", entry["SPDXID"]) for name in holders]
     name = f"mesamis-{arguments.version}-debian"
     return document(name, list(packages.values()), [], relations, described)
 

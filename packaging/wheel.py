@@ -56,10 +56,6 @@ def licence_texts(prefix, version):
             packages.add(package)
     folder = f"mesamis-{version}.dist-info/licences"
     texts = {f"{folder}/{name}": Path(f"/usr/share/doc/{name}/copyright").read_bytes() for name in packages}
-    for text in licences.NPM_TEXTS:
-        path = HERE.parent / text
-        if path.exists():
-            texts[f"{folder}/{path.name}"] = path.read_bytes()
     return texts
 
 

@@ -42,9 +42,9 @@ const std::string& sample_page() {
   return page;
 }
 
-/// Without the viewer, which is another's.
+/// Without the data and the script of the viewer.
 std::string own_part(const std::string& page) {
-  return page.substr(0, page.find("id=\"licence\""));
+  return page.substr(0, page.find("id=\"scan-copy\""));
 }
 
 TEST(RunPage, ItsNumbersAreThoseOfTheReport) {
@@ -140,15 +140,31 @@ TEST(RunPage, OfAReportAloneSaysSo) {
   }
 }
 
-TEST(RunPage, HasTheViewerOrSaysThatItHasNone) {
-  const std::string& page = sample_page();
-  if (has_viewer()) {
-    for (const char* part : {"<canvas", "id=\"scan-copy\"", "id=\"surface-0\"", "id=\"licence\""}) {
-      EXPECT_NE(page.find(part), std::string::npos) << part;
-    }
-  } else {
-    EXPECT_THAT(page, HasSubstr("This build of mesamis has no viewer"));
+TEST(RunPage, HasTheViewerWithItsData) {
+  for (const char* part : {"id=\"axial\"", "id=\"space\"", "id=\"scan-copy\"", "id=\"surface-0\"",
+                           "\"unit\":\"HU\"", "data-window=\"[-450,1050]\""}) {
+    EXPECT_NE(sample_page().find(part), std::string::npos) << part;
   }
+  EXPECT_EQ(sample_page().find("id=\"errors\""), std::string::npos) << "none are known";
+  const SampleRun run;
+  RunPage page = run.page();
+  const std::vector<double> error(run.surface.points.size(), 0.25);
+  page.surfaces[0].error = error;
+  const std::string text = run_page(page);
+  EXPECT_NE(text.find("expected error as colours"), std::string::npos);
+  EXPECT_NE(text.find("\"error_mm\":0.25"), std::string::npos);
+}
+
+TEST(RunPage, AScanThatIsACtByItsValuesHasHounsfieldUnits) {
+  SampleRun run;
+  for (float& value : run.scan.samples) value = value > 150 ? 400 : -1000;
+  RunPage page = run.page();
+  page.report["input"]["modality"] = "";
+  page.surfaces.clear();
+  page.mesh = nullptr;
+  EXPECT_NE(run_page(page).find("\"unit\":\"HU\""), std::string::npos);
+  for (float& value : run.scan.samples) value = value < 0 ? 10 : value;
+  EXPECT_NE(run_page(page).find("\"unit\":\"native units\""), std::string::npos);
 }
 
 TEST(RunPage, LeavesOutViewerThenPicturesToStaySmall) {
@@ -160,8 +176,7 @@ TEST(RunPage, LeavesOutViewerThenPicturesToStaySmall) {
   EXPECT_THAT(texts, Not(HasSubstr("<img ")));
   EXPECT_THAT(texts, Not(HasSubstr("<canvas")));
   EXPECT_THAT(texts, HasSubstr("/surface/triangles"));
-  if (!has_viewer()) GTEST_SKIP() << "this build has no viewer to leave out";
-  page.most = 700'000;
+  page.most = own_part(sample_page()).size() + 10'000;
   const std::string pictures = run_page(page);
   EXPECT_THAT(pictures, HasSubstr("The viewer is left out: with it"));
   EXPECT_THAT(pictures, HasSubstr("<img "));

@@ -55,6 +55,40 @@ TEST(Surfaces, OfLabelsAreARowEach) {
   EXPECT_THAT(methods_section(report).str(), HasSubstr("2 labelled objects"));
 }
 
+TEST(Headline, SaysFirstWhatASurgeonAsks) {
+  const std::string text = headline_section(sample_report(), {1, "", Vec3{22.04, 22, 101.7}}).str();
+  const std::vector<std::string> in_order{"object",    "all that is bright",
+                                          "size",      "22.0 × 22.0 × 102",
+                                          "volume",    "5.58",
+                                          "cm³",       "expected error",
+                                          ">0.06",    "closed",
+                                          "yes",       "level",
+                                          "176",       "HU",
+                                          "triangles", "tetrahedra"};
+  std::size_t at = 0;
+  for (const std::string& part : in_order) {
+    at = text.find(part, at);
+    EXPECT_NE(at, std::string::npos) << part << " in " << text;
+  }
+  EXPECT_THAT(text, HasSubstr("<data value=\"5575.28\" data-of=\"/surface/volume_mm3\">"));
+}
+
+TEST(Headline, AddsObjectsUp) {
+  json report = sample_report();
+  report.erase("surface");
+  const auto object = [](double volume, double area, double error, bool closed) {
+    return json{{"name", "hip"},
+                {"volume_mm3", volume},
+                {"area_mm2", area},
+                {"closed", closed},
+                {"expected_error_mm", {{"mean", error}}}};
+  };
+  report["object"] = {{"surfaces", {object(1000, 1, 0.2, true), object(3000, 3, 0.4, false)}}};
+  const std::string text = headline_section(report).str();
+  for (const char* part : {"2 objects", "4.00", "0.35", "1 of 2"})
+    EXPECT_THAT(text, HasSubstr(part));
+}
+
 TEST(Methods, NameTheProgramTheFiguresAndTheSource) {
   const std::string methods = methods_section(sample_report()).str();
   for (const char* part : {"40 × 40 × 40 voxels", "9.8.7", "in 1 adaptation;", "MOX Report 48/2020",

@@ -47,6 +47,10 @@ TEST(ShownRun, RefusesWhatDoesNotFit) {
   RunPage page = sample.page();
   page.grey = page.grey.subspan(1);
   EXPECT_REFUSED(shown_run(page), testing::HasSubstr("expected a grey value per node"));
+  const std::vector<double> few{1, 2};
+  page = sample.page();
+  page.surfaces[0].error = few;
+  EXPECT_REFUSED(shown_run(page), testing::HasSubstr("expected an error per point"));
   TriMesh broken = sample.surface;
   broken.triangles[0][0] = 1'000'000;
   page = sample.page();

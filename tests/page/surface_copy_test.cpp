@@ -23,7 +23,7 @@ T at(const std::string& bytes, std::size_t place) {
 
 TEST(Mz3, HoldsTheTrianglesAndThePointsInRas) {
   const TriMesh box = cube({1, 2, 3}, 4);
-  const std::string file = unpacked(mz3_gz(box));
+  const std::string file = unpacked(mz3_gz({box, {}}));
   ASSERT_EQ(file.size(), 16u + 12 * 12 + 8 * 12);
   EXPECT_EQ(file.substr(0, 2), "MZ");
   EXPECT_EQ(at<std::uint16_t>(file, 2), 3) << "faces and points";
@@ -35,9 +35,24 @@ TEST(Mz3, HoldsTheTrianglesAndThePointsInRas) {
   EXPECT_NEAR(at<float>(file, 16 + 152), 3, 1e-3);
 }
 
+TEST(Mz3, HoldsAValueAtEachPoint) {
+  const TriMesh box = cube({1, 2, 3}, 4);
+  const std::vector<double> values{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
+  const std::string file = unpacked(mz3_gz({box, values}));
+  ASSERT_EQ(file.size(), 16u + 12 * 12 + 8 * 12 + 8 * 4);
+  EXPECT_EQ(at<std::uint16_t>(file, 2), 3 | 8) << "faces, points and scalars";
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    EXPECT_NEAR(at<float>(file, 16 + 144 + 96 + 4 * n), values[n], 0.8 / 256);
+  }
+}
+
 TEST(CoarseSurface, HasFewerTrianglesNearTheSurface) {
   const TriMesh ball = ball_surface(10, 200);
-  const TriMesh coarse = coarse_surface(ball, 2000);
+  const SurfaceCopy copy =
+      coarse_surface({ball, std::vector<double>(ball.points.size(), 0.5)}, 2000);
+  const TriMesh& coarse = copy.surface;
+  ASSERT_EQ(copy.values.size(), coarse.points.size());
+  for (const double value : copy.values) EXPECT_NEAR(value, 0.5, 1e-12);
   EXPECT_LE(coarse.triangles.size(), 2000u);
   EXPECT_GT(coarse.triangles.size(), 500u);
   EXPECT_NO_THROW(require_sound(coarse));
@@ -46,9 +61,9 @@ TEST(CoarseSurface, HasFewerTrianglesNearTheSurface) {
 
 TEST(CoarseSurface, LeavesASmallSurface) {
   const TriMesh box = cube();
-  EXPECT_EQ(coarse_surface(box, 12).triangles, box.triangles);
+  EXPECT_EQ(coarse_surface({box, {}}, 12).surface.triangles, box.triangles);
   const TriMesh flat{{{1, 1, 1}}, {{0, 0, 0}, {0, 0, 0}}};
-  EXPECT_EQ(coarse_surface(flat, 1).triangles.size(), 2u) << "no area";
+  EXPECT_EQ(coarse_surface({flat, {}}, 1).surface.triangles.size(), 2u) << "no area";
 }
 
 }  // namespace

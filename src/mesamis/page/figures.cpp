@@ -53,11 +53,15 @@ const json& entry(const json& report, const std::string& pointer) {
   return report.contains(at) ? report.at(at) : none;
 }
 
+Html datum_as(const json& report, const std::string& pointer, std::string_view words) {
+  Html data("data");
+  data.set("value", entry(report, pointer).dump(-1, ' ', false, json::error_handler_t::replace));
+  return data.set("data-of", pointer).text(words);
+}
+
 Html datum(const json& report, const std::string& pointer, std::string_view unit) {
   const json& value = entry(report, pointer);
-  Html data("data");
-  data.set("value", value.dump(-1, ' ', false, json::error_handler_t::replace));
-  data.set("data-of", pointer).text(figure_text(value));
+  const Html data = datum_as(report, pointer, figure_text(value));
   if (unit.empty() || !(value.is_number() || value.is_array())) return data;
   Html whole;
   whole.add(data).text("\u00a0").text(unit);
@@ -81,7 +85,8 @@ Html figure_table(const json& report, std::string_view caption,
 }
 
 std::string native_unit(const json& report) {
-  return entry(report, "/input/modality") == "CT" ? "HU" : "native units";
+  const bool ct = entry(report, "/input/modality") == "CT" || entry(report, "/page/unit") == "HU";
+  return ct ? "HU" : "native units";
 }
 
 }  // namespace mesamis::detail

@@ -23,6 +23,10 @@ const nlohmann::json& entry(const nlohmann::json& report, const std::string& poi
 /// @param unit  follows numbers.
 Html datum(const nlohmann::json& report, const std::string& pointer, std::string_view unit = {});
 
+/// The same element for an entry that is shown otherwise: in another unit, or rounded.
+/// @param words  what is shown, with its unit.
+Html datum_as(const nlohmann::json& report, const std::string& pointer, std::string_view words);
+
 /// A row of a table of two columns: what it is, and its value.
 struct FigureRow {
   std::string name, pointer, unit = {};
@@ -32,7 +36,7 @@ struct FigureRow {
 Html figure_table(const nlohmann::json& report, std::string_view caption,
                   const std::vector<FigureRow>& rows);
 
-/// "HU" for CT, else "native units".
+/// "HU" for a scan that is a CT by its file or, "/page/unit", by its values; else "native units".
 std::string native_unit(const nlohmann::json& report);
 
 }  // namespace mesamis::detail

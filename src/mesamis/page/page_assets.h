@@ -3,14 +3,10 @@
 
 #include <string_view>
 
-/// Files that are part of the program: the page's style and script, and the viewer of scans.
+/// Files that are part of the program: the page's style and its script, which holds the viewer.
 namespace mesamis::detail {
 
 std::string_view page_style();
 std::string_view page_script();
-/// The viewer, NiiVue, as a script; empty where it is not part of this build.
-std::string_view viewer_script();
-/// Its licence, which goes with it.
-std::string_view viewer_licence();
 
 }  // namespace mesamis::detail

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mesamis/files/atomic_file.h"
+#include "mesamis/image/grey_values.h"
 #include "mesamis/page/base64.h"
 #include "mesamis/page/charts.h"
 #include "mesamis/page/figures.h"
@@ -47,16 +48,15 @@ Html figure(const std::string& inside, std::string_view caption) {
 enum class PageParts { kAll, kNoViewer, kNoPictures };
 
 bool shows_viewer(const RunPage& page, PageParts parts) {
-  return parts == PageParts::kAll && has_viewer() && page.scan != nullptr;
+  return parts == PageParts::kAll && page.scan != nullptr;
 }
 
 /// A sentence for what the bound on its bytes keeps out of a page.
 Html left_out_note(const RunPage& page, PageParts parts) {
   if (parts == PageParts::kAll) return Html();
   const std::string what = parts == PageParts::kNoViewer ? "The viewer is left out"
-                           : has_viewer() && page.scan != nullptr
-                               ? "Viewer and pictures are left out"
-                               : "The pictures are left out";
+                           : page.scan != nullptr        ? "Viewer and pictures are left out"
+                                                         : "The pictures are left out";
   const std::string with = parts == PageParts::kNoViewer ? "with it" : "with them";
   return of_class("p", "hint")
       .set("id", "left-out")
@@ -79,11 +79,13 @@ Html data_block(const std::string& id, const std::string& kind, const std::strin
   return block.set("type", kind).set("id", id).raw(text);
 }
 
-Html button(std::string_view words, const std::string& layout, bool pressed) {
-  Html made = element("button", words);
-  return made.set("type", "button")
-      .set("data-layout", layout)
-      .set("aria-pressed", pressed ? "true" : "false");
+Html button(std::string_view words, const std::string& attribute, const std::string& value) {
+  return element("button", words).set("type", "button").set(attribute, value);
+}
+
+Html layout_button(std::string_view words, const std::string& layout) {
+  return button(words, "data-layout", layout)
+      .set("aria-pressed", layout == "all" ? "true" : "false");
 }
 
 Html slider(const std::string& id, std::string_view name) {
@@ -92,56 +94,126 @@ Html slider(const std::string& id, std::string_view name) {
   return label.set("for", id).add(element("span", name)).add(input);
 }
 
-Html check_box(std::size_t number, const ShownSurface& surface) {
-  const std::string id = "show-" + std::to_string(number);
-  Html input("input"), label("label");
-  input.set("type", "checkbox")
-      .set("id", id)
-      .set("data-surface", std::to_string(number))
-      .flag("checked");
-  const auto& c = surface.colour;
-  Html swatch = of_class("span", "swatch");
-  swatch.set("style", fmt::format("background:rgb({},{},{})", c[0], c[1], c[2]));
-  label.set("for", id).set("class", "check").add(input).add(swatch);
-  return label.add(element("span", surface.name.empty() ? "surface" : surface.name));
+Html check_box(const std::string& id, bool checked) {
+  Html input("input");
+  input.set("type", "checkbox").set("id", id);
+  return checked ? input.flag("checked") : input;
 }
 
-Html viewer_controls(const ShownRun& run) {
+Html labelled(const std::string& id, const Html& box, std::string_view words) {
+  return of_class("label", "check").set("for", id).add(box).add(element("span", words));
+}
+
+Html surface_box(std::size_t number, const ShownSurface& surface) {
+  const std::string id = "show-" + std::to_string(number);
+  const auto& c = surface.outline;
+  Html swatch = of_class("span", "swatch");
+  swatch.set("style", fmt::format("background:rgb({},{},{})", c[0], c[1], c[2]));
+  Html box;
+  box.add(check_box(id, true).set("data-surface", std::to_string(number))).add(swatch);
+  return labelled(id, box, surface.name.empty() ? "surface" : surface.name);
+}
+
+bool has_errors(const ShownRun& run) {
+  return std::any_of(run.surfaces.begin(), run.surfaces.end(),
+                     [](const ShownSurface& s) { return !s.error.empty(); });
+}
+
+/// From 0, blue, to the greatest, red.
+Html error_scale() {
+  Html scale = of_class("span", "error-scale");
+  scale.set("id", "error-scale").flag("hidden").text("0 ");
+  return scale.add(of_class("span", "ramp")).text(" ").add(Html("span").set("id", "error-most"));
+}
+
+/// Windows to look through; those of a CT have names.
+Html window_buttons(const ShownRun& run, const json& report) {
+  Html buttons = of_class("div", "buttons");
+  buttons.set("role", "group").set("aria-label", "Window");
+  buttons.add(
+      button("Window of the run", "data-window", json({run.window.low, run.window.high}).dump()));
+  if (native_unit(report) != "HU") return buttons;
+  buttons.add(button("Bone", "data-window", "[-450,1050]"));
+  return buttons.add(button("Soft tissue", "data-window", "[-160,240]"));
+}
+
+Html viewer_controls(const ShownRun& run, const json& report) {
   Html layouts = of_class("div", "buttons"), sliders = of_class("div", "sliders"),
        shown = of_class("div", "checks"), controls = of_class("div", "controls");
   layouts.set("role", "group").set("aria-label", "Layout");
-  layouts.add(button("All", "multi", true)).add(button("Axial", "axial", false));
-  layouts.add(button("Coronal", "coronal", false)).add(button("Sagittal", "sagittal", false));
-  layouts.add(button("3D", "render", false));
-  sliders.add(slider("at-x", "left – right")).add(slider("at-y", "back – front"));
+  layouts.add(layout_button("All", "all")).add(layout_button("Axial", "axial"));
+  layouts.add(layout_button("Coronal", "coronal")).add(layout_button("Sagittal", "sagittal"));
+  if (!run.surfaces.empty()) layouts.add(layout_button("In space", "space"));
+  sliders.add(slider("at-x", "right – left")).add(slider("at-y", "front – back"));
   sliders.add(slider("at-z", "foot – head")).add(slider("window-low", "black at"));
-  sliders.add(slider("window-high", "white at")).add(slider("opacity", "surface"));
-  for (std::size_t n = 0; n < run.surfaces.size(); ++n) shown.add(check_box(n, run.surfaces[n]));
-  controls.add(layouts).add(sliders).add(shown);
-  return controls;
+  sliders.add(slider("window-high", "white at"));
+  for (std::size_t n = 0; n < run.surfaces.size(); ++n) shown.add(surface_box(n, run.surfaces[n]));
+  shown.add(labelled("outlines", check_box("outlines", true), "outlines"));
+  shown.add(labelled("cross", check_box("cross", true), "cross"));
+  if (has_errors(run)) {
+    shown.add(labelled("errors", check_box("errors", false), "expected error as colours"));
+    shown.add(error_scale());
+  }
+  Html top = of_class("div", "top");
+  top.add(layouts).add(window_buttons(run, report));
+  top.add(Html("output").set("id", "readout"));
+  return controls.add(top).add(shown).add(sliders);
 }
 
-Html viewer_section(const ShownRun& run) {
-  Html section = page_part("viewer", "Look at it"), canvas("canvas"),
-       box = of_class("div", "canvas-box");
+Html canvas(const std::string& id) { return Html("canvas").set("id", id); }
+
+Html slice_panel(const std::string& id, const std::string& name) {
+  Html figure = of_class("figure", "panel " + id), drawn = canvas(id);
+  drawn.set("tabindex", "0").set("role", "img");
+  drawn.set("aria-label", name + " slice of the scan with the outline of the surface");
+  return figure.add(drawn).add(element("figcaption", name));
+}
+
+Html space_panel() {
+  Html figure = of_class("figure", "panel space"), frame = canvas("space-frame");
+  frame.set("tabindex", "0").set("role", "img").set("aria-label", "The surface in space");
+  return figure.add(canvas("space")).add(frame).add(element("figcaption", "In space"));
+}
+
+Html viewer_section(const ShownRun& run, const json& report) {
+  Html section = page_part("viewer", "Look at it"), panels("div");
   section.flag("hidden");
-  canvas.set("id", "gl").set("tabindex", "0").set("role", "img");
-  canvas.set("aria-label",
-             "The scan in three slices and its surface in space; the controls below move them");
-  section.add(box.add(canvas)).add(viewer_controls(run));
+  panels.set("id", "panels").set("data-layout", "all");
+  panels.add(slice_panel("axial", "Axial")).add(slice_panel("coronal", "Coronal"));
+  panels.add(slice_panel("sagittal", "Sagittal"));
+  if (!run.surfaces.empty()) panels.add(space_panel());
+  section.add(panels).add(viewer_controls(run, report));
   return section.add(of_class("p", "hint")
-                         .text("Drag to turn the surface or to move the slices; the wheel scrolls "
-                               "through them. The sliders do the "
-                               "same from the keyboard."));
+                         .text("Drag in a slice to move the cross, with shift to move the slice; "
+                               "drag the surface to turn it. In what was clicked, the wheel and "
+                               "the arrow keys go through the slices, + and - zoom, 0 goes back. "
+                               "On a touch screen two fingers zoom and move."));
 }
 
-json viewer_facts(const ShownRun& run, const ScanCopy& scan) {
+/// What 98 % of the points stay below, mm; 0 where nothing is known.
+double greatest_error(const ShownRun& run) {
+  constexpr double kShare = 0.98;
+  std::vector<float> all;
+  for (const ShownSurface& s : run.surfaces) all.insert(all.end(), s.error.begin(), s.error.end());
+  if (all.empty()) return 0;
+  const auto at =
+      all.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(all.size() - 1));
+  std::nth_element(all.begin(), at, all.end());
+  return *at;
+}
+
+json viewer_facts(const ShownRun& run, const json& report, const ScanCopy& scan) {
+  constexpr double kSteps = 255;
   json facts{{"window", {run.window.low, run.window.high}},
              {"range", {scan.low, scan.high}},
-             {"voxel", run.grid.voxel_size()}};
+             {"scale", {{"low", scan.low}, {"step", (scan.high - scan.low) / kSteps}}},
+             {"unit", native_unit(report)},
+             {"error_mm", greatest_error(run)}};
+  facts["at"] = json::array();
+  for (const std::size_t slice : {2, 1, 0}) facts["at"].push_back(run.slices[slice].plane.position);
   facts["surfaces"] = json::array();
   for (const ShownSurface& s : run.surfaces) {
-    facts["surfaces"].push_back({{"rgb", {s.colour[0], s.colour[1], s.colour[2]}}});
+    facts["surfaces"].push_back({{"rgb", s.colour}, {"outline", s.outline}});
   }
   return facts;
 }
@@ -150,19 +222,19 @@ json viewer_facts(const ShownRun& run, const ScanCopy& scan) {
 Html surface_blocks(const ShownRun& run) {
   constexpr std::int64_t kMostTriangles = 200'000;
   std::int64_t all = 0;
-  for (const ShownSurface& s : run.surfaces)
-    all += static_cast<std::int64_t>(s.surface->triangles.size());
+  for (const ShownSurface& s : run.surfaces) all += std::ssize(s.surface->triangles);
   Html blocks;
   for (std::size_t n = 0; n < run.surfaces.size(); ++n) {
-    const TriMesh& surface = *run.surfaces[n].surface;
-    const auto own = static_cast<std::int64_t>(surface.triangles.size());
+    const ShownSurface& shown = run.surfaces[n];
+    const std::int64_t own = std::ssize(shown.surface->triangles);
     const std::int64_t most = std::max<std::int64_t>(
         100, all <= kMostTriangles
                  ? own
                  : static_cast<std::int64_t>(static_cast<double>(kMostTriangles) *
                                              static_cast<double>(own) / static_cast<double>(all)));
+    const SurfaceCopy copy{*shown.surface, {shown.error.begin(), shown.error.end()}};
     blocks.add(data_block("surface-" + std::to_string(n), "text/plain",
-                          base64(mz3_gz(coarse_surface(surface, most)))));
+                          base64(mz3_gz(coarse_surface(copy, most)))));
   }
   return blocks;
 }
@@ -292,12 +364,24 @@ Html navigation() {
   return nav;
 }
 
+SeenSurfaces seen_surfaces(const RunPage& page) {
+  SeenSurfaces seen;
+  std::vector<Vec3> points;
+  for (const PageSurface& s : page.surfaces) {
+    if (s.surface == nullptr) continue;
+    points.insert(points.end(), s.surface->points.begin(), s.surface->points.end());
+    seen.name = ++seen.count == 1 ? s.name : "";
+  }
+  if (!points.empty()) seen.size = bounding_box(points).extent();
+  return seen;
+}
+
 Html header_of(const RunPage& page, const json& report) {
   Html header("header"), by = of_class("p", "by");
   header.add(element("h1", title_of(page)));
   by.text("mesamis ").add(datum(report, "/program/version")).text(", commit ");
   header.add(by.add(datum(report, "/program/commit"))).add(verdict_section(report));
-  return header.add(headline_section(report)).add(navigation());
+  return header.add(headline_section(report, seen_surfaces(page))).add(navigation());
 }
 
 Html footer() {
@@ -308,18 +392,10 @@ Html footer() {
               "nothing in it leaves your computer."));
 }
 
-Html no_viewer_note() {
-  return element("p",
-                 "This build of mesamis has no viewer of scans: the page shows pictures alone.")
-      .set("class", "hint")
-      .set("id", "no-viewer");
-}
-
 Html main_of(const RunPage& page, const ShownRun& run, const json& report, PageParts parts) {
   Html main("main");
   main.set("id", "main").set("tabindex", "-1");
-  if (shows_viewer(page, parts)) main.add(viewer_section(run));
-  if (!has_viewer()) main.add(no_viewer_note());
+  if (shows_viewer(page, parts)) main.add(viewer_section(run, report));
   main.add(left_out_note(page, parts)).add(notes_section(report));
   if (parts != PageParts::kNoPictures) main.add(pictures_section(run, report));
   main.add(surfaces_section(report)).add(scan_with_histogram(page, report));
@@ -329,15 +405,15 @@ Html main_of(const RunPage& page, const ShownRun& run, const json& report, PageP
 }
 
 /// The viewer's data and scripts, at the end of the body.
-void add_viewer(Html& body, const RunPage& page, const ShownRun& run) {
+void add_viewer(Html& body, const RunPage& page, const ShownRun& run, const json& report) {
   Html scripts;
   scripts.add(surface_blocks(run));
-  scripts.add(data_block("licence", "text/plain", std::string(viewer_licence())));
-  scripts.add(Html("script").raw(viewer_script())).add(Html("script").raw(page_script()));
+  scripts.add(Html("script").raw(page_script()));
   const std::size_t so_far = body.str().size() + scripts.str().size();
   const ScanCopy scan = fitting_copy(page, run, so_far);
   body.add(data_block("scan-copy", "text/plain", base64(scan.nifti_gz)));
-  body.add(data_block("viewer-facts", "application/json", script_json(viewer_facts(run, scan))));
+  body.add(
+      data_block("viewer-facts", "application/json", script_json(viewer_facts(run, report, scan))));
   body.add(scripts);
 }
 
@@ -345,18 +421,17 @@ std::string page_of(const RunPage& page, const ShownRun& run, const json& report
   Html body("body"), html("html");
   body.add(element("a", "Skip to the content").set("class", "skip").set("href", "#main"));
   body.add(header_of(page, report)).add(main_of(page, run, report, parts)).add(footer());
-  if (shows_viewer(page, parts)) add_viewer(body, page, run);
+  if (shows_viewer(page, parts)) add_viewer(body, page, run, report);
   html.set("lang", "en").add(head_of(title_of(page))).add(body);
   return "<!DOCTYPE html>\n" + html.str() + "\n";
 }
 
 }  // namespace
 
-bool has_viewer() noexcept { return !viewer_script().empty(); }
-
 std::string run_page(const RunPage& page) {
-  const json report = public_report(page.report, page.names);
+  json report = public_report(page.report, page.names);
   const ShownRun run = shown_run(page);
+  if (page.scan != nullptr && is_hounsfield(*page.scan)) report["page"]["unit"] = "HU";
   std::string text = page_of(page, run, report, PageParts::kAll);
   if (text.size() > page.most) text = page_of(page, run, report, PageParts::kNoViewer);
   if (text.size() > page.most) text = page_of(page, run, report, PageParts::kNoPictures);

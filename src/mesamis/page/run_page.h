@@ -22,6 +22,7 @@ struct PageSurface {
   const TriMesh* surface = nullptr;      ///< LPS, mm; sound, see require_sound()
   std::string name{};                    ///< may be empty
   std::array<std::uint8_t, 3> colour{};  ///< red, green, blue (sRGB)
+  std::span<const double> error{};       ///< expected at its points, mm; empty: not known
 };
 
 /// The most bytes of a page.
@@ -38,11 +39,9 @@ struct RunPage {
   std::size_t most = kLargestPage;      ///< bytes of the page, as a goal
 };
 
-/// Whether the viewer of scans is part of this build. Without it pages have pictures alone.
-bool has_viewer() noexcept;
-
-/// Makes a page that needs no network: pictures, diagrams and tables of the run and, where the
-/// viewer is part of this build, the scan and the surfaces to turn and cut.
+/// Makes a page that needs no network: pictures, diagrams and tables of the run and, where there is
+/// a scan, a viewer: its slices with the outlines of the surfaces, and the surfaces to turn. It
+/// opens on the surfaces.
 ///
 /// The scan is cropped to no part, but thinned and brought to 256 steps, and surfaces lose
 /// triangles, as far as the bound `most` asks for. Where that is not enough, the viewer is left
@@ -51,8 +50,8 @@ bool has_viewer() noexcept;
 /// @param page  see there.
 /// @return UTF-8; the same bytes for the same input. A value of the report is an element `data`
 ///         with the exact value and its JSON pointer.
-/// @throws InputError  if a surface is not sound or the grey values are not one per node of the
-///                     mesh.
+/// @throws InputError  if a surface is not sound, its errors are not one per point, or the grey
+///                     values are not one per node of the mesh.
 ///
 /// O(voxels + triangles log(triangles) + cells). Memory: a few times the page, and 16 bytes per
 /// voxel shown.

@@ -2,7 +2,9 @@
 #include "mesamis/page/sections.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "mesamis/base/written_number.h"
 #include "mesamis/method/setting_table.h"
 #include "mesamis/page/base64.h"
 #include "mesamis/page/figures.h"
@@ -62,12 +64,91 @@ void add_tile(Html& tiles, const json& report, std::string_view name,
   add_tile(tiles, name, value);
 }
 
-void add_object_tiles(Html& tiles, const json& report) {
-  add_tile(tiles, "objects", element("span", figure_text(json(objects_of(report)))));
+/// The sum of an entry over the objects, times another where one is named; nothing if it is missing.
+std::optional<double> sum_over_objects(const json& report, const char* key,
+                                       const char* times = nullptr) {
+  double sum = 0;
+  for (const json& one : entry(report, "/object/surfaces")) {
+    const json& value = entry(one, key);
+    if (!value.is_number()) return {};
+    const json& factor = times == nullptr ? value : entry(one, times);
+    if (!factor.is_number()) return {};
+    sum += value.get<double>() * (times == nullptr ? 1 : factor.get<double>());
+  }
+  return sum;
+}
+
+std::string cm3_text(double mm3) { return significant_text(mm3 / 1000, 3) + "\u00a0cm³"; }
+std::string error_text(double mm) { return significant_text(mm, 2) + "\u00a0mm"; }
+
+std::string size_text(const Vec3& mm) {
+  std::string text;
+  for (const double side : {mm.x, mm.y, mm.z}) {
+    text += (text.empty() ? "" : " × ") + significant_text(side, 3);
+  }
+  return text + "\u00a0mm";
+}
+
+std::string object_name(const json& report, const SeenSurfaces& seen) {
+  const std::size_t objects = objects_of(report);
+  if (!seen.name.empty()) return seen.name;
+  if (objects == 1) return figure_text(entry(report, "/object/surfaces/0/name"));
+  if (objects > 1) return figure_text(json(objects)) + " objects";
+  const json& tissue = entry(report, "/object/tissue");
+  return tissue.is_string() && !tissue.get<std::string>().empty() ? tissue.get<std::string>()
+                                                                  : "all that is bright";
+}
+
+void add_one_object(Html& tiles, const json& report) {
+  const json& volume = entry(report, "/surface/volume_mm3");
+  if (volume.is_number()) {
+    add_tile(tiles, "volume",
+             datum_as(report, "/surface/volume_mm3", cm3_text(volume.get<double>())));
+  }
+  const json& error = entry(report, "/quality/expected_error_mm/mean");
+  if (error.is_number()) {
+    add_tile(tiles, "expected error, mean",
+             datum_as(report, "/quality/expected_error_mm/mean", error_text(error.get<double>())));
+  }
+  add_tile(tiles, report, "closed", {"/surface/closed", ""});
+}
+
+/// Sums, and the mean of the errors over the area.
+void add_several_objects(Html& tiles, const json& report) {
+  if (const auto volume = sum_over_objects(report, "/volume_mm3")) {
+    add_tile(tiles, "volume", element("span", cm3_text(*volume)));
+  }
+  const auto area = sum_over_objects(report, "/area_mm2");
+  const auto error = sum_over_objects(report, "/expected_error_mm/mean", "/area_mm2");
+  if (area && error && *area > 0) {
+    add_tile(tiles, "expected error, mean", element("span", error_text(*error / *area)));
+  }
   std::size_t closed = 0;
-  for (const json& one : entry(report, "/object/surfaces"))
+  for (const json& one : entry(report, "/object/surfaces")) {
     closed += is_true(entry(one, "/closed"));
-  add_tile(tiles, "closed", element("span", figure_text(json(closed))));
+  }
+  const std::size_t objects = objects_of(report);
+  add_tile(tiles, "closed",
+           element("span", closed == objects
+                               ? std::string("yes")
+                               : std::to_string(closed) + " of " + std::to_string(objects)));
+}
+
+/// The numbers of the method.
+Html method_tiles(const json& report) {
+  Html tiles = of_class("dl", "tiles method");
+  const std::string native = native_unit(report);
+  const json& level = entry(report, "/surface/level_native");
+  if (level.is_number()) {
+    const bool ct = native == "HU";
+    Html value = datum_as(report, "/surface/level_native",
+                          significant_text(level.get<double>(), ct ? 3 : 4) + "\u00a0" + native);
+    add_tile(tiles, "level", value);
+  }
+  add_tile(tiles, report, "triangles", {"/surface/triangles", ""});
+  add_tile(tiles, report, "parts", {"/surface/islands", ""});
+  if (entry(report, "/mesh/tets") != 0) add_tile(tiles, report, "tetrahedra", {"/mesh/tets", ""});
+  return tiles;
 }
 
 // ---------------------------------------------------------------- settings
@@ -232,18 +313,19 @@ Html verdict_section(const json& report) {
   return p;
 }
 
-Html headline_section(const json& report) {
+Html headline_section(const json& report, const SeenSurfaces& seen) {
   Html tiles = of_class("dl", "tiles");
-  const std::string native = native_unit(report);
-  add_tile(tiles, report, "level", {"/surface/level_native", native});
-  add_tile(tiles, report, "volume", {"/surface/volume_mm3", "mm³"});
-  add_tile(tiles, report, "triangles", {"/surface/triangles", ""});
-  add_tile(tiles, report, "parts", {"/surface/islands", ""});
-  add_tile(tiles, report, "closed", {"/surface/closed", ""});
-  if (objects_of(report) > 0) add_object_tiles(tiles, report);
-  add_tile(tiles, report, "expected error, mean", {"/quality/expected_error_mm/mean", "mm"});
-  add_tile(tiles, report, "tetrahedra", {"/mesh/tets", ""});
-  return tiles;
+  add_tile(tiles, "object", element("span", object_name(report, seen)));
+  if (seen.size) add_tile(tiles, "size", element("span", size_text(*seen.size)));
+  if (objects_of(report) > 0) {
+    add_several_objects(tiles, report);
+  } else {
+    add_one_object(tiles, report);
+  }
+  Html both;
+  both.add(tiles);
+  const Html method = method_tiles(report);
+  return method.is_empty() ? both : both.add(method);
 }
 
 Html notes_section(const json& report) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "mesamis/base/types.h"
 #include "mesamis/page/html.h"
 
 /// The parts of a page that are made of a report alone. Each is empty where the report has nothing
@@ -17,8 +19,16 @@ Html page_part(const std::string& id, std::string_view heading);
 /// Whether all that was promised was kept, and what was not, in a line.
 Html verdict_section(const nlohmann::json& report);
 
-/// The few numbers that everybody asks for first.
-Html headline_section(const nlohmann::json& report);
+/// What a page knows of the surfaces beside the report.
+struct SeenSurfaces {
+  std::size_t count = 0;
+  std::string name = {};     ///< of the one; may be empty
+  std::optional<Vec3> size;  ///< of the box around all of them, mm; none: no surface is at hand
+};
+
+/// What is asked first: object, size, volume, expected error, closed or not; below it the numbers
+/// of the method: level, triangles, parts, tetrahedra.
+Html headline_section(const nlohmann::json& report, const SeenSurfaces& seen = {});
 
 /// Warnings, and what was done to the scan and to the surface: parts dropped, surroundings removed.
 Html notes_section(const nlohmann::json& report);

@@ -19,7 +19,12 @@ std::vector<ShownSurface> surfaces_of(const RunPage& page) {
     if (s.surface == nullptr) continue;
     require_sound(*s.surface);
     if (s.surface->triangles.empty()) continue;
-    shown.push_back({s.surface, s.name, s.colour, s.colour});
+    if (!s.error.empty() && s.error.size() != s.surface->points.size()) {
+      throw InputError("page: expected an error per point of the surface, " +
+                       std::to_string(s.surface->points.size()) + ", found " +
+                       std::to_string(s.error.size()));
+    }
+    shown.push_back({s.surface, s.name, s.colour, s.colour, s.error});
   }
   if (shown.size() == 1) {
     shown[0].colour = kBone;

@@ -10,6 +10,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/page/base64.h"
 #include "mesamis/page/html.h"
+#include "mesamis/page/mesh_cut.h"
 
 namespace mesamis::detail {
 namespace {
@@ -111,15 +112,15 @@ Html letter(char c, double x, double y) {
 }
 
 /// The sides of the body; sizes follow the slice.
-std::string letters_svg(const SliceView& view, double size) {
-  const double w = view.box.width(), h = view.box.height(), edge = 0.9 * size;
+std::string letters_svg(const SliceView& view, const PageBox& shown, double size) {
+  const double w = shown.width(), h = shown.height(), edge = 0.9 * size;
   const auto& l = view.plane.letters;
   return letter(l[0], edge, h / 2).str() + letter(l[1], w - edge, h / 2).str() +
          letter(l[2], w / 2, h - edge).str() + letter(l[3], w / 2, edge).str();
 }
 
-std::string scale_bar_svg(const SliceView& view, double size) {
-  const double length = bar_length(view.box.width()), y = view.box.height() - size;
+std::string scale_bar_svg(const PageBox& shown, double size) {
+  const double length = bar_length(shown.width()), y = shown.height() - size;
   Html bar = of_class("path", "bar");
   bar.set("d", fmt::format("M{0:.2f} {1:.2f}H{2:.2f}", size, y, size + length));
   Html label = of_class("text", "bar-label");
@@ -184,16 +185,20 @@ PageLine thin_line(const PageLine& line, double step) {
 }
 
 std::string slice_svg(const SliceView& view, std::span<const ShownSurface> surfaces) {
-  const double w = view.box.width(), h = view.box.height(), size = std::max(w, h) / 32;
+  const PageBox shown = region_around(view.outlines, view.box);
+  const double w = shown.width(), h = shown.height(), size = std::max(w, h) / 32;
   Html svg = of_class("svg", "slice");
   svg.set("xmlns", "http://www.w3.org/2000/svg").set("role", "img");
   svg.set("viewBox", fmt::format("0 0 {:.3f} {:.3f}", w, h));
   svg.set("aria-label", fmt::format("{} slice at {:.1f} mm with the outline of the surface",
                                     view.name, view.plane.position));
   svg.set("style", fmt::format("--size:{:.3f}px", size));
+  const auto corner = in_box(shown, {view.box.left, view.box.top});
   svg.add(Html("image")
-              .set("width", fmt::format("{:.3f}", w))
-              .set("height", fmt::format("{:.3f}", h))
+              .set("x", fmt::format("{:.3f}", corner[0]))
+              .set("y", fmt::format("{:.3f}", corner[1]))
+              .set("width", fmt::format("{:.3f}", view.box.width()))
+              .set("height", fmt::format("{:.3f}", view.box.height()))
               .set("preserveAspectRatio", "none")
               .set("href", "data:image/png;base64," + base64(png_bytes(view.voxels))));
   const auto outlines = drawn_outlines(view);
@@ -201,9 +206,9 @@ std::string slice_svg(const SliceView& view, std::span<const ShownSurface> surfa
     if (outlines[n].empty()) continue;
     svg.add(of_class("path", "outline")
                 .set("stroke", hex(surfaces[n].outline))
-                .set("d", path_of(outlines[n], view.box)));
+                .set("d", path_of(outlines[n], shown)));
   }
-  svg.raw(letters_svg(view, size)).raw(scale_bar_svg(view, size));
+  svg.raw(letters_svg(view, shown, size)).raw(scale_bar_svg(shown, size));
   return svg.str();
 }
 

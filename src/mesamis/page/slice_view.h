@@ -16,8 +16,9 @@ namespace mesamis::detail {
 struct ShownSurface {
   const TriMesh* surface;  ///< LPS, mm
   std::string name;
-  Colour colour;   ///< in space
-  Colour outline;  ///< on slices
+  Colour colour;                    ///< in space
+  Colour outline;                   ///< on slices
+  std::span<const double> error{};  ///< expected at its points, mm; empty: not known
 };
 
 /// A rectangle of a page, mm.
@@ -57,7 +58,8 @@ SliceView slice_view(const VolumeView& scan, std::span<const ShownSurface> surfa
 /// @return empty for a closed line that is no larger than the step.
 PageLine thin_line(const PageLine& line, double step);
 
-/// The slice as an SVG that fits its container, with the sides of the body and a scale bar. Its
+/// The part of the slice around its outlines, or the whole where it has none, as an SVG that fits
+/// its container, with the sides of the body and a scale bar. Its
 /// outlines are thinned, to half a pixel of a picture of 1000 pixels, farther where that is still
 /// more than 60 000 points.
 std::string slice_svg(const SliceView& view, std::span<const ShownSurface> surfaces);

@@ -3,22 +3,29 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis::detail {
 
-/// A surface of fewer triangles to look at: points within one cell of a grid become one, and
-/// triangles that lose a corner go. It need not stay closed. A surface that is small enough stays
-/// as it is.
+/// A surface to look at, with a value at each point, or none.
+struct SurfaceCopy {
+  TriMesh surface;             ///< LPS, mm; fewer than 2^31 triangles
+  std::vector<double> values;  ///< mm; empty, or one per point
+};
+
+/// A surface of fewer triangles to look at: points within one cell of a grid become one, with the
+/// mean of their values, and triangles that lose a corner go. It need not stay closed. A surface
+/// that is small enough stays as it is.
 /// @param most  triangles, > 0, as a goal.
 ///
 /// O(n log n) for n triangles, a few times.
-TriMesh coarse_surface(const TriMesh& surface, std::int64_t most);
+SurfaceCopy coarse_surface(const SurfaceCopy& copy, std::int64_t most);
 
-/// A gzipped MZ3 file of a surface, RAS, points rounded to a 2^14th of its size.
-/// @param surface  LPS, mm; fewer than 2^31 triangles.
+/// A gzipped MZ3 file of a surface, RAS, points rounded to a 2^14th of its size, values to a
+/// 2^8th of the greatest.
 /// @throws InputError  if zlib cannot be started.
-std::string mz3_gz(const TriMesh& surface);
+std::string mz3_gz(const SurfaceCopy& copy);
 
 }  // namespace mesamis::detail

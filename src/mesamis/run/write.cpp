@@ -96,10 +96,12 @@ void write_page_of(const OutcomeDetails& o, const RunFiles& w, const ordered_jso
   const auto replace = ordered_json::error_handler_t::replace;
   RunPage page{nlohmann::json::parse(report.dump(-1, ' ', false, replace))};
   page.scan = shown ? &*shown : nullptr;
-  for (const FoundObject& object : o.objects()) {
+  const std::vector<FoundObject> objects = o.objects();
+  for (std::size_t n = 0; n < objects.size(); ++n) {
+    const FoundObject& object = objects[n];
     if (object.surface.triangles.empty()) continue;
-    page.surfaces.push_back(
-        {&object.surface, o.one ? "" : object.segment.name, object.segment.colour});
+    page.surfaces.push_back({&object.surface, o.one ? "" : object.segment.name,
+                             object.segment.colour, o.expected_error(n)});
   }
   if (const Result* mesh = o.mesh()) {
     page.mesh = &mesh->mesh;
