@@ -75,6 +75,28 @@ TEST(Hdf5File, ReadsNumbersOfEitherByteOrder) {
   }
 }
 
+/// h5py stores booleans so.
+TEST(Hdf5File, ReadsNamedNumbers) {
+  const TempFolder folder;
+  const hid_t type = H5Tenum_create(H5T_STD_I16BE);
+  std::int16_t value = 0;
+  H5Tenum_insert(type, "FALSE", &value);
+  FileBytes(folder / "numbers.h5").add("data", H5T_STD_I16BE, in_chunks);
+  std::vector<std::int16_t> stored(7 * 6 * 5);
+  {
+    const FileBytes numbers(folder / "names.h5");
+    numbers.add("data", type, in_chunks, {7, 6, 5}, false);
+    const hid_t from = H5Fopen((folder / "numbers.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
+                source = H5Dopen2(from, "data", H5P_DEFAULT),
+                target = H5Dopen2(numbers.id(), "data", H5P_DEFAULT);
+    H5Dread(source, H5T_STD_I16BE, H5S_ALL, H5S_ALL, H5P_DEFAULT, stored.data());
+    H5Dwrite(target, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, stored.data());
+    H5Dclose(source), H5Dclose(target), H5Fclose(from);
+  }
+  H5Tclose(type);
+  expect_whole(folder / "names.h5");
+}
+
 TEST(Hdf5File, ReadsEachFilterOfTheLibrary) {
   const TempFolder folder;
   const std::function<void(hid_t)> filters[]{

@@ -59,6 +59,19 @@ TEST(ZarrArray, ReadsWhatVersion2MayChoose) {
   EXPECT_EQ(shuffled.layout.codecs.at(0).element, 2u);
 }
 
+/// Masks are often stored as booleans, a byte each.
+TEST(ZarrArray, BooleansAreNumbers) {
+  const auto fill = [](std::string text, const char* value) {
+    return with(std::move(text), "\"fill_value\": 0", std::string("\"fill_value\": ") + value);
+  };
+  const ZarrArray second = v2(fill(zarray("|b1"), "true"));
+  EXPECT_EQ(second.layout.type, NumberType::kUint8);
+  EXPECT_EQ(second.layout.fill, 1);
+  const ZarrArray third = v3(fill(zarr_json("bool", R"(["bytes"])"), "false"));
+  EXPECT_EQ(third.layout.type, NumberType::kUint8);
+  EXPECT_EQ(third.layout.fill, 0);
+}
+
 TEST(ZarrArray, ReadsVersion3) {
   const ZarrArray array =
       v3(zarr_json("float64", R"([{"name": "transpose", "configuration": {"order": [2, 0, 1]}},

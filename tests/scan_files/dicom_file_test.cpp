@@ -474,6 +474,29 @@ TEST(Dicom, FramesWithoutGroupsAreStackedAlongTheirNormal) {
   EXPECT_EQ(read_volume(folder / "a.dcm", {.spacing = Vec3{1, 1, 3}}).volume.spacing.z, 3);
 }
 
+/// Nuclear medicine places the first frame with its detector.
+TEST(Dicom, FramesOfADetectorLieWhereItSays) {
+  const TempFolder folder;
+  for (const DicomCoding coding : {DicomCoding::kExplicit, DicomCoding::kImplicit}) {
+    SliceBytes frames;
+    frames.coding = coding;
+    frames.position = frames.orientation = {};
+    frames.pixels = ramp<std::int16_t>(48);
+    frames.more[0x00180088] = {"DS", "0.25"};
+    frames.more[0x00280008] = {"IS", "4"};
+    DicomWriter detector(coding), set(coding);
+    detector.decimals(dicom::kPosition, {1, 2, 3});
+    detector.decimals(dicom::kOrientation, {1, 0, 0, 0, 0, -1});
+    set.sequence(dicom::kDetectors, {detector.bytes()});
+    std::string bytes = frames.bytes();
+    bytes.insert(bytes.find(std::string("\xe0\x7f\x10\x00", 4)), set.bytes());
+    const VolumeFile file = read(folder, "a.dcm", bytes);
+    expect_near(file.volume.origin, {1, 2, 3});
+    expect_near(file.volume.direction * Vec3{0, 0, 1}, {0, 1, 0});
+    EXPECT_THAT(file.warnings, testing::ElementsAre(testing::Not(HasSubstr("no orientation"))));
+  }
+}
+
 TEST(Dicom, FramesAtDifferentTimesAreNoStack) {
   const TempFolder folder;
   SliceBytes frames;

@@ -146,8 +146,15 @@ std::vector<std::uint64_t> shape_of(hid_t dataset) {
   return {lengths.begin(), lengths.begin() + std::max(rank, 0)};
 }
 
+/// Of the samples; booleans are stored as a list of named whole numbers.
+Handle number_type(hid_t dataset) {
+  Handle type(H5Dget_type(dataset), H5Tclose);
+  if (H5Tget_class(type) != H5T_ENUM) return type;
+  return Handle(H5Tget_super(type), H5Tclose);
+}
+
 bool is_numeric(hid_t dataset) {
-  const Handle type(H5Dget_type(dataset), H5Tclose);
+  const Handle type = number_type(dataset);
   const H5T_class_t kind = H5Tget_class(type);
   return kind == H5T_INTEGER || kind == H5T_FLOAT;
 }
@@ -209,7 +216,7 @@ NumberType whole_type(std::size_t size, bool with_sign) {
 }
 
 void set_type(const Dataset& dataset, ChunkLayout& layout) {
-  const Handle type(H5Dget_type(dataset.id), H5Tclose);
+  const Handle type = number_type(dataset.id);
   const std::size_t size = H5Tget_size(type);
   const auto is = [&](hid_t other) { return H5Tequal(type, other) > 0; };
   layout.byte_order =

@@ -21,7 +21,8 @@ struct TypeName {
   NumberType type;
 };
 
-constexpr std::array<TypeName, 10> kTypes{{{"int8", "i1", NumberType::kInt8},
+constexpr std::array<TypeName, 11> kTypes{{{"int8", "i1", NumberType::kInt8},
+                                           {"bool", "b1", NumberType::kUint8},
                                            {"uint8", "u1", NumberType::kUint8},
                                            {"int16", "i2", NumberType::kInt16},
                                            {"uint16", "u2", NumberType::kUint16},
@@ -44,6 +45,7 @@ NumberType number_type(const JsonValue& value, std::string_view name,
 }
 
 double read_fill(const JsonValue& value) {
+  if (value.is_truth()) return value.truth() ? 1 : 0;
   if (!value.is_text()) return value.number();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const std::string text = value.text();

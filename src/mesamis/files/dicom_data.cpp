@@ -46,7 +46,8 @@ bool is_known_sequence(DicomTag tag) {
                                   dicom::kModalityLut,   dicom::kFrameContent,
                                   dicom::kSegments,      dicom::kSegmentIdentification,
                                   dicom::kRegions,       dicom::kReferencedFrames,
-                                  dicom::kContours,      dicom::kRegionContours};
+                                  dicom::kContours,      dicom::kRegionContours,
+                                  dicom::kDetectors};
   return std::find(kSequences.begin(), kSequences.end(), tag) != kSequences.end();
 }
 

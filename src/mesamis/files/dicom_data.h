@@ -48,7 +48,7 @@ inline constexpr DicomTag kSharedGroups = 0x52009229, kFrameGroups = 0x52009230,
                           kFrameContent = 0x00209111, kPlanePosition = 0x00209113,
                           kPlaneOrientation = 0x00209116, kPixelMeasures = 0x00289110,
                           kPixelTransformation = 0x00289145, kSliceThickness = 0x00180050,
-                          kSliceSpacing = 0x00180088;
+                          kSliceSpacing = 0x00180088, kDetectors = 0x00540022;
 // Segmentations.
 inline constexpr DicomTag kSopClass = 0x00080016, kSegmentationType = 0x00620001,
                           kSegments = 0x00620002, kSegmentNumber = 0x00620004,

@@ -100,6 +100,11 @@ double JsonValue::number() const {
   return value_->get<double>();
 }
 
+bool JsonValue::truth() const {
+  if (!value_->is_boolean()) refuse_as("true or false");
+  return value_->get<bool>();
+}
+
 std::string JsonValue::text() const {
   if (!value_->is_string()) refuse_as("a string");
   return value_->get<std::string>();

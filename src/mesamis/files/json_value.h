@@ -43,8 +43,11 @@ class JsonValue {
   double number() const;
   /// @throws InputError  if it is no string.
   std::string text() const;
+  /// @throws InputError  if it is neither true nor false.
+  bool truth() const;
 
   bool is_text() const { return value_->is_string(); }
+  bool is_truth() const { return value_->is_boolean(); }
   bool is_null() const { return value_->is_null(); }
   const std::filesystem::path& file() const { return *file_; }
 

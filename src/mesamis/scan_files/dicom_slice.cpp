@@ -15,7 +15,7 @@ namespace mesamis::detail {
 namespace {
 
 /// The data sets that describe one frame: its own functional groups, those shared by all frames,
-/// and the file's top level, in this order.
+/// the file's top level, and the detector of nuclear medicine, in this order.
 class FrameTags {
  public:
   FrameTags(const DicomFile& file, std::size_t frame) : file_(file) {
@@ -31,7 +31,8 @@ class FrameTags {
       const DicomSet* item = groups ? first_item(*groups, tag.macro) : nullptr;
       if (item && item->count(tag.tag)) return *item;
     }
-    return file_.elements;
+    const DicomSet* detector = first_item(file_.elements, dicom::kDetectors);
+    return !file_.elements.count(tag.tag) && detector ? *detector : file_.elements;
   }
   bool has(const MacroTag& tag) const { return set_with(tag).count(tag.tag) > 0; }
   std::string text(const MacroTag& tag) const { return text_of(set_with(tag), tag.tag); }
@@ -218,10 +219,9 @@ std::string stack_frames(const DicomFile& file, std::vector<DicomSlice>& slices,
 
 /// A file of frames without places of their own may lack even that of the first.
 bool lies_nowhere(const DicomFile& file) {
-  for (const DicomTag tag : {dicom::kPosition, dicom::kOrientation, dicom::kSliceLocation}) {
-    if (file.elements.count(tag)) return false;
-  }
-  return true;
+  const FrameTags tags(file, 0);
+  return !tags.has(kPositionTag) && !tags.has(kOrientationTag) &&
+         file.elements.count(dicom::kSliceLocation) == 0;
 }
 
 /// A frame without a place.
