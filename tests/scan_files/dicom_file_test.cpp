@@ -485,9 +485,9 @@ TEST(Dicom, FramesOfADetectorLieWhereItSays) {
     frames.more[0x00180088] = {"DS", "0.25"};
     frames.more[0x00280008] = {"IS", "4"};
     DicomWriter detector(coding), set(coding);
-    detector.decimals(dicom::kPosition, {1, 2, 3});
-    detector.decimals(dicom::kOrientation, {1, 0, 0, 0, 0, -1});
-    set.sequence(dicom::kDetectors, {detector.bytes()});
+    detector.decimals(0x00200032, {1, 2, 3});
+    detector.decimals(0x00200037, {1, 0, 0, 0, 0, -1});
+    set.sequence(0x00540022, {detector.bytes()});
     std::string bytes = frames.bytes();
     bytes.insert(bytes.find(std::string("\xe0\x7f\x10\x00", 4)), set.bytes());
     const VolumeFile file = read(folder, "a.dcm", bytes);

@@ -50,6 +50,23 @@ TEST(Vgi, HonoursUnitsAndWarns) {
   EXPECT_THAT(with("").warnings, ElementsAre(HasSubstr("1 mm taken")));
 }
 
+TEST(Vgi, WarnsOfAPlaceInTheScene) {
+  const TempFolder folder;
+  write_bytes(folder / "a.vol", bytes_of_all(kRamp));
+  const auto warnings = [&](const std::string& field) {
+    return read(folder, "a.vgi", vgi_bytes("resolution = 1 1 1\r\nunit = mm\r\n" + field + "\r\n"))
+        .warnings;
+  };
+  for (const char* rest : {"position = 0 0 0", "relativeposition = 0.0 0 0", "scale = 1 1 1.0",
+                           "rotate = 1 0 0 0 1 0 0 0 1", "center = 3 4 5"}) {
+    EXPECT_THAT(warnings(rest), IsEmpty()) << rest;
+  }
+  for (const char* moved : {"position = 0 0 7", "relativeposition = 1 0 0", "scale = 1 2 1",
+                            "rotate = 0 1 0 1 0 0 0 0 1", "position = here"}) {
+    EXPECT_THAT(warnings(moved), ElementsAre(HasSubstr("scene"))) << moved;
+  }
+}
+
 TEST(Vgi, RefusesWhatItCannotMean) {
   const TempFolder folder;
   EXPECT_THAT(complaint(folder, "a.vgi", vgi_bytes("resolution = 1 1 1\r\n")), HasSubstr("a.vol"));

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // VGSTUDIO's volumes: a text of sections (.vgi) that describes a file of bare samples (.vol).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
 
 #include "mesamis/files/length_unit.h"
 #include "mesamis/files/refuse.h"
+#include "mesamis/files/text_scan.h"
 #include "mesamis/scan_files/formats.h"
 #include "mesamis/scan_files/text_header.h"
 
@@ -75,6 +77,29 @@ NumberType sample_type(const Vgi& vgi) {
   return type->second;
 }
 
+/// What moves the volume in VGSTUDIO's scene.
+void warn_of_scene(ScanFile& scan, const Vgi& vgi) {
+  struct Field {
+    const char *name, *at_rest;
+  };
+  constexpr std::array kFields{Field{"relativeposition", "0 0 0"}, Field{"position", "0 0 0"},
+                               Field{"scale", "1 1 1"}, Field{"rotate", "1 0 0 0 1 0 0 0 1"},
+                               Field{"rotation", "1 0 0 0 1 0 0 0 1"}};
+  for (const Field& field : kFields) {
+    const std::string text = vgi.get({(std::string("geometry/") + field.name).c_str()});
+    std::string_view stated = text, rest = field.at_rest;
+    bool moved = false;
+    while (!trimmed(stated).empty()) {
+      double value = 0, still = 0;
+      moved = !parse_number(take_word(stated), value) || !parse_number(take_word(rest), still) ||
+              value != still || moved;
+    }
+    if (!moved) continue;
+    scan.warnings.push_back(message("the volume has a place in VGSTUDIO's scene (", field.name,
+                                    " = ", shown(text), "): it is not applied"));
+  }
+}
+
 void place(ScanFile& scan, const Vgi& vgi) {
   const std::string text = vgi.get({"geometry/resolution"}), unit = vgi.get({"geometry/unit"});
   const auto mm = mm_per_unit(unit);
@@ -94,6 +119,7 @@ void place(ScanFile& scan, const Vgi& vgi) {
   if (mirror.find('1') != std::string::npos) {
     scan.warnings.push_back("the file asks for a mirrored view: the values are kept as stored");
   }
+  warn_of_scene(scan, vgi);
 }
 
 /// The name without folders, which are those of another machine.
