@@ -59,7 +59,12 @@ Progress ProgressDisplay::callback() {
 }
 
 void ProgressDisplay::begin(std::string_view stage) {
-  if (!quiet_) show(stage, 0);
+  if (quiet_) return;
+  if (log_allows_bar() || log_is_json() || log_is_for_slicer()) {
+    show(stage, 0);
+  } else {
+    enter(stage, 0);
+  }
 }
 
 void ProgressDisplay::finish() {

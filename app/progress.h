@@ -28,7 +28,8 @@ class ProgressDisplay {
 
   /// The progress function for the work; refers to this object.
   Progress callback();
-  /// Tells that a stage begins which the work itself does not tell.
+  /// Tells that a stage begins which the work itself does not tell. It has no log line: input that is
+  /// refused in it leaves one line alone.
   void begin(std::string_view stage);
   /// Wipes the bar.
   void finish();

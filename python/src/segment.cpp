@@ -110,8 +110,8 @@ void bind_segment(py::module_& module) {
   using namespace py::literals;
   py::class_<RunShare>(module, "RunShare")
       .def(py::init([](bool labels, bool scan, bool preview, bool mesh) {
-             return RunShare(stage_shares(
-                 {.labels = labels, .scan = scan, .preview = preview, .mesh = mesh}));
+             return RunShare(
+                 stage_shares({.labels = labels, .scan = scan, .preview = preview, .mesh = mesh}));
            }),
            "labels"_a, "scan"_a, "preview"_a, "mesh"_a)
       .def("done", &RunShare::done, "stage"_a, "fraction"_a);

@@ -214,7 +214,7 @@ TEST_F(SegmentLabels, RefusesInOneLine) {
   expect_refused({scan, "-o", out, "--mesh", folder / "x.vtu", "--preview"}, 2, "--preview");
   expect_refused({scan, "-o", out, "--error"}, 2, "--error");
   expect_refused({scan, "--labelmap", folder / "x.gz"}, 2, "--labelmap");
-  expect_refused({scan, "-o", out, "--margin", "nan"}, 3, "margin");
+  expect_refused({scan, "-o", out, "--margin", "nan"}, 2, "margin");
   expect_refused({scan, "-o", out, "--min-volume", "1e9"}, 3, "found none");
   EXPECT_FALSE(std::filesystem::exists(out));
 }

@@ -61,7 +61,7 @@ TEST(Headline, SaysFirstWhatASurgeonAsks) {
                                           "size",      "22.0 × 22.0 × 102",
                                           "volume",    "5.58",
                                           "cm³",       "expected error",
-                                          ">0.06",    "closed",
+                                          ">0.06",     "closed",
                                           "yes",       "level",
                                           "176",       "HU",
                                           "triangles", "tetrahedra"};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
@@ -34,6 +35,7 @@ inline StudyRun made_up_run(const PlannedRun& plan, double distance) {
   summary.vertices = 17;
   summary.printable.triangles_extracted = 90;
   summary.converged = true;
+  summary.parameters.tolerance = std::numeric_limits<double>::infinity();
   summary.seconds.total = 1.5;
   run.summary = summary;
   RunComparison comparison;

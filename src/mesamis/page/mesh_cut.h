@@ -4,8 +4,8 @@
 #include <span>
 
 #include "mesamis/mesh/tet_mesh.h"
-#include "mesamis/raster/raster.h"
 #include "mesamis/page/slice_view.h"
+#include "mesamis/raster/raster.h"
 
 namespace mesamis::detail {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/raster/raster.h"
 #include "mesamis/page/slice_view.h"
+#include "mesamis/raster/raster.h"
 
 namespace mesamis::detail {
 

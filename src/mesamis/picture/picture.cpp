@@ -8,9 +8,9 @@
 #include "mesamis/base/error.h"
 #include "mesamis/picture/annotation.h"
 #include "mesamis/picture/color_scale.h"
-#include "mesamis/surface/crease_normals.h"
 #include "mesamis/picture/scene.h"
 #include "mesamis/picture/shaded_surface.h"
+#include "mesamis/surface/crease_normals.h"
 
 namespace mesamis {
 
