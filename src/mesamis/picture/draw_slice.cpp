@@ -83,15 +83,18 @@ double share_between(int pixel, double lo, double hi) {
 /// Draws the slice, each pixel as the mean of 3 x 3 places in it.
 void add_image(Scene& scene, const SliceImage& image) {
   constexpr int kSamples = 3;
-  const auto [lo, hi] = image.corners();
+  const auto corners = image.corners();
+  const Vec3& lo = corners[0];
+  const Vec3& hi = corners[1];
   const Place first = scene.on_canvas(scene.to_pixel(lo)),
               last = scene.on_canvas(scene.to_pixel(hi));
   const double mm = scene.mm_per_pixel();
   const auto mean_of = [&](int x, int y) {
     double sum = 0;
     for (int s = 0; s < kSamples * kSamples; ++s) {
+      const int row = s / kSamples;
       const double px = x + (s % kSamples + 0.5) / kSamples - first[0];
-      const double py = first[1] - y - (s / kSamples + 0.5) / kSamples;
+      const double py = first[1] - y - (row + 0.5) / kSamples;
       sum += image.at({lo.x + mm * px, lo.y + mm * py});
     }
     return static_cast<std::uint8_t>(std::lround(sum / (kSamples * kSamples)));
