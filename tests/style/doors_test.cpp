@@ -52,6 +52,26 @@ TEST(Doors, EverySourceAndDoorOfARoomIsThereAndListed) {
   }
 }
 
+/// Two types of one name are undefined behaviour where a program has both, though each compiles.
+TEST(Doors, NoTwoTypesHaveOneName) {
+  static const std::regex space("(?:^|\n)namespace ([\\w:]+) \\{");
+  static const std::regex type(
+      "(?:^|\n)(?:struct|class|enum class|union) (\\w+)(?: final)?(?: :[^;{]*)? ?\\{");
+  std::map<std::string, fs::path> definitions;
+  for (const char* root : {"src/mesamis", "tools/mesamis"}) {
+    for (const auto& file : project_files(root, {".h"})) {
+      const std::string text = file_text(file);
+      std::smatch inside;
+      const std::string of = std::regex_search(text, inside, space) ? inside[1].str() : "";
+      for (std::sregex_iterator match(text.begin(), text.end(), type), end; match != end; ++match) {
+        const auto [other, is_new] = definitions.try_emplace(of + "::" + (*match)[1].str(), file);
+        EXPECT_TRUE(is_new) << other->first << " in " << other->second << " and " << file;
+      }
+    }
+  }
+  EXPECT_GT(definitions.size(), 200u);
+}
+
 /// The headers that one leads to, itself included; names below src/.
 std::set<std::string> reached_from(const std::string& door) {
   std::set<std::string> reached;

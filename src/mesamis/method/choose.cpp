@@ -196,8 +196,8 @@ ChosenImage choose(const VolumeView& image, const ImageSettings& settings) {
   Parameters& p = found.chosen.parameters;
   if (!cells_are_open(p)) return found;
   const MeasuredImage& measured = found.chosen.measured;
-  const ImageEdge edge{p.level, measured.contrast, measured.noise_left};
-  choose_max_tets(p, cells_of_image(found.restored, edge, p.accuracy));
+  const LevelInNoise object{p.level, measured.contrast, measured.noise_left};
+  choose_max_tets(p, cells_of_image(found.restored, object, p.accuracy));
   return found;
 }
 
@@ -206,11 +206,11 @@ Chosen choose_from_part(const VolumeView& part, const VoxelGrid& whole,
   return choose_but_cells(part, whole, settings).chosen;
 }
 
-double cells_of_image(const VolumeView& image, const ImageEdge& edge, double accuracy) {
+double cells_of_image(const VolumeView& image, const LevelInNoise& object, double accuracy) {
   constexpr double kQuiet = 0.1;  // of the contrast: noise reaches the level at five deviations
-  const SurfaceExtent extent = edge.noise < kQuiet * edge.contrast
-                                   ? measure_extent(image, edge.level)
-                                   : SurfaceExtent{level_area(smoothed(image), edge.level), 0};
+  const SurfaceExtent extent = object.noise < kQuiet * object.contrast
+                                   ? measure_extent(image, object.level)
+                                   : SurfaceExtent{level_area(smoothed(image), object.level), 0};
   return cells_for_surface(extent.area, extent.thin_share, image.spacing, accuracy);
 }
 

@@ -68,11 +68,11 @@ ChosenImage choose(const VolumeView& image, const ImageSettings& settings);
 Chosen choose_from_part(const VolumeView& part, const VoxelGrid& whole,
                         const ImageSettings& settings);
 
-/// The edge of the object in an image, in the image's unit.
-struct ImageEdge {
+/// The level of an object in an image, and what noise is there; in the image's unit.
+struct LevelInNoise {
   double level = 0;
-  double contrast = 0;
-  double noise = 0;  ///< standard deviation, >= 0
+  double contrast = 0;  ///< of the object
+  double noise = 0;     ///< standard deviation, >= 0
 };
 
 /// Counts the cells that the surface in an image asks for, see cells_for_surface(). Where the noise
@@ -83,7 +83,7 @@ struct ImageEdge {
 /// @return no unit.
 ///
 /// O(voxels); a smoothed copy where there is noise.
-double cells_of_image(const VolumeView& image, const ImageEdge& edge, double accuracy);
+double cells_of_image(const VolumeView& image, const LevelInNoise& object, double accuracy);
 
 /// Chooses the number of cells where it is open, between kFewestTets and kMostTets. A preview makes
 /// none.
