@@ -29,6 +29,14 @@ TEST(SurfaceMoves, StayInTheBox) {
   EXPECT_EQ(space.within_box({3, 5, 5}, {-1, 0, 0}).x, -1);
 }
 
+TEST(SurfaceMoves, GoNoFartherThanAllowed) {
+  const SplineImage scan = image();
+  const FollowSpace space(scan, 2);  // a voxel is half a unit long
+  EXPECT_EQ(space.step_to({5, 5.1, 5}, {5, 5, 5}, 0.25).y, 5.1 - 5);
+  EXPECT_NEAR(norm(space.step_to({7, 8, 9}, {5, 5, 5}, 0.25)), 0.125, 1e-12);
+  EXPECT_NEAR(space.step_to({-9, 5, 5}, {0.1, 5, 5}, 0.25).x, -0.05, 1e-12) << "not to the box";
+}
+
 TEST(SurfaceMoves, ArePutInSinglePrecisionOnEveryAxis) {
   VoxelGrid grid;
   grid.size = {10, 10, 10};

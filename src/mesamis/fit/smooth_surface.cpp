@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/fit/smooth_surface.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "mesamis/base/error.h"
@@ -27,13 +26,10 @@ TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid,
     now = relax(umbrella, springs, options.bending, std::move(now));
     parallel_for(start.size(), [&](std::size_t p) { springs.goal[p] += start[p] - now[p]; });
   }
-  const double most = options.reach * space.voxel();
-  parallel_for(start.size(), [&](std::size_t p) {
-    const Vec3 shift = now[p] - start[p];
-    const double length = norm(shift);
-    now[p] = space.within_box(start[p], (length > most ? most / length : 1) * shift);
-  });
-  return moved_without_folds(space, surface, std::move(now));
+  std::vector<Vec3> shifts(start.size());
+  parallel_for(start.size(),
+               [&](std::size_t p) { shifts[p] = space.step_to(now[p], start[p], options.reach); });
+  return moved_without_folds(space, surface, std::move(shifts));
 }
 
 }  // namespace mesamis

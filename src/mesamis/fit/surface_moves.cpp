@@ -144,6 +144,12 @@ Vec3 SurfaceSpace::within_box(const Vec3& p, const Vec3& move) const {
   return part * move;
 }
 
+Vec3 SurfaceSpace::step_to(const Vec3& goal, const Vec3& p, double most_voxels) const {
+  const Vec3 move = goal - p;
+  const double length = norm(move), most = most_voxels * voxel_;
+  return within_box(p, (length > most ? most / length : 1) * move);
+}
+
 Vec3 SurfaceSpace::as_in_a_file(const Vec3& point) const {
   return rounded(grid_.to_world(point_scale_ * point));
 }

@@ -27,6 +27,8 @@ class SurfaceSpace {
   bool on_box(const Vec3& p) const;
   /// A move, shortened to at most half the way to the box where it would leave it.
   Vec3 within_box(const Vec3& p, const Vec3& move) const;
+  /// The move from a point towards a goal, of at most so many voxels, within_box().
+  Vec3 step_to(const Vec3& goal, const Vec3& p, double most_voxels) const;
   /// A point of the surface in the world, in single precision.
   Vec3 as_in_a_file(const Vec3& p) const;
 

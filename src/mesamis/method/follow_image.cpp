@@ -24,7 +24,6 @@ constexpr double kBending = 8;          // against a weight of 1 of the place wh
 constexpr double kMostSmoothed = 0.25;  // voxels
 /// Voxels: points that noise moves by more are held with the weight 1, by half of it or less with 4.
 constexpr double kNoiseOfWeight = 0.15, kMostWeight = 4;
-constexpr int kRings = 1;  // of neighbours whose least depth counts
 constexpr double kThick = 3, kThinnest = 0.75, kDepthStep = 0.25;  // voxels behind the surface
 
 class Follower {
@@ -100,12 +99,8 @@ class Follower {
     // Held points, those of a wall of the box among them, do not bend what is free beside them.
     const Umbrella umbrella(neighbors, springs.held);
     const std::vector<Vec3> goals = relax(umbrella, springs, kBending, points);
-    const double most = kMostSmoothed * space_.voxel();
     parallel_for(points.size(), [&](std::size_t p) {
-      if (springs.held[p] != 0) return;
-      const Vec3 shift = goals[p] - points[p];
-      const double length = norm(shift);
-      points[p] += space_.within_box(points[p], (length > most ? most / length : 1) * shift);
+      if (springs.held[p] == 0) points[p] += space_.step_to(goals[p], points[p], kMostSmoothed);
     });
   }
 
@@ -124,22 +119,21 @@ class Follower {
   }
 
   /// A rim is as thin as the faces beside it, though much is behind it.
-  static std::vector<double> least_around(const Neighbors& neighbors, std::vector<double> values) {
-    for (int ring = 0; ring < kRings; ++ring) {
-      const std::vector<double> before = values;
-      parallel_for(values.size(), [&](std::size_t p) {
-        for (std::size_t n = neighbors.start[p]; n < neighbors.start[p + 1]; ++n) {
-          values[p] = std::min(values[p], before[neighbors.points[n]]);
-        }
-      });
-    }
-    return values;
+  static std::vector<double> least_around(const Neighbors& neighbors,
+                                          const std::vector<double>& values) {
+    std::vector<double> least = values;
+    parallel_for(values.size(), [&](std::size_t p) {
+      for (std::size_t n = neighbors.start[p]; n < neighbors.start[p + 1]; ++n) {
+        least[p] = std::min(least[p], values[neighbors.points[n]]);
+      }
+    });
+    return least;
   }
 
   double weight_by_noise(const Vec3& p) const {
     const auto offset = offset_at(p);
     if (!offset) return 1;
-    const double ratio = kNoiseOfWeight / std::max(offset->noise, 1e-3 * kNoiseOfWeight);
+    const double ratio = kNoiseOfWeight / offset->noise;  // infinite without noise
     return std::clamp(ratio * ratio, 1.0, kMostWeight);
   }
 
@@ -168,14 +162,14 @@ class Follower {
 TriMesh follow_image(const TriMesh& surface, const SplineImage& image,
                      const FollowOptions& options) {
   FollowOptions what = options;
-  what.to_image &= look_along(surface, image, options).is_worthwhile();
-  if (!what.to_image && !what.smooth) return surface;
+  what.to_image = options.to_image && look_along(surface, image, options).is_worthwhile();
   FollowedPart whole{surface, surface.points, std::vector<char>(surface.points.size(), 0)};
   follow_part(whole, image, what);
   return {std::move(whole.moved), std::move(whole.extracted.triangles)};
 }
 
 void follow_part(FollowedPart& part, const SplineImage& image, const FollowOptions& options) {
+  if (!options.to_image && !options.smooth) return;
   if (!part.extracted.triangles.empty()) Follower(image, options).run(part);
 }
 

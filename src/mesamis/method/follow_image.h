@@ -36,11 +36,11 @@ struct FollowOptions {
 /// the point or a neighbour: thin walls and struts, which bending would shrink, are held more
 /// firmly.
 ///
-/// Moves that would make the surface meet itself are taken back.
+/// Moves that would make the surface meet itself are taken back. Where noise outweighs everything
+/// that the image could tell, points do not move towards it.
 /// @param surface  in the grid's own axes; without self-intersections.
 /// @param image    in grey values; its bounds do not count here.
-/// Where noise outweighs everything that the image could tell, points do not move towards it.
-/// @return the surface as it was, if it is not smoothed either.
+/// @return the surface as it was, where it neither moves to the image nor is smoothed.
 /// @throws InputError  as require_sound().
 ///
 /// O(n log n) for n points after splitting, at most about two per square voxel of the surface.

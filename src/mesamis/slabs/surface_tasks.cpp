@@ -79,14 +79,12 @@ HeightRange range_between_rims(const SurfacePiece& piece, const SlabPlan& plan, 
 
 /// Moves the points of a piece that are not settled.
 void follow(const SurfaceRun& run, SurfacePiece& piece) {
-  const FollowOptions options = follow_options(run);
-  if (!options.to_image && !options.smooth) return;
   FollowedPart part{mesh_of(piece, &SurfacePoint::key), {}, {}};
   for (const SurfacePoint& p : piece.points) {
     part.moved.push_back(p.at);
     part.held.push_back(!p.settled ? kFree : p.at == p.key ? kHeld : kFixed);
   }
-  follow_part(part, run.mesh.input.image, options);
+  follow_part(part, run.mesh.input.image, follow_options(run));
   piece.triangles = std::move(part.extracted.triangles);
   piece.points.resize(part.moved.size());
   for (std::size_t p = 0; p < part.moved.size(); ++p) {
