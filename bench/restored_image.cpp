@@ -16,7 +16,7 @@ int main(int count, char** arguments) {
     return 2;
   }
   try {
-    Prepared prepared = prepare_image(read_volume(arguments[1]).volume, Settings{});
+    Prepared prepared = prepare_image(read_volume(arguments[1]).volume, {});
     for (float& sample : prepared.grey.samples) {
       sample = static_cast<float>(prepared.parameters.grey.to_native(sample));
     }

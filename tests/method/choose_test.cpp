@@ -14,7 +14,7 @@ Volume ball() { return make_ball({.size = 40, .noise = 8, .radius = 9}); }
 
 TEST(Choose, TellsHowSurelyItKnowsTheLevel) {
   const Volume scan = ball();
-  const Chosen open = choose(scan, Settings{}).chosen;
+  const Chosen open = choose(scan, {}).chosen;  // no settings, no level
   EXPECT_EQ(open.measured.level_uncertainty, open.object.uncertainty);
   Settings settings;
   settings.level = 160;

@@ -19,9 +19,10 @@ namespace mesamis {
 
 /// What a user asks of a run on an image.
 struct ImageSettings {
-  Settings asked;                     ///< units of the image
+  Settings asked{};                   ///< units of the image
   std::optional<KnownLevel> level{};  ///< of the object as a whole; nothing: that of its edge
 
+  ImageSettings() = default;
   /// The level, if any, is the user's.
   ImageSettings(const Settings& settings)  // NOLINT(google-explicit-constructor)
       : asked(settings) {
