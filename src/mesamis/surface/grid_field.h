@@ -25,7 +25,7 @@ class GridField {
   std::array<Index, 3> place(Index node) const { return grid_place(grid_.size, node); }
   Vec3 point(Index node) const {
     const auto [i, j, k] = place(node);
-    return {i * grid_.spacing.x, j * grid_.spacing.y, k * grid_.spacing.z};
+    return {i * grid_.spacing.x, j * grid_.spacing.y, (k + grid_.below) * grid_.spacing.z};
   }
   Index material(Index node) const { return grid_.material[static_cast<std::size_t>(node)]; }
   double membership(Index node, Index material) const {
@@ -38,13 +38,10 @@ class GridField {
   }
   unsigned planes(Index node) const {
     if (!close_at_box_) return 0;
-    const auto at = place(node);
-    unsigned mask = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-      mask |= unsigned{at[a] == 0} << (2 * a);
-      mask |= unsigned{at[a] + 1 == grid_.size[a]} << (2 * a + 1);
-    }
-    return mask;
+    const auto [i, j, k] = place(node);
+    return unsigned{i == 0} | unsigned{i + 1 == grid_.size[0]} << 1U | unsigned{j == 0} << 2U |
+           unsigned{j + 1 == grid_.size[1]} << 3U | unsigned{is_bottom(k)} << 4U |
+           unsigned{is_top(k)} << 5U;
   }
 
   /// Calls visit(cell) for the Kuhn tetrahedra of the cubes above layer k that have boundaries in
@@ -52,7 +49,7 @@ class GridField {
   template <class Visit>
   void for_cells_above(Index k, Visit visit) const {
     for (Index j = 0; j + 1 < grid_.size[1]; ++j) {
-      const bool at_end = k == 0 || k + 2 == grid_.size[2] || j == 0 || j + 2 == grid_.size[1];
+      const bool at_end = is_bottom(k) || is_top(k + 1) || j == 0 || j + 2 == grid_.size[1];
       for (Index i = 0; i + 1 < grid_.size[0]; ++i) {
         const Index corner = i + j * stride_[1] + k * stride_[2];
         const bool at_box = close_at_box_ && (at_end || i == 0 || i + 2 == grid_.size[0]);
@@ -63,6 +60,9 @@ class GridField {
   }
 
  private:
+  bool is_bottom(Index k) const { return k == 0 && grid_.below == 0; }
+  bool is_top(Index k) const { return k + 1 == grid_.size[2] && grid_.above == 0; }
+
   bool is_uniform(Index corner) const {
     for (const auto& [i, j, k] : kKuhnSteps) {
       if (material(corner + i + j * stride_[1] + k * stride_[2]) != material(corner)) return false;

@@ -12,7 +12,8 @@ namespace mesamis {
 
 /// Memberships of many materials at the nodes of a regular grid, kept only where they decide: at
 /// each node those of its own material and of its neighbours' materials. The neighbours of a node
-/// are the 14 with which it shares an edge of the grid's Kuhn tetrahedra, see kuhn.h.
+/// are the 14 with which it shares an edge of the grid's Kuhn tetrahedra, see kuhn.h. The nodes may
+/// be some slices of a larger grid.
 struct GridMemberships {
   std::array<Index, 3> size{};  ///< nodes along i, j, k; at least 2 each
   Vec3 spacing{1, 1, 1};        ///< between nodes, mm, > 0
@@ -24,11 +25,14 @@ struct GridMemberships {
   std::vector<std::int64_t> first;
   std::vector<Index> listed;
   std::vector<float> value;
+
+  Index below = 0, above = 0;  ///< slices of the larger grid below and above; else 0
 };
 
 /// Extracts the boundaries between objects as extract_partition() does, on the grid's Kuhn
 /// tetrahedra. Neighbouring nodes whose materials differ belong to objects that differ.
-/// @return points in mm, the first node at the origin; its sides are labels.
+/// @return points in mm, the first node of the whole grid at the origin; its sides are labels. Of
+///         some slices of a larger grid, what lies between these slices: open where it goes on.
 /// @throws InputError  if the sizes do not fit, a material or a label is out of range, or a value
 ///                     is not finite.
 ///

@@ -16,7 +16,7 @@ namespace {
 /// sheet is from where it belongs then, about half a node.
 constexpr float kThinLead = 0.4F;
 /// So often what nodes ask for is averaged with their neighbours.
-constexpr int kRounds = 4;
+constexpr Index kRounds = kLiftReach;
 
 class Lift {
  public:
@@ -24,7 +24,7 @@ class Lift {
 
   void run() {
     for_listed([this](std::size_t n) { asked_[n] = asked_by(n); });
-    for (int round = 0; round < kRounds; ++round) {
+    for (Index round = 0; round < kRounds; ++round) {
       std::vector<float> next(asked_.size(), 0);
       for_listed([&](std::size_t n) { next[n] = mean(n); });
       asked_ = std::move(next);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -20,50 +19,36 @@ constexpr double kLongestStep = 0.25;
 /// Of Gauss and Seidel's iteration, which solves for a round's changes.
 constexpr int kSweeps = 100;
 
-/// The boundary between two materials, the second kNoIndex at the box.
-struct Interface {
-  double flux = 0;   ///< what it adds to the volume of the first, mm^3
-  double slope = 0;  ///< that volume's change with the difference of the constants, mm^3
-};
 using Sides = std::array<Index, 2>;
-using Interfaces = std::map<Sides, Interface>;
 
-/// The volumes of all materials, and how they change.
+/// Measures what boundaries add to the volumes, and how that changes.
 class Measure {
  public:
   explicit Measure(const GridMemberships& grid) : field_(grid, true), marcher_(field_) {}
 
-  Interfaces run(std::size_t layers) const {
-    std::vector<Interfaces> of_layer(layers);
-    parallel_for_each(layers, [&](std::size_t k) { of_layer[k] = layer(static_cast<Index>(k)); });
-    Interfaces all;
-    for (const Interfaces& some : of_layer) {
-      for (const auto& [sides, part] : some) {
-        all[sides].flux += part.flux;
-        all[sides].slope += part.slope;
-      }
-    }
-    return all;
-  }
-
- private:
-  Interfaces layer(Index k) const {
-    Interfaces found;
+  /// Of the cells above slice k.
+  LayerVolumes layer(Index k) const {
+    std::map<Sides, InterfaceVolume> found;
     std::vector<PartitionPiece> pieces;
-    Sides last{kNoIndex, kNoIndex};
-    Interface* at = nullptr;
+    InterfaceVolume* at = nullptr;
     field_.for_cells_above(k, [&](const Cell& cell) {
       pieces.clear();
       marcher_.march(cell, pieces);
       for (const PartitionPiece& piece : pieces) {
-        if (at == nullptr || piece.sides != last) at = &found[last = piece.sides];
+        if (at == nullptr || piece.sides != at->sides) {
+          at = &found[piece.sides];
+          at->sides = piece.sides;
+        }
         add(cell, piece, *at);
       }
     });
-    return found;
+    LayerVolumes volumes;
+    for (const auto& [sides, volume] : found) volumes.push_back(volume);
+    return volumes;
   }
 
-  void add(const Cell& cell, const PartitionPiece& piece, Interface& to) const {
+ private:
+  void add(const Cell& cell, const PartitionPiece& piece, InterfaceVolume& to) const {
     const Vec3 a = marcher_.position(piece.corners[0]), b = marcher_.position(piece.corners[1]),
                c = marcher_.position(piece.corners[2]);
     to.flux += dot(a, cross(b, c)) / 6;
@@ -89,6 +74,21 @@ class Measure {
   GridField field_;
   PartitionMarcher<GridField> marcher_;
 };
+
+using Interfaces = std::map<Sides, InterfaceVolume>;
+
+/// Adds up layers in their order.
+Interfaces sum_of(std::span<const LayerVolumes> layers) {
+  Interfaces all;
+  for (const LayerVolumes& layer : layers) {
+    for (const InterfaceVolume& part : layer) {
+      InterfaceVolume& sum = all[part.sides];
+      sum.flux += part.flux;
+      sum.slope += part.slope;
+    }
+  }
+  return all;
+}
 
 /// What each material lacks of its volume.
 std::vector<double> lacks(const std::vector<double>& wanted, const Interfaces& interfaces) {
@@ -126,9 +126,53 @@ std::vector<double> newton_step(const std::vector<double>& lack, const Interface
   return step;
 }
 
-/// The memberships with the constants added; the node's own material is kept ahead.
-void shift(const std::vector<float>& base, const std::vector<double>& constants,
-           GridMemberships& grid) {
+double worst_of(const std::vector<double>& lack, const std::vector<double>& wanted) {
+  double worst = 0;
+  for (std::size_t m = 0; m < lack.size(); ++m) {
+    worst = std::max(worst, std::abs(lack[m]) / wanted[m]);
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> voxel_eighths(const GridMemberships& grid,
+                                        std::span<const Index> material) {
+  std::vector<std::int64_t> eighths(grid.label.size(), 0);
+  std::size_t n = 0;
+  for (Index k = 0; k < grid.size[2]; ++k) {
+    const bool is_bottom = k == 0 && grid.below == 0;
+    const bool is_top = k + 1 == grid.size[2] && grid.above == 0;
+    for (Index j = 0; j < grid.size[1]; ++j) {
+      for (Index i = 0; i < grid.size[0]; ++i, ++n) {
+        std::int64_t share = is_bottom || is_top ? 4 : 8;
+        if (i == 0 || i + 1 == grid.size[0]) share /= 2;
+        if (j == 0 || j + 1 == grid.size[1]) share /= 2;
+        eighths[material[n]] += share;
+      }
+    }
+  }
+  return eighths;
+}
+
+std::vector<double> volumes_of(std::span<const std::int64_t> eighths, const Vec3& spacing) {
+  const double eighth = spacing.x * spacing.y * spacing.z / 8;
+  std::vector<double> volumes;
+  volumes.reserve(eighths.size());
+  for (const std::int64_t count : eighths) volumes.push_back(static_cast<double>(count) * eighth);
+  return volumes;
+}
+
+std::vector<LayerVolumes> measure_layers(const GridMemberships& grid) {
+  const Measure measure(grid);
+  std::vector<LayerVolumes> layers(static_cast<std::size_t>(grid.size[2] - 1));
+  parallel_for_each(layers.size(),
+                    [&](std::size_t k) { layers[k] = measure.layer(static_cast<Index>(k)); });
+  return layers;
+}
+
+void add_constants(std::span<const float> base, std::span<const double> constants,
+                   GridMemberships& grid) {
   parallel_for(grid.material.size(), [&](std::size_t n) {
     const auto begin = static_cast<std::size_t>(grid.first[n]);
     const auto end = static_cast<std::size_t>(grid.first[n + 1]);
@@ -147,51 +191,32 @@ void shift(const std::vector<float>& base, const std::vector<double>& constants,
   });
 }
 
-double worst_of(const std::vector<double>& lack, const std::vector<double>& wanted) {
-  double worst = 0;
-  for (std::size_t m = 0; m < lack.size(); ++m) {
-    worst = std::max(worst, std::abs(lack[m]) / wanted[m]);
-  }
-  return worst;
-}
+VolumeMatch::VolumeMatch(std::vector<double> wanted, const SmoothOptions& options)
+    : wanted_(std::move(wanted)), constants_(wanted_.size(), 0), options_(options) {}
 
-}  // namespace
-
-std::vector<double> part_volumes(const GridMemberships& grid, const std::vector<Index>& material) {
-  std::vector<double> volumes(grid.label.size(), 0);
-  const double voxel = grid.spacing.x * grid.spacing.y * grid.spacing.z;
-  std::size_t n = 0;
-  for (Index k = 0; k < grid.size[2]; ++k) {
-    for (Index j = 0; j < grid.size[1]; ++j) {
-      for (Index i = 0; i < grid.size[0]; ++i, ++n) {
-        double share = voxel;
-        if (i == 0 || i + 1 == grid.size[0]) share /= 2;
-        if (j == 0 || j + 1 == grid.size[1]) share /= 2;
-        if (k == 0 || k + 1 == grid.size[2]) share /= 2;
-        volumes[material[n]] += share;
-      }
-    }
-  }
-  return volumes;
-}
-
-void match_volumes(GridMemberships& memberships, const std::vector<double>& wanted,
-                   const SmoothOptions& options, SmoothReport& report) {
+bool VolumeMatch::improve(std::span<const LayerVolumes> layers) {
+  const Interfaces interfaces = sum_of(layers);
+  const std::vector<double> lack = lacks(wanted_, interfaces);
+  report_.volume_error = worst_of(lack, wanted_);
+  report_.converged = report_.volume_error <= options_.volume_accuracy;
+  if (report_.converged || report_.rounds == options_.most_rounds) return false;
+  // The largest material keeps its constant.
   const auto fixed =
-      static_cast<std::size_t>(std::max_element(wanted.begin(), wanted.end()) - wanted.begin());
-  std::vector<double> constants(wanted.size(), 0);
+      static_cast<std::size_t>(std::max_element(wanted_.begin(), wanted_.end()) - wanted_.begin());
+  const std::vector<double> step = newton_step(lack, interfaces, fixed);
+  for (std::size_t m = 0; m < step.size(); ++m) constants_[m] += step[m];
+  ++report_.rounds;
+  return true;
+}
+
+SmoothReport match_volumes(GridMemberships& memberships, std::vector<double> wanted,
+                           const SmoothOptions& options) {
+  VolumeMatch match(std::move(wanted), options);
   const std::vector<float> base = memberships.value;
-  for (report.rounds = 0;; ++report.rounds) {
-    shift(base, constants, memberships);
-    const Interfaces interfaces =
-        Measure(memberships).run(static_cast<std::size_t>(memberships.size[2] - 1));
-    const std::vector<double> lack = lacks(wanted, interfaces);
-    report.volume_error = worst_of(lack, wanted);
-    report.converged = report.volume_error <= options.volume_accuracy;
-    if (report.converged || report.rounds == options.most_rounds) break;
-    const std::vector<double> step = newton_step(lack, interfaces, fixed);
-    for (std::size_t m = 0; m < constants.size(); ++m) constants[m] += step[m];
-  }
+  do {
+    add_constants(base, match.constants(), memberships);
+  } while (match.improve(measure_layers(memberships)));
+  return match.report();
 }
 
 }  // namespace mesamis

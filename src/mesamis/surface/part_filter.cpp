@@ -52,10 +52,10 @@ Values smoothed_once(const Values& in, const std::vector<float>& kernel) {
 
 /// A Gaussian, cut off at three standard deviations, of sum 1.
 std::vector<float> gaussian_kernel(double sigma) {
-  const int radius = static_cast<int>(std::ceil(3 * sigma));
+  const Index radius = filter_radius(sigma);
   std::vector<double> weights;
   double sum = 0;
-  for (int x = -radius; x <= radius; ++x) {
+  for (Index x = -radius; x <= radius; ++x) {
     weights.push_back(std::exp(-0.5 * x * x / (sigma * sigma)));
     sum += weights.back();
   }
@@ -180,6 +180,8 @@ class PartFilter {
 };
 
 }  // namespace
+
+Index filter_radius(double sigma_voxel) { return static_cast<Index>(std::ceil(3 * sigma_voxel)); }
 
 void filter_parts(const std::vector<Index>& part, double sigma_voxel, GridMemberships& grid) {
   list_materials(grid);

@@ -40,6 +40,10 @@ void require_labels(const LabelGrid& grid, const SmoothOptions& options) {
 
 }  // namespace
 
+Index smoothing_reach(const SmoothOptions& options) {
+  return 2 * filter_radius(options.sigma_voxel) + kLiftReach;
+}
+
 GridMemberships smooth_memberships(const LabelGrid& grid, const SmoothOptions& options,
                                    SmoothReport* report) {
   require_labels(grid, options);
@@ -56,11 +60,12 @@ GridMemberships smooth_memberships(const LabelGrid& grid, const SmoothOptions& o
     filter_parts(parts.of_node, options.sigma_voxel, memberships);
   }
   lift_memberships(memberships);
-  SmoothReport unused;
-  SmoothReport& reached = report ? *report : unused;
-  reached = {};
-  reached.parts = static_cast<Index>(memberships.label.size());
-  match_volumes(memberships, part_volumes(memberships, parts.of_node), options, reached);
+  const SmoothReport reached = match_volumes(
+      memberships, volumes_of(voxel_eighths(memberships, parts.of_node), grid.spacing), options);
+  if (report != nullptr) {
+    *report = reached;
+    report->parts = static_cast<Index>(memberships.label.size());
+  }
   return memberships;
 }
 

@@ -36,6 +36,9 @@ struct SmoothReport {
   bool converged = false;   ///< the volumes match
 };
 
+/// How many nodes away the parts of labels matter to a membership before volumes are matched.
+Index smoothing_reach(const SmoothOptions& options);
+
 /// Makes memberships of labels, whose boundaries are smooth between the voxels.
 ///
 /// Each part of a label that is connected along edges of the Kuhn tetrahedra becomes a material.

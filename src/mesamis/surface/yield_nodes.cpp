@@ -16,7 +16,7 @@ namespace {
 constexpr float kMostYield = 0.35F;
 
 /// Materials of fewer nodes neither give nor take: their volumes could not be matched.
-constexpr Index kFewNodes = 100;
+constexpr std::int64_t kFewNodes = 100;
 
 constexpr unsigned kAll = (1U << 14) - 1;
 
@@ -85,18 +85,32 @@ bool may_yield(const GridMemberships& grid, std::size_t n, Index to) {
 
 }  // namespace
 
-std::int64_t yield_nodes(GridMemberships& grid) {
-  std::vector<Index> nodes(grid.label.size(), 0);  // of each material
-  for (const Index m : grid.material) ++nodes[m];
-  std::int64_t count = 0;
+std::vector<Yield> find_yields(const GridMemberships& grid) {
+  std::vector<Yield> wanted;
   for (std::size_t n = 0; n < grid.material.size(); ++n) {
-    const Index from = grid.material[n], to = wanted_by(grid, n);
-    if (to == from || std::min(nodes[from], nodes[to]) < kFewNodes) continue;
-    if (!may_yield(grid, n, to)) continue;
-    grid.material[n] = to;
-    ++count;
+    const Index to = wanted_by(grid, n);
+    if (to != grid.material[n]) wanted.push_back({static_cast<std::int64_t>(n), to});
   }
-  return count;
+  return wanted;
+}
+
+std::vector<Yield> yield_where_allowed(std::span<const Yield> wanted,
+                                       std::span<const std::int64_t> nodes, GridMemberships& grid) {
+  std::vector<Yield> done;
+  for (const Yield& yield : wanted) {
+    const auto n = static_cast<std::size_t>(yield.node);
+    if (std::min(nodes[grid.material[n]], nodes[yield.to]) < kFewNodes) continue;
+    if (!may_yield(grid, n, yield.to)) continue;
+    grid.material[n] = yield.to;
+    done.push_back(yield);
+  }
+  return done;
+}
+
+std::int64_t yield_nodes(GridMemberships& grid) {
+  std::vector<std::int64_t> nodes(grid.label.size(), 0);  // of each material
+  for (const Index m : grid.material) ++nodes[m];
+  return std::ssize(yield_where_allowed(find_yields(grid), nodes, grid));
 }
 
 }  // namespace mesamis

@@ -1,9 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "mesamis/surface/grid_partition.h"
 
 namespace mesamis {
+
+/// A node that changes its material.
+struct Yield {
+  std::int64_t node = 0;
+  Index to = 0;  ///< a material
+};
+
+/// Finds the nodes beside another material of a larger membership, their own not being much
+/// smaller.
+/// @param grid  at each node listed, its own material is listed first.
+/// @return in the order of the nodes.
+///
+/// O(nodes).
+std::vector<Yield> find_yields(const GridMemberships& grid);
+
+/// Lets nodes yield one after the other, where that is allowed, see yield_nodes().
+/// @param wanted  nodes of the grid, in their order.
+/// @param nodes   how many of each material the whole grid has.
+/// @param grid    its materials are changed; its lists are not read. Of some slices of a larger
+///                grid, two beside those of the nodes are needed, those below as they are then.
+/// @return those that have yielded, in the order of the nodes.
+///
+/// O(wanted).
+std::vector<Yield> yield_where_allowed(std::span<const Yield> wanted,
+                                       std::span<const std::int64_t> nodes, GridMemberships& grid);
 
 /// Gives single nodes, steps of stairs, to the neighbouring material of the largest membership.
 ///
