@@ -217,7 +217,7 @@ addEventListener("beforeprint", () => document.querySelectorAll("details").forEa
         context.stroke();
       }
       if (state.outlines) {
-        context.lineWidth = 1.8 * ratio; context.lineCap = context.lineJoin = "round";
+        context.lineWidth = 2.4 * ratio; context.lineCap = context.lineJoin = "round";
         surfaces.forEach((surface, n) => {
           if (!state.shown[n]) return;
           lines = cut(surface, depth, across, up, index);
