@@ -43,14 +43,18 @@ std::string object_text(const ObjectFigures& object) {
   return text + ", " + closed_text(object.check);
 }
 
+/// The only one, whose figures follow in lines of their own.
+std::string single_text(const ObjectFigures& object) {
+  if (object.triangles == 0) return object.name + ": no surface";
+  return object.name + ", " + plural(object.check.components, "part") + ", " +
+         closed_text(object.check);
+}
+
 /// The lines that name the objects, without their heads.
 std::vector<std::string> object_texts(const RunFigures& run) {
   constexpr std::size_t kMost = 12;
   if (run.objects.empty()) return {"none"};
-  if (!run.several) {
-    const ObjectFigures& one = run.objects.front();
-    return {one.name + ", " + plural(one.check.components, "part") + ", " + closed_text(one.check)};
-  }
+  if (run.objects.size() == 1) return {single_text(run.objects.front())};
   std::vector<ObjectFigures> sorted = run.objects;
   if (sorted.size() > kMost) {
     std::stable_partition(sorted.begin(), sorted.end(),
@@ -135,8 +139,7 @@ RunFigures figures_of(const OutcomeDetails& outcome) {
   }
   if (!points.empty()) figures.size = bounding_box(points).extent();
   if (area > 0) figures.expected_error = error / area;
-  figures.several = !outcome.one;
-  if (figures.several) figures.largest_error.reset();
+  if (objects.size() > 1) figures.largest_error.reset();
   if (outcome.one) name_object(outcome, figures);
   return figures;
 }

@@ -23,7 +23,6 @@ struct ObjectFigures {
 /// What came out of a run, for people.
 struct RunFigures {
   std::vector<ObjectFigures> objects;
-  bool several = false;                  ///< objects that were named, or parts of several seeds
   std::optional<double> level;           ///< native units
   std::string unit;                      ///< of the level
   Vec3 size;                             ///< of the box around all surfaces, mm

@@ -43,7 +43,6 @@ TEST(Summary, SaysInFiveLinesWhatPeopleAskFor) {
 
 TEST(Summary, HasALineForEachOfSeveralObjects) {
   RunFigures run = one_object();
-  run.several = true;
   run.objects.push_back({"hip", 12000, closed_check(5000), {10, 20, 30}, {}});
   run.objects[1].check.open_edges = 3;
   const auto lines = summary_lines(run);
@@ -59,7 +58,6 @@ TEST(Summary, HasALineForEachOfSeveralObjects) {
 
 TEST(Summary, OfManyObjectsShowsThoseThatAreNotClosedAndCountsTheRest) {
   RunFigures run = one_object();
-  run.several = true;
   run.objects.assign(104, run.objects[0]);
   run.objects.back().name = "last";
   run.objects.back().check.open_edges = 1;
@@ -73,6 +71,12 @@ TEST(Summary, OfNothingSaysSo) {
   EXPECT_THAT(summary_lines({}),
               ElementsAre("object   none", "size     none", "surface  0 triangles",
                           "error    not known", "files    none"));
+}
+
+TEST(Summary, OfOneObjectWithoutASurfaceSaysSo) {
+  RunFigures run;
+  run.objects = {{"hip", 0, {}, {}, {}}};
+  EXPECT_EQ(summary_lines(run).front(), "object   hip: no surface");
 }
 
 TEST(Summary, FollowsEachRunThatIsNotQuiet) {
@@ -89,12 +93,12 @@ TEST(Summary, FollowsEachRunThatIsNotQuiet) {
   auto quiet = words;
   quiet.emplace_back("--quiet");
   EXPECT_EQ(run_program(folder, quiet).err, "");
-  const ProgramRun several =
+  const ProgramRun labelled =
       run_program(folder, {"segment", "--labels", labels, "-o", folder / "{label}.stl"});
-  EXPECT_EQ(several.status, 0) << several.err;
-  EXPECT_THAT(several.err,
-              testing::ContainsRegex("mesamis: object   [a-z0-9_ ]+: [0-9 ]+ triangles"));
-  EXPECT_THAT(several.err, HasSubstr("mesamis: error    not known\n"));
+  EXPECT_EQ(labelled.status, 0) << labelled.err;
+  EXPECT_THAT(labelled.err,
+              testing::ContainsRegex("mesamis: object   [a-z0-9_ ]+, 1 part, closed\n"));
+  EXPECT_THAT(labelled.err, HasSubstr("mesamis: error    not known\n"));
 }
 
 }  // namespace
