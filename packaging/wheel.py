@@ -3,9 +3,9 @@
 """Makes the wheel for machines that have nothing of ours: the Python module, the program `mesamis`,
 and the libraries that they need, by auditwheel.
 
-  wheel.py --prefix FOLDER --version VERSION --out FOLDER
+  wheel.py --build FOLDER --prefix FOLDER --version VERSION --out FOLDER
 
-FOLDER holds the program and the module, installed and stripped. auditwheel chooses the tag: the
+--build is CMake's folder; --prefix holds the program and the module, installed and stripped. auditwheel chooses the tag: the
 oldest systems that will do. The same files give the same bytes. It runs with the interpreter that the
 module was built for, which has auditwheel; patchelf is on the PATH."""
 
@@ -73,23 +73,27 @@ def repaired(wheel, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--build", required=True)
     parser.add_argument("--prefix", required=True)
     parser.add_argument("--version", required=True)
     parser.add_argument("--out", required=True)
     arguments = parser.parse_args()
     version, tag = arguments.version, build_backend.platform_tag()
+    numpy = build_backend.numpy_required(arguments.build)
+    if "<" in numpy:
+        sys.exit(f"wheel: error: {arguments.build}: expected pybind11 2.12 or newer, found a version for NumPy 1")
     files = contents(arguments.prefix, version) | licence_texts(arguments.prefix, version)
     programs = {PROGRAM, f"mesamis-{version}.data/scripts/mesamis"}
     with tempfile.TemporaryDirectory() as folder:
         raw = Path(folder) / f"mesamis-{version}-{tag}.whl"
-        build_backend.write_wheel(raw, build_backend.with_lists(files, version, tag), programs)
+        build_backend.write_wheel(raw, build_backend.with_lists(files, version, tag, numpy), programs)
         whole = repaired(raw, folder)
         with zipfile.ZipFile(whole) as wheel:
             listed = (".dist-info/RECORD", ".dist-info/METADATA", ".dist-info/WHEEL", ".dist-info/LICENSE")
             files = {n: wheel.read(n) for n in wheel.namelist() if not n.endswith(("/", *listed))}
         target = Path(arguments.out) / whole.name
         tags = whole.stem.split("-", 2)[2]
-        build_backend.write_wheel(target, build_backend.with_lists(files, version, tags), programs)
+        build_backend.write_wheel(target, build_backend.with_lists(files, version, tags, numpy), programs)
     size = target.stat().st_size
     print(f"wheel: {target.name}: {size} bytes")
     if size > MOST_BYTES:

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds the wheel of the package with CMake: the back end of `pip install .` (PEP 517).
 
-Nothing is downloaded: CMake, a compiler, pybind11 and the libraries that scripts/setup lists must be
-there. MESAMIS_BUILD_FOLDER names the build folder (default: build/wheel), MESAMIS_JOBS the parallel
+CMake, a compiler and the libraries that scripts/setup lists must be installed. pip downloads pybind11;
+with --no-build-isolation the installed one is used, and below 2.12 the wheel requires NumPy 1.
+MESAMIS_BUILD_FOLDER names the build folder (default: build/wheel), MESAMIS_JOBS the parallel
 jobs, MESAMIS_CMAKE_ARGS further options of CMake. packaging/wheel.py makes the wheel for other
 machines, with the program and all libraries.
 """
@@ -28,10 +29,25 @@ def project_version():
     return re.search(r"project\(mesamis VERSION ([0-9.]+)", text).group(1)
 
 
-def metadata(version):
+def numpy_required(folder):
+    """The NumPy that a module works with, by the cache of its build."""
+    cache = (Path(folder) / "CMakeCache.txt").read_text(encoding="utf-8")
+    return re.search(r"^MESAMIS_NUMPY_REQUIRED:INTERNAL=(.+)$", cache, re.M).group(1)
+
+
+def pybind11_options():
+    """The pybind11 of this interpreter, if it has one; otherwise CMake looks for that of the system."""
+    try:
+        import pybind11
+    except ImportError:
+        return []
+    return [f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"]
+
+
+def metadata(version, numpy):
     page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
     return (f"Metadata-Version: 2.1\nName: mesamis\nVersion: {version}\nSummary: {SUMMARY}\n"
-            "License: Apache-2.0\nRequires-Python: >=3.9\nRequires-Dist: numpy>=1.20\n"
+            f"License: Apache-2.0\nRequires-Python: >=3.9\nRequires-Dist: {numpy}\n"
             f"Description-Content-Type: text/markdown\n\n{page}")
 
 
@@ -40,11 +56,15 @@ def platform_tag():
     return f"{python}-{python}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
 
 
+def build_folder():
+    return Path(os.environ.get("MESAMIS_BUILD_FOLDER", ROOT / "build" / "wheel"))
+
+
 def installed(stage):
     """Builds the package and installs it below a folder."""
-    folder = Path(os.environ.get("MESAMIS_BUILD_FOLDER", ROOT / "build" / "wheel"))
+    folder = build_folder()
     jobs = os.environ.get("MESAMIS_JOBS", str(os.cpu_count() or 1))
-    options = ["-DMESAMIS_BUILD_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}"]
+    options = ["-DMESAMIS_BUILD_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}", *pybind11_options()]
     if not (folder / "CMakeCache.txt").exists():
         options += ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DMESAMIS_BUILD_APP=OFF",
                     "-DMESAMIS_BUILD_BASELINE=OFF", "-DMESAMIS_BUILD_TESTS=OFF", "-DMESAMIS_BUILD_EXAMPLES=OFF"]
@@ -61,11 +81,11 @@ def files_below(folder, name):
     return {f"{name}/{p.relative_to(folder)}": p for p in sorted(folder.rglob("*")) if p.is_file()}
 
 
-def with_lists(contents, version, tag):
+def with_lists(contents, version, tag, numpy):
     """Adds what each wheel has: METADATA, WHEEL, LICENSE and RECORD. Contents are bytes by name."""
     info = f"mesamis-{version}.dist-info"
     files = dict(contents)
-    files[f"{info}/METADATA"] = metadata(version).encode()
+    files[f"{info}/METADATA"] = metadata(version, numpy).encode()
     files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: mesamis {version}\nRoot-Is-Purelib: false\n"
                               f"Tag: {tag}\n").encode()
     files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
@@ -93,7 +113,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     name = f"mesamis-{version}-{tag}.whl"
     with tempfile.TemporaryDirectory() as stage:
         files = {name: path.read_bytes() for name, path in files_below(installed(stage), "mesamis").items()}
-    write_wheel(Path(wheel_directory) / name, with_lists(files, version, tag))
+    write_wheel(Path(wheel_directory) / name, with_lists(files, version, tag, numpy_required(build_folder())))
     return name
 
 

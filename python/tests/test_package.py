@@ -83,12 +83,27 @@ def test_wheel_is_whole_and_the_same_every_time(tmp_path):
     assert wheels[0].read_bytes() == wheels[1].read_bytes()
     with zipfile.ZipFile(wheels[0]) as wheel:
         names = wheel.namelist()
+        metadata = wheel.read(next(n for n in names if n.endswith("/METADATA"))).decode()
+        assert ("Requires-Dist: numpy>=1.20,<2\n" in metadata) is not mesamis._core.knows_numpy_2
         wheel.extractall(tmp_path / "installed")
     assert {"mesamis/__init__.py", "mesamis/__init__.pyi", "mesamis/py.typed"} <= set(names)
     text = "import mesamis; print(mesamis.__file__, mesamis.phantom('sphere', size=(8, 8, 8)))"
     done = subprocess.run([sys.executable, "-c", text], check=True, capture_output=True, text=True, cwd=tmp_path,
                           env={**os.environ, "PYTHONPATH": str(tmp_path / "installed")})
     assert str(tmp_path / "installed") in done.stdout and "8 x 8 x 8" in done.stdout
+
+
+def test_numpy_that_the_module_would_misread_is_refused():
+    code = "import numpy; numpy.__version__ = '{}'; import mesamis; print('imported')"
+    environment = {**os.environ, "PYTHONPATH": str(Path(mesamis.__path__[0]).parent)}
+    for version, known in [("1.26.4", True), ("2.1.0", mesamis._core.knows_numpy_2)]:
+        done = subprocess.run([sys.executable, "-c", code.format(version)], capture_output=True, text=True, check=False,
+                              env=environment)
+        if known:
+            assert done.stdout == "imported\n", done.stderr
+        else:
+            assert done.stdout == "" and "ImportError: mesamis: expected NumPy 1" in done.stderr.splitlines()[-1]
+            assert "found NumPy 2.1.0" in done.stderr.splitlines()[-1]
 
 
 def run(command, **more):
