@@ -48,19 +48,25 @@ LabelMap read_marks(const std::filesystem::path& path, const LabelOptions& optio
   return std::move(file.map);
 }
 
+LabelMap read_named_labels(const LabelArguments& a, const std::function<VoxelGrid()>& scan,
+                           std::vector<std::string>& warnings) {
+  LabelMap map = read_marks(a.file, {a.limits, scan}, warnings);
+  return a.names.empty() ? map : with_names(std::move(map), read_label_table(a.names));
+}
+
 LabelChoice read_label_choice(const LabelArguments& a, const std::function<VoxelGrid()>& scan,
                               std::vector<std::string>& warnings) {
   LabelChoice choice;
   if (!a.file.empty()) {
-    choice.map = read_marks(a.file, {a.limits, scan}, warnings);
+    choice.map = read_named_labels(a, scan, warnings);
   } else {
     ProbabilityFile file = read_probabilities(a.probabilities, a.limits);
     log_all(file.warnings);
     warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
     choice.map = most_probable(file.probabilities);
     choice.exact_by = std::move(file.probabilities);
+    if (!a.names.empty()) choice.map = with_names(std::move(choice.map), read_label_table(a.names));
   }
-  if (!a.names.empty()) choice.map = with_names(std::move(choice.map), read_label_table(a.names));
   choice.chosen = find_segments(choice.map.segments, a.chosen);
   choice.margin = a.margin;
   return choice;

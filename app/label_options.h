@@ -39,6 +39,12 @@ void add_label_options(CLI::App& command, LabelArguments& arguments);
 LabelMap read_marks(const std::filesystem::path& path, const LabelOptions& options,
                     std::vector<std::string>& warnings);
 
+/// The same for the map of --labels, with the names of --label-names.
+/// @param scan  see LabelOptions::scan.
+/// @throws InputError  as the readers.
+LabelMap read_named_labels(const LabelArguments& arguments, const std::function<VoxelGrid()>& scan,
+                           std::vector<std::string>& warnings);
+
 /// Reads the label map, logs the reader's warnings, names its labels, and chooses those that the
 /// options name.
 /// @param scan      see LabelOptions::scan.

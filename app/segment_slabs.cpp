@@ -20,6 +20,7 @@
 #include "outputs.h"
 #include "progress.h"
 #include "scan.h"
+#include "segment_checks.h"
 #include "segment_run.h"
 
 namespace mesamis {
@@ -32,6 +33,14 @@ std::string identity_of(const fs::path& path) {
   const auto written = fs::last_write_time(path).time_since_epoch().count();
   const auto bytes = fs::is_regular_file(path) ? fs::file_size(path) : 0;
   return fs::absolute(path).string() + " " + std::to_string(bytes) + " " + std::to_string(written);
+}
+
+/// The same of labels, with what is chosen of them.
+std::string identity_of(const LabelArguments& labels) {
+  std::string text = identity_of(labels.file);
+  if (!labels.names.empty()) text += " " + identity_of(labels.names);
+  for (const std::string& name : labels.chosen) text += " label " + name;
+  return text;
 }
 
 bool is_in_pieces(const fs::path& mesh) { return lower_extension(mesh) == kPiecesExtension; }
@@ -71,12 +80,15 @@ bool wants_grey(const SegmentOptions& run) {
 }
 
 /// Without a place for checkpoints, scratch files lie beside the first output.
-SlabRunOptions slab_options(const SegmentOptions& run, const SlabArguments& slabs) {
+SlabRunOptions slab_options(const SegmentOptions& run, const SlabArguments& slabs,
+                            const Progress& progress) {
   SlabRunOptions options;
   if (slabs.slabs.value_or(0) > 0) options.turns = slabs.slabs;
   options.scratch = slabs.checkpoint;
   options.resumable = !slabs.checkpoint.empty();
-  options.input = identity_of(run.scan.input);
+  options.progress = progress;
+  options.input =
+      run.scan.labels.given() ? identity_of(run.scan.labels) : identity_of(run.scan.input);
   options.mesh = !meshes_of(run, false).empty();
   options.grey = wants_grey(run);
   if (options.scratch.empty()) {
@@ -86,6 +98,11 @@ SlabRunOptions slab_options(const SegmentOptions& run, const SlabArguments& slab
     options.scratch += ".slabs";
   }
   return options;
+}
+
+[[noreturn]] void refuse_with_slabs(const std::string& option) {
+  throw CLI::ValidationError(
+      "--slabs", "expected no option that needs the whole scan at once, found " + option);
 }
 
 nlohmann::ordered_json slabs_json(const SlabRunResult& found, const Team& team) {
@@ -108,6 +125,61 @@ nlohmann::ordered_json slabs_json(const SlabRunResult& found, const Team& team) 
           {"own_rows", found.own_rows},
           {"own_cells", found.own_cells},
           {"slabs", std::move(each)}};
+}
+
+/// Labels are found without their scan; what reads more than one file at once is not read by slabs.
+void require_label_slabs(const SegmentOptions& run) {
+  if (!run.scan.labels.probabilities.empty()) refuse_with_slabs("--probabilities");
+  if (!run.scan.input.empty()) refuse_with_slabs("--labels beside a scan");
+}
+
+nlohmann::ordered_json slabs_json(const LabelSlabResult& found, const Team& team) {
+  auto each = nlohmann::ordered_json::array();
+  for (std::size_t s = 0; s < found.slabs.size(); ++s) {
+    each.push_back({{"first_slice", found.cuts[s]},
+                    {"slices", found.cuts[s + 1] - found.cuts[s]},
+                    {"voxels", found.slabs[s].voxels},
+                    {"seconds", found.slabs[s].seconds}});
+  }
+  return {{"count", found.slabs.size()}, {"processes", team.size()}, {"slabs", std::move(each)}};
+}
+
+/// Reads labels where they are read, and chooses of them on every process.
+LabelSlabRequest label_request(const SegmentOptions& run) {
+  LabelSlabRequest request;
+  request.read = [&run] {
+    ReadLabels labels;
+    labels.map = read_named_labels(run.scan.labels, {}, labels.warnings);
+    return labels;
+  };
+  request.choose = [&run](const LabelMap& head) {
+    const std::vector<Segment> chosen = find_segments(head.segments, run.scan.labels.chosen);
+    const std::vector<Segment>& wanted = chosen.empty() ? head.segments : chosen;
+    require_object_files(run, wanted);
+    return wanted;
+  };
+  return request;
+}
+
+int run_label_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Settings& settings,
+                    const CommonOptions& common) {
+  require_several(run);
+  ProgressDisplay display(common.quiet || common.is_helper(),
+                          stage_shares({.labels = true, .scan = false, .slabs = true}));
+  const auto found = segment_labels_in_slabs(
+      label_request(run), settings, slab_options(run, slabs, display.callback()), *common.team);
+  display.finish();
+  if (!found) return kExitDone;
+  const OutcomeDetails& outcome = found->outcome.details();
+  for (const std::string& warning : outcome.warnings) log_warning(warning);
+  RunFiles out = outputs_of(run, common);
+  out.facts.warnings = found->work.warnings;
+  out.facts.complete = [&, others = out.facts.complete](nlohmann::ordered_json& report) {
+    report["slabs"] = slabs_json(found->work, *common.team);
+    others(report);
+  };
+  OutputSet set;
+  return deliver(outcome, out, set, display);
 }
 
 RunFiles outputs_of(const SegmentOptions& run, const FileSlices& source, const SlabOutcome& found,
@@ -148,13 +220,8 @@ void add_slab_options(CLI::App& command, SlabArguments& arguments) {
 }
 
 void require_slabs(const SegmentOptions& run, const Settings& settings) {
-  const auto refuse = [](const std::string& option) {
-    throw CLI::ValidationError("--slabs",
-                               "expected no option that needs the whole scan at once, "
-                               "found " +
-                                   option);
-  };
-  if (run.scan.labels.given()) refuse("labels");
+  const auto refuse = refuse_with_slabs;
+  if (run.scan.labels.given()) require_label_slabs(run);
   if (run.scan.places.given()) refuse("--tissue, --seed, --box, --mask, --remove or --padding");
   if (!run.out.band_meshes.empty()) refuse("--band-mesh");
   require_room_for_pieces(run);
@@ -168,11 +235,14 @@ void require_slabs(const SegmentOptions& run, const Settings& settings) {
   if (settings.preview) refuse("--preview");
   if (settings.local_level) refuse("--level local");
   if (!(settings.crop == CropRange{})) refuse("--crop");
-  if (run.scan.input.empty()) throw CLI::ValidationError("input", "expected a scan, found none");
+  if (run.scan.input.empty() && !run.scan.labels.given()) {
+    throw CLI::ValidationError("input", "expected a scan, found none");
+  }
 }
 
 int run_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Settings& settings,
               const CommonOptions& common) {
+  if (run.scan.labels.given()) return run_label_slabs(run, slabs, settings, common);
   Team& team = *common.team;
   const std::unique_ptr<FileSlices> source = open_any_slices(run.scan.input, run.scan.read);
   const VolumeFile& head = source->head();
@@ -180,8 +250,8 @@ int run_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Setti
   ProgressDisplay display(common.quiet || common.is_helper(), stage_shares({.slabs = true}));
   std::optional<OutputSet> set;
   if (team.rank() == 0) set.emplace();
-  SlabRequest request{*source, settings, slab_options(run, slabs), {}, run.scan.frame};
-  request.slabs.progress = display.callback();
+  SlabRequest request{
+      *source, settings, slab_options(run, slabs, display.callback()), {}, run.scan.frame};
   for (const fs::path& path : meshes_of(run, true)) {
     request.piece_meshes.emplace_back(path, set ? &*set : nullptr);
   }

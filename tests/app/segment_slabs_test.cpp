@@ -3,10 +3,12 @@
 #include <signal.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "mesamis/label_files/write_labels.h"
 #include "mesamis/shape_files/mesh_files.h"
 #include "support/external_program.h"
 #include "support/run_program.h"
@@ -220,6 +222,82 @@ TEST(SlabsOfSegment, AKilledRunGoesOnWhereItWas) {
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(read_bytes(folder / "again.stl"), read_bytes(whole_run().folder / "two.stl"));
   EXPECT_FALSE(std::filesystem::exists(std::string(folder / "keep")));
+}
+
+/// Labels of two rods that touch, in 12 x 10 x 132 voxels, which are two slabs.
+void write_labels(const TempFolder& folder) {
+  LabelMap map;
+  map.size = {12, 10, 132};
+  map.segments = {{"lower rod", 1, 0, {255, 0, 0}}, {"upper rod", 2, 0, {0, 0, 255}}};
+  map.layers.emplace_back();
+  for (std::size_t n = 0; n < map.voxel_count(); ++n) {
+    const auto [i, j, k] = map.voxel(n);
+    const bool inside = std::hypot(i - 3 - 0.04 * k, j - 4.5) < 2.5 && k > 2 && k < 127;
+    map.layers[0].push_back(static_cast<std::uint16_t>(!inside ? 0 : k < 60 ? 1 : 2));
+  }
+  write_label_map(folder / "labels.nii.gz", map);
+}
+
+std::vector<std::string> segment_labels(const TempFolder& folder, const std::string& name,
+                                        const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"segment",
+                                     "--labels",
+                                     folder / "labels.nii.gz",
+                                     "-o",
+                                     folder / (name + ".vtp"),
+                                     "--quiet",
+                                     "--tolerance",
+                                     "0"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(SlabsOfSegment, LabelsHaveTheBytesOfARunWithoutSlabs) {
+  const TempFolder folder;
+  write_labels(folder);
+  const auto run = [&](const std::string& name, const std::vector<std::string>& more) {
+    const ProgramRun done = run_program(folder, segment_labels(folder, name, more));
+    EXPECT_EQ(done.status, 0) << done.err;
+    return read_bytes(folder / (name + ".vtp"));
+  };
+  const std::string whole = run("whole", {});
+  EXPECT_EQ(run("one", {"--slabs", "1", "--threads", "2"}), whole);
+  EXPECT_EQ(run("two", {"--slabs", "2", "--report", folder / "two.json"}), whole);
+  EXPECT_FALSE(has_scratch(folder));
+  const nlohmann::json report = report_of(folder, "two");
+  EXPECT_EQ(report["slabs"]["count"], 2);
+  EXPECT_EQ(report["slabs"]["slabs"].size(), 2u);
+  EXPECT_EQ(report["object"]["surfaces"].size(), 2u);
+  EXPECT_EQ(run("lower", {"--slabs", "auto", "--label", "lower rod"}),
+            run("lower_whole", {"--label", "lower rod"}));
+  if (!can_run_together()) GTEST_SKIP() << "mesamis-mpi or mpirun is not there";
+  const ProgramRun together =
+      run_together(folder, 2, segment_labels(folder, "together", {"--slabs", "auto"}));
+  EXPECT_EQ(together.status, 0) << together.err;
+  EXPECT_EQ(read_bytes(folder / "together.vtp"), whole);
+}
+
+TEST(SlabsOfSegment, LabelsRefuseWhatNeedsMoreThanTheirSlices) {
+  const TempFolder folder;
+  write_labels(folder);
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+           {"--labelmap", folder / "l.nrrd"}, {"--preview"}, {"--html", folder / "p.html"}}) {
+    auto arguments = segment_labels(folder, "none", {"--slabs", "2"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = run_program(folder, arguments);
+    EXPECT_EQ(run.status, 2) << more[0];
+    EXPECT_EQ(run.error_lines(), 1u) << run.err;
+  }
+  const ProgramRun exact =
+      run_program(folder, {"segment", "--probabilities", folder / "labels.nii.gz", "-o",
+                           folder / "none.vtp", "--slabs", "2"});
+  EXPECT_EQ(exact.status, 2);
+  EXPECT_THAT(exact.err, HasSubstr("--probabilities"));
+  auto unknown = segment_labels(folder, "none", {"--slabs", "2", "--label", "liver"});
+  const ProgramRun none = run_program(folder, unknown);
+  EXPECT_EQ(none.status, 3);
+  EXPECT_THAT(none.err, HasSubstr("liver"));
+  EXPECT_FALSE(has_scratch(folder));
 }
 
 TEST(SlabsOfSegment, WhatNeedsAllOfAScanIsRefused) {

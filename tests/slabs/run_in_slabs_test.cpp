@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <barrier>
-#include <thread>
 #include <tuple>
 
 #include "mesamis/base/parallel.h"
@@ -12,6 +10,7 @@
 #include "mesamis/surface/components.h"
 #include "mesamis/surface/self_intersections.h"
 #include "slabs/small_run.h"
+#include "slabs/thread_ranks.h"
 #include "support/throws.h"
 
 namespace mesamis {
@@ -21,33 +20,10 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// A rank that is a thread.
-class ThreadRank : public Team {
- public:
-  ThreadRank(std::barrier<>& barrier, int size, int rank)
-      : barrier_(barrier), size_(size), rank_(rank) {}
-  int size() const noexcept override { return size_; }
-  int rank() const noexcept override { return rank_; }
-  void wait_for_all() override { barrier_.arrive_and_wait(); }
-
- private:
-  std::barrier<>& barrier_;
-  int size_, rank_;
-};
-
 SlabRunResult run_with_ranks(const Volume& scan, const SlabRunOptions& options, int size) {
   const VolumeSlices source(scan);
-  std::barrier barrier(size);
-  std::vector<std::optional<SlabRunResult>> results(static_cast<std::size_t>(size));
-  std::vector<std::thread> ranks;
-  for (int rank = 0; rank < size; ++rank) {
-    ranks.emplace_back([&, rank] {
-      ThreadRank team(barrier, size, rank);
-      results[static_cast<std::size_t>(rank)] =
-          run_in_slabs(source, quick_settings(), options, team);
-    });
-  }
-  for (std::thread& rank : ranks) rank.join();
+  auto results = results_of_ranks<SlabRunResult>(
+      size, [&](Team& team) { return run_in_slabs(source, quick_settings(), options, team); });
   for (std::size_t rank = 1; rank < results.size(); ++rank) EXPECT_FALSE(results[rank]);
   return *std::move(results[0]);
 }

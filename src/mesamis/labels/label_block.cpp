@@ -30,18 +30,22 @@ std::optional<CropRange> range_of_all(const LabelMap& map, std::span<const Segme
 
 }  // namespace
 
+LabelBlock block_around(const VoxelGrid& grid, const CropRange& range, double room) {
+  LabelBlock block;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double spacing = grid.spacing[static_cast<int>(a)];
+    const Index around = static_cast<Index>(std::ceil(room / spacing)) + kRoom;
+    block.begin[a] = range.begin[a] - around;
+    block.size[a] = range.end[a] + around - block.begin[a];
+  }
+  return block;
+}
+
 std::optional<LabelBlock> block_around(const LabelMap& map, std::span<const Segment> chosen,
                                        double room) {
   const auto range = range_of_all(map, chosen);
   if (!range) return std::nullopt;
-  LabelBlock block;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double spacing = map.spacing[static_cast<int>(a)];
-    const Index around = static_cast<Index>(std::ceil(room / spacing)) + kRoom;
-    block.begin[a] = range->begin[a] - around;
-    block.size[a] = range->end[a] + around - block.begin[a];
-  }
-  return block;
+  return block_around(map, *range, room);
 }
 
 LabelBlock clipped(const LabelBlock& block, const VoxelGrid& grid) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesamis/image/label_map.h"
+#include "mesamis/image/volume.h"
 
 namespace mesamis {
 
@@ -24,6 +25,11 @@ struct LabelBlock {
 /// O(voxels * layers + segments * chosen).
 std::optional<LabelBlock> block_around(const LabelMap& map, std::span<const Segment> chosen,
                                        double room);
+
+/// Finds the block around voxels of a grid.
+/// @param range  of the grid, at least one voxel.
+/// @param room   as above.
+LabelBlock block_around(const VoxelGrid& grid, const CropRange& range, double room);
 
 /// What of a block lies within a grid, but at least 2 voxels along each axis where the grid has so
 /// many.

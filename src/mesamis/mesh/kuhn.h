@@ -30,4 +30,8 @@ inline Cell kuhn_cell(Index corner, const std::array<Index, 3>& stride,
   return kuhn_path_is_odd(path) ? Cell{corner, a, c, b} : Cell{corner, a, b, c};
 }
 
+/// The steps from a node to the seven neighbours above it in the Kuhn tetrahedra of a grid.
+inline constexpr std::array<std::array<Index, 3>, 7> kKuhnSteps{
+    {{1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}};
+
 }  // namespace mesamis

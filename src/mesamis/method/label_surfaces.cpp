@@ -42,25 +42,6 @@ constexpr double kReachOfFit = 0.64;     // margins in which a fitted surface lo
 constexpr double kErrorOfLabels = 0.04;  // voxels of the labels, where they are right
 constexpr double kAsFine = 1.25;         // voxels of the scan: labels no coarser are fitted
 
-/// The layers of those segments, increasing.
-std::vector<Index> layers_of(const std::vector<Segment>& segments) {
-  std::vector<Index> layers;
-  layers.reserve(segments.size());
-  for (const Segment& s : segments) layers.push_back(s.layer);
-  std::sort(layers.begin(), layers.end());
-  layers.erase(std::unique(layers.begin(), layers.end()), layers.end());
-  return layers;
-}
-
-/// Whether a label of a layer was chosen.
-std::vector<char> marks_of(const std::vector<Segment>& chosen, Index layer) {
-  std::vector<char> marks(static_cast<std::size_t>(kMaxLabel) + 1, 0);
-  for (const Segment& s : chosen) {
-    if (s.layer == layer) marks[static_cast<std::size_t>(s.label)] = 1;
-  }
-  return marks;
-}
-
 void bring_to_world(const VoxelGrid& grid, PartitionSurface& partition) {
   parallel_for(partition.points.size(),
                [&](std::size_t p) { partition.points[p] = grid.to_world(partition.points[p]); });
@@ -128,23 +109,6 @@ std::string name_of(const LabelMap& map, Index layer, Index label) {
   return {};
 }
 
-/// A map of too many objects is no label map.
-void require_chosen(const std::vector<Segment>& chosen, const LabelMap& map) {
-  if (chosen.size() > kMostObjects) {
-    throw InputError("labels: expected at most " + std::to_string(kMostObjects) +
-                     " objects, found " + std::to_string(chosen.size()) + "; choose some of them");
-  }
-  std::set<std::pair<Index, Index>> known, seen;
-  for (const Segment& s : map.segments) known.emplace(s.layer, s.label);
-  for (const Segment& s : chosen) {
-    const std::pair key(s.layer, s.label);
-    if (known.count(key) == 0 || !seen.insert(key).second) {
-      throw InputError("labels: expected each chosen object once and of the map, found '" + s.name +
-                       "'" + (known.count(key) == 0 ? " of another" : " twice"));
-    }
-  }
-}
-
 /// What the steps of a run on labels know.
 struct LabelRun {
   const LabelRequest& request;
@@ -172,11 +136,8 @@ struct LabelRun {
 
 LabelBlock require_block(const LabelRun& run, const LabelMap& map) {
   const auto block = block_around(map, run.chosen, run.margin);
-  if (block) return *block;
-  throw InputError("labels: expected voxels of " +
-                   (run.chosen.size() == 1 ? "'" + run.chosen.front().name + "'"
-                                           : std::string("chosen labels")) +
-                   " within the grid, found none");
+  if (!block) refuse_empty(run.chosen);
+  return *block;
 }
 
 /// The boundaries of the chosen objects of a layer, which have not been decimated.
@@ -287,23 +248,30 @@ LayerBoundaries place_by_image(const LabelRun& run, Index layer, std::vector<std
   return found;
 }
 
-LayerBoundaries place_by_labels(const LabelRun& run, Index layer, const LabelBlock& block,
-                                LabelResult::Seconds& seconds) {
+/// The boundaries between the labels of a layer, which may have the steps of their voxels.
+PartitionSurface extract_by_labels(const LabelRun& run, Index layer, const LabelBlock& block,
+                                   LabelResult::Seconds& seconds) {
   Stopwatch watch;
   const LabelMap& map = run.request.map;
-  const VoxelGrid grid = grid_of(map, block);
   auto labels = labels_in(map, layer, block);
   run.begin("smoothing the labels");
-  const GridMemberships memberships = without_image(run, grid, labels);
+  const GridMemberships memberships = without_image(run, grid_of(map, block), labels);
   seconds.flow += watch.lap();
   run.begin("surface");
   PartitionSurface partition = extract_partition_on_grid(memberships);
+  seconds.surface += watch.lap();
+  return partition;
+}
+
+/// Boundaries of the chosen labels, smooth.
+/// @param grid  of the block that they were extracted in.
+LayerBoundaries place_by_labels(const LabelRun& run, Index layer, const VoxelGrid& grid,
+                                PartitionSurface partition) {
   std::vector<BoundaryGuide> none(partition.points.size());
   partition = only_chosen(partition, marks_of(run.chosen, layer), none);
   const bool has_steps = run.request.probabilities == nullptr;
   if (run.settings.fit && has_steps) partition = smooth_boundaries(std::move(partition), grid);
   bring_to_world(grid, partition);
-  seconds.surface += watch.lap();
   return {layer, std::move(partition)};
 }
 
@@ -451,23 +419,76 @@ LabelResult with_image(const LabelRun& run, const VolumeView& scan) {
   return result;
 }
 
+LabelResult by_boundaries(const LabelRun& run, const ExtractedBoundaries& all) {
+  LabelResult result;
+  result.parameters = parameters_asked(run.settings);
+  std::vector<LayerBoundaries> layers;
+  for (const Index layer : layers_of(run.chosen)) {
+    PartitionSurface partition = all.of_layer(layer);
+    Stopwatch watch;
+    layers.push_back(place_by_labels(run, layer, all.grid, std::move(partition)));
+    result.seconds.surface += watch.lap();
+  }
+  finish_layers(run, std::move(layers), nullptr, result);
+  return result;
+}
+
 LabelResult by_labels(const LabelRun& run) {
   Stopwatch all;
   run.begin("preparation");
-  LabelResult result;
   const LabelBlock block = require_block(run, run.request.map);
-  result.parameters = parameters_asked(run.settings);
-  result.seconds.prepare = all.lap();
-  std::vector<LayerBoundaries> layers;
-  for (const Index layer : layers_of(run.chosen)) {
-    layers.push_back(place_by_labels(run, layer, block, result.seconds));
-  }
-  finish_layers(run, std::move(layers), nullptr, result);
-  result.seconds.total = result.seconds.prepare + all.lap();
+  LabelResult::Seconds seconds;
+  seconds.prepare = all.lap();
+  const auto extract = [&](Index layer) { return extract_by_labels(run, layer, block, seconds); };
+  LabelResult result = by_boundaries(run, {grid_of(run.request.map, block), extract});
+  result.seconds.prepare = seconds.prepare;
+  result.seconds.flow = seconds.flow;
+  result.seconds.surface += seconds.surface;
+  result.seconds.total = seconds.prepare + all.lap();
   return result;
 }
 
 }  // namespace
+
+std::vector<Index> layers_of(const std::vector<Segment>& segments) {
+  std::vector<Index> layers;
+  layers.reserve(segments.size());
+  for (const Segment& s : segments) layers.push_back(s.layer);
+  std::sort(layers.begin(), layers.end());
+  layers.erase(std::unique(layers.begin(), layers.end()), layers.end());
+  return layers;
+}
+
+std::vector<char> marks_of(const std::vector<Segment>& chosen, Index layer) {
+  std::vector<char> marks(static_cast<std::size_t>(kMaxLabel) + 1, 0);
+  for (const Segment& s : chosen) {
+    if (s.layer == layer) marks[static_cast<std::size_t>(s.label)] = 1;
+  }
+  return marks;
+}
+
+void require_chosen(const std::vector<Segment>& chosen, const LabelMap& map) {
+  if (chosen.size() > kMostObjects) {
+    throw InputError("labels: expected at most " + std::to_string(kMostObjects) +
+                     " objects, found " + std::to_string(chosen.size()) + "; choose some of them");
+  }
+  std::set<std::pair<Index, Index>> known, seen;
+  for (const Segment& s : map.segments) known.emplace(s.layer, s.label);
+  for (const Segment& s : chosen) {
+    const std::pair key(s.layer, s.label);
+    if (known.count(key) == 0 || !seen.insert(key).second) {
+      throw InputError("labels: expected each chosen object once and of the map, found '" + s.name +
+                       "'" + (known.count(key) == 0 ? " of another" : " twice"));
+    }
+  }
+}
+
+[[noreturn]] void refuse_empty(const std::vector<Segment>& chosen) {
+  throw InputError(
+      "labels: expected voxels of " +
+      (chosen.size() == 1 ? "'" + chosen.front().name + "'" : std::string("chosen labels")) +
+      " within the grid, found none");
+}
 
 double label_margin(const VoxelGrid& scan, const VoxelGrid& labels) {
   const double voxel = scan.voxel_size();
@@ -487,6 +508,14 @@ LabelResult find_labelled_objects(const VolumeView& scan, const LabelRequest& re
   LabelRun run(request, settings, progress);
   run.margin = margin;
   return with_image(run, scan);
+}
+
+LabelResult surfaces_of_boundaries(const LabelRequest& request, const Settings& settings,
+                                   const ExtractedBoundaries& all, const Progress& progress) {
+  Stopwatch watch;
+  LabelResult result = by_boundaries({request, settings, progress}, all);
+  result.seconds.total = watch.lap();
+  return result;
 }
 
 LabelResult surfaces_of_labels(const LabelRequest& request, const Settings& settings,

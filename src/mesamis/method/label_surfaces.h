@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "mesamis/method/mes_amis.h"
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/settings.h"
+#include "mesamis/surface/partition.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// Surfaces of the objects of a label map: the labels choose the objects, the image places their
@@ -100,5 +102,34 @@ LabelResult find_labelled_objects(const VolumeView& scan, const LabelRequest& re
 /// O(voxels around the labels); about 40 bytes for each. The same bits for any number of threads.
 LabelResult surfaces_of_labels(const LabelRequest& request, const Settings& settings,
                                const Progress& progress = {});
+
+/// The boundaries between all labels of a map.
+struct ExtractedBoundaries {
+  VoxelGrid grid;  ///< of the block of the map's voxels that they were extracted in
+  /// Those of a layer, in the block's axes, mm, its first voxel at the origin; sides are labels.
+  std::function<PartitionSurface(Index layer)> of_layer;
+};
+
+/// Makes surfaces of labels as surfaces_of_labels() does, of boundaries that were extracted of
+/// their smooth_memberships().
+/// @param request  its map needs no layers, and probabilities are not used.
+/// @param all      called once for each layer that has a chosen segment, in their order.
+/// @return one object per chosen segment that has voxels.
+/// @throws what surfaces_of_labels() throws, and what `all` throws.
+LabelResult surfaces_of_boundaries(const LabelRequest& request, const Settings& settings,
+                                   const ExtractedBoundaries& all, const Progress& progress = {});
+
+/// The layers of segments, increasing.
+std::vector<Index> layers_of(const std::vector<Segment>& segments);
+
+/// Whether a label of a layer was chosen: one entry per label, not 0 if it was.
+std::vector<char> marks_of(const std::vector<Segment>& chosen, Index layer);
+
+/// @throws InputError  if more than 4096 segments are chosen, one twice, or one that is none of the
+///                     map's.
+void require_chosen(const std::vector<Segment>& chosen, const LabelMap& map);
+
+/// @throws InputError  that no chosen segment has a voxel.
+[[noreturn]] void refuse_empty(const std::vector<Segment>& chosen);
 
 }  // namespace mesamis

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/run/outcome_details.h"
 
+#include "mesamis/record/label_report.h"
+
 namespace mesamis {
 
 std::vector<FoundObject> OutcomeDetails::objects() const {
@@ -22,6 +24,14 @@ const Result* OutcomeDetails::mesh() const {
 
 const std::vector<double>& OutcomeDetails::expected_error(std::size_t n) const {
   return one ? one->expected_error : several->objects[n].expected_error;
+}
+
+void judge_surfaces(OutcomeDetails& outcome) {
+  for (const FoundObject& object : outcome.objects()) {
+    outcome.checks.push_back(check_surface(object.surface));
+  }
+  outcome.verdict = outcome.one ? judge(*outcome.one, outcome.checks.front())
+                                : judge(*outcome.several, outcome.checks);
 }
 
 Segment one_object() { return {"object", 1, 0, default_colour(1)}; }

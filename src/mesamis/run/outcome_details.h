@@ -48,6 +48,9 @@ struct OutcomeDetails {
   const std::vector<double>& expected_error(std::size_t object) const;
 };
 
+/// Checks the surfaces of the objects that were found, and judges them.
+void judge_surfaces(OutcomeDetails& outcome);
+
 /// The segment of a run for one object.
 Segment one_object();
 

@@ -47,6 +47,13 @@ Stages label_stages(const RunStages& run) {
   return stages;
 }
 
+/// Labels without a scan.
+Stages label_slab_stages() {
+  return {{"slabs: labels", 8},  {"slabs: look", 2},         {"slabs: parts", 6},
+          {"slabs: steps", 14},  {"slabs: memberships", 18}, {"slabs: volumes", 12},
+          {"slabs: surface", 3}, {"decimation", 30}};
+}
+
 Stages slab_stages() {
   Stages stages{
       {"slabs: look", 4}, {"slabs: choose", 2}, {"slabs: image", 1}, {"slabs: prepare", 15}};
@@ -69,7 +76,9 @@ Stages slab_stages() {
 
 Stages stage_shares(const RunStages& run) {
   Stages stages{{"reading", 2}};
-  append(stages, run.slabs ? slab_stages() : run.labels ? label_stages(run) : object_stages(run));
+  append(stages, run.slabs    ? (run.labels ? label_slab_stages() : slab_stages())
+                 : run.labels ? label_stages(run)
+                              : object_stages(run));
   if (run.elements) stages.push_back({"elements", 40});
   stages.push_back({"writing", 3});
   return stages;

@@ -21,7 +21,7 @@ struct RunStages {
   bool preview = false;   ///< see Settings::preview
   bool mesh = true;       ///< one object always has one, but for a preview
   bool elements = false;  ///< see ElementRequest::wanted()
-  bool slabs = false;     ///< see segment_in_slabs()
+  bool slabs = false;     ///< see segment_in_slabs(), segment_labels_in_slabs()
 };
 
 /// The stages of a run in their order, with the shares that they took in runs that were measured.

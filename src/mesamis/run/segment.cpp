@@ -149,11 +149,7 @@ Outcome segment(Request request, const Listener& listener) {
   }
   fill(request, listener.progress, outcome);
   warn_of_surface(listener, outcome);
-  for (const FoundObject& object : outcome.objects()) {
-    outcome.checks.push_back(check_surface(object.surface));
-  }
-  outcome.verdict = outcome.one ? judge(*outcome.one, outcome.checks.front())
-                                : judge(*outcome.several, outcome.checks);
+  judge_surfaces(outcome);
   return Outcome(std::move(outcome));
 }
 

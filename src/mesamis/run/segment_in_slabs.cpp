@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesamis/delivery/mesh_output.h"
+#include "mesamis/record/label_report.h"
 #include "mesamis/run/outcome_details.h"
 #include "mesamis/shape_files/mesh_files.h"
 
@@ -59,8 +60,7 @@ OutcomeDetails outcome_of(const SlabRequest& request, SlabRunResult& work) {
   outcome.one = std::move(work.result);
   outcome.grey = std::move(work.grey);
   outcome.wanted = {one_object()};
-  outcome.checks = {check_surface(outcome.one->surface)};
-  outcome.verdict = judge(*outcome.one, outcome.checks.front());
+  judge_surfaces(outcome);
   return outcome;
 }
 
@@ -84,6 +84,21 @@ std::optional<SlabOutcome> segment_in_slabs(const SlabRequest& request, const fs
   if (options.mesh) outcome.in_place = samples().samples;
   pieces.write_indices();
   return SlabOutcome{Outcome(std::move(outcome)), *std::move(work), std::move(scan)};
+}
+
+std::optional<LabelSlabOutcome> segment_labels_in_slabs(const LabelSlabRequest& request,
+                                                        const Settings& settings,
+                                                        const SlabRunOptions& options, Team& team) {
+  auto work = label_surfaces_in_slabs(request, settings, options, team);
+  if (!work) return std::nullopt;
+  OutcomeDetails outcome;
+  outcome.asked = settings;
+  outcome.grid = work->head;
+  outcome.several = std::move(work->result);
+  outcome.wanted = work->chosen;
+  outcome.warnings = missing_objects(*outcome.several, outcome.wanted);
+  judge_surfaces(outcome);
+  return LabelSlabOutcome{Outcome(std::move(outcome)), *std::move(work)};
 }
 
 }  // namespace mesamis

@@ -9,6 +9,7 @@
 #include "mesamis/files/output_path.h"
 #include "mesamis/image/slice_source.h"
 #include "mesamis/run/outcome.h"
+#include "mesamis/slabs/labels_in_slabs.h"
 #include "mesamis/slabs/map_scan.h"
 #include "mesamis/slabs/run_in_slabs.h"
 
@@ -39,5 +40,18 @@ struct SlabOutcome {
 ///                                run_in_slabs().
 std::optional<SlabOutcome> segment_in_slabs(const SlabRequest& request,
                                             const std::filesystem::path& scratch, Team& team);
+
+/// What came out of a run on labels.
+struct LabelSlabOutcome {
+  Outcome outcome;
+  LabelSlabResult work;  ///< its result is moved into the outcome
+};
+
+/// Does what segment() does for labels without a scan, slab by slab: see label_surfaces_in_slabs().
+/// @return on rank 0; nothing elsewhere.
+/// @throws InputError, Cancelled  as label_surfaces_in_slabs(). Cost as that.
+std::optional<LabelSlabOutcome> segment_labels_in_slabs(const LabelSlabRequest& request,
+                                                        const Settings& settings,
+                                                        const SlabRunOptions& options, Team& team);
 
 }  // namespace mesamis

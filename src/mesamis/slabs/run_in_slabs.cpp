@@ -9,13 +9,13 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/stopwatch.h"
-#include "mesamis/base/version.h"
 #include "mesamis/base/written_number.h"
 #include "mesamis/decimate/round_to_single.h"
 #include "mesamis/method/chosen_run.h"
 #include "mesamis/method/deliver.h"
 #include "mesamis/method/setting_table.h"
 #include "mesamis/slabs/mapped_items.h"
+#include "mesamis/slabs/same_run.h"
 #include "mesamis/slabs/sample.h"
 #include "mesamis/slabs/stages.h"
 #include "mesamis/slabs/surface_files.h"
@@ -30,8 +30,6 @@ using namespace detail;
 
 /// Voxels of which the parameters are chosen.
 constexpr std::size_t kSample = std::size_t{1} << 27;
-/// Voxels that a process works on at a time, unless it is told.
-constexpr std::size_t kVoxelsOfATurn = std::size_t{1} << 26;
 /// Slices that are looked at together before there is a plan.
 constexpr Index kChunk = 16;
 
@@ -246,9 +244,7 @@ SlabRunResult deliver(const SurfaceRun& run, const SlabRunOptions& options, cons
 
 void require_possible(const Settings& settings, const SlabRunOptions& options) {
   require_valid(settings);
-  if (options.turns.value_or(1) < 1) {
-    throw InputError("slabs: expected at least 1 turn, found " + std::to_string(*options.turns));
-  }
+  require_turns(options);
   if (settings.preview) throw InputError("slabs: expected a run with meshes, found a preview");
   if (!(settings.crop == CropRange{})) {
     throw InputError("slabs: expected the whole scan, found a crop");
@@ -275,14 +271,11 @@ std::uint64_t hash_of_slice(const SliceSource& source, Index k) {
 
 /// What a folder of scratch files belongs to: files of another run would be taken for its own. Of
 /// the samples only those of the middle slice count: the scan is large.
-std::string description_of(const SliceSource& source, const Settings& settings,
-                           const SlabRunOptions& options, Index slabs) {
+std::string description_of_run(const SliceSource& source, const Settings& settings,
+                               const SlabRunOptions& options, Index slabs) {
   const VoxelGrid& grid = source.grid();
   std::string text =
-      std::string(version()) + " " + options.input + " slabs " + std::to_string(slabs);
-  for (const Setting& setting : setting_table()) {
-    text += " " + setting.name + " " + text_of(setting, setting.get(settings));
-  }
+      description_of(settings) + " " + options.input + " slabs " + std::to_string(slabs);
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<int>(a);
     text += " " + std::to_string(grid.size[a]);
@@ -292,20 +285,6 @@ std::string description_of(const SliceSource& source, const Settings& settings,
     }
   }
   return text + " samples " + std::to_string(hash_of_slice(source, grid.size[2] / 2));
-}
-
-void require_same_run(const Scratch& scratch, const std::string& description, Team& team) {
-  if (team.rank() == 0 && !scratch.has("run")) {
-    ArchiveWriter archive;
-    archive.add(std::vector<char>(description.begin(), description.end()));
-    scratch.write("run", archive);
-  }
-  team.wait_for_all();
-  const std::vector<char> there = scratch.read("run").next<char>();
-  if (std::string(there.begin(), there.end()) == description) return;
-  throw InputError(scratch.folder().string() +
-                   ": expected a folder for the scratch files of this run, found those of a run "
-                   "with another scan or other settings");
 }
 
 /// One slab is the whole scan: a run like any other.
@@ -355,6 +334,12 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
 
 }  // namespace
 
+void require_turns(const SlabRunOptions& options) {
+  if (options.turns.value_or(1) < 1) {
+    throw InputError("slabs: expected at least 1 turn, found " + std::to_string(*options.turns));
+  }
+}
+
 std::optional<SlabRunResult> run_in_slabs(const SliceSource& source, const Settings& settings,
                                           const SlabRunOptions& options, Team& team) {
   require_possible(settings, options);
@@ -363,7 +348,7 @@ std::optional<SlabRunResult> run_in_slabs(const SliceSource& source, const Setti
   const VoxelGrid& whole = source.grid();
   // How many slabs there are depends on no sample.
   const SlabPlan even = even_plan(whole, {whole.voxel_size(), settings.beta, options.slabs});
-  require_same_run(scratch, description_of(source, settings, options, even.count()), team);
+  require_same_run(scratch, description_of_run(source, settings, options, even.count()), team);
   std::optional<SlabRunResult> found;
   try {
     found = run_through(scratch, source, settings, options, even, team);

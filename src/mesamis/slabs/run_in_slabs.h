@@ -38,6 +38,12 @@ struct SlabRunOptions {
   std::function<void(Index slab, const Result& piece)> take_piece{};
 };
 
+/// Voxels that a process works on at a time, unless turns are asked for.
+inline constexpr std::size_t kVoxelsOfATurn = std::size_t{1} << 26;
+
+/// @throws InputError  for fewer than one turn.
+void require_turns(const SlabRunOptions& options);
+
 /// A result, and how it came about.
 struct SlabRunResult {
   Result result;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  labels_in_slabs.h
   map_scan.h
   plan.h
   run_in_slabs.h
@@ -11,6 +12,8 @@ set(ROOM_SOURCES
   decimate_tasks.cpp
   grey_tasks.cpp
   grid_nodes.cpp
+  label_tasks.cpp
+  labels_in_slabs.cpp
   map_scan.cpp
   mapped_items.cpp
   mesh_plan.cpp
@@ -21,9 +24,11 @@ set(ROOM_SOURCES
   profile.cpp
   records.cpp
   run_in_slabs.cpp
+  same_run.cpp
   sample.cpp
   scratch.cpp
   slab_tasks.cpp
   stages.cpp
+  stored_labels.cpp
   surface_piece.cpp
   surface_tasks.cpp)

@@ -10,10 +10,6 @@
 
 namespace mesamis {
 
-/// The steps from a node to the seven neighbours above it in the Kuhn tetrahedra of a grid.
-inline constexpr std::array<std::array<Index, 3>, 7> kKuhnSteps{
-    {{1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}};
-
 /// A field of partition_cells.h: memberships on a grid.
 class GridField {
  public:

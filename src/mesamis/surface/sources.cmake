@@ -13,10 +13,14 @@ set(ROOM_HEADERS
   farthest.h
   grid_partition.h
   half_edges.h
+  label_parts.h
+  lift_memberships.h
   list_materials.h
+  match_volumes.h
   measure.h
   nesting.h
   normals.h
+  part_filter.h
   partition.h
   sampling.h
   select_parts.h
@@ -28,7 +32,8 @@ set(ROOM_HEADERS
   triangle_intersection.h
   triangle_shapes.h
   triangle_tree.h
-  unused_points.h)
+  unused_points.h
+  yield_nodes.h)
 set(ROOM_SOURCES
   axis_flip.cpp
   box_tree.cpp

@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/slabs/label_tasks.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "mesamis/base/error.h"
+#include "mesamis/mesh/kuhn.h"
+#include "mesamis/slabs/mapped_items.h"
+#include "mesamis/surface/disjoint_sets.h"
+#include "mesamis/surface/label_parts.h"
+#include "mesamis/surface/lift_memberships.h"
+#include "mesamis/surface/part_filter.h"
+#include "mesamis/surface/yield_nodes.h"
+
+namespace mesamis::detail {
+namespace {
+
+/// How many slices away the materials matter to whether a node may yield.
+constexpr Index kYieldReach = 2;
+
+/// Slices [begin, end) of the block.
+struct BlockSlices {
+  Index begin = 0, end = 0;
+  Index count() const { return end - begin; }
+};
+
+Index slice_count(const LayerRun& run) { return run.block.size[2]; }
+
+/// Nodes of so many slices.
+std::int64_t nodes_in(const LayerRun& run, Index slices) {
+  return std::int64_t{run.block.size[0]} * run.block.size[1] * slices;
+}
+
+BlockSlices own_slices(const LayerRun& run, Index s) {
+  const auto at = static_cast<std::size_t>(s);
+  return {run.cuts[at], run.cuts[at + 1]};
+}
+
+/// Those, and so many on both sides, as far as there are any.
+BlockSlices around(const LayerRun& run, const BlockSlices& slices, Index reach) {
+  return {std::max(0, slices.begin - reach), std::min(slice_count(run), slices.end + reach)};
+}
+
+/// Those whose nodes the cells of slab s have.
+BlockSlices slices_of_cells(const LayerRun& run, Index s) {
+  const BlockSlices own = own_slices(run, s);
+  return {own.begin, std::min(slice_count(run), own.end + 1)};
+}
+
+SlabWork work_on(const LayerRun& run, const BlockSlices& held) {
+  return {.voxels = nodes_in(run, held.count())};
+}
+
+/// The labels of some slices, background beyond the map.
+std::vector<std::uint16_t> labels_of(const LayerRun& run, const BlockSlices& slices) {
+  const LabelMap& head = run.source.head();
+  LabelBlock part = run.block;
+  part.begin[2] += slices.begin;
+  part.size[2] = slices.count();
+  const Index first = std::max(0, part.begin[2]);
+  const Index end = std::min(head.size[2], part.begin[2] + part.size[2]);
+  if (end <= first) return std::vector<std::uint16_t>(nodes_in(run, slices.count()), 0);
+  LabelMap some{{head}, {run.source.read(run.layer, first, end - first)}, {}};
+  some.size[2] = end - first;
+  part.begin[2] -= first;
+  return labels_in(some, 0, part);
+}
+
+/// The grid of some slices, without labels or materials.
+GridMemberships grid_of(const LayerRun& run, const BlockSlices& slices) {
+  GridMemberships grid{.size = run.block.size,
+                       .spacing = run.source.head().spacing,
+                       .material = {},
+                       .label = run.parts.label,
+                       .first = {},
+                       .listed = {},
+                       .value = {}};
+  grid.size[2] = slices.count();
+  grid.below = slices.begin;
+  grid.above = slice_count(run) - slices.end;
+  return grid;
+}
+
+std::filesystem::path part_file(const LayerRun& run) {
+  return run.scratch.path("layer." + std::to_string(run.layer) + ".nodes");
+}
+
+/// As find_parts() has left them: the numbers of each slab.
+std::vector<Index> read_own_numbers(const LayerRun& run, const BlockSlices& slices) {
+  const auto all =
+      map_items<Index>(part_file(run), static_cast<std::size_t>(nodes_in(run, slice_count(run))));
+  const auto at = all.values.begin() + nodes_in(run, slices.begin);
+  return {at, at + nodes_in(run, slices.count())};
+}
+
+/// The part of each node of some slices.
+std::vector<Index> read_parts(const LayerRun& run, const BlockSlices& slices) {
+  std::vector<Index> parts = read_own_numbers(run, slices);
+  for (Index s = 0; s < run.count(); ++s) {
+    const BlockSlices own = own_slices(run, s);
+    const Index begin = std::max(own.begin, slices.begin), end = std::min(own.end, slices.end);
+    if (begin >= end) continue;
+    const std::vector<Index>& number = run.parts.number[static_cast<std::size_t>(s)];
+    const auto from = parts.begin() + nodes_in(run, begin - slices.begin);
+    std::transform(from, from + nodes_in(run, end - begin), from,
+                   [&](Index own_number) { return number[own_number]; });
+  }
+  return parts;
+}
+
+/// Lets nodes of the block yield that lie in some slices.
+void apply(const LayerRun& run, const std::vector<Yield>& yields, const BlockSlices& slices,
+           std::vector<Index>& material) {
+  const std::int64_t first = nodes_in(run, slices.begin), end = nodes_in(run, slices.end);
+  for (const auto& [node, to] : yields) {
+    if (node >= first && node < end) material[static_cast<std::size_t>(node - first)] = to;
+  }
+}
+
+std::vector<Yield> read_yields(const LayerRun& run, const char* what, Index s) {
+  return run.scratch.read(run.file(what, s)).next<Yield>();
+}
+
+void write_yields(const LayerRun& run, const char* what, Index s, const std::vector<Yield>& all) {
+  ArchiveWriter archive;
+  archive.add(all);
+  run.scratch.write(run.file(what, s), archive);
+}
+
+/// Nodes of some slices as nodes of the block, or back.
+void shift_nodes(std::vector<Yield>& yields, std::int64_t by) {
+  for (Yield& yield : yields) yield.node += by;
+}
+
+/// Some of the slices of a grid.
+GridMemberships cut_out(const LayerRun& run, const GridMemberships& grid,
+                        const BlockSlices& slices) {
+  GridMemberships part = grid_of(run, slices);
+  const auto from = static_cast<std::ptrdiff_t>(nodes_in(run, slices.begin - grid.below));
+  const auto to = from + static_cast<std::ptrdiff_t>(nodes_in(run, slices.count()));
+  part.material.assign(grid.material.begin() + from, grid.material.begin() + to);
+  part.first.assign(grid.first.begin() + from, grid.first.begin() + to + 1);
+  const std::int64_t first = part.first.front(), last = part.first.back();
+  part.listed.assign(grid.listed.begin() + first, grid.listed.begin() + last);
+  part.value.assign(grid.value.begin() + first, grid.value.begin() + last);
+  for (std::int64_t& at : part.first) at -= first;
+  return part;
+}
+
+/// The memberships of the cells of slab s with constants.
+GridMemberships read_memberships(const LayerRun& run, const VolumeMatch& match, Index s) {
+  GridMemberships grid = grid_of(run, slices_of_cells(run, s));
+  ArchiveReader archive = run.scratch.read(run.file("memberships", s));
+  grid.material = archive.next<Index>();
+  grid.first = archive.next<std::int64_t>();
+  grid.listed = archive.next<Index>();
+  const auto base = archive.next<float>();
+  grid.value.resize(base.size());
+  add_constants(base, match.constants(), grid);
+  return grid;
+}
+
+std::string round_file(const LayerRun& run, const VolumeMatch& match, Index s) {
+  return run.file("volumes." + std::to_string(match.report().rounds), s);
+}
+
+/// The points of a slab on the slice where the next one begins, in their order.
+std::vector<Index> points_at(const PartitionSurface& partition, double height) {
+  std::vector<Index> found;
+  for (std::size_t p = 0; p < partition.points.size(); ++p) {
+    if (partition.points[p].z == height) found.push_back(static_cast<Index>(p));
+  }
+  return found;
+}
+
+PartitionSurface read_boundaries(const LayerRun& run, Index s) {
+  ArchiveReader archive = run.scratch.read(run.file("boundaries", s));
+  PartitionSurface partition;
+  partition.points = archive.next<Vec3>();
+  partition.triangles = archive.next<Triangle>();
+  partition.sides = archive.next<std::array<Index, 2>>();
+  return partition;
+}
+
+void require_same_points(const PartitionSurface& below, const std::vector<Index>& top,
+                         const PartitionSurface& above, const std::vector<Index>& bottom) {
+  const bool same = top.size() == bottom.size() &&
+                    std::equal(top.begin(), top.end(), bottom.begin(), [&](Index a, Index b) {
+                      return below.points[a] == above.points[b];
+                    });
+  if (!same) throw NumericalError("labels: expected slabs that meet in the same points");
+}
+
+/// Appends triangles whose points have other numbers in the whole.
+void append_triangles(const PartitionSurface& from, const std::vector<Index>& number,
+                      PartitionSurface& all) {
+  for (const Triangle& t : from.triangles) {
+    all.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  }
+  all.sides.insert(all.sides.end(), from.sides.begin(), from.sides.end());
+}
+
+}  // namespace
+
+SlabWork make_part_file(const LayerRun& run) {
+  make_item_file<Index>(part_file(run), static_cast<std::size_t>(nodes_in(run, slice_count(run))));
+  return {};
+}
+
+SlabWork find_parts(const LayerRun& run, Index s) {
+  const BlockSlices own = own_slices(run, s);
+  const std::vector<std::uint16_t> labels = labels_of(run, own);
+  GridMemberships grid = grid_of(run, own);
+  LabelParts parts = find_label_parts({grid.size, grid.spacing, labels});
+  grid.label = std::move(parts.label);
+  std::vector<std::int64_t> nodes(grid.label.size(), 0);
+  for (const Index part : parts.of_node) ++nodes[part];
+  write_items<Index>(part_file(run), static_cast<std::size_t>(nodes_in(run, own.begin)),
+                     parts.of_node);
+  ArchiveWriter archive;
+  archive.add(grid.label);
+  archive.add(nodes);
+  archive.add(voxel_eighths(grid, parts.of_node));
+  run.scratch.write(run.file("parts", s), archive);
+  return work_on(run, own);
+}
+
+SlabWork join_parts(const LayerRun& run, Index s) {
+  const auto label_of = [&](Index slab) {
+    return run.scratch.read(run.file("parts", slab)).next<Index>();
+  };
+  const std::vector<Index> below_label = label_of(s), above_label = label_of(s + 1);
+  const Index cut = run.cuts[static_cast<std::size_t>(s + 1)];
+  const std::vector<Index> below = read_own_numbers(run, {cut - 1, cut});
+  const std::vector<Index> above = read_own_numbers(run, {cut, cut + 1});
+  const auto [nx, ny, nz] = run.block.size;
+  std::vector<std::array<Index, 2>> pairs;
+  std::size_t n = 0;
+  for (Index j = 0; j < ny; ++j) {
+    for (Index i = 0; i < nx; ++i, ++n) {
+      for (const auto& [di, dj, dk] : kKuhnSteps) {
+        if (dk == 0 || i < di || j < dj) continue;
+        const Index under = below[n - static_cast<std::size_t>(di + nx * dj)];
+        if (below_label[under] == above_label[above[n]]) pairs.push_back({under, above[n]});
+      }
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  ArchiveWriter archive;
+  archive.add(pairs);
+  run.scratch.write(run.file("pairs", s), archive);
+  return work_on(run, {cut - 1, cut + 1});
+}
+
+void learn_parts(LayerRun& run) {
+  const Index slabs = run.count();
+  std::vector<std::vector<Index>> label;
+  std::vector<std::vector<std::int64_t>> nodes, eighths;
+  std::vector<std::size_t> first{0};
+  for (Index s = 0; s < slabs; ++s) {
+    ArchiveReader archive = run.scratch.read(run.file("parts", s));
+    label.push_back(archive.next<Index>());
+    nodes.push_back(archive.next<std::int64_t>());
+    eighths.push_back(archive.next<std::int64_t>());
+    first.push_back(first.back() + label.back().size());
+  }
+  DisjointSets sets(first.back());
+  for (Index s = 0; s + 1 < slabs; ++s) {
+    const auto at = static_cast<std::size_t>(s);
+    const auto pairs = run.scratch.read(run.file("pairs", s)).next<std::array<Index, 2>>();
+    for (const auto& [below, above] : pairs) {
+      sets.unite(first[at] + static_cast<std::size_t>(below),
+                 first[at + 1] + static_cast<std::size_t>(above));
+    }
+  }
+  const DisjointSets::Numbers numbers = sets.numbers();
+  const auto count = static_cast<std::size_t>(numbers.count);
+  run.parts = {{},
+               std::vector<Index>(count),
+               std::vector<std::int64_t>(count, 0),
+               std::vector<std::int64_t>(count, 0)};
+  for (std::size_t s = 0; s < label.size(); ++s) {
+    const auto from = numbers.of_item.begin() + static_cast<std::ptrdiff_t>(first[s]);
+    run.parts.number.emplace_back(from, from + std::ssize(label[s]));
+    for (std::size_t p = 0; p < label[s].size(); ++p) {
+      const Index part = run.parts.number[s][p];
+      run.parts.label[part] = label[s][p];
+      run.parts.nodes[part] += nodes[s][p];
+      run.parts.eighths[part] += eighths[s][p];
+    }
+  }
+}
+
+SlabWork find_wishes(const LayerRun& run, Index s) {
+  const BlockSlices own = own_slices(run, s);
+  const BlockSlices held = around(run, own, 2 * filter_radius(run.smoothing.sigma_voxel));
+  GridMemberships grid = grid_of(run, held);
+  grid.material = read_parts(run, held);
+  const std::vector<Index> parts = grid.material;
+  filter_parts(parts, run.smoothing.sigma_voxel, grid);
+  std::vector<Yield> wishes = find_yields(cut_out(run, grid, own));
+  shift_nodes(wishes, nodes_in(run, own.begin));
+  write_yields(run, "wishes", s, wishes);
+  return work_on(run, held);
+}
+
+SlabWork let_yield(const LayerRun& run) {
+  SlabWork work;
+  std::vector<Yield> before;  // of the slabs below
+  for (Index s = 0; s < run.count(); ++s) {
+    const BlockSlices held = around(run, own_slices(run, s), kYieldReach);
+    const std::int64_t first = nodes_in(run, held.begin);
+    GridMemberships grid = grid_of(run, held);
+    grid.material = read_parts(run, held);
+    apply(run, before, held, grid.material);
+    std::vector<Yield> wishes = read_yields(run, "wishes", s);
+    shift_nodes(wishes, -first);
+    std::vector<Yield> done = yield_where_allowed(wishes, run.parts.nodes, grid);
+    shift_nodes(done, first);
+    write_yields(run, "yields", s, done);
+    before.insert(before.end(), done.begin(), done.end());
+    work.voxels = std::max(work.voxels, work_on(run, held).voxels);
+  }
+  return work;
+}
+
+SlabWork smooth_slab(const LayerRun& run, Index s) {
+  const BlockSlices wanted = slices_of_cells(run, s);
+  const BlockSlices held = around(run, wanted, smoothing_reach(run.smoothing));
+  GridMemberships grid = grid_of(run, held);
+  {
+    const std::vector<Index> parts = read_parts(run, held);
+    grid.material = parts;
+    for (Index other = 0; other < run.count(); ++other) {
+      const BlockSlices its = own_slices(run, other);
+      if (its.end <= held.begin || its.begin >= held.end) continue;
+      apply(run, read_yields(run, "yields", other), held, grid.material);
+    }
+    filter_parts(parts, run.smoothing.sigma_voxel, grid);
+  }
+  lift_memberships(grid);
+  grid = cut_out(run, grid, wanted);
+  ArchiveWriter archive;
+  archive.add(grid.material);
+  archive.add(grid.first);
+  archive.add(grid.listed);
+  archive.add(grid.value);
+  run.scratch.write(run.file("memberships", s), archive);
+  return work_on(run, held);
+}
+
+SlabWork measure_slab(const LayerRun& run, const VolumeMatch& match, Index s) {
+  const std::vector<LayerVolumes> layers = measure_layers(read_memberships(run, match, s));
+  std::vector<Index> counts;
+  LayerVolumes all;
+  for (const LayerVolumes& layer : layers) {
+    counts.push_back(static_cast<Index>(layer.size()));
+    all.insert(all.end(), layer.begin(), layer.end());
+  }
+  ArchiveWriter archive;
+  archive.add(counts);
+  archive.add(all);
+  run.scratch.write(round_file(run, match, s), archive);
+  return work_on(run, slices_of_cells(run, s));
+}
+
+std::vector<LayerVolumes> layers_of_slabs(const LayerRun& run, const VolumeMatch& match) {
+  std::vector<LayerVolumes> layers;
+  for (Index s = 0; s < run.count(); ++s) {
+    ArchiveReader archive = run.scratch.read(round_file(run, match, s));
+    const auto counts = archive.next<Index>();
+    const auto all = archive.next<InterfaceVolume>();
+    auto at = all.begin();
+    for (const Index count : counts) {
+      layers.emplace_back(at, at + count);
+      at += count;
+    }
+  }
+  return layers;
+}
+
+SlabWork extract_slab(const LayerRun& run, const VolumeMatch& match, Index s) {
+  const PartitionSurface partition = extract_partition_on_grid(read_memberships(run, match, s));
+  ArchiveWriter archive;
+  archive.add(partition.points);
+  archive.add(partition.triangles);
+  archive.add(partition.sides);
+  run.scratch.write(run.file("boundaries", s), archive);
+  return work_on(run, slices_of_cells(run, s));
+}
+
+// The order of the points is that of the whole: by their lowest nodes. Those on the slice where the
+// next slab begins are its points too.
+PartitionSurface joined_boundaries(const LayerRun& run) {
+  PartitionSurface all, below = read_boundaries(run, 0);
+  for (Index s = 0; s < run.count(); ++s) {
+    std::vector<Index> number(below.points.size());
+    for (std::size_t p = 0; p < number.size(); ++p) {
+      number[p] = static_cast<Index>(all.points.size() + p);
+    }
+    PartitionSurface above;
+    std::size_t own = below.points.size();
+    if (s + 1 < run.count()) {
+      above = read_boundaries(run, s + 1);
+      const double height = run.cuts[static_cast<std::size_t>(s + 1)] * run.source.head().spacing.z;
+      const std::vector<Index> top = points_at(below, height), bottom = points_at(above, height);
+      require_same_points(below, top, above, bottom);
+      own -= top.size();
+      for (std::size_t p = 0; p < top.size(); ++p) {
+        number[top[p]] = static_cast<Index>(all.points.size() + own) + bottom[p];
+      }
+    }
+    append_triangles(below, number, all);
+    all.points.insert(all.points.end(), below.points.begin(),
+                      below.points.begin() + static_cast<std::ptrdiff_t>(own));
+    below = std::move(above);
+  }
+  return all;
+}
+
+}  // namespace mesamis::detail
