@@ -53,8 +53,7 @@ def package_of(path):
 
 
 def copy_library(name, path, package, folder):
-    if package not in licences.LIBRARIES:
-        sys.exit(f"bundle: error: {name} of {package}: no licence in packaging/licences.py")
+    licences.require_known(name, package)
     target = os.path.join(folder, "fallback" if package in SYSTEM_FIRST else "", name)
     shutil.copyfile(path, target)
     os.chmod(target, 0o644)
@@ -118,9 +117,8 @@ def main():
         package = package_of(path)
         copy_library(name, path, package, libraries)
         copy_licence(package, texts)
-    for package, (_, holders) in licences.HEADERS.items():
-        if "mesamis" in holders:
-            copy_licence(package, texts)
+    for package in licences.compiled_into("mesamis"):
+        copy_licence(package, texts)
     root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     shutil.copyfile(f"{root}/LICENSE", f"{arguments.prefix}/LICENSE")
     subprocess.run(["patchelf", "--force-rpath", "--set-rpath", search_path(), program], check=True)

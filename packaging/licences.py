@@ -4,6 +4,8 @@
 Keys are Debian 12's binary packages. A library that is not here is not bundled: read its copyright
 file first. Nothing under the GPL may come in without an exception for linking."""
 
+import sys
+
 LIBRARIES = {
     "lib3mf1": "BSD-2-Clause",
     "libaec0": "BSD-2-Clause",
@@ -51,3 +53,14 @@ HEADERS = {
     "nlohmann-json3-dev": ("MIT", ("mesamis", "libmesamis-dev", "python3-mesamis")),
     "pybind11-dev": ("BSD-3-Clause", ("python3-mesamis",)),
 }
+
+
+def require_known(library, package):
+    """Ends the script if the package of a library that would be brought has no licence above."""
+    if package not in LIBRARIES:
+        sys.exit(f"packaging: error: {library} of {package}: expected a licence in packaging/licences.py, found none")
+
+
+def compiled_into(*ours):
+    """The packages whose headers any of our packages holds, with their licences."""
+    return {name: licence for name, (licence, holders) in HEADERS.items() if set(ours) & set(holders)}

@@ -72,11 +72,6 @@ def document(name, packages, files, relations, described):
             "relationships": [relation("SPDXRef-DOCUMENT", "DESCRIBES", one) for one in described] + relations}
 
 
-def compiled_in(holder):
-    """The headers that a package of ours is compiled with."""
-    return {name: licence for name, (licence, holders) in licences.HEADERS.items() if holder in holders}
-
-
 def owner_of(path, prefix):
     """The Debian package of a file in the tar, told by the file of the same name on this system."""
     name = os.path.basename(path)
@@ -113,7 +108,7 @@ def tar_document(arguments):
             packages[owner] = debian_entry(owner, licence)
             relations.append(relation(main["SPDXID"], "DYNAMIC_LINK", packages[owner]["SPDXID"]))
         relations.append(relation(packages[owner or "mesamis"]["SPDXID"], "CONTAINS", entry["SPDXID"]))
-    for name, licence in compiled_in("mesamis").items():
+    for name, licence in licences.compiled_into("mesamis").items():
         packages[name] = debian_entry(name, licence)
         relations.append(relation(main["SPDXID"], "STATIC_LINK", packages[name]["SPDXID"]))
     return document(arguments.name, list(packages.values()), files, relations, [main["SPDXID"]])
@@ -141,7 +136,7 @@ def debian_document(arguments):
         name = deb_field(deb, "Package")
         wanted = [(other, "DEPENDS_ON", licences.LIBRARIES.get(other, "NOASSERTION"))
                   for other in dependencies(deb)]
-        wanted += [(other, "STATIC_LINK", licence) for other, licence in compiled_in(name).items()]
+        wanted += [(other, "STATIC_LINK", licence) for other, licence in licences.compiled_into(name).items()]
         for other, kind, licence in wanted:
             packages.setdefault(other, debian_entry(other, licence))
             relations.append(relation(packages[name]["SPDXID"], kind, packages[other]["SPDXID"]))

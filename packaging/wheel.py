@@ -44,19 +44,16 @@ def contents(prefix, version):
 
 def licence_texts(prefix, version):
     """The texts of what is inside and not ours."""
-    packages = {name for name, (_, holders) in licences.HEADERS.items()
-                if {"mesamis", "python3-mesamis"} & set(holders)}
+    packages = set(licences.compiled_into("mesamis", "python3-mesamis"))
     for file in (f"{prefix}/bin/mesamis", *glob.glob(f"{prefix}/**/_core*.so", recursive=True)):
         for name, path in bundle.needed_libraries(file).items():
             if name in licences.STAND_INS:
                 continue
             package = bundle.package_of(path)
-            if package not in licences.LIBRARIES:
-                sys.exit(f"wheel: error: {name} of {package}: no licence in packaging/licences.py")
+            licences.require_known(name, package)
             packages.add(package)
     folder = f"mesamis-{version}.dist-info/licences"
-    texts = {f"{folder}/{name}": Path(f"/usr/share/doc/{name}/copyright").read_bytes() for name in packages}
-    return texts
+    return {f"{folder}/{name}": Path(f"/usr/share/doc/{name}/copyright").read_bytes() for name in packages}
 
 
 def repaired(wheel, folder):
