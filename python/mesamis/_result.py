@@ -77,6 +77,18 @@ class _AnyResult:
         webbrowser.open("file://" + path)
         return path
 
+    def _save(self, path, name, error, region, bins, patient):
+        """Writes what the extension decides: report, page, mesh or surface."""
+        extension = _extension(path)
+        if extension == ".json":
+            _write_json(path, self.report)
+        elif extension in PAGE_FORMATS:
+            self._run.save_page(path)
+        elif extension in MESH_FORMATS:
+            self._run.save_mesh(path, region, int(bins))
+        else:
+            self._run.save_surface(path, name, bool(error), bool(patient))
+
     def save_labelmap(self, path):
         """Writes what was found, voxel by voxel: .nii .nii.gz .nrrd .seg.nrrd."""
         self._run.save_labelmap(os.fspath(path))
@@ -162,16 +174,10 @@ class Result(_AnyResult, Shape):
         `patient` copies patient, study and frame of reference of a scan in DICOM into a .dcm.
         """
         path = os.fspath(path)
-        if _extension(path) == ".json":
-            _write_json(path, self.report)
-        elif _extension(path) in PAGE_FORMATS:
-            self._run.save_page(path)
-        elif band:
+        if band and _extension(path) not in (".json", *PAGE_FORMATS):
             self._run.save_band(path)
-        elif _extension(path) in MESH_FORMATS:
-            self._run.save_mesh(path, region, int(bins))
         else:
-            self._run.save_surface(path, name, bool(error), bool(patient))
+            self._save(path, name, error, region, bins, patient)
 
     def plot(self, **options):
         """Shows the surface: with PyVista, whose function `plot` takes the options, or, where that is not
@@ -246,15 +252,7 @@ class LabelResult(_AnyResult):
         """Writes all objects into one file (.3mf .vtp .obj .amf .glb), one file per object ({label} in
         the name, or a format of one object), the mesh, the page (.html), or the report. `patient` is as for
         Result. One object alone: `result["hip"].save("hip.stl")`."""
-        path = os.fspath(path)
-        if _extension(path) == ".json":
-            _write_json(path, self.report)
-        elif _extension(path) in PAGE_FORMATS:
-            self._run.save_page(path)
-        elif _extension(path) in MESH_FORMATS:
-            self._run.save_mesh(path, region, int(bins))
-        else:
-            self._run.save_surface(path, name, bool(error), bool(patient))
+        self._save(os.fspath(path), name, error, region, bins, patient)
 
     def to_pyvista(self):
         """The surfaces as PyVista's MultiBlock, a PolyData for each object under its name."""
