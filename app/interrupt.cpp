@@ -14,10 +14,6 @@ static_assert(std::atomic<int>::is_always_lock_free);
 HeldInterrupts::HeldInterrupts() noexcept { ++holders; }
 HeldInterrupts::~HeldInterrupts() { --holders; }
 
-void check_interrupted() {
-  if (noted_signal != 0) throw Interrupted();
-}
-
 int noted_interrupt() noexcept { return noted_signal; }
 
 bool note_interrupt(int signal) noexcept {

@@ -3,7 +3,7 @@
 
 #include <exception>
 
-/// SIGINT, SIGTERM and SIGHUP while something must be tidied up that a signal handler cannot.
+/// SIGINT, SIGTERM and SIGHUP during work that a signal handler cannot undo.
 namespace mesamis {
 
 /// Leaves the work that was interrupted; the program then ends by the signal.
@@ -12,7 +12,7 @@ class Interrupted : public std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// While one lives, an interrupt is noted and the program goes on until check_interrupted().
+/// While one lives, an interrupt is noted and the program continues, see noted_interrupt().
 class HeldInterrupts {
  public:
   HeldInterrupts() noexcept;
@@ -20,9 +20,6 @@ class HeldInterrupts {
   HeldInterrupts(const HeldInterrupts&) = delete;
   HeldInterrupts& operator=(const HeldInterrupts&) = delete;
 };
-
-/// @throws Interrupted  if an interrupt came while they were held.
-void check_interrupted();
 
 /// The signal that came while they were held; 0: none.
 int noted_interrupt() noexcept;

@@ -16,7 +16,7 @@ if(CCACHE_PROGRAM)
 endif()
 
 # Warnings are errors, and a*b+c is never fused: the same input gives the same bits everywhere.
-# Nobody reads errno after a root or catches floating-point traps; without either, loops with roots and
+# No code reads errno after a root or catches floating-point traps; without either, loops with roots and
 # choices can be vectorised, with the same results.
 # gcc 12 sees overlaps where strings are added up that are not there (its bug 105651).
 function(mesamis_compile_options target)
