@@ -7,6 +7,7 @@
 #include "arguments.h"
 #include "interrupt.h"
 #include "mesamis/base/error.h"
+#include "mesamis/files/refuse.h"
 
 namespace mesamis {
 
@@ -49,10 +50,7 @@ std::string listed(const std::string& what, const std::vector<std::string>& exte
 }
 
 std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return extension;
+  return detail::lower(path.extension().string());
 }
 
 }  // namespace mesamis
