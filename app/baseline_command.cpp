@@ -178,19 +178,19 @@ void add_geodesic_options(CLI::App& sub, BaselineCommand& c) {
     c.geodesic_only.push_back(sub.add_option(flag, value, help)->group("Geodesic"));
   };
   add("--diffusions", g.diffusions, "Steps of anisotropic diffusion after --smooth (default 0)");
-  add("--conductance", g.conductance, "Of the diffusion (default 1)");
-  add("--sigma", g.sigma, "Of the gradient's Gaussian, voxels (default 0.7)");
+  add("--conductance", g.conductance, "Conductance of the diffusion (default 1)");
+  add("--sigma", g.sigma, "Width of the Gaussian before the gradient, voxels (default 0.7)");
   add("--alpha", g.alpha,
       "Width of the gradient's sigmoid, native per mm, below 0 (default: chosen)");
-  add("--beta", g.beta, "Its middle, native per mm (default: chosen)");
+  add("--beta", g.beta, "Centre of that sigmoid, native per mm (default: chosen)");
   add("--shrink", g.shrink,
-      "The contour starts so far inside the level's surface, voxels (default 0)");
+      "Distance of the initial contour inside the level's surface, voxels (default 0)");
   add("--propagation", g.propagation, "Weight of growth (default 0.05)");
   add("--curvature", g.curvature, "Weight of straightening (default 0.05)");
   add("--advection", g.advection, "Weight of the pull towards edges (default 1)");
-  add("--iterations", g.iterations, "At most (default 1000)");
+  add("--iterations", g.iterations, "Greatest number of iterations (default 1000)");
   add("--rms-change", g.rms_change,
-      "At rest: 20 iterations move the contour less, rms, voxels (default 0.03)");
+      "Stop when 20 iterations move the contour by less, rms, voxels (default 0.03)");
 }
 
 }  // namespace
@@ -211,11 +211,11 @@ void add_baseline_command(CLI::App& app, CommonOptions& common, Action& action) 
       "Native value (default: midway between the values 1.5 voxels outside and inside the "
       "object's edges in the scan; segment's default may differ)");
   sub->add_option("--smooth", command->smooth,
-                  "Gaussian first, sigma in voxels (default 0; geodesic: 0.5)");
+                  "Sigma of a Gaussian applied first, voxels (default 0; geodesic: 0.5)");
   sub->add_option("--triangles", command->isosurface.triangles,
-                  "Decimate to about this many triangles; a line warns where that cannot be");
+                  "Decimate to about this many triangles; warns if that is not possible");
   sub->add_flag("--close", command->isosurface.close_at_box,
-                "Caps where the object leaves the volume");
+                "Close the surface where the object leaves the volume");
   add_geodesic_options(*sub, *command);
   add_read_options(*sub, command->read);
   sub->add_option("--report", command->report, "Report: .json");

@@ -154,7 +154,7 @@ void require_different(const BidsArguments& a, const std::vector<BidsImage>& ima
   for (const BidsImage& image : images) {
     const auto [first, is_new] = names.emplace(options_for(a, image).out.report, image.name);
     if (is_new) continue;
-    throw InputError(image.name + ": expected files of another name than those of " +
+    throw InputError(image.name + ": expected output names that differ from those of " +
                      first->second +
                      ", found the same; choose one image with --suffix, or give "
                      "no --desc");
@@ -202,7 +202,8 @@ void require_arguments(const BidsArguments& a) {
   }
   std::error_code error;
   if (fs::equivalent(a.dataset, a.out, error)) {
-    throw CLI::ValidationError("output", "expected another folder than the dataset, found it");
+    throw CLI::ValidationError("output",
+                               "expected a folder other than the dataset, found the dataset");
   }
   if (a.segment.out.error &&
       std::none_of(a.formats.begin(), a.formats.end(),
@@ -223,7 +224,7 @@ int run_participants(const BidsArguments& a, const CommonOptions& common) {
 }
 
 int answer_group() {
-  log_info("group: nothing is computed across participants; each image has its own report");
+  log_info("group: no results across participants; each image has its own report");
   return kExitDone;
 }
 
@@ -237,31 +238,33 @@ std::vector<std::string> format_names() {
 void add_choice_options(CLI::App& c, BidsArguments& a) {
   BidsFilter& filter = a.filter;
   c.add_option("--participant-label,--participant_label", filter.participants,
-               "Participants, with or without sub-; all if none");
+               "Participants, with or without sub- (default: all)");
   c.add_option("--session-label,--session_label", filter.sessions,
-               "Sessions, with or without ses-; all if none");
+               "Sessions, with or without ses- (default: all)");
   c.add_option("--datatype", filter.datatypes, "Folders of images (default: anat ct)");
-  c.add_option("--suffix", filter.suffixes, "Kinds of images: T1w, ct; all but label maps if none");
+  c.add_option("--suffix", filter.suffixes,
+               "Kinds of images: T1w, ct (default: all but label maps)");
   c.add_flag("--skip-existing", a.skip_existing,
-             "Leave images whose report tells of the same run: program, settings, image");
+             "Skip images with a report of the same program, settings and image");
 }
 
 void add_made_options(CLI::App& c, BidsArguments& a) {
-  c.add_option("--desc", a.desc, "desc- of the files made (default: the suffix of the image)");
+  c.add_option("--desc", a.desc, "desc- of the output files (default: the suffix of the image)");
   c.add_option("--format", a.formats, "Surfaces: stl ply obj vtp 3mf amf glb (default: stl)")
       ->check(CLI::IsMember(format_names()));
   c.add_flag("--tetrahedra", a.tetrahedra, "Also the adapted mesh: _mesh.vtu");
-  c.add_flag("--dseg", a.dseg, "Also what was found, voxel by voxel: _dseg.nii.gz");
-  c.add_flag("--error", a.segment.out.error, "The error expected at each point, in vtp and ply");
+  c.add_flag("--dseg", a.dseg, "Also the result as voxels: _dseg.nii.gz");
+  c.add_flag("--error", a.segment.out.error,
+             "Write the expected error at each point, in vtp and ply");
   PlaceArguments& places = a.segment.scan.places;
-  c.add_option("--tissue", places.tissue, "What is meant, in native units, as of segment");
+  c.add_option("--tissue", places.tissue, "Tissue to segment, as for segment");
   c.add_flag("--keep-surroundings", places.keep_surroundings,
-             "Leave table and head rest, which go where a patient is found in CT");
+             "Keep table and head rest, which are removed where a patient is found in CT");
   add_padding_option(c, places);
   add_modality_option(c, a.segment.scan.read);
   add_frame_option(c, a.segment.scan.frame);
   c.add_option("--time-limit", a.segment.time_limit,
-               "Seconds per image after which no further mesh is begun")
+               "Seconds per image after which no new mesh is begun")
       ->check(above_zero());
 }
 

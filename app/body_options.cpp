@@ -40,31 +40,31 @@ void add_element_options(CLI::App& c, BodyArguments& a) {
   const auto note = [&a](const char* name) { return noted(a.of_elements, name); };
   c.add_option("--surface-quality", a.surface_quality,
                "Triangles of --output: printing or decimated, as few as --tolerance allows "
-               "(default); meshing, "
-               "well shaped ones for other meshers, within --skin-tolerance of those")
+               "(default); meshing, well-shaped triangles for other meshers, within "
+               "--skin-tolerance of them")
       ->check(CLI::IsMember({"printing", "decimated", "meshing"}));
   c.add_option(
        "--element-size", a.options.element_size,
        "Edge length of --body and of --surface-quality meshing, mm (default: three voxels); "
-       "less where it is curved or thin")
+       "shorter where the surface is curved or a wall thin")
       ->check(above_zero())
       ->each(note("--element-size"));
   c.add_option("--least-size", a.options.least_size,
-               "Their edges are not wanted shorter, mm (default: a quarter of --element-size)")
+               "Shortest element edge wanted, mm (default: a quarter of --element-size)")
       ->check(above_zero())
       ->each(note("--least-size"));
   c.add_option(
        "--skin-tolerance", a.skin_tolerance,
-       "How far their skin may lie from the surface, mm (default: --tolerance if given, else a "
-       "tenth of --element-size); more allows larger elements where it is curved")
+       "Largest distance of the skin of the elements from the surface, mm (default: --tolerance "
+       "if given, else a tenth of --element-size); more allows larger elements at bends")
       ->check(above_zero())
       ->each(note("--skin-tolerance"));
   c.add_option("--element-gradation", a.options.gradation,
-               "By how much their sizes may grow over a length (default 0.5)")
+               "Growth of element sizes over a length (default 0.5)")
       ->check(from_to(kGradations[0], kGradations[1]))
       ->each(note("--element-gradation"));
   c.add_option("--wall-elements", a.options.through_wall,
-               "Their elements between two sides of a wall (default 1; 0: any)")
+               "Elements across a wall (default 1; 0: any number)")
       ->check(from_to(kWallElements[0], kWallElements[1]))
       ->each(note("--wall-elements"));
 }
@@ -77,18 +77,18 @@ void add_material_options(CLI::App& c, BodyArguments& a) {
       ->type_name("LAW")
       ->each(noted(a.of_body, "--material"));
   c.add_option("--calibration", a.calibration,
-               "Density g/cm^3 of a native value: a,b for a + b * value, or HU1:rho1,HU2:rho2")
+               "Density of a native value, g/cm^3: a,b for a + b * value, or HU1:rho1,HU2:rho2")
       ->type_name("A,B")
       ->each(note("--calibration"));
-  c.add_option("--ash", a.ash, "Ash density of the calibration's: schileo-2008 (default), equal")
+  c.add_option("--ash", a.ash, "Conversion of QCT to ash density: schileo-2008 (default), equal")
       ->each(note("--ash"));
-  c.add_option("--material-gap", a.gap, "MPa between the ends of a bin of materials (default 50)")
+  c.add_option("--material-gap", a.gap, "Range of moduli in one material, MPa (default 50)")
       ->check(zero_or_more())
       ->each(note("--material-gap"));
   c.add_option(
        "--material-rim", a.rim,
-       "Depth below the surface, mm, down to which the surroundings dim the scan: there the "
-       "value below counts where it is greater (default: from the scan's blur; 0: none)")
+       "Depth of the rim that the surroundings dim, mm; its voxels take the value below them if "
+       "that is greater (default: from the scan's blur; 0: none)")
       ->check(zero_or_more())
       ->each(note("--material-rim"));
   c.add_option("--poisson", a.poisson, "Poisson ratio (default: the law's)")
@@ -96,7 +96,7 @@ void add_material_options(CLI::App& c, BodyArguments& a) {
       ->each(note("--poisson"));
 }
 
-/// Refuses an option whose master is not there.
+/// Refuses options without the one that they belong to.
 void require_beside(const std::vector<std::string>& given, bool has_master,
                     const std::string& expected) {
   if (given.empty() || has_master) return;
@@ -147,11 +147,12 @@ void add_body_options(CLI::App& c, BodyArguments& a) {
   c.add_option("--body", a.files,
                "Body for finite elements: .inp .feb .msh .vtu .mesh; its skin lies within "
                "--skin-tolerance of the surface");
-  c.add_option("--element", a.element, "Of --body: tet4 (default), tet10 with mid-side nodes")
+  c.add_option("--element", a.element,
+               "Element type of --body: tet4 (default), tet10 with mid-side nodes")
       ->check(CLI::IsMember({"tet4", "tet10"}))
       ->each(note("--element"));
   add_element_options(c, a);
-  c.add_option("--gmsh-version", a.gmsh, "Of a .msh of --body: 2.2 (default), 4.1")
+  c.add_option("--gmsh-version", a.gmsh, "Version of a .msh of --body: 2.2 (default), 4.1")
       ->check(CLI::IsMember({"2.2", "4.1"}))
       ->each(note("--gmsh-version"));
   add_material_options(c, a);
@@ -206,8 +207,7 @@ void warn_of_elements(const BodyArguments& a, const OutcomeDetails& outcome) {
   for (const fs::path& path : a.files) {
     if (!bare || lower_extension(path) != ".msh") continue;
     log_warning("--body " + path.string() +
-                ": version 2.2 with --set has no values of the elements; --gmsh-version 4.1 and "
-                ".vtu have them");
+                ": version 2.2 with --set holds no element values; --gmsh-version 4.1 and .vtu do");
   }
 }
 

@@ -64,15 +64,15 @@ void add_common_options(CLI::App& app, CommonOptions& common) {
   app.option_defaults()->group("Options of every command");
   app.require_subcommand(1);
   app.fallthrough();
-  app.add_flag("--quiet", common.quiet, "Nothing on stderr but errors");
-  app.add_flag("--log-json", common.log_json, "Log and progress on stderr as JSON, a line each");
-  app.add_option("--threads", common.threads, "Threads at most (default: all)")
+  app.add_flag("--quiet", common.quiet, "Write only errors to stderr");
+  app.add_flag("--log-json", common.log_json, "Log and progress on stderr as lines of JSON");
+  app.add_option("--threads", common.threads, "Number of threads at most (default: all)")
       ->check(from_to(1, 1024));
   app.add_option("--memory", common.limits.memory_gb,
-                 "Memory that a run or a file that is read may take, GB (default: what is free)")
+                 "Memory limit of a run and of each file read, GB (default: what is available)")
       ->check(above_zero());
   app.add_flag("--allow-outside", common.limits.allow_outside,
-               "Let .nhdr and .mhd name data files outside of their folder");
+               "Let .nhdr and .mhd name data files outside their folder");
   app.option_defaults()->group("Options");  // commands take it over
 }
 

@@ -81,7 +81,8 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
                      &printable);
   display.finish();
   if (result.triangles.empty()) {
-    throw InputError(command.input.string() + ": every part is smaller than --min-volume");
+    throw InputError(command.input.string() +
+                     ": expected a part of at least --min-volume, found none");
   }
   const auto frame = file.frame ? std::optional(Frame::kLps) : std::nullopt;
   OutputSet set;
@@ -116,7 +117,7 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
 void add_decimate_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto command = std::make_shared<DecimateCommand>();
   CLI::App* sub =
-      app.add_subcommand("decimate", "Fewer triangles for any closed surface, within a distance");
+      app.add_subcommand("decimate", "Reduce the triangles of a closed surface within a distance");
   sub->add_option("input", command->input, listed("Surface:", read_surface_formats()))->required();
   sub->add_option("-o,--output", command->output, listed("Surface:", written_surface_formats()))
       ->required();
@@ -126,7 +127,7 @@ void add_decimate_command(CLI::App& app, CommonOptions& common, Action& action) 
                   "Drop islands and fill cavities smaller than this, mm^3 (default 0)");
   sub->add_option("--keep-largest", command->keep_largest, "Islands to keep (default 0: all)");
   sub->add_flag("--fill-cavities", command->fill_cavities, "Fill every cavity");
-  sub->add_option("--name", command->name, "The object's name in the file written");
+  sub->add_option("--name", command->name, "Name of the object in the output file");
   sub->add_option("--report", command->report, "Report: .json");
   sub->callback([command, &common, &action] {
     action = [command, &common] { return run_decimate(*command, common); };

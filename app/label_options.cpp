@@ -22,7 +22,7 @@ void log_all(const std::vector<std::string>& warnings) {
 void add_label_options(CLI::App& command, LabelArguments& a) {
   CLI::Option* const labels =
       command.add_option("--labels", a.file,
-                         "Label map that says which objects are meant: NIfTI, NRRD, .seg.nrrd, "
+                         "Label map of the objects: NIfTI, NRRD, .seg.nrrd, "
                          "MetaImage, TIFF, DICOM SEG or RTSTRUCT, Zarr; a folder of masks, one "
                          "object per file, or of slices");
   command
@@ -31,12 +31,12 @@ void add_label_options(CLI::App& command, LabelArguments& a) {
                   "dimensions")
       ->excludes(labels);
   command
-      .add_option("--label", a.chosen, "Objects of the label map, by name or number; all if none")
+      .add_option("--label", a.chosen, "Objects of the label map, by name or number (default: all)")
       ->type_name("NAME|N");
   command.add_option(
       "--label-names", a.names,
       "Names and colours of the labels: ITK-SNAP .label, Slicer .ctbl, N NAME R G B");
-  command.add_option("--margin", a.margin, "How far labels may be wrong, or around --mask, mm")
+  command.add_option("--margin", a.margin, "Margin of error of the labels, or around --mask, mm")
       ->check(above_zero());
 }
 

@@ -28,7 +28,7 @@ void require_picture_folder(const fs::path& folder) {
 
 void add_page_options(CLI::App& command, PageFiles& a) {
   command.add_option("--html", a.html,
-                     "Page to look at in a browser, in one file that needs no network: .html");
+                     "Page of the run for a browser, one file that needs no network: .html");
   command
       .add_option("--pictures", a.pictures,
                   "Folder for pictures (PNG) of the surface, of slices and of the mesh")

@@ -147,7 +147,7 @@ void add_degrade_options(CLI::App& sub, DegradeOptions& degrade) {
       ->capture_default_str();
   sub.add_option("--salt-pepper", degrade.salt_pepper, "Share of voxels that become 0 or 255")
       ->capture_default_str();
-  sub.add_option("--seed", degrade.seed, "Of the noise")
+  sub.add_option("--seed", degrade.seed, "Seed of the noise")
       ->check(zero_or_more())
       ->capture_default_str();
 }
@@ -180,7 +180,7 @@ void add_grid_options(CLI::App& sub, const std::shared_ptr<PhantomCommand>& comm
 }
 
 std::string name_help() {
-  std::string text = "What to make:";
+  std::string text = "Phantom:";
   for (const PhantomInfo& info : phantom_list()) {
     text += "\n" + info.name + ": " + info.description;
   }
@@ -195,13 +195,13 @@ void add_phantom_command(CLI::App& app, CommonOptions&, Action& action) {
   sub->add_option("name", command->name, name_help());
   sub->add_flag("--list", command->list, "Show the phantoms, a line each");
   sub->add_option("-o,--output", command->output, "Volume: .nrrd");
-  sub->add_option("--truth", command->truth, listed("Its surface:", written_surface_formats()));
+  sub->add_option("--truth", command->truth, listed("True surface:", written_surface_formats()));
   add_grid_options(*sub, command);
   add_degrade_options(*sub, command->degrade);
-  sub->add_option("--type", command->type, "Of the samples: float, or short (rounded)")
+  sub->add_option("--type", command->type, "Type of the samples: float, or short (rounded)")
       ->check(CLI::IsMember({"float", "short"}))
       ->capture_default_str();
-  sub->add_flag("--gzip", command->gzip, "Pack the samples");
+  sub->add_flag("--gzip", command->gzip, "Compress the samples");
   sub->add_option("--report", command->report, "Report: .json");
   sub->callback([command, &action] { action = [command] { return run_phantom(*command); }; });
 }

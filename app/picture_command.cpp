@@ -66,10 +66,11 @@ void require_memory_to_draw(const PictureCommand& command, std::size_t cells) {
 
 void draw_volume(const PictureCommand& command) {
   if (!command.picture.color.empty() || command.picture.edges) {
-    throw InputError(command.input.string() + ": a volume has no array to colour by and no edges");
+    throw InputError(command.input.string() + ": --color and --edges are for surfaces and meshes");
   }
   if (command.picture.zoom != 1 || command.picture.focus) {
-    throw InputError(command.input.string() + ": a volume's slice is shown whole");
+    throw InputError(command.input.string() +
+                     ": --view, --zoom and --focus are for surfaces and meshes");
   }
   const VolumeFile file = read_any_volume(command.input, command.read);
   for (const std::string& warning : file.warnings) log_warning(warning);
@@ -152,9 +153,9 @@ void add_picture_command(CLI::App& app, CommonOptions& common, Action& action) {
   command->add_option("-o,--output", options->output, "Picture: .png")
       ->required()
       ->check(CLI::Validator(check_png, "PNG"));
-  command->add_option("--view", options->picture.view, "Where it is seen from (not for volumes)")
+  command->add_option("--view", options->picture.view, "Direction of view (not for volumes)")
       ->check(CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "oblique"}));
-  command->add_option("--zoom", options->picture.zoom, "So many times larger (not for volumes)")
+  command->add_option("--zoom", options->picture.zoom, "Magnification (not for volumes)")
       ->check(above_zero());
   command->add_option_function<std::string>(
       "--focus",
@@ -162,7 +163,7 @@ void add_picture_command(CLI::App& app, CommonOptions& common, Action& action) {
         const auto p = parse_numbers(text, 3, "--focus");
         options->picture.focus = Vec3{p[0], p[1], p[2]};
       },
-      "X,Y,Z: what is in the middle, mm (default: the object's middle)");
+      "X,Y,Z: centre of the picture, mm (default: the object's centre)");
   command->add_flag("--edges", options->picture.edges, "Draw the edges of triangles or cells");
   command->add_option_function<std::string>(
       "--clip", [options](const std::string& text) { options->picture.clip = parse_clip(text); },

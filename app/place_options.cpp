@@ -28,8 +28,8 @@ std::string tissue_names() {
 void add_padding_option(CLI::App& command, PlaceArguments& a) {
   command
       .add_option("--padding", a.padding,
-                  "Voxels that the scanner did not measure, which are filled: auto (default), "
-                  "found by their signs; none; or all of a value, native units")
+                  "Voxels that were not measured, which are filled: auto (default), detected; "
+                  "none; or all voxels of one native value")
       ->type_name("auto|none|VALUE")
       ->group(kGroup);
 }
@@ -42,29 +42,30 @@ void add_place_options(CLI::App& command, PlaceArguments& a) {
       ->group(kGroup);
   command
       .add_option("--mask", a.mask,
-                  "Label map: only what lies within --margin (2 mm) of a marked voxel")
+                  "Label map: keep only what lies within --margin (2 mm) of a marked voxel")
       ->group(kGroup);
   command
       .add_option("--seed", a.seeds,
-                  "X,Y,Z, mm, in the frame of --frame: the island with this point alone; several: "
-                  "what touches is split, an object for each")
+                  "X,Y,Z, mm, in the frame of --frame: keep the island with this point; several: "
+                  "an object for each, split where they touch")
       ->type_name("X,Y,Z")
       ->allow_extra_args(false)
       ->group(kGroup);
   command
       .add_option("--box", a.box,
-                  "X0:X1,Y0:Y1,Z0:Z1, mm, in the frame of --frame: the part of the scan; ends may "
-                  "be left out")
+                  "X0:X1,Y0:Y1,Z0:Z1, mm, in the frame of --frame: part of the scan to use; ends "
+                  "are optional")
       ->type_name("RANGES")
       ->group(kGroup);
   command
-      .add_option("--remove", a.remove,
-                  "Label map of what goes; body: all outside of the patient, refused where none is "
-                  "found")
+      .add_option(
+          "--remove", a.remove,
+          "Label map of what to remove; body: everything outside the patient, refused if none "
+          "is found")
       ->group(kGroup);
   command
       .add_flag("--keep-surroundings", a.keep_surroundings,
-                "Leave table and head rest, which go where a patient is found in CT")
+                "Keep table and head rest, which are removed where a patient is found in CT")
       ->group(kGroup);
   add_padding_option(command, a);
 }

@@ -233,15 +233,15 @@ int run_report(const ReportCommand& command) {
 
 void add_report_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<ReportCommand>();
-  CLI::App* command =
-      app.add_subcommand("report", "Make a page to look at, and pictures, of a run that is done");
+  CLI::App* command = app.add_subcommand("report", "Make a page and pictures of a finished run");
   command->add_option("report", options->report, "Report of segment: .json")->required();
   add_page_options(*command, options->page);
-  command->add_option("--scan", options->scan, "The scan of the run (default: as the report says)");
+  command->add_option("--scan", options->scan,
+                      "Scan of the run (default: the one that the report names)");
   command->add_option("--surface", options->surfaces,
-                      "Surface, or several of objects (default: as the report says)");
+                      "Surface, or one per object (default: those that the report names)");
   command->add_option("--mesh", options->mesh,
-                      "Mesh of the run: .vtu (default: as the report says)");
+                      "Mesh of the run: .vtu (default: the one that the report names)");
   add_read_options(*command, options->read);
   command->callback([options, &common, &action] {
     action = [options, &common] {

@@ -105,7 +105,7 @@ std::vector<VolumeInfo> list_any_volumes(const std::filesystem::path& path,
 void add_modality_option(CLI::App& command, ReadOptions& options) {
   command
       .add_option("--modality", options.modality,
-                  "What the scan is, where its file does not say or says it wrongly: CT, MR, other")
+                  "Modality, if the file states none or a wrong one: CT, MR, other")
       ->check(CLI::IsMember({"CT", "MR", "other"}, CLI::ignore_case));
 }
 
@@ -119,7 +119,7 @@ void add_read_options(CLI::App& command, ReadOptions& options) {
           },
           "NX,NY,NZ,TYPE[,HEADERBYTES]: the input is a raw file; TYPE uint8 int16 uint16 int32 "
           "float32 "
-          "float64, with be behind it if big endian")
+          "float64, followed by be if big endian")
       ->type_name("LAYOUT");
   command
       .add_option_function<std::string>(
@@ -132,8 +132,8 @@ void add_read_options(CLI::App& command, ReadOptions& options) {
             }
             options.spacing = Vec3{mm[0], mm[1], mm[2]};
           },
-          "X,Y,Z: distance of voxels, mm, for raw files, slices and whatever does not state it or "
-          "states it wrongly")
+          "X,Y,Z: distance of voxels, mm, for raw files, slices and files that state none or a "
+          "wrong one")
       ->type_name("X,Y,Z");
   command.add_flag(
       "--resample", options.resample,
@@ -154,8 +154,8 @@ void add_read_options(CLI::App& command, ReadOptions& options) {
 VolumeFile read_scan(const std::filesystem::path& path, const ReadOptions& options) {
   VolumeFile file = read_any_volume(path, options);
   if (const NotNumbers nan = fill_not_numbers(file.volume.samples); nan.voxels > 0) {
-    file.warnings.push_back(fmt::format(
-        "{} voxels are no numbers (NaN): they count as background, {}", nan.voxels, nan.filled));
+    file.warnings.push_back(
+        fmt::format("{} voxels are NaN and count as background, {}", nan.voxels, nan.filled));
   }
   for (const std::string& warning : file.warnings) log_warning(warning);
   try {

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A run whose result nobody would see is not started.
+/// A run without any output is not started.
 void require_some_output(const SegmentOptions& options) {
   if (!options.out.surfaces.empty() || !options.out.meshes.empty() ||
       !options.out.band_meshes.empty() || !options.out.labelmap.empty() ||
@@ -106,15 +106,18 @@ void require_mesh_for(const SegmentOptions& options, const Settings& settings) {
   }
 }
 
+/// Refuses an option that needs the grey values of the scan, which the image of a dark tissue lacks.
+void require_grey_values(const PlaceArguments& places, const std::string& option) {
+  if (tissue_kind(places) == TissueKind::kBright) return;
+  throw CLI::ValidationError(
+      option, "expected a bright --tissue, whose grey values are those of the scan, found " +
+                  places.tissue);
+}
+
 /// Elements fill a solid, and a material needs the grey values of the scan.
 void require_body_for(const SegmentOptions& options, const Settings& settings) {
   require_elements_for(options.body, settings);
-  if (!options.body.material.empty() && tissue_kind(options.scan.places) != TissueKind::kBright) {
-    throw CLI::ValidationError("--material",
-                               "expected a bright --tissue, whose grey values are those of the "
-                               "scan, found " +
-                                   options.scan.places.tissue);
-  }
+  if (!options.body.material.empty()) require_grey_values(options.scan.places, "--material");
 }
 
 /// What needs no scan to be refused.
@@ -122,14 +125,11 @@ void require_places(const SegmentOptions& options, const Settings& settings) {
   const PlaceArguments& places = options.scan.places;
   require_places(places, options.scan.labels, settings);
   if (options.scan.input.empty() && places.given()) {
-    throw CLI::ValidationError("input", "expected a scan for the options of places, found none");
+    throw CLI::ValidationError(
+        "input",
+        "expected a scan for --tissue, --seed, --box, --mask, --remove or --padding, found none");
   }
-  if (tissue_kind(places) != TissueKind::kBright && !options.out.meshes.empty()) {
-    throw CLI::ValidationError("--mesh",
-                               "expected a bright --tissue, whose grey values are those "
-                               "of the scan, found " +
-                                   places.tissue);
-  }
+  if (!options.out.meshes.empty()) require_grey_values(places, "--mesh");
 }
 
 /// Where the error at each point is asked for, a file of one object each must have a place for it.

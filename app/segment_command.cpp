@@ -55,12 +55,12 @@ void add_mesh_options(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
 /// Options of how the run goes.
 void add_run_options(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
   c.add_option("--time-limit", o->time_limit,
-               "Seconds after which no further mesh is begun; the surface of the last one is "
+               "Seconds after which no new mesh is begun; the surface of the last one is "
                "written (exit status 4)")
       ->check(above_zero());
   c.add_flag("--plan", o->plan,
-             "Read headers alone and print what the run needs of memory, as JSON; outputs "
-             "are neither needed nor written");
+             "Print the memory that the run needs, as JSON, from the headers alone; no outputs "
+             "are needed or written");
   add_slab_options(c, o->slabs);
 }
 
@@ -125,7 +125,7 @@ Listener listener_of(ProgressDisplay& display, const SegmentOptions& options) {
 void warn_of_missing_meshes(const SegmentOptions& options, const OutcomeDetails& outcome) {
   if (!outcome.one || !outcome.one->stopped || outcome.mesh() != nullptr) return;
   if (!options.wants_mesh()) return;
-  log_warning("--time-limit: no mesh was made in this time, none is written");
+  log_warning("--time-limit: expected a mesh within the time, found none; none is written");
 }
 
 /// Of the page: the scan as it is in its file.
@@ -201,20 +201,20 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<SegmentOptions>();
   CLI::App* command = app.add_subcommand("segment", "Segment a scan: surface, mesh, report");
   command->add_option("input", options->scan.input,
-                      "Volume file, DICOM directory or file; with --labels it may be left out");
+                      "Volume file, DICOM directory or file; optional with --labels");
   const auto group = [command](const char* name) { command->option_defaults()->group(name); };
   group("Files written");
   command->add_option("-o,--output", options->out.surfaces,
                       listed("Surface:", written_surface_formats()));
   command->add_flag("--error", options->out.error,
-                    "Write the error expected at each point, mm, into --output .vtp and .ply, as "
+                    "Write the expected error at each point, mm, into --output .vtp and .ply, as "
                     "expected_error");
   command->add_flag("--patient", options->scan.patient,
                     "Copy patient, study and frame of reference of the DICOM scan into --output "
                     ".dcm; without it a .dcm names no patient");
   add_mesh_options(*command, options);
   command->add_option("--labelmap", options->out.labelmap,
-                      "What was found, voxel by voxel on the scan's grid: .nii .nii.gz .nrrd "
+                      "The result as voxels on the scan's grid: .nii .nii.gz .nrrd "
                       ".seg.nrrd");
   command->add_option("--report", options->out.report, "Report: .json");
   add_page_options(*command, options->out.page);

@@ -68,7 +68,7 @@ void require_room_for_pieces(const SegmentOptions& run) {
     if (!is_in_pieces(index)) continue;
     for (const fs::path& other : run.out.meshes) {
       if (!is_piece_of(index, other)) continue;
-      throw CLI::ValidationError("--mesh", "expected another name than that of a piece of " +
+      throw CLI::ValidationError("--mesh", "expected a name other than that of a piece of " +
                                                index.string() + ", found " + other.string());
     }
   }
@@ -208,8 +208,9 @@ void add_slab_options(CLI::App& command, SlabArguments& arguments) {
               throw CLI::ValidationError("--slabs", "expected at least 1, found " + text);
             }
           },
-          "Work on an Nth of the scan at a time (auto: on 67 million voxels), for scans that are "
-          "larger than the memory; the surface does not depend on N; scratch files lie beside the "
+          "Work on an Nth of the scan at a time (auto: on 67 million voxels), for scans larger "
+          "than "
+          "the memory; the surface does not depend on N; scratch files lie beside the "
           "first output")
       ->type_name("N|auto");
   command

@@ -55,7 +55,7 @@ Decimated decimated(const TriMesh& surface, const PrintableOptions& options) {
   PrintableReport printable;
   Decimated result{make_printable(surface, options, &printable), "", ""};
   if (result.surface.triangles.empty()) {
-    throw InputError("surface: every part is smaller than min_volume");
+    throw InputError("surface: expected a part of at least min_volume, found none");
   }
   nlohmann::ordered_json report = printable_json(printable, options.tolerance);
   report.update(check_json(result.surface, check_surface(result.surface)));

@@ -94,8 +94,7 @@ std::shared_ptr<Scan> read(const std::string& path, const ReadOptions& options) 
       released({py::none(), 0}, [&](const Progress&) { return read_volume(path, options); });
   const NotNumbers nan = fill_not_numbers(file.volume.samples);
   if (nan.voxels > 0) {
-    file.warnings.push_back(std::to_string(nan.voxels) +
-                            " voxels are no numbers (NaN): they count as background");
+    file.warnings.push_back(std::to_string(nan.voxels) + " voxels are NaN and count as background");
   }
   const auto scan = scan_of(std::move(file.volume));
   scan->path = path;

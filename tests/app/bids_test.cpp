@@ -196,7 +196,7 @@ TEST_F(Bids, RefusesInOneLine) {
   EXPECT_FAILS(run({"--error"}), 2, "--error: expected vtp or ply");
   EXPECT_FAILS(run({"--format", "doc"}), 2, "doc");
   EXPECT_FAILS(run_program(folder_, {"bids", dataset(), dataset(), "participant"}), 2,
-               "expected another folder");
+               "expected a folder other than the dataset");
   EXPECT_FAILS(run_program(folder_, {"bids", dataset(), out(), "subject"}), 2, "subject");
   EXPECT_FAILS(run_program(folder_, {"bids", folder_ / "none", out(), "participant"}), 3, "none");
   write_bytes(dataset() / "sub-01/ct/sub-01_acq-thin_T1w.nii", ball_);
@@ -228,7 +228,7 @@ TEST_F(Bids, HasNothingToDoForAGroup) {
   const ProgramRun group = run_program(folder_, {"bids", dataset(), out(), "group"});
   EXPECT_EQ(group.status, 0);
   EXPECT_EQ(group.error_lines(), 1u);
-  EXPECT_THAT(group.err, HasSubstr("group: nothing is computed"));
+  EXPECT_THAT(group.err, HasSubstr("group: no results across participants"));
   EXPECT_FALSE(fs::exists(out()));
 }
 

@@ -138,7 +138,7 @@ TEST(ChunkArray, SetsTheSpacingAndSaysWhereFrom) {
     EXPECT_EQ(array.grid.spacing, asked.value_or(stated.value_or(Vec3{1, 1, 1})));
     return array.warnings;
   };
-  EXPECT_THAT(warnings({}, {}), ElementsAre("the Zarr array gives no spacing: 1 mm taken"));
+  EXPECT_THAT(warnings({}, {}), ElementsAre("the Zarr array gives no spacing: 1 mm assumed"));
   EXPECT_THAT(warnings({}, Vec3{1, 2, 3}), IsEmpty());
   EXPECT_THAT(warnings(Vec3{1, 2, 3}, Vec3{1, 2, 3}), IsEmpty());
   EXPECT_THAT(warnings(Vec3{1, 2, 3}, Vec3{1, 2, 4}), ElementsAre(HasSubstr("is replaced")));

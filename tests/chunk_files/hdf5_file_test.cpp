@@ -193,7 +193,7 @@ TEST(Hdf5File, FindsTheOnlyVolumeOrTheOneThatIsNamed) {
     file.add("line", H5T_STD_I16LE, {}, {210});
   }
   expect_whole(folder / "a.h5");
-  EXPECT_THAT(open_hdf5(folder / "a.h5")->warnings(), ElementsAre(HasSubstr(": 1 mm taken")));
+  EXPECT_THAT(open_hdf5(folder / "a.h5")->warnings(), ElementsAre(HasSubstr(": 1 mm assumed")));
   expect_whole(folder / "a.h5/entry/data");
   expect_whole(folder / "a.h5", {.dataset = "/entry/data"});
   EXPECT_REFUSED(open_hdf5(folder / "a.h5/nothing"), HasSubstr("dataset \"nothing\": expected"));

@@ -142,7 +142,7 @@ TEST(ZarrStore, ReadsTheLevelThatIsNamed) {
   EXPECT_EQ(open_zarr(folder / "1/")->grid().spacing, (Vec3{2, 4, 8}));
   const auto label = open_zarr(folder.path(), {.dataset = "labels/a"});
   EXPECT_EQ(label->format(), "Zarr");
-  EXPECT_THAT(label->warnings(), ElementsAre(HasSubstr(": 1 mm taken")));
+  EXPECT_THAT(label->warnings(), ElementsAre(HasSubstr(": 1 mm assumed")));
   EXPECT_THAT(open_zarr(folder.path(), {.spacing = Vec3{3, 3, 3}})->warnings(),
               ElementsAre(HasSubstr("is replaced by the one given")));
 }

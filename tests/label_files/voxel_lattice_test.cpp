@@ -102,7 +102,7 @@ TEST(VoxelLattice, RefusesGridsThatDoNotFitAndThoseFarApart) {
   other = whole;
   other.origin = whole.to_world({1e6, 7e5, 2e6});
   EXPECT_REFUSED(enclosing_grid(files, std::vector{whole, other}),
-                 HasSubstr("no grid of 2^40 voxels"));
+                 HasSubstr("more than 2^40 voxels"));
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ TEST(PrepareImage, RefusesALevelBesideTheDataAndTellsTheirRange) {
 TEST(PrepareImage, RefusesNoiseAloneUnlessALevelIsGiven) {
   const Volume noise = make_ball({.size = 40, .object = 120, .noise = 15, .seed = 5});
   Settings settings;
-  EXPECT_REFUSED(prepare_image(noise, settings), HasSubstr("stands out of the noise"));
+  EXPECT_REFUSED(prepare_image(noise, settings), HasSubstr("stands out from the noise"));
   settings.level = 130;
   EXPECT_NO_THROW(prepare_image(noise, settings));
   settings.level.reset();

@@ -89,7 +89,7 @@ TEST(TissueLevel, RefusesWhatCannotBeMeasured) {
   EXPECT_REFUSED(require_hounsfield(volume, parse_tissue("bone")), HasSubstr("CT scan"));
   EXPECT_NO_THROW(require_hounsfield(volume, parse_tissue("300:")));
   const Volume noise = make_ball({.background = 100, .object = 100, .noise = 10});
-  EXPECT_REFUSED(find_tissue_level(noise, parse_tissue("dark")), HasSubstr("out of the noise"));
+  EXPECT_REFUSED(find_tissue_level(noise, parse_tissue("dark")), HasSubstr("from the noise"));
 }
 
 TEST(TissueLevel, HasTheSameBitsForAnyNumberOfThreads) {

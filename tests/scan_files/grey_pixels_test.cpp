@@ -55,7 +55,7 @@ TEST(GreyPixels, OfAScreenAreAWarning) {
   for (const double per_inch : {72.0, 96.0, 72.009, 95.9866}) {
     std::vector<std::string> warnings;
     warn_of_screen_resolution(25.4 / per_inch, warnings);
-    EXPECT_THAT(warnings, ElementsAre(HasSubstr("pixels per inch is that of a screen")))
+    EXPECT_THAT(warnings, ElementsAre(HasSubstr("pixels per inch is typical of screens")))
         << per_inch;
   }
   std::vector<std::string> warnings;

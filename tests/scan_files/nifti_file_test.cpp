@@ -357,7 +357,7 @@ TEST_F(Analyze, ItsUnitIsAWord) {
   header.replace(56, 2, "um");
   expect_near(read().volume.spacing, {0.0005, 0.00125, 0.002});
   header.replace(56, 3, "sec");
-  EXPECT_THAT(read().warnings, testing::Contains(HasSubstr("\"sec\" is no length")));
+  EXPECT_THAT(read().warnings, testing::Contains(HasSubstr("\"sec\" is no unit of length")));
 }
 
 TEST_F(Analyze, OtherOrientationsAndRangesGiveAWarning) {

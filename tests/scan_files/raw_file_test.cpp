@@ -56,7 +56,7 @@ TEST(Raw, SkipsAHeaderAndTakesTheSpacing) {
 TEST(Raw, WithoutASpacingOneMillimetreIsTakenWithAWarning) {
   const TempFolder folder;
   EXPECT_THAT(read_raw(folder, "4,3,5,int16", bytes_of_all(kRamp)).warnings,
-              ElementsAre(HasSubstr("1 mm taken")));
+              ElementsAre(HasSubstr("1 mm assumed")));
 }
 
 TEST(Raw, RefusesAFileOfAnotherSizeBeforeItIsRead) {

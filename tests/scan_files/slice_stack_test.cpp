@@ -92,7 +92,7 @@ TEST(SliceStack, TakesTheSpacingThatIsGiven) {
   PngBytes screen{.width = 2, .height = 1, .pixels_per_metre = 3780};
   screen.lines = {std::string("\0\1\2", 3)};
   for (const char* name : {"1.png", "2.png"}) write_bytes(folder / name, screen.bytes());
-  EXPECT_THAT(read_volume(folder / "").warnings, Contains(HasSubstr("that of a screen")));
+  EXPECT_THAT(read_volume(folder / "").warnings, Contains(HasSubstr("typical of screens")));
   EXPECT_THAT(read_volume(folder / "", {.spacing = Vec3{1, 1, 1}}).warnings, IsEmpty());
 }
 

@@ -259,7 +259,7 @@ TEST(Tiff, AsksWhetherTheResolutionOfAScreenIsMeant) {
     const auto warnings = read(folder, "a.tif", tiff_bytes(pages)).warnings;
     EXPECT_EQ(std::ranges::any_of(warnings,
                                   [](const std::string& w) {
-                                    return w.find("that of a screen") != std::string::npos;
+                                    return w.find("typical of screens") != std::string::npos;
                                   }),
               is_screen)
         << per_cm;

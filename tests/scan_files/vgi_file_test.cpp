@@ -47,7 +47,7 @@ TEST(Vgi, HonoursUnitsAndWarns) {
   expect_near(with("resolution = 20 20 40\r\nunit = \xc2\xb5m\r\n").volume.spacing,
               {0.02, 0.02, 0.04});
   EXPECT_THAT(with("resolution = 2 2 4\r\nunit = px\r\n").warnings, ElementsAre(HasSubstr("px")));
-  EXPECT_THAT(with("").warnings, ElementsAre(HasSubstr("1 mm taken")));
+  EXPECT_THAT(with("").warnings, ElementsAre(HasSubstr("1 mm assumed")));
 }
 
 TEST(Vgi, WarnsOfAPlaceInTheScene) {

@@ -6,22 +6,21 @@
 
 namespace mesamis {
 
-/// An argument of the caller or a file that cannot be used. The message is one line that says what,
-/// where, expected and found.
+/// An unusable argument or file. The message is one line that says what, where, expected and found.
 class InputError : public std::runtime_error {
  public:
   /// @param message  one line.
   explicit InputError(const std::string& message) : std::runtime_error(message) {}
 };
 
-/// A promise of the library could not be kept (a solve that broke down, an invalid mesh).
+/// The library cannot keep a promise (a solve that breaks down, an invalid mesh).
 class NumericalError : public std::runtime_error {
  public:
   /// @param message  one line.
   explicit NumericalError(const std::string& message) : std::runtime_error(message) {}
 };
 
-/// The caller's progress function asked to stop.
+/// The caller's progress function stopped the computation.
 class Cancelled : public std::runtime_error {
  public:
   /// The message is "cancelled".

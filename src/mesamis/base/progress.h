@@ -6,13 +6,13 @@
 
 namespace mesamis {
 
-/// Called at times by a long computation with the name of its stage and the share of the stage that
-/// is done, 0 to 1. If it returns false, the computation stops, throws Cancelled and leaves nothing
-/// behind. It may be called from other threads than the computation was, but by one at a time.
+/// A long computation calls this from time to time with the name of its stage and the fraction of
+/// the stage that is done, 0 to 1. If it returns false, the computation stops, throws Cancelled and
+/// leaves nothing behind. Calls may come from other threads, one at a time.
 using Progress = std::function<bool(std::string_view stage, double fraction)>;
 
-/// Asked between the passes of a run, never inside one. If it returns true, the run makes a whole
-/// result of the passes it has made, and says that it was stopped.
+/// A run calls this between passes. If it returns true, the run finishes with the passes made so
+/// far and reports that it was stopped.
 using HasEnough = std::function<bool()>;
 
 }  // namespace mesamis

@@ -6,16 +6,16 @@
 #include <type_traits>
 #include <utility>
 
-/// How many threads a computation may use.
+/// The number of threads of a computation.
 namespace mesamis {
 
-/// Runs work that returns nothing with at most so many threads, see with_threads().
+/// Runs work that returns nothing on at most `count` threads, see with_threads().
 /// @param count  at least 1; 0 means as many as are allowed where this is called.
 /// @throws what the work throws.
 void run_with_threads(int count, const std::function<void()>& work);
 
-/// Runs the work, and all that it calls, with at most so many threads. Nothing else in the process
-/// is affected.
+/// Runs the work, and all that it calls, on at most `count` threads. The rest of the process is not
+/// affected.
 /// @param count  at least 1; 0 means as many as are allowed where this is called.
 /// @return what the work returns.
 /// @throws what the work throws.

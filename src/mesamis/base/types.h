@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The small values every room passes around: indices, vectors and tensors of space.
+/// Basic values: indices, vectors and tensors.
 namespace mesamis {
 
 /// Index of a point, cell, triangle or voxel line. Counts and products are kept in 64 bits.

@@ -10,19 +10,20 @@
 #include "mesamis/base/types.h"
 #include "mesamis/mesh/tet_mesh.h"
 
-/// What a user asks for of a body of finite elements.
+/// Options and face queries for a body of finite elements.
 namespace mesamis {
 
-/// What elements a body shall have.
+/// The elements of a body.
 struct BodyOptions {
-  double element_size = 0;   ///< wanted edge length, mm; 0: a thirtieth of the body's longest side
-  double least_size = 0;     ///< edges are not wanted shorter, mm; 0: a quarter of the element size
-  double tolerance = 0.1;    ///< how far the skin may lie from the surfaces, mm, > 0
-  double gradation = 0.5;    ///< by how much sizes may grow over a length, no unit, > 0
-  int through_wall = 1;      ///< elements wanted between two sides of a wall; 0: any
-  double part_share = 1e-3;  ///< parts that hold less of each object, as a share of its volume,
-                             ///< are left out: a solver cannot hold what hangs on nothing; 0: none
-  std::int64_t most_elements = 100'000'000;  ///< that may be made, those outside included
+  double element_size = 0;  ///< wanted edge length, mm; 0: a thirtieth of the body's longest side
+  double least_size = 0;    ///< shortest edge wanted, mm; 0: a quarter of the element size
+  double tolerance = 0.1;   ///< largest distance of the skin from the surfaces, mm, > 0
+  double gradation = 0.5;   ///< growth of sizes over a length, no unit, > 0
+  int through_wall = 1;     ///< elements wanted between two sides of a wall; 0: any
+  /// Parts with a smaller share of the volume of each object are left out, because a solver cannot
+  /// support loose parts; 0: none.
+  double part_share = 1e-3;
+  std::int64_t most_elements = 100'000'000;  ///< limit, elements outside the body included
   bool quadratic = false;                    ///< add mid-side nodes, on the skin where it is curved
   bool skins = false;  ///< also deliver the skins, those of small parts included
   Progress progress;   ///< optional
@@ -53,10 +54,10 @@ struct FaceQuery {
 /// "NAME=normal:X,Y,Z,DEGREES", "NAME=between:1,2" (the first and the second object), "NAME=outer"
 /// or "NAME=inner". Lengths are in mm, with or without the unit.
 /// @param text  the name has letters, digits and underscores, begins with a letter.
-/// @throws InputError  naming the forms there are, and what was found.
+/// @throws InputError  naming the possible forms, and what was found.
 FaceQuery parse_face_query(std::string_view text);
 
-/// The query in the world frame (LPS) of one that was written in another: x and y change sign.
+/// Converts a query from another frame to the world frame (LPS): x and y change sign.
 FaceQuery in_lps(FaceQuery query, Frame frame);
 
 }  // namespace mesamis

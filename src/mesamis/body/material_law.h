@@ -9,10 +9,10 @@
 #include <vector>
 
 /// From native grey values to densities, g/cm^3, and from densities to Young's modulus: the laws of
-/// the literature, and what a user asks for.
+/// the literature, and options.
 namespace mesamis {
 
-/// Which density a number is.
+/// Kinds of density.
 enum class DensityKind {
   kQct,       ///< of the calibration phantom's mineral (K2HPO4 or hydroxyapatite) per volume
   kAsh,       ///< ash mass per volume of tissue, pores included
@@ -59,7 +59,7 @@ struct AshRule {
   friend bool operator==(const AshRule&, const AshRule&) = default;
 };
 
-/// rho_ash = rho_QCT: the phantom is taken at its word.
+/// rho_ash = rho_QCT.
 inline constexpr AshRule kAshEqualsQct{};
 /// rho_ash = 0.877 rho_QCT + 0.079. Source: Schileo et al., An accurate estimation of bone density
 /// improves the accuracy of subject-specific finite element models, J Biomech 41, 2008.
@@ -69,7 +69,7 @@ inline constexpr AshRule kSchileoAsh2008{0.079, 0.877};
 /// @throws InputError  naming the names there are.
 AshRule find_ash_rule(std::string_view name);
 
-/// How densities of one kind follow from another.
+/// Conversions between kinds of density.
 struct DensityModel {
   Calibration qct;                 ///< native values to QCT density
   AshRule ash = kSchileoAsh2008;   ///< QCT to ash density
@@ -89,16 +89,16 @@ struct LawRange {
   double offset = 0;   ///< MPa
 };
 
-/// A law with what is needed to use it well. docs/materials.md says what of it was checked.
+/// A material law. docs/materials.md says what was checked.
 struct MaterialLaw {
   std::string name;
   DensityKind density = DensityKind::kApparent;  ///< that the law takes
   std::vector<LawRange> ranges;                  ///< at least one, in increasing order of up_to
-  /// g/cm^3: the densities of the specimens; none where we do not know them.
+  /// g/cm^3: the densities of the specimens; none: not known.
   std::optional<std::array<double, 2>> valid{};
   double poisson = 0.3;    ///< no unit; the usual choice beside the law, not part of it
   std::string citation{};  ///< authors, title, journal, year
-  std::string doi{};       ///< empty where we are not sure of it
+  std::string doi{};       ///< empty: not certain
 };
 
 /// The modulus at a density, MPa.
@@ -119,7 +119,7 @@ MaterialLaw find_material_law(std::string_view name);
 /// @throws InputError  naming the names there are and the form of a power law.
 MaterialLaw parse_material_law(std::string_view text);
 
-/// Which modulus the elements of a bin get.
+/// The modulus of the elements of a bin.
 enum class BinModulus {
   kHighest,  ///< of its elements, as Bonemat does
   kMean,     ///< of its elements, each counted once

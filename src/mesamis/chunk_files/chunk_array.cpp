@@ -368,7 +368,7 @@ void set_spacing(OpenedArray& array, const std::optional<Vec3>& stated,
                  const std::optional<Vec3>& asked) {
   if (asked) require_positive_spacing(array.path, *asked);
   if (!asked && !stated) {
-    array.warnings.push_back("the " + array.format + " array gives no spacing: 1 mm taken");
+    array.warnings.push_back("the " + array.format + " array gives no spacing: 1 mm assumed");
   } else if (asked && stated && *asked != *stated) {
     array.warnings.push_back(spacing_is_replaced(*stated));
   }

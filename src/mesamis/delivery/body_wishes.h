@@ -11,23 +11,22 @@
 
 namespace mesamis {
 
-/// What a user asks for of a body; what is left open follows the scan and the run.
+/// The requested body. Members without a value follow from the scan and the run.
 struct BodyWishes {
-  BodyOptions elements;  ///< sizes, gradation, walls, mid-side nodes; its tolerance and its limit
-                         ///< of elements do not count
+  /// Sizes, gradation, walls, mid-side nodes; tolerance and limit of elements are ignored.
+  BodyOptions elements;
   std::optional<double> tolerance{};  ///< of the skin, mm, > 0; none: see complete_request()
   std::optional<MaterialOptions> material{};  ///< none: elements without materials
   std::optional<double> rim{};  ///< of the objects, mm, >= 0; none: as deep as the scan is blurred
   std::vector<FaceQuery> sets{};  ///< in the world frame (LPS), mm
 };
 
-/// The ends of what may be asked for: growth of sizes (no unit), elements through a wall, Poisson's
-/// ratio (no unit).
+/// Permitted ranges: growth of sizes (no unit), Poisson's ratio (no unit), elements through a wall.
 inline constexpr std::array<double, 2> kGradations{0.05, 5}, kPoissonRatios{-0.99, 0.499};
 inline constexpr std::array<int, 2> kWallElements{0, 10};
 
-/// What is wrong with a least size above the element size, without its name; empty where it is not
-/// or one of both is left open.
+/// Describes the error of a least size above the element size, without the name of the setting;
+/// empty if the sizes agree or one of them is open.
 /// @param options  sizes in mm.
 std::string wrong_least_size(const BodyOptions& options);
 

@@ -16,7 +16,7 @@ struct DicomSubject {
   std::string patient_name, patient_id, birth_date, sex;
   std::string study_uid, study_date, study_time, study_id, accession_number, referring_physician;
   std::string frame_of_reference;  ///< UID of the frame in which coordinates are LPS, mm
-  /// UID of the series that something was made of, and SOP class and instance UIDs of its files.
+  /// UID of the source series, and SOP class and instance UIDs of its files.
   std::string source_series{};
   std::vector<std::pair<std::string, std::string>> sources{};
 };

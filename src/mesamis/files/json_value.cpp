@@ -46,7 +46,7 @@ json read_metadata(const fs::path& file, MemoryBudget& budget) {
   } catch (const json::parse_error& error) {
     refuse(file, message("expected JSON, found something else at byte ", error.byte));
   } catch (const json::exception&) {
-    refuse(file, "expected JSON with numbers in range, found one that is not");
+    refuse(file, "expected JSON with numbers in range, found one out of range");
   }
 }
 

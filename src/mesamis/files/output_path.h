@@ -9,8 +9,8 @@ namespace mesamis {
 
 class OutputSet;
 
-/// Where a writer puts its file, and the set of files that it appears with, see OutputSet::file().
-/// A path alone converts to one: the file then appears on its own.
+/// The path of an output file and the set of files that it appears with, see OutputSet::file(). A
+/// path converts implicitly: the file then appears on its own.
 struct OutputPath : std::filesystem::path {
   /// A file on its own. Converts whatever a path is made of.
   // NOLINTBEGIN(google-explicit-constructor,bugprone-forwarding-reference-overload)

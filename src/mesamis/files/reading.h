@@ -4,18 +4,19 @@
 #include <cstdint>
 #include <filesystem>
 
-/// What readers are given and tell.
+/// Limits of readers, and the files they opened.
 namespace mesamis {
 
-/// What a reader may take of the machine.
+/// Limits of a reader.
 struct ReadLimits {
-  /// Memory for what comes of a file, 10^9 bytes; 0: what is free, see available_memory().
+  /// Memory for the contents of a file, 10^9 bytes; 0: the available memory, see
+  /// available_memory().
   double memory_gb = 0;
-  /// Whether a header (.nhdr, .mhd) may name a data file outside of the folder that it lies in.
+  /// Whether a header (.nhdr, .mhd) may name a data file outside its own folder.
   bool allow_outside = false;
 };
 
-/// What the system changes with every change of a file.
+/// The state of a file that every change of it alters.
 struct FileState {
   std::uint64_t device = 0, inode = 0, bytes = 0;
   std::int64_t modified_ns = 0, changed_ns = 0;  ///< of the content; of the content or the entry

@@ -11,7 +11,7 @@
 
 #include "mesamis/image/volume.h"
 
-/// Which object is meant: objects of a scan, marked voxel by voxel on a grid of their own.
+/// Label maps: objects of a scan, marked voxel by voxel on a grid of their own.
 namespace mesamis {
 
 /// The largest label; 0 is the background.
@@ -23,35 +23,33 @@ struct Segment {
   Index label = 1;                       ///< 1 to kMaxLabel: the number of the object
   Index layer = 0;                       ///< which of the map's layers
   std::array<std::uint8_t, 3> colour{};  ///< red, green, blue (sRGB)
-  /// The number that the file gives the object where it is above kMaxLabel; 0: the label is it.
+  /// The object's number in the file if it exceeds kMaxLabel; 0: the number is the label.
   std::int64_t number_in_file = 0;
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
-/// Labels on a regular grid. One layer holds objects that do not overlap; objects that do lie in
-/// different layers. The segments name the labels: one for each label that occurs, and perhaps some
-/// without a voxel.
+/// Labels on a regular grid. Objects that overlap lie in different layers. The segments name the
+/// labels: one for each label that occurs, and possibly some without voxels.
 struct LabelMap : VoxelGrid {
   std::vector<std::vector<std::uint16_t>> layers;  ///< a label per voxel each; i runs fastest
   std::vector<Segment> segments;  ///< at most kMaxLabel, no two of one layer and label
 };
 
-/// How probable it is that a voxel belongs to an object: one layer per object.
+/// The probability that a voxel belongs to an object: one layer per object.
 struct Probabilities : VoxelGrid {
   std::vector<std::vector<float>> layers;  ///< 0 to 1 per voxel each; i runs fastest
   std::vector<Segment> segments;           ///< segment n belongs to layer n and has the label n + 1
 };
 
-/// Finds the segment that a user means.
+/// Finds a segment by its name or number.
 ///
 /// The text is the whole name of a segment, or its label or its number in the file in decimals. If
 /// none fits exactly, names are compared without regard to the case of ASCII letters.
 /// @return a copy of the only segment that fits.
-/// @throws InputError  if none or more than one fits; the message names those that come near, or
-///                     those that fit.
+/// @throws InputError  if none or several match; the message lists the nearest names or the matches.
 Segment find_segment(std::span<const Segment> segments, std::string_view name_or_label);
 
-/// Finds the segments that a user means, each once, in the order of the texts.
+/// Finds segments by name or number, each once, in the order of the texts.
 /// @throws InputError  as find_segment().
 std::vector<Segment> find_segments(std::span<const Segment> segments,
                                    std::span<const std::string> names_or_labels);
@@ -87,17 +85,17 @@ std::vector<std::uint8_t> mask_on(const LabelMap& map, std::span<const Segment> 
 /// O(voxels of the grid), in threads.
 std::vector<float> probability_on(const Probabilities& from, Index layer, const VoxelGrid& grid);
 
-/// Gives each voxel the label of the object that is most probable there, the first of several; 0
-/// where the background, of which the objects leave so much, is more probable than each of them.
+/// Assigns to each voxel the label of its most probable object, the first of equals; 0 where the
+/// background, the rest of the probability, exceeds each of them.
 /// @return one layer with the segments of the probabilities.
 ///
 /// O(voxels * objects), in threads.
 LabelMap most_probable(const Probabilities& from);
 
-/// Finds the smallest range of the map's own voxels that holds a segment; none if it has no voxel.
+/// Finds the smallest range of the map's voxels that contains a segment; none if it has no voxel.
 std::optional<CropRange> range_of(const LabelMap& map, const Segment& segment);
 
-/// Finds that range for all segments of the map, in their order, in one walk over the voxels.
+/// Finds the ranges of all segments of the map, in their order, in one pass over the voxels.
 ///
 /// O(voxels * layers).
 std::vector<std::optional<CropRange>> ranges_of(const LabelMap& map);
@@ -107,9 +105,8 @@ std::vector<std::optional<CropRange>> ranges_of(const LabelMap& map);
 /// @throws InputError  if there are then more than kMaxLabel segments.
 LabelMap with_all_segments(LabelMap map);
 
-/// Tells whether samples look like labels: whole numbers from 0 (to 0.01), of which neighbours
-/// along i that are both no background are mostly equal; where there are no such neighbours, one
-/// number beside 0.
+/// Whether samples look like labels: whole numbers from 0 (to 0.01), mostly equal where neighbours
+/// along i are both foreground; without such neighbours, a single number besides 0.
 /// @param samples  of the grid; i runs fastest.
 /// @throws nothing
 ///
@@ -122,15 +119,15 @@ bool look_like_labels(const VoxelGrid& grid, std::span<const float> samples);
 /// O(voxels * layers).
 std::vector<std::size_t> voxel_counts(const LabelMap& map);
 
-/// Gives the segments the names and colours that a table has for their labels, in every layer; for
-/// their numbers in the file, where they have such. Other rows of the table are not used.
+/// Gives the segments of every layer the names and colours of the rows with their labels, or with
+/// their numbers in the file if they have any. Other rows are ignored.
 /// @param table  as read_label_table() returns it.
 ///
 /// O(segments + rows), up to a logarithm.
 LabelMap with_names(LabelMap map, std::span<const Segment> table);
 
-/// A colour for a label that a file gives none: the same for the same label, and far apart for
-/// neighbours.
+/// The colour of a label without one: it depends on the label alone, and successive labels differ
+/// clearly.
 /// @return red, green, blue (sRGB).
 std::array<std::uint8_t, 3> default_colour(Index label);
 

@@ -15,8 +15,7 @@
 
 namespace mesamis {
 
-/// A regular grid of voxels, and where it lies in the world: what is known of a scan beside its
-/// samples.
+/// A regular grid of voxels and its place in the world: a scan without its samples.
 ///
 /// World frame: LPS (x to the patient's left, y to the back, z to the head), in mm.
 /// World position of voxel (i, j, k): origin + direction * (i sx, j sy, k sz).
@@ -61,8 +60,8 @@ struct VoxelGrid {
   Vec3 to_grid(const Vec3& p) const noexcept { return transpose(direction) * (p - origin); }
 };
 
-/// A scan whose samples belong to somebody else: what functions that only read a scan take. A
-/// caller with voxels in memory of his own passes them without a copy:
+/// A scan whose samples are owned elsewhere. Functions that only read a scan take a view, so voxels
+/// in memory need no copy:
 ///
 ///   mes_amis(VolumeView{{.size = {nx, ny, nz}, .spacing = {0.5, 0.5, 1}}, voxels}, settings);
 ///
@@ -85,13 +84,13 @@ struct Volume : VoxelGrid {
   operator VolumeView() const { return {*this, samples}; }  // NOLINT(google-explicit-constructor)
 };
 
-/// Copies the scan, which then owns its samples.
+/// Copies a scan; the copy owns its samples.
 Volume copy_volume(const VolumeView& volume);
 
-/// Checks that a volume can be worked on: at least 2 voxels per direction, as many samples as
+/// Checks that a volume can be processed: at least 2 voxels per direction, as many samples as
 /// voxels, positive finite spacing, finite origin, orthonormal direction (to 1e-6), finite samples
-/// that are not all equal. A reader may hand on a volume that fails here (one slice of a file
-/// with a third axis, an unknown sample): this is the gate before any method.
+/// that are not all equal. Readers return volumes that fail here (a single slice of a 3D format,
+/// NaN): check before any method.
 /// @throws InputError  naming the first condition that does not hold.
 void require_usable(const VolumeView& volume);
 
@@ -208,8 +207,7 @@ double interpolate(std::span<const Number> values, const std::array<Index, 3>& s
 }
 
 /// Evaluates the image as a continuous function (GridLine) at one point.
-/// @param volume  at least 2 voxels along each axis. Where many points are asked for, pass a view:
-///                each conversion of a Volume copies its grid.
+/// @param volume  at least 2 voxels along each axis. For many points pass a view: each conversion of a Volume copies its grid.
 /// @param p  in the grid's own axes, mm; clamped to the box.
 /// @return in the unit of the samples.
 inline double interpolate(const VolumeView& volume, const Vec3& p) {

@@ -11,7 +11,7 @@
 
 namespace mesamis {
 
-/// A label map and what its file says beside the labels.
+/// A label map and the other contents of its file.
 struct LabelFile {
   LabelMap map;  ///< valid, see require_valid(); spacing and origin in mm, LPS
   /// As VolumeFile::format, "Zarr", "OME-Zarr", "HDF5"; of a folder of masks "NIfTI masks" and so
@@ -23,8 +23,8 @@ struct LabelFile {
 /// How a label map is read.
 struct LabelOptions {
   ReadLimits limits{};  ///< memory, and other folders, as for read_volume()
-  /// The grid of the scan that the labels belong to, with its frame of reference. Asked once, and
-  /// only where the labels need it: contours, and pictures, which state no place. May be empty.
+  /// Returns the grid of the scan that the labels belong to, with its frame of reference. Called at
+  /// most once, for contours and for pictures, which state no place. May be empty.
   std::function<VoxelGrid()> scan{};
 };
 
@@ -77,7 +77,7 @@ bool is_label_file(const std::filesystem::path& path, const ReadLimits& limits =
 /// @throws InputError  if the directory cannot be read.
 bool is_mask_folder(const std::filesystem::path& path, const ReadLimits& limits = {});
 
-/// Probabilities and what their files say beside them.
+/// Probabilities and the other contents of their files.
 struct ProbabilityFile {
   Probabilities probabilities;        ///< spacing and origin in mm, LPS
   std::vector<std::string> warnings;  ///< one line each: what was assumed or left out
@@ -92,8 +92,7 @@ struct ProbabilityFile {
 /// maximum.
 /// @param paths   one file, or several volumes on one grid (to 1e-3 of a voxel).
 /// @param limits  as read_label_map(), for all files together.
-/// @return values of 0 to 1 (no unit); those beyond by at most 1e-3, which smoothing leaves, are
-///         set to the bound.
+/// @return values of 0 to 1 (no unit); those outside by at most 1e-3, as smoothing leaves, are clamped.
 /// @throws InputError  one line that begins with a path, for other values, for grids that differ,
 ///                     and as read_label_map().
 ///

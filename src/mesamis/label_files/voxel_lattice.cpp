@@ -78,7 +78,9 @@ VoxelGrid cut_out(const std::filesystem::path& file, VoxelGrid grid, const Voxel
     const std::int64_t count = range.high[axis] - range.low[axis] + 1;
     voxels *= static_cast<double>(count);
     if (count > std::numeric_limits<Index>::max() || voxels > kMostVoxels) {
-      refuse(file, "expected masks near each other, found some that no grid of 2^40 voxels holds");
+      refuse(
+          file,
+          "expected masks near each other, found masks that need a grid of more than 2^40 voxels");
     }
     grid.size[axis] = static_cast<Index>(count);
     low_mm[a] = static_cast<double>(range.low[axis]) * grid.spacing[a];

@@ -18,8 +18,8 @@ inline constexpr std::array<std::array<int, 2>, 6> kMidNodeEdges{
 
 inline constexpr std::size_t kLongestSolverName = 60;
 
-/// Whether solvers take a text as a name: letters, digits and underscores, of which the first is a
-/// letter, at most 60.
+/// Whether solvers accept a text as a name: letters, digits and underscores, of which the first is
+/// a letter, at most 60.
 inline bool is_solver_name(std::string_view name) noexcept {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto may_follow = [&](char c) {

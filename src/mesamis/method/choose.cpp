@@ -110,7 +110,7 @@ void require_contrast(const VolumeView& volume, const Parameters& p) {
   const bool sees_level = low < level && level < high;
   std::ostringstream message;
   if (!sees_samples) {
-    message << "window: expected one that holds some of the samples, which go from " << least
+    message << "window: expected a range that contains samples, which lie between " << least
             << " to " << most << ", found " << low << "," << high;
   } else if (p.surface == SurfaceKind::kSolid && !sees_level) {
     message << "level: expected a value between the window's ends and above the threshold, " << low
@@ -144,7 +144,7 @@ struct Seen {
 Seen look_at(const VolumeView& image, const ImageSettings& settings) {
   const HalfMaximumLevel seen = find_half_maximum_level(image);
   if (seen.in_noise && !settings.level && settings.asked.surface == SurfaceKind::kSolid) {
-    throw InputError("level: found no object that stands out of the noise; expected --level");
+    throw InputError("level: found no object that stands out from the noise; expected --level");
   }
   return {seen, settings.asked.window.value_or(
                     window_with_room(image, seen.contrast, level_or(settings, seen.level)))};

@@ -56,7 +56,7 @@ struct ChosenImage {
 /// @param settings  valid, see require_valid().
 /// @throws InputError  if the window holds none of the samples, or does not hold the level; for a
 ///                     solid, if its level is not between the least and the greatest sample (which
-///                     is checked first), or is to be found and nothing stands out of the noise.
+///                     is checked first), or is to be found and nothing stands out from the noise.
 ///
 /// O(voxels); two copies of the samples at a time.
 ChosenImage choose(const VolumeView& image, const ImageSettings& settings);

@@ -30,7 +30,7 @@ enum class ThresholdRule {
   kValue   ///< Settings::threshold
 };
 
-/// What the user asks for. A run never changes it: what the run uses is in Parameters.
+/// The requested settings. A run does not change them; Parameters hold the values it uses.
 ///
 /// A member without a value is chosen from the volume. Unit, range, help text and the rule behind
 /// each choice are in setting_table(), which the command line, JSON files, require_valid() and
@@ -72,7 +72,7 @@ struct Settings {
   // The surface.
   SurfaceKind surface = SurfaceKind::kSolid;
   std::optional<double> level;
-  bool local_level = false;  ///< for each place; level is then that of the object as a whole
+  bool local_level = false;  ///< a level for each place; `level` is then that of the whole object
   bool follow = true;
   bool fit = true;
   double band_threshold = 0.1;

@@ -60,7 +60,7 @@ double value_around(const VolumeView& volume, const VoxelMask& grown) {
 void warn_of_labels(const VolumeView& scan, std::vector<std::string>& warnings) {
   if (const auto found = find_few_whole_values(scan)) {
     warnings.push_back(
-        line("the scan holds %zu whole values alone, %g to %g: likely a label map, which --labels "
+        line("the scan has only %zu whole values, %g to %g: likely a label map, which --labels "
              "takes",
              found->count, found->least, found->most));
   }

@@ -35,7 +35,7 @@ TissueLevel find_tissue_level(const VolumeView& image, const Tissue& tissue) {
   const HalfMaximumLevel object = measure(image, tissue.start);
   if (object.contrast.difference() == 0 || object.in_noise) {
     if (!tissue.start) {
-      throw InputError("tissue: expected an object that stands out of the noise, found none");
+      throw InputError("tissue: expected an object that stands out from the noise, found none");
     }
     result.level = *tissue.start;
     return result;

@@ -61,7 +61,7 @@ nlohmann::json read_json(const std::filesystem::path& path) {
     detail::refuse(path,
                    "expected JSON, found something else at byte " + std::to_string(error.byte));
   } catch (const nlohmann::json::exception&) {
-    detail::refuse(path, "expected JSON with numbers in range, found one that is not");
+    detail::refuse(path, "expected JSON with numbers in range, found one out of range");
   }
 }
 

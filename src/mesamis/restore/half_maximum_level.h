@@ -16,7 +16,7 @@ struct HalfMaximumLevel {
   /// How surely it is known, native units: half of the way from the level of thick places to that
   /// of the whole surface. 0: not known.
   double uncertainty = 0;
-  bool in_noise = false;  ///< nothing was found that stands out of the noise
+  bool in_noise = false;  ///< nothing was found that stands out from the noise
 };
 
 struct HalfMaximumOptions {

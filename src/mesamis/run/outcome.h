@@ -16,7 +16,7 @@ namespace mesamis {
 
 struct OutcomeDetails;
 
-/// An object that was found; refers to its outcome.
+/// An object found by a run. It refers to its outcome.
 struct OutcomeObject {
   const Segment& segment;                  ///< its name, label and colour
   const TriMesh& surface;                  ///< world frame (LPS), mm
@@ -24,7 +24,7 @@ struct OutcomeObject {
   std::span<const double> expected_error;  ///< at each point of the surface, mm; empty: not known
 };
 
-/// The adapted mesh of a run; refers to its outcome.
+/// The adapted mesh of a run. It refers to its outcome.
 struct OutcomeMesh {
   const TetMesh& mesh;           ///< n nodes, world frame (LPS), mm
   std::span<const double> u, v;  ///< n values: denoised grey values, 0 to 255; edge indicator
@@ -32,29 +32,28 @@ struct OutcomeMesh {
   std::span<const Sym3> metric;  ///< n matrices that the mesh was made for, 1/mm^2
 };
 
-/// What came out of a run, of one object or of several. It does not change; copies share what they
-/// hold, and what refers to it lives as long as one of them.
+/// The result of a run, of one object or of several. It is immutable; copies share their data, and
+/// references into it are valid as long as one of them exists.
 class Outcome {
  public:
-  /// Holds nothing: only segment() makes outcomes of runs.
+  /// An empty outcome; segment() makes those of runs.
   Outcome() = default;
-  /// Takes over what a run has found.
+  /// Takes the details of a run.
   explicit Outcome(OutcomeDetails details);
 
-  /// The objects that were found, in the order in which they were looked for; one object is a list
-  /// of one.
+  /// The objects found, in the order of the request; one object is a list of one.
   std::vector<OutcomeObject> objects() const;
-  /// The adapted mesh; nothing for a preview, or where none was asked for.
+  /// The adapted mesh; none for a preview, or unless requested.
   std::optional<OutcomeMesh> mesh() const;
-  /// The body for a solver, world frame (LPS), mm; nullptr: none was asked for.
+  /// The body for a solver, world frame (LPS), mm; nullptr unless requested.
   const FiniteElements* elements() const;
-  /// What the run was asked for and what it has chosen: the settings that repeat it.
+  /// The settings that repeat the run: those requested and those chosen.
   Settings settings_used() const;
-  /// Which promise was not kept, on one line: what was expected and found. Empty: all were.
+  /// The promise that was not kept, one line: what was expected and found. Empty if all were kept.
   std::string flaw() const;
-  /// What may not be what was meant, one line each.
+  /// The warnings, one line each.
   std::vector<std::string> warnings() const;
-  /// All of it, for the rooms and programs of this project.
+  /// All details, for this project's own code.
   const OutcomeDetails& details() const { return *details_; }
 
  private:

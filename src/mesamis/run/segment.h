@@ -35,9 +35,9 @@ struct ElementRequest {
   BodyWishes wishes;
   bool body = false;     ///< a body for a solver
   bool skins = false;    ///< the surfaces become the skins of elements, which suit other meshers
-  double memory_gb = 0;  ///< that the elements may take; 0: what is free
+  double memory_gb = 0;  ///< limit for the elements, GB (10^9 bytes); 0: the available memory
 
-  /// Whether any are.
+  /// Whether elements are requested.
   bool wanted() const { return body || skins; }
 };
 
@@ -46,30 +46,32 @@ struct Request {
   /// Native units. A Volume is taken over; the samples of a VolumeView are read in place where
   /// nothing changes them, and must live as long as the outcome. Nothing: the labels alone.
   std::variant<std::monostate, Volume, VolumeView> scan{};
-  /// Which object is meant. Its level, and its crop where none is given here, are those of the
-  /// settings; labels keep the surroundings, unless these are to be removed.
+  /// The object. Its level, and its crop unless given here, are those of the settings; with labels
+  /// the surroundings stay, unless they are to be removed.
   ObjectRequest object{};
   std::optional<LabelChoice> labels{};
   Settings settings{};
-  bool mesh = true;  ///< of several objects: make a mesh around them; one object always has one
+  /// For several objects: make a mesh around them; a single object always has one.
+  bool mesh = true;
   ElementRequest elements{};
   HasEnough enough{};  ///< for one object only
 
-  /// Whether there is one.
+  /// Whether a scan is given.
   bool has_scan() const { return scan.index() != 0; }
 };
 
-/// Hears of a run while it goes on. Each member may be empty.
+/// The callbacks of a run. Each may be empty.
 struct Listener {
   Progress progress{};
-  std::function<void(const std::string&)> note{};     ///< one line: what was done unasked
-  std::function<void(const std::string&)> warning{};  ///< one line: what may not be what was meant
-  /// The objects that are looked for, before the long work; it may throw.
+  std::function<void(const std::string&)> note{};  ///< one line: a step that was not requested
+  /// One line: a result that may not be intended.
+  std::function<void(const std::string&)> warning{};
+  /// The requested objects, before the long computation; it may throw.
   std::function<void(const std::vector<Segment>&)> objects{};
 };
 
 /// Does all that the program does between reading and writing: chooses the object, runs the method,
-/// fills the objects with elements where that is asked for, and judges the result.
+/// fills the objects with elements on request, and judges the result.
 ///
 /// 1. Chooses the object: fills padding, removes the table, finds the level, crops. The samples of
 ///    a VolumeView never change.
@@ -83,12 +85,11 @@ struct Listener {
 ///                  "final minimisation", "surface", "decimation", "elements"; see
 ///                  stage_shares() for those of other runs.
 /// @throws InputError  one line that says what was expected and found: if neither a scan nor labels
-///                     are given, what needs a scan is asked of labels alone, or a scan, a label
-///                     map or a setting cannot be used.
-/// @throws Cancelled   if progress says stop.
+///                     are given, a request that needs a scan has labels alone, or a scan, a label map or a setting is unusable.
+/// @throws Cancelled   if progress returns false.
 ///
-/// Time and memory are those of the steps. The same bits for any number of threads, but for a run
-/// that had enough.
+/// Time and memory are those of the steps. The same bits for any number of threads, except for a
+/// run that `enough` ends.
 Outcome segment(Request request, const Listener& listener = {});
 
 }  // namespace mesamis

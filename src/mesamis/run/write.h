@@ -14,7 +14,7 @@
 
 namespace mesamis {
 
-/// The files of a run; those whose name is empty are not written. The extension is the format.
+/// The files of a run; empty names are not written. The extension is the format.
 struct Outputs {
   std::vector<std::filesystem::path> surfaces{};     ///< see written_surface_formats()
   std::vector<std::filesystem::path> meshes{};       ///< .vtu .msh .inp .mesh
@@ -24,17 +24,17 @@ struct Outputs {
   std::filesystem::path report{};                    ///< .json, see docs/formats.md
   PageFiles page{};
 
-  Frame frame = Frame::kLps;        ///< of the points in the files
-  std::string name = kSurfaceName;  ///< of the whole; never the scan's, which may be the patient's
-  bool error = false;               ///< write the error expected at each point, mm
-  DicomSubject subject{};           ///< of surfaces in DICOM
-  MeshOptions mesh{};               ///< region and bins of the meshes
+  Frame frame = Frame::kLps;  ///< of the points in the files
+  /// Of the whole surface; never the scan's, which may name the patient.
+  std::string name = kSurfaceName;
+  bool error = false;                   ///< write the expected error at each point, mm
+  DicomSubject subject{};               ///< of surfaces in DICOM
+  MeshOptions mesh{};                   ///< region and bins of the meshes
   GmshVersion gmsh = GmshVersion::k22;  ///< of bodies
 };
 
 /// Writes the files of a run, which appear together or not at all.
-/// @throws InputError  one line, if a name has another extension, a surface is asked for and none
-///                     was found, or a file cannot be written.
+/// @throws InputError  one line, if a name has another extension, a requested surface was not found, or a file cannot be written.
 ///
 /// Memory: the bytes of a file at a time.
 void write(const Outcome& outcome, const Outputs& outputs);

@@ -248,7 +248,7 @@ void set_slices(const DicomFile& file, MemoryBudget& budget, const std::optional
   const DicomPixels pixels = pixels_of(file);
   const std::string type = text_of(file.elements, dicom::kImageType);
   if (type.find("MOSAIC") != std::string::npos) {
-    refuse(file.path, "a mosaic of many slices in one picture is not read");
+    refuse(file.path, "expected one slice per picture, found a mosaic");
   }
   budget.claim(static_cast<std::uint64_t>(pixels.frames),
                sizeof(DicomSlice) + file.path.native().size(), "DICOM slices");

@@ -11,9 +11,8 @@ void warn_of_screen_resolution(double spacing_mm, std::vector<std::string>& warn
   constexpr double kInch = 25.4, kTolerance = 0.05;
   for (const int per_inch : {72, 96}) {
     if (!(std::abs(kInch / spacing_mm - per_inch) < kTolerance)) continue;
-    warnings.push_back(
-        message("the resolution of ", per_inch,
-                " pixels per inch is that of a screen: is it the scan's? (--spacing)"));
+    warnings.push_back(message("the resolution of ", per_inch,
+                               " pixels per inch is typical of screens: check it (--spacing)"));
   }
 }
 
@@ -23,10 +22,10 @@ void set_picture_grid(ScanFile& scan, const std::array<std::int64_t, 2>& size,
   Vec3 steps = spacing;
   if (!(spacing.x > 0 && spacing.y > 0)) {
     steps = {1, 1, 1};
-    scan.warnings.emplace_back("the file gives no resolution: 1 mm taken along x and y");
+    scan.warnings.emplace_back("the file gives no resolution: 1 mm assumed along x and y");
   }
   warn_of_screen_resolution(steps.x, scan.warnings);
-  scan.warnings.emplace_back("the file gives no distance between slices: 1 mm taken");
+  scan.warnings.emplace_back("the file gives no distance between slices: 1 mm assumed");
   set_axes(scan, {Vec3{steps.x, 0, 0}, Vec3{0, steps.y, 0}, Vec3{0, 0, 1}});
 }
 

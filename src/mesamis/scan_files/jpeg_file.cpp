@@ -61,7 +61,7 @@ ScanFile scan_of(const std::filesystem::path& file, const Jpeg& jpeg) {
   ScanFile scan{file, "JPEG", {}, {}, {}};
   set_picture_grid(scan, {jpeg.header.columns, jpeg.header.rows}, jpeg.spacing);
   scan.source.type = jpeg.header.bits > 8 ? NumberType::kUint16 : NumberType::kUint8;
-  scan.warnings.emplace_back("JPEG is lossy: edges are not where they were by up to some pixels");
+  scan.warnings.emplace_back("JPEG is lossy: edges may be off by some pixels");
   return scan;
 }
 

@@ -123,7 +123,7 @@ double unit_in_mm(ScanFile& scan, const MetaHeader& header) {
   const auto mm = mm_per_unit(name);
   if (!mm) {
     scan.warnings.push_back(
-        message("the DistanceUnits ", in_quotes(name), " are no length: mm taken"));
+        message("the DistanceUnits ", in_quotes(name), " are no unit of length: mm assumed"));
   }
   return mm.value_or(1);
 }
@@ -131,7 +131,7 @@ double unit_in_mm(ScanFile& scan, const MetaHeader& header) {
 Vec3 stated_spacing(ScanFile& scan, const MetaHeader& header, std::size_t axes) {
   const std::string text = header.get({"elementspacing", "elementsize"}, "");
   if (text.empty()) {
-    scan.warnings.push_back("the header gives no ElementSpacing: 1 mm taken");
+    scan.warnings.push_back("the header gives no ElementSpacing: 1 mm assumed");
     return {1, 1, 1};
   }
   return stated_or(
@@ -159,8 +159,8 @@ void warn_of_orientation(ScanFile& scan, const MetaHeader& header) {
     from += kSides[kSides.find(letter) ^ 1u];
   }
   if (stated == from || stated == towards) return;
-  scan.warnings.push_back(message("AnatomicalOrientation says ", stated, ", TransformMatrix ", from,
-                                  ": TransformMatrix is used"));
+  scan.warnings.push_back(message("AnatomicalOrientation states ", stated, ", TransformMatrix ",
+                                  from, ": TransformMatrix is used"));
 }
 
 void place(ScanFile& scan, const MetaHeader& header, std::size_t count) {

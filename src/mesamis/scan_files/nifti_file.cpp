@@ -208,7 +208,7 @@ void set_dimensions(ScanFile& scan, const NiftiHeader& h, const Opening& opening
 double unit_in_mm(ScanFile& scan, std::int64_t units) {
   const auto length = units & 7;
   if (length > 3) {
-    scan.warnings.push_back(message("the unit of length ", length, " is unknown: mm taken"));
+    scan.warnings.push_back(message("the unit of length ", length, " is unknown: mm assumed"));
   }
   return length == 1 ? 1000 : length == 3 ? 0.001 : 1;
 }
@@ -315,7 +315,7 @@ Placement place_analyze(ScanFile& scan, const NiftiHeader& h) {
     const auto matrix = matrix_of(scan);
     if (matrix) return {StatedAxes::of_steps(matrix->steps), matrix->origin};
   } catch (const InputError& error) {
-    scan.warnings.push_back(message("no place is taken from ", error.what()));
+    scan.warnings.push_back(message("no position from ", error.what()));
   }
   return without_matrix(scan, h);
 }
@@ -348,7 +348,7 @@ void warn_of_spacing(ScanFile& scan, const Vec3& declared, const char* used_in_p
   for (int a = 0; a < 3; ++a) {
     const double used = scan.grid.spacing[a];
     if (!is_length(declared[a]) || std::abs(used - declared[a]) <= 0.01 * used) continue;
-    scan.warnings.push_back(message("pixdim says ", declared[a], " mm along axis ", a, ", ",
+    scan.warnings.push_back(message("pixdim states ", declared[a], " mm along axis ", a, ", ",
                                     used_in_place, " ", used, ": ", used_in_place, " is used"));
   }
 }
@@ -390,7 +390,8 @@ double analyze_unit_in_mm(ScanFile& scan, const std::string& unit) {
   if (unit.empty()) return 1;
   const auto mm = mm_per_unit(unit);
   if (!mm)
-    scan.warnings.push_back(message("the unit ", in_quotes(unit), " is no length: mm taken"));
+    scan.warnings.push_back(
+        message("the unit ", in_quotes(unit), " is no unit of length: mm assumed"));
   return mm.value_or(1);
 }
 

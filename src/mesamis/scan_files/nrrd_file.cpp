@@ -265,8 +265,8 @@ Vec3 units_in_mm(ScanFile& scan, const NrrdHeader& header, const std::string& fi
     const std::string& name = names[static_cast<std::size_t>(a)];
     const auto unit = mm_per_unit(name);
     if (!unit && !name.empty() && name != "???") {
-      scan.warnings.push_back(
-          message("the ", field, " ", in_quotes(name), " of axis ", a, " is no length: mm taken"));
+      scan.warnings.push_back(message("the ", field, " ", in_quotes(name), " of axis ", a,
+                                      " is no unit of length: mm assumed"));
     }
     mm[a] = unit.value_or(1);
   }
@@ -300,7 +300,7 @@ Placement place_in_space(ScanFile& scan, const NrrdHeader& header, const ValueAx
     const Vec3 other = units_in_mm(scan, header, "units", values);
     if (other != Vec3{1, 1, 1}) {
       scan.warnings.push_back(
-          "units of axes do not count where the header has space directions: mm taken");
+          "units of axes do not count where the header has space directions: mm assumed");
     }
   }
   const auto scaled = [&mm](const Vec3& v) { return Vec3{mm.x * v.x, mm.y * v.y, mm.z * v.z}; };
@@ -349,7 +349,7 @@ Placement place_along_axes(ScanFile& scan, const NrrdHeader& header, const Value
     placed.axes.spacing[a] = mm[a] * std::abs(spacing[a]);
   }
   if (any) return placed;
-  scan.warnings.push_back("the header gives no spacing: 1 mm taken");
+  scan.warnings.push_back("the header gives no spacing: 1 mm assumed");
   placed.axes.spacing = {1, 1, 1};
   return placed;
 }

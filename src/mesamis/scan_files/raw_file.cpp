@@ -78,7 +78,7 @@ detail::ScanFile detail::open_raw(const std::filesystem::path& file, const RawLa
   ScanFile scan{file, "raw", {}, {}, {}};
   set_size(scan, layout.size);
   set_axes(scan, {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}});
-  scan.warnings.emplace_back("a raw file gives no spacing: 1 mm taken");
+  scan.warnings.emplace_back("a raw file gives no spacing: 1 mm assumed");
   scan.source.file = file;
   scan.source.type = kNumberTypes[static_cast<std::size_t>(layout.type)];
   scan.source.big_endian = layout.big_endian;

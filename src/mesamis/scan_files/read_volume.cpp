@@ -295,7 +295,7 @@ std::size_t detail::drop_spacing_warnings(std::vector<std::string>& warnings) {
     return warning.find("is that of a screen") != std::string::npos;
   });
   return std::erase_if(warnings, [](const std::string& warning) {
-    return warning.find(": 1 mm taken") != std::string::npos;
+    return warning.find(": 1 mm assumed") != std::string::npos;
   });
 }
 

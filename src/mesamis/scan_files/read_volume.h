@@ -18,8 +18,7 @@ namespace mesamis {
 /// How the samples of a raw file are stored.
 enum class RawType { kUint8, kInt16, kUint16, kInt32, kFloat32, kFloat64 };
 
-/// What a raw file, which says nothing about itself, holds: a header that is skipped, then the
-/// samples, i fastest, then j, k.
+/// The layout of a raw file: a header that is skipped, then the samples, i fastest, then j, k.
 struct RawLayout {
   std::array<std::int64_t, 3> size{0, 0, 0};  ///< voxels
   RawType type = RawType::kInt16;
@@ -30,31 +29,32 @@ struct RawLayout {
 /// Reads "NX,NY,NZ,TYPE" or "NX,NY,NZ,TYPE,HEADERBYTES": TYPE is uint8, int16, uint16, int32,
 /// float32 or float64, with le (default) or be behind it for the byte order.
 /// @return voxels and bytes.
-/// @throws InputError  for any other text; the message says what was expected.
+/// @throws InputError  for any other text.
 RawLayout parse_raw_layout(std::string_view text);
 
 struct ReadOptions {
   std::string series{};  ///< DICOM: UID of the series to take; empty: the only volume there is
-  std::optional<RawLayout> raw{};  ///< the path is a raw file of this layout, whatever its name
-  std::optional<Vec3> spacing{};   ///< mm, positive: taken instead of the file's
-  bool resample = false;           ///< stacks that are no regular grid are interpolated
+  /// The path is a raw file of this layout, whatever its extension.
+  std::optional<RawLayout> raw{};
+  std::optional<Vec3> spacing{};   ///< mm, positive: replaces the file's
+  bool resample = false;           ///< interpolate stacks that are no regular grid
   std::optional<Index> volume{};   ///< from 0: which one of a 4-D file or a series of phases
   std::optional<Index> channel{};  ///< from 0: which one of the values of each voxel
-  std::string modality{};          ///< "CT", "MR" or "other": taken instead of the file's
+  std::string modality{};          ///< "CT", "MR" or "other": replaces the file's
   ReadLimits limits{};             ///< memory, and other folders
-  /// Called with the volume's grid when the headers are read and no sample is: it may throw, as
-  /// where there is no memory for what comes afterwards. list_volumes() does not call it.
+  /// Called with the grid after the headers and before the samples are read. It may throw, for
+  /// example for lack of memory. list_volumes() does not call it.
   std::function<void(const VoxelGrid&)> on_grid{};
 };
 
-/// A volume and what its file says beside the samples.
+/// A volume and the other contents of its file.
 struct VolumeFile {
   Volume volume;  ///< samples in native units (HU for CT); spacing and origin in mm, LPS
   /// "NIfTI", "NRRD", "MetaImage", "TIFF", "PNG", "BMP", "DICOM", "InVesalius", "raw"; of a folder
   /// of pictures "TIFF slices", "PNG slices", "BMP slices"
   std::string format;
   std::vector<std::string> warnings;  ///< one line each: what was assumed, left out or damaged
-  std::vector<ReadFile> files{};      ///< all that were opened, in the order of their paths
+  std::vector<ReadFile> files{};      ///< all files opened, in the order of their paths
 };
 
 /// Reads a 3D scan: .nii .nii.gz .nrrd .nhdr .mha .mhd .tif .tiff .inv3, a DICOM directory (and
@@ -74,23 +74,22 @@ struct VolumeFile {
 /// that are orthogonal to a cosine of 1e-3 are made orthonormal, with a warning above 1e-5; beyond
 /// that the file is refused.
 ///
-/// DICOM: slices are grouped by series, size and orientation and sorted along their normal; each
-/// is rescaled by its own slope and intercept. Localizers are left out with a warning: frames that
-/// call themselves so, and a stack across the main one that is single or at most a quarter of it.
-/// Refused are several series (unless one is named or only one is a stack), slice distances that
-/// differ by more than 2 %, missing slices, two slices at one place, tilted stacks, broken files of
-/// the series. A file that cannot be opened is left out with a warning. One slice is no volume: the
-/// file cannot say how thick it is. JPEG data that are corrupt but can be decoded are read with a
-/// warning.
+/// DICOM: slices are grouped by series, size and orientation and sorted along their normal; each is
+/// rescaled by its own slope and intercept. Localizers are left out with a warning: frames marked
+/// as such, and a stack across the main one that is single or at most a quarter of it. Refused are
+/// several series (unless one is named or only one is a stack), slice distances that differ by more
+/// than 2 %, missing slices, two slices at one place, tilted stacks, broken files of the series. A
+/// file that cannot be opened is left out with a warning. A single slice is no volume, because its
+/// thickness is not stated. JPEG data that are corrupt but can be decoded are read with a warning.
 ///
-/// What a format with a third axis does hold (one slice, unknown samples, a constant) is read;
-/// require_usable() refuses it before any method runs.
+/// Volumes that no method can use (a single slice of a 3D format, NaN, a constant) are read;
+/// require_usable() refuses them before a method runs.
 ///
 /// With options.resample a DICOM stack with a tilted gantry, uneven or missing slices is brought
 /// onto a regular grid instead of being refused: shifted back within the slices, planes as far
 /// apart as the nearest two slices (a quarter of the median distance at least), linear in between.
-/// Warnings say what was done, and how far a plane is from a slice. What no slice covers has the
-/// least value.
+/// Warnings say what was done, and how far a plane is from a slice. Voxels that no slice covers get
+/// the least value.
 ///
 /// Nothing is printed, and no state of the process is changed, with one exception: gdcm::Trace is
 /// off while JPEG-LS or JPEG 2000 is decoded, and restored afterwards. Several threads may read at
@@ -107,27 +106,26 @@ struct VolumeFile {
 /// hold, or beyond options.limits, is refused before it is taken.
 VolumeFile read_volume(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// Reads where the voxels of a scan lie, and how many they are, from its headers: what
-/// read_volume() tells options.on_grid, without the samples.
+/// Reads the grid of a scan from its headers: the one that read_volume() passes to options.on_grid.
 /// @return finite grid, mm, LPS.
-/// @throws InputError  as read_volume(), but for what only the samples show.
+/// @throws InputError  as read_volume(), except for errors in the samples.
 ///
 /// O(bytes) of the headers; pictures and DICOM as list_volumes().
 VoxelGrid read_grid(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// One 3D image a path offers: what `mesamis info` lists.
+/// A volume found at a path, as `mesamis info` lists it.
 struct VolumeInfo {
   std::string series;                  ///< DICOM series UID, else empty
   std::string description;             ///< series description or file name
   std::string format, modality;        ///< as VolumeFile::format; "CT", "MR", else empty
   std::array<Index, 3> size{0, 0, 0};  ///< voxels
   Vec3 spacing;                        ///< mm
-  std::string problem;                 ///< why read_volume would refuse it; empty if it would not
+  std::string problem;                 ///< why read_volume() refuses it; empty if it does not
   Vec3 origin{};                       ///< LPS, mm; see VoxelGrid::origin
   Mat3 direction{};                    ///< LPS; see VoxelGrid::direction
 };
 
-/// Lists what is in a file or a directory without decoding the samples: the DICOM series (of a
+/// Lists the volumes of a file or directory without decoding the samples: the DICOM series (of a
 /// directory and those below it, or of the directory a DICOM file lies in), then the volume files
 /// of the directory itself, in name order.
 ///

@@ -257,15 +257,15 @@ Vec3 spacing_of(TIFF* tiff, const TiffLayout& layout, std::vector<std::string>& 
   if (!(spacing.x > 0 && spacing.y > 0)) {
     spacing.x = spacing.y = 1;
     warnings.push_back(has_resolution
-                           ? "the file's resolution has no unit: 1 mm taken along x and y"
-                           : "the file gives no resolution: 1 mm taken along x and y");
+                           ? "the file's resolution has no unit: 1 mm assumed along x and y"
+                           : "the file gives no resolution: 1 mm assumed along x and y");
   }
   warn_of_screen_resolution(spacing.x, warnings);
   if (!(spacing.z > 0)) {
     spacing.z = 1;
     warnings.push_back(layout.between > 0
-                           ? "the file's distance between slices has no unit: 1 mm taken"
-                           : "the file gives no distance between slices: 1 mm taken");
+                           ? "the file's distance between slices has no unit: 1 mm assumed"
+                           : "the file gives no distance between slices: 1 mm assumed");
   }
   return spacing;
 }
@@ -305,7 +305,7 @@ void check_compression(ScanFile& scan, TIFF* tiff, bool labels) {
   }
   if (compression != COMPRESSION_JPEG && compression != COMPRESSION_OJPEG) return;
   if (labels) refuse(scan.file, "expected labels, found pages coded as JPEG, which is lossy");
-  scan.warnings.emplace_back("JPEG is lossy: edges are not where they were by up to some pixels");
+  scan.warnings.emplace_back("JPEG is lossy: edges may be off by some pixels");
 }
 
 void warn_of_page_place(TIFF* tiff, std::vector<std::string>& warnings) {

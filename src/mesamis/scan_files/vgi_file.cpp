@@ -104,9 +104,10 @@ void place(ScanFile& scan, const Vgi& vgi) {
   const std::string text = vgi.get({"geometry/resolution"}), unit = vgi.get({"geometry/unit"});
   const auto mm = mm_per_unit(unit);
   if (!unit.empty() && !mm) {
-    scan.warnings.push_back(message("the unit ", in_quotes(unit), " is no length: mm taken"));
+    scan.warnings.push_back(
+        message("the unit ", in_quotes(unit), " is no unit of length: mm assumed"));
   }
-  if (text.empty()) scan.warnings.emplace_back("the header gives no resolution: 1 mm taken");
+  if (text.empty()) scan.warnings.emplace_back("the header gives no resolution: 1 mm assumed");
   const Vec3 spacing = stated_or(
       scan,
       [&] {

@@ -19,7 +19,7 @@ enum class MeshRegion {
   kObject  ///< those of which more than half lies within the object
 };
 
-/// How the mesh of a run is written.
+/// Options for writing the mesh of a run.
 struct MeshOptions {
   MeshRegion region = MeshRegion::kBox;
   int bins = 10;  ///< of equal ranges of the native value, 1 to kMostBins; of one object only
@@ -41,7 +41,7 @@ struct MeshArray {
   std::vector<double> values;  ///< points or cells times components
 };
 
-/// What a .vtu file holds beside the mesh. The arrays are not copied.
+/// The contents of a .vtu file beside the mesh. The arrays are not copied.
 struct VtuOptions {
   std::span<const MeshArray> point_arrays = {};  ///< each of n times its components; names differ
   std::span<const MeshArray> cell_arrays = {};   ///< each of m times its components; names differ

@@ -15,7 +15,7 @@
 
 namespace mesamis {
 
-/// The name of a surface where the user gives none. Never the scan's, which may be the patient's.
+/// The default name of a surface. Never the scan's, which may name the patient.
 inline constexpr const char* kSurfaceName = "mesamis surface";
 
 /// A named array with one value per point of a surface.
@@ -34,7 +34,7 @@ struct SurfaceWriteOptions {
   /// .3mf, .amf: metadata as type and text; "producer" is the program. Nothing about the patient
   /// belongs here.
   std::vector<std::pair<std::string, std::string>> metadata{};
-  std::vector<PointArray> point_arrays{};  ///< .vtp, .ply: arrays to colour by; names differ
+  std::vector<PointArray> point_arrays{};  ///< .vtp, .ply: arrays to colour by, with distinct names
   DicomSubject subject{};  ///< .dcm: patient, study and frame of reference; empty: none, made up
 };
 
@@ -51,13 +51,13 @@ struct SurfaceWriteOptions {
 ///   .glb  binary glTF 2.0, single precision, with normals; a node turns it from mm with z up to
 ///         metres with y up; grey values are colours of the points
 ///   .dcm  Encapsulated STL in DICOM, and for names that end with .obj.dcm Encapsulated OBJ, always
-///         in LPS; UIDs that the options lack are made of the content
+///         in LPS; missing UIDs follow from the content
 ///
 /// Frame and name are stated in the header (.stl, cut at 80 bytes), in comments (.ply, .obj), in
 /// field data (.vtp) or in metadata (.3mf, .amf).
 /// @param path     one of the extensions above, in upper or lower case.
 /// @param surface  n points in LPS mm, m >= 1 triangles with indices in [0, n).
-/// @param options  values that the format has no place for are left out.
+/// @param options  values that the format cannot hold are left out.
 /// @throws InputError  for another extension; an empty surface; an index out of range or a
 ///                     coordinate that is not finite; grey values or arrays of another size than n
 ///                     or not finite; an array's name that is not one word, or two arrays of the
@@ -74,10 +74,10 @@ std::vector<std::string> written_surface_formats();
 /// @throws nothing
 std::vector<std::string> read_surface_formats();
 
-/// Whether the format of this extension has a place for SurfaceWriteOptions::grey.
+/// Whether the format of this extension holds SurfaceWriteOptions::grey.
 bool carries_grey(const std::filesystem::path& path);
 
-/// Whether the format of this extension has a place for SurfaceWriteOptions::point_arrays.
+/// Whether the format of this extension holds SurfaceWriteOptions::point_arrays.
 bool carries_arrays(const std::filesystem::path& path);
 
 /// Reads a surface: .stl .ply .obj (text or binary where there are both), .vtp, .3mf, .amf (not
@@ -106,8 +106,8 @@ struct SurfaceFile {
 /// @throws InputError  as read_surface(). Cost as read_surface().
 SurfaceFile read_surface_file(const std::filesystem::path& path, const ReadLimits& limits = {});
 
-/// Converts a surface from LPS to RAS or back: x and y are negated. This is a rotation, so that
-/// triangles face as before.
+/// Converts a surface from LPS to RAS or back: x and y are negated. This is a rotation and keeps
+/// the orientation of the triangles.
 ///
 /// @param surface  n points; taken by value, so that a moved surface is not copied.
 /// @return the same surface in the other frame.

@@ -9,8 +9,8 @@
 /// Distances between surfaces, equations (14)-(16) of the paper.
 namespace mesamis {
 
-/// Distance (16) of each point to the nearest point of the surface, be it inside a triangle, on an
-/// edge or at a corner.
+/// Distance (16) of each point to the nearest point of the surface: inside a triangle, on an edge
+/// or at a corner.
 ///
 /// Exact up to round-off; a triangle whose height is below 1e-8 of its length counts as its edges.
 /// @param points   n points, mm.

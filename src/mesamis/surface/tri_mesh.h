@@ -23,12 +23,12 @@ struct TriMesh {
 /// @throws InputError  if a triangle names a missing point or a coordinate is not finite.
 void require_sound(const TriMesh& surface);
 
-/// Flaws that stop a printer or a solver, and measures. Triangles with a repeated index are counted
-/// as degenerate and left out of all other counts.
+/// Flaws that matter to a slicer or solver, and measures. Triangles with a repeated index are
+/// counted as degenerate and left out of all other counts.
 struct SurfaceCheck {
-  std::int64_t open_edges = 0;            ///< edges with one triangle
-  std::int64_t nonmanifold_edges = 0;     ///< edges with more than two
-  std::int64_t misoriented_edges = 0;     ///< edges that their two triangles run in one direction
+  std::int64_t open_edges = 0;         ///< edges with one triangle
+  std::int64_t nonmanifold_edges = 0;  ///< edges with more than two
+  std::int64_t misoriented_edges = 0;  ///< edges that both triangles traverse in the same direction
   std::int64_t nonmanifold_points = 0;    ///< points whose triangles form more than one fan
   std::int64_t degenerate_triangles = 0;  ///< a repeated index
   std::int64_t components = 0;            ///< parts connected by edges
@@ -38,7 +38,7 @@ struct SurfaceCheck {
   /// skins around a hole. 0 where there are open edges.
   std::int64_t islands = 0, cavities = 0;
 
-  /// Every edge has two triangles or more; the volume of an open surface means nothing.
+  /// Every edge has two triangles or more; the volume of an open surface has no meaning.
   bool closed() const noexcept { return open_edges == 0; }
   /// Every edge joins two triangles (one on a rim), every point has one fan, orientation agrees.
   bool manifold() const noexcept {
