@@ -74,11 +74,15 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
   const TriMesh surface = in_lps(file);
   ProgressDisplay display(common.quiet);
   PrintableReport printable;
-  const TriMesh result =
-      make_printable(surface,
-                     {command.min_volume, command.keep_largest, command.fill_cavities, tolerance,
-                      command.triangles.value_or(0), display.callback()},
-                     &printable);
+  const TriMesh result = make_printable(surface,
+                                        {.min_volume = command.min_volume,
+                                         .keep_largest = command.keep_largest,
+                                         .fill_cavities = command.fill_cavities,
+                                         .tolerance = tolerance,
+                                         .triangles = command.triangles.value_or(0),
+                                         .progress = display.callback(),
+                                         .refit = true},
+                                        &printable);
   display.finish();
   if (result.triangles.empty()) {
     throw InputError(command.input.string() +

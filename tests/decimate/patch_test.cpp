@@ -50,10 +50,9 @@ std::vector<Triangle> triangles_around(const TriMesh& surface, const Patch& patc
 
 TEST(CutIntoPatches, KeepsEveryTriangleOnce) {
   const TriMesh surface = sphere();
-  const auto whole =
-      cut_into_patches(surface.points, cover_of(surface), std::numeric_limits<double>::infinity());
+  const auto whole = cut_into_patches(cover_of(surface), std::numeric_limits<double>::infinity());
   ASSERT_EQ(whole.size(), 1u);
-  const auto cut = cut_into_patches(surface.points, cover_of(surface), 0.5);
+  const auto cut = cut_into_patches(cover_of(surface), 0.5);
   EXPECT_GT(cut.size(), 20u);
   EXPECT_EQ(triangles_of(whole).size(), surface.triangles.size());
   EXPECT_EQ(triangles_of(cut), triangles_of(whole));
@@ -71,15 +70,14 @@ TEST(CutIntoPatches, KeepsEveryTriangleOnce) {
 
 TEST(CutIntoPatches, HoldsNothingInAWhole) {
   const TriMesh surface = sphere();
-  const auto whole =
-      cut_into_patches(surface.points, cover_of(surface), std::numeric_limits<double>::infinity());
+  const auto whole = cut_into_patches(cover_of(surface), std::numeric_limits<double>::infinity());
   EXPECT_EQ(std::count(whole[0].held.begin(), whole[0].held.end(), 1), 0);
   EXPECT_TRUE(whole[0].around.empty());
 }
 
 TEST(CutIntoPatches, HoldsWhatTouchesASharedPoint) {
   const TriMesh surface = sphere();
-  const auto cut = cut_into_patches(surface.points, cover_of(surface), 0.5);
+  const auto cut = cut_into_patches(cover_of(surface), 0.5);
   std::vector<int> patches_at(surface.points.size(), 0);
   for (const Patch& patch : cut) {
     for (const Index p : patch.points) ++patches_at[p];
@@ -94,6 +92,21 @@ TEST(CutIntoPatches, HoldsWhatTouchesASharedPoint) {
     EXPECT_EQ(patch.held, expected);
     EXPECT_EQ(patch.around, triangles_around(surface, patch));
   }
+}
+
+TEST(Hold, TakesCornersAndRings) {
+  const TriMesh surface = sphere();
+  Patch patch = cut_into_patches(cover_of(surface), std::numeric_limits<double>::infinity())[0];
+  hold(patch, {}, {}, 3);
+  EXPECT_EQ(std::count(patch.held.begin(), patch.held.end(), 1), 0);
+  Patch wider = patch;
+  hold(patch, {}, {7}, 0);
+  EXPECT_EQ(std::count(patch.held.begin(), patch.held.end(), 1), 3);
+  for (const Index p : surface.triangles[7]) EXPECT_EQ(patch.held[p], 1);
+  std::vector<char> expected = patch.held;
+  choose_rings(surface.triangles, 2, expected);
+  hold(wider, {surface.triangles[7][0]}, {7}, 2);
+  EXPECT_EQ(wider.held, expected);
 }
 
 TEST(ChooseRings, AddsNeighboursRingByRing) {

@@ -11,6 +11,7 @@
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/farthest.h"
 #include "mesamis/surface/self_intersections.h"
+#include "mesamis/surface/unused_points.h"
 #include "support/level_set.h"
 #include "support/shapes.h"
 
@@ -38,20 +39,19 @@ TriMesh neighbours(int which) {
 
 struct Work {
   TriMesh surface;
-  TriangleTree tree{surface};
   DecimateTask task;
   PatchworkReport report{};
 
   Work(TriMesh s, double tolerance)
-      : surface(std::move(s)), task{surface, {&tree, 1}, tolerance, 0, [](double) {}} {}
+      : surface(std::move(s)), task{surface, tolerance, 0, [](double) {}} {}
 
   Cover run(double side) {
-    return decimate_patchwork(task, cut_into_patches(surface.points, cover_of(surface), side),
+    return decimate_patchwork(task, surface.points, cut_into_patches(cover_of(surface), side),
                               report);
   }
 
   void expect_promises_kept(const Cover& cover) const {
-    const TriMesh result{surface.points, cover.triangles};
+    const TriMesh result = without_unused_points({cover.points, cover.triangles});
     const SurfaceCheck before = check_surface(surface), after = check_surface(result);
     EXPECT_EQ(flaws_of(after), "");
     EXPECT_EQ(after.components, before.components);
@@ -78,8 +78,10 @@ Patch part(const TriMesh& surface, Index begin, Index end) {
     if (k[0] < begin || k[0] >= end) continue;
     patch.cover.triangles.push_back({k[0] - begin, k[1] - begin, k[2] - begin});
     patch.cover.originals.push_back({t});
-    patch.cover.drift.push_back(0);
+    patch.cover.to_originals.push_back(0);
+    patch.cover.from_originals.push_back(0);
   }
+  for (const Index p : patch.points) patch.cover.points.push_back(surface.points[p]);
   return patch;
 }
 
@@ -93,14 +95,18 @@ TEST(Patchwork, PatchesThatWouldMeetAreMadeAnew) {
   // Each for itself, they meet.
   TriMesh apart{work.surface.points, {}};
   for (const Patch& patch : patches) {
-    for (Triangle t : decimate_patch(work.task, patch).cover.triangles) {
+    const Cover done = decimate_pass(work.task, patch);
+    for (std::size_t p = 0; p < patch.points.size(); ++p) {
+      apart.points[patch.points[p]] = done.points[p];
+    }
+    for (Triangle t : done.triangles) {
       for (Index& p : t) p = patch.points[p];
       apart.triangles.push_back(t);
     }
   }
   EXPECT_FALSE(find_self_intersections(apart).empty());
   PatchworkReport report;
-  const Cover cover = decimate_patchwork(work.task, patches, report);
+  const Cover cover = decimate_patchwork(work.task, work.surface.points, patches, report);
   work.expect_promises_kept(cover);
   EXPECT_GT(report.rounds, 0);
   EXPECT_LT(cover.triangles.size(), work.surface.triangles.size() * 3 / 4);
@@ -111,6 +117,7 @@ TEST(Patchwork, IsTheSameForAnyNumberOfThreads) {
   const auto run = [&] { return work.run(0.5); };
   const Cover one = with_threads(1, run), three = with_threads(3, run);
   EXPECT_EQ(one.triangles, three.triangles);
+  EXPECT_EQ(one.points, three.points);
   EXPECT_EQ(one.originals, three.originals);
 }
 

@@ -79,23 +79,23 @@ TEST(ChooseMaxTets, KeepsToItsBoundsAndToWhatIsGiven) {
 }
 
 TEST(ChooseTolerance, FollowsTheErrorWithinBounds) {
-  const auto chosen = [](Parameters p, double error, ErrorsLost errors) {
+  const auto chosen = [](Parameters p, double error, double errors) {
     choose_tolerance(p, 0.5, error, errors);
     return *p.tolerance;
   };
-  EXPECT_EQ(chosen({}, 0.03, ErrorsLost::kOne), 0.03);
-  EXPECT_EQ(chosen({}, 0.03, ErrorsLost::kTwo), 0.06);
-  EXPECT_EQ(chosen({}, 0, ErrorsLost::kOne), 0.03 * 0.5);
-  EXPECT_EQ(chosen({}, 1, ErrorsLost::kOne), 0.1 * 0.5);
+  EXPECT_EQ(chosen({}, 0.03, 1), 0.03);
+  EXPECT_EQ(chosen({}, 0.03, 2), 0.06);
+  EXPECT_EQ(chosen({}, 0, 1), 0.03 * 0.5);
+  EXPECT_EQ(chosen({}, 1, 1), 0.1 * 0.5);
   Parameters p;
   p.accuracy = 0.2;
-  EXPECT_EQ(chosen(p, 1, ErrorsLost::kTwo), 0.1);
+  EXPECT_EQ(chosen(p, 1, 2), 0.1);
   p.accuracy = 1e-6;
-  EXPECT_EQ(chosen(p, 1, ErrorsLost::kTwo), 0.01 * 0.5);
+  EXPECT_EQ(chosen(p, 1, 2), 0.01 * 0.5);
   p.triangles = 500;
-  EXPECT_TRUE(std::isinf(chosen(p, 1, ErrorsLost::kOne)));
+  EXPECT_TRUE(std::isinf(chosen(p, 1, 1)));
   p.tolerance = 0.3;
-  EXPECT_EQ(chosen(p, 1, ErrorsLost::kOne), 0.3);
+  EXPECT_EQ(chosen(p, 1, 1), 0.3);
 }
 
 }  // namespace

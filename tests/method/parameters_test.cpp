@@ -16,7 +16,7 @@ TEST(Parameters, AsSettingsTheyLeadToTheSameParameters) {
   asked.keep_largest = 2;
   asked.gradation = 1.5;
   Parameters first = prepare_image(volume, asked).parameters;
-  choose_tolerance(first, 1, 0.05, ErrorsLost::kOne);  // when there is a surface
+  choose_tolerance(first, 1, 0.05, kErrorsOfDecimation);  // when there is a surface
   const Settings repeated = settings_of(first);
   EXPECT_NO_THROW(require_valid(repeated));
   const Settings again = settings_of(prepare_image(volume, repeated).parameters);

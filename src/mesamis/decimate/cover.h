@@ -7,21 +7,23 @@
 
 namespace mesamis {
 
-/// A surface on its way: triangles over points of the original. With a tolerance, each stands for
-/// some triangles of the original, parts of which lie nearest to it, or for none; every original
-/// is stood for.
-///
-/// While the surface is deformed step by step, each of its points goes back to one of the original.
-/// The drift of a triangle bounds how far any of its points is from there.
+/// A surface on its way: triangles over the original's points, which may have moved. With a
+/// tolerance, each stands for some triangles of the original, parts of which lie near it, or for
+/// none; every original is stood for.
 struct Cover {
+  std::vector<Vec3> points;  ///< mm
   std::vector<Triangle> triangles;
   std::vector<std::vector<Index>> originals;  ///< of each triangle, increasing
-  std::vector<double> drift;                  ///< of each triangle, mm; infinity: not known
+  std::vector<double> to_originals;    ///< of each triangle: none of its points lies farther from
+                                       ///< the original, mm; infinity: not known
+  std::vector<double> from_originals;  ///< of each triangle: no original that it stands for
+                                       ///< lies farther from the surface, mm
 };
 
 /// Every triangle stands for itself.
 inline Cover cover_of(const TriMesh& surface) {
-  Cover cover{surface.triangles, {}, std::vector<double>(surface.triangles.size(), 0)};
+  const std::vector<double> none(surface.triangles.size(), 0);
+  Cover cover{surface.points, surface.triangles, {}, none, none};
   cover.originals.reserve(surface.triangles.size());
   for (Index t = 0; t < std::ssize(surface.triangles); ++t) cover.originals.push_back({t});
   return cover;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/decimate/decimate.h"
 
+#include <cmath>
 #include <string>
 
 #include "mesamis/base/error.h"
@@ -32,12 +33,10 @@ TriMesh decimate(const TriMesh& surface, const DecimateOptions& options, Decimat
   PatchworkReport work;
   const TriMesh result =
       without_unused_points(decimate_surface(surface, options, kTrianglesPerPatch, work));
-  counts.passes = work.passes;
-  counts.points_held = work.points_held;
   counts.triangles_after = static_cast<std::int64_t>(result.triangles.size());
-  if (options.quick) {
-    counts.original_to_result = counts.result_to_original = work.drift;
-  } else if (report) {
+  counts.original_to_result = work.from_originals;
+  counts.result_to_original = work.to_originals;
+  if (report && std::isinf(options.tolerance)) {
     const double fine = fine_enough(surface, options.tolerance);
     counts.original_to_result = max_distance(surface, result, fine);
     counts.result_to_original = max_distance(result, surface, fine);

@@ -6,36 +6,23 @@
 
 #include "mesamis/decimate/decimation.h"
 #include "mesamis/decimate/interfaces.h"
-#include "mesamis/surface/distance.h"
 #include "mesamis/surface/unused_points.h"
 
 namespace mesamis {
 namespace {
 
-void measure(const Interfaces& interfaces, const TriMesh& result, double tolerance,
-             DecimateReport& report) {
-  const auto before = split_interfaces(interfaces, interfaces.surface.triangles);
-  const auto after = split_interfaces(interfaces, result.triangles);
-  for (std::size_t s = 0; s < before.size(); ++s) {
-    const double fine = fine_enough(before[s], tolerance);
-    report.original_to_result =
-        std::max(report.original_to_result, max_distance(before[s], after[s], fine));
-    report.result_to_original =
-        std::max(report.result_to_original, max_distance(after[s], before[s], fine));
-  }
-}
-
-/// Triangles over the partition's points, with the sides of their interfaces; then only the points
-/// that are used.
+/// Triangles over the partition's points, where these are now, with the sides of their interfaces;
+/// then only the points that are used.
 PartitionSurface joined(const Interfaces& interfaces, const PartitionSurface& partition,
-                        const std::vector<Triangle>& triangles) {
+                        const TriMesh& decimated) {
   std::vector<std::array<Index, 2>> sides(static_cast<std::size_t>(interfaces.count));
   for (std::size_t t = 0; t < partition.sides.size(); ++t) {
     sides[interfaces.of_point[interfaces.surface.triangles[t][0]]] = partition.sides[t];
   }
   TriMesh all{partition.points, {}};
   PartitionSurface result;
-  for (const Triangle& t : triangles) {
+  for (const Triangle& t : decimated.triangles) {
+    for (const Index p : t) all.points[interfaces.origin[p]] = decimated.points[p];
     all.triangles.push_back(
         {interfaces.origin[t[0]], interfaces.origin[t[1]], interfaces.origin[t[2]]});
     result.sides.push_back(sides[interfaces.of_point[t[0]]]);
@@ -59,15 +46,10 @@ PartitionSurface decimate_partition(const PartitionSurface& partition,
   if (options.tolerance == 0 || partition.triangles.empty()) return partition;
   PatchworkReport work;
   const TriMesh result = decimate_interfaces(interfaces, options, kTrianglesPerPatch, work);
-  counts.passes = work.passes;
-  counts.points_held = work.points_held;
   counts.triangles_after = std::ssize(result.triangles);
-  if (options.quick) {
-    counts.original_to_result = counts.result_to_original = work.drift;
-  } else if (report) {
-    measure(interfaces, result, options.tolerance, counts);
-  }
-  return joined(interfaces, partition, result.triangles);
+  counts.original_to_result = work.from_originals;
+  counts.result_to_original = work.to_originals;
+  return joined(interfaces, partition, result);
 }
 
 }  // namespace mesamis

@@ -1,37 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/decimate/decimate_pass.h"
 
-#include <OpenMesh/Tools/Decimater/BaseDecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
-#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <queue>
 #include <tuple>
 
-#include "mesamis/base/parallel.h"
-#include "mesamis/decimate/collapse_rules.h"
+#include "mesamis/base/single_precision.h"
+#include "mesamis/decimate/collapse.h"
+#include "mesamis/decimate/collapse_intersections.h"
+#include "mesamis/decimate/fan_height.h"
+#include "mesamis/decimate/quadric.h"
+#include "mesamis/decimate/two_sided_bound.h"
 #include "mesamis/mesh/tet_mesh.h"
 
 namespace mesamis {
 namespace {
 
-using Mesh = HalfedgeMesh;
-using Info = CollapseInfo;
+/// Weight, over that of the quadric, of the pull to the middle of an edge: it decides where the
+/// surface is flat.
+constexpr double kPull = 1e-3;
+/// Where errors are equal, as on flat parts, short edges go first: weight of their squared length.
+constexpr double kShortFirst = 1e-6;
+/// Squared height over length up to which an edge lies on a flat part.
+constexpr double kFlat = 1e-12;
+/// So often refused collapses are tried again where the surface has changed.
+constexpr int kMostRounds = 12;
 
-constexpr double kMaxNormalChange = 75;  // degrees, of a triangle in one collapse
-
-std::vector<char> rims_of(const Interfaces& interfaces, const Patch& patch) {
-  std::vector<char> rims;
-  rims.reserve(patch.points.size());
-  for (const Index p : patch.points) rims.push_back(interfaces.at_rim[p]);
-  return rims;
-}
-
-/// Of each point of a patch, the first of its points that is a copy of the same. Copies follow each
-/// other.
-/// @return empty without interfaces.
 std::vector<Index> first_copies(const DecimateTask& task, const Patch& patch) {
   std::vector<Index> firsts;
   if (!task.interfaces) return firsts;
@@ -43,280 +40,275 @@ std::vector<Index> first_copies(const DecimateTask& task, const Patch& patch) {
   return firsts;
 }
 
-/// OpenMesh's decimater with one change: the binary modules, which are expensive, test a collapse
-/// only when it is next in the order, and several collapses without a common triangle are tested at
-/// once. Their number depends on the surface, never on the machine.
-class LateDecimater : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
+class Pass {
  public:
-  LateDecimater(Mesh& mesh, const DecimateTask& task, const TriMesh& surface, const Patch& patch)
-      : BaseDecimaterT<Mesh>(mesh),
-        mesh_(mesh),
-        points_(surface.points),
-        points_left_(static_cast<std::int64_t>(mesh.n_vertices())) {
-    const Vec3 extent = bounding_box(points_).extent();
-    negligible_ = 1e-14 * dot(extent, extent);
-    OpenMesh::Decimater::ModNormalFlippingT<Mesh>::Handle flips;
-    ModuleHandle<ModFlatness> flatness;
-    add(quadric_);
-    add(flips);
-    add(flatness);
-    if (!std::isinf(task.tolerance)) {  // a number of triangles is reached all the same
-      ModuleHandle<ModCreases> creases;
-      add(creases);
-      module(creases).set_surface(surface);
-    }
+  Pass(const DecimateTask& task, const Patch& patch)
+      : task_(task),
+        points_(patch.cover.points),
+        held_(patch.held),
+        surface_(points_.size(), patch.cover.triangles),
+        intersections_(surface_, points_, first_copies(task, patch)),
+        stamps_(points_.size(), 0),
+        is_woken_(points_.size(), 0),
+        planes_(points_.size()),
+        quadrics_(points_.size()),
+        left_(surface_.count()) {
+    if (std::isfinite(task.tolerance)) bound_.emplace(task.surface, patch.cover, task.tolerance);
+    const Box box = bounding_box(points_);
+    origin_ = 0.5 * (box.lo + box.hi);
     if (task.interfaces) {
-      ModuleHandle<ModRims> rims;
-      add(rims);
-      module(rims).set_rims(rims_of(*task.interfaces, patch));
+      for (const Index p : patch.points) at_rim_.push_back(task.interfaces->at_rim[p]);
     }
-    add(hausdorff_);
-    add(intersection_);
-    module(quadric_).unset_max_err();
-    module(flips).set_max_normal_deviation(kMaxNormalChange);
-    module(flatness).set_surface(surface);
-    module(hausdorff_).set_task(task, surface, patch);
-    module(intersection_).set_surface(surface, first_copies(task, patch));
-    initialize();
+    for (Index t = 0; t < surface_.count(); ++t) add_triangle(t);
   }
 
-  void run(std::int64_t triangles, const std::function<void(double)>& progress) {
-    stamps_.assign(mesh_.n_vertices(), 0);
-    refused_.resize(mesh_.n_vertices());
-    turn_of_.assign(mesh_.n_vertices(), 0);
-    is_woken_.assign(mesh_.n_vertices(), 0);
-    for (const auto v : mesh_.vertices()) push_around(v);
-    const auto first_count = static_cast<double>(queue_.size());
+  void run() {
+    push_all();
+    const auto first = static_cast<double>(queue_.size());
     double done = 0;
-    while (triangles_left() > triangles && (!queue_.empty() || push_woken())) {
-      choose();
-      parallel_blocks(chosen_.size(), 4, [this](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          chosen_[i].allowed = is_legal(collapse_priority(chosen_[i].info));
-        }
-      });
-      changed_.clear();
-      for (Chosen& next : chosen_) {
-        if (triangles_left() <= triangles) break;
-        const Box around = box_around(next.info.v0);
-        if (next.allowed && still_meets_none(next.info, around)) {
-          changed_.push_back(around);
-          collapse(next.info);
-        } else {
-          refuse(next.info);
+    std::int64_t steps = 0;
+    for (int round = 0; round < kMostRounds && left_ > task_.triangles; ++round) {
+      bool any = false;
+      while (left_ > task_.triangles && !queue_.empty()) {
+        const Candidate next = queue_.top();
+        queue_.pop();
+        if (is_valid(next)) any |= try_to(next.half_edge);
+        if (++steps % 4096 == 0) {
+          done = std::max(done, 1 - static_cast<double>(queue_.size()) / first);
+          task_.progress(std::min(done, 1.0));
         }
       }
-      if (turn_ % 32 == 0) {
-        done = std::max(done, 1 - static_cast<double>(queue_.size()) / first_count);
-        progress(done);
+      if (any) {
+        push_woken();
+      } else if (!bound_ && !relaxed_) {
+        relaxed_ = true;
+        push_all();
+      } else {
+        break;
       }
     }
   }
 
-  /// What is left.
-  Cover cover() {
-    Cover left{remaining_triangles(mesh_), {}, {}};
-    for (const auto f : mesh_.faces()) {
-      if (mesh_.status(f).deleted()) continue;
-      left.originals.push_back(module(hausdorff_).originals_of(f));
-      left.drift.push_back(module(hausdorff_).drift_of(f));
+  Cover cover() const {
+    Cover left;
+    left.points = points_;
+    for (Index t = 0; t < surface_.count(); ++t) {
+      if (surface_.is_removed(t)) continue;
+      left.triangles.push_back(surface_.triangle(t));
+      left.originals.push_back(bound_ ? bound_->originals_of(t) : std::vector<Index>{});
+      left.to_originals.push_back(bound_ ? bound_->to_originals_of(t) : 0);
+      left.from_originals.push_back(bound_ ? bound_->from_originals_of(t) : 0);
     }
     return left;
   }
 
  private:
-  template <class M>
-  using ModuleHandle = OpenMesh::Decimater::ModHandleT<M>;
-
   struct Candidate {
-    float error, length;
-    Index halfedge, point, stamp;
-    /// The smallest error comes out first; where the surface is flat, the shortest edge.
+    double error;
+    Index half_edge, from, to, from_stamp, to_stamp;
+    /// The smallest error comes out first.
     bool operator<(const Candidate& other) const {
-      return std::tie(error, length, halfedge) >
-             std::tie(other.error, other.length, other.halfedge);
+      return std::tie(error, half_edge) > std::tie(other.error, other.half_edge);
     }
   };
 
-  struct Chosen {
-    Info info;
-    bool allowed = false;
-  };
-
-  /// Each collapse takes one point and two triangles.
-  std::int64_t triangles_left() const {
-    const auto points = static_cast<std::int64_t>(mesh_.n_vertices());
-    return static_cast<std::int64_t>(mesh_.n_faces()) - 2 * (points - points_left_);
-  }
-
-  std::vector<Mesh::VertexHandle> ring_of(Mesh::VertexHandle point) const {
-    std::vector<Mesh::VertexHandle> ring;
-    for (auto v = mesh_.cvv_iter(point); v.is_valid(); ++v) ring.push_back(*v);
-    return ring;
-  }
-
-  /// A collapse that was refused may have become legal by a change up to two rings away.
-  /// @return whether there is anything to try.
-  bool push_woken() {
-    std::vector<Mesh::VertexHandle> woken;
-    woken.swap(woken_);
-    std::sort(woken.begin(), woken.end());
-    for (const auto v : woken) {
-      if (is_woken_[index(v)] != 0 && !mesh_.status(v).deleted()) push_around(v);
+  void add_triangle(Index t) {
+    const Triangle k = surface_.triangle(t);
+    const Corners c{points_[k[0]], points_[k[1]], points_[k[2]]};
+    const Vec3 area = cross(c[1] - c[0], c[2] - c[0]);
+    const Vec3 n = unit_or_zero(area);
+    normals_.push_back(n);
+    for (const Index p : k) quadrics_[p].add_plane(n, dot(n, c[0] - origin_), norm(area) / 6);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (c[0][axis] != c[1][axis] || c[0][axis] != c[2][axis]) continue;
+      for (const Index p : k) planes_[p][static_cast<std::size_t>(axis)] = true;
     }
-    return !queue_.empty();
   }
 
-  void wake(Mesh::VertexHandle v) {
-    if (is_woken_[index(v)] == 0) woken_.push_back(v);
-    is_woken_[index(v)] = 1;
+  bool is_valid(const Candidate& c) const {
+    return stamps_[c.from] == c.from_stamp && stamps_[c.to] == c.to_stamp;
   }
 
-  void push_around(Mesh::VertexHandle v) {
-    is_woken_[index(v)] = 0;
-    ++stamps_[index(v)];
-    refused_[index(v)].clear();
-    if (!mesh_.status(v).locked()) push_best(v);
-  }
-
-  /// A point is in the queue once, with the best of its halfedges that has not been refused.
-  void push_best(Mesh::VertexHandle v) {
-    const std::vector<Index>& refused = refused_[index(v)];
-    std::optional<Candidate> best;
-    for (auto h = mesh_.cvoh_iter(v); h.is_valid(); ++h) {
-      if (std::find(refused.begin(), refused.end(), h->idx()) != refused.end()) continue;
-      const Candidate next{error_of(*h), length_of(*h), h->idx(), v.idx(), stamps_[index(v)]};
-      if (!best || *best < next) best = next;
+  void push_all() {
+    std::vector<Index> all;
+    for (Index h = 0; h < 3 * surface_.count(); ++h) {
+      if (!surface_.is_removed(h / 3)) all.push_back(h);
     }
-    if (best) queue_.push(*best);
+    push(all);
   }
 
-  void refuse(const Info& collapse) {
-    refused_[index(collapse.v0)].push_back(collapse.v0v1.idx());
-    push_best(collapse.v0);
+  void push(const std::vector<Index>& half_edges) {
+    for (const Index h : half_edges) {
+      const Index o = surface_.opposite(h);
+      if (o == kNoIndex || o < h) continue;
+      const std::optional<Vec3> place = place_of(h);
+      if (place) queue_.push(candidate(h, *place));
+    }
   }
 
-  float length_of(Mesh::HalfedgeHandle h) const {
-    return static_cast<float>(mesh_.calc_edge_sqr_length(h));
+  Candidate candidate(Index h, const Vec3& place) const {
+    const Index a = surface_.from(h), b = surface_.to(h);
+    Quadric q = quadrics_[a];
+    q += quadrics_[b];
+    const Vec3 way = points_[a] - points_[b];
+    const double error =
+        std::max(q.at(place - origin_), 0.0) + kShortFirst * q.weight * dot(way, way);
+    return {error, h, a, b, stamps_[a], stamps_[b]};
   }
 
-  /// On flat parts the error is mere round-off and may be negative.
-  float error_of(Mesh::HalfedgeHandle h) {
-    const float error = module(quadric_).collapse_priority(Info(mesh_, h));
-    return error > negligible_ * length_of(h) ? error : 0;
+  /// Which of the axis planes that one point keeps to, the other does not.
+  bool keeps_more(Index a, Index b) const {
+    bool more = false;
+    if (relaxed_) return false;
+    for (std::size_t axis = 0; axis < 3; ++axis) more |= planes_[a][axis] && !planes_[b][axis];
+    return more;
   }
 
-  /// A legal priority may be slightly negative: the quadric's error is subject to round-off.
-  static bool is_legal(float priority) {
-    return priority > static_cast<float>(CollapseRule::ILLEGAL_COLLAPSE);
-  }
-
-  /// Chooses the next collapses in the order. A collapse whose surroundings overlap another's
-  /// waits. Few are chosen on a small surface: else some would overtake many that wait.
-  void choose() {
-    const auto most =
-        static_cast<std::size_t>(std::clamp<std::int64_t>(points_left_ / 200, 1, 128));
-    ++turn_;
-    chosen_.clear();
-    waiting_.clear();
-    while (!queue_.empty() && chosen_.size() < most && waiting_.size() < 2 * most) {
-      const Candidate next = queue_.top();
-      queue_.pop();
-      if (next.stamp != stamps_[next.point]) continue;
-      Info info(mesh_, Mesh::HalfedgeHandle(next.halfedge));
-      if (!is_collapse_legal(info)) {
-        refuse(info);
-      } else if (error_of(info.v0v1) > next.error) {  // the target has gathered errors meanwhile
-        push_best(info.v0);
-      } else if (reserve(info)) {
-        chosen_.push_back({info});
-      } else {
-        waiting_.push_back(next);
+  /// Where the edge's points go: none if neither may.
+  std::optional<Vec3> place_of(Index h) const {
+    const Index a = surface_.from(h), b = surface_.to(h);
+    const bool a_stays = !may_move(a), b_stays = !may_move(b);
+    const bool to_a = a_stays || keeps_more(a, b), to_b = b_stays || keeps_more(b, a);
+    if (to_a && to_b) return std::nullopt;
+    if (to_a) return points_[a];
+    if (to_b) return points_[b];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!relaxed_ && planes_[a][static_cast<std::size_t>(axis)] &&
+          points_[a][axis] != points_[b][axis]) {
+        return std::nullopt;
       }
     }
-    for (const Candidate& candidate : waiting_) queue_.push(candidate);
+    Quadric q = quadrics_[a];
+    q += quadrics_[b];
+    const double at_a = q.at(points_[a] - origin_), at_b = q.at(points_[b] - origin_);
+    const Vec3 better = at_a < at_b ? points_[a] : points_[b];
+    // Where it is flat, points that are there lie better than new ones, which are rounded.
+    const Vec3 way = points_[a] - points_[b];
+    if (std::min(at_a, at_b) < kFlat * q.weight * dot(way, way)) return better;
+    const Vec3 middle = 0.5 * (points_[a] + points_[b]) - origin_;
+    return rounded(minimum(q, middle, kPull, relaxed_ ? std::array<bool, 3>{} : planes_[a]) +
+                   origin_);
   }
 
-  /// Reserves the corners of the triangles around the point to be removed: the test of a collapse
-  /// reads the triangles around them, so no two collapses of a turn may share one. OpenMesh's
-  /// ModNormalFlipping even moves the mesh's own point v0 during its test; the other modules here
-  /// read the patch's points alone.
-  /// @return false if one of them is taken for this turn.
-  bool reserve(const Info& collapse) {
-    std::vector<Mesh::VertexHandle> corners = ring_of(collapse.v0);
-    corners.push_back(collapse.v0);
-    for (const auto v : corners) {
-      if (turn_of_[index(v)] == turn_) return false;
+  bool may_move(Index p) const { return held_[p] == 0 && surface_.is_inner(p); }
+
+  bool joins_rims(const Collapse& collapse) const {
+    if (at_rim_.empty() || at_rim_[collapse.kept] == 0) return false;
+    const Index left = surface_.from(EditableSurface::previous(collapse.half_edge)),
+                right = surface_.to(EditableSurface::next(surface_.opposite(collapse.half_edge)));
+    bool joins = false;
+    surface_.for_each_leaving(collapse.removed, [&](Index h) {
+      const Index q = surface_.to(h);
+      joins |= q != collapse.kept && q != left && q != right && at_rim_[q] != 0;
+    });
+    return joins;
+  }
+
+  /// Collapses an edge to the best place, or onto one of its ends, if that is allowed.
+  bool try_to(Index h) {
+    const std::optional<Vec3> place = place_of(h);
+    if (!place) return false;
+    const Vec3 from = points_[surface_.from(h)], to = points_[surface_.to(h)];
+    const bool is_new = *place != from && *place != to;
+    if (may_become(h, *place) && become()) return true;
+    if (!bound_ && !relaxed_) return false;  // another end would cost more
+    if ((!relaxed_ && planes_[surface_.from(h)] != planes_[surface_.to(h)]) ||
+        !may_move(surface_.from(h)) || !may_move(surface_.to(h))) {
+      return false;
     }
-    for (const auto v : corners) turn_of_[index(v)] = turn_;
+    const Vec3 first = *place == to ? from : to, second = first == to ? from : to;
+    return (may_become(h, first) && become()) || (is_new && may_become(h, second) && become());
+  }
+
+  /// Whether the shapes of the triangles allow a collapse to a place.
+  bool may_become(Index h, const Vec3& place) {
+    // The point that goes is one that may.
+    const Index a = surface_.from(h);
+    if (!may_move(a) || place == points_[a]) h = surface_.opposite(h);
+    if (!surface_.may_collapse(h)) return false;
+    describe(surface_, points_, h, place, collapse_);
+    return !joins_rims(collapse_) &&
+           !spoils_shape(surface_, points_, normals_, collapse_, bound_.has_value());
+  }
+
+  /// Makes the collapse that was looked at last if all else allows it.
+  bool become() {
+    collapse_.height = fan_height(surface_, points_, collapse_);
+    if (bound_ && !bound_->allows(surface_, points_, collapse_)) return false;
+    if (intersections_.occur(surface_, points_, collapse_)) return false;
+    apply();
     return true;
   }
 
-  /// Checks again for intersections with earlier collapses of this turn: their surroundings may be
-  /// near in space where the surface comes close to itself.
-  bool still_meets_none(const Info& collapse, const Box& around) {
-    const bool changed = std::any_of(changed_.begin(), changed_.end(),
-                                     [&](const Box& box) { return overlap(box, around); });
-    return !changed || is_legal(module(intersection_).collapse_priority(collapse));
-  }
-
-  /// The box of all triangles around a point, and so of those that replace them.
-  Box box_around(Mesh::VertexHandle point) const {
-    std::vector<Vec3> points{points_[index(point)]};
-    for (const auto v : ring_of(point)) points.push_back(points_[index(v)]);
-    return bounding_box(points);
-  }
-
-  void collapse(Info& info) {
-    const std::vector<Mesh::VertexHandle> ring = ring_of(info.v0);
-    preprocess_collapse(info);
-    mesh_.collapse(info.v0v1);
-    --points_left_;
-    ++stamps_[index(info.v0)];
-    for (auto f = mesh_.cvf_iter(info.v1); f.is_valid(); ++f) mesh_.update_normal(*f);
-    postprocess_collapse(info);
-    for (const auto v : ring) {
-      for (const auto w : ring_of(v)) wake(w);
+  void apply() {
+    if (bound_) bound_->apply(collapse_);
+    quadrics_[collapse_.kept] += quadrics_[collapse_.removed];
+    surface_.collapse(collapse_.half_edge);
+    points_[collapse_.kept] = collapse_.place;
+    intersections_.apply(collapse_);
+    for (std::size_t i = 0; i < collapse_.faces.size(); ++i) {
+      normals_[collapse_.faces[i]] = unit_normal(collapse_.after[i]);
     }
-    for (const auto v : ring) push_around(v);
+    left_ -= 2;
+    ++stamps_[collapse_.removed];
+    ++stamps_[collapse_.kept];
+    std::vector<Index>& around = scratch_;
+    around.clear();
+    surface_.for_each_leaving(collapse_.kept, [&](Index h) {
+      for (const Index k : {h, surface_.opposite(h)}) {
+        if (k != kNoIndex) around.push_back(k);
+      }
+      wake(surface_.to(h));
+    });
+    push(around);
   }
 
-  Mesh& mesh_;
-  const std::vector<Vec3>& points_;
-  std::int64_t points_left_;
-  double negligible_;  // error, per squared length of the edge
-  OpenMesh::Decimater::ModQuadricT<Mesh>::Handle quadric_;
-  ModuleHandle<ModHausdorff> hausdorff_;
-  ModuleHandle<ModIntersection> intersection_;
+  void wake(Index p) {
+    if (is_woken_[p] == 0) woken_.push_back(p);
+    is_woken_[p] = 1;
+  }
+
+  void push_woken() {
+    std::vector<Index> around;
+    for (const Index p : woken_) {
+      is_woken_[p] = 0;
+      surface_.for_each_leaving(p, [&](Index h) {
+        const Index o = surface_.opposite(h);
+        if (o != kNoIndex) around.push_back(std::min(h, o));
+      });
+    }
+    woken_.clear();
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    push(around);
+  }
+
+  const DecimateTask& task_;
+  std::vector<Vec3> points_;
+  const std::vector<char>& held_;
+  EditableSurface surface_;
+  CollapseIntersections intersections_;
+  std::optional<TwoSidedBound> bound_;
+  std::vector<Index> stamps_, woken_;
+  std::vector<char> is_woken_, at_rim_;
+  std::vector<std::array<bool, 3>> planes_;  // of the axes that each point keeps to
+  std::vector<Quadric> quadrics_;            // relative to the origin
+  std::vector<Vec3> normals_;                // of triangles
+  Vec3 origin_;
+  std::int64_t left_;
+  bool relaxed_ = false;  // without a tolerance, once nothing else can be done: ends that cost more
+                          // are taken, and planes left
   std::priority_queue<Candidate> queue_;
-  std::vector<Index> stamps_;
-  std::vector<Mesh::VertexHandle> woken_;    // to be tried again at the end
-  std::vector<char> is_woken_;               // of each point
-  std::vector<std::vector<Index>> refused_;  // halfedges of each point, as it is now
-  std::size_t turn_ = 0;
-  std::vector<std::size_t> turn_of_;  // the last one that each point was reserved for
-  std::vector<Chosen> chosen_;        // for the present turn
-  std::vector<Candidate> waiting_;    // for the next one
-  std::vector<Box> changed_;          // in the present turn
+  Collapse collapse_;
+  std::vector<Index> scratch_;
 };
 
 }  // namespace
 
 Cover decimate_pass(const DecimateTask& task, const Patch& patch) {
-  TriMesh surface{{}, patch.cover.triangles};
-  for (const Index p : patch.points) surface.points.push_back(task.surface.points[p]);
-  // Near the origin quadrics lose less to round-off; all else works with the points as they are.
-  const Box box = bounding_box(surface.points);
-  HalfedgeMesh mesh;
-  build_halfedges(surface, 0.5 * (box.lo + box.hi), mesh);
-  mesh.request_face_normals();
-  mesh.update_face_normals();
-  for (std::size_t v = 0; v < patch.held.size(); ++v) {
-    mesh.status(OpenMesh::VertexHandle(static_cast<int>(v))).set_locked(patch.held[v] != 0);
-  }
-  LateDecimater decimater(mesh, task, surface, patch);
-  decimater.run(task.triangles, task.progress);
-  return decimater.cover();
+  Pass pass(task, patch);
+  pass.run();
+  return pass.cover();
 }
 
 }  // namespace mesamis

@@ -10,7 +10,6 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/decimate/decimate_part.h"
-#include "mesamis/surface/farthest.h"
 
 namespace mesamis {
 namespace {
@@ -37,64 +36,58 @@ class Decimation {
   /// @param interfaces  of the surface; nullptr: it is closed.
   Decimation(const TriMesh& surface, const Interfaces* interfaces, const DecimateOptions& options,
              PatchworkReport& report)
-      : surface_(surface), interfaces_(interfaces), options_(options), report_(report) {
-    if (!interfaces) {
-      trees_.emplace_back(surface);
-    } else {
-      for (const TriMesh& interface : split_interfaces(*interfaces, surface.triangles)) {
-        trees_.emplace_back(interface);
-      }
-    }
-  }
+      : surface_(surface), interfaces_(interfaces), options_(options), report_(report) {}
 
   /// @param side  of the patches' boxes, mm; infinity: one patch.
   TriMesh run(double side) {
     const std::vector<char> held =
         interfaces_ ? interfaces_->at_rim : std::vector<char>(surface_.points.size(), 0);
     Cover cover = run(cover_of(surface_), held, side);
-    for (const double drift : cover.drift) report_.drift = std::max(report_.drift, drift);
-    return {surface_.points, std::move(cover.triangles)};
+    for (const double to_originals : cover.to_originals)
+      report_.to_originals = std::max(report_.to_originals, to_originals);
+    for (const double from_originals : cover.from_originals) {
+      report_.from_originals = std::max(report_.from_originals, from_originals);
+    }
+    return {std::move(cover.points), std::move(cover.triangles)};
   }
 
   /// @param held  of each point of the surface 1 if it stays.
   Cover run(Cover cover, const std::vector<char>& held, double side) {
-    std::vector<char> open(surface_.points.size(), 1);  // of each point 1 if it may go
+    const std::vector<Vec3> points = cover.points;
+    std::vector<char> open(points.size(), 1);  // of each point 1 if it may go
     if (!std::isinf(side)) {
-      std::vector<Patch> patches = cut_into_patches(surface_.points, std::move(cover), side);
-      open = held_in(patches);
+      std::vector<Patch> patches = cut_into_patches(std::move(cover), side);
+      open = held_in(patches, points.size());
       for (Patch& patch : patches) hold_too(held, patch);
-      cover =
-          decimate_patchwork(task(0, kShareOfPatches, kDistanceSlack), std::move(patches), report_);
+      cover = decimate_patchwork(task(0, kShareOfPatches), points, std::move(patches), report_);
       choose_rings(cover.triangles, kRingsAtSeams, open);
     }
-    std::vector<Patch> whole = cut_into_patches(surface_.points, std::move(cover), kInfinity);
+    std::vector<Vec3> now = cover.points;
+    std::vector<Patch> whole = cut_into_patches(std::move(cover), kInfinity);
     for (std::size_t p = 0; p < whole[0].points.size(); ++p) {
       whole[0].held[p] = open[whole[0].points[p]] == 0 ? 1 : 0;
     }
     hold_too(held, whole[0]);
     const double begin = std::isinf(side) ? 0 : kShareOfPatches;
-    return decimate_patchwork(task(begin, 1, 1), std::move(whole), report_);
+    return decimate_patchwork(task(begin, 1), std::move(now), std::move(whole), report_);
   }
 
  private:
   static constexpr double kShareOfPatches = 0.85;  // of the work
   static constexpr int kRingsAtSeams = 4;
+  static constexpr double kRounding = 1e-9;
 
   /// @param begin, end  shares of the work.
-  /// @param strictness  what one search finds near by so much, any other does.
-  DecimateTask task(double begin, double end, double strictness) {
+  DecimateTask task(double begin, double end) {
     auto tell = [this, begin, end](double share) {
       // Passes that are repeated tell less than before.
       told_ = std::max(told_, begin + (end - begin) * std::clamp(share, 0.0, 1.0));
       if (options_.progress && !options_.progress("decimation", told_)) throw Cancelled();
     };
-    const double tolerance = options_.tolerance / (kDistanceSlack * strictness);
     return {.surface = surface_,
-            .trees = trees_,
-            .tolerance = tolerance,
+            .tolerance = (1 - kRounding) * options_.tolerance,
             .triangles = options_.triangles,
             .progress = tell,
-            .quick = options_.quick,
             .interfaces = interfaces_};
   }
 
@@ -102,9 +95,9 @@ class Decimation {
     for (std::size_t p = 0; p < patch.points.size(); ++p) patch.held[p] |= held[patch.points[p]];
   }
 
-  /// Of each point of the original 1 if patches hold it because they touch there.
-  std::vector<char> held_in(const std::vector<Patch>& patches) const {
-    std::vector<char> held(surface_.points.size(), 0);
+  /// Of each point 1 if patches hold it because they touch there.
+  static std::vector<char> held_in(const std::vector<Patch>& patches, std::size_t points) {
+    std::vector<char> held(points, 0);
     for (const Patch& patch : patches) {
       for (std::size_t p = 0; p < patch.points.size(); ++p) held[patch.points[p]] |= patch.held[p];
     }
@@ -114,7 +107,6 @@ class Decimation {
   const TriMesh& surface_;
   const Interfaces* interfaces_;
   const DecimateOptions& options_;
-  std::vector<TriangleTree> trees_;  // of each interface, or one
   PatchworkReport& report_;
   double told_ = 0;  // share of the work
 };
@@ -129,9 +121,6 @@ void require_valid(const DecimateOptions& options) {
   if (options.triangles < 0) {
     throw InputError("decimate: expected 0 or more triangles, found " +
                      std::to_string(options.triangles));
-  }
-  if (options.quick && std::isinf(options.tolerance)) {
-    throw InputError("decimate: expected a finite tolerance where it is to be quick, found none");
   }
 }
 
@@ -160,9 +149,9 @@ Cover decimate_patches(const TriMesh& original, Cover part, const std::vector<ch
                        const DecimateOptions& options, double triangles_per_patch) {
   if (part.triangles.empty()) return part;
   PatchworkReport work;
-  const double side = stands_for_itself(part) ? patch_side({original.points, part.triangles},
-                                                           options, triangles_per_patch)
-                                              : kInfinity;
+  const double side = stands_for_itself(part)
+                          ? patch_side({part.points, part.triangles}, options, triangles_per_patch)
+                          : kInfinity;
   return Decimation(original, nullptr, options, work).run(std::move(part), held, side);
 }
 

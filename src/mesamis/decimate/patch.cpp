@@ -13,7 +13,8 @@ namespace mesamis {
 namespace {
 
 /// The number of the patch of each triangle; patches are numbered in the order of their boxes.
-std::vector<Index> patch_numbers(const std::vector<Vec3>& points, const Cover& cover, double side) {
+std::vector<Index> patch_numbers(const Cover& cover, double side) {
+  const std::vector<Vec3>& points = cover.points;
   using Place = std::array<double, 3>;  // of a box: whole numbers
   const Vec3 origin = bounding_box(points).lo;
   std::vector<Place> boxes;
@@ -57,12 +58,15 @@ std::vector<char> shared_points(const Places& places, std::size_t points) {
 
 class Cutter {
  public:
-  Cutter(const std::vector<Vec3>& points, const Cover& cover, const std::vector<Index>& numbers)
-      : places_(places_of(cover, numbers)), shared_(shared_points(places_, points.size())) {
+  Cutter(const Cover& cover, const std::vector<Index>& numbers)
+      : places_(places_of(cover, numbers)), shared_(shared_points(places_, cover.points.size())) {
     const Index count = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + 1;
     patches_.resize(static_cast<std::size_t>(count));
     // The places come in the order of the points.
-    for (const auto& [point, patch] : places_) patches_[patch].points.push_back(point);
+    for (const auto& [point, patch] : places_) {
+      patches_[patch].points.push_back(point);
+      patches_[patch].cover.points.push_back(cover.points[point]);
+    }
     for (Patch& patch : patches_) patch.held.assign(patch.points.size(), 0);
   }
 
@@ -74,7 +78,8 @@ class Cutter {
       for (std::size_t i = 0; i < 3; ++i) local[i] = place_in(patch, corners[i]);
       patch.cover.triangles.push_back(local);
       patch.cover.originals.push_back(std::move(cover.originals[t]));
-      patch.cover.drift.push_back(cover.drift[t]);
+      patch.cover.to_originals.push_back(cover.to_originals[t]);
+      patch.cover.from_originals.push_back(cover.from_originals[t]);
       for (const Index p : corners) {
         if (shared_[p] == 0) continue;
         for (const Index corner : local) patch.held[corner] = 1;
@@ -120,11 +125,26 @@ void choose_rings(const std::vector<Triangle>& triangles, int rings, std::vector
   }
 }
 
-std::vector<Patch> cut_into_patches(const std::vector<Vec3>& points, Cover cover, double side) {
-  const std::vector<Index> numbers = std::isinf(side)
-                                         ? std::vector<Index>(cover.triangles.size(), 0)
-                                         : patch_numbers(points, cover, side);
-  Cutter cutter(points, cover, numbers);
+void hold(Patch& patch, const std::vector<Index>& points, const std::vector<Index>& originals,
+          int rings) {
+  std::vector<char> chosen(patch.held.size(), 0);
+  for (const Index p : points) chosen[p] = 1;
+  for (std::size_t t = 0; t < patch.cover.triangles.size(); ++t) {
+    const auto& own = patch.cover.originals[t];
+    const bool stands = std::any_of(own.begin(), own.end(), [&](Index original) {
+      return std::binary_search(originals.begin(), originals.end(), original);
+    });
+    if (!stands) continue;
+    for (const Index p : patch.cover.triangles[t]) chosen[p] = 1;
+  }
+  choose_rings(patch.cover.triangles, rings, chosen);
+  for (std::size_t p = 0; p < chosen.size(); ++p) patch.held[p] |= chosen[p];
+}
+
+std::vector<Patch> cut_into_patches(Cover cover, double side) {
+  const std::vector<Index> numbers =
+      std::isinf(side) ? std::vector<Index>(cover.triangles.size(), 0) : patch_numbers(cover, side);
+  Cutter cutter(cover, numbers);
   return cutter.cut(std::move(cover), numbers);
 }
 

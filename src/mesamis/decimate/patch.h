@@ -20,13 +20,19 @@ struct Patch {
 /// @param chosen  of each point, 1 or 0.
 void choose_rings(const std::vector<Triangle>& triangles, int rings, std::vector<char>& chosen);
 
+/// Holds points of a patch, the corners of the triangles that stand for any of these originals, and
+/// so many rings of points around all these.
+/// @param points     of the patch, in any order.
+/// @param originals  increasing.
+void hold(Patch& patch, const std::vector<Index>& points, const std::vector<Index>& originals,
+          int rings);
+
 /// Cuts a cover into patches: the triangles whose centres lie in one box of a lattice. Points that
 /// patches share are held in all of them, as are their neighbours: what touches a shared point
 /// stays.
-/// @param points  of the original.
-/// @param side    of the boxes, mm, > 0; infinity: one patch, nothing held.
+/// @param side  of the boxes, mm, > 0; infinity: one patch, nothing held.
 ///
 /// O(n log n) for n triangles.
-std::vector<Patch> cut_into_patches(const std::vector<Vec3>& points, Cover cover, double side);
+std::vector<Patch> cut_into_patches(Cover cover, double side);
 
 }  // namespace mesamis

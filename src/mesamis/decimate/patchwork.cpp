@@ -18,8 +18,11 @@ constexpr int kMostRounds = 8;
 
 class Patchwork {
  public:
-  Patchwork(const DecimateTask& task, std::vector<Patch> patches)
-      : task_(task), patches_(std::move(patches)), done_(patches_.size()) {}
+  Patchwork(const DecimateTask& task, std::vector<Vec3> points, std::vector<Patch> patches)
+      : task_(task),
+        points_(std::move(points)),
+        patches_(std::move(patches)),
+        done_(patches_.size()) {}
 
   Cover run(PatchworkReport& report) {
     std::vector<std::size_t> open(patches_.size());
@@ -30,22 +33,16 @@ class Patchwork {
       if (round <= kMostRounds) {
         decimate(open);
       } else {
-        for (const std::size_t k : open) done_[k].cover = patches_[k].cover;
+        for (const std::size_t k : open) done_[k] = patches_[k].cover;
       }
-    }
-    for (const DecimatedPatch& done : done_) {
-      report.passes = std::max(report.passes, done.passes);
-      report.points_held += done.points_held;
     }
     return joined();
   }
 
  private:
-  /// A patch alone works in all threads, several in one each: a thread that waited within one would
-  /// begin another.
   void decimate(const std::vector<std::size_t>& open) {
     if (open.size() == 1) {
-      done_[open[0]] = decimate_patch(task_, patches_[open[0]]);
+      done_[open[0]] = decimate_pass(task_, patches_[open[0]]);
       return;
     }
     std::mutex telling;
@@ -57,22 +54,27 @@ class Patchwork {
     };
     parallel_for_each(open.size(), [&](std::size_t i) {
       const std::size_t k = open[i];
-      done_[k] = with_threads(1, [&] { return decimate_patch(task, patches_[k]); });
+      done_[k] = decimate_pass(task, patches_[k]);
       ++finished;
     });
   }
 
   Cover joined() const {
     Cover cover;
+    cover.points = points_;
     for (std::size_t k = 0; k < patches_.size(); ++k) {
-      for (Triangle t : done_[k].cover.triangles) {
-        for (Index& p : t) p = patches_[k].points[p];
+      const std::vector<Index>& points = patches_[k].points;
+      const Cover& done = done_[k];
+      for (std::size_t p = 0; p < points.size(); ++p) cover.points[points[p]] = done.points[p];
+      for (Triangle t : done.triangles) {
+        for (Index& p : t) p = points[p];
         cover.triangles.push_back(t);
       }
-      const auto& originals = done_[k].cover.originals;
-      cover.originals.insert(cover.originals.end(), originals.begin(), originals.end());
-      const auto& drift = done_[k].cover.drift;
-      cover.drift.insert(cover.drift.end(), drift.begin(), drift.end());
+      cover.originals.insert(cover.originals.end(), done.originals.begin(), done.originals.end());
+      cover.to_originals.insert(cover.to_originals.end(), done.to_originals.begin(),
+                                done.to_originals.end());
+      cover.from_originals.insert(cover.from_originals.end(), done.from_originals.begin(),
+                                  done.from_originals.end());
     }
     return cover;
   }
@@ -87,15 +89,16 @@ class Patchwork {
   /// New triangles of each patch that intersect those of others.
   std::vector<std::vector<std::size_t>> find_what_meets() const {
     std::vector<std::size_t> ends;  // of the patches' triangles in the joined surface
-    for (const DecimatedPatch& done : done_) {
-      ends.push_back((ends.empty() ? 0 : ends.back()) + done.cover.triangles.size());
+    for (const Cover& done : done_) {
+      ends.push_back((ends.empty() ? 0 : ends.back()) + done.triangles.size());
     }
     const auto patch_of = [&ends](Index t) {
       return static_cast<std::size_t>(
           std::upper_bound(ends.begin(), ends.end(), static_cast<std::size_t>(t)) - ends.begin());
     };
     std::vector<std::vector<std::size_t>> meeting(patches_.size());
-    TriMesh whole{task_.surface.points, joined().triangles};
+    Cover cover = joined();
+    TriMesh whole{std::move(cover.points), std::move(cover.triangles)};
     for (Triangle& t : whole.triangles) {
       for (Index& p : t) p = task_.first_copy(p);
     }
@@ -103,7 +106,7 @@ class Patchwork {
       if (patch_of(pair[0]) == patch_of(pair[1])) continue;  // seen there: it was so before
       for (const Index t : pair) {
         const std::size_t k = patch_of(t);
-        const auto& triangles = done_[k].cover.triangles;
+        const auto& triangles = done_[k].triangles;
         const std::size_t n = static_cast<std::size_t>(t) + triangles.size() - ends[k];
         if (is_new(triangles[n], patches_[k])) meeting[k].push_back(n);
       }
@@ -121,7 +124,7 @@ class Patchwork {
       if (meeting[k].empty()) continue;
       std::vector<Index> corners, originals;
       for (const std::size_t n : meeting[k]) {
-        const Cover& cover = done_[k].cover;
+        const Cover& cover = done_[k];
         corners.insert(corners.end(), cover.triangles[n].begin(), cover.triangles[n].end());
         originals.insert(originals.end(), cover.originals[n].begin(), cover.originals[n].end());
       }
@@ -133,15 +136,16 @@ class Patchwork {
   }
 
   const DecimateTask& task_;
+  std::vector<Vec3> points_;
   std::vector<Patch> patches_;
-  std::vector<DecimatedPatch> done_;
+  std::vector<Cover> done_;
 };
 
 }  // namespace
 
-Cover decimate_patchwork(const DecimateTask& task, std::vector<Patch> patches,
-                         PatchworkReport& report) {
-  return Patchwork(task, std::move(patches)).run(report);
+Cover decimate_patchwork(const DecimateTask& task, std::vector<Vec3> points,
+                         std::vector<Patch> patches, PatchworkReport& report) {
+  return Patchwork(task, std::move(points), std::move(patches)).run(report);
 }
 
 }  // namespace mesamis

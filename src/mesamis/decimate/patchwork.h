@@ -4,29 +4,29 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesamis/decimate/decimate_patch.h"
+#include "mesamis/decimate/decimate_pass.h"
 
 namespace mesamis {
 
 /// What a cover made of patches has taken.
 struct PatchworkReport {
-  int passes = 0;                ///< over one patch, at most
-  std::int64_t points_held = 0;  ///< to keep distances within the tolerance
-  int rounds = 0;                ///< in which patches were made anew because they met
-  double drift = 0;              ///< of the result at most, see Cover, mm
+  int rounds = 0;             ///< in which patches were made anew because they met
+  double to_originals = 0;    ///< of the result at most, see Cover, mm
+  double from_originals = 0;  ///< no original was farther from the triangles that stand for it, mm
 };
 
 /// Decimates patches of one cover, in threads, and joins them. Patches do not see each other: those
 /// that have come to intersect are made anew, with more points held; in the end they stay as they
 /// were.
 /// @param task     its progress is called from several threads, but never by two at once.
-/// @param patches  of cut_into_patches(). One alone works in all threads.
+/// @param points   of the cover, mm; those of no patch stay.
+/// @param patches  of cut_into_patches().
 /// @param report   is added to.
-/// @return over the points of the original. The same for any number of threads.
+/// @return over these points. The same for any number of threads.
 /// @throws what the task's progress throws.
 ///
 /// As decimate().
-Cover decimate_patchwork(const DecimateTask& task, std::vector<Patch> patches,
-                         PatchworkReport& report);
+Cover decimate_patchwork(const DecimateTask& task, std::vector<Vec3> points,
+                         std::vector<Patch> patches, PatchworkReport& report);
 
 }  // namespace mesamis

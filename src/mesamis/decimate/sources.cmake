@@ -12,20 +12,26 @@ set(ROOM_HEADERS
   refit.h
   round_to_single.h
   round_together.h
+  simplify.h
   single_places.h)
 set(ROOM_SOURCES
-  collapse_rules.cpp
+  collapse.cpp
+  covering.cpp
   decimate.cpp
   decimate_partition.cpp
-  decimate_patch.cpp
-  fan_distance.cpp
   patch.cpp
   patchwork.cpp
+  quadric.cpp
+  two_sided_bound.cpp
   round_together.cpp
+  editable_surface.cpp
+  fan_height.cpp
   interfaces.cpp
+  collapse_intersections.cpp
   NEXT decimation.cpp
   interface_trees.cpp
   normal_moves.cpp
   refit.cpp
   round_to_single.cpp
+  simplify.cpp
   NEXT decimate_pass.cpp)

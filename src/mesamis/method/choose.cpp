@@ -220,7 +220,7 @@ void choose_max_tets(Parameters& p, double cells, Index slabs) {
       std::llround(std::clamp<double>(cells, kFewestTets, static_cast<double>(kMostTets) * slabs));
 }
 
-void choose_tolerance(Parameters& p, double voxel, double expected_error, ErrorsLost errors) {
+void choose_tolerance(Parameters& p, double voxel, double expected_error, double errors) {
   constexpr double kLeast = 0.03, kMost = 0.1, kFinest = 0.01;  // voxels
   if (p.tolerance) return;
   if (p.triangles > 0) {
@@ -228,8 +228,7 @@ void choose_tolerance(Parameters& p, double voxel, double expected_error, Errors
   } else if (p.accuracy > 0) {
     p.tolerance = std::max(p.accuracy / 2, kFinest * voxel);
   } else {
-    p.tolerance =
-        static_cast<int>(errors) * std::clamp(expected_error, kLeast * voxel, kMost * voxel);
+    p.tolerance = errors * std::clamp(expected_error, kLeast * voxel, kMost * voxel);
   }
 }
 

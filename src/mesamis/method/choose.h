@@ -92,18 +92,18 @@ double cells_of_image(const VolumeView& image, const LevelInNoise& object, doubl
 /// @param slabs  that the scan is cut into, >= 1: each may have as many as a run without slabs.
 void choose_max_tets(Parameters& parameters, double cells, Index slabs = 1);
 
-/// How many times the error to expect decimation may take. Twice costs an object about as little,
-/// once its points have been moved, see refit(), as once does without; labels, slabs and previews
-/// keep to once.
-enum class ErrorsLost { kOne = 1, kTwo = 2 };
+/// The tolerance over the error to expect. What simplify() takes of an object costs about nothing at
+/// almost three times; labels keep to half of that, slabs and previews, which decimate() alone, to
+/// once.
+inline constexpr double kErrorsOfObject = 2.8, kErrorsOfLabels = 1.4, kErrorsOfDecimation = 1;
 
 /// Chooses the tolerance where it is open: infinite where a number of triangles is asked for; half
 /// of the accuracy, if that is asked for, but no less than 0.01 voxel; else how far the surface is
-/// expected to be from the truth, but no less than 0.03 and no more than 0.1 voxel, or twice that:
-/// a surface that is kept closer keeps detail smaller than its error.
+/// expected to be from the truth, but no less than 0.03 and no more than 0.1 voxel, times so many
+/// errors: a surface that is kept closer keeps detail smaller than its error.
 /// @param voxel           geometric mean of the spacing, mm, > 0.
 /// @param expected_error  in the mean over the surface, see expected_error(), mm, >= 0.
-void choose_tolerance(Parameters& parameters, double voxel, double expected_error,
-                      ErrorsLost errors);
+/// @param errors          how many it may lose, > 0.
+void choose_tolerance(Parameters& parameters, double voxel, double expected_error, double errors);
 
 }  // namespace mesamis

@@ -60,7 +60,7 @@ void finish_surface(const RunInput& run, const Progress& progress, Result& resul
   result.printable.triangles_extracted = std::ssize(result.surface.triangles);
   if (p.surface == SurfaceKind::kBand) return;
   choose_tolerance(p, run.grey.voxel_size(), mean_expected_error(run, result.surface),
-                   p.preview ? ErrorsLost::kOne : ErrorsLost::kTwo);
+                   p.preview ? kErrorsOfDecimation : kErrorsOfObject);
   result.surface = make_printable(result.surface,
                                   {.min_volume = p.min_volume,
                                    .keep_largest = p.keep_largest,
@@ -68,7 +68,6 @@ void finish_surface(const RunInput& run, const Progress& progress, Result& resul
                                    .tolerance = *p.tolerance,
                                    .triangles = p.triangles,
                                    .progress = progress,
-                                   .quick = p.preview,
                                    .refit = !p.preview},
                                   &result.printable);
   tell_error(run, result);

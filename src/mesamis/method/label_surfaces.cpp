@@ -14,8 +14,8 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/stopwatch.h"
 #include "mesamis/decimate/decimate_partition.h"
-#include "mesamis/decimate/refit.h"
 #include "mesamis/decimate/round_together.h"
+#include "mesamis/decimate/simplify.h"
 #include "mesamis/fem/grid_amis.h"
 #include "mesamis/labels/flow_memberships.h"
 #include "mesamis/labels/label_block.h"
@@ -301,15 +301,9 @@ double decimate(const LabelRun& run, const Parameters& p, PartitionSurface& part
   options.tolerance = std::max(0.0, tolerance - shift);
   options.triangles = p.triangles;
   options.progress = run.progress;
-  options.quick = run.settings.preview && std::isfinite(options.tolerance);
-  if (std::isfinite(options.tolerance) && !options.quick) {
-    PartitionSurface few = decimate_partition(partition, options);
-    if (few.triangles.size() == partition.triangles.size()) return shift;
-    partition = refit_partition(std::move(few), partition, options.tolerance);
-    return shift + options.tolerance;
-  }
   DecimateReport report;
-  partition = decimate_partition(partition, options, &report);
+  partition = run.settings.preview ? decimate_partition(partition, options, &report)
+                                   : simplify_partition(partition, options, &report);
   return shift + std::max(report.original_to_result, report.result_to_original);
 }
 
@@ -365,7 +359,8 @@ void finish_layers(const LabelRun& run, std::vector<LayerBoundaries> layers, con
                    LabelResult& result) {
   Stopwatch watch;
   const double voxel = input ? input->grey.voxel_size() : run.request.map.voxel_size();
-  choose_tolerance(result.parameters, voxel, mean_error_of(run, layers, input), ErrorsLost::kOne);
+  choose_tolerance(result.parameters, voxel, mean_error_of(run, layers, input),
+                   run.settings.preview ? kErrorsOfDecimation : kErrorsOfLabels);
   for (LayerBoundaries& layer : layers) {
     result.flow_converged &= layer.converged;
     result.boundaries.insert(result.boundaries.end(), layer.boundaries.begin(),

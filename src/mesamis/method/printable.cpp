@@ -6,9 +6,8 @@
 #include <iterator>
 
 #include "mesamis/decimate/decimate.h"
-#include "mesamis/decimate/refit.h"
 #include "mesamis/decimate/round_to_single.h"
-#include "mesamis/surface/distance.h"
+#include "mesamis/decimate/simplify.h"
 #include "mesamis/surface/select_parts.h"
 
 namespace mesamis {
@@ -24,19 +23,9 @@ TriMesh decimated(const TriMesh& surface, const PrintableOptions& printable,
   options.tolerance = std::max(0.0, printable.tolerance - rounding.shift);
   options.triangles = printable.triangles;
   options.progress = printable.progress;
-  options.quick = printable.quick && std::isfinite(options.tolerance);
-  if (!options.quick) {
-    TriMesh result = decimate(rounded, options);
-    if (printable.refit && std::isfinite(options.tolerance) && options.tolerance > 0) {
-      result = refit(std::move(result), rounded, options.tolerance);
-    }
-    const double fine = fine_enough(surface, printable.tolerance);
-    report.extracted_to_result = max_distance(surface, result, fine);
-    report.result_to_extracted = max_distance(result, surface, fine);
-    return result;
-  }
   DecimateReport decimation;
-  TriMesh result = decimate(rounded, options, &decimation);
+  TriMesh result = printable.refit ? simplify(rounded, options, &decimation)
+                                   : decimate(rounded, options, &decimation);
   report.extracted_to_result = decimation.original_to_result + rounding.shift;
   report.result_to_extracted = decimation.result_to_original + rounding.shift;
   return result;

@@ -16,7 +16,7 @@ struct PrintableReport {
   std::optional<SelectionReport> parts;
   std::int64_t triangles_extracted = 0;  ///< of the parts that stay
   /// The greatest distance of any point of one surface to the other, mm: upper bounds, see
-  /// max_distance(), or, with PrintableOptions::quick, the bound that decimation proved. 0 for a
+  /// max_distance(), or, without PrintableOptions::refit, those that decimation proved. 0 for a
   /// surface that is delivered as extracted.
   double extracted_to_result = 0, result_to_extracted = 0;
 
@@ -34,8 +34,7 @@ struct PrintableOptions {
   double tolerance = 0;        ///< of decimation, mm, both ways; 0: none done; infinite: no bound
   std::int64_t triangles = 0;  ///< where decimation stops; 0: nowhere
   Progress progress = {};      ///< optional; may stop the work
-  bool quick = false;          ///< see DecimateOptions::quick; where tolerance is finite
-  bool refit = false;          ///< see refit(); where tolerance is finite and not quick
+  bool refit = false;          ///< whether points move at the end, see simplify()
 };
 
 /// Makes the solid surface ready to be written in any format: the parts asked for; coordinates

@@ -9,7 +9,6 @@
 #include "mesamis/base/single_precision.h"
 #include "mesamis/decimate/decimate_part.h"
 #include "mesamis/decimate/patch.h"
-#include "mesamis/slabs/point_numbers.h"
 #include "mesamis/slabs/surface_files.h"
 #include "mesamis/surface/distance.h"
 
@@ -21,10 +20,10 @@ constexpr int kRings = 4;
 
 /// A part of a slab's surface on its way, and what it stands for.
 struct CoverPiece {
-  SurfacePiece piece;                          ///< decimated; points also of the originals
-  std::vector<Triangle> originals;             ///< over its points
-  std::vector<std::vector<Index>> stands_for;  ///< as Cover::originals
-  std::vector<double> drift;                   ///< as Cover::drift
+  SurfacePiece piece;                                ///< decimated
+  SurfacePiece originals;                            ///< as extracted
+  std::vector<std::vector<Index>> stands_for;        ///< as Cover::originals
+  std::vector<double> to_originals, from_originals;  ///< as Cover's
 };
 
 void write_cover(const Scratch& scratch, const std::string& name, const CoverPiece& cover) {
@@ -35,10 +34,11 @@ void write_cover(const Scratch& scratch, const std::string& name, const CoverPie
   }
   ArchiveWriter archive;
   add_surface(archive, cover.piece);
-  archive.add(cover.originals);
+  add_surface(archive, cover.originals);
   archive.add(counts);
   archive.add(all);
-  archive.add(cover.drift);
+  archive.add(cover.to_originals);
+  archive.add(cover.from_originals);
   scratch.write(name, archive);
 }
 
@@ -47,7 +47,7 @@ CoverPiece read_cover(const Scratch& scratch, const std::string& name, SlabWork*
   if (work != nullptr) work->bytes += static_cast<std::int64_t>(archive.size());
   CoverPiece cover;
   cover.piece = next_surface(archive);
-  cover.originals = archive.next<Triangle>();
+  cover.originals = next_surface(archive);
   const auto counts = archive.next<Index>();
   const auto all = archive.next<Index>();
   auto next = all.begin();
@@ -55,7 +55,8 @@ CoverPiece read_cover(const Scratch& scratch, const std::string& name, SlabWork*
     cover.stands_for.emplace_back(next, next + count);
     next += count;
   }
-  cover.drift = archive.next<double>();
+  cover.to_originals = archive.next<double>();
+  cover.from_originals = archive.next<double>();
   return cover;
 }
 
@@ -86,17 +87,18 @@ bool lies_in(const SurfacePiece& piece, const Triangle& t, const HeightRange& ra
 }
 
 /// Of each triangle of a cover 1 if it, and what it stands for, lie strictly between two heights.
-std::vector<char> triangles_in(const SurfacePiece& piece, const Cover& cover,
-                               const HeightRange& range) {
+/// @param now  the cover, as a piece.
+std::vector<char> triangles_in(const SurfacePiece& original, const SurfacePiece& now,
+                               const Cover& cover, const HeightRange& range) {
   std::vector<char> lies;  // of each original
-  lies.reserve(piece.triangles.size());
-  for (const Triangle& t : piece.triangles) lies.push_back(lies_in(piece, t, range) ? 1 : 0);
+  lies.reserve(original.triangles.size());
+  for (const Triangle& t : original.triangles) lies.push_back(lies_in(original, t, range) ? 1 : 0);
   std::vector<char> in;
   in.reserve(cover.triangles.size());
   for (std::size_t t = 0; t < cover.triangles.size(); ++t) {
     const auto& originals = cover.originals[t];
     in.push_back(
-        lies_in(piece, cover.triangles[t], range) &&
+        lies_in(now, cover.triangles[t], range) &&
         std::all_of(originals.begin(), originals.end(), [&](Index o) { return lies[o] != 0; }));
   }
   return in;
@@ -148,6 +150,25 @@ std::vector<char> triangles_at(const std::vector<Triangle>& triangles,
   return at;
 }
 
+/// A slab's surface, and what is left of it.
+struct Decimated {
+  const SurfacePiece& original;
+  const Cover& cover;
+  const SurfacePiece& now;  ///< the cover, as a piece
+};
+
+/// The points of a piece where they have moved to in the world.
+/// @param before, now  mm.
+std::vector<SurfacePoint> moved(const SurfaceRun& run, std::vector<SurfacePoint> points,
+                                const std::vector<Vec3>& before, const std::vector<Vec3>& now) {
+  const RunInput& input = run.mesh.input;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    if (before[p] == now[p]) continue;
+    points[p].at = (1 / input.parameters.unit_mm) * input.grey.to_grid(now[p]);
+  }
+  return points;
+}
+
 /// What of a slab's cover goes to the task on one border.
 struct BorderShare {
   std::vector<char> open;       ///< of each point 1 if it may be removed
@@ -156,14 +177,16 @@ struct BorderShare {
 
 /// Open are the points that the slab's own task has held, and some around them, on the border's
 /// side of the slab's middle.
-BorderShare share_of(const SurfacePiece& piece, const Cover& cover, const std::vector<char>& held,
+BorderShare share_of(const Decimated& slab, const std::vector<char>& held,
                      const HeightRange& side) {
-  const std::size_t points = piece.points.size();
-  const std::vector<char> in = triangles_in(piece, cover, side);
+  const Cover& cover = slab.cover;
+  const std::size_t points = slab.now.points.size();
+  const std::vector<char> in = triangles_in(slab.original, slab.now, cover, side);
   const std::vector<char> within = points_within(points, cover, in);
   std::vector<char> open(points, 0);
   for (std::size_t p = 0; p < points; ++p) {
-    open[p] = held[p] != 0 && side.low < piece.points[p].at.z && piece.points[p].at.z < side.high;
+    open[p] =
+        held[p] != 0 && side.low < slab.now.points[p].at.z && slab.now.points[p].at.z < side.high;
   }
   choose_rings(cover.triangles, kRings, open);
   for (std::size_t p = 0; p < points; ++p) open[p] &= within[p];
@@ -193,24 +216,32 @@ class Numbering {
 };
 
 /// Some triangles of a slab's cover, with what they stand for.
-CoverPiece part_of(const SurfacePiece& surface, const Cover& cover, const BorderShare& share) {
+CoverPiece part_of(const Decimated& slab, const BorderShare& share) {
+  const Cover& cover = slab.cover;
   CoverPiece part;
-  Numbering points(surface.points.size()), originals(surface.triangles.size());
-  const auto over_part = [&](Triangle t) {
-    for (Index& p : t) p = points.of(p);
+  Numbering points(slab.now.points.size()), original_points(slab.now.points.size()),
+      originals(slab.original.triangles.size());
+  const auto over = [](Numbering& numbers, Triangle t) {
+    for (Index& p : t) p = numbers.of(p);
     return t;
   };
   for (std::size_t t = 0; t < cover.triangles.size(); ++t) {
     if (share.triangles[t] == 0) continue;
-    part.piece.triangles.push_back(over_part(cover.triangles[t]));
-    part.drift.push_back(cover.drift[t]);
+    part.piece.triangles.push_back(over(points, cover.triangles[t]));
+    part.to_originals.push_back(cover.to_originals[t]);
+    part.from_originals.push_back(cover.from_originals[t]);
     std::vector<Index>& list = part.stands_for.emplace_back();
     for (const Index original : cover.originals[t]) list.push_back(originals.of(original));
     std::sort(list.begin(), list.end());
   }
-  for (const Index t : originals.items()) part.originals.push_back(over_part(surface.triangles[t]));
+  for (const Index t : originals.items()) {
+    part.originals.triangles.push_back(over(original_points, slab.original.triangles[t]));
+  }
+  for (const Index p : original_points.items()) {
+    part.originals.points.push_back(slab.original.points[p]);
+  }
   for (const Index p : points.items()) {
-    part.piece.points.push_back(surface.points[p]);
+    part.piece.points.push_back(slab.now.points[p]);
     part.piece.points.back().settled = share.open[p] == 0;
   }
   return part;
@@ -218,20 +249,21 @@ CoverPiece part_of(const SurfacePiece& surface, const Cover& cover, const Border
 
 /// Joins what the slabs below and above a border have left for it.
 CoverPiece join(const CoverPiece& below, const CoverPiece& above) {
-  CoverPiece both{mesamis::detail::join({below.piece, above.piece}), {}, {}, {}};
-  PointNumbers numbers;
-  for (const SurfacePoint& p : both.piece.points) (void)numbers.of(p.key);
+  CoverPiece both{mesamis::detail::join({below.piece, above.piece}),
+                  mesamis::detail::join({below.originals, above.originals}),
+                  {},
+                  {},
+                  {}};
   for (const CoverPiece* part : {&below, &above}) {
-    const auto first = static_cast<Index>(both.originals.size());
-    for (Triangle t : part->originals) {
-      for (Index& p : t) p = numbers.find(part->piece.points[p].key);
-      both.originals.push_back(t);
-    }
+    const Index first = part == &below ? 0 : static_cast<Index>(below.originals.triangles.size());
     for (std::vector<Index> list : part->stands_for) {
       for (Index& original : list) original += first;
       both.stands_for.push_back(std::move(list));
     }
-    both.drift.insert(both.drift.end(), part->drift.begin(), part->drift.end());
+    both.to_originals.insert(both.to_originals.end(), part->to_originals.begin(),
+                             part->to_originals.end());
+    both.from_originals.insert(both.from_originals.end(), part->from_originals.begin(),
+                               part->from_originals.end());
   }
   return both;
 }
@@ -281,16 +313,18 @@ SlabWork decimate_slab(const SurfaceRun& run, Index s) {
   const TriMesh surface = rounded_in_world(run, piece);
   std::vector<char> held = held_by_slab(piece, free);
   const Cover cover = decimate_part(surface, cover_of(surface), held, decimate_options(run));
+  const SurfacePiece now{moved(run, piece.points, surface.points, cover.points), cover.triangles};
+  const Decimated slab{piece, cover, now};
   const Sides sides = sides_of(free);
   std::vector<char> stays(cover.triangles.size(), 1);
   for (const auto& [name, side] : {std::pair{"cover low", sides.low}, {"cover high", sides.high}}) {
-    const BorderShare share = share_of(piece, cover, held, side);
-    write_cover(scratch, surface_file(name, s), part_of(piece, cover, share));
+    const BorderShare share = share_of(slab, held, side);
+    write_cover(scratch, surface_file(name, s), part_of(slab, share));
     for (std::size_t t = 0; t < stays.size(); ++t) {
       if (share.triangles[t] != 0) stays[t] = 0;
     }
   }
-  SurfacePiece own = select({piece.points, cover.triangles}, stays);
+  SurfacePiece own = select(now, stays);
   settle_all(own);
   write_surface(scratch, surface_file("decimated", s), own);
   return {};
@@ -306,16 +340,19 @@ SlabWork decimate_border(const SurfaceRun& run, Index s) {
   SurfacePiece all = join({near.piece, read_surface(scratch, surface_file("decimated", s)),
                            read_surface(scratch, surface_file("decimated", s + 1), &work)});
   const TriMesh surface = rounded_in_world(run, all);
-  Cover cover{surface.triangles, std::move(near.stands_for), std::move(near.drift)};
+  Cover cover{surface.points, surface.triangles, std::move(near.stands_for),
+              std::move(near.to_originals), std::move(near.from_originals)};
   cover.originals.resize(cover.triangles.size());
-  cover.drift.resize(cover.triangles.size(), 0);
-  cover = decimate_part({surface.points, near.originals}, std::move(cover), settled_points(all),
-                        decimate_options(run));
+  cover.to_originals.resize(cover.triangles.size(), 0);
+  cover.from_originals.resize(cover.triangles.size(), 0);
+  cover = decimate_part(rounded_in_world(run, near.originals), std::move(cover),
+                        settled_points(all), decimate_options(run));
   const KnownTriangles around(std::span(all.triangles).subspan(near.piece.triangles.size()));
   std::vector<char> chosen;
   for (const Triangle& t : cover.triangles) chosen.push_back(around.has(t) ? 0 : 1);
-  write_surface(scratch, surface_file("decimated border", s),
-                select({all.points, cover.triangles}, chosen));
+  write_surface(
+      scratch, surface_file("decimated border", s),
+      select({moved(run, all.points, surface.points, cover.points), cover.triangles}, chosen));
   return work;
 }
 

@@ -122,7 +122,7 @@ void run_surface(SurfaceRun& run, Stages& stages, bool grey) {
   stages.for_borders("follow at borders", slabs, [&](Index s) { return follow_border(run, s); });
   stages.for_slabs("parts", slabs, [&](Index s) { return list_parts(run, s); });
   learn_parts(run);
-  choose_tolerance(p, run.mesh.input.grey.voxel_size(), run.parts.mean_error, ErrorsLost::kOne);
+  choose_tolerance(p, run.mesh.input.grey.voxel_size(), run.parts.mean_error, kErrorsOfDecimation);
   if (!decimates_in_slabs(run)) return;
   stages.for_slabs("nesting", slabs, [&](Index s) { return cross_rays(run, s); });
   learn_choice(run, {p.min_volume, p.keep_largest, p.fill_cavities});

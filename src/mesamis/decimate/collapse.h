@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesamis/decimate/editable_surface.h"
+#include "mesamis/surface/triangle_tree.h"
+
+namespace mesamis {
+
+/// A collapse: of what it changes, before and after. An edge goes, with its first point and the
+/// triangles on both sides; its second point may move.
+struct Collapse {
+  Index half_edge = kNoIndex, removed = kNoIndex, kept = kNoIndex;
+  Vec3 place{0, 0, 0};          ///< of the kept point from now on, mm
+  bool moves = false;           ///< whether that is another place
+  std::array<Index, 2> gone{};  ///< the triangles that go
+  /// The triangles that change, counter-clockwise around the edge, from the left end of it on: around
+  /// the point that goes, and, if the other moves, around that too. Their first corner is the point
+  /// that changes.
+  std::vector<Index> faces;
+  std::vector<Index> outer;    ///< of each of these, the half-edge opposite to that corner
+  std::vector<Corners> after;  ///< of each of these, mm: the place comes first
+  double height =
+      0;  ///< between the triangles before and after, see fan_height(), mm; infinity: one
+          ///< of both folds over itself
+};
+
+/// Describes a collapse.
+/// @param h  a half-edge for which may_collapse() is true; if the kept point moves, that is an inner
+///           point too.
+void describe(const EditableSurface& surface, const std::vector<Vec3>& points, Index h,
+              const Vec3& place, Collapse& collapse);
+
+/// Whether a triangle that is no needle would turn by more than 75 degrees, or one become nearly degenerate (height below 0.01
+/// of its longest side, and below that of the flattest triangle it starts from), or bend at a crease,
+/// see makes_crease(), with one beside it.
+/// @param normals   of each triangle, unit length or 0.
+/// @param creases   whether these count.
+bool spoils_shape(const EditableSurface& surface, const std::vector<Vec3>& points,
+                  const std::vector<Vec3>& normals, const Collapse& collapse, bool creases);
+
+}  // namespace mesamis

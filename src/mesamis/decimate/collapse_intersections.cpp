@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/decimate/collapse_intersections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mesamis/surface/triangle_intersection.h"
+
+namespace mesamis {
+namespace {
+
+Box box_of(const Corners& t) {
+  Box box{t[0], t[0]};
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lo[axis] = std::min({t[0][axis], t[1][axis], t[2][axis]});
+    box.hi[axis] = std::max({t[0][axis], t[1][axis], t[2][axis]});
+  }
+  return box;
+}
+
+/// What parts a triangle from most of those around it: its plane, and that through the side opposite
+/// to its first corner across it.
+class Partition {
+ public:
+  explicit Partition(const Corners& t)
+      : at_(t[1]), normal_(cross(t[1] - t[0], t[2] - t[0])), outward_(cross(t[2] - t[1], normal_)) {
+    const double size = norm(t[2] - t[1]) + norm(t[1] - t[0]);
+    height_ = kMargin * norm(normal_) * size;
+    distance_ = kMargin * norm(outward_) * size;
+  }
+  /// Whether another triangle lies above, below, or beyond, but for the corners that both have: then
+  /// these alone are common.
+  bool parts(const Triangle& own, const Triangle& other, const Corners& corners) const {
+    bool above = true, below = true, beyond = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const bool at_side = other[i] == own[1] || other[i] == own[2];
+      if (at_side) continue;
+      const double side = dot(outward_, corners[i] - at_);
+      beyond &= side > distance_;
+      if (other[i] == own[0]) continue;
+      const double height = dot(normal_, corners[i] - at_);
+      above &= height > height_;
+      below &= height < -height_;
+    }
+    return above || below || beyond;
+  }
+
+ private:
+  static constexpr double kMargin = 1e-9;  // far above rounding
+  Vec3 at_, normal_, outward_;
+  double height_, distance_;
+};
+
+std::vector<Box> boxes_of(const EditableSurface& surface, const std::vector<Vec3>& points) {
+  std::vector<Box> boxes;
+  for (Index t = 0; t < surface.count(); ++t) {
+    const Triangle k = surface.triangle(t);
+    boxes.push_back(box_of({points[k[0]], points[k[1]], points[k[2]]}));
+  }
+  return boxes;
+}
+
+}  // namespace
+
+CollapseIntersections::CollapseIntersections(const EditableSurface& surface,
+                                             const std::vector<Vec3>& points,
+                                             std::vector<Index> first_copies)
+    : first_copies_(std::move(first_copies)), tree_(boxes_of(surface, points)) {}
+
+bool CollapseIntersections::meets(const std::vector<Vec3>& points, const Triangle& a,
+                                  const Triangle& b) const {
+  if (first_copies_.empty()) return intersect(points, a, b);
+  const auto first = [this](const Triangle& t) {
+    return Triangle{first_copies_[t[0]], first_copies_[t[1]], first_copies_[t[2]]};
+  };
+  return intersect(points, first(a), first(b));
+}
+
+bool CollapseIntersections::occur(const EditableSurface& surface, std::vector<Vec3>& points,
+                                  const Collapse& collapse) {
+  const Vec3 before = points[collapse.kept];
+  points[collapse.kept] = collapse.place;
+  const auto changed = [&](std::size_t i) {
+    const Index h = collapse.outer[i];
+    return Triangle{collapse.kept, surface.from(h), surface.to(h)};
+  };
+  Box whole = box_of(collapse.after[0]);
+  for (const Corners& t : collapse.after) {
+    const Box box = box_of(t);
+    for (int axis = 0; axis < 3; ++axis) {
+      whole.lo[axis] = std::min(whole.lo[axis], box.lo[axis]);
+      whole.hi[axis] = std::max(whole.hi[axis], box.hi[axis]);
+    }
+  }
+  near_.clear();
+  tree_.for_each_overlap(whole, [&](std::size_t other) {
+    const auto t = static_cast<Index>(other);
+    const bool changes =
+        t == collapse.gone[0] || t == collapse.gone[1] ||
+        std::find(collapse.faces.begin(), collapse.faces.end(), t) != collapse.faces.end();
+    if (!changes) near_.push_back(t);
+    return true;
+  });
+  const bool folds = std::isinf(collapse.height);
+  bool found = false;
+  for (std::size_t i = 0; i < collapse.faces.size() && !found; ++i) {
+    const Triangle own = changed(i);
+    const Corners& t = collapse.after[i];
+    const Box box = box_of(t);
+    const Partition partition(t);
+    found = !has_area(points, own);
+    for (std::size_t j = 0; j < i && !found && folds; ++j) found = meets(points, own, changed(j));
+    for (std::size_t k = 0; k < near_.size() && !found; ++k) {
+      const Triangle other = surface.triangle(near_[k]);
+      const Corners corners{points[other[0]], points[other[1]], points[other[2]]};
+      found = overlap(box, box_of(corners)) && !partition.parts(own, other, corners) &&
+              meets(points, own, other);
+    }
+  }
+  points[collapse.kept] = before;
+  return found;
+}
+
+void CollapseIntersections::apply(const Collapse& collapse) {
+  for (const Index t : collapse.gone) tree_.update(static_cast<std::size_t>(t), kNoBox);
+  for (std::size_t i = 0; i < collapse.faces.size(); ++i) {
+    tree_.update(static_cast<std::size_t>(collapse.faces[i]), box_of(collapse.after[i]));
+  }
+}
+
+}  // namespace mesamis

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "mesamis/decimate/collapse.h"
+#include "mesamis/decimate/cover.h"
+#include "mesamis/decimate/covering.h"
+
+namespace mesamis {
+
+/// What the triangles of a surface stand for while it changes, and the proof that both are near each
+/// other: each triangle is near the originals, and each original is near triangles that are listed to
+/// stand for it. It stays true with each collapse allowed here, so that nothing is left to check.
+///
+/// Where a collapse lifts the surface by so little that what was near stays near, nothing else is
+/// looked at; only else are distances found anew.
+class TwoSidedBound {
+ public:
+  /// @param original   mm; what cover.originals number.
+  /// @param cover      over points as they are.
+  /// @param tolerance  mm, > 0, finite.
+  TwoSidedBound(const TriMesh& original, const Cover& cover, double tolerance);
+
+  /// Whether the proof holds after a collapse.
+  bool allows(const EditableSurface& surface, const std::vector<Vec3>& points,
+              const Collapse& collapse);
+  /// Takes over the last collapse that was allowed.
+  void apply(const Collapse& collapse);
+
+  /// The originals that a triangle stands for, increasing.
+  std::vector<Index> originals_of(Index triangle) const;
+  /// From which none of its points is farther from the originals, mm.
+  double to_originals_of(Index triangle) const { return bounds_[triangle].to_originals; }
+  /// From which no original that it stands for is farther from the surface, mm.
+  double from_originals_of(Index triangle) const { return bounds_[triangle].from_originals; }
+
+ private:
+  /// Of a triangle, mm.
+  struct Bounds {
+    double to_originals = 0;    ///< from any of its points to an original
+    double from_originals = 0;  ///< from any point that it stands for to the surface
+  };
+  struct Affected {
+    Index original;
+    std::size_t guess;  ///< the place of a triangle that stood for it
+  };
+  struct Use {
+    Index original, triangle;
+    double distance;  ///< from the original to the surface, mm
+  };
+
+  void gather(const Collapse& collapse);
+  void look_around(const EditableSurface& surface, const Collapse& collapse);
+  bool ends_are_near(const std::vector<Vec3>& points, const Collapse& collapse) const;
+  Bounds bounds_before(const Collapse& collapse) const;
+  void lift(const Bounds& bounds, const Collapse& collapse);
+  bool old_are_near();
+  bool new_are_near(const Collapse& collapse);
+
+  double tolerance_;
+  Covering covering_;
+  std::vector<Index> numbers_;             // of the originals, increasing
+  std::vector<TrianglePlanes> originals_;  // in this order
+  std::vector<std::vector<Index>> lists_;  // of each triangle, places in this order
+  std::vector<TrianglePlanes> triangles_;  // as they are
+  std::vector<Bounds> bounds_;             // of each triangle
+  // Of the collapse that is looked at.
+  std::vector<Affected> affected_;
+  std::vector<TrianglePlanes> after_;          // it
+  std::vector<const TrianglePlanes*> around_;  // triangles after it, then those near by that stay
+  std::vector<Index> around_number_;           // of each of these
+  std::vector<Use> uses_;
+  std::vector<Bounds> next_;  // of the triangles that change
+  std::vector<const TrianglePlanes*> near_;
+  std::vector<Index> seen_;  // of each original, the last collapse that affected it
+  Index collapse_count_ = 0;
+};
+
+}  // namespace mesamis

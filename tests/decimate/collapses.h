@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "mesamis/decimate/collapse.h"
+#include "support/level_set.h"
+
+/// The collapses of a surface, for tests.
+namespace mesamis {
+
+inline TriMesh small_sphere() {
+  return level_set({{-1, -1, -1}, {1, 1, 1}}, {5, 5, 5}, [](const Vec3& p) {
+    return 0.8 - norm(p + Vec3{0.03, 0.02, 0.01});
+  });
+}
+
+/// A surface, its half-edges, and each collapse that keeps it a closed 2-manifold.
+class Collapses {
+ public:
+  explicit Collapses(const TriMesh& mesh)
+      : points(mesh.points), surface(mesh.points.size(), mesh.triangles) {}
+
+  /// Calls visit(collapse, surface after it) for every step-th half-edge; the kept point stays, or
+  /// goes part of the way to the one removed.
+  template <class Visit>
+  void for_each(int step, Visit visit) {
+    for (Index h = 0; h < 3 * surface.count(); h += step) {
+      if (surface.is_removed(h / 3) || !surface.may_collapse(h)) continue;
+      for (const double share : {0.0, 0.4}) {
+        const Vec3 &from = points[surface.from(h)], &to = points[surface.to(h)];
+        Collapse collapse;
+        describe(surface, points, h, to + share * (from - to), collapse);
+        visit(collapse, after(collapse));
+      }
+    }
+  }
+
+  TriMesh now() const {
+    TriMesh mesh{points, {}};
+    for (Index t = 0; t < surface.count(); ++t) {
+      if (!surface.is_removed(t)) mesh.triangles.push_back(surface.triangle(t));
+    }
+    return mesh;
+  }
+
+  std::vector<Vec3> points;
+  EditableSurface surface;
+
+ private:
+  TriMesh after(const Collapse& collapse) const {
+    TriMesh result{points, {}};
+    result.points[collapse.kept] = collapse.place;
+    for (Triangle t : now().triangles) {
+      std::replace(t.begin(), t.end(), collapse.removed, collapse.kept);
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) result.triangles.push_back(t);
+    }
+    return result;
+  }
+};
+
+}  // namespace mesamis

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/decimate/editable_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "decimate/collapses.h"
+#include "support/shapes.h"
+
+namespace mesamis {
+namespace {
+
+/// Compares the half-edges with those made anew from the triangles.
+void expect_consistent(const Collapses& now) {
+  const EditableSurface& surface = now.surface;
+  for (Index h = 0; h < 3 * surface.count(); ++h) {
+    if (surface.is_removed(h / 3)) continue;
+    const Index o = surface.opposite(h);
+    ASSERT_NE(o, kNoIndex) << "the surface is closed";
+    EXPECT_EQ(surface.opposite(o), h);
+    EXPECT_EQ(surface.from(o), surface.to(h));
+    EXPECT_EQ(surface.to(o), surface.from(h));
+    std::set<Index> leaving;
+    surface.for_each_leaving(surface.from(h), [&](Index g) {
+      EXPECT_EQ(surface.from(g), surface.from(h));
+      leaving.insert(g);
+    });
+    EXPECT_EQ(leaving.count(h), 1u) << "a fan has all triangles of its point";
+  }
+}
+
+TEST(EditableSurface, LinksTheTrianglesOfAClosedSurface) {
+  const TriMesh sphere = small_sphere();
+  const Collapses now(sphere);
+  EXPECT_EQ(now.now().triangles, sphere.triangles);
+  expect_consistent(now);
+  for (Index p = 0; p < std::ssize(sphere.points); ++p) EXPECT_TRUE(now.surface.is_inner(p));
+}
+
+TEST(EditableSurface, StaysAClosedManifoldOfItsGenusThroughAllCollapses) {
+  for (const TriMesh& mesh :
+       {small_sphere(), level_set({{-1, -1, -1}, {1, 1, 1}}, {9, 9, 9}, [](const Vec3& p) {
+          return 0.3 - std::hypot(std::hypot(p.x, p.y) - 0.6, p.z);
+        })}) {
+    Collapses now(mesh);
+    const auto euler = [](const TriMesh& m) {
+      std::set<Index> used;
+      for (const Triangle& t : m.triangles) used.insert(t.begin(), t.end());
+      return std::ssize(used) - std::ssize(m.triangles) / 2;
+    };
+    const auto before = euler(mesh);
+    std::mt19937 generator(1);
+    int done = 0;
+    for (int n = 0; n < 20'000; ++n) {
+      const auto h =
+          static_cast<Index>(generator() % static_cast<unsigned>(3 * now.surface.count()));
+      if (now.surface.is_removed(h / 3) || !now.surface.may_collapse(h)) continue;
+      now.surface.collapse(h);
+      if (++done % 40 == 0) expect_consistent(now);
+    }
+    const TriMesh left = now.now();
+    EXPECT_GT(done, 30);
+    EXPECT_LT(left.triangles.size(), 60u);
+    EXPECT_EQ(flaws_of(check_surface(left)), "");
+    EXPECT_EQ(euler(left), before);
+  }
+}
+
+TEST(EditableSurface, KnowsItsRim) {
+  TriMesh open = small_sphere();
+  const Triangle hole = open.triangles.back();
+  open.triangles.pop_back();
+  const EditableSurface surface(open.points.size(), open.triangles);
+  for (Index p = 0; p < std::ssize(open.points); ++p) {
+    EXPECT_EQ(surface.is_inner(p), std::find(hole.begin(), hole.end(), p) == hole.end());
+  }
+  // From the rim on, the fan of a point has all its triangles.
+  int count = 0, seen = 0;
+  for (const Triangle& t : open.triangles)
+    count += static_cast<int>(std::count(t.begin(), t.end(), hole[0]));
+  surface.for_each_leaving(hole[0], [&](Index) { ++seen; });
+  EXPECT_EQ(seen, count);
+}
+
+TEST(EditableSurface, RefusesWhatWouldPinchATetrahedron) {
+  const TriMesh tetrahedron{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                            {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  const EditableSurface surface(4, tetrahedron.triangles);
+  for (Index h = 0; h < 12; ++h) EXPECT_FALSE(surface.may_collapse(h));
+}
+
+}  // namespace
+}  // namespace mesamis

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/decimate/two_sided_bound.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "decimate/collapses.h"
+#include "mesamis/decimate/fan_height.h"
+#include "mesamis/surface/distance.h"
+#include "mesamis/surface/farthest.h"
+
+namespace mesamis {
+namespace {
+
+constexpr double kTolerance = 0.04;
+
+double distance_between(const TriMesh& a, const TriMesh& b) {
+  return std::max(max_distance(a, b, 1e-3), max_distance(b, a, 1e-3));
+}
+
+TEST(TwoSidedBound, AgreesWithTheDistanceOfTheWholeSurfaces) {
+  const TriMesh mesh = small_sphere();
+  Collapses collapses(mesh);
+  TwoSidedBound bound(mesh, cover_of(mesh), kTolerance);
+  int refused = 0, allowed = 0;
+  collapses.for_each(5, [&](Collapse collapse, const TriMesh& after) {
+    collapse.height = fan_height(collapses.surface, collapses.points, collapse);
+    const double distance = distance_between(after, mesh);
+    if (bound.allows(collapses.surface, collapses.points, collapse)) {
+      ++allowed;
+      EXPECT_LE(distance, kDistanceSlack * kTolerance);
+    } else {
+      ++refused;
+      EXPECT_GE(distance, kTolerance / 1.1);
+    }
+  });
+  EXPECT_GT(refused, 10);
+  EXPECT_GT(allowed, 10);
+}
+
+TEST(TwoSidedBound, HoldsThroughManyCollapses) {
+  const TriMesh mesh = level_set({{-1, -1, -1}, {1, 1, 1}}, {14, 14, 14},
+                                 [](const Vec3& p) { return 0.8 - norm(p); });
+  Collapses now(mesh);
+  TwoSidedBound bound(mesh, cover_of(mesh), kTolerance);
+  for (int round = 0; round < 3; ++round) {
+    for (Index h = 0; h < 3 * now.surface.count(); ++h) {
+      if (now.surface.is_removed(h / 3) || !now.surface.may_collapse(h)) continue;
+      const Vec3 &a = now.points[now.surface.from(h)], &b = now.points[now.surface.to(h)];
+      Collapse collapse;
+      describe(now.surface, now.points, h, 0.5 * (a + b), collapse);
+      collapse.height = fan_height(now.surface, now.points, collapse);
+      if (!bound.allows(now.surface, now.points, collapse)) continue;
+      now.surface.collapse(h);
+      now.points[collapse.kept] = collapse.place;
+      bound.apply(collapse);
+    }
+  }
+  const TriMesh result = now.now();
+  EXPECT_LT(result.triangles.size(), mesh.triangles.size() / 3);
+  double to = 0, from = 0;
+  std::vector<char> stood(mesh.triangles.size(), 0);
+  for (Index t = 0; t < now.surface.count(); ++t) {
+    if (now.surface.is_removed(t)) continue;
+    to = std::max(to, bound.to_originals_of(t));
+    from = std::max(from, bound.from_originals_of(t));
+    for (const Index o : bound.originals_of(t)) stood[o] = 1;
+  }
+  EXPECT_EQ(std::count(stood.begin(), stood.end(), 0), 0) << "every original is stood for";
+  EXPECT_LE(std::max(to, from), kTolerance);
+  EXPECT_LE(max_distance(result, mesh, 1e-3), to * kDistanceSlack + 1e-3);
+  EXPECT_LE(max_distance(mesh, result, 1e-3), from * kDistanceSlack + 1e-3);
+}
+
+}  // namespace
+}  // namespace mesamis
