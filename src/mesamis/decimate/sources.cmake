@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# The only room that includes OpenMesh.
+# The only room that includes OpenMesh: rounding flips and collapses on it.
 set(ROOM_HEADERS
   cover.h
   crease.h

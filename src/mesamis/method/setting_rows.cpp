@@ -362,11 +362,11 @@ std::vector<Setting> surface_rows() {
                    .words = {"auto", "none"}, .unit = "mm",
                    .help = "Decimation keeps the solid surface within this distance; 0: no "
                        "decimation; none: no bound",
-                   .automatic = "twice the error to expect, 0.06 to 0.2 voxel (previews, labels, slabs: half of "
-                                "that), or half of accuracy, if that is asked for; none where triangles says where "
-                                "to stop"}),
+                   .automatic = "2.8 times the error to expect, 0.084 to 0.28 voxel (labels: half of that; previews "
+                                "and slabs: once, 0.03 to 0.1), or half of accuracy, if that is asked for; none where "
+                                "triangles says where to stop"}),
     bound({.name = "preview", .form = "yes|no",
-           .help = "The solid of the first grid, quickly: no mesh is adapted, decimation is quick"},
+           .help = "The solid of the first grid, quickly: no mesh is adapted"},
           &Settings::preview, &Parameters::preview),
     bound_unless_zero({.name = "triangles", .form = "N", .count = 1, .whole = true, .low = 4, .high = 2e9,
            .words = {"auto"}, .help = "Decimation stops at this many triangles",
