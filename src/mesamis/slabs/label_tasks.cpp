@@ -232,7 +232,7 @@ SlabWork join_parts(const LayerRun& run, Index s) {
     return run.scratch.read(run.file("parts", slab)).next<Index>();
   };
   const std::vector<Index> below_label = label_of(s), above_label = label_of(s + 1);
-  const Index cut = run.cuts[static_cast<std::size_t>(s + 1)];
+  const Index cut = run.cuts[static_cast<std::size_t>(s) + 1];
   const std::vector<Index> below = read_own_numbers(run, {cut - 1, cut});
   const std::vector<Index> above = read_own_numbers(run, {cut, cut + 1});
   const auto [nx, ny, nz] = run.block.size;
@@ -405,7 +405,7 @@ PartitionSurface joined_boundaries(const LayerRun& run) {
     std::size_t own = below.points.size();
     if (s + 1 < run.count()) {
       above = read_boundaries(run, s + 1);
-      const double height = run.cuts[static_cast<std::size_t>(s + 1)] * run.source.head().spacing.z;
+      const double height = run.cuts[static_cast<std::size_t>(s) + 1] * run.source.head().spacing.z;
       const std::vector<Index> top = points_at(below, height), bottom = points_at(above, height);
       require_same_points(below, top, above, bottom);
       own -= top.size();
