@@ -103,7 +103,7 @@ TEST(SpoilsShape, MakesNoCreaseWhereThereIsNone) {
     return least;
   };
   int refused = 0, allowed = 0;
-  collapses.for_each(97, [&](const Collapse& collapse, const TriMesh& after) {
+  collapses.for_each(997, [&](const Collapse& collapse, const TriMesh& after) {
     const double before = std::min(sharpest(mesh, collapse.removed), sharpest(mesh, collapse.kept));
     if (before < 0.91) return;
     const bool spoils = spoils_shape(collapses.surface, collapses.points, normals, collapse, true);

@@ -111,7 +111,7 @@ void require_contrast(const VolumeView& volume, const Parameters& p) {
   std::ostringstream message;
   if (!sees_samples) {
     message << "window: expected a range that contains samples, which lie between " << least
-            << " to " << most << ", found " << low << "," << high;
+            << " and " << most << ", found " << low << "," << high;
   } else if (p.surface == SurfaceKind::kSolid && !sees_level) {
     message << "level: expected a value between the window's ends and above the threshold, " << low
             << " to " << high << ", found " << level;
