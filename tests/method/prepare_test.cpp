@@ -109,7 +109,10 @@ TEST(PrepareImage, RefusesSettingsThatLeaveNothingToSee) {
   const Volume volume = make_ball({.size = 24, .radius = 7});
   Settings settings;
   settings.window = Window{900, 990};
-  EXPECT_REFUSED(prepare_image(volume, settings), HasSubstr("window: expected a range that contains samples, which lie between 900 and 900, found"));
+  EXPECT_REFUSED(
+      prepare_image(volume, settings),
+      HasSubstr(
+          "window: expected a range that contains samples, which lie between 900 and 900, found"));
   settings.window = Window{100, 250};
   settings.window = Window{100, 180};
   settings.level = 200;

@@ -157,7 +157,8 @@ TEST(Nrrd, HasLengthsInItsSpaceUnits) {
   const VolumeFile odd =
       with_fields(folder, kLps + kDirections + "space units: \"mm\" \"mm\" \"s\"\n");
   expect_near(odd.volume.spacing, {20, 30, 40});
-  EXPECT_THAT(odd.warnings, testing::ElementsAre(HasSubstr("\"s\" of axis 2 is no unit of length")));
+  EXPECT_THAT(odd.warnings,
+              testing::ElementsAre(HasSubstr("\"s\" of axis 2 is no unit of length")));
 }
 
 TEST(Nrrd, UnitsOfAxesCountWithoutSpaceDirections) {
