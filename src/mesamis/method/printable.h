@@ -34,7 +34,7 @@ struct PrintableOptions {
   double tolerance = 0;        ///< of decimation, mm, both ways; 0: none done; infinite: no bound
   std::int64_t triangles = 0;  ///< where decimation stops; 0: nowhere
   Progress progress = {};      ///< optional; may stop the work
-  bool refit = false;          ///< whether points move at the end, see simplify()
+  bool refit = true;           ///< whether points move at the end, see simplify()
 };
 
 /// Makes the solid surface ready to be written in any format: the parts asked for; coordinates
