@@ -80,39 +80,39 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
                                          .fill_cavities = command.fill_cavities,
                                          .tolerance = tolerance,
                                          .triangles = command.triangles.value_or(0),
-                                         .progress = display.callback(),
+                                         .progress = display.callback()},
                                         &printable);
-    display.finish();
-    if (result.triangles.empty()) {
-      throw InputError(command.input.string() +
-                       ": expected a part of at least --min-volume, found none");
-    }
-    const auto frame = file.frame ? std::optional(Frame::kLps) : std::nullopt;
-    OutputSet set;
-    write_surface(set.file(command.output), result, {.frame = frame, .name = command.name});
-    const SurfaceCheck check = check_surface(result);
-    if (!command.report.empty()) {
-      nlohmann::ordered_json report;
-      report["program"] = program_json();
-      report["input"] = {{"path", command.input.string()}, {"triangles", surface.triangles.size()}};
-      report["surface"] = printable_json(printable, tolerance);
-      report["surface"].update(check_json(result, check));
-      report["surface"]["self_intersections"] = find_self_intersections(result).size();
-      report["files"] = files_json(set);
-      add_costs(report);
-      write_json(set.file(command.report), report);
-    }
-    commit(set);
-    std::cout << result.triangles.size() << " of " << surface.triangles.size()
-              << " triangles, at most " << printable.extracted_to_result << " mm there and "
-              << printable.result_to_extracted << " mm back\n";
-    if (const std::string flaws = flaws_of(check); !flaws.empty()) {
-      log_error("expected a closed 2-manifold surface, found " + flaws);
-      return kExitNotClosed;
-    }
-    if (printable.within(tolerance)) return kExitDone;
-    log_error(tolerance_unmet(tolerance, printable));
-    return kExitNotConverged;
+  display.finish();
+  if (result.triangles.empty()) {
+    throw InputError(command.input.string() +
+                     ": expected a part of at least --min-volume, found none");
+  }
+  const auto frame = file.frame ? std::optional(Frame::kLps) : std::nullopt;
+  OutputSet set;
+  write_surface(set.file(command.output), result, {.frame = frame, .name = command.name});
+  const SurfaceCheck check = check_surface(result);
+  if (!command.report.empty()) {
+    nlohmann::ordered_json report;
+    report["program"] = program_json();
+    report["input"] = {{"path", command.input.string()}, {"triangles", surface.triangles.size()}};
+    report["surface"] = printable_json(printable, tolerance);
+    report["surface"].update(check_json(result, check));
+    report["surface"]["self_intersections"] = find_self_intersections(result).size();
+    report["files"] = files_json(set);
+    add_costs(report);
+    write_json(set.file(command.report), report);
+  }
+  commit(set);
+  std::cout << result.triangles.size() << " of " << surface.triangles.size()
+            << " triangles, at most " << printable.extracted_to_result << " mm there and "
+            << printable.result_to_extracted << " mm back\n";
+  if (const std::string flaws = flaws_of(check); !flaws.empty()) {
+    log_error("expected a closed 2-manifold surface, found " + flaws);
+    return kExitNotClosed;
+  }
+  if (printable.within(tolerance)) return kExitDone;
+  log_error(tolerance_unmet(tolerance, printable));
+  return kExitNotConverged;
 }
 
 }  // namespace
