@@ -53,7 +53,7 @@ def test_decimate_keeps_its_promise():
     assert np.array_equal(fewer.points, np.float32(fewer.points)), "values of single precision"
     for arguments, message in [
         ({}, "expected tolerance or triangles"), ({"tolerance": -1}, "tolerance: expected 0"),
-        ({"tolerance": 1, "min_volume": 1e9}, "smaller than min_volume"),
+        ({"tolerance": 1, "min_volume": 1e9}, "expected a part of at least min_volume"),
     ]:
         with pytest.raises(mesamis.InputError, match=message):
             mesamis.decimate(truth, **arguments)
