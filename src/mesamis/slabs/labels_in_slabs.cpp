@@ -7,10 +7,9 @@
 #include <utility>
 
 #include "mesamis/base/error.h"
-#include "mesamis/base/stopwatch.h"
 #include "mesamis/method/setting_table.h"
+#include "mesamis/slabs/in_scratch.h"
 #include "mesamis/slabs/label_tasks.h"
-#include "mesamis/slabs/same_run.h"
 #include "mesamis/slabs/stages.h"
 #include "mesamis/slabs/stored_labels.h"
 
@@ -166,22 +165,12 @@ std::optional<LabelSlabResult> label_surfaces_in_slabs(const LabelSlabRequest& r
                                                        const SlabRunOptions& options, Team& team) {
   require_valid(settings);
   require_turns(options);
-  Stopwatch watch;
-  const Scratch scratch(options.scratch);
   const std::string slabs = options.slabs ? std::to_string(*options.slabs) : "of labels";
-  require_same_run(scratch, description_of(settings) + " " + options.input + " slabs " + slabs,
-                   team);
-  std::optional<LabelSlabResult> found;
-  try {
-    found = run_through(scratch, request, settings, options, team);
-  } catch (...) {
-    if (!options.resumable) scratch.clear();
-    throw;
-  }
-  if (!found) return std::nullopt;
-  found->result.seconds.total = watch.lap();
-  if (!options.keep_scratch) scratch.clear();
-  return found;
+  const std::string description =
+      description_of(settings) + " " + options.input + " slabs " + slabs;
+  return run_in_scratch(options, description, team, [&](const Scratch& scratch) {
+    return run_through(scratch, request, settings, options, team);
+  });
 }
 
 }  // namespace mesamis

@@ -14,8 +14,8 @@
 #include "mesamis/method/chosen_run.h"
 #include "mesamis/method/deliver.h"
 #include "mesamis/method/setting_table.h"
+#include "mesamis/slabs/in_scratch.h"
 #include "mesamis/slabs/mapped_items.h"
-#include "mesamis/slabs/same_run.h"
 #include "mesamis/slabs/sample.h"
 #include "mesamis/slabs/stages.h"
 #include "mesamis/slabs/surface_files.h"
@@ -343,23 +343,13 @@ void require_turns(const SlabRunOptions& options) {
 std::optional<SlabRunResult> run_in_slabs(const SliceSource& source, const Settings& settings,
                                           const SlabRunOptions& options, Team& team) {
   require_possible(settings, options);
-  Stopwatch watch;
-  const Scratch scratch(options.scratch);
   const VoxelGrid& whole = source.grid();
   // How many slabs there are depends on no sample.
   const SlabPlan even = even_plan(whole, {whole.voxel_size(), settings.beta, options.slabs});
-  require_same_run(scratch, description_of_run(source, settings, options, even.count()), team);
-  std::optional<SlabRunResult> found;
-  try {
-    found = run_through(scratch, source, settings, options, even, team);
-  } catch (...) {
-    if (!options.resumable) scratch.clear();
-    throw;
-  }
-  if (!found) return std::nullopt;
-  found->result.seconds.total = watch.lap();
-  if (!options.keep_scratch) scratch.clear();
-  return found;
+  const std::string description = description_of_run(source, settings, options, even.count());
+  return run_in_scratch(options, description, team, [&](const Scratch& scratch) {
+    return run_through(scratch, source, settings, options, even, team);
+  });
 }
 
 }  // namespace mesamis
