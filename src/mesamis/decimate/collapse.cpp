@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesamis/decimate/crease.h"
+
 namespace mesamis {
 namespace {
 
 /// Cosine of the angle by which a triangle may turn, 75 degrees.
 constexpr double kTurn = 0.2588;
-/// Cosine of the angle from which on an edge is a crease, 25 degrees.
-constexpr double kSharpest = 0.9063;
 /// By so much the creases of a neighbourhood may grow in a collapse: none appear where there are none.
 constexpr double kMostCreases = 1.1;
 /// Height over longest side, squared.
@@ -31,7 +31,7 @@ Corners corners_at(const EditableSurface& surface, const std::vector<Vec3>& poin
 /// The share of an edge in the creases of a surface: its length, times by how much it is sharper than
 /// edges may be.
 double crease_at(const Vec3& from, const Vec3& to, const Vec3& left, const Vec3& right) {
-  const double excess = kSharpest - dot(left, right);
+  const double excess = kCrease - dot(left, right);
   if (!(excess > 0) || dot(left, left) == 0 || dot(right, right) == 0) return 0;
   return excess * norm(to - from);
 }

@@ -22,9 +22,9 @@ struct Collapse {
   std::vector<Index> faces;
   std::vector<Index> outer;    ///< of each of these, the half-edge opposite to that corner
   std::vector<Corners> after;  ///< of each of these, mm: the place comes first
-  double height =
-      0;  ///< between the triangles before and after, see fan_height(), mm; infinity: one
-          ///< of both folds over itself
+  /// Between the triangles before and after, see fan_height(), mm; infinity: one of both folds over
+  /// itself.
+  double height = 0;
 };
 
 /// Describes a collapse.
@@ -33,9 +33,10 @@ struct Collapse {
 void describe(const EditableSurface& surface, const std::vector<Vec3>& points, Index h,
               const Vec3& place, Collapse& collapse);
 
-/// Whether a triangle that is no needle would turn by more than 75 degrees, or one become nearly degenerate (height below 0.01
-/// of its longest side, and below that of the flattest triangle it starts from), or bend at a crease,
-/// see makes_crease(), with one beside it.
+/// Whether a triangle that is no needle would turn by more than 75 degrees, or one become nearly
+/// degenerate (height below 0.01 of its longest side, and below that of the flattest triangle before),
+/// or the creases around grow by more than a tenth: the sum over edges of their length times the
+/// cosine of kCrease less that of the edge.
 /// @param normals   of each triangle, unit length or 0.
 /// @param creases   whether these count.
 bool spoils_shape(const EditableSurface& surface, const std::vector<Vec3>& points,

@@ -5,19 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/triangle_intersection.h"
 
 namespace mesamis {
 namespace {
-
-Box box_of(const Corners& t) {
-  Box box{t[0], t[0]};
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lo[axis] = std::min({t[0][axis], t[1][axis], t[2][axis]});
-    box.hi[axis] = std::max({t[0][axis], t[1][axis], t[2][axis]});
-  }
-  return box;
-}
 
 /// What parts a triangle from most of those around it: its plane, and that through the side opposite
 /// to its first corner across it.
@@ -56,7 +48,7 @@ std::vector<Box> boxes_of(const EditableSurface& surface, const std::vector<Vec3
   std::vector<Box> boxes;
   for (Index t = 0; t < surface.count(); ++t) {
     const Triangle k = surface.triangle(t);
-    boxes.push_back(box_of({points[k[0]], points[k[1]], points[k[2]]}));
+    boxes.push_back(bounding_box(Corners{points[k[0]], points[k[1]], points[k[2]]}));
   }
   return boxes;
 }
@@ -85,9 +77,9 @@ bool CollapseIntersections::occur(const EditableSurface& surface, std::vector<Ve
     const Index h = collapse.outer[i];
     return Triangle{collapse.kept, surface.from(h), surface.to(h)};
   };
-  Box whole = box_of(collapse.after[0]);
+  Box whole = bounding_box(collapse.after[0]);
   for (const Corners& t : collapse.after) {
-    const Box box = box_of(t);
+    const Box box = bounding_box(t);
     for (int axis = 0; axis < 3; ++axis) {
       whole.lo[axis] = std::min(whole.lo[axis], box.lo[axis]);
       whole.hi[axis] = std::max(whole.hi[axis], box.hi[axis]);
@@ -107,14 +99,14 @@ bool CollapseIntersections::occur(const EditableSurface& surface, std::vector<Ve
   for (std::size_t i = 0; i < collapse.faces.size() && !found; ++i) {
     const Triangle own = changed(i);
     const Corners& t = collapse.after[i];
-    const Box box = box_of(t);
+    const Box box = bounding_box(t);
     const Partition partition(t);
     found = !has_area(points, own);
     for (std::size_t j = 0; j < i && !found && folds; ++j) found = meets(points, own, changed(j));
     for (std::size_t k = 0; k < near_.size() && !found; ++k) {
       const Triangle other = surface.triangle(near_[k]);
       const Corners corners{points[other[0]], points[other[1]], points[other[2]]};
-      found = overlap(box, box_of(corners)) && !partition.parts(own, other, corners) &&
+      found = overlap(box, bounding_box(corners)) && !partition.parts(own, other, corners) &&
               meets(points, own, other);
     }
   }
@@ -125,7 +117,7 @@ bool CollapseIntersections::occur(const EditableSurface& surface, std::vector<Ve
 void CollapseIntersections::apply(const Collapse& collapse) {
   for (const Index t : collapse.gone) tree_.update(static_cast<std::size_t>(t), kNoBox);
   for (std::size_t i = 0; i < collapse.faces.size(); ++i) {
-    tree_.update(static_cast<std::size_t>(collapse.faces[i]), box_of(collapse.after[i]));
+    tree_.update(static_cast<std::size_t>(collapse.faces[i]), bounding_box(collapse.after[i]));
   }
 }
 

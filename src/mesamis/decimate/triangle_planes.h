@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/triangle_tree.h"
 
 namespace mesamis {
@@ -13,11 +14,7 @@ namespace mesamis {
 /// these without a branch.
 class TrianglePlanes {
  public:
-  explicit TrianglePlanes(const Corners& t) : corners_(t), box_{t[0], t[0]} {
-    for (int axis = 0; axis < 3; ++axis) {
-      box_.lo[axis] = std::min({t[0][axis], t[1][axis], t[2][axis]});
-      box_.hi[axis] = std::max({t[0][axis], t[1][axis], t[2][axis]});
-    }
+  explicit TrianglePlanes(const Corners& t) : corners_(t), box_(bounding_box(t)) {
     const Vec3 area = cross(t[1] - t[0], t[2] - t[0]);
     normal_ = unit_or_zero(area);
     double longest = 0;
