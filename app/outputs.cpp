@@ -7,7 +7,6 @@
 #include "arguments.h"
 #include "interrupt.h"
 #include "mesamis/base/error.h"
-#include "mesamis/files/refuse.h"
 
 namespace mesamis {
 
@@ -47,10 +46,6 @@ std::string listed(const std::string& what, const std::vector<std::string>& exte
   std::string text = what;
   for (const std::string& extension : extensions) text += " " + extension;
   return text;
-}
-
-std::string lower_extension(const std::filesystem::path& path) {
-  return detail::lower(path.extension().string());
 }
 
 }  // namespace mesamis

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesamis/files/output_set.h"
+#include "mesamis/files/refuse.h"
 
 namespace mesamis {
 
@@ -32,7 +33,6 @@ void commit(OutputSet& set);
 /// "Surface: .stl .ply ...": the formats that an option can write, for its help.
 std::string listed(const std::string& what, const std::vector<std::string>& extensions);
 
-/// The extension in lower case, with its dot.
-std::string lower_extension(const std::filesystem::path& path);
+using detail::lower_extension;
 
 }  // namespace mesamis

@@ -41,6 +41,11 @@ TEST(Refuse, WordsAreTrimmedAndLowered) {
   EXPECT_EQ(trimmed(""), "");
 }
 
+TEST(Refuse, LowersTheLastExtensionOfAPath) {
+  EXPECT_EQ(lower_extension("folder.D/Scan.nii.GZ"), ".gz");
+  EXPECT_EQ(lower_extension("folder.D/Scan"), "");
+}
+
 TEST(Refuse, JoinsPartsInTheCLocale) {
   EXPECT_EQ(message("found ", 1234567, " of ", 0.5, '!'), "found 1234567 of 0.5!");
 }

@@ -276,7 +276,7 @@ MeshWithArrays make_mesh_piece(const Result& piece, const VolumeView& volume) {
 }
 
 void write_mesh(const OutputPath& path, const MeshOutput& mesh, Frame frame) {
-  const std::string extension = detail::lower(path.extension().string());
+  const std::string extension = detail::lower_extension(path);
   if (extension == ".mesh") {
     write_medit(path, mesh, frame);
   } else if (extension == ".msh") {

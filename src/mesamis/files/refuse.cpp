@@ -43,6 +43,10 @@ std::string lower(std::string_view text) {
   return out;
 }
 
+std::string lower_extension(const std::filesystem::path& path) {
+  return lower(path.extension().string());
+}
+
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlank(" \t\r\n\v\f\0", 7);
   const auto first = text.find_first_not_of(kBlank);

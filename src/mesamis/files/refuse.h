@@ -26,6 +26,9 @@ std::string in_quotes(std::string_view text, std::size_t longest = 60);
 /// @return  the text with ASCII letters in lower case.
 std::string lower(std::string_view text);
 
+/// @return  the last extension of a path in lower case, with its dot; empty if there is none.
+std::string lower_extension(const std::filesystem::path& path);
+
 /// @return  the text without white space and zero bytes at both ends.
 std::string_view trimmed(std::string_view text);
 

@@ -37,7 +37,7 @@ double shift_between(const VoxelGrid& a, const VoxelGrid& b) {
 }
 
 bool is_page_stack(const fs::path& file, MemoryBudget& budget) {
-  const std::string extension = lower(file.extension().string());
+  const std::string extension = lower_extension(file);
   if (extension != ".tif" && extension != ".tiff") return false;
   const ScopedFile scope(budget, file);
   try {
@@ -169,7 +169,7 @@ std::optional<VoxelGrid> grid_of_all(const std::vector<fs::path>& files, const M
 
 std::string object_name(const fs::path& file) {
   const fs::path stem = file.stem();
-  const std::string inner = lower(stem.extension().string());
+  const std::string inner = lower_extension(stem);
   return (inner == ".nii" || inner == ".seg" ? stem.stem() : stem).string();
 }
 

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPlaceholder = "{label}";
 
-std::string extension_of(const fs::path& path) { return detail::lower(path.extension().string()); }
+std::string extension_of(const fs::path& path) { return detail::lower_extension(path); }
 
 SurfaceWriteOptions write_options(const RunSurfaceOptions& options, const std::string& name) {
   SurfaceWriteOptions as;

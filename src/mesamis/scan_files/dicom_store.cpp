@@ -23,7 +23,7 @@ Bytes bytes_in(const std::string& text) {
 
 bool is_zip(const fs::path& path) {
   std::error_code ignored;
-  if (lower(path.extension().string()) != ".zip" || !fs::is_regular_file(path, ignored) ||
+  if (lower_extension(path) != ".zip" || !fs::is_regular_file(path, ignored) ||
       !why_unreadable(path).empty()) {
     return false;
   }

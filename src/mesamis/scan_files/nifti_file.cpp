@@ -153,7 +153,7 @@ struct NiftiFiles {
 /// The name with another extension in place of .hdr, .img, .hdr.gz or .img.gz; gzip'd if that alone
 /// is there.
 std::filesystem::path beside(std::filesystem::path file, const char* extension) {
-  if (lower(file.extension().string()) == ".gz") file.replace_extension();
+  if (lower_extension(file) == ".gz") file.replace_extension();
   file.replace_extension(extension);
   std::filesystem::path packed = file;
   packed += ".gz";
@@ -165,8 +165,8 @@ std::filesystem::path beside(std::filesystem::path file, const char* extension) 
 
 NiftiFiles files_of(const std::filesystem::path& file) {
   std::filesystem::path plain = file;
-  if (lower(plain.extension().string()) == ".gz") plain.replace_extension();
-  const std::string extension = lower(plain.extension().string());
+  if (lower_extension(plain) == ".gz") plain.replace_extension();
+  const std::string extension = lower_extension(plain);
   if (extension == ".hdr") return {file, beside(file, ".img")};
   if (extension == ".img") return {beside(file, ".hdr"), file};
   return {file, file};
@@ -270,7 +270,7 @@ double angle_between_deg(const Placement& a, const Placement& b) {
 
 /// The matrix of SPM beside an image.
 std::filesystem::path matrix_beside(std::filesystem::path file) {
-  if (lower(file.extension().string()) == ".gz") file.replace_extension();
+  if (lower_extension(file) == ".gz") file.replace_extension();
   return file.replace_extension(".mat");
 }
 

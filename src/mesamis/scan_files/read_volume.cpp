@@ -64,8 +64,8 @@ bool needs_header_beside(std::string_view extension) {
 }
 
 bool has_header_beside(fs::path file) {
-  if (detail::lower(file.extension().string()) == ".gz") file.replace_extension();
-  const bool vol = detail::lower(file.extension().string()) == ".vol";
+  if (detail::lower_extension(file) == ".gz") file.replace_extension();
+  const bool vol = detail::lower_extension(file) == ".vol";
   std::error_code ignored;
   for (const char* extension : {vol ? ".vgi" : ".hdr", vol ? ".VGI" : ".hdr.gz"}) {
     if (fs::is_regular_file(fs::path(file).replace_extension(extension), ignored)) return true;
@@ -111,7 +111,7 @@ constexpr std::array<PictureFormat, 6> kPictureFormats{
      {".bmp", detail::open_bmp, detail::read_bmp, open_one_slice}}};
 
 const PictureFormat* picture_format_of(const fs::path& file) {
-  const std::string extension = detail::lower(file.extension().string());
+  const std::string extension = detail::lower_extension(file);
   for (const PictureFormat& format : kPictureFormats) {
     if (extension == format.extension) return &format;
   }

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 /// "a.json" for "a.nii", "a.nii.gz", "a.nrrd" and so on.
 fs::path sidecar_of(fs::path image) {
-  if (lower(image.extension().string()) == ".gz") image.replace_extension();
+  if (lower_extension(image) == ".gz") image.replace_extension();
   return image.replace_extension(".json");
 }
 

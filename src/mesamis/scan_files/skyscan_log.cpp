@@ -55,7 +55,7 @@ std::optional<SkyscanLog> log_in(const fs::path& file) {
 
 std::optional<SkyscanLog> find_skyscan_log(const fs::path& directory) {
   for (const fs::path& file : files_in(directory)) {
-    if (lower(file.extension().string()) != ".log") continue;
+    if (lower_extension(file) != ".log") continue;
     try {
       if (auto log = log_in(file)) return log;
     } catch (const InputError&) {

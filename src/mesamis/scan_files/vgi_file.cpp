@@ -130,7 +130,7 @@ std::string last_part(const std::string& name) { return name.substr(name.find_la
 
 ScanFile open_vgi(const fs::path& file, const Opening& opening) {
   fs::path header = file;
-  if (lower(file.extension().string()) == ".vol") header.replace_extension(".vgi");
+  if (lower_extension(file) == ".vol") header.replace_extension(".vgi");
   const Vgi vgi = read_sections(header);
   if (!vgi.get({"file2/name"}).empty()) {
     refuse(header, "expected one file of samples, found several");

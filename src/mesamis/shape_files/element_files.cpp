@@ -192,7 +192,7 @@ std::vector<MeshArray> material_arrays(const FiniteElements& elements) {
 void write_elements(const OutputPath& path, const FiniteElements& elements,
                     const ElementWriteOptions& options) {
   Checks(path, elements).run();
-  const std::string extension = lower(path.extension().string());
+  const std::string extension = lower_extension(path);
   if (extension == ".inp") return write_abaqus_elements(path, elements, options);
   if (extension == ".feb") return write_febio(path, elements, options);
   if (extension == ".msh") return write_gmsh_elements(path, elements, options);

@@ -10,11 +10,8 @@
 #include "mesamis/shape_files/surface_formats.h"
 
 namespace mesamis {
+using detail::lower_extension;
 namespace {
-
-std::string lower_extension(const std::filesystem::path& path) {
-  return detail::lower(path.extension().string());
-}
 
 /// DICOM holds images, labels and surfaces. What cannot be read may be a scan.
 bool is_surface_in_dicom(const std::filesystem::path& path) {

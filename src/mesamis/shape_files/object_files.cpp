@@ -251,7 +251,7 @@ std::vector<std::string> written_object_formats() {
 
 void write_objects(const OutputPath& path, std::span<const NamedSurface> objects,
                    const SurfaceWriteOptions& options) {
-  const Format* format = format_named(lower(path.extension().string()));
+  const Format* format = format_named(lower_extension(path));
   if (format == nullptr) refuse_extension(path, ".3mf .vtp .obj .amf .glb");
   require_writable(path, objects);
   const std::vector<NamedSurface> ready = prepared(objects, *format, options.frame);

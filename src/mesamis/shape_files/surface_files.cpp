@@ -34,7 +34,7 @@ std::string format_extension(const fs::path& path) {
 }
 
 std::string extension_of(const fs::path& path) {
-  const bool packed = lower(path.extension().string()) == ".gz";
+  const bool packed = lower_extension(path) == ".gz";
   return lower(format_extension(packed ? path.stem() : path));
 }
 
