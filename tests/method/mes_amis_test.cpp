@@ -86,7 +86,6 @@ TEST(MesAmis, ALevelForEachPlaceFindsWhatIsLessDense) {
   settings.max_tets = 8000;
   settings.adaptations = 2;
   const Volume scan = unlike_balls();
-  settings.level = 625;
   EXPECT_EQ(check_surface(mes_amis(scan, settings).surface).components, 1);
   settings.local_level = true;
   const Result result = mes_amis(scan, settings);
@@ -112,13 +111,23 @@ TEST(MesAmis, ALevelForEachPlaceFindsWhatIsLessDense) {
   EXPECT_EQ(mes_amis(scan, settings_of(result.parameters)).surface.points, result.surface.points);
 }
 
-/// Of one material it is about the level of the whole.
 TEST(MesAmis, ALevelForEachPlaceIsThatOfTheOneMaterial) {
   Settings settings = small_run();
   settings.local_level = true;
   const Result result = with_threads(1, [&] { return mes_amis(make_ball(ball()), settings); });
-  const double one_level = check_surface(small_result().surface).volume;
-  EXPECT_NEAR(check_surface(result.surface).volume, one_level, 0.03 * one_level);
+  EXPECT_EQ(small_result().surface.points, result.surface.points);
+  EXPECT_EQ(result.image.level_range[0], result.image.level_range[1]);
+}
+
+TEST(MesAmis, ANumberIsTheLevelOfAllPlaces) {
+  Settings settings;
+  settings.max_tets = 8000;
+  settings.adaptations = 2;
+  settings.level = 625;
+  settings.local_level = true;
+  const Result result = mes_amis(unlike_balls(), settings);
+  EXPECT_EQ(check_surface(result.surface).components, 1);
+  EXPECT_FALSE(result.parameters.local_level);
 }
 
 TEST(MesAmis, DeliversAValidMeshWithinTheCount) {

@@ -66,6 +66,20 @@ TEST(LocalLevel, ThinWallsAndNoiseHaveNoSay) {
   }
 }
 
+TEST(LocalLevel, IsOneWhereTheDensitiesScatterAsThoseOfOneObject) {
+  const auto balls = [](double light) {
+    return sampled_volume({61, 29, 29}, {1, 1, 1}, [light](const Vec3& p) {
+      return kAround + (kDense - kAround) * blurred_ball(norm(p - kDenseCentre), kBall, kBlur) +
+             (light - kAround) * blurred_ball(norm(p - kLightCentre), kBall, kBlur);
+    });
+  };
+  const LocalLevel one =
+      find_local_level(balls(kDense - 0.15 * (kDense - kAround)), kOfDense, kHalfMaximum, 0);
+  EXPECT_GT(one.edge_share, 0);
+  for (const float excess : one.excess.samples) ASSERT_EQ(excess, 0);
+  EXPECT_EQ(one.range[0], one.range[1]);
+}
+
 TEST(LocalLevel, HasTheSameBitsForAnyNumberOfThreads) {
   const Volume scan = two_balls();
   const auto run = [&] { return find_local_level(scan, kOfDense, kHalfMaximum, 0).excess.samples; };

@@ -148,11 +148,11 @@ Setting window_row(Setting row) {
   return row;
 }
 
-/// A band has none. Where each place has its own, what a repeated run finds is the same again.
+/// A band has none. Where each place has its own, a repeated run finds the same again.
 Setting level_row(Setting row) {
   row = bound(std::move(row), &Settings::level, &Parameters::level);
   row.get = [get = row.get](const Settings& s) {
-    return s.local_level ? SettingValue("local") : get(s);
+    return s.local_level && !s.level ? SettingValue("local") : get(s);
   };
   row.set = [set = row.set](Settings& s, const SettingValue& value) {
     s.local_level = is_word(value, "local");
@@ -160,11 +160,11 @@ Setting level_row(Setting row) {
   };
   row.use = [use = row.use](const Settings& s, Parameters& p) {
     use(s, p);
-    p.local_level = s.local_level;
+    p.local_level = s.has_local_level();
   };
   row.repeat = [](const Parameters& p, Settings& s) {
     s.local_level = p.local_level;
-    if (p.surface == SurfaceKind::kSolid) s.level = p.level;
+    if (p.surface == SurfaceKind::kSolid && !p.local_level) s.level = p.level;
   };
   return row;
 }
@@ -332,7 +332,8 @@ std::vector<Setting> surface_rows() {
                "cells where v is small", .paper = "band"}, &Settings::surface, &Parameters::surface),
     level_row({.name = "level", .form = "X", .count = 1, .low = -kLargestValue, .high = kLargestValue,
            .words = {"auto", "local"}, .unit = "native", .help = "Value of the solid surface; local: "
-               "for each place, midway between the two sides of the edges around it",
+               "that of auto, but where the object's parts differ in density, for each place midway "
+               "between the two sides of the edges around it",
            .automatic = "half maximum of the object's edge, fitted to the image where the object "
                "is thickest; above T"}),
     bound({.name = "follow", .form = "yes|no",

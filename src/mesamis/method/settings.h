@@ -72,7 +72,8 @@ struct Settings {
   // The surface.
   SurfaceKind surface = SurfaceKind::kSolid;
   std::optional<double> level;
-  bool local_level = false;  ///< a level for each place; `level` is then that of the whole object
+  /// Without a `level`: one for each place, where these differ, see LocalLevel.
+  bool local_level = false;
   bool follow = true;
   bool fit = true;
   double band_threshold = 0.1;
@@ -84,6 +85,11 @@ struct Settings {
   std::optional<std::int64_t> triangles;
 
   bool preview = false;
+
+  /// Whether each place may have a level of its own.
+  bool has_local_level() const {
+    return local_level && !level && surface == SurfaceKind::kSolid;
+  }
 };
 
 }  // namespace mesamis

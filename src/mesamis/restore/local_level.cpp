@@ -22,6 +22,9 @@ constexpr double kLeastOfContrast = 0.1, kLeastOfNoise = 4, kMostOfContrast = 0.
 constexpr double kDarkest = -0.25, kBrightest = 0.35;
 /// Of the median weight of an edge: what holds the level at the object's where there are no edges.
 constexpr double kPull = 0.005;
+/// Standard deviations of the local level, of the contrast: up to the first it is the scatter of one
+/// level, from the second on each place has its own.
+constexpr double kOneLevel = 0.06, kManyLevels = 0.12;
 
 /// The two sides of an edge, native units.
 struct Sides {
@@ -109,6 +112,23 @@ class EdgeFinder {
   double background_, contrast_, least_;
 };
 
+/// How much of the local levels counts, 0 to 1: where they hardly differ, they are one.
+/// @param excess    of each voxel, native units.
+/// @param at_edges  the voxels that lie on edges.
+double share_that_counts(const Volume& excess, const std::vector<std::size_t>& at_edges,
+                         double contrast) {
+  double sum = 0, squares = 0;
+  for (const std::size_t n : at_edges) {
+    const double level = excess.samples[n] / contrast;
+    sum += level;
+    squares += level * level;
+  }
+  const auto count = static_cast<double>(at_edges.size());
+  const double variance = squares / count - (sum / count) * (sum / count);
+  const double deviation = std::sqrt(std::max(variance, 0.0));
+  return std::clamp((deviation - kOneLevel) / (kManyLevels - kOneLevel), 0.0, 1.0);
+}
+
 }  // namespace
 
 LocalLevel find_local_level(const VolumeView& volume, const ObjectContrast& contrast, double level,
@@ -125,23 +145,29 @@ LocalLevel find_local_level(const VolumeView& volume, const ObjectContrast& cont
     pulled.samples[n] = static_cast<float>(w * ((sides.bright + sides.dark) / 2 - level));
   });
   LocalLevel local;
-  std::vector<float> weights, levels;
+  std::vector<float> weights;
+  std::vector<std::size_t> at_edges;
   for (std::size_t n = 0; n < weight.samples.size(); ++n) {
     if (!(weight.samples[n] > 0)) continue;
     weights.push_back(weight.samples[n]);
-    levels.push_back(static_cast<float>(level + pulled.samples[n] / weight.samples[n]));
+    at_edges.push_back(n);
   }
   local.range = {level, level};
   local.edge_share =
-      static_cast<double>(weights.size()) / static_cast<double>(weight.samples.size());
+      static_cast<double>(at_edges.size()) / static_cast<double>(weight.samples.size());
   local.excess = std::move(pulled);
-  if (weights.empty()) return local;
-  const auto ends = quantiles(levels, {0.05, 0.95});
-  local.range = {ends[0], ends[1]};
+  if (at_edges.empty()) return local;
   const double pull = kPull * quantiles(weights, {0.5})[0];
   const WeightedMeans means(local.excess, std::move(weight), kSpread, pull);
-  parallel_for(local.excess.samples.size(),
-               [&](std::size_t n) { local.excess.samples[n] = static_cast<float>(means.at(n)); });
+  std::vector<float>& excess = local.excess.samples;
+  parallel_for(excess.size(), [&](std::size_t n) { excess[n] = static_cast<float>(means.at(n)); });
+  const auto share =
+      static_cast<float>(share_that_counts(local.excess, at_edges, contrast.difference()));
+  parallel_for(excess.size(), [&](std::size_t n) { excess[n] *= share; });
+  std::vector<float> levels;
+  for (const std::size_t n : at_edges) levels.push_back(excess[n]);
+  const auto ends = quantiles(levels, {0.05, 0.95});
+  local.range = {level + ends[0], level + ends[1]};
   return local;
 }
 
