@@ -350,7 +350,7 @@ TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
       "surface: expected a part of at least --min-volume 1000000000 mm^3, found none");
   EXPECT_FAILS(
       run_program(folder, segment_arguments(folder, "a", {"--window", "900,990", "--quiet"})), 3,
-      "window: expected one that holds some of the samples");
+      "window: expected a range that contains samples");
   write_bytes(folder / "ball.nrrd", "no scan");
   EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {"--quiet"})), 3, "ball.nrrd");
   EXPECT_EQ(folder.file_count(), 4) << "the scan, the settings, stdout and stderr";
