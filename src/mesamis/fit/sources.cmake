@@ -4,11 +4,13 @@ set(ROOM_HEADERS
   fit_surface.h
   keep_volumes.h
   smooth_surface.h
-  surface_moves.h)
+  surface_moves.h
+  terraces.h)
 set(ROOM_SOURCES
   bending.cpp
   fit_surface.cpp
   image_edge.cpp
   keep_volumes.cpp
   smooth_surface.cpp
-  surface_moves.cpp)
+  surface_moves.cpp
+  terraces.cpp)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "mesamis/base/parallel.h"
@@ -20,7 +21,9 @@ constexpr double kMostNoise = 0.3;
 constexpr double kNoiseMargin = 1.1;
 constexpr double kNoiseOfMean = 0.2;                // variance left in a local mean
 constexpr double kLeastSlope = 8, kFullSlope = 20;  // grey values per voxel
-constexpr int kSweepsOfMean = 10, kSweepsOfNormals = 3;
+constexpr int kSweepsOfMean = 10;
+/// Of the shortest side of a voxel: slices this thick, and a half more, begin to show and show fully.
+constexpr double kThickSlice = 1.05, kVeryThickSlice = 1.5;
 
 /// Means over the neighbourhood: each sweep halves the way to the neighbours' weighted mean.
 template <class Value>
@@ -42,6 +45,19 @@ std::vector<Value> smoothed_along(const Neighbors& neighbors, const std::vector<
     std::swap(values, next);
   }
   return values;
+}
+
+/// Of a value at each point and at its neighbours the one that is chosen of any two.
+template <class Choose>
+std::vector<double> chosen_around(const Neighbors& neighbors, const std::vector<double>& values,
+                                  Choose&& choose) {
+  std::vector<double> chosen = values;
+  parallel_for(values.size(), [&](std::size_t p) {
+    for (std::size_t n = neighbors.start[p]; n < neighbors.start[p + 1]; ++n) {
+      chosen[p] = choose(chosen[p], values[neighbors.points[n]]);
+    }
+  });
+  return chosen;
 }
 
 /// Takes moves back until no triangles meet that a move made meet.
@@ -122,6 +138,22 @@ SurfaceSpace::SurfaceSpace(const VoxelGrid& grid, double point_scale)
       voxel_(grid.voxel_size() / point_scale),
       box_{{0, 0, 0}, (1 / point_scale) * grid.box().extent()} {}
 
+bool SurfaceSpace::has_thick_slices() const noexcept {
+  const Vec3& s = grid_.spacing;
+  return std::max({s.x, s.y, s.z}) > kThickSlice * grid_.shortest_side();
+}
+
+double SurfaceSpace::between_slices(const Vec3& p, const Vec3& normal) const {
+  double sum = 0;
+  for (int a = 0; a < 3; ++a) {
+    const double side = grid_.spacing[a] / grid_.shortest_side();
+    const double shows = (side - kThickSlice) / (kVeryThickSlice - kThickSlice);
+    const double wave = std::sin(std::numbers::pi * point_scale_ * p[a] / grid_.spacing[a]);
+    sum += side * std::clamp(shows, 0.0, 1.0) * normal[a] * normal[a] * wave * wave;
+  }
+  return sum;
+}
+
 double SurfaceSpace::in_steps(const Vec3& way) const {
   const Vec3 d = point_scale_ * way, &s = grid_.spacing;
   return norm({d.x / s.x, d.y / s.y, d.z / s.z});
@@ -201,12 +233,19 @@ FollowCounts count_told(const Offsets& offsets) {
   return counts;
 }
 
-std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors) {
+std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors, int sweeps) {
   const std::vector<double> ones(surface.points.size(), 1);
-  std::vector<Vec3> normals =
-      smoothed_along(neighbors, ones, vertex_normals(surface), kSweepsOfNormals);
+  std::vector<Vec3> normals = smoothed_along(neighbors, ones, vertex_normals(surface), sweeps);
   for (Vec3& normal : normals) normal = unit_or_zero(normal);
   return normals;
+}
+
+std::vector<double> least_around(const Neighbors& neighbors, const std::vector<double>& values) {
+  return chosen_around(neighbors, values, [](double a, double b) { return std::min(a, b); });
+}
+
+std::vector<double> greatest_around(const Neighbors& neighbors, const std::vector<double>& values) {
+  return chosen_around(neighbors, values, [](double a, double b) { return std::max(a, b); });
 }
 
 std::vector<double> filtered_moves(const FollowSpace& space, const Offsets& offsets,

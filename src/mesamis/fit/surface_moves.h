@@ -21,6 +21,13 @@ class SurfaceSpace {
 
   /// The length of a voxel, in the surface's unit.
   double voxel() const noexcept { return voxel_; }
+  /// The shortest side of a voxel, in the surface's unit.
+  double shortest_side() const noexcept { return grid_.shortest_side() / point_scale_; }
+  /// Whether a side of the voxels exceeds the shortest one by more than a twentieth.
+  bool has_thick_slices() const noexcept;
+  /// How far a point lies from the planes of thick slices, seen along a normal of unit length: f of
+  /// without_terraces(), shortest sides.
+  double between_slices(const Vec3& p, const Vec3& normal) const;
   /// The length of a way in steps of the grid.
   double in_steps(const Vec3& way) const;
   /// Whether a point lies on the grid's box, to a millionth of a voxel.
@@ -100,8 +107,13 @@ struct FollowCounts {
 };
 FollowCounts count_told(const Offsets& offsets);
 
-/// Normals, smoothed along the surface.
-std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors);
+/// Normals, smoothed along the surface: each sweep goes half the way to the neighbours' mean.
+std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors,
+                                   int sweeps = 3);
+
+/// The least, and the greatest, of a value at each point and at its neighbours.
+std::vector<double> least_around(const Neighbors& neighbors, const std::vector<double>& values);
+std::vector<double> greatest_around(const Neighbors& neighbors, const std::vector<double>& values);
 
 /// What of the distances is not noise, as follow_image() says; in the surface's unit.
 std::vector<double> filtered_moves(const FollowSpace& space, const Offsets& offsets,

@@ -10,6 +10,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/fit/bending.h"
 #include "mesamis/fit/surface_moves.h"
+#include "mesamis/fit/terraces.h"
 #include "mesamis/surface/normals.h"
 #include "mesamis/surface/split_edges.h"
 
@@ -90,12 +91,17 @@ class Follower {
               std::vector<Vec3>& points) const {
     const std::vector<Vec3> normals =
         smoothed_normals({points, part.extracted.triangles}, neighbors);
+    // A rim is as thin as the faces beside it, though much is behind it.
     const std::vector<double> depths = least_around(neighbors, depths_behind(points, normals));
-    Springs springs{std::vector<double>(points.size()), points, std::vector<char>(points.size())};
+    Springs springs{std::vector<double>(points.size()), {}, std::vector<char>(points.size())};
     parallel_for(points.size(), [&](std::size_t p) {
       springs.held[p] = part.held[p] == kFree ? 0 : 1;
-      springs.weight[p] = std::pow(kThick / depths[p], 2) * weight_by_noise(points[p]);
+      springs.weight[p] = std::pow(kThick / depths[p], 2);
     });
+    points = without_terraces(space_, {points, part.extracted.triangles}, neighbors, springs);
+    parallel_for(points.size(),
+                 [&](std::size_t p) { springs.weight[p] *= weight_by_noise(points[p]); });
+    springs.goal = points;
     // Held points, those of a wall of the box among them, do not bend what is free beside them.
     const Umbrella umbrella(neighbors, springs.held);
     const std::vector<Vec3> goals = relax(umbrella, springs, kBending, points);
@@ -116,18 +122,6 @@ class Follower {
       }
     });
     return depths;
-  }
-
-  /// A rim is as thin as the faces beside it, though much is behind it.
-  static std::vector<double> least_around(const Neighbors& neighbors,
-                                          const std::vector<double>& values) {
-    std::vector<double> least = values;
-    parallel_for(values.size(), [&](std::size_t p) {
-      for (std::size_t n = neighbors.start[p]; n < neighbors.start[p + 1]; ++n) {
-        least[p] = std::min(least[p], values[neighbors.points[n]]);
-      }
-    });
-    return least;
   }
 
   double weight_by_noise(const Vec3& p) const {
