@@ -14,7 +14,6 @@
 namespace mesamis {
 namespace {
 
-constexpr double kMostMove = 0.7;  // voxels
 /// Voxels of noise beyond which the image tells nothing that the mesh does not.
 constexpr double kMostNoise = 0.3;
 /// Of the noise at the voxels, what the spline passes on between them, and a margin.
@@ -139,8 +138,7 @@ SurfaceSpace::SurfaceSpace(const VoxelGrid& grid, double point_scale)
       box_{{0, 0, 0}, (1 / point_scale) * grid.box().extent()} {}
 
 bool SurfaceSpace::has_thick_slices() const noexcept {
-  const Vec3& s = grid_.spacing;
-  return std::max({s.x, s.y, s.z}) > kThickSlice * grid_.shortest_side();
+  return longest_side() > kThickSlice * shortest_side();
 }
 
 double SurfaceSpace::between_slices(const Vec3& p, const Vec3& normal) const {

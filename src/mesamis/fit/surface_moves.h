@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -11,6 +12,9 @@
 /// How the points of a surface are moved towards the level set of an image: the steps of
 /// follow_image() that hold for the boundaries of several objects, too.
 namespace mesamis {
+
+/// Voxels by which filtered_moves() moves a point at most.
+inline constexpr double kMostMove = 0.7;
 
 /// A surface's coordinates and the grid that it is moved in.
 class SurfaceSpace {
@@ -23,6 +27,11 @@ class SurfaceSpace {
   double voxel() const noexcept { return voxel_; }
   /// The shortest side of a voxel, in the surface's unit.
   double shortest_side() const noexcept { return grid_.shortest_side() / point_scale_; }
+  /// The longest one.
+  double longest_side() const noexcept {
+    const Vec3& s = grid_.spacing;
+    return std::max({s.x, s.y, s.z}) / point_scale_;
+  }
   /// Whether a side of the voxels exceeds the shortest one by more than a twentieth.
   bool has_thick_slices() const noexcept;
   /// How far a point lies from the planes of thick slices, seen along a normal of unit length: f of

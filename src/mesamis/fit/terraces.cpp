@@ -11,10 +11,11 @@ namespace {
 
 constexpr double kBending = 8, kWeight = 4;
 constexpr double kMostFreedom = 5000;  // K
-constexpr int kSweeps = 33;            // of normals: terraces of up to ten edges vanish
-constexpr int kRings = 3;              // around edges and small shapes
+constexpr double kTurn = 0.16;  // radians per edge at which K is 1: that of an edge of 90 degrees
+constexpr int kSweeps = 33;     // of normals: terraces of up to ten edges vanish
+constexpr int kRings = 3;       // around edges and small shapes
 constexpr int kRounds = 3;
-constexpr double kMostMoved = 0.5;  // of the distance between slices
+constexpr double kMostMoved = 0.4;  // of the distance between slices
 
 /// How far the normals turn from each point to its neighbours, of unit vectors; the greatest around.
 std::vector<double> turns_around(const TriMesh& surface, const Neighbors& neighbors) {
@@ -33,6 +34,10 @@ std::vector<double> turns_around(const TriMesh& surface, const Neighbors& neighb
 
 }  // namespace
 
+double most_moved_by_terraces(const SurfaceSpace& space) {
+  return space.has_thick_slices() ? kMostMoved * space.longest_side() : 0;
+}
+
 std::vector<Vec3> without_terraces(const SurfaceSpace& space, const TriMesh& surface,
                                    const Neighbors& neighbors, Springs springs) {
   const std::vector<Vec3>& start = surface.points;
@@ -42,16 +47,18 @@ std::vector<Vec3> without_terraces(const SurfaceSpace& space, const TriMesh& sur
   std::vector<double> between(start.size());
   parallel_for(start.size(), [&](std::size_t p) {
     between[p] = space.between_slices(start[p], normals[p]);
-    const double turn = turns[p] * turns[p];
-    const double freedom = turn * kMostFreedom > 1 ? 1 / turn : kMostFreedom;
+    const double turn = turns[p] / kTurn, cubed = turn * turn * turn;
+    const double freedom = cubed * kMostFreedom > 1 ? 1 / cubed : kMostFreedom;
     springs.weight[p] *= kWeight / (1 + freedom * between[p]);
   });
   springs.goal = start;
   const Umbrella umbrella(neighbors, springs.held);
   std::vector<Vec3> now = start;
   for (int round = 0; round < kRounds; ++round) {
+    if (round > 0) {
+      parallel_for(start.size(), [&](std::size_t p) { springs.goal[p] += start[p] - now[p]; });
+    }
     now = relax(umbrella, springs, kBending, std::move(now));
-    parallel_for(start.size(), [&](std::size_t p) { springs.goal[p] += start[p] - now[p]; });
   }
   std::vector<Vec3> result = start;
   const double shortest = space.shortest_side() / space.voxel();

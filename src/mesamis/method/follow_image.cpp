@@ -162,6 +162,11 @@ TriMesh follow_image(const TriMesh& surface, const SplineImage& image,
   return {std::move(whole.moved), std::move(whole.extracted.triangles)};
 }
 
+double most_followed(const VoxelGrid& grid, double point_scale) {
+  const SurfaceSpace space(grid, point_scale);
+  return (kMostMove + kMostSmoothed) * space.voxel() + most_moved_by_terraces(space);
+}
+
 void follow_part(FollowedPart& part, const SplineImage& image, const FollowOptions& options) {
   if (!options.to_image && !options.smooth) return;
   if (!part.extracted.triangles.empty()) Follower(image, options).run(part);

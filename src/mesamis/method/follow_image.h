@@ -29,8 +29,8 @@ struct FollowOptions {
 /// by no more than 0.7 voxels, and never out of the image's box. Points where the image is too flat
 /// to tell stay, as do those on the box; edges between two of these are not split.
 ///
-/// Smoothing takes the terraces of thick slices off, see without_terraces(), then the ripples of noise
-/// and of single voxels: the points x move, by no more than a quarter of a voxel, from where they are, x_0, to the least of
+/// Smoothing takes the terraces of thick slices off, see without_terraces(), then the ripples of
+/// noise and of single voxels: the points x move, by no more than a quarter of a voxel, from where they are, x_0, to the least of
 ///   sum of w |x - x_0|^2 + 8 |L x|^2,   w = (3 / t)^2 min(max((0.15 / N)^2, 1), 4),
 /// with the umbrella operator L and the thickness t, at most 3 voxels, that the object has behind
 /// the point or a neighbour: thin walls and struts, which bending would shrink, are held more
@@ -55,6 +55,10 @@ struct FollowedPart {
   /// moved before are fixed, since their edges do not lie where they were extracted.
   std::vector<char> held;
 };
+
+/// How far a point moves at most, in the unit of a surface in such a grid.
+/// @param point_scale  mm per unit, > 0.
+double most_followed(const VoxelGrid& grid, double point_scale);
 
 /// Moves the free points of a part, as follow_image() does with all of a surface that is worth it.
 /// Points that are split off are free. Cost as follow_image().

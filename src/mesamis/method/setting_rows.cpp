@@ -342,7 +342,8 @@ std::vector<Setting> surface_rows() {
     bound({.name = "fit", .form = "yes|no",
            .help = "Objects of labels whose voxels are about as fine as the scan's: fit their smooth "
                "surfaces to the image, in place of the flow of the labels; of labels alone: smooth "
-               "the steps of their voxels; without labels: smooth the ripples of noise",
+               "the steps of their voxels; without labels: smooth the ripples of noise and the "
+               "terraces of thick slices",
            .paper = "no"}, &Settings::fit, &Parameters::fit),
     bound({.name = "band_threshold", .form = "X", .count = 1, .low = 0, .high = 1,
            .help = "TOLth: the band's cells have v below this"}, &Settings::band_threshold, &Parameters::band_threshold),

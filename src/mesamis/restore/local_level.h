@@ -12,10 +12,10 @@ namespace mesamis {
 
 /// The level of half maximum at each voxel, against that of the whole object.
 struct LocalLevel {
-  Volume excess;                  ///< of the local level over the object's, native units
+  Volume excess;  ///< of the local level over the object's, native units
   /// 5 % and 95 % quantiles of the local levels at edges, native units; equal: there is one level.
   std::array<double, 2> range{};
-  double edge_share = 0;          ///< voxels at edges over all voxels
+  double edge_share = 0;  ///< voxels at edges over all voxels
 };
 
 /// Finds the level of half maximum for each place from the edges nearby.
@@ -29,7 +29,8 @@ struct LocalLevel {
 /// voxels; far from all edges it is the object's.
 ///
 /// Objects of one density scatter too, by up to 0.06 of the contrast (standard deviation over the
-/// edges): then there is one level. From 0.12 on each place has its own; between, a share of it.
+/// edges): then there is one level, also for a part with so few edges that it does not count. From
+/// 0.12 on each place has its own; between, a share of it.
 /// @param volume    native values.
 /// @param contrast  of the object; its difference is > 0.
 /// @param noise     standard deviation, native units, >= 0.

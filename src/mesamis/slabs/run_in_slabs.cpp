@@ -249,7 +249,7 @@ void require_possible(const Settings& settings, const SlabRunOptions& options) {
   if (!(settings.crop == CropRange{})) {
     throw InputError("slabs: expected the whole scan, found a crop");
   }
-  if (settings.local_level) {
+  if (settings.has_local_level()) {
     throw InputError("slabs: expected one level, found one for each place");
   }
   if (settings.until != StopRule::kSurface) {

@@ -236,8 +236,9 @@ SlabWork follow_border(const SurfaceRun& run, Index s) {
   settle_rim(near);
   // The tasks on the borders below and above keep to the other sides of the slabs' middles, with
   // more than a move between.
-  const double voxel = plan.whole.voxel_size() / plan.unit_mm;
-  settle_beyond({middle_of(plan, s) + voxel, middle_of(plan, s + 1) - voxel}, near);
+  const double apart =
+      std::max(plan.whole.voxel_size() / plan.unit_mm, most_followed(plan.whole, plan.unit_mm));
+  settle_beyond({middle_of(plan, s) + apart, middle_of(plan, s + 1) - apart}, near);
   const HeightRange reach = reach_of(near);
   const HeightRange seen{reach.low - kAround * plan.overlap, reach.high + kAround * plan.overlap};
   const std::size_t own = near.triangles.size();
