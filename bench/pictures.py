@@ -8,7 +8,7 @@ import sys
 from mesamis_runs import once, run
 
 BROWSERS = ("chromium-headless-shell", "chromium")
-ELEMENTS = 2  # mm, of the body
+ELEMENTS = 5  # mm, of the body
 TUTORIAL = pathlib.Path(__file__).resolve().parent.parent / "examples/tutorial"
 
 
@@ -84,7 +84,7 @@ def body(runs, out):
     scan, _ = phantom(runs, "hemipelvis")
     filled = runs.folder / "hemipelvis.body.vtu"
     once(filled.with_suffix(".json"), "segment", scan, "--body", filled, "--element-size", ELEMENTS)
-    draw(out, filled, "--view", "oblique", "--clip", "x,0", "--edges", *small(560, 440))
+    draw(out, filled, "--view", "oblique", "--clip", "x,97", "--edges", *small(560, 440))
 
 
 def example(name, *arguments):

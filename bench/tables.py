@@ -21,6 +21,7 @@ the one in build/release, or that of the variable MESAMIS.
 """
 import argparse
 import json
+import math
 import os
 import pathlib
 import re
@@ -45,15 +46,25 @@ SCANS = {
     "template": ("", "mouse_skull/ct_template.nii.gz"),
 }
 README_SCANS = ("pelvis", "head", "skull")
-SIZE_SCANS = ("pelvis", "trabecular", "head", "mouse", "spine", "abdomen", "skull")
+SIZE_SCANS = ("trabecular", "mouse", "spine", "abdomen")  # beside those of README
 
 # First cell of the row: scan, its reference in FOLDER (labels, or a surface), options of segment.
 DISTANCES = {
     "pelvis CT, bone labels (voxel 3 mm)": ("pelvis", "pelvis_ts/bone.nii.gz", []),
     "mouse template, bone label (voxel 0.141 mm)": ("template", "mouse_skull/bone.nii.gz", []),
     "head CT, InVesalius (voxel 0.96 x 0.96 x 1.5 mm)":
-        ("head", "cranium_inv/surface_invesalius.ply.gz", ["--level", "226"]),
+        ("head", "cranium_inv/surface_invesalius.ply.gz", ["--level", "226", "--keep-surroundings"]),
 }
+
+# First cell of the row: scan, options of segment.
+DECIMATED = {
+    "pelvis CT": ("pelvis", []),
+    "trabecular bone, micro-CT": ("trabecular", []),
+    "head CT at 226 HU": ("head", ["--level", "226"]),
+    "mouse template, micro-CT": ("template", []),
+    "thoracic spine CT": ("spine", []),
+}
+TOLERANCES = (0.05, 0.1, 0.2, 0.3)  # voxels; the time is that of the second one
 
 SEGMENT = "`mesamis segment SCAN -o ours.ply --mesh ours.vtu --report report.json`"
 BASELINE = "`mesamis baseline SCAN --level LEVEL_OF_THE_REPORT -o cubes.ply`"
@@ -62,6 +73,7 @@ NOTES = {
                     f"of marching cubes, {BASELINE}.",
     "results-sizes": f"`bench/tables.py` writes this table. It runs {SEGMENT}.",
     "results-distances": "`bench/tables.py` writes this table with the commands above.",
+    "printing-decimation": "`bench/tables.py` writes this table with the commands above.",
 }
 
 
@@ -101,6 +113,17 @@ class Runs:
             note(f"segmenting {self.scan(name)} {' '.join(options)}".rstrip())
         return once(surface.with_suffix(".json"), "--quiet", "segment", self.scan(name), *options,
                     "-o", surface, "--mesh", surface.with_suffix(".vtu")), surface
+
+    def extracted(self, name, options):
+        """Report and surface of a run that decimates nothing."""
+        surface = self.folder / f"{''.join([name, *options])}.extracted.ply"
+        return once(surface.with_suffix(".json"), "segment", self.scan(name), *options, "--tolerance", 0,
+                    "--min-volume", 0, "-o", surface), surface
+
+    def decimated(self, surface, tolerance):
+        """Report of a decimation within a distance, mm."""
+        few = surface.with_suffix(f".{tolerance:.4g}.ply")
+        return once(few.with_suffix(".json"), "decimate", surface, "--tolerance", tolerance, "-o", few)
 
     def cubes(self, name, level):
         """Report and surface of marching cubes at a level."""
@@ -163,6 +186,25 @@ def distance_row(runs, name, reference, options):
     return [*map(distance, runs.distances(reference, ours)), count(report["surface"]["triangles"]),
             *map(distance, runs.distances(reference, cubes)),
             count(cubes_report["surface"]["triangles"]), version(report)]
+
+
+def decimation_row(runs, name, options):
+    report, surface = runs.extracted(name, options)
+    voxel = math.prod(report["input"]["spacing_mm"]) ** (1 / 3)
+    few = [runs.decimated(surface, share * voxel) for share in TOLERANCES]
+    return [f"{voxel:.3g}", count(report["surface"]["triangles"]),
+            *(count(found["surface"]["triangles"]) for found in few), f"{few[1]['seconds']:.0f}",
+            version(report)]
+
+
+def decimation_rows(runs):
+    rows = {}
+    for title, (name, options) in DECIMATED.items():
+        if runs.scan(name):
+            rows[title] = decimation_row(runs, name, options)
+        else:
+            note(f"{title}: no scan, the old row stays")
+    return rows
 
 
 def scan_rows(runs, names, row):
@@ -233,6 +275,7 @@ TABLES = {
     "readme-scans": ("README.md", lambda runs: scan_rows(runs, README_SCANS, readme_row)),
     "results-sizes": ("docs/results.md", lambda runs: scan_rows(runs, SIZE_SCANS, size_row)),
     "results-distances": ("docs/results.md", distance_rows),
+    "printing-decimation": ("docs/printing.md", decimation_rows),
 }
 
 
