@@ -87,9 +87,7 @@ struct Settings {
   bool preview = false;
 
   /// Whether each place may have a level of its own.
-  bool has_local_level() const {
-    return local_level && !level && surface == SurfaceKind::kSolid;
-  }
+  bool has_local_level() const { return local_level && !level && surface == SurfaceKind::kSolid; }
 };
 
 }  // namespace mesamis
