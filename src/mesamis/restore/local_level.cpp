@@ -165,6 +165,7 @@ LocalLevel find_local_level(const VolumeView& volume, const ObjectContrast& cont
       static_cast<float>(share_that_counts(local.excess, at_edges, contrast.difference()));
   parallel_for(excess.size(), [&](std::size_t n) { excess[n] *= share; });
   std::vector<float> levels;
+  levels.reserve(at_edges.size());
   for (const std::size_t n : at_edges) levels.push_back(excess[n]);
   const auto ends = quantiles(levels, {0.05, 0.95});
   local.range = {level + ends[0], level + ends[1]};
