@@ -180,7 +180,10 @@ def size_row(runs, name):
             f"{share(mesh['quality_min'])} / {share(mesh['quality_mean'])}", version(report)]
 
 
-def distance_row(runs, name, reference, options):
+def distance_row(runs, name, place, options):
+    reference = runs.reference(place)
+    if not reference:
+        return None
     report, ours = runs.segment(name, options)
     cubes_report, cubes = runs.cubes(name, report["surface"]["level_native"])
     return [*map(distance, runs.distances(reference, ours)), count(report["surface"]["triangles"]),
@@ -197,36 +200,22 @@ def decimation_row(runs, name, options):
             version(report)]
 
 
-def decimation_rows(runs):
+def scan_rows(runs, cases, row):
+    """First cell and further cells of each case: `row` takes the scan's name and what the case adds; it returns
+    None where something that it needs is missing."""
     rows = {}
-    for title, (name, options) in DECIMATED.items():
-        if runs.scan(name):
-            rows[title] = decimation_row(runs, name, options)
-        else:
-            note(f"{title}: no scan, the old row stays")
-    return rows
-
-
-def scan_rows(runs, names, row):
-    """First cell and further cells of each scan that is there."""
-    rows = {}
-    for name in names:
-        if runs.scan(name):
-            rows[SCANS[name][0]] = row(runs, name)
-        else:
-            note(f"{SCANS[name][0]}: no scan, the old row stays")
-    return rows
-
-
-def distance_rows(runs):
-    rows = {}
-    for title, (name, place, options) in DISTANCES.items():
-        reference = runs.reference(place) if runs.scan(name) else None
-        if reference:
-            rows[title] = distance_row(runs, name, reference, options)
+    for title, (name, *more) in cases.items():
+        cells = row(runs, name, *more) if runs.scan(name) else None
+        if cells:
+            rows[title] = cells
         else:
             note(f"{title}: no scan or no reference, the old row stays")
     return rows
+
+
+def named(scans):
+    """The cases of scans that have a row of their own name."""
+    return {SCANS[name][0]: (name,) for name in scans}
 
 
 def with_rows(text, name, rows):
@@ -272,10 +261,10 @@ BYTES = "tests/output_bytes.txt"
 
 # Page and rows of each table.
 TABLES = {
-    "readme-scans": ("README.md", lambda runs: scan_rows(runs, README_SCANS, readme_row)),
-    "results-sizes": ("docs/results.md", lambda runs: scan_rows(runs, SIZE_SCANS, size_row)),
-    "results-distances": ("docs/results.md", distance_rows),
-    "printing-decimation": ("docs/printing.md", decimation_rows),
+    "readme-scans": ("README.md", lambda runs: scan_rows(runs, named(README_SCANS), readme_row)),
+    "results-sizes": ("docs/results.md", lambda runs: scan_rows(runs, named(SIZE_SCANS), size_row)),
+    "results-distances": ("docs/results.md", lambda runs: scan_rows(runs, DISTANCES, distance_row)),
+    "printing-decimation": ("docs/printing.md", lambda runs: scan_rows(runs, DECIMATED, decimation_row)),
 }
 
 

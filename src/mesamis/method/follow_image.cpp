@@ -89,8 +89,8 @@ class Follower {
 
   void smooth(const FollowedPart& part, const Neighbors& neighbors,
               std::vector<Vec3>& points) const {
-    const std::vector<Vec3> normals =
-        smoothed_normals({points, part.extracted.triangles}, neighbors);
+    const TriMesh surface{points, part.extracted.triangles};
+    const std::vector<Vec3> normals = smoothed_normals(surface, neighbors);
     // A rim is as thin as the faces beside it, though much is behind it.
     const std::vector<double> depths = least_around(neighbors, depths_behind(points, normals));
     Springs springs{std::vector<double>(points.size()), {}, std::vector<char>(points.size())};
@@ -98,7 +98,7 @@ class Follower {
       springs.held[p] = part.held[p] == kFree ? 0 : 1;
       springs.weight[p] = std::pow(kThick / depths[p], 2);
     });
-    points = without_terraces(space_, {points, part.extracted.triangles}, neighbors, springs);
+    points = without_terraces(space_, surface, neighbors, springs);
     parallel_for(points.size(),
                  [&](std::size_t p) { springs.weight[p] *= weight_by_noise(points[p]); });
     springs.goal = points;

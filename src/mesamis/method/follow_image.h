@@ -30,7 +30,8 @@ struct FollowOptions {
 /// to tell stay, as do those on the box; edges between two of these are not split.
 ///
 /// Smoothing takes the terraces of thick slices off, see without_terraces(), then the ripples of
-/// noise and of single voxels: the points x move, by no more than a quarter of a voxel, from where they are, x_0, to the least of
+/// noise and of single voxels: the points x move, by no more than a quarter of a voxel, from where
+/// they are, x_0, to the least of
 ///   sum of w |x - x_0|^2 + 8 |L x|^2,   w = (3 / t)^2 min(max((0.15 / N)^2, 1), 4),
 /// with the umbrella operator L and the thickness t, at most 3 voxels, that the object has behind
 /// the point or a neighbour: thin walls and struts, which bending would shrink, are held more

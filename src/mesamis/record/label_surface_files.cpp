@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPlaceholder = "{label}";
 
-std::string extension_of(const fs::path& path) { return detail::lower_extension(path); }
+using detail::lower_extension;
 
 SurfaceWriteOptions write_options(const RunSurfaceOptions& options, const std::string& name) {
   SurfaceWriteOptions as;
@@ -55,7 +55,8 @@ bool names_each(const fs::path& path) {
 
 bool holds_all(const fs::path& path) {
   const auto formats = written_object_formats();
-  const bool can = std::find(formats.begin(), formats.end(), extension_of(path)) != formats.end();
+  const bool can =
+      std::find(formats.begin(), formats.end(), lower_extension(path)) != formats.end();
   return can && !names_each(path);
 }
 
@@ -86,7 +87,7 @@ void write_label_surfaces(std::span<const OutputPath> paths, const LabelResult& 
       write_objects(path, objects, write_options(options, options.name));
       continue;
     }
-    const bool single = extension_of(path) == ".stl" || extension_of(path) == ".dcm";
+    const bool single = lower_extension(path) == ".stl" || lower_extension(path) == ".dcm";
     if (single && rounded.empty()) rounded = rounded_together(objects);
     const auto files = label_paths(path, objects, several);
     for (std::size_t n = 0; n < objects.size(); ++n) {
