@@ -10,7 +10,7 @@ namespace mesamis {
 /// How far terraces let a point move at most, in the unit of the surface; 0 without thick slices.
 double most_moved_by_terraces(const SurfaceSpace& space);
 
-/// Takes the terraces off that slices thicker than their pixels leave on slopes.
+/// Lowers the terraces that slices thicker than their pixels leave on slopes.
 ///
 /// A slice places the surface where it crosses the slice's plane; between two planes the place is
 /// interpolated, and follows the slices in steps. With f, which is 0 at the planes and about the

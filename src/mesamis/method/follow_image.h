@@ -29,7 +29,7 @@ struct FollowOptions {
 /// by no more than 0.7 voxels, and never out of the image's box. Points where the image is too flat
 /// to tell stay, as do those on the box; edges between two of these are not split.
 ///
-/// Smoothing takes the terraces of thick slices off, see without_terraces(), then the ripples of
+/// Smoothing lowers the terraces of thick slices, see without_terraces(), then takes off the ripples of
 /// noise and of single voxels: the points x move, by no more than a quarter of a voxel, from where
 /// they are, x_0, to the least of
 ///   sum of w |x - x_0|^2 + 8 |L x|^2,   w = (3 / t)^2 min(max((0.15 / N)^2, 1), 4),
