@@ -84,7 +84,7 @@ TEST(Nrrd, RefusesWhatItCannotMean) {
       HasSubstr("RGB-color"));
   EXPECT_THAT(spoilt("type: short\n" + grid + "encoding: bzip2\n"), HasSubstr("bzip2"));
   EXPECT_THAT(spoilt("type: short\n" + grid + "encoding: raw\n"), HasSubstr("\"endian\""));
-  EXPECT_THAT(spoilt("type: short\n" + grid + end + "space: MNI\n"), HasSubstr("mni"));
+  EXPECT_THAT(spoilt("type: short\n" + grid + end + "space: MNI\n"), HasSubstr("\"MNI\""));
   EXPECT_THAT(spoilt("type: short\n" + grid + end + "data file: LIST\n"), HasSubstr("list"));
   EXPECT_THAT(spoilt("type: short\n" + grid + end + "byte skip: -5\n"), HasSubstr("-5"));
   EXPECT_THAT(spoilt("type: short\n" + grid + end + "spacings: 1 2\n"), HasSubstr("found 2"));
@@ -159,6 +159,22 @@ TEST(Nrrd, HasLengthsInItsSpaceUnits) {
   expect_near(odd.volume.spacing, {20, 30, 40});
   EXPECT_THAT(odd.warnings,
               testing::ElementsAre(HasSubstr("\"s\" of axis 2 is no unit of length")));
+}
+
+/// Spacings along the axes of the space have its units, unless the axes have their own.
+TEST(Nrrd, SpacingsHaveTheUnitsOfTheSpace) {
+  const TempFolder folder;
+  const auto fields = kLps + "spacings: 20 30 40\nspace origin: (1000,2000,3000)\n",
+             um = std::string("\"um\" \"um\" \"um\"\n"), cm = std::string("\"cm\" \"cm\" \"cm\"\n");
+  const Volume alone = with_fields(folder, fields + "space units: " + um).volume;
+  expect_near(alone.spacing, {0.02, 0.03, 0.04});
+  expect_near(alone.origin, {1, 2, 3});
+  const Volume axes = with_fields(folder, fields + "units: " + um).volume;
+  expect_near(axes.spacing, {0.02, 0.03, 0.04});
+  expect_near(axes.origin, {1, 2, 3});
+  const Volume both = with_fields(folder, fields + "units: " + cm + "space units: " + um).volume;
+  expect_near(both.spacing, {200, 300, 400});
+  expect_near(both.origin, {1, 2, 3});
 }
 
 TEST(Nrrd, UnitsOfAxesCountWithoutSpaceDirections) {
@@ -267,6 +283,28 @@ TEST(Nrrd, AFourthAxisMayHaveADirectionOfItsOwn) {
   expect_near(volume.spacing, {0.5, 1.25, 2});
   expect_near(volume.origin, {1, 2, 3});
   EXPECT_EQ(volume.samples[0], -40 + 24);
+}
+
+TEST(Nrrd, ASpaceMayHaveAnAxisOfTime) {
+  const TempFolder folder;
+  const auto place = [&](const std::string& space) {
+    write_bytes(folder / "a.nrrd",
+                "NRRD0004\ntype: short\ndimension: 4\nsizes: 4 3 1 5\nspace: " + space +
+                    "\nspace directions: (0.5,0,0,0) (0,1.25,0,0) (0,0,2,0) (0,0,0,1)\n"
+                    "space origin: (1,2,3,0)\nencoding: raw\nendian: little\n\n" +
+                    bytes_of_all(kRamp));
+    return read_volume(folder / "a.nrrd", {.volume = 2}).volume.origin;
+  };
+  for (const char* space : {"left-posterior-superior-time", "LPST"}) {
+    expect_near(place(space), {1, 2, 3});
+  }
+  for (const char* space : {"Right-Anterior-Superior-Time", "RAST"}) {
+    expect_near(place(space), {-1, -2, 3});
+  }
+  for (const char* space : {"left-anterior-superior-time", "LAST"}) {
+    expect_near(place(space), {1, -2, 3});
+  }
+  EXPECT_REFUSED(place("upside-down-time"), HasSubstr("\"upside-down-time\""));
 }
 
 }  // namespace

@@ -187,9 +187,24 @@ void set_sizes(ScanFile& scan, const NrrdHeader& header, const ValueAxis& values
   }
 }
 
+/// The name of the space in lower case, without a fourth axis for time: "lps" for "LPST".
+struct SpaceName {
+  std::string name;
+  bool timed = false;
+};
+
+SpaceName space_name(const NrrdHeader& header) {
+  constexpr std::string_view kTime = "-time";
+  SpaceName space{lower(header.or_else("space", ""))};
+  const bool is_long = space.name.ends_with(kTime);
+  space.timed = is_long || space.name == "rast" || space.name == "last" || space.name == "lpst";
+  if (space.timed) space.name.resize(space.name.size() - (is_long ? kTime.size() : 1));
+  return space;
+}
+
 /// +1 or -1 per world axis: converts the file's frame to LPS.
 Vec3 signs_to_lps(const NrrdHeader& header, std::vector<std::string>& warnings) {
-  const std::string space = lower(header.or_else("space", ""));
+  const std::string space = space_name(header).name;
   if (space == "left-posterior-superior" || space == "lps") return {1, 1, 1};
   if (space == "right-anterior-superior" || space == "ras") return {-1, -1, 1};
   if (space == "left-anterior-superior" || space == "las") return {1, -1, 1};
@@ -201,12 +216,14 @@ Vec3 signs_to_lps(const NrrdHeader& header, std::vector<std::string>& warnings) 
     warnings.push_back("the header names no anatomical space: axes taken as left, back and feet");
     return {1, 1, -1};
   }
-  refuse(header.file, message("expected the space LPS, RAS or LAS, found ", in_quotes(space)));
+  refuse(header.file, message("expected the space LPS, RAS or LAS, found ",
+                              in_quotes(header.or_else("space", ""))));
 }
 
 /// How many numbers a vector has: a fourth one, of time, does not count.
 std::size_t space_dimension(const NrrdHeader& header) {
-  return trimmed(header.or_else("space dimension", "3")) == "4" ? 4 : 3;
+  const bool timed = space_name(header).timed;
+  return timed || trimmed(header.or_else("space dimension", "3")) == "4" ? 4 : 3;
 }
 
 /// "(a,b,c)" as a vector of the file's frame.
@@ -314,6 +331,20 @@ Placement place_in_space(ScanFile& scan, const NrrdHeader& header, const ValueAx
   return placed;
 }
 
+/// mm per unit of spacings and ends: the units of the axes, else those of the space they lie along.
+Vec3 axis_units_in_mm(ScanFile& scan, const NrrdHeader& header, const ValueAxis& values) {
+  return header.has("units") ? units_in_mm(scan, header, "units", values)
+                             : units_in_mm(scan, header, "space units", {});
+}
+
+/// The first voxel where axes have no directions; the space may have units other than the axes'.
+Vec3 stated_origin(ScanFile& scan, const NrrdHeader& header, const Vec3& axis_mm) {
+  const bool apart = header.has("units") && header.has("space units");
+  const Vec3 mm = apart ? units_in_mm(scan, header, "space units", {}) : axis_mm;
+  const Vec3 v = vectors_of(header, "space origin", header.need("space origin"), 1)[0];
+  return {mm.x * v.x, mm.y * v.y, mm.z * v.z};
+}
+
 /// Whether the ends of an axis are the outer sides of its voxels: unless it says otherwise.
 bool is_cell_centred(const NrrdHeader& header, const ValueAxis& values, std::size_t axis) {
   auto words = words_of(header.or_else("centerings", header.or_else("centers", "")));
@@ -330,7 +361,7 @@ Placement place_along_axes(ScanFile& scan, const NrrdHeader& header, const Value
     return stated_or(
         scan, [&] { return axis_numbers(header, field, values); }, Vec3{kNone, kNone, kNone});
   };
-  const Vec3 mm = units_in_mm(scan, header, "units", values);
+  const Vec3 mm = axis_units_in_mm(scan, header, values);
   Vec3 spacing = stated("spacings");
   const Vec3 least = stated("axis mins"), most = stated("axis maxs");
   Placement placed{{{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}, {}}, {}};
@@ -348,6 +379,7 @@ Placement place_along_axes(ScanFile& scan, const NrrdHeader& header, const Value
     if (spacing[a] < 0) placed.axes.direction[axis] = -1 * placed.axes.direction[axis];
     placed.axes.spacing[a] = mm[a] * std::abs(spacing[a]);
   }
+  if (header.has("space origin")) placed.origin = stated_origin(scan, header, mm);
   if (any) return placed;
   scan.warnings.push_back("the header gives no spacing: 1 mm assumed");
   placed.axes.spacing = {1, 1, 1};
@@ -362,9 +394,6 @@ void place(ScanFile& scan, const NrrdHeader& header, const ValueAxis& values) {
   Placement placed = header.has("space directions") ? place_in_space(scan, header, values)
                                                     : place_along_axes(scan, header, values);
   for (Vec3& direction : placed.axes.direction) direction = to_lps(direction);
-  if (!header.has("space directions") && header.has("space origin")) {
-    placed.origin = vectors_of(header, "space origin", header.need("space origin"), 1)[0];
-  }
   set_stated_axes(scan, placed.axes);
   set_origin(scan, to_lps(placed.origin));
 }
