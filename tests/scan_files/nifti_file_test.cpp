@@ -239,7 +239,10 @@ TEST(Nifti, AGivenSpacingTakesThePlaceOfWhatCannotBeUsed) {
   };
   NiftiBytes form;  // a sform without axes, and no qform
   form.srow.fill(0);
-  EXPECT_EQ(with(form).volume.spacing, (Vec3{1, 1.2, 2}));
+  const VolumeFile as_ras = with(form);
+  EXPECT_EQ(as_ras.volume.spacing, (Vec3{1, 1.2, 2}));
+  expect_near(as_ras.volume.direction * Vec3{1, 0, 0}, {-1, 0, 0});
+  EXPECT_THAT(as_ras.warnings, testing::Contains(HasSubstr("axes taken as RAS")));
   NiftiBytes turned;  // a qform keeps its directions
   turned.sform_code = 0;
   turned.qform_code = 1;

@@ -320,7 +320,8 @@ Placement place_analyze(ScanFile& scan, const NiftiHeader& h) {
   return without_matrix(scan, h);
 }
 
-/// The sform where its code is above 0 and it has axes, else the qform.
+/// The sform where its code is above 0 and it has axes, else the qform. Neither where the user gives
+/// the spacing that both lack.
 Placement choose_placement(ScanFile& scan, const NiftiHeader& h) {
   constexpr double kSameDeg = 0.1;
   const bool has_sform = h.sform_code > 0, has_qform = h.qform_code > 0;
@@ -330,11 +331,12 @@ Placement choose_placement(ScanFile& scan, const NiftiHeader& h) {
   }
   if (!has_sform) return from_qform(h);
   const Placement sform = from_sform(h), qform = from_qform(h);
-  if (!has_qform) return sform;
-  if (!has_axes(sform)) {
-    scan.warnings.push_back("the sform has an axis of length 0 or none: the qform is used");
-    return qform;
+  if (!has_axes(sform) && (has_qform || scan.given_spacing)) {
+    scan.warnings.push_back(message("the sform has an axis of length 0 or none: ",
+                                    has_qform ? "the qform is used" : "axes taken as RAS"));
+    return has_qform ? qform : without_form(h);
   }
+  if (!has_qform) return sform;
   const double angle = angle_between_deg(sform, qform);
   if (angle > kSameDeg) {
     scan.warnings.push_back(message("qform and sform turn the axes differently, by ", angle,
