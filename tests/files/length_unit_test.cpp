@@ -17,6 +17,8 @@ TEST(LengthUnit, IsKnownByItsSymbolAndItsWordsInEitherCase) {
   EXPECT_EQ(mm_per_unit("cm"), 10);
   EXPECT_EQ(mm_per_unit("metres"), 1e3);
   EXPECT_DOUBLE_EQ(mm_per_unit("thou").value(), 0.0254);
+  EXPECT_DOUBLE_EQ(mm_per_unit("yd").value(), 914.4);
+  EXPECT_DOUBLE_EQ(mm_per_unit("pt").value(), 25.4 / 72);
 }
 
 TEST(LengthUnit, IsNoneForWhatIsNoLength) {

@@ -148,6 +148,15 @@ TEST(Tiff, KnowsTheUnitsThatImageJWrites) {
   }
 }
 
+TEST(Tiff, ImageJMayNameAUnitForEachAxis) {
+  const TempFolder folder;
+  const std::string text = "ImageJ=1.54f\nimages=5\nslices=5\nspacing=20\nunit=mm\n";
+  const VolumeFile file = described(folder, text + "yunit=um\nzunit=nm\n");
+  expect_near(file.volume.spacing, {1. / 20, 1e-3 / 20, 20e-6});
+  EXPECT_THAT(file.warnings, IsEmpty());
+  expect_near(described(folder, text + "yunit=cm\n").volume.spacing, {1. / 20, 10. / 20, 20});
+}
+
 TEST(Tiff, SaysThatAResolutionHasNoUnit) {
   const TempFolder folder;
   auto pages = five_pages();

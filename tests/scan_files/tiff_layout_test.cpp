@@ -83,6 +83,21 @@ TEST(TiffLayout, TimesOfOneSliceAreSlices) {
   }
 }
 
+/// tifffile calls the first of three axes channels where it is told nothing of them.
+TEST(TiffLayout, ManyChannelsOfOneSliceAreSlices) {
+  for (const std::string& text :
+       {std::string("ImageJ=1.11a\nimages=8\nchannels=8\nhyperstack=true\n"),
+        ome("SizeZ=\"1\" SizeT=\"1\" SizeC=\"8\" DimensionOrder=\"XYCZT\"", "<TiffData/>"),
+        std::string("{\"shape\": [8, 3, 4], \"axes\": \"CYX\"}")}) {
+    const TiffLayout found = layout(text, 8);
+    EXPECT_EQ(found.slices, 8) << text;
+    EXPECT_EQ(found.axes.channels, 1);
+    EXPECT_THAT(found.planes, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
+    EXPECT_THAT(found.warnings, Contains(HasSubstr("8 channels of one slice each")));
+  }
+  EXPECT_EQ(layout("ImageJ=1.53\nimages=7\nchannels=7\n", 7).axes.channels, 7);
+}
+
 TEST(TiffLayout, OmeHasSizesInItsUnits) {
   const TiffLayout found = layout(
       ome("SizeZ=\"2\" SizeT=\"1\" SizeC=\"1\" DimensionOrder=\"XYZCT\" PhysicalSizeX=\"500\" "

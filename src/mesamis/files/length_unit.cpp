@@ -50,6 +50,10 @@ constexpr std::array kUnits{
     LengthUnit{"mil", kInch / 1000},
     LengthUnit{"ft", 12 * kInch},
     LengthUnit{"foot", 12 * kInch},
+    LengthUnit{"yd", 36 * kInch},
+    LengthUnit{"yard", 36 * kInch},
+    LengthUnit{"li", kInch / 12},  // a line, of OME-XML as the next
+    LengthUnit{"pt", kInch / 72},
 };
 
 std::optional<double> find(std::string_view name) {

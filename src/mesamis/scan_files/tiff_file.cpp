@@ -235,15 +235,24 @@ double unit_in_mm(TIFF* tiff, const std::string& named, std::vector<std::string>
   return unit == RESUNIT_INCH ? 25.4 : unit == RESUNIT_CENTIMETER ? 10 : 0;
 }
 
+/// The same along x, y and z: ImageJ may name a unit for each.
+Vec3 units_in_mm(TIFF* tiff, const TiffLayout& layout, std::vector<std::string>& warnings) {
+  const double x = unit_in_mm(tiff, layout.unit, warnings);
+  const auto other = [&](const std::string& named) {
+    return named.empty() ? x : unit_in_mm(tiff, named, warnings);
+  };
+  return {x, other(layout.unit_y), other(layout.unit_z)};
+}
+
 /// mm along x, y and z; 0 where the file states no length.
-Vec3 stated_spacing(TIFF* tiff, const TiffLayout& layout, double unit) {
+Vec3 stated_spacing(TIFF* tiff, const TiffLayout& layout, const Vec3& unit) {
   float x = 0, y = 0;
   TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &x);
   TIFFGetField(tiff, TIFFTAG_YRESOLUTION, &y);
-  const auto per = [unit](float resolution) {
-    return resolution > 0 && std::isfinite(resolution) ? unit / static_cast<double>(resolution) : 0;
+  const auto per = [](double mm, float resolution) {
+    return resolution > 0 && std::isfinite(resolution) ? mm / static_cast<double>(resolution) : 0;
   };
-  Vec3 spacing{per(x), per(y), unit * layout.between};
+  Vec3 spacing{per(unit.x, x), per(unit.y, y), unit.z * layout.between};
   for (int a = 0; a < 3; ++a) {
     if (layout.spacing[a] > 0) spacing[a] = layout.spacing[a];
   }
@@ -251,9 +260,8 @@ Vec3 stated_spacing(TIFF* tiff, const TiffLayout& layout, double unit) {
 }
 
 Vec3 spacing_of(TIFF* tiff, const TiffLayout& layout, std::vector<std::string>& warnings) {
-  const double unit = unit_in_mm(tiff, layout.unit, warnings);
-  Vec3 spacing = stated_spacing(tiff, layout, unit);
-  const bool has_resolution = stated_spacing(tiff, layout, 1).x > 0;
+  Vec3 spacing = stated_spacing(tiff, layout, units_in_mm(tiff, layout, warnings));
+  const bool has_resolution = stated_spacing(tiff, layout, {1, 1, 1}).x > 0;
   if (!(spacing.x > 0 && spacing.y > 0)) {
     spacing.x = spacing.y = 1;
     warnings.push_back(has_resolution

@@ -59,13 +59,17 @@ void number_planes(TiffLayout& layout, const Steps& steps) {
   }
 }
 
-/// Single images at many times are mostly slices that were named wrongly.
-void take_times_as_slices(TiffLayout& layout) {
+/// Single images at many times, or of more channels than ImageJ shows together, are mostly slices
+/// that were named wrongly: tifffile calls the first of three axes channels.
+void take_as_slices(TiffLayout& layout) {
+  constexpr std::int64_t kMostChannels = 7;
   auto& [volumes, channels] = layout.axes;
-  if (layout.slices != 1 || channels != 1 || volumes < 2) return;
-  layout.warnings.push_back(
-      message("the file has ", volumes, " times of one slice each: they are taken as slices"));
-  std::swap(layout.slices, volumes);
+  const bool times = channels == 1 && volumes > 1;
+  if (layout.slices != 1 || !(times || (volumes == 1 && channels > kMostChannels))) return;
+  layout.warnings.push_back(message("the file has ", volumes * channels,
+                                    times ? " times" : " channels",
+                                    " of one slice each: they are taken as slices"));
+  std::swap(layout.slices, times ? volumes : channels);
 }
 
 /// All pages are slices of one volume.
@@ -142,7 +146,7 @@ void set_planes(const Pages& pages, const ImageJ& text, TiffLayout& layout) {
   }
   const std::int64_t channels = layout.axes.channels;
   number_planes(layout, {channels, channels * layout.slices, 1});
-  take_times_as_slices(layout);
+  take_as_slices(layout);
 }
 
 TiffLayout read_imagej(const Pages& pages, std::string_view description) {
@@ -151,6 +155,8 @@ TiffLayout read_imagej(const Pages& pages, std::string_view description) {
   layout.one_directory = true;
   set_planes(pages, text, layout);
   layout.unit = text.value("unit");
+  layout.unit_y = text.value("yunit");
+  layout.unit_z = text.value("zunit");
   layout.between = std::abs(text.number("spacing").value_or(0));
   layout.zero_pixel = {text.number("xorigin").value_or(0), text.number("yorigin").value_or(0),
                        text.number("zorigin").value_or(0)};
@@ -320,7 +326,7 @@ TiffLayout read_ome(const Pages& pages, std::string_view text, MemoryBudget& bud
   require_planes(children_of(pixels, "TiffData").empty() ? pages : bound, layout, "OME-XML");
   map_planes(pages, pixels, steps_of(pages, layout, pixels.attribute("DimensionOrder")), layout);
   set_physical_size(pixels, layout);
-  take_times_as_slices(layout);
+  take_as_slices(layout);
   return layout;
 }
 
@@ -427,7 +433,7 @@ TiffLayout read_shape(const Pages& pages, std::string_view text) {
   }
   require_planes(pages, layout, "the shape in the description");
   number_planes(layout, *steps);
-  take_times_as_slices(layout);
+  take_as_slices(layout);
   return layout;
 }
 
