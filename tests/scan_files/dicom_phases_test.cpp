@@ -16,6 +16,7 @@ namespace {
 
 using testing::AllOf;
 using testing::Contains;
+using testing::EndsWith;
 using testing::HasSubstr;
 
 constexpr std::uint32_t kInstance = 0x00200013, kTrigger = 0x00181060, kEcho = 0x00180081,
@@ -35,11 +36,16 @@ std::vector<SliceBytes> three_phases() {
   return slices;
 }
 
-std::filesystem::path write(const TempFolder& folder, const std::vector<SliceBytes>& slices) {
+std::filesystem::path write(const std::filesystem::path& folder,
+                            const std::vector<SliceBytes>& slices) {
   for (std::size_t n = 0; n < slices.size(); ++n) {
     write_bytes(folder / (std::to_string(n) + ".dcm"), slices[n].bytes());
   }
   return folder / "";
+}
+
+std::filesystem::path write(const TempFolder& folder, const std::vector<SliceBytes>& slices) {
+  return write(folder / "", slices);
 }
 
 /// The phase that comes out, and the warnings.
@@ -47,7 +53,8 @@ VolumeFile phase(const std::filesystem::path& path, Index number) {
   return read_volume(path, {.volume = number});
 }
 
-void expect_phases(const std::filesystem::path& path, const std::string& told) {
+void expect_phases(const std::filesystem::path& path, const std::string& told,
+                   const std::vector<std::string>& values = {}) {
   for (Index p = 0; p < 3; ++p) {
     const VolumeFile file = phase(path, p);
     ASSERT_EQ(file.volume.size[2], 4);
@@ -55,6 +62,8 @@ void expect_phases(const std::filesystem::path& path, const std::string& told) {
       ASSERT_EQ(file.volume.samples[n], static_cast<float>(100 * p + static_cast<int>(n)));
     }
     EXPECT_THAT(file.warnings, Contains(HasSubstr(told)));
+    if (values.empty()) continue;
+    EXPECT_THAT(file.warnings, Contains(EndsWith(" " + values[static_cast<std::size_t>(p)])));
   }
   EXPECT_REFUSED(read_volume(path),
                  AllOf(HasSubstr("3 volumes (--volume 0 to 2)"), HasSubstr(told)));
@@ -72,6 +81,26 @@ TEST(DicomPhases, AreToldByATagOfTimes) {
     slice.more[kTrigger] = {"DS", std::to_string(90 * number)};  // 0, 90, 180: by size, not text
   }
   expect_phases(write(folder, slices), "Trigger Time");
+}
+
+/// Some tags hold no text, but numbers in either precision or whole ones of 32 bits.
+TEST(DicomPhases, HaveValuesInAnyFormOfNumber) {
+  constexpr std::uint32_t kPercentage = 0x00209241, kIndex = 0x00209128, kWeight = 0x00189087;
+  const TempFolder folder;
+  auto percent = three_phases(), index = percent, weight = percent;
+  for (std::size_t n = 0; n < percent.size(); ++n) {
+    const int number = (std::stoi(percent[n].more[kInstance].second) - 1) / 4;
+    percent[n].more[kPercentage] = {"FL", bytes_of(12.5F * static_cast<float>(number))};
+    weight[n].more[kWeight] = {"FD", bytes_of(500.5 * number)};
+    index[n].more[kIndex] = {"UL", bytes_of(static_cast<std::uint32_t>(8 + 2 * number))};
+  }
+  std::filesystem::create_directories(folder / "percent");
+  std::filesystem::create_directories(folder / "index");
+  std::filesystem::create_directories(folder / "weight");
+  expect_phases(write(folder / "percent", percent), "Nominal Percentage of Cardiac Phase",
+                {"0", "12.5", "25"});
+  expect_phases(write(folder / "index", index), "Temporal Position Index", {"8", "10", "12"});
+  expect_phases(write(folder / "weight", weight), "Diffusion b-value", {"0", "500.5", "1001"});
 }
 
 TEST(DicomPhases, AreToldByTwoTagsTogether) {

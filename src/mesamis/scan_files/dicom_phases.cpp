@@ -8,25 +8,30 @@
 #include <utility>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/written_number.h"
+#include "mesamis/files/bytes.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/scan_files/dicom_spacing.h"
 
 namespace mesamis::detail {
 namespace {
 
+enum class Form { kText, kWhole, kReal };
+
 struct PhaseTag {
   const char* name;
   MacroTag tag;
+  Form form = Form::kText;
 };
 
 constexpr std::array<PhaseTag, 11> kTags{
-    {{"Temporal Position Index", {dicom::kFrameContent, 0x00209128}},
+    {{"Temporal Position Index", {dicom::kFrameContent, 0x00209128}, Form::kWhole},
      {"Temporal Position Identifier", {dicom::kFrameContent, 0x00200100}},
-     {"Nominal Percentage of Cardiac Phase", {0x00189118, 0x00209241}},
+     {"Nominal Percentage of Cardiac Phase", {0x00189118, 0x00209241}, Form::kReal},
      {"Trigger Time", {0x00189118, 0x00181060}},
-     {"Effective Echo Time", {0x00189114, 0x00189082}},
+     {"Effective Echo Time", {0x00189114, 0x00189082}, Form::kReal},
      {"Echo Time", {0x00189114, 0x00180081}},
-     {"Diffusion b-value", {0x00189117, 0x00189087}},
+     {"Diffusion b-value", {0x00189117, 0x00189087}, Form::kReal},
      {"Acquisition Number", {dicom::kFrameContent, 0x00200012}},
      {"Acquisition Time", {dicom::kFrameContent, 0x00080032}},
      {"Image Type", {0, dicom::kImageType}},
@@ -154,6 +159,23 @@ std::string values_of(const Phases& phases) {
   return text;
 }
 
+/// The value of a tag as text, whatever it is stored as.
+std::string mark_of(const DicomFile& file, std::size_t frame, const PhaseTag& tag) {
+  const Bytes bytes = frame_bytes(file, frame, tag.tag);
+  const auto* data = reinterpret_cast<const char*>(bytes.data());
+  const ByteOrder order = file.big_endian ? ByteOrder::kBig : ByteOrder::kLittle;
+  if (tag.form == Form::kWhole && bytes.size() == sizeof(std::uint32_t)) {
+    return std::to_string(load<std::uint32_t>(data, order));
+  }
+  if (tag.form == Form::kReal && bytes.size() == sizeof(float)) {
+    return number_text(static_cast<double>(load<float>(data, order)));
+  }
+  if (tag.form == Form::kReal && bytes.size() == sizeof(double)) {
+    return number_text(load<double>(data, order));
+  }
+  return frame_text(file, frame, tag.tag);
+}
+
 }  // namespace
 
 std::string phase_marks(const DicomFile& file, std::size_t frame) {
@@ -161,7 +183,7 @@ std::string phase_marks(const DicomFile& file, std::size_t frame) {
   std::string marks;
   for (const PhaseTag& tag : kTags) {
     if (&tag != kTags.data()) marks += kSeparator;
-    marks += frame_text(file, frame, tag.tag).substr(0, kLongest);
+    marks += mark_of(file, frame, tag).substr(0, kLongest);
   }
   return marks;
 }

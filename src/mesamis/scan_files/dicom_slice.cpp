@@ -302,6 +302,12 @@ std::string frame_text(const DicomFile& file, std::size_t frame, const MacroTag&
   return FrameTags(file, frame).text(tag);
 }
 
+Bytes frame_bytes(const DicomFile& file, std::size_t frame, const MacroTag& tag) {
+  const DicomSet& set = FrameTags(file, frame).set_with(tag);
+  const auto element = set.find(tag.tag);
+  return element == set.end() ? Bytes{} : element->second.value;
+}
+
 std::array<Vec3, 3> grid_steps(const DicomSlice& slice, const Vec3& up) noexcept {
   return {slice.column_step * unit_or_zero(slice.along_row),
           slice.row_step * unit_or_zero(slice.along_column), up};

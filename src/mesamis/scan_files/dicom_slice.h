@@ -65,6 +65,8 @@ DicomSlice place_frame(const DicomFile& file, const DicomPixels& pixels, std::si
 
 /// The text of a tag that lies in the group `macro`, found as frame_decimals() finds it.
 std::string frame_text(const DicomFile& file, std::size_t frame, const MacroTag& tag);
+/// The bytes of the same, in the file's order: none if the tag is not there.
+Bytes frame_bytes(const DicomFile& file, std::size_t frame, const MacroTag& tag);
 
 /// `count` decimals of a tag that lies in the group `macro`: of the frame's own functional groups,
 /// else of those shared by all frames, else of the top level of the file.
