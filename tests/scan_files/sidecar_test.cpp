@@ -25,6 +25,7 @@ VolumeFile with_sidecar(const std::string& json, const ReadOptions& options = {}
 TEST(Sidecar, StatesTheModality) {
   EXPECT_EQ(with_sidecar(R"({"Modality": "CT", "KVP": 120})").volume.modality, "CT");
   EXPECT_EQ(with_sidecar(R"({"Modality": "MR"})").volume.modality, "MR");
+  EXPECT_EQ(with_sidecar(R"({"Modality": "ct"})").volume.modality, "CT");
   EXPECT_EQ(with_sidecar(R"({"KVP": 120})").volume.modality, "");
 }
 
