@@ -126,23 +126,23 @@ bool begins_like_text(std::string_view bytes) {
   return lower(trimmed(without_mark(bytes.substr(0, kHeader)))).starts_with("solid");
 }
 
-/// Whether bytes come early that no text has, as those of small numbers.
+/// Whether bytes come early that no text has, as those of small numbers. Zero bytes may end a text.
 bool has_control_bytes(std::string_view bytes) {
   constexpr std::size_t kEarly = 512;
-  const std::string_view early = bytes.substr(0, kEarly);
+  const std::string_view early = trimmed(bytes.substr(0, kEarly));
   return std::any_of(early.begin(), early.end(), [](char c) {
     return static_cast<unsigned char>(c) < ' ' && (c < '\t' || c > '\r');
   });
 }
 
 /// Some binary files, too, begin with "solid": their size tells, and where there are bytes behind
-/// the triangles, that they are no text.
+/// the triangles or the end is missing, that they are no text.
 bool is_binary(std::string_view bytes) {
   if (bytes.size() < kBegin) return false;
   const std::uint64_t count = load<std::uint32_t>(bytes.data() + kHeader);
   const std::uint64_t size = kBegin + count * kRecord;
   if (bytes.size() == size || !begins_like_text(bytes)) return true;
-  return count > 0 && bytes.size() > size && has_control_bytes(bytes);
+  return count > 0 && has_control_bytes(bytes);
 }
 
 }  // namespace
