@@ -23,7 +23,8 @@ HalfMaximumLevel measure(const VolumeView& volume, const std::optional<double>& 
 void require_hounsfield(const VolumeView& scan, const Tissue& tissue) {
   if (!tissue.hounsfield || is_hounsfield(scan)) return;
   throw InputError("tissue: expected a CT scan in Hounsfield units for " + tissue.name +
-                   ", found other values; dark and LO:HI fit any scan");
+                   ", found other values (--modality CT if it is one); dark and LO:HI fit "
+                   "any scan");
 }
 
 TissueLevel find_tissue_level(const VolumeView& image, const Tissue& tissue) {

@@ -127,10 +127,12 @@ void set_axes(ScanFile& scan, const std::array<Vec3, 3>& steps);
 /// @param read  returns it; throws InputError.
 template <class Read, class Stated>
 Stated stated_or(ScanFile& scan, const Read& read, const Stated& fallback) {
-  if (!scan.given_spacing) return read();
   try {
     return read();
   } catch (const InputError& error) {
+    if (!scan.given_spacing) {
+      throw InputError(std::string(error.what()) + " (--spacing X,Y,Z replaces it)");
+    }
     scan.warnings.push_back(error.what());
     return fallback;
   }
