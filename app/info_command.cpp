@@ -11,8 +11,10 @@
 #include "label_lines.h"
 #include "log.h"
 #include "mesamis/base/error.h"
+#include "mesamis/chunk_files/chunked_scan.h"
 #include "mesamis/image/grey_values.h"
 #include "mesamis/image/label_map.h"
+#include "mesamis/image/not_numbers.h"
 #include "mesamis/image/orientation.h"
 #include "mesamis/label_files/read_labels.h"
 #include "mesamis/scan_files/read_volume.h"
@@ -63,12 +65,19 @@ struct ValuesInfo {
 };
 
 /// This is the only reason to read them.
+/// @throws InputError  also where a value is infinite, or all are NaN.
 ValuesInfo values_of(const InfoCommand& command) {
-  const VolumeFile scan = read_any_volume(command.input, command.read);
+  VolumeFile scan = read_any_volume(command.input, command.read);
+  fill_not_numbers(scan.volume.samples);
   const auto [least, most] = sample_range(scan.volume.samples);
   std::ostringstream text;
+  if (!std::isfinite(least) || !std::isfinite(most)) {
+    text << command.input.string() << ": expected finite samples, found values from " << least
+         << " to " << most;
+    throw InputError(text.str());
+  }
   text << "  values " << least << " to " << most;
-  const bool known = std::isfinite(least) && std::isfinite(most) && least < most;
+  const bool known = least < most;
   const bool labels = known && look_like_labels(scan.volume, scan.volume.samples);
   if (labels) {
     text << ": labels likely (--labels)";
@@ -148,9 +157,20 @@ void print_label_file(const InfoCommand& command) {
   print_labels(file.map);
 }
 
+/// Whether the only file of a folder is a scan: whole grey values would be labels too.
+bool is_scan_alone(const InfoCommand& command, const std::vector<VolumeInfo>& all) {
+  if (all.size() != 1 || is_zarr(command.input)) return false;
+  if (!all[0].modality.empty()) return true;
+  try {
+    return !values_of({command.input / all[0].description, command.read}).labels;
+  } catch (const InputError&) {
+    return true;
+  }
+}
+
 /// The objects of a folder of masks; of any other folder nothing.
-void print_masks(const InfoCommand& command) {
-  if (!is_mask_folder(command.input, command.read.limits)) return;
+void print_masks(const InfoCommand& command, const std::vector<VolumeInfo>& all) {
+  if (!is_mask_folder(command.input, command.read.limits) || is_scan_alone(command, all)) return;
   LabelMap map;
   try {
     map = read_labels(command).map;
@@ -161,23 +181,38 @@ void print_masks(const InfoCommand& command) {
   print_labels(map);
 }
 
-/// One line per volume, and one per label of a label map. A file on its own that does not state its
-/// modality is read for what its values tell; one that cannot be read is not usable.
+/// Whether the values of a volume are read: of one that does not state its modality, in a file,
+/// slices or not too many chunks.
+bool reads_values(const InfoCommand& command, const VolumeInfo& info) {
+  constexpr double kMostVoxels = 1 << 28;  // of chunks, which may be many
+  if (!info.modality.empty() || !info.problem.empty()) return false;
+  const double voxels = 1.0 * static_cast<double>(info.size[0]) *
+                        static_cast<double>(info.size[1]) * static_cast<double>(info.size[2]);
+  if (is_zarr(command.input)) return voxels <= kMostVoxels;
+  return !fs::is_directory(command.input) || info.format.ends_with(" slices");
+}
+
+/// One line per volume, and one per label of a label map; of a volume on its own also the warnings
+/// of its headers. One that cannot be read is not usable.
 void print_volumes(const InfoCommand& command) {
   std::vector<VolumeInfo> all = list_any_volumes(command.input, command.read);
-  const bool unknown = all.size() == 1 && all[0].modality.empty() && all[0].problem.empty();
+  const bool masks = fs::is_directory(command.input);
   ValuesInfo values;
-  const bool directory = fs::is_directory(command.input);
-  if (unknown && !directory) {
+  if (all.size() == 1 && reads_values(command, all[0])) {
     try {
       values = values_of(command);
     } catch (const InputError& error) {
       all[0].problem = error.what();
     }
   }
+  const bool labels = values.labels && !command.read.raw &&
+                      !(masks && is_mask_folder(command.input, command.read.limits));
+  if (all.size() == 1 && !labels) {
+    for (const std::string& warning : all[0].warnings) log_warning(warning);
+  }
   for (const VolumeInfo& info : all) std::cout << volume_line(info) << values.text << "\n";
-  if (values.labels && !command.read.raw) print_labels(read_labels(command).map);
-  if (directory) print_masks(command);
+  if (labels) print_labels(read_labels(command).map);
+  if (masks) print_masks(command, all);
 }
 
 int run_info(const InfoCommand& command) {

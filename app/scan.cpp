@@ -96,6 +96,8 @@ std::vector<VolumeInfo> list_any_volumes(const std::filesystem::path& path,
     info.size = grid.size;
     info.spacing = grid.spacing;
     info.origin = grid.origin;
+    info.direction = grid.direction;
+    info.warnings = scan->head().warnings;
   } catch (const InputError& error) {
     info.problem = error.what();
   }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "mesamis/shape_files/mesh_files.h"
 #include "support/contour_bytes.h"
+#include "support/picture_bytes.h"
 #include "support/run_program.h"
 #include "support/scan_bytes.h"
 #include "support/seg_bytes.h"
@@ -75,6 +78,53 @@ TEST(Info, ListsTheLabelsOfALabelMap) {
   EXPECT_THAT(run.out, HasSubstr("values 0 to 5: labels likely (--labels)\n"
                                  "  3  label 3  2 voxels  4 mm^3\n"
                                  "  5  label 5  2 voxels  4 mm^3\n"));
+}
+
+/// Label maps that are folders: slices, and arrays in chunks.
+TEST(Info, ListsTheLabelsOfSlicesAndChunks) {
+  const TempFolder folder;
+  const std::string lines = ": labels likely (--labels)\n  2  label 2  2 voxels  2 mm^3\n";
+  write_bytes(folder / "slices/s1.png", png_bytes(2, 2, std::string("\0\0\2\0", 4)));
+  write_bytes(folder / "slices/s2.png", png_bytes(2, 2, std::string("\0\0\2\0", 4)));
+  EXPECT_THAT(run_program(folder, {"info", folder / "slices"}).out, HasSubstr(lines));
+  write_bytes(folder / "a.zarr/.zarray",
+              R"({"zarr_format": 2, "shape": [2, 2, 2], "chunks": [2, 2, 2], "dtype": "|u1",
+              "compressor": null, "fill_value": 0, "order": "C"})");
+  write_bytes(folder / "a.zarr/0.0.0", std::string("\0\0\0\0\2\2\0\0", 8));
+  EXPECT_THAT(run_program(folder, {"info", folder / "a.zarr"}).out, HasSubstr(lines));
+}
+
+TEST(Info, TakesAFolderOfOneScanForNoLabels) {
+  const TempFolder folder;
+  write_bytes(folder / "case/ct.nrrd",
+              nrrd_of("(1,0,0) (0,1,0) (0,0,1)", {0, 1, 2, 3, 4, 5, 6, 1200}));
+  EXPECT_THAT(run_program(folder, {"info", folder / "case"}).out,
+              testing::Not(HasSubstr("as --labels")));
+  write_bytes(folder / "case/ct.nrrd", two_labels());
+  EXPECT_THAT(run_program(folder, {"info", folder / "case"}).out, HasSubstr("as --labels"));
+}
+
+TEST(Info, WarnsOfWhatTheHeaderLacks) {
+  const TempFolder folder;
+  std::string bytes = nrrd_of("(1,0,0) (0,1,0) (0,0,1)", {0, 1, 2, 3, 4, 5, 6, 1200});
+  bytes.replace(bytes.find("left-posterior-superior"), 23, "scanner-xyz");
+  write_bytes(folder / "a.nrrd", bytes);
+  const ProgramRun run = run_program(folder, {"info", folder / "a.nrrd"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.err, HasSubstr("warning: the header names no anatomical space"));
+}
+
+TEST(Info, DoesNotCallInfiniteValuesUsable) {
+  const TempFolder folder;
+  const auto line = [&](float odd) {
+    write_bytes(folder / "a.nrrd",
+                "NRRD0004\ntype: float\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"
+                "endian: little\n\n" +
+                    bytes_of_all(std::vector<float>{0.5F, 1, 2, 3, 4, 5, 6, odd}));
+    return run_program(folder, {"info", folder / "a.nrrd"}).out;
+  };
+  EXPECT_THAT(line(INFINITY), HasSubstr("not usable: "));
+  EXPECT_THAT(line(NAN), HasSubstr("values 0.5 to 6\n"));
 }
 
 TEST(Info, ReadsDicomSegmentationsAndStructureSets) {

@@ -47,6 +47,8 @@ TEST(DicomStore, OfAnArchiveHoldsItsFiles) {
 
 TEST(DicomStore, RefusesArchivesWithoutASeries) {
   const TempFolder folder;
+  write_bytes(folder / "a.zip", zip_bytes({{"a.txt", "hello"}}));
+  EXPECT_REFUSED(list_volumes(folder / "a.zip"), HasSubstr("expected DICOM images, found none"));
   EXPECT_THAT(complaint(folder, "a.zip", zip_bytes({{"a.txt", "hello"}})),
               HasSubstr("expected DICOM images"));
   const std::string whole = zipped_series();

@@ -147,7 +147,9 @@ std::vector<float> decode(const DicomStore& store, const SortedSlices& stack, Me
 VolumeInfo info_of(const fs::path& path, const DicomSeries& series, const ReadOptions& options) {
   VolumeInfo info{series.uid, series.description, "DICOM", series.modality, {}, {}, ""};
   try {
-    set_grid(info, plan(path, series, options).scan.grid);
+    const ScanFile scan = plan(path, series, options).scan;
+    set_grid(info, scan.grid);
+    info.warnings = scan.warnings;
   } catch (const InputError& error) {
     info.problem = error.what();
   }
@@ -200,8 +202,10 @@ std::vector<VolumeInfo> list_dicom(const fs::path& path, const ReadOptions& opti
                                    MemoryBudget& budget) {
   const DicomStore store(path, budget);
   std::vector<VolumeInfo> infos;
-  for (const DicomSeries& series : group_by_series(read_images(store, {options, budget}).images)) {
+  const FolderImages found = read_images(store, {options, budget});
+  for (const DicomSeries& series : group_by_series(found.images)) {
     infos.push_back(info_of(path, series, options));
+    found.warn(infos.back().warnings);
   }
   return infos;
 }

@@ -166,9 +166,10 @@ void require_dicom(const fs::path& directory) {
   if (detail::holds_dicom(directory)) return;
   const std::vector<fs::path> here = detail::files_in(directory);
   const auto volume = std::find_if(here.begin(), here.end(), is_listed);
+  const std::string contents = detail::contents_of(directory);
   refuse(directory,
          detail::message(
-             "expected DICOM images, found none but ", detail::contents_of(directory),
+             "expected DICOM images, found none", contents == "nothing" ? "" : " but " + contents,
              volume == here.end() ? "" : "; name the file itself, as " + volume->string()));
 }
 
@@ -210,6 +211,7 @@ VolumeInfo describe(const Request& request) {
     const ScanFile scan = open_header(request);
     info.format = scan.format;
     info.modality = scan.grid.modality;
+    info.warnings = scan.warnings;
     detail::set_grid(info, scan.sheared
                                ? detail::plan_unsheared(scan.file, scan.grid, *scan.sheared).grid
                                : static_cast<const VoxelGrid&>(scan.grid));
@@ -241,7 +243,9 @@ std::vector<VolumeInfo> list(const Request& request) {
   if (fs::is_directory(path) && !options.raw) return list_directory(request);
   if (options.raw || has_known_extension(path)) return {describe(request)};
   if (detail::is_zip(path) || detail::looks_like_dicom(path)) {
-    return detail::list_dicom(path, options, budget);
+    std::vector<VolumeInfo> all = detail::list_dicom(path, options, budget);
+    if (all.empty()) refuse(path, "expected DICOM images, found none");
+    return all;
   }
   refuse_unknown(path);
 }
@@ -368,6 +372,7 @@ std::vector<VolumeInfo> list_volumes(const fs::path& path, const ReadOptions& op
   std::vector<VolumeInfo> all = in_one_line(path, [&] { return list({path, options, budget}); });
   for (VolumeInfo& info : all) {
     info.spacing = options.spacing.value_or(info.spacing);
+    if (options.spacing) detail::drop_spacing_warnings(info.warnings);
     if (!options.modality.empty()) info.modality = options.modality;
   }
   return all;

@@ -115,14 +115,15 @@ VoxelGrid read_grid(const std::filesystem::path& path, const ReadOptions& option
 
 /// A volume found at a path, as `mesamis info` lists it.
 struct VolumeInfo {
-  std::string series;                  ///< DICOM series UID, else empty
-  std::string description;             ///< series description or file name
-  std::string format, modality;        ///< as VolumeFile::format; "CT", "MR", else empty
-  std::array<Index, 3> size{0, 0, 0};  ///< voxels
-  Vec3 spacing;                        ///< mm
-  std::string problem;                 ///< why read_volume() refuses it; empty if it does not
-  Vec3 origin{};                       ///< LPS, mm; see VoxelGrid::origin
-  Mat3 direction{};                    ///< LPS; see VoxelGrid::direction
+  std::string series;                   ///< DICOM series UID, else empty
+  std::string description;              ///< series description or file name
+  std::string format, modality;         ///< as VolumeFile::format; "CT", "MR", else empty
+  std::array<Index, 3> size{0, 0, 0};   ///< voxels
+  Vec3 spacing;                         ///< mm
+  std::string problem;                  ///< why read_volume() refuses it; empty if it does not
+  Vec3 origin{};                        ///< LPS, mm; see VoxelGrid::origin
+  Mat3 direction{};                     ///< LPS; see VoxelGrid::direction
+  std::vector<std::string> warnings{};  ///< those of VolumeFile that the headers give
 };
 
 /// Lists the volumes of a file or directory without decoding the samples: the DICOM series (of a

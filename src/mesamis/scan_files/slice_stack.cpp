@@ -200,6 +200,7 @@ VolumeInfo describe_slices(const fs::path& directory, const std::vector<fs::path
   try {
     const ScanFile scan = open_headers(directory, files, opening);
     info.format = scan.format;
+    info.warnings = scan.warnings;
     set_grid(info, scan.grid);
   } catch (const InputError& error) {
     info.problem = error.what();
