@@ -86,6 +86,30 @@ TEST(LabelsInSlabs, HaveTheBitsOfTheWholeForAnyNumberOfRanks) {
   }
 }
 
+/// An oblique sheet, one voxel thick, through all slabs.
+TEST(LabelsInSlabs, JoinThinObjectsAsInTheWhole) {
+  LabelMap map = touching_balls();
+  map.segments = {{"sheet", 1, 0, {}}};
+  for (std::size_t n = 0; n < map.voxel_count(); ++n) {
+    const auto [i, j, k] = map.voxel(n);
+    const bool within = i > 2 && i + 3 < map.size[0] && j > 2 && j + 3 < map.size[1] && k > 2 &&
+                        k + 3 < map.size[2];
+    map.layers[0][n] = within && 3 * (i + k) + 2 * j >= 96 && 3 * (i + k) + 2 * j < 99 ? 1 : 0;
+  }
+  const LabelResult whole = surfaces_of_labels({map}, all_triangles());
+  Settings as_it_is = all_triangles();
+  as_it_is.keep_topology = true;
+  EXPECT_FALSE(surfaces_of_labels({map}, as_it_is).objects[0].surface.points ==
+               whole.objects[0].surface.points);
+  for (const Index slabs : {2, 5}) {
+    const TempFolder folder;
+    const auto found = label_surfaces_in_slabs(request_for(map), all_triangles(),
+                                               {.slabs = slabs, .scratch = folder.path()}, alone());
+    ASSERT_TRUE(found);
+    expect_same(found->result, whole);
+  }
+}
+
 TEST(LabelsInSlabs, FindChosenObjectsOfSeveralLayers) {
   LabelMap map = touching_balls();
   map.layers.emplace_back(map.voxel_count(), std::uint16_t{0});

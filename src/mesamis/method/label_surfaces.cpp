@@ -28,6 +28,7 @@
 #include "mesamis/method/passes.h"
 #include "mesamis/method/prepare.h"
 #include "mesamis/surface/grid_partition.h"
+#include "mesamis/surface/join_diagonals.h"
 #include "mesamis/surface/select_parts.h"
 #include "mesamis/surface/smooth_memberships.h"
 
@@ -154,7 +155,10 @@ struct LayerBoundaries {
 GridMemberships without_image(const LabelRun& run, const VoxelGrid& grid,
                               std::vector<std::uint16_t>& labels) {
   const Probabilities* probabilities = run.request.probabilities;
-  if (probabilities == nullptr) return smooth_memberships({grid.size, grid.spacing, labels});
+  if (probabilities == nullptr) {
+    if (!run.settings.keep_topology) labels = join_diagonals({grid.size, grid.spacing, labels});
+    return smooth_memberships({grid.size, grid.spacing, labels});
+  }
   GridMemberships found = probable_memberships(*probabilities, grid);
   labels = winning_labels(found);
   return found;

@@ -345,6 +345,10 @@ std::vector<Setting> surface_rows() {
                "the steps of their voxels; without labels: smooth the ripples of noise and the "
                "terraces of thick slices",
            .paper = "no"}, &Settings::fit, &Parameters::fit),
+    bound({.name = "keep_topology", .form = "yes|no",
+           .help = "Objects of labels: leave the gaps of no volume that open where thin objects pass "
+               "from voxel to voxel across edges and corners",
+           .paper = "yes"}, &Settings::keep_topology, &Parameters::keep_topology),
     bound({.name = "band_threshold", .form = "X", .count = 1, .low = 0, .high = 1,
            .help = "TOLth: the band's cells have v below this"}, &Settings::band_threshold, &Parameters::band_threshold),
     bound({.name = "min_volume", .form = "X", .count = 1, .low = 0, .high = 1e12,

@@ -76,6 +76,7 @@ struct Settings {
   bool local_level = false;
   bool follow = true;
   bool fit = true;
+  bool keep_topology = false;
   double band_threshold = 0.1;
   std::optional<double> min_volume;
   std::int64_t keep_largest = 0;

@@ -65,7 +65,14 @@ std::vector<std::uint16_t> labels_of(const LayerRun& run, const BlockSlices& sli
   LabelMap some{{head}, {run.source.read(run.layer, first, end - first)}, {}};
   some.size[2] = end - first;
   part.begin[2] -= first;
-  return labels_in(some, 0, part);
+  std::vector<std::uint16_t> labels = labels_in(some, 0, part);
+  const std::int64_t lowest = nodes_in(run, slices.begin);
+  for (const DiagonalJoin& join : run.joins) {
+    const std::int64_t node = join.node - lowest;
+    if (node < 0 || node >= std::ssize(labels)) continue;
+    labels[static_cast<std::size_t>(node)] = static_cast<std::uint16_t>(join.label);
+  }
+  return labels;
 }
 
 /// The grid of some slices, without labels or materials.
@@ -84,7 +91,7 @@ GridMemberships grid_of(const LayerRun& run, const BlockSlices& slices) {
 }
 
 std::filesystem::path part_file(const LayerRun& run) {
-  return run.scratch.path("layer." + std::to_string(run.layer) + ".nodes");
+  return run.scratch.path(run.file("nodes", 0));
 }
 
 /// As find_parts() has left them: the numbers of each slab.
@@ -292,6 +299,31 @@ void learn_parts(LayerRun& run) {
       run.parts.eighths[part] += eighths[s][p];
     }
   }
+}
+
+SlabWork find_joins(const LayerRun& run, Index s) {
+  const BlockSlices own = own_slices(run, s), held = around(run, own, kJoinReach);
+  const std::vector<std::uint16_t> labels = labels_of(run, held);
+  const GridMemberships grid = grid_of(run, held);
+  std::vector<DiagonalJoin> joins =
+      find_diagonal_joins({grid.size, grid.spacing, labels}, read_parts(run, held));
+  for (DiagonalJoin& join : joins) join.node += nodes_in(run, held.begin);
+  std::erase_if(joins, [&](const DiagonalJoin& join) {
+    return join.node < nodes_in(run, own.begin) || join.node >= nodes_in(run, own.end);
+  });
+  ArchiveWriter archive;
+  archive.add(joins);
+  run.scratch.write(run.file("joins", s), archive);
+  return work_on(run, held);
+}
+
+void learn_joins(LayerRun& run) {
+  std::vector<DiagonalJoin> all;
+  for (Index s = 0; s < run.count(); ++s) {
+    const auto joins = run.scratch.read(run.file("joins", s)).next<DiagonalJoin>();
+    all.insert(all.end(), joins.begin(), joins.end());
+  }
+  run.joins = choose_joins(all, run.block.size);
 }
 
 SlabWork find_wishes(const LayerRun& run, Index s) {

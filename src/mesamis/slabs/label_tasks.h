@@ -10,14 +10,16 @@
 #include "mesamis/slabs/scratch.h"
 #include "mesamis/slabs/slab_work.h"
 #include "mesamis/slabs/stored_labels.h"
+#include "mesamis/surface/join_diagonals.h"
 #include "mesamis/surface/match_volumes.h"
 #include "mesamis/surface/partition.h"
 #include "mesamis/surface/smooth_memberships.h"
 
 /// The tasks that make smooth boundaries of a layer of labels, slab by slab, to the bits of
-/// smooth_memberships() and extract_partition_on_grid() of the whole.
+/// join_diagonals(), smooth_memberships() and extract_partition_on_grid() of the whole.
 ///
-/// In their order: make_part_file(); find_parts(), join_parts(), learn_parts(); find_wishes(),
+/// In their order: make_part_file(), find_parts(), join_parts(), learn_parts() on the labels as they
+/// are; find_joins(), learn_joins(), and the first four again if there are any; find_wishes(),
 /// let_yield(); smooth_slab(); measure_slab() until the volumes match; extract_slab(). What they
 /// reach is bounded, but for the order in which nodes yield: let_yield() does that for all slabs in
 /// turn; and for parts and volumes, which are numbers that learn_parts() and VolumeMatch add up.
@@ -39,12 +41,14 @@ struct LayerRun {
   LabelBlock block;         ///< of the map's voxels; slices are counted from its first one
   std::vector<Index> cuts;  ///< slab s owns the slices cuts[s] to cuts[s + 1] - 1
   SmoothOptions smoothing{};
-  LayerParts parts{};  ///< after learn_parts()
+  std::vector<DiagonalJoin> joins{};  ///< after learn_joins(), of the block: labels have them
+  LayerParts parts{};                 ///< after learn_parts()
 
   Index count() const { return static_cast<Index>(cuts.size()) - 1; }
   /// The file of what slab s has left.
   std::string file(const std::string& what, Index s) const {
-    return "layer." + std::to_string(layer) + "." + what + "." + std::to_string(s);
+    return "layer." + std::to_string(layer) + (joins.empty() ? "." : ".joined.") + what + "." +
+           std::to_string(s);
   }
 };
 
@@ -55,6 +59,10 @@ SlabWork find_parts(const LayerRun& run, Index s);
 /// Finds which parts of the slabs s and s + 1 are one.
 SlabWork join_parts(const LayerRun& run, Index s);
 void learn_parts(LayerRun& run);
+/// Finds the nodes of slab s that objects may take, see find_diagonal_joins().
+SlabWork find_joins(const LayerRun& run, Index s);
+/// Chooses of those of all slabs.
+void learn_joins(LayerRun& run);
 /// Finds the nodes of slab s that may yield.
 SlabWork find_wishes(const LayerRun& run, Index s);
 /// Lets the nodes of all slabs yield, one slab after the other.

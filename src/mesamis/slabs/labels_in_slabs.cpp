@@ -88,17 +88,26 @@ std::vector<Index> cuts_of(const LabelBlock& block, const std::optional<Index>& 
 }
 
 /// All tasks on a layer.
-void run_layer(LayerRun& run, Stages& stages) {
+/// @param keep_topology  see Settings.
+void run_layer(LayerRun& run, bool keep_topology, Stages& stages) {
   const Index slabs = run.count();
   const std::string of_layer = " of layer " + std::to_string(run.layer);
   const auto each = [&](const std::string& name, const auto& task) {
     stages.for_slabs(name + of_layer, slabs, [&](Index s) { return task(s); });
   };
-  stages.run("room for parts" + of_layer, 1, [&](Index) { return make_part_file(run); });
-  each("parts", [&](Index s) { return find_parts(run, s); });
-  stages.for_borders("parts at borders" + of_layer, slabs,
-                     [&](Index s) { return join_parts(run, s); });
-  learn_parts(run);
+  const auto number_parts = [&](const std::string& of) {
+    stages.run("room for parts" + of + of_layer, 1, [&](Index) { return make_part_file(run); });
+    each("parts" + of, [&](Index s) { return find_parts(run, s); });
+    stages.for_borders("parts at borders" + of + of_layer, slabs,
+                       [&](Index s) { return join_parts(run, s); });
+    learn_parts(run);
+  };
+  number_parts("");
+  if (!keep_topology) {
+    each("joins", [&](Index s) { return find_joins(run, s); });
+    learn_joins(run);
+    if (!run.joins.empty()) number_parts(" joined");
+  }
   each("steps", [&](Index s) { return find_wishes(run, s); });
   stages.run("steps removed" + of_layer, 1, [&](Index) { return let_yield(run); });
   each("memberships", [&](Index s) { return smooth_slab(run, s); });
@@ -148,7 +157,7 @@ std::optional<LabelSlabResult> run_through(const Scratch& scratch, const LabelSl
   std::vector<LayerRun> runs;
   for (const Index layer : layers_of(chosen)) {
     runs.push_back({labels, scratch, layer, block, cuts});
-    run_layer(runs.back(), stages);
+    run_layer(runs.back(), settings.keep_topology, stages);
   }
   team.wait_for_all();  // all have read what rank 0 removes at the end
   if (team.rank() != 0) return std::nullopt;

@@ -39,4 +39,10 @@ class Neighbours {
   std::array<Index, 14> nodes_{};
 };
 
+/// Sets of a node's neighbours have a bit for each.
+inline constexpr unsigned kAllNeighbours = (1U << 14) - 1;
+
+/// How many parts a set of a node's neighbours has: connected along edges of the tetrahedra.
+Index count_parts(unsigned neighbours);
+
 }  // namespace mesamis

@@ -13,6 +13,7 @@ set(ROOM_HEADERS
   farthest.h
   grid_partition.h
   half_edges.h
+  join_diagonals.h
   label_parts.h
   lift_memberships.h
   list_materials.h
@@ -49,10 +50,12 @@ set(ROOM_SOURCES
   farthest.cpp
   grid_partition.cpp
   half_edges.cpp
+  join_diagonals.cpp
   label_parts.cpp
   lift_memberships.cpp
   list_materials.cpp
   match_volumes.cpp
+  neighbours.cpp
   nesting.cpp
   normals.cpp
   part_filter.cpp

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <vector>
 
 #include "mesamis/surface/neighbours.h"
@@ -18,38 +17,10 @@ constexpr float kMostYield = 0.35F;
 /// Materials of fewer nodes neither give nor take: their volumes could not be matched.
 constexpr std::int64_t kFewNodes = 100;
 
-constexpr unsigned kAll = (1U << 14) - 1;
-
-/// Of each neighbour of a node, a bit for each other neighbour beside it.
-std::array<unsigned, 14> links() {
-  std::array<unsigned, 14> links{};
-  for (std::size_t a = 0; a < 14; ++a) {
-    for (std::size_t b = 0; b < 14; ++b) {
-      const auto from = Neighbours::step_to(a), to = Neighbours::step_to(b);
-      const std::array<Index, 3> step{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-      for (std::size_t i = 0; i < 14; ++i) {
-        if (Neighbours::step_to(i) == step) links[a] |= 1U << b;
-      }
-    }
-  }
-  return links;
-}
-
-bool is_connected(unsigned nodes) {
-  static const std::array<unsigned, 14> kLinks = links();
-  if (nodes == 0) return false;
-  unsigned reached = 1U << std::countr_zero(nodes);
-  for (unsigned before = 0; reached != before;) {
-    before = reached;
-    for (unsigned rest = reached; rest != 0; rest &= rest - 1) {
-      reached |= kLinks[static_cast<std::size_t>(std::countr_zero(rest))] & nodes;
-    }
-  }
-  return reached == nodes;
-}
-
 /// Whether neighbours cover one disc of the sphere around a node.
-bool is_disc(unsigned nodes) { return is_connected(nodes) && is_connected(kAll & ~nodes); }
+bool is_disc(unsigned nodes) {
+  return count_parts(nodes) == 1 && count_parts(kAllNeighbours & ~nodes) == 1;
+}
 
 /// The material that a node is to be given to; its own if it stays.
 Index wanted_by(const GridMemberships& grid, std::size_t n) {
