@@ -11,7 +11,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/version.h"
 #include "mesamis/files/atomic_file.h"
-#include "mesamis/record/json_file.h"
+#include "mesamis/report/json_file.h"
 
 namespace mesamis {
 namespace {

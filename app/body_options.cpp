@@ -11,7 +11,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/written_number.h"
 #include "mesamis/body/material_law.h"
-#include "mesamis/delivery/body_request.h"
+#include "mesamis/report/body_request.h"
 #include "outputs.h"
 #include "ranges.h"
 

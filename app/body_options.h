@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
-#include "mesamis/delivery/body_request.h"
 #include "mesamis/method/settings.h"
+#include "mesamis/report/body_request.h"
 #include "mesamis/run/outcome_details.h"
 
 namespace CLI {

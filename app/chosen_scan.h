@@ -9,8 +9,8 @@
 
 #include "mesamis/files/dicom_subject.h"
 #include "mesamis/method/chosen_run.h"
-#include "mesamis/record/report.h"
-#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/report/report.h"
+#include "mesamis/volume_files/read_volume.h"
 #include "place_options.h"
 
 namespace mesamis {

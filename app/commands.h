@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesamis/files/reading.h"
-#include "mesamis/record/verdict.h"
+#include "mesamis/report/verdict.h"
 #include "mesamis/slabs/team.h"
 
 namespace CLI {

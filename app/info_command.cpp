@@ -17,9 +17,9 @@
 #include "mesamis/image/not_numbers.h"
 #include "mesamis/image/orientation.h"
 #include "mesamis/label_files/read_labels.h"
-#include "mesamis/scan_files/read_volume.h"
 #include "mesamis/shape_files/file_kind.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "mesamis/volume_files/read_volume.h"
 #include "scan.h"
 
 namespace mesamis {

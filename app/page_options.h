@@ -6,7 +6,7 @@
 #include <string>
 
 #include "mesamis/page/page_files.h"
-#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/volume_files/read_volume.h"
 
 namespace CLI {
 class App;

@@ -14,10 +14,10 @@
 #include "mesamis/phantom/degrade.h"
 #include "mesamis/phantom/phantom.h"
 #include "mesamis/phantom/phantom_truth.h"
-#include "mesamis/record/json_file.h"
-#include "mesamis/record/report.h"
-#include "mesamis/scan_files/write_volume.h"
+#include "mesamis/report/json_file.h"
+#include "mesamis/report/report.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "mesamis/volume_files/write_volume.h"
 #include "outputs.h"
 #include "ranges.h"
 

@@ -13,7 +13,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/files/sha256.h"
 #include "mesamis/page/run_page.h"
-#include "mesamis/record/json_file.h"
+#include "mesamis/report/json_file.h"
 #include "mesamis/shape_files/file_kind.h"
 #include "mesamis/shape_files/object_files.h"
 #include "outputs.h"

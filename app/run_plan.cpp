@@ -8,7 +8,7 @@
 #include "mesamis/label_files/read_labels.h"
 #include "mesamis/method/memory.h"
 #include "mesamis/object/places.h"
-#include "mesamis/record/report.h"
+#include "mesamis/report/report.h"
 #include "scan.h"
 
 namespace mesamis {

@@ -11,9 +11,9 @@
 #include "arguments.h"
 #include "log.h"
 #include "mesamis/base/error.h"
-#include "mesamis/chunk_files/chunked_scan.h"
 #include "mesamis/files/read_record.h"
 #include "mesamis/image/not_numbers.h"
+#include "mesamis/volume_files/chunked_scan.h"
 #include "ranges.h"
 
 namespace mesamis {

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "mesamis/scan_files/open_slices.h"
-#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/volume_files/open_slices.h"
+#include "mesamis/volume_files/read_volume.h"
 
 namespace CLI {
 class App;

@@ -6,8 +6,8 @@
 
 #include "arguments.h"
 #include "mesamis/base/error.h"
-#include "mesamis/delivery/mesh_output.h"
-#include "mesamis/record/label_surface_files.h"
+#include "mesamis/report/label_surface_files.h"
+#include "mesamis/report/mesh_output.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "outputs.h"
 #include "page_options.h"

@@ -7,7 +7,7 @@
 
 #include "commands.h"
 #include "mesamis/method/setting_table.h"
-#include "mesamis/record/settings_json.h"
+#include "mesamis/report/settings_json.h"
 
 namespace mesamis {
 namespace {

@@ -7,7 +7,7 @@
 #include "arguments.h"
 #include "mesamis/base/error.h"
 #include "mesamis/method/setting_table.h"
-#include "mesamis/record/settings_json.h"
+#include "mesamis/report/settings_json.h"
 
 namespace mesamis {
 namespace {

@@ -16,10 +16,10 @@
 #include "mesamis/base/error.h"
 #include "mesamis/files/sha256.h"
 #include "mesamis/printing/slice_surface.h"
-#include "mesamis/record/json_file.h"
-#include "mesamis/record/report.h"
-#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/report/json_file.h"
+#include "mesamis/report/report.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "mesamis/volume_files/read_volume.h"
 #include "outputs.h"
 #include "process.h"
 

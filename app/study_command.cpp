@@ -15,7 +15,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/files/output_set.h"
 #include "mesamis/method/memory.h"
-#include "mesamis/record/json_file.h"
+#include "mesamis/report/json_file.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "mesamis/shape_files/surface_pair.h"
 #include "mesamis/study/experiment.h"

@@ -13,7 +13,7 @@
 #include "mesamis/object/padding.h"
 #include "mesamis/object/patient.h"
 #include "mesamis/object/tissue_level.h"
-#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/volume_files/read_volume.h"
 
 namespace {
 

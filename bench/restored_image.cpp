@@ -6,8 +6,8 @@
 #include <exception>
 
 #include "mesamis/method/prepare.h"
-#include "mesamis/scan_files/read_volume.h"
-#include "mesamis/scan_files/write_volume.h"
+#include "mesamis/volume_files/read_volume.h"
+#include "mesamis/volume_files/write_volume.h"
 
 int main(int count, char** arguments) {
   using namespace mesamis;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # What another project finds with find_package(mesamis): mesamis::mesamis with its header and those that it leads to, and
-# for each component its library, which is found only where it is asked for.
+# the component baseline, which is found only where it is asked for.
 if(NOT TARGET mesamis)
   return()
 endif()
@@ -13,14 +13,12 @@ install(TARGETS mesamis mesamis_core ${rooms} EXPORT mesamisTargets COMPONENT de
         FILE_SET HEADERS COMPONENT development)
 install(EXPORT mesamisTargets NAMESPACE mesamis:: DESTINATION ${MESAMIS_CMAKE_DIR}
         COMPONENT development)
-foreach(component picture baseline)
-  if(component STREQUAL picture OR MESAMIS_BUILD_BASELINE)
-    install(TARGETS mesamis_${component} EXPORT mesamis_${component} COMPONENT development
-            FILE_SET HEADERS COMPONENT development)
-    install(EXPORT mesamis_${component} NAMESPACE mesamis:: DESTINATION ${MESAMIS_CMAKE_DIR}
-            COMPONENT development)
-  endif()
-endforeach()
+if(MESAMIS_BUILD_BASELINE)
+  install(TARGETS mesamis_baseline EXPORT mesamis_baseline COMPONENT development
+          FILE_SET HEADERS COMPONENT development)
+  install(EXPORT mesamis_baseline NAMESPACE mesamis:: DESTINATION ${MESAMIS_CMAKE_DIR}
+          COMPONENT development)
+endif()
 
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/cmake/mesamisConfig.cmake.in ${PROJECT_BINARY_DIR}/mesamisConfig.cmake

@@ -3,7 +3,6 @@
 //
 //   ex2_volume SCAN [OUT.png]
 #include <mesamis/mesamis.h>
-#include <mesamis/picture/picture.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -10,7 +10,7 @@
 #include "call.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
-#include "mesamis/record/run_surface.h"
+#include "mesamis/report/run_surface.h"
 #include "mesamis/shape_files/surface_files.h"
 
 namespace mesamis::python {

@@ -6,7 +6,7 @@
 
 #include "binding.h"
 #include "mesamis/method/setting_table.h"
-#include "mesamis/record/settings_json.h"
+#include "mesamis/report/settings_json.h"
 #include "request.h"
 
 namespace mesamis::python {

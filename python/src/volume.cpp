@@ -14,8 +14,8 @@
 #include "mesamis/image/grid_axes.h"
 #include "mesamis/image/not_numbers.h"
 #include "mesamis/image/orientation.h"
-#include "mesamis/scan_files/read_volume.h"
-#include "mesamis/scan_files/write_volume.h"
+#include "mesamis/volume_files/read_volume.h"
+#include "mesamis/volume_files/write_volume.h"
 #include "request.h"
 
 namespace mesamis::python {

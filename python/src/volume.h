@@ -13,7 +13,7 @@
 #include "mesamis/files/read_record.h"
 #include "mesamis/image/label_map.h"
 #include "mesamis/image/volume.h"
-#include "mesamis/record/report.h"
+#include "mesamis/report/report.h"
 
 namespace mesamis::python {
 

@@ -6,20 +6,21 @@
 #include "mesamis/base/threads.h"
 #include "mesamis/base/types.h"
 #include "mesamis/base/version.h"
-#include "mesamis/delivery/body_wishes.h"
 #include "mesamis/image/label_map.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/label_files/read_labels.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/method/settings.h"
 #include "mesamis/object/object_request.h"
+#include "mesamis/picture/picture.h"
+#include "mesamis/report/body_wishes.h"
 #include "mesamis/run/outcome.h"
 #include "mesamis/run/segment.h"
 #include "mesamis/run/write.h"
-#include "mesamis/scan_files/read_volume.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/tri_mesh.h"
+#include "mesamis/volume_files/read_volume.h"
 
 /// From a 3D scan to a closed surface that can be printed, an adapted mesh that carries the grey
 /// values, and a body for a solver.

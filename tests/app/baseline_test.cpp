@@ -7,9 +7,9 @@
 #include "mesamis/phantom/degrade.h"
 #include "mesamis/phantom/phantom.h"
 #include "mesamis/restore/half_maximum_level.h"
-#include "mesamis/scan_files/read_volume.h"
-#include "mesamis/scan_files/write_volume.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "mesamis/volume_files/read_volume.h"
+#include "mesamis/volume_files/write_volume.h"
 #include "support/run_program.h"
 
 namespace mesamis {

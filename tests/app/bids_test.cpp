@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "mesamis/label_files/read_labels.h"
-#include "mesamis/scan_files/read_volume.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "mesamis/volume_files/read_volume.h"
 #include "support/run_program.h"
 #include "support/scan_bytes.h"
 

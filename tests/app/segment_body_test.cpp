@@ -8,8 +8,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "mesamis/scan_files/write_volume.h"
 #include "mesamis/shape_files/mesh_files.h"
+#include "mesamis/volume_files/write_volume.h"
 #include "support/ball_volume.h"
 #include "support/external_program.h"
 #include "support/run_program.h"

@@ -10,11 +10,11 @@
 
 #include "mesamis/label_files/read_labels.h"
 #include "mesamis/label_files/write_labels.h"
-#include "mesamis/scan_files/write_volume.h"
 #include "mesamis/shape_files/mesh_files.h"
 #include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "mesamis/surface/triangle_tree.h"
+#include "mesamis/volume_files/write_volume.h"
 #include "support/ball_volume.h"
 #include "support/run_program.h"
 #include "support/sampled_volume.h"

@@ -7,9 +7,9 @@
 
 #include "mesamis/label_files/write_labels.h"
 #include "mesamis/mesh/tet_mesh.h"
-#include "mesamis/scan_files/write_volume.h"
 #include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "mesamis/volume_files/write_volume.h"
 #include "support/ball_volume.h"
 #include "support/run_program.h"
 #include "support/sampled_volume.h"

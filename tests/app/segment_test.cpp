@@ -11,9 +11,9 @@
 #include <thread>
 
 #include "mesamis/run/write.h"
-#include "mesamis/scan_files/read_volume.h"
 #include "mesamis/shape_files/mesh_files.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "mesamis/volume_files/read_volume.h"
 #include "support/ball_volume.h"
 #include "support/run_program.h"
 

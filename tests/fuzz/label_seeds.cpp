@@ -5,8 +5,8 @@
 #include "mesamis/label_files/label_table.h"
 #include "mesamis/label_files/write_labels.h"
 #include "mesamis/method/setting_table.h"
-#include "mesamis/record/json_file.h"
-#include "mesamis/record/settings_json.h"
+#include "mesamis/report/json_file.h"
+#include "mesamis/report/settings_json.h"
 #include "support/contour_bytes.h"
 #include "support/scan_bytes.h"
 

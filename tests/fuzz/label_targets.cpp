@@ -6,8 +6,8 @@
 #include "mesamis/label_files/label_table.h"
 #include "mesamis/label_files/read_labels.h"
 #include "mesamis/method/setting_table.h"
-#include "mesamis/record/json_file.h"
-#include "mesamis/record/settings_json.h"
+#include "mesamis/report/json_file.h"
+#include "mesamis/report/settings_json.h"
 #include "reader_targets.h"
 
 namespace mesamis {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fuzz_seeds.h"
-#include "mesamis/scan_files/write_volume.h"
+#include "mesamis/volume_files/write_volume.h"
 #include "support/jpeg_bytes.h"
 #include "support/matlab_bytes.h"
 #include "support/picture_bytes.h"

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "mesamis/chunk_files/chunked_scan.h"
 #include "mesamis/image/label_map.h"
 #include "mesamis/label_files/read_labels.h"
-#include "mesamis/scan_files/open_slices.h"
-#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/volume_files/chunked_scan.h"
+#include "mesamis/volume_files/open_slices.h"
+#include "mesamis/volume_files/read_volume.h"
 #include "reader_targets.h"
 #include "support/dicom_bytes.h"
 #include "support/picture_bytes.h"

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "mesamis/scan_files/formats.h"
+#include "mesamis/volume_files/formats.h"
 #include "support/expect_near.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"

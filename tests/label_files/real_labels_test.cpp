@@ -8,7 +8,7 @@
 #include "mesamis/label_files/label_table.h"
 #include "mesamis/label_files/read_labels.h"
 #include "mesamis/label_files/write_labels.h"
-#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/volume_files/read_volume.h"
 #include "support/temp_folder.h"
 #include "support/test_data.h"
 #include "support/throws.h"

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "mesamis/label_files/read_labels.h"
-#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/volume_files/read_volume.h"
 #include "support/expect_near.h"
 #include "support/temp_folder.h"
 #include "support/throws.h"

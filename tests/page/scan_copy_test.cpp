@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/volume_files/read_volume.h"
 #include "page/unpacked.h"
 #include "support/sampled_volume.h"
 #include "support/temp_folder.h"

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "mesamis/raster/raster.h"
+#include "mesamis/picture/raster.h"
 
 namespace mesamis::detail {
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "mesamis/record/json_file.h"
+#include "mesamis/report/json_file.h"
 #include "mesamis/run/run_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "run/small_request.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "mesamis/base/error.h"
-#include "mesamis/scan_files/read_volume.h"
+#include "mesamis/volume_files/read_volume.h"
 #include "support/scan_bytes.h"
 #include "support/temp_folder.h"
 

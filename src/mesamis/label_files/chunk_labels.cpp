@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "mesamis/base/error.h"
-#include "mesamis/chunk_files/chunked_scan.h"
 #include "mesamis/files/memory_budget.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/label_files/label_values.h"
+#include "mesamis/volume_files/chunked_scan.h"
 
 namespace mesamis::detail {
 namespace {

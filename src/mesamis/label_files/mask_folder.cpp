@@ -14,7 +14,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/label_files/layer_stack.h"
 #include "mesamis/label_files/voxel_lattice.h"
-#include "mesamis/scan_files/formats.h"
+#include "mesamis/volume_files/formats.h"
 
 namespace mesamis::detail {
 namespace {

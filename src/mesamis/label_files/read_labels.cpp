@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "mesamis/base/error.h"
-#include "mesamis/chunk_files/chunked_scan.h"
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/in_one_line.h"
 #include "mesamis/files/refuse.h"
@@ -18,9 +17,10 @@
 #include "mesamis/label_files/nifti_labels.h"
 #include "mesamis/label_files/nrrd_segments.h"
 #include "mesamis/label_files/seg_file.h"
-#include "mesamis/scan_files/formats.h"
-#include "mesamis/scan_files/read_volume.h"
-#include "mesamis/scan_files/slice_stack.h"
+#include "mesamis/volume_files/chunked_scan.h"
+#include "mesamis/volume_files/formats.h"
+#include "mesamis/volume_files/read_volume.h"
+#include "mesamis/volume_files/slice_stack.h"
 
 namespace mesamis {
 namespace {

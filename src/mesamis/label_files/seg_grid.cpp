@@ -7,9 +7,9 @@
 
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
-#include "mesamis/scan_files/dicom_slice.h"
-#include "mesamis/scan_files/dicom_spacing.h"
-#include "mesamis/scan_files/scan_file.h"
+#include "mesamis/volume_files/dicom_slice.h"
+#include "mesamis/volume_files/dicom_spacing.h"
+#include "mesamis/volume_files/scan_file.h"
 
 namespace mesamis::detail {
 namespace {

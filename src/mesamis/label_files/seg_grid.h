@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mesamis/image/volume.h"
-#include "mesamis/scan_files/dicom_pixels.h"
+#include "mesamis/volume_files/dicom_pixels.h"
 
 namespace mesamis::detail {
 

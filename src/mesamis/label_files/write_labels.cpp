@@ -11,7 +11,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/label_files/nifti_labels.h"
 #include "mesamis/label_files/nrrd_segments.h"
-#include "mesamis/scan_files/nrrd_header.h"
+#include "mesamis/volume_files/nrrd_header.h"
 
 namespace mesamis {
 namespace {

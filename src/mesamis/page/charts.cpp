@@ -9,7 +9,7 @@
 
 #include "mesamis/image/grey_values.h"
 #include "mesamis/page/figures.h"
-#include "mesamis/plot/plot.h"
+#include "mesamis/picture/plot.h"
 
 namespace mesamis::detail {
 namespace {

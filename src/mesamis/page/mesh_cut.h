@@ -5,7 +5,7 @@
 
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/page/slice_view.h"
-#include "mesamis/raster/raster.h"
+#include "mesamis/picture/raster.h"
 
 namespace mesamis::detail {
 

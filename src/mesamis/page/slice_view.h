@@ -8,7 +8,7 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/image/slice_plane.h"
 #include "mesamis/page/cross_section.h"
-#include "mesamis/raster/raster.h"
+#include "mesamis/picture/raster.h"
 
 namespace mesamis::detail {
 

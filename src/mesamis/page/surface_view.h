@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesamis/page/slice_view.h"
-#include "mesamis/raster/raster.h"
+#include "mesamis/picture/raster.h"
 
 namespace mesamis::detail {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "mesamis/plot/ticks.h"
-#include "mesamis/raster/text.h"
+#include "mesamis/picture/text.h"
+#include "mesamis/picture/ticks.h"
 
 namespace mesamis::detail {
 namespace {

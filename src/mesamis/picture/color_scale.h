@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "mesamis/raster/raster.h"
+#include "mesamis/picture/raster.h"
 
 namespace mesamis::detail {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mesamis/base/types.h"
-#include "mesamis/raster/raster.h"
+#include "mesamis/picture/raster.h"
 
 namespace mesamis::detail {
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "mesamis/base/types.h"
-#include "mesamis/raster/raster.h"
-#include "mesamis/raster/triangles.h"
+#include "mesamis/picture/raster.h"
+#include "mesamis/picture/triangles.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis::detail {

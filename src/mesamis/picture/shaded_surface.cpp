@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesamis/raster/triangles.h"
+#include "mesamis/picture/triangles.h"
 
 namespace mesamis::detail {
 namespace {

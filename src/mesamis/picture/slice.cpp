@@ -8,7 +8,7 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/image/orientation.h"
 #include "mesamis/picture/annotation.h"
-#include "mesamis/plot/ticks.h"
+#include "mesamis/picture/ticks.h"
 
 namespace mesamis::detail {
 namespace {

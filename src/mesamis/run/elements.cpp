@@ -4,8 +4,8 @@
 #include <string_view>
 #include <utility>
 
-#include "mesamis/delivery/body_request.h"
-#include "mesamis/delivery/filled_objects.h"
+#include "mesamis/report/body_request.h"
+#include "mesamis/report/filled_objects.h"
 
 namespace mesamis {
 

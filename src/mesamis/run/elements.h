@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "mesamis/base/progress.h"
-#include "mesamis/delivery/body_output.h"
-#include "mesamis/delivery/meshing_surface.h"
+#include "mesamis/report/body_output.h"
+#include "mesamis/report/meshing_surface.h"
 #include "mesamis/run/segment.h"
 
 namespace mesamis {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/run/outcome_details.h"
 
-#include "mesamis/record/label_report.h"
+#include "mesamis/report/label_report.h"
 
 namespace mesamis {
 

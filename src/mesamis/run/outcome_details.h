@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/delivery/label_output.h"
 #include "mesamis/method/label_surfaces.h"
 #include "mesamis/method/mes_amis.h"
 #include "mesamis/object/choose_object.h"
-#include "mesamis/record/verdict.h"
+#include "mesamis/report/label_output.h"
+#include "mesamis/report/verdict.h"
 #include "mesamis/run/elements.h"
 #include "mesamis/surface/tri_mesh.h"
 

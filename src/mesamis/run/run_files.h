@@ -9,7 +9,7 @@
 
 #include "mesamis/files/output_set.h"
 #include "mesamis/image/volume.h"
-#include "mesamis/record/report.h"
+#include "mesamis/report/report.h"
 #include "mesamis/run/write.h"
 
 /// The files of a run as programs write them: with what reports say beside the outcome.

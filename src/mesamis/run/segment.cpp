@@ -5,8 +5,8 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/method/chosen_run.h"
-#include "mesamis/record/label_report.h"
-#include "mesamis/record/run_surface.h"
+#include "mesamis/report/label_report.h"
+#include "mesamis/report/run_surface.h"
 #include "mesamis/run/outcome_details.h"
 
 namespace mesamis {

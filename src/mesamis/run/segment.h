@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "mesamis/base/progress.h"
-#include "mesamis/delivery/body_wishes.h"
 #include "mesamis/image/label_map.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/method/settings.h"
 #include "mesamis/object/object_request.h"
+#include "mesamis/report/body_wishes.h"
 #include "mesamis/run/outcome.h"
 
 /// From a scan, labels, or both to surfaces, meshes and bodies: what the program does.

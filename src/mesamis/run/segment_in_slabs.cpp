@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "mesamis/delivery/mesh_output.h"
-#include "mesamis/record/label_report.h"
+#include "mesamis/report/label_report.h"
+#include "mesamis/report/mesh_output.h"
 #include "mesamis/run/outcome_details.h"
 #include "mesamis/shape_files/mesh_files.h"
 

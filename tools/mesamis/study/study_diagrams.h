@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/plot/plot.h"
+#include "mesamis/picture/plot.h"
 #include "mesamis/study/study_run.h"
 
 /// The diagrams of a study.

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "mesamis/record/comparison_json.h"
-#include "mesamis/record/json_file.h"
-#include "mesamis/record/settings_json.h"
+#include "mesamis/report/comparison_json.h"
+#include "mesamis/report/json_file.h"
+#include "mesamis/report/settings_json.h"
 
 namespace mesamis {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/record/report.h"
+#include "mesamis/report/report.h"
 #include "mesamis/shape_files/surface_pair.h"
 #include "mesamis/study/study_run.h"
 

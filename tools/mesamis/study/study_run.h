@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mesamis/base/progress.h"
-#include "mesamis/record/run_summary.h"
-#include "mesamis/record/verdict.h"
+#include "mesamis/report/run_summary.h"
+#include "mesamis/report/verdict.h"
 #include "mesamis/study/experiment.h"
 #include "mesamis/surface/comparison.h"
 

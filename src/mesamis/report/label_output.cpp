@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/report/label_output.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/report/line_crossing.h"
+
+namespace mesamis {
+namespace {
+
+/// Of a voxel: no centre of a usual surface lies on such a line.
+constexpr double kAside = 1.1e-6;
+
+/// Where a surface crosses a line of voxels.
+struct Crossing {
+  std::size_t row;  // j + k * voxels along j
+  double x;         // voxels
+  int inward;       // 1 inward, -1 outward, for increasing x
+};
+
+class Lines {
+ public:
+  Lines(const VoxelGrid& grid, const TriMesh& surface) : grid_(grid), surface_(surface) {
+    voxels_.resize(surface.points.size());
+    parallel_for(voxels_.size(), [&](std::size_t p) {
+      const Vec3 q = grid.to_grid(surface.points[p]), &s = grid.spacing;
+      voxels_[p] = {q.x / s.x, q.y / s.y - kAside, q.z / s.z - kAside};
+    });
+  }
+
+  /// Increasing by row and place.
+  std::vector<Crossing> crossings() const {
+    std::vector<Crossing> found;
+    for (const Triangle& t : surface_.triangles) add(t, found);
+    std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
+      return a.row != b.row ? a.row < b.row : a.x != b.x ? a.x < b.x : a.inward < b.inward;
+    });
+    return found;
+  }
+
+ private:
+  static Index first_from(double least) {
+    return static_cast<Index>(std::ceil(std::max(0.0, least)));
+  }
+
+  void add(const Triangle& t, std::vector<Crossing>& found) const {
+    const std::array<NumberedCorner, 3> c{
+        {{voxels_[t[0]], t[0]}, {voxels_[t[1]], t[1]}, {voxels_[t[2]], t[2]}}};
+    const auto [y0, y1] = std::minmax({c[0].at.y, c[1].at.y, c[2].at.y});
+    const auto [z0, z1] = std::minmax({c[0].at.z, c[1].at.z, c[2].at.z});
+    for (Index k = first_from(z0); k < grid_.size[2] && k <= z1; ++k) {
+      for (Index j = first_from(y0); j < grid_.size[1] && j <= y1; ++j) {
+        const auto crossing = line_crossing(c, j, k);
+        if (crossing) found.push_back({row_of(j, k), crossing->x, crossing->inward});
+      }
+    }
+  }
+
+  std::size_t row_of(Index j, Index k) const {
+    return static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.size[1]) +
+           static_cast<std::size_t>(j);
+  }
+
+  const VoxelGrid& grid_;
+  const TriMesh& surface_;
+  std::vector<Vec3> voxels_;
+};
+
+/// Sets the voxels of a row between two places.
+void fill(std::vector<std::uint16_t>& layer, const VoxelGrid& grid, const Crossing& from, double to,
+          std::uint16_t label) {
+  const auto nx = static_cast<double>(grid.size[0]);
+  const auto begin = static_cast<std::size_t>(std::clamp(std::ceil(from.x), 0.0, nx));
+  const auto end = static_cast<std::size_t>(std::clamp(std::ceil(to), 0.0, nx));
+  const std::size_t start = from.row * static_cast<std::size_t>(grid.size[0]);
+  for (std::size_t i = begin; i < end; ++i) layer[start + i] = label;
+}
+
+void mark(const VoxelGrid& grid, const FoundObject& object, std::vector<std::uint16_t>& layer) {
+  const std::vector<Crossing> crossings = Lines(grid, object.surface).crossings();
+  int depth = 0;
+  for (std::size_t n = 0; n + 1 < crossings.size(); ++n) {
+    if (n > 0 && crossings[n].row != crossings[n - 1].row) depth = 0;
+    depth += crossings[n].inward;
+    if (depth == 0 || crossings[n + 1].row != crossings[n].row) continue;
+    fill(layer, grid, crossings[n], crossings[n + 1].x,
+         static_cast<std::uint16_t>(object.segment.label));
+  }
+}
+
+}  // namespace
+
+std::vector<FoundObject> found_objects(const LabelResult& result) {
+  std::vector<FoundObject> found;
+  for (const LabelledObject& object : result.objects) {
+    found.push_back({object.surface, object.segment});
+  }
+  return found;
+}
+
+std::vector<std::string> missing_objects(const LabelResult& result,
+                                         std::span<const Segment> wanted) {
+  if (result.objects.empty()) {
+    throw InputError("labels: expected a surface of at least one object, found none");
+  }
+  std::vector<std::string> warnings;
+  for (const Segment& s : wanted) {
+    const bool found = std::any_of(result.objects.begin(), result.objects.end(),
+                                   [&](const LabelledObject& o) { return o.segment == s; });
+    if (!found) warnings.push_back("labels: nothing was found of '" + s.name + "'");
+  }
+  return warnings;
+}
+
+LabelMap label_map_of(const VoxelGrid& grid, std::span<const FoundObject> objects) {
+  LabelMap map;
+  static_cast<VoxelGrid&>(map) = grid;
+  std::size_t layers = 1;
+  for (const FoundObject& object : objects) {
+    layers = std::max(layers, static_cast<std::size_t>(object.segment.layer) + 1);
+    map.segments.push_back(object.segment);
+  }
+  map.layers.assign(layers, std::vector<std::uint16_t>(grid.voxel_count(), 0));
+  for (const FoundObject& object : objects) {
+    mark(grid, object, map.layers[static_cast<std::size_t>(object.segment.layer)]);
+  }
+  return map;
+}
+
+namespace {
+
+/// The first layer that has no label where an object has one.
+std::size_t free_layer(const LabelMap& map, const std::vector<std::uint16_t>& object) {
+  const auto overlaps = [&](const std::vector<std::uint16_t>& layer) {
+    for (std::size_t n = 0; n < object.size(); ++n) {
+      if (object[n] != 0 && layer[n] != 0) return true;
+    }
+    return false;
+  };
+  const auto free = std::find_if_not(map.layers.begin(), map.layers.end(), overlaps);
+  return static_cast<std::size_t>(free - map.layers.begin());
+}
+
+void add_object(LabelMap& map, Segment segment, std::vector<std::uint16_t> object) {
+  const std::size_t layer = free_layer(map, object);
+  segment.layer = static_cast<Index>(layer);
+  map.segments.push_back(std::move(segment));
+  if (layer == map.layers.size()) {
+    map.layers.push_back(std::move(object));
+    return;
+  }
+  for (std::size_t n = 0; n < object.size(); ++n) {
+    if (object[n] != 0) map.layers[layer][n] = object[n];
+  }
+}
+
+}  // namespace
+
+SurfaceLabels labels_of_surfaces(const VoxelGrid& grid, std::span<const FoundObject> objects) {
+  SurfaceLabels out;
+  static_cast<VoxelGrid&>(out.map) = grid;
+  for (const FoundObject& object : objects) {
+    FoundObject alone{object.surface, object.segment};
+    alone.segment.layer = 0;
+    add_object(out.map, object.segment, std::move(label_map_of(grid, {&alone, 1}).layers[0]));
+  }
+  const std::vector<std::size_t> counts = voxel_counts(out.map);
+  if (std::all_of(counts.begin(), counts.end(), [](std::size_t n) { return n == 0; })) {
+    throw InputError(
+        "labels: expected surfaces around voxel centres of the scan, found none inside");
+  }
+  for (std::size_t n = 0; n < counts.size(); ++n) {
+    const std::string& name = out.map.segments[n].name;
+    if (counts[n] == 0) out.warnings.push_back("'" + name + "' has no voxel centre inside");
+    if (out.map.segments[n].layer > 0) {
+      out.warnings.push_back("'" + name +
+                             "' overlaps another surface: it lies in a layer of its own");
+    }
+  }
+  return out;
+}
+
+}  // namespace mesamis

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/report/label_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include "mesamis/method/expected_error.h"
+#include "mesamis/report/report.h"
+#include "mesamis/report/run_summary.h"
+#include "mesamis/report/settings_json.h"
+
+namespace mesamis {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json object_json(const LabelledObject& object, const SurfaceCheck& check) {
+  ordered_json j{{"name", object.segment.name},
+                 {"label", object.segment.label},
+                 {"layer", object.segment.layer},
+                 {"colour", object.segment.colour},
+                 {"triangles_extracted", object.triangles_extracted}};
+  j.update(check_json(object.surface, check));
+  const auto& expected = object.expected_error;
+  j["expected_error_mm"] = expected.empty() ? ordered_json(nullptr)
+                                            : error_json(summarize_error(object.surface, expected));
+  return j;
+}
+
+ordered_json boundary_json(const LabelBoundary& boundary) {
+  const auto name = [](const std::string& side) {
+    return side.empty() ? ordered_json(nullptr) : ordered_json(side);
+  };
+  return {{"between", {name(boundary.first), name(boundary.second)}},
+          {"level_native", boundary.level},
+          {"contrast_native", boundary.contrast},
+          {"placed_by", boundary.followed ? "image" : "labels"}};
+}
+
+}  // namespace
+
+ordered_json label_run_json(const LabelResult& result, std::span<const SurfaceCheck> checks) {
+  ordered_json objects = ordered_json::array(), boundaries = ordered_json::array();
+  for (std::size_t n = 0; n < result.objects.size(); ++n) {
+    objects.push_back(object_json(result.objects[n], checks[n]));
+  }
+  for (const LabelBoundary& b : result.boundaries) boundaries.push_back(boundary_json(b));
+  const Parameters& p = result.parameters;
+  ordered_json report;
+  if (result.has_image) report["settings"] = to_json(settings_of(p));
+  report["object"] = {{"margin_mm", result.has_image ? ordered_json(result.margin) : nullptr},
+                      {"tolerance_mm", p.tolerance.value()},
+                      {"surfaces", std::move(objects)},
+                      {"boundaries", std::move(boundaries)}};
+  if (result.has_image) report["converged"] = result.flow_converged;
+  if (result.has_image) report["quality"] = image_json(p, result.image);
+  if (result.mesh) report.update(loop_json(summarize(*result.mesh, {})));
+  report["seconds_parts"] = {
+      {"prepare", result.seconds.prepare}, {"flow", result.seconds.flow},
+      {"surface", result.seconds.surface}, {"printable", result.seconds.printable},
+      {"mesh", result.seconds.mesh},       {"method", result.seconds.total}};
+  return report;
+}
+
+Verdict judge(const LabelResult& result, std::span<const SurfaceCheck> checks) {
+  for (std::size_t n = 0; n < checks.size(); ++n) {
+    const std::string flaws = solid_flaws_of(checks[n]);
+    if (flaws.empty()) continue;
+    return {VerdictKind::kNotClosed,
+            "'" + result.objects[n].segment.name +
+                "': expected a closed 2-manifold surface that faces outward, "
+                "found " +
+                flaws};
+  }
+  return {};
+}
+
+}  // namespace mesamis

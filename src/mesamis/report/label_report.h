@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+
+#include "mesamis/method/label_surfaces.h"
+#include "mesamis/report/verdict.h"
+
+namespace mesamis {
+
+/// What a report says of a run on labels: settings, object (its labels, margin, surfaces,
+/// boundaries), quality, seconds_parts; docs/formats.md lists the keys.
+/// @param result  of find_labelled_objects() or surfaces_of_labels().
+/// @param checks  of the surfaces of its objects, in their order.
+///
+/// O(points and triangles), up to a logarithm.
+nlohmann::ordered_json label_run_json(const LabelResult& result,
+                                      std::span<const SurfaceCheck> checks);
+
+/// Judges the surfaces of objects: each must be closed, 2-manifold and face outward.
+/// @param checks  as for label_run_json().
+Verdict judge(const LabelResult& result, std::span<const SurfaceCheck> checks);
+
+}  // namespace mesamis

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+set(ROOM_HEADERS
+  body_json.h
+  body_output.h
+  body_request.h
+  body_wishes.h
+  comparison_json.h
+  filled_objects.h
+  json_file.h
+  label_output.h
+  label_report.h
+  label_surface_files.h
+  mesh_output.h
+  meshing_json.h
+  meshing_surface.h
+  object_report.h
+  remesh_json.h
+  report.h
+  run_summary.h
+  run_surface.h
+  settings_json.h
+  verdict.h)
+set(ROOM_SOURCES
+  body_json.cpp
+  body_output.cpp
+  body_request.cpp
+  cell_labels.cpp
+  comparison_json.cpp
+  filled_objects.cpp
+  json_file.cpp
+  label_output.cpp
+  label_report.cpp
+  label_surface_files.cpp
+  line_crossing.cpp
+  mesh_output.cpp
+  meshing_json.cpp
+  meshing_surface.cpp
+  object_report.cpp
+  remesh_json.cpp
+  report.cpp
+  run_summary.cpp
+  run_surface.cpp
+  settings_json.cpp
+  verdict.cpp)
