@@ -11,7 +11,6 @@
 #include "label_lines.h"
 #include "log.h"
 #include "mesamis/base/error.h"
-#include "mesamis/chunk_files/chunked_scan.h"
 #include "mesamis/image/grey_values.h"
 #include "mesamis/image/label_map.h"
 #include "mesamis/image/not_numbers.h"
@@ -19,6 +18,7 @@
 #include "mesamis/label_files/read_labels.h"
 #include "mesamis/shape_files/file_kind.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "mesamis/volume_files/chunked_scan.h"
 #include "mesamis/volume_files/read_volume.h"
 #include "scan.h"
 

@@ -33,6 +33,4 @@ void commit(OutputSet& set);
 /// "Surface: .stl .ply ...": the formats that an option can write, for its help.
 std::string listed(const std::string& what, const std::vector<std::string>& extensions);
 
-using detail::lower_extension;
-
 }  // namespace mesamis

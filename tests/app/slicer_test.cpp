@@ -23,8 +23,6 @@
 
 namespace mesamis {
 namespace {
-
-using detail::XmlElement;
 using testing::HasSubstr;
 using Words = std::vector<std::string>;
 
@@ -35,7 +33,7 @@ XmlElement description(const TempFolder& folder) {
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.err, "");
   WideBudget budget;
-  return detail::parse_xml("description", run.out, budget).root;
+  return parse_xml("description", run.out, budget).root;
 }
 
 std::string text_in(const XmlElement& element, const std::string& name) {

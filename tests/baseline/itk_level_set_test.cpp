@@ -10,7 +10,7 @@
 #include "mesamis/baseline/geodesic_contour.h"
 #include "support/sampled_volume.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 constexpr std::array<Index, 3> kSize{24, 22, 20};
@@ -114,4 +114,4 @@ TEST_F(ItkLevelSetTest, ConvergesWhereTheSpeedIsZero) {
 TEST(HaveItk, IsWhatTheDoorSays) { EXPECT_EQ(have_itk(), has_geodesic_contour()); }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

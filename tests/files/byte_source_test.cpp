@@ -12,7 +12,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -155,4 +155,4 @@ TEST(ByteSource, MostBytesBoundsWhatAFileCanHold) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -6,7 +6,7 @@
 #include "mesamis/files/byte_source.h"
 #include "support/temp_folder.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(Deflate, ReadsBack) {
@@ -52,4 +52,4 @@ TEST(Deflate, AHigherLevelIsSmallerAndReadsBackToo) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

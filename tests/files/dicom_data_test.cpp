@@ -9,7 +9,7 @@
 #include "support/throws.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -157,4 +157,4 @@ TEST(DicomData, DeflatedDataAndItemsAreClaimedBeforeTheyAreMade) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 std::string converted(const std::string& text, const std::string& character_set) {
@@ -31,4 +31,4 @@ TEST(DicomText, Latin1BecomesUtf8) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -6,7 +6,7 @@
 
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -47,4 +47,4 @@ TEST(DicomWriter, UidsAreThoseOfTheirText) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -11,7 +11,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -88,4 +88,4 @@ TEST(FileList, AFileInAForbiddenFolderIsNotCalledMissing) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

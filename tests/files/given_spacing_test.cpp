@@ -7,7 +7,7 @@
 
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -27,4 +27,4 @@ TEST(GivenSpacing, NamesTheOneThatItReplaces) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -10,7 +10,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -32,4 +32,4 @@ TEST(InOneLine, EveryFailureBeginsWithThePath) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

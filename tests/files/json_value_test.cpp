@@ -8,7 +8,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -48,4 +48,4 @@ TEST(JsonValue, TellsWhereAndWhatItExpected) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(LengthUnit, IsKnownByItsSymbolAndItsWordsInEitherCase) {
@@ -28,4 +28,4 @@ TEST(LengthUnit, IsNoneForWhatIsNoLength) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -10,7 +10,7 @@
 #include "mesamis/base/available_memory.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -80,4 +80,4 @@ TEST(MemoryBudget, AVectorGrowsAsFarAsItIsAllowed) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(Bytes, NumbersAreLittleEndianUnlessTheFileIsBigEndian) {
@@ -41,4 +41,4 @@ TEST(NumberType, EachHasItsSizeAndItsValue) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

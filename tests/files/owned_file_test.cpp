@@ -10,7 +10,7 @@
 
 #include "support/temp_folder.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,4 +90,4 @@ TEST(RemoveAbandoned, TellsProcessesByTheirLocks) {
 TEST(RemoveAbandoned, AFolderThatIsNotThereIsNoFailure) { remove_abandoned("/no/such/folder"); }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -6,7 +6,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,4 +59,4 @@ TEST(FlushFolder, TakesOneThatIsThere) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

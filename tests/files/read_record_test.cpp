@@ -10,9 +10,6 @@
 namespace mesamis {
 namespace {
 
-using detail::ByteSource;
-using detail::Packing;
-
 std::vector<std::string> names_in(const ReadRecord& record) {
   std::vector<std::string> names;
   for (const ReadFile& file : record.files()) names.push_back(file.path.filename());

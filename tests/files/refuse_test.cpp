@@ -9,7 +9,7 @@
 
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(Refuse, GivesOneLineWhateverTheTextHolds) {
@@ -79,4 +79,4 @@ TEST(ParseNumber, TakesAWholeNumberOf64Bits) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

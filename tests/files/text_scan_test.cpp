@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -34,4 +34,4 @@ TEST(TextScan, LinesEndInEitherWayOrWithTheText) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

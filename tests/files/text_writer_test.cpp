@@ -10,7 +10,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(TextWriter, TheFileAppearsWithCommit) {
@@ -79,4 +79,4 @@ TEST(TextWriter, WhatIsNotFiniteIsRefused) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

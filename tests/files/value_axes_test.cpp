@@ -6,7 +6,7 @@
 
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -45,4 +45,4 @@ TEST(TakeValue, RefusesWithWhatThereIs) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -8,7 +8,7 @@
 #include "mesamis/files/xml_text.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -197,4 +197,4 @@ TEST(Xml, UnescapingUndoesEscaping) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -6,7 +6,7 @@
 #include "support/throws.h"
 #include "support/zip_bytes.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -61,4 +61,4 @@ TEST(ZipArchive, AClaimIsComparedWithTheBytesAndTheMemoryBeforeItIsUnpacked) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

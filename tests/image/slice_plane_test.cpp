@@ -9,7 +9,7 @@
 #include "support/sampled_volume.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -78,4 +78,4 @@ TEST(ToPage, RunsToTheRightAndUpward) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

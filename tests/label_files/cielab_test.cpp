@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -38,4 +38,4 @@ TEST(CieLab, ColoursBeyondSrgbAreClamped) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

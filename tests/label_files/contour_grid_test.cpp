@@ -9,7 +9,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -149,4 +149,4 @@ TEST(ContourGrid, RefusesContoursBeyondTheScanAndGridsTooLarge) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -196,12 +196,12 @@ TEST(ContourLabels, TheFrameOfReferenceIsTheScans) {
 }
 
 TEST(ContourLabels, ThatOverlapWithoutEndAreRefused) {
-  std::vector<detail::PlaneContour> contours;
+  std::vector<PlaneContour> contours;
   for (int n = 0; n < 3000; ++n) {
     contours.push_back({0, {{0, 0}, {500, 0}, {500, 500}, {0, 500 - 0.01 * n}}, false});
   }
   bool overlaps = false;
-  EXPECT_REFUSED(detail::filled_plane("f", contours, {0, 0, 512, 512}, overlaps),
+  EXPECT_REFUSED(filled_plane("f", contours, {0, 0, 512, 512}, overlaps),
                  HasSubstr("found too many"));
 }
 

@@ -9,7 +9,7 @@
 #include "support/throws.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::Each;
@@ -203,4 +203,4 @@ TEST(DicomSeg, LayersAreClaimedBeforeTheyAreMade) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

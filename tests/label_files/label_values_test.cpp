@@ -8,7 +8,7 @@
 
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -132,4 +132,4 @@ TEST(LabelValues, ColoursSurviveTheirText) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

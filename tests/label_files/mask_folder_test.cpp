@@ -9,7 +9,7 @@
 #include "support/throws.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -88,4 +88,4 @@ TEST(MaskFolder, WarningsOfAllFilesComeOnce) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

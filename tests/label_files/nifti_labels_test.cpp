@@ -12,7 +12,7 @@
 #include "support/throws.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -96,4 +96,4 @@ TEST(NiftiLabels, BothFormsPlaceTheGrid) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -6,7 +6,7 @@
 
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -82,4 +82,4 @@ TEST(NrrdSegments, KeysAreThoseOfSlicerAndReadBack) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

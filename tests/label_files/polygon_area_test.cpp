@@ -9,7 +9,7 @@
 #include <numeric>
 #include <random>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -98,4 +98,4 @@ TEST(PolygonArea, WindowHoldsWhatThePolygonTouches) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -9,7 +9,7 @@
 #include "support/throws.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -108,4 +108,4 @@ TEST(SegFile, RefusesFramesThatAreMissingOrCutOff) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -12,7 +12,7 @@
 #include "support/throws.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -129,4 +129,4 @@ TEST(SegGrid, BoundsTheVoxelsByTheBytesOfTheFile) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

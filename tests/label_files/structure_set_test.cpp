@@ -9,7 +9,7 @@
 #include "support/throws.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -106,4 +106,4 @@ TEST(StructureSet, BrokenOnesAreRefused) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -10,7 +10,7 @@
 #include "support/expect_near.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -106,4 +106,4 @@ TEST(VoxelLattice, RefusesGridsThatDoNotFitAndThoseFarApart) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(Base64, IsThatOfTheStandard) {
@@ -19,4 +19,4 @@ TEST(Base64, IsThatOfTheStandard) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

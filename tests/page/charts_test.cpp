@@ -7,7 +7,7 @@
 
 #include "page/sample_run.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using nlohmann::json;
@@ -58,4 +58,4 @@ TEST(Passes, AreDrawnFromTheSecondOn) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

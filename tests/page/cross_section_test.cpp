@@ -10,7 +10,7 @@
 #include "support/shapes.h"
 #include "support/solids.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 Volume around() {
@@ -67,4 +67,4 @@ TEST(MiddleOf, HasHalfOfTheAreaOnEitherSide) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using nlohmann::json;
@@ -52,4 +52,4 @@ TEST(NativeUnit, IsThatOfTheModality) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(HtmlEscaped, LeavesNothingThatMeansSomething) {
@@ -30,4 +30,4 @@ TEST(Html, ClosesEveryElementInItsWay) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -7,7 +7,7 @@
 #include "page/unpacked.h"
 #include "support/sampled_volume.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 int brightness(const Colour& c) { return c[0] + c[1] + c[2]; }
@@ -54,4 +54,4 @@ TEST(RegionAround, IsATenthWiderThanTheOutlinesAndWithinTheSlice) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -6,7 +6,7 @@
 #include "mesamis/page/run_page.h"
 #include "support/temp_folder.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -31,4 +31,4 @@ TEST(PageAssets, TheScriptAsksForNothing) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

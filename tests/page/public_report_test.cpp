@@ -7,7 +7,7 @@
 
 #include "page/sample_run.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using nlohmann::json;
@@ -118,4 +118,4 @@ TEST(RepeatCommand, TakesEveryWayToWriteAnOption) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -10,7 +10,7 @@
 #include "support/sampled_volume.h"
 #include "support/temp_folder.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 Volume oblique() {
@@ -66,4 +66,4 @@ TEST(ScanCopy, HoldsNoWordsAndIsTheSameEveryTime) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -7,7 +7,7 @@
 
 #include "page/sample_run.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using nlohmann::json;
@@ -113,4 +113,4 @@ TEST(Sections, OfAnEmptyReportAreEmpty) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

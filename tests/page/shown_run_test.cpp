@@ -8,7 +8,7 @@
 #include "page/sample_run.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(ShownRun, HasThreeSlicesInTheWindowOfTheRun) {
@@ -59,4 +59,4 @@ TEST(ShownRun, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

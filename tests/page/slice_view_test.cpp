@@ -12,7 +12,7 @@
 #include "support/sampled_volume.h"
 #include "support/shapes.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 /// x to the left, y to the back, z to the head; brighter to the left.
@@ -116,4 +116,4 @@ TEST(BarLength, IsRound) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -11,7 +11,7 @@
 #include "support/shapes.h"
 #include "support/solids.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 template <class T>
@@ -67,4 +67,4 @@ TEST(CoarseSurface, LeavesASmallSurface) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -9,7 +9,7 @@
 #include "support/shapes.h"
 #include "support/solids.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 constexpr Colour kRed{200, 0, 0}, kBlue{0, 0, 200}, kWhite{255, 255, 255};
@@ -52,4 +52,4 @@ TEST(SurfaceView, OfASinglePointIsWhite) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -7,7 +7,7 @@
 
 #include "mesamis/picture/raster.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 
 /// Undoes gzip or, of a zlib stream, deflate.
 inline std::string unpacked(const std::string& packed) {
@@ -34,4 +34,4 @@ inline Colour pixel(const Raster& picture, int x, int y) {
   return picture.grey ? Colour{*at, *at, *at} : Colour{at[0], at[1], at[2]};
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -6,7 +6,7 @@
 #include "support/png_image.h"
 #include "support/temp_folder.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 /// Where a picture is not white, in pixels from the lower left corner.
@@ -101,4 +101,4 @@ TEST_F(AnnotationTest, ColorBarRunsFromItsLowestColourToItsHighest) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

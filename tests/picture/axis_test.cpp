@@ -7,7 +7,7 @@
 
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -99,4 +99,4 @@ TEST(Axis, NeedsAPositiveValueForALogarithm) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 ValueRange range_of(const std::vector<double>& values, double lo = 0, double hi = 1) {
@@ -78,4 +78,4 @@ TEST(Viridis, GrowsLighterAllTheWay) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

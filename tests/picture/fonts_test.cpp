@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(Fonts, AreTrueTypeAndTwo) {
@@ -14,4 +14,4 @@ TEST(Fonts, AreTrueTypeAndTwo) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

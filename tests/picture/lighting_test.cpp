@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 constexpr Colour kGrey{150, 150, 150};
@@ -35,4 +35,4 @@ TEST(Lit, DoesNotOverflow) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -14,8 +14,6 @@
 
 namespace mesamis {
 namespace {
-
-using detail::XmlElement;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -30,7 +28,7 @@ void collect(const XmlElement& from, const std::string& name, std::vector<XmlEle
 std::vector<XmlElement> with_class(const std::string& svg, const std::string& name) {
   std::vector<XmlElement> found;
   WideBudget budget;
-  collect(detail::parse_xml("svg", svg, budget).root, name, found);
+  collect(parse_xml("svg", svg, budget).root, name, found);
   return found;
 }
 
@@ -125,7 +123,7 @@ TEST(Plot, EscapesTexts) {
   const std::string svg =
       plot_svg(series, {.title = "<script>", .x_label = "x > 0", .y_label = "grey value² µ"});
   WideBudget budget;
-  const XmlElement page = detail::parse_xml("svg", svg, budget).root;
+  const XmlElement page = parse_xml("svg", svg, budget).root;
   EXPECT_EQ(page.child("title")->text, "<script>");
   EXPECT_THAT(svg, HasSubstr(">a&lt;b<"));
   EXPECT_THAT(svg, HasSubstr(">&quot;c&quot; &amp; d<"));
@@ -138,7 +136,7 @@ TEST(Plot, ScalesAndHasATitle) {
   const PlotSeries series{"a", {1, 2}, {3, 4}};
   const std::string svg = plot_svg(std::vector{series}, {.size = {640, 400}, .title = "Distances"});
   WideBudget budget;
-  const XmlElement page = detail::parse_xml("svg", svg, budget).root;
+  const XmlElement page = parse_xml("svg", svg, budget).root;
   EXPECT_EQ(page.name, "svg");
   EXPECT_EQ(page.attribute("viewBox"), "0 0 640 400");
   EXPECT_EQ(page.attribute("role"), "img");

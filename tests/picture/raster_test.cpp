@@ -9,7 +9,7 @@
 #include "page/unpacked.h"
 #include "support/temp_folder.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(Png, IsReadBackToTheSamePixels) {
@@ -81,4 +81,4 @@ TEST(FillRectangle, MixesWhatItCoversInPart) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

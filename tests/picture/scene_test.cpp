@@ -9,7 +9,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -88,4 +88,4 @@ TEST(Scene, RefusesASizeOutOfRange) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

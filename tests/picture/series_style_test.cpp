@@ -8,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 /// Relative luminance after WCAG 2, from "#rrggbb": 0 black, 1 white.
@@ -45,4 +45,4 @@ TEST(SeriesStyle, ColoursStandOutFromWhite) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

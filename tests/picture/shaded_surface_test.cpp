@@ -6,7 +6,7 @@
 #include "mesamis/surface/crease_normals.h"
 #include "support/shapes.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 constexpr Colour kPaint{200, 180, 160}, kInside{10, 200, 10};
@@ -72,4 +72,4 @@ TEST(Shaded, IsSmoothWithNormals) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

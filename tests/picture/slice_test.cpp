@@ -9,7 +9,7 @@
 #include "support/sampled_volume.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 Volume volume_along(const Mat3& direction) {
@@ -96,4 +96,4 @@ TEST(Outline, IsEmptyBesideTheSurface) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -6,7 +6,7 @@
 #include "mesamis/files/xml.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(SvgNumber, HasTwoDecimalsAndNoNeedlessZeros) {
@@ -34,4 +34,4 @@ TEST(SvgElement, ReadsBackAsItWasMade) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -7,7 +7,7 @@
 
 #include "page/unpacked.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 constexpr Colour kWhite{255, 255, 255};
@@ -90,4 +90,4 @@ TEST(Text, MixesItsColourWithThatBelow) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -6,7 +6,7 @@
 #include <clocale>
 #include <cmath>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -68,4 +68,4 @@ TEST(TickLabels, DoNotDependOnTheLocale) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

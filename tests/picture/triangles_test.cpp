@@ -11,7 +11,7 @@
 #include "mesamis/base/threads.h"
 #include "page/unpacked.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 constexpr Colour kPaper{255, 255, 255}, kRed{255, 0, 0}, kBlue{0, 0, 255};
@@ -124,4 +124,4 @@ TEST(Triangles, GiveTheSameBytesForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -9,7 +9,7 @@
 #include "mesamis/remesh/body.h"
 #include "remesh/small_body.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 const FormulaMetric kMetric = uniform_metric(0.12);
@@ -67,4 +67,4 @@ TEST(BalanceSkin, KeepsToTheToleranceAndToFrozenVertices) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -3,7 +3,7 @@
 
 #include "remesh/small_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 double energy_at(SmallMesh& small, std::span<const Index> ball, Index v, const Vec3& position) {
@@ -91,4 +91,4 @@ TEST(BallShape, SolvingUndoesTheMetric) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -5,7 +5,7 @@
 
 #include "remesh/small_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 const FormulaMetric kCoarse = uniform_metric(1);
@@ -71,4 +71,4 @@ TEST(Cavity, ReplacingCellsByThemselvesKeepsTheMesh) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -3,7 +3,7 @@
 
 #include "remesh/small_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 TEST(Collapse, ABoxMeshFallsToItsCorners) {
@@ -67,4 +67,4 @@ TEST(Collapse, ShorterEdgesMayMakeLongerOnes) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -8,7 +8,7 @@
 #include "remesh/small_body.h"
 #include "support/throws.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -69,4 +69,4 @@ TEST(Cut, RefusesWhatHoldsNothing) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -7,7 +7,7 @@
 #include "mesamis/mesh/edges.h"
 #include "remesh/small_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 const FormulaMetric kGraded([](const Vec3& p) {
@@ -89,4 +89,4 @@ TEST(EdgeCandidates, AreGoneWithTheirCell) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -3,7 +3,7 @@
 
 #include "remesh/small_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 /// Fine in a ball that no vertex or edge of a coarse mesh meets.
@@ -37,4 +37,4 @@ TEST(Explore, ProbesIntegrateTheComplexity) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

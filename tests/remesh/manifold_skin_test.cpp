@@ -7,7 +7,7 @@
 
 #include "remesh/small_body.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 const FormulaMetric kMetric = uniform_metric(0.25);
@@ -63,4 +63,4 @@ TEST(ManifoldSkin, CellsAtRandomTouchNoMore) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -7,7 +7,7 @@
 #include "mesamis/remesh/split.h"
 #include "remesh/small_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 const FormulaMetric kFine = uniform_metric(0.15);
@@ -82,4 +82,4 @@ TEST(Partition, WorkOnPartsGivesAValidMeshAndTheSameBitsForAnyThreads) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

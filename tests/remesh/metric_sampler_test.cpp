@@ -11,7 +11,7 @@
 #include "mesamis/remesh/geometry.h"
 #include "support/metric_fields.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -96,4 +96,4 @@ TEST(MetricSampler, MakesEveryAnswerSafe) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

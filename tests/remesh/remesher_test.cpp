@@ -8,7 +8,7 @@
 #include "remesh/small_mesh.h"
 #include "support/throws.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -111,4 +111,4 @@ TEST(Remesher, ProgressStopsIt) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -3,7 +3,7 @@
 
 #include "remesh/small_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 /// A box mesh with one inner vertex moved next to a face of one of its cells.
@@ -59,4 +59,4 @@ TEST(Repair, LeavesGoodCellsAlone) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -8,7 +8,7 @@
 #include "mesamis/mesh/element_quality.h"
 #include "remesh/small_body.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 const FormulaMetric kMetric = uniform_metric(0.25);
@@ -99,4 +99,4 @@ TEST(ShapeRepair, KeepsAFlatSkinAndTheVolume) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -8,7 +8,7 @@
 #include "mesamis/mesh/element_quality.h"
 #include "remesh/small_body.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 const FormulaMetric kMetric = uniform_metric(0.25);
@@ -119,4 +119,4 @@ TEST(SettleMoved, MeasuresTheCellsAroundAgainAndMarksThem) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -9,7 +9,7 @@
 #include "remesh/small_body.h"
 #include "support/expect_near.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 /// Below the plane z = 0.5 one material, above it another; or nothing.
@@ -191,4 +191,4 @@ TEST(Skin, AWallIsNotCutThrough) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -8,7 +8,7 @@
 #include "remesh/small_mesh.h"
 #include "support/body_shapes.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 
 /// Bricks of the unit box, whose cells get the material of their middle.
 struct SmallBody : SmallMesh {
@@ -88,4 +88,4 @@ inline double volume_of(const WorkingMesh& mesh) {
   return sum;
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

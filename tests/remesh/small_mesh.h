@@ -11,7 +11,7 @@
 #include "support/metric_fields.h"
 #include "support/perturbed_box.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 
 /// A small mesh on the bench, ready for single operations.
 struct SmallMesh {
@@ -88,4 +88,4 @@ inline double total_energy(const WorkingMesh& mesh) {
   return sum;
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -4,7 +4,7 @@
 #include "mesamis/remesh/split.h"
 #include "remesh/small_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 TEST(Smooth, EveryMoveLowersTheEnergy) {
@@ -97,4 +97,4 @@ TEST(Smooth, ASmallGainDoesNotMakeNeighboursMove) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

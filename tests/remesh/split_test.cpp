@@ -3,7 +3,7 @@
 
 #include "remesh/small_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 TEST(Split, EveryEdgeOfABoxMeshCanBeSplit) {
@@ -83,4 +83,4 @@ TEST(Split, StopsAtTheMostCells) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

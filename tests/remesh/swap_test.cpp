@@ -3,7 +3,7 @@
 
 #include "remesh/small_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 /// A metric in which a Kuhn mesh is bad.
@@ -53,4 +53,4 @@ TEST(Swap, TurnsTheDiagonalOfAFlatQuad) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

@@ -7,7 +7,7 @@
 #include "mesamis/mesh/metric.h"
 #include "remesh/small_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis {
 namespace {
 
 const FormulaMetric kUniform = uniform_metric(0.3);
@@ -135,4 +135,4 @@ TEST(WorkingMesh, MeasuresQualitiesAndMetrics) {
 }
 
 }  // namespace
-}  // namespace mesamis::remeshing
+}  // namespace mesamis

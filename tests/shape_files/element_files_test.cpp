@@ -63,9 +63,9 @@ TEST(ElementFiles, VtuOfQuadraticElementsHasVtksOrder) {
   const FiniteElements e = two_elements(true);
   write_elements(folder / "m.vtu", e);
   const std::string bytes = read_bytes(folder / "m.vtu");
-  detail::MemoryBudget budget(folder / "m.vtu", {});
-  detail::VtkXml xml(folder / "m.vtu", bytes, "UnstructuredGrid", budget);
-  const detail::XmlElement* piece = xml.data_set().child("Piece");
+  MemoryBudget budget(folder / "m.vtu", {});
+  VtkXml xml(folder / "m.vtu", bytes, "UnstructuredGrid", budget);
+  const XmlElement* piece = xml.data_set().child("Piece");
   ASSERT_NE(piece, nullptr);
   const auto& arrays = piece->child("Cells")->children;
   const auto connectivity = xml.values(arrays.at(0), 20);

@@ -57,27 +57,27 @@ TEST(Encapsulated, CoordinatesAreLpsWhateverTheFrame) {
   EXPECT_GE(back.surface.points[0].x, 1);
 }
 
-detail::DicomFile parsed(const std::filesystem::path& path) {
+DicomFile parsed(const std::filesystem::path& path) {
   WideBudget budget;
-  return detail::read_dicom_file(path, budget);
+  return read_dicom_file(path, budget);
 }
 
 TEST(Encapsulated, BelongsToThePatientThatIsGivenAndElseToNone) {
   const TempFolder folder;
   write_surface(folder / "a.dcm", cube({}, 1), {.name = "hip", .subject = patient()});
-  const detail::DicomFile first = parsed(folder / "a.dcm");
-  const detail::DicomSet& known = first.elements;
-  EXPECT_EQ(detail::text_of(known, 0x00100010), "M\xc3\xbcller^Eva");
-  EXPECT_EQ(detail::text_of(known, 0x0020000d), "1.2.5");
-  EXPECT_EQ(detail::text_of(known, 0x00200052), "1.2.9");
-  EXPECT_EQ(detail::text_of(known.at(0x00420013).items.at(0), 0x00081155), "1.2.6");
-  EXPECT_EQ(detail::text_of(known, 0x00420010), "hip");
+  const DicomFile first = parsed(folder / "a.dcm");
+  const DicomSet& known = first.elements;
+  EXPECT_EQ(text_of(known, 0x00100010), "M\xc3\xbcller^Eva");
+  EXPECT_EQ(text_of(known, 0x0020000d), "1.2.5");
+  EXPECT_EQ(text_of(known, 0x00200052), "1.2.9");
+  EXPECT_EQ(text_of(known.at(0x00420013).items.at(0), 0x00081155), "1.2.6");
+  EXPECT_EQ(text_of(known, 0x00420010), "hip");
   write_surface(folder / "b.dcm", cube({}, 1), {});
-  const detail::DicomFile second = parsed(folder / "b.dcm");
-  const detail::DicomSet& none = second.elements;
-  EXPECT_EQ(detail::text_of(none, 0x00100010), "");
-  EXPECT_THAT(detail::text_of(none, 0x0020000d), testing::StartsWith("2.25."));
-  EXPECT_NE(detail::text_of(none, 0x0020000d), detail::text_of(none, 0x0020000e));
+  const DicomFile second = parsed(folder / "b.dcm");
+  const DicomSet& none = second.elements;
+  EXPECT_EQ(text_of(none, 0x00100010), "");
+  EXPECT_THAT(text_of(none, 0x0020000d), testing::StartsWith("2.25."));
+  EXPECT_NE(text_of(none, 0x0020000d), text_of(none, 0x0020000e));
   EXPECT_EQ(none.count(0x00420013), 0u);
   write_surface(folder / "c.dcm", cube({}, 1), {});
   EXPECT_EQ(read_bytes(folder / "b.dcm"), read_bytes(folder / "c.dcm"));
@@ -89,12 +89,12 @@ TEST(Encapsulated, OfOtherProgramsIsReadInItsUnit) {
       "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 2 0\n"
       "endloop\nendfacet\nendsolid a\n";
   const auto file = [&](const std::string& unit, const std::string& document) {
-    detail::DicomSetWriter set;
+    DicomSetWriter set;
     set.set(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.104.3");
     set.set(0x00420011, "OB", document);
-    if (!unit.empty()) set.set_items(0x004008ea, {detail::dicom_code({unit, "UCUM", unit})});
+    if (!unit.empty()) set.set_items(0x004008ea, {dicom_code({unit, "UCUM", unit})});
     write_bytes(folder / "a.dcm",
-                detail::dicom_file_bytes(set, {"1.2.840.10008.5.1.4.1.1.104.3", "1.2.3"}));
+                dicom_file_bytes(set, {"1.2.840.10008.5.1.4.1.1.104.3", "1.2.3"}));
     return read_surface(folder / "a.dcm").points[1].x;
   };
   EXPECT_EQ(text.size() % 2, 1u);  // a zero byte makes it even, and no length is stated
@@ -107,10 +107,9 @@ TEST(Encapsulated, OfOtherProgramsIsReadInItsUnit) {
 
 TEST(Encapsulated, OtherDicomFilesAreNoSurfaces) {
   const TempFolder folder;
-  detail::DicomSetWriter set;
+  DicomSetWriter set;
   set.set(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.2");
-  write_bytes(folder / "a.dcm",
-              detail::dicom_file_bytes(set, {"1.2.840.10008.5.1.4.1.1.2", "1.2.3"}));
+  write_bytes(folder / "a.dcm", dicom_file_bytes(set, {"1.2.840.10008.5.1.4.1.1.2", "1.2.3"}));
   EXPECT_EQ(kind_of(folder / "a.dcm"), FileKind::kVolume);
   EXPECT_REFUSED(read_surface(folder / "a.dcm"),
                  HasSubstr("expected an Encapsulated STL or OBJ in DICOM"));

@@ -16,9 +16,9 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-detail::XmlElement read_feb(const std::filesystem::path& path) {
-  detail::MemoryBudget budget(path, {});
-  return detail::parse_xml(path, read_bytes(path), budget).root;
+XmlElement read_feb(const std::filesystem::path& path) {
+  MemoryBudget budget(path, {});
+  return parse_xml(path, read_bytes(path), budget).root;
 }
 
 std::vector<int> numbers_of(std::string text) {
@@ -28,9 +28,8 @@ std::vector<int> numbers_of(std::string text) {
 }
 
 /// The children of an element that have a tag, by their names or, where they have none, their ids.
-std::map<std::string, detail::XmlElement> children(const detail::XmlElement& parent,
-                                                   const std::string& tag) {
-  std::map<std::string, detail::XmlElement> found;
+std::map<std::string, XmlElement> children(const XmlElement& parent, const std::string& tag) {
+  std::map<std::string, XmlElement> found;
   for (const auto& child : parent.children) {
     if (child.name != tag) continue;
     const std::string name = child.attribute("name");

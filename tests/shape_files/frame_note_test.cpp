@@ -3,7 +3,7 @@
 
 #include "mesamis/shape_files/surface_formats.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(FrameNote, StatesAFrameThatIsReadBack) {
@@ -27,4 +27,4 @@ TEST(FrameNote, AnyOtherNameIsNoFrame) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -18,8 +18,6 @@
 
 namespace mesamis {
 namespace {
-
-using detail::append;
 using testing::AllOf;
 using testing::HasSubstr;
 

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 TEST(MeshChecks, CellsAreCountedPerSet) {
   const CellSets sets{{{"A", ""}, {"B", ""}, {"C", ""}}, {2, 0, 2, 2}};
-  EXPECT_EQ(detail::cells_per_set(sets), (std::vector<std::int64_t>{1, 0, 3}));
+  EXPECT_EQ(cells_per_set(sets), (std::vector<std::int64_t>{1, 0, 3}));
 }
 
 /// Both finite element formats refuse the same, and leave no file.

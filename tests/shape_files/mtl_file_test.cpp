@@ -6,7 +6,7 @@
 #include "support/throws.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -51,4 +51,4 @@ TEST(Mtl, SaysInWhichLineItIsWrong) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

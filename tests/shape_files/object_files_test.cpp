@@ -254,7 +254,7 @@ TEST(ObjectPaths, DifferEvenWhereCaseDoesNotCount) {
         {std::string(200, 'x'), std::string(300, 'x'), "", " ", "object", "object-3"}}) {
     std::set<std::string> seen;
     for (const auto& path : object_paths("o.stl", named(names))) {
-      EXPECT_TRUE(seen.insert(detail::lower(path.string())).second) << path;
+      EXPECT_TRUE(seen.insert(lower(path.string())).second) << path;
     }
     EXPECT_EQ(seen.size(), names.size());
   }
@@ -311,19 +311,19 @@ TEST(RoundedTogether, KeepsStlFilesOfNeighboursInContact) {
 }
 
 TEST(ObjectNumbers, ArePlainLabels) {
-  EXPECT_EQ(detail::object_label_in("12"), 12);
-  EXPECT_EQ(detail::object_label_in("0"), 0);
+  EXPECT_EQ(object_label_in("12"), 12);
+  EXPECT_EQ(object_label_in("0"), 0);
   for (const char* none : {"", "-1", "1.5", "x", "99999999999", "1 2"}) {
-    EXPECT_EQ(detail::object_label_in(none), std::nullopt) << none;
+    EXPECT_EQ(object_label_in(none), std::nullopt) << none;
   }
 }
 
 TEST(Channel, OfAShareIsAByte) {
-  EXPECT_EQ(detail::channel_of(0.2), 51);
-  EXPECT_EQ(detail::channel_of(7), 255);
-  EXPECT_EQ(detail::channel_of(-1), 0);
-  EXPECT_EQ(detail::channel_of(std::nan("")), 0);
-  for (int byte = 0; byte < 256; ++byte) EXPECT_EQ(detail::channel_of(byte / 255.0), byte);
+  EXPECT_EQ(channel_of(0.2), 51);
+  EXPECT_EQ(channel_of(7), 255);
+  EXPECT_EQ(channel_of(-1), 0);
+  EXPECT_EQ(channel_of(std::nan("")), 0);
+  for (int byte = 0; byte < 256; ++byte) EXPECT_EQ(channel_of(byte / 255.0), byte);
 }
 
 }  // namespace

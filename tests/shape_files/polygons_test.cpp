@@ -8,7 +8,7 @@
 #include "support/throws.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using Corners = std::vector<double>;
@@ -73,4 +73,4 @@ TEST(Polygons, WhatIsNoNumberOfAPointIsRefused) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

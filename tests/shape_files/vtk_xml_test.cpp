@@ -10,7 +10,7 @@
 #include "support/throws.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -188,4 +188,4 @@ TEST(VtkXml, OtherFilesAreRefused) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -255,7 +255,6 @@ TEST(VtkXmlWriter, SurfacesAreAsByVtk) {
 }
 
 TEST(VtkXmlWriter, TextsAsNumbersAreReadBackAsTexts) {
-  using namespace detail;
   const std::vector<std::string> texts{"femur", "os coxae", "M\xc3\xbcller"};
   const std::string file = vtk_xml_bytes(
       {"UnstructuredGrid",

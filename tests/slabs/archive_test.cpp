@@ -8,7 +8,7 @@
 #include "mesamis/base/types.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -63,4 +63,4 @@ TEST(Archive, RefusesCountsThatNoFileHolds) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -11,7 +11,7 @@
 #include "support/metric_fields.h"
 #include "support/perturbed_box.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 const Box kBox{{0, 0, 0}, {4, 4, 8}};
@@ -171,4 +171,4 @@ TEST(StackedBackground, OfWindowsIsThatOfTheWhole) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

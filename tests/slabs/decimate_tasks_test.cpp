@@ -6,7 +6,7 @@
 #include "mesamis/surface/self_intersections.h"
 #include "slabs/three_slabs.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using DecimateSlab = OnMeshedSlabs;
@@ -35,4 +35,4 @@ TEST_F(DecimateSlab, KeepsThePromisesOfDecimateAndLeavesNoSeams) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

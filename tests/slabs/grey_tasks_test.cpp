@@ -4,7 +4,7 @@
 #include "mesamis/method/mes_amis.h"
 #include "slabs/three_slabs.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using FindGrey = OnMeshedSlabs;
@@ -30,4 +30,4 @@ TEST_F(FindGrey, IsThatOfTheWholeMesh) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

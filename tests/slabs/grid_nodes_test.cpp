@@ -9,7 +9,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -62,4 +62,4 @@ TEST(GridNodes, RefusesAFileOfAnotherSize) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

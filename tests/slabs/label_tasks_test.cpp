@@ -11,7 +11,7 @@
 #include "support/label_grids.h"
 #include "support/temp_folder.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 /// A label map that is cut into slabs, and what its tasks leave.
@@ -131,4 +131,4 @@ TEST_F(LabelTasks, HoldTheirSlicesAndThoseInReach) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

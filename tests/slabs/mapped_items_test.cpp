@@ -7,7 +7,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -50,4 +50,4 @@ TEST(MappedItems, RefusesFilesThatAreMissingOrOfAnotherSize) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

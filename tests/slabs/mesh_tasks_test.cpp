@@ -13,7 +13,7 @@
 #include "slabs/small_run.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -229,4 +229,4 @@ TEST_F(MeshTasks, RefuseFilesThatAreCutOff) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -3,7 +3,7 @@
 
 #include "slabs/three_slabs.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using ListParts = OnMeshedSlabs;
@@ -45,4 +45,4 @@ TEST_F(ListParts, TellTheHeightsOfTheirPieces) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -10,7 +10,7 @@
 #include "support/metric_fields.h"
 #include "support/perturbed_box.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 /// Values that follow from the place, so that a node in wrong company is seen.
@@ -126,4 +126,4 @@ TEST(LumpedMass, IsTheVolumeOfTheMesh) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

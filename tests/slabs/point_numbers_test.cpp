@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(PointNumbers, CountPointsThatDifferByABit) {
@@ -26,4 +26,4 @@ TEST(PointNumbers, TakeBothZerosForOne) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

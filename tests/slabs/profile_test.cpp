@@ -8,7 +8,7 @@
 #include "support/perturbed_box.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -73,4 +73,4 @@ TEST(Profile, RefusesSlicesThatAreNotThere) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 Iteration record(std::int64_t tets, double scale) {
@@ -60,4 +60,4 @@ TEST(SumOfRecords, WithoutCellsThereIsNoMean) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

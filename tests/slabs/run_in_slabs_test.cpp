@@ -39,7 +39,7 @@ SlabRunResult run_alone(const Volume& scan, SlabRunOptions options,
 
 /// A rod in two slabs, made by one thread, with all that a run can give: for all tests that compare
 /// with it. Its scratch files are kept.
-struct TwoSlabs {
+struct RunOfTwoSlabs {
   TempFolder folder;
   Volume scan = scan_of_rod(72);
   SlabRunOptions options{
@@ -61,8 +61,8 @@ struct TwoSlabs {
   }
 };
 
-const TwoSlabs& two_slabs() {
-  static const TwoSlabs run;
+const RunOfTwoSlabs& two_slabs() {
+  static const RunOfTwoSlabs run;
   return run;
 }
 

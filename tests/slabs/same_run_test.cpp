@@ -6,7 +6,7 @@
 #include "mesamis/base/error.h"
 #include "support/temp_folder.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(SameRun, AFolderBelongsToItsFirstRun) {
@@ -28,4 +28,4 @@ TEST(SameRun, IsDescribedByItsSettings) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

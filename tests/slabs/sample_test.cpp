@@ -5,7 +5,7 @@
 
 #include "support/sampled_volume.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 VoxelGrid grid_of(const std::array<Index, 3>& size) {
@@ -47,4 +47,4 @@ TEST(SampleSlices, AreTwoAtLeast) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -6,7 +6,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
@@ -67,4 +67,4 @@ TEST(Scratch, RefusesWhatItCannotReadOrWrite) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -6,7 +6,7 @@
 #include "mesamis/slabs/tasks.h"
 #include "slabs/small_run.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 void prepare_all(const SlabRun& run) {
@@ -84,4 +84,4 @@ TEST(GridSlab, OnlyInnerBordersHaveNeighbours) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

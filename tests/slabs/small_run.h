@@ -44,8 +44,6 @@ inline Settings quick_settings() {
   return settings;
 }
 
-namespace detail {
-
 /// A scan with its plan and choice, and a folder for scratch files.
 struct SmallRun {
   explicit SmallRun(Index slices, std::vector<Index> cuts,
@@ -79,5 +77,4 @@ struct SmallRun {
   SlabRun run;
 };
 
-}  // namespace detail
 }  // namespace mesamis

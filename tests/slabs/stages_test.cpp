@@ -11,7 +11,7 @@
 #include "mesamis/base/parallel.h"
 #include "support/temp_folder.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 class Rank : public Team {
@@ -110,4 +110,4 @@ TEST_F(StagesAlone, ATaskThatFailsIsDoneAgain) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -7,7 +7,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(StoredLabels, AreReadSliceBySlice) {
@@ -49,4 +49,4 @@ TEST(StoredLabels, AreRefusedWhereThereAreNone) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -5,7 +5,7 @@
 
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 /// Two triangles over the square from (x, 0) to (x + 1, 1), moved up.
@@ -61,4 +61,4 @@ TEST(SurfacePiece, ComesBackFromAnArchive) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

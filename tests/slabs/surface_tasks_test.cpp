@@ -12,7 +12,7 @@
 #include "slabs/three_slabs.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -33,7 +33,8 @@ TEST_F(ExtractSlab, PiecesFitAndAreTheSurfaceOfTheWholeMesh) {
   ThreeSlabs slabs;
   slabs.extract();
   const SurfacePiece joined = slabs.extracted();
-  const TriMesh surface = mesh_of(joined, &SurfacePoint::key), whole = slabs.whole_surface();
+  const TriMesh surface = mesh_of(joined, &detail::slabs::SurfacePoint::key),
+                whole = slabs.whole_surface();
   EXPECT_EQ(solid_flaws_of(check_surface(surface)), "");
   EXPECT_EQ(surface.points.size(), whole.points.size());
   EXPECT_EQ(surface.triangles.size(), whole.triangles.size());
@@ -90,7 +91,7 @@ TEST_F(FollowBorder, MovesWhatTheSlabsHaveLeft) {
   int moved = 0, points = 0;
   for (Index s = 0; s < 2; ++s) {
     const SurfacePiece border = read_surface(slabs.small.scratch, surface_file("border", s));
-    for (const SurfacePoint& p : border.points) {
+    for (const detail::slabs::SurfacePoint& p : border.points) {
       ++points;
       moved += p.at != p.key;
       EXPECT_LT(norm(p.at - p.key), (0.7 + 0.25) * slabs.voxel() + 1e-9);
@@ -103,7 +104,7 @@ TEST_F(FollowBorder, MovesWhatTheSlabsHaveLeft) {
 /// The heights of the points that a task on a border may move.
 HeightRange free_heights(const SurfacePiece& piece) {
   HeightRange heights{1e9, -1e9};
-  for (const SurfacePoint& p : piece.points) {
+  for (const detail::slabs::SurfacePoint& p : piece.points) {
     if (p.settled) continue;
     heights = {std::min(heights.low, p.key.z), std::max(heights.high, p.key.z)};
   }
@@ -132,4 +133,4 @@ TEST_F(SurfaceTasks, RefuseFilesThatAreCutOff) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -12,7 +12,7 @@
 #include "mesamis/surface/extract.h"
 #include "slabs/small_run.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 
 /// Three slabs with their last mesh, made once for all tests of a process.
 inline const SmallRun& meshed_slabs() {
@@ -87,4 +87,4 @@ struct ThreeSlabs {
   std::optional<SurfaceRun> run;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis

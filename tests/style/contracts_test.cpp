@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contracts of the doors: each function outside of namespace detail has a comment, and few
-// parameters.
+// The contracts of the doors: each function has a comment, and few parameters.
 //
 // A function is judged by its declaration and its comment alone. Operators, destructors, defaulted
 // functions and overrides are left out: they keep the contract of the language or of the base
@@ -22,9 +21,11 @@ namespace {
 constexpr std::size_t kMostParameters = 4;
 
 /// Doors for other rooms, not installed, of which some functions still have no comment.
-const std::set<std::string> kUncommented{"decimate/single_places.h", "fit/surface_moves.h",
-                                         "method/passes.h", "surface/disjoint_sets.h",
-                                         "surface/half_edges.h"};
+const std::set<std::string> kUncommented{
+    "decimate/single_places.h", "files/file_list.h",    "files/json_value.h",
+    "files/memory_budget.h",    "files/number_type.h",  "files/refuse.h",
+    "fit/surface_moves.h",      "method/passes.h",      "picture/raster.h",
+    "surface/disjoint_sets.h",  "surface/half_edges.h", "volume_files/formats.h"};
 
 bool has(const std::string& text, const char* pattern) {
   return std::regex_search(text, std::regex(pattern, std::regex::icase));
@@ -56,7 +57,6 @@ TEST(Contracts, OfEveryDoorHaveACommentAndFewParameters) {
   for (const auto& [name, room] : read_rooms()) {
     for (const auto& door : room.doors) {
       const std::string text = file_text(room.folder / door);
-      if (text.find("namespace mesamis::detail") != std::string::npos) continue;
       if (kUncommented.count(name + "/" + door)) continue;
       for (const DoorFunction& f : parse_door(text)) {
         if (!is_left_out(f)) tally.add(name + "/" + door, f);

@@ -72,21 +72,6 @@ TEST(Doors, NoTwoTypesHaveOneName) {
   EXPECT_GT(definitions.size(), 200u);
 }
 
-/// The headers that one leads to, itself included; names below src/.
-std::set<std::string> reached_from(const std::string& door) {
-  std::set<std::string> reached;
-  std::vector<std::string> open{door};
-  while (!open.empty()) {
-    const std::string header = open.back();
-    open.pop_back();
-    if (header.rfind("mesamis/", 0) != 0 || !reached.insert(header).second) continue;
-    for (const auto& to : includes_of(fs::path(MESAMIS_SOURCE_DIR) / "src" / header)) {
-      open.push_back(to);
-    }
-  }
-  return reached;
-}
-
 /// Who includes the library reads few headers, and needs no other library for them.
 TEST(Doors, TheFrontDoorLeadsToFewHeadersAndNoOtherLibrary) {
   const auto reached = reached_from("mesamis/mesamis.h");

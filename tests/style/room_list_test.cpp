@@ -3,6 +3,8 @@
 // CONTRIBUTING.md describes the rooms of that list.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 
 #include "style/rooms.h"
@@ -82,6 +84,47 @@ TEST(RoomList, NamesEveryRoomOnce) {
   for (const auto& [name, room] : read_rooms()) folders.insert(name);
   EXPECT_EQ(names, folders);
   EXPECT_EQ(rooms_of_the_table(contributing()), names);
+}
+
+/// The namespaces that a header opens.
+std::set<std::string> namespaces_of(const fs::path& file) {
+  static const std::regex open("(?:^|\n)namespace ([\\w:]+) \\{");
+  const std::string text = file_text(file);
+  const std::sregex_iterator begin(text.begin(), text.end(), open), end;
+  std::set<std::string> names;
+  std::transform(begin, end, std::inserter(names, names.end()),
+                 [](const std::smatch& match) { return match[1].str(); });
+  return names;
+}
+
+TEST(RoomList, NamesTheNamespacesOfRoomsH) {
+  const std::string text = file_text(fs::path(MESAMIS_SOURCE_DIR) / "src/mesamis/rooms.h");
+  std::string lines;
+  for (const std::string& room : read_room_list().names) {
+    lines += "namespace detail::" + room + " {}\nusing namespace detail::" + room + ";\n";
+  }
+  EXPECT_EQ(between(text, "namespace mesamis {\n", "}  // namespace mesamis"), lines);
+}
+
+/// Public are the headers that a front door leads to. Any other one opens the namespace of its room and leads to rooms.h.
+TEST(RoomList, NamesTheNamespaceOfWhatIsPrivate) {
+  auto open = reached_from("mesamis/mesamis.h");
+  open.merge(reached_from("mesamis/baseline/baseline_surface.h"));
+  for (const auto& [name, room] : read_rooms()) {
+    for (const auto& file : project_files(room.folder, {".h"})) {
+      const std::string header = "mesamis/" + name + "/" + file.filename().string();
+      if (open.count(header)) {
+        EXPECT_TRUE(namespaces_of(file).count("mesamis")) << file;
+        EXPECT_FALSE(reached_from(header).count("mesamis/rooms.h")) << file;
+        continue;
+      }
+      for (const std::string& inside : namespaces_of(file)) {
+        EXPECT_FALSE(inside.rfind("mesamis", 0) == 0 && inside != "mesamis::detail::" + name)
+            << file << " opens " << inside;
+      }
+      EXPECT_TRUE(reached_from(header).count("mesamis/rooms.h")) << file;
+    }
+  }
 }
 
 TEST(RoomList, IsThePictureInContributing) {

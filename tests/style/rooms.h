@@ -82,4 +82,20 @@ inline std::vector<std::string> includes_of(const std::filesystem::path& file) {
   return found;
 }
 
+/// The headers that one leads to, itself included; names below src/ and tools/.
+inline std::set<std::string> reached_from(const std::string& door) {
+  std::set<std::string> reached;
+  std::vector<std::string> open{door};
+  while (!open.empty()) {
+    const std::string header = open.back();
+    open.pop_back();
+    if (header.rfind("mesamis/", 0) != 0 || !reached.insert(header).second) continue;
+    for (const char* root : {"src", "tools"}) {
+      const auto file = std::filesystem::path(MESAMIS_SOURCE_DIR) / root / header;
+      for (const auto& to : includes_of(file)) open.push_back(to);
+    }
+  }
+  return reached;
+}
+
 }  // namespace mesamis

@@ -6,7 +6,7 @@
 namespace mesamis {
 
 /// A gigabyte: more than any file of a test needs.
-struct WideBudget : detail::MemoryBudget {
+struct WideBudget : MemoryBudget {
   WideBudget() : MemoryBudget("a file", {1}) {}
 };
 

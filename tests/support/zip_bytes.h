@@ -30,7 +30,6 @@ inline std::string raw_deflated(const std::string& bytes) {
 /// A ZIP archive of parts: names and bytes.
 inline std::string zip_bytes(const std::vector<std::pair<std::string, std::string>>& parts,
                              bool deflated = true) {
-  using detail::append;
   std::string bytes, directory;
   for (const auto& [name, plain] : parts) {
     const std::string stored = deflated ? raw_deflated(plain) : plain;

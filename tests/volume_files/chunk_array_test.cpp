@@ -6,7 +6,7 @@
 #include "support/throws.h"
 #include "volume_files/chunk_bytes.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -178,4 +178,4 @@ TEST(ChunkArray, VisitsWholeNumbersThatSinglePrecisionRounds) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

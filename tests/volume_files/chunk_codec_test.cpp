@@ -6,7 +6,7 @@
 #include "support/throws.h"
 #include "volume_files/chunk_bytes.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using Kind = ChunkCodec::Kind;
@@ -100,4 +100,4 @@ TEST(ChunkCodec, AllowsOneCompressionAndSumsAfterIt) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

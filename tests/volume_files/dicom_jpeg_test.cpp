@@ -8,7 +8,7 @@
 #include "support/bytes_span.h"
 #include "support/jpeg_bytes.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 /// Samples that use the whole range of a precision.
@@ -147,4 +147,4 @@ TEST(DicomJpeg, TheEndMarkerMayBeFollowedByPadding) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -8,7 +8,7 @@
 #include "support/scan_bytes.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -167,4 +167,4 @@ TEST(DicomPixels, IndicesOfAPaletteAreReadForLabelsOnly) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -11,7 +11,7 @@
 #include "support/read_scan.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -175,4 +175,4 @@ TEST(Resampling, IsDoneOnRequestAlone) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -7,7 +7,7 @@
 #include "support/scan_bytes.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -54,4 +54,4 @@ TEST(DicomRle, RefusesSegmentsThatEndEarlyOrRunOver) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -5,7 +5,7 @@
 
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -118,4 +118,4 @@ TEST(DicomSeries, AtMostTwentyTitlesAreListed) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

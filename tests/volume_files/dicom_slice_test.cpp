@@ -8,7 +8,7 @@
 #include "support/temp_folder.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -126,4 +126,4 @@ TEST(DicomSlice, StepsAreAsLongAsPixelsHoweverLongTheDirectionsAre) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -8,7 +8,7 @@
 #include "support/expect_near.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -114,4 +114,4 @@ TEST(DicomSpacing, ASmallDriftIsAllowedUntilItAddsUp) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

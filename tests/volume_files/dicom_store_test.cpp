@@ -63,7 +63,7 @@ TEST(DicomStore, OfAFolderFollowsLinks) {
   std::filesystem::create_directory_symlink(elsewhere.path(), folder / "scan/series");
   expect_ramp(read_volume(folder / "scan").volume);
   WideBudget budget;
-  EXPECT_EQ(detail::DicomStore(folder / "scan", budget).files().size(), 5u);
+  EXPECT_EQ(DicomStore(folder / "scan", budget).files().size(), 5u);
 }
 
 }  // namespace

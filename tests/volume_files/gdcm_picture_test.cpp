@@ -12,7 +12,7 @@
 #include "support/bytes_span.h"
 #include "support/scan_bytes.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 constexpr const char* kJpegLs = "1.2.840.10008.1.2.4.80";
@@ -88,4 +88,4 @@ TEST(GdcmPicture, TheTraceOfTheProgramIsAsItWas) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

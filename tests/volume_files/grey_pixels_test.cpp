@@ -6,7 +6,7 @@
 #include "support/expect_near.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -73,4 +73,4 @@ TEST(GreyPixels, KeepATableOfColours) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -8,7 +8,7 @@
 #include "support/throws.h"
 #include "volume_files/chunk_bytes.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -117,4 +117,4 @@ TEST(Multiscales, NamesOfLabelsThatAreBrokenAreAWarning) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -161,17 +161,16 @@ TEST(Nifti, HasManyVolumesForThoseWhoAsk) {
     write_bytes(folder / "a.nii", nifti.header() + bytes_of_all(kRamp));
     EXPECT_THAT(complaint(folder / "a.nii"), HasSubstr("expected a 3-D image"));
     WideBudget budget;
-    const detail::ScanFile scan =
-        detail::open_nifti(folder / "a.nii", {budget, false, detail::Values::kMany});
+    const ScanFile scan = open_nifti(folder / "a.nii", {budget, false, Values::kMany});
     EXPECT_EQ(scan.outer, 5);
     EXPECT_EQ(scan.inner, 1);
-    const auto samples = detail::read_samples(scan, budget);
+    const auto samples = read_samples(scan, budget);
     EXPECT_THAT(samples, testing::ElementsAreArray(kRamp));
   }
   nifti.dim = {5, 2, 3, 1, 2, 5, 1, 1};
   write_bytes(folder / "a.nii", nifti.header() + bytes_of_all(kRamp));
   WideBudget budget;
-  EXPECT_REFUSED(detail::open_nifti(folder / "a.nii", {budget, false, detail::Values::kMany}),
+  EXPECT_REFUSED(open_nifti(folder / "a.nii", {budget, false, Values::kMany}),
                  HasSubstr("2 volumes of 5 channels"));
 }
 
@@ -184,7 +183,7 @@ TEST(Nifti, ExtensionsAreRead) {
     bytes[348] = flag;
     write_bytes(folder / "a.nii", packed(bytes + extensions + bytes_of_all(kRamp)));
     WideBudget budget;
-    return detail::nifti_extensions(folder / "a.nii", budget);
+    return nifti_extensions(folder / "a.nii", budget);
   };
   const auto extension = [](int size, const std::string& content) {
     return bytes_of(size) + bytes_of(6) + content;

@@ -104,22 +104,22 @@ TEST(Nrrd, HasManyValuesPerVoxelForThoseWhoAsk) {
                 "NRRD0004\ntype: short\nencoding: raw\nendian: little\n"
                 "dimension: 4\nkey:=value\n" +
                     fields + "\n" + bytes_of_all(kRamp));
-    return detail::open_nrrd(folder / "a.nrrd", {budget, false, detail::Values::kMany});
+    return open_nrrd(folder / "a.nrrd", {budget, false, Values::kMany});
   };
   const std::string directions = " (0.5,0,0) (0,1,0) (0,0,2)";
   for (const std::string& first :
        {"sizes: 4 3 5 1\nspace directions: none" + directions + "\n",
         std::string(
             "sizes: 4 3 5 1\nkinds: vector domain domain domain\nspacings: nan 0.5 1 2\n")}) {
-    const detail::ScanFile scan = open(first);
+    const ScanFile scan = open(first);
     EXPECT_EQ(scan.inner, 4);
     EXPECT_EQ(scan.outer, 1);
     EXPECT_THAT(scan.grid.size, testing::ElementsAre(3, 5, 1));
     expect_near(scan.grid.spacing, {0.5, 1, 2});
     EXPECT_EQ(scan.keys.at("key"), "value");
-    EXPECT_THAT(detail::read_samples(scan, budget), testing::ElementsAreArray(kRamp));
+    EXPECT_THAT(read_samples(scan, budget), testing::ElementsAreArray(kRamp));
   }
-  const detail::ScanFile last = open(
+  const ScanFile last = open(
       "sizes: 4 3 1 5\nkinds: domain domain domain list\n"
       "space directions:" +
       directions + " none\n");

@@ -9,7 +9,7 @@
 #include "support/throws.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -46,4 +46,4 @@ TEST(NrrdHeader, ReadsBackToTheSameBits) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -13,7 +13,7 @@
 #include "support/throws.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -237,4 +237,4 @@ TEST(ScanFile, AGivenSpacingTakesThePlaceOfWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -9,7 +9,7 @@
 #include "support/expect_near.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
@@ -82,4 +82,4 @@ TEST(ShearedGrid, RefusesAxesInAPlaneAndGridsThatGrow) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -6,7 +6,7 @@
 #include "support/expect_near.h"
 #include "support/temp_folder.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 TEST(SkyscanLog, IsTheOneOfTheReconstruction) {
@@ -38,4 +38,4 @@ TEST(SkyscanLog, AScoutIsKnownByItsName) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

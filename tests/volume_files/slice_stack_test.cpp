@@ -12,7 +12,7 @@
 #include "support/read_scan.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
@@ -195,4 +195,4 @@ TEST(SliceStack, AGivenSpacingCountsBeforeResolutionsThatDiffer) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

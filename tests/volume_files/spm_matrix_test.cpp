@@ -11,7 +11,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -151,4 +151,4 @@ TEST_F(ImageBesideMatrix, TheHeaderOfNiftiCountsWithAWarningWhereTheyDiffer) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -6,7 +6,7 @@
 #include "support/temp_folder.h"
 #include "support/throws.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::AllOf;
@@ -92,4 +92,4 @@ TEST(NumberedNames, AreThoseOfAPattern) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

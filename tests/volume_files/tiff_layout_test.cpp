@@ -10,7 +10,7 @@
 #include "support/throws.h"
 #include "support/wide_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::Contains;
@@ -186,4 +186,4 @@ TEST(TiffLayout, TakesTheDistanceOfSlicesOfTifffile) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -9,7 +9,7 @@
 #include "support/throws.h"
 #include "volume_files/chunk_bytes.h"
 
-namespace mesamis::detail {
+namespace mesamis {
 namespace {
 
 using testing::ElementsAre;
@@ -121,4 +121,4 @@ TEST(ZarrArray, RefusesWhatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace mesamis::detail
+}  // namespace mesamis

@@ -4,7 +4,7 @@
 
 #include "mesamis/adapt/estimator.h"
 
-namespace mesamis {
+namespace mesamis::detail::adapt {
 namespace {
 
 /// int_K z^2 / |K| for z linear with these nodal values.
@@ -111,4 +111,4 @@ void EstimateSums::add(const EstimateSums& block) {
   zeta_b += block.zeta_b;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::adapt

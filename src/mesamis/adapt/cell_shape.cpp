@@ -7,7 +7,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/sym3.h"
 
-namespace mesamis {
+namespace mesamis::detail::adapt {
 
 CellShape cell_shape(const std::array<Vec3, 4>& points) {
   // M = E E^-1 with E the edges from vertex 0; the reference Gram matrix is 4/3 (I + 1 1'), its
@@ -65,4 +65,4 @@ AspectSummary summarize_aspects(const TetMesh& mesh) {
   return summary;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::adapt

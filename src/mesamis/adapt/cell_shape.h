@@ -6,9 +6,10 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 
 /// The size, shape and orientation of a tetrahedron, and its aspect ratios.
-namespace mesamis {
+namespace mesamis::detail::adapt {
 
 /// Volume of the regular tetrahedron inscribed in the unit sphere, |K^| = 8 sqrt(3) / 27.
 inline constexpr double kReferenceVolume = 0.5132002392796673;
@@ -53,4 +54,4 @@ struct AspectSummary {
 /// bits for any number of threads.
 AspectSummary summarize_aspects(const TetMesh& mesh);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::adapt

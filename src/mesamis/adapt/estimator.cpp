@@ -10,7 +10,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/mesh_space.h"
 
-namespace mesamis {
+namespace mesamis::detail::adapt {
 namespace {
 
 int shared_points(const Cell& a, const Cell& b) {
@@ -121,4 +121,4 @@ Estimate estimate(const TetMesh& mesh, const AtParameters& parameters, const AtF
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::adapt

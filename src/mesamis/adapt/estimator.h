@@ -10,7 +10,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 
 /// The anisotropic a posteriori error estimator of Prop. 3.1, with recovered gradients.
-namespace mesamis {
+namespace mesamis::detail::adapt {
 
 /// Sums over the patch Delta_K (all cells that share a vertex with K) of one P1 function z.
 struct PatchSums {
@@ -92,4 +92,4 @@ struct Estimate {
 /// O(m), in parallel; the same bits for any number of threads.
 Estimate estimate(const TetMesh& mesh, const AtParameters& parameters, const AtFields& fields);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::adapt

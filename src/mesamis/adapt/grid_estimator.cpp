@@ -12,7 +12,7 @@
 #include "mesamis/fem/grid_mass.h"
 #include "mesamis/mesh/kuhn.h"
 
-namespace mesamis {
+namespace mesamis::detail::adapt {
 namespace {
 
 constexpr std::size_t kPaths = 6;
@@ -463,4 +463,4 @@ void smooth_log_metrics(const KuhnGrid& grid, std::vector<PackedSym3>& logs, int
   }
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::adapt

@@ -9,7 +9,7 @@
 #include "mesamis/base/sym3.h"
 #include "mesamis/fem/grid_space.h"
 
-namespace mesamis {
+namespace mesamis::detail::adapt {
 
 /// Fields on a Kuhn grid, one value per node each. They refer to the caller's values.
 struct GridFields {
@@ -46,4 +46,4 @@ GridEstimate estimate_on_grid(const KuhnGrid& grid, const AtParameters& paramete
 /// O(n) per sweep; copies of an eighth of the logarithms. The same bits for any number of threads.
 void smooth_log_metrics(const KuhnGrid& grid, std::vector<PackedSym3>& logs, int sweeps);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::adapt

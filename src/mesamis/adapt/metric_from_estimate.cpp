@@ -10,7 +10,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::adapt {
 namespace {
 
 void require_one_per_cell(const TetMesh& mesh, std::size_t metrics) {
@@ -62,4 +62,4 @@ std::vector<Sym3> node_metrics(const TetMesh& mesh, std::span<const Sym3> cell_m
   return sums;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::adapt

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::adapt {
 
 /// Parameters of cell_metric().
 struct CellMetricOptions {
@@ -59,4 +60,4 @@ double predicted_cells(const TetMesh& mesh, std::span<const Sym3> cell_metrics);
 /// Summed in cell order: the same bits for any number of threads.
 std::vector<Sym3> node_metrics(const TetMesh& mesh, std::span<const Sym3> cell_metrics);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::adapt

@@ -6,7 +6,7 @@
 
 #include "mesamis/adapt/estimator.h"
 
-namespace mesamis {
+namespace mesamis::detail::adapt {
 
 /// A cell's gradients of u and v, side by side: one instruction serves both.
 struct PairedGradients {
@@ -70,4 +70,4 @@ class PairedSums {
   Eigen::Array2d xx_{0, 0}, xy_{0, 0}, xz_{0, 0}, yy_{0, 0}, yz_{0, 0}, zz_{0, 0};
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::adapt

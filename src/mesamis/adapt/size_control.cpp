@@ -11,7 +11,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/grid_mass.h"
 
-namespace mesamis {
+namespace mesamis::detail::adapt {
 namespace {
 
 const Sym3& unpacked(const Sym3& m) { return m; }
@@ -223,4 +223,4 @@ void scale_log_sizes(std::span<PackedSym3> log_metrics, double factor,
   });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::adapt

@@ -7,7 +7,7 @@
 #include "mesamis/base/sym3.h"
 #include "mesamis/fem/grid_space.h"
 
-namespace mesamis {
+namespace mesamis::detail::adapt {
 
 /// Bounds of the sizes and of their complexity.
 struct SizeControl {
@@ -78,4 +78,4 @@ void set_complexity(const KuhnGrid& grid, std::span<PackedSym3> log_metrics, dou
 void scale_log_sizes(std::span<PackedSym3> log_metrics, double factor,
                      const SizeControl& size_control);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::adapt

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-namespace mesamis {
+namespace mesamis::detail::base {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,4 +89,4 @@ std::optional<double> memory_limit(double limit_gb) {
   return limit_gb > 0 ? std::optional(kGigabyte * limit_gb) : available_memory();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::base

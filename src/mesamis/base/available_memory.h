@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <optional>
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::base {
 
 /// What the machine can still give to this process: what the system counts as available, within
 /// the limits of the process's control group and of those above it (versions 1 and 2). Files kept
@@ -18,4 +20,4 @@ std::optional<double> available_memory(const std::filesystem::path& root = "/");
 /// @return bytes; nothing where there is no limit and the system does not tell.
 std::optional<double> memory_limit(double limit_gb);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::base

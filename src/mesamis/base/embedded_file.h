@@ -3,6 +3,8 @@
 
 #include <string_view>
 
+#include "mesamis/rooms.h"
+
 /// Makes the bytes of a file part of a program: MESAMIS_EMBED(name, "path"), outside namespaces,
 /// once per name; MESAMIS_EMBEDDED(name) is then a std::string_view of them. A zero follows.
 ///

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <vector>
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::base {
 
 /// Finds the median; of an even count the upper of the two values in the middle.
 /// @param values  n >= 1 values of any unit; their order changes.
@@ -15,4 +17,4 @@ inline double median(std::vector<double>& values) {
   return *middle;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::base

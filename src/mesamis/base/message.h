@@ -5,7 +5,9 @@
 #include <sstream>
 #include <string>
 
-namespace mesamis::detail {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::base {
 
 /// Joins the parts of a message, numbers as an ostream writes them in the C locale.
 template <class... Part>
@@ -16,4 +18,4 @@ std::string message(const Part&... parts) {
   return std::move(out).str();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::base

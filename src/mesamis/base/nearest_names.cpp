@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace mesamis {
+namespace mesamis::detail::base {
 namespace {
 
 constexpr std::size_t kMostNames = 3;
@@ -66,4 +66,4 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> nam
   return text + "?";
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::base

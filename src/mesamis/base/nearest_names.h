@@ -6,8 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "mesamis/rooms.h"
+
 /// Names that a user may have meant.
-namespace mesamis {
+namespace mesamis::detail::base {
 
 /// The fewest characters to insert, remove, replace or swap with their neighbour that turn one text
 /// into the other; no character is edited twice (optimal string alignment).
@@ -23,4 +25,4 @@ std::vector<std::string> nearest_names(std::string_view word, std::span<const st
 /// "; did you mean --tolerance?", or "; did you mean level or label?"; empty without such names.
 std::string did_you_mean(std::string_view word, std::span<const std::string> names);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::base

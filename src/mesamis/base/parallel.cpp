@@ -54,6 +54,8 @@ void run_with_threads(int count, const std::function<void()>& work) {
 
 int thread_count() { return tbb::this_task_arena::max_concurrency(); }
 
+namespace detail::base {
+
 void parallel_blocks(std::size_t n, std::size_t block,
                      const std::function<void(std::size_t, std::size_t)>& body) {
   const std::size_t blocks = block_count(n, block);
@@ -104,5 +106,7 @@ double parallel_max(std::size_t n, double lowest,
   for (const double value : block_values(n, partial)) largest = std::max(largest, value);
   return largest;
 }
+
+}  // namespace detail::base
 
 }  // namespace mesamis

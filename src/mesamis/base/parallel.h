@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "mesamis/base/threads.h"
+#include "mesamis/rooms.h"
 
 /// The one door to threads. Every result is the same to the bit for any number of threads:
 /// the work is cut into blocks of fixed size, and partial sums are added in block order.
-namespace mesamis {
+namespace mesamis::detail::base {
 
 /// Items per block of the loops below.
 inline constexpr std::size_t kBlock = 4096;
@@ -78,4 +79,4 @@ double parallel_sum(std::size_t n, const std::function<double(std::size_t, std::
 double parallel_max(std::size_t n, double lowest,
                     const std::function<double(std::size_t, std::size_t)>& partial);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::base

@@ -3,7 +3,9 @@
 
 #include <chrono>
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::base {
 
 /// Measures wall time, from its construction or the last lap().
 class Stopwatch {
@@ -20,4 +22,4 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::base

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mesamis {
+namespace mesamis::detail::base {
 namespace {
 
 /// Product of two symmetric matrices that commute, so that it is symmetric too.
@@ -74,4 +74,4 @@ Sym3 inverse(const Sym3& a) {
           d * (a.xy * a.xz - a.xx * a.yz), d * (a.xx * a.yy - a.xy * a.xy)};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::base

@@ -4,9 +4,10 @@
 #include <array>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
 /// Spectral functions of symmetric 3x3 matrices.
-namespace mesamis {
+namespace mesamis::detail::base {
 
 /// A symmetric matrix in single precision, xx xy xz yy yz zz: for fields on every voxel.
 using PackedSym3 = std::array<float, 6>;
@@ -54,4 +55,4 @@ Sym3 exp_sym(const Sym3& a);
 /// @return in the reciprocal of that unit; infinite or NaN where the determinant is zero.
 Sym3 inverse(const Sym3& a);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::base

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace mesamis {
+namespace mesamis::detail::base {
 
 std::optional<double> written_number(std::string_view text) {
   const auto value = take_number(text);
@@ -70,4 +70,4 @@ std::string quoted_text(std::string_view text) {
   return shown + "'";
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::base

@@ -5,8 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "mesamis/rooms.h"
+
 /// Numbers that a user writes down, and texts of his that messages repeat.
-namespace mesamis {
+namespace mesamis::detail::base {
 
 /// A finite number, in any unit and any of the usual spellings: 5, +5, .5, 05, 5e3; nothing if the
 /// text is anything else, also with blanks. The decimal point is a point in any locale.
@@ -39,4 +41,4 @@ std::string quotable(std::string_view text);
 /// The beginning of a text in single quotes, others than printable ASCII as '?'.
 std::string quoted_text(std::string_view text);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::base

@@ -10,7 +10,7 @@
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/measure.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 namespace {
 
 std::int64_t count_of_skin_only(const BodyMesh& body) {
@@ -54,4 +54,4 @@ BodyFit measure_fit(const BodyMesh& body, std::span<const TriMesh> surfaces, dou
   return fit;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

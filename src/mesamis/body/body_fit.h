@@ -7,7 +7,7 @@
 #include "mesamis/remesh/body.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 
 /// How a body lies in the surfaces that it was made from.
 struct BodyFit {
@@ -28,4 +28,4 @@ struct BodyFit {
 /// number of threads.
 BodyFit measure_fit(const BodyMesh& body, std::span<const TriMesh> surfaces, double tolerance);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

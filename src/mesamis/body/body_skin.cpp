@@ -6,7 +6,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/unused_points.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 namespace {
 
 /// Calls visit(material, material beyond, triangle) for the faces of cells on whose other side is
@@ -52,4 +52,4 @@ std::vector<TriMesh> body_skins(const BodyMesh& body, std::size_t count) {
   return skins;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

@@ -7,7 +7,7 @@
 #include "mesamis/remesh/body.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 
 /// The boundary of one object of a body: closed, its triangles turned outward.
 /// @param object  from 1 on; 0: of all objects together, without what two of them share.
@@ -25,4 +25,4 @@ TriMesh body_skin(const BodyMesh& body, Material object = kOutside);
 /// O(m log d) for m elements, and O(n) per object for n points.
 std::vector<TriMesh> body_skins(const BodyMesh& body, std::size_t count);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

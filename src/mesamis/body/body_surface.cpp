@@ -10,7 +10,7 @@
 #include "mesamis/body/wall_width.h"
 #include "mesamis/mesh/tet_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 namespace {
 
 constexpr std::size_t kMostObjects = 255;
@@ -176,4 +176,4 @@ BorderPoint BodySurface::nearest_border(const Vec3& p) const {
   return nearest;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

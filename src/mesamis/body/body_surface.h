@@ -11,7 +11,7 @@
 #include "mesamis/surface/signed_distance.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 
 /// Objects that are bounded by surfaces, in a box that may cut them off: object k, counted from 1,
 /// is what surface k - 1 holds. Where two overlap, a point is of the one it lies deeper in.
@@ -74,4 +74,4 @@ class BodySurface : public BodyShape {
   JunctionLines junctions_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

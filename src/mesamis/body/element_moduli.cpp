@@ -11,7 +11,7 @@
 #include "mesamis/image/trilinear.h"
 #include "mesamis/mesh/kuhn.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 
 namespace {
 
@@ -216,4 +216,4 @@ ElementModuli element_moduli(const TetMesh& mesh, const VolumeView& volume,
   return summed(mesh, means, options.modulus_min);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

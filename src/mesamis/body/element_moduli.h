@@ -7,9 +7,10 @@
 #include "mesamis/body/material_law.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 
 /// The stiffness of each element of a mesh from the voxels inside.
-namespace mesamis {
+namespace mesamis::detail::body {
 
 /// How a density is found at a point and a modulus in an element.
 struct ElementModuliOptions {
@@ -53,4 +54,4 @@ struct ElementModuli {
 ElementModuli element_moduli(const TetMesh& mesh, const VolumeView& volume,
                              const ElementModuliOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

@@ -228,7 +228,7 @@ FaceQuery in_lps(FaceQuery query, Frame frame) {
   return query;
 }
 
-std::vector<CellFace> find_faces(const BodyMesh& body, const FaceQuery& query) {
+std::vector<CellFace> detail::body::find_faces(const BodyMesh& body, const FaceQuery& query) {
   const bool outer = query.kind == Kind::kOuter;
   const bool by_side = outer || query.kind == Kind::kInner;
   return by_side ? faces_on_side(body, outer) : faces_at_place(body, query);

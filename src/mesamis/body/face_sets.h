@@ -7,7 +7,7 @@
 #include "mesamis/body/body_options.h"
 #include "mesamis/remesh/body.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 
 /// A face as its cell and the local vertex opposite it.
 using CellFace = std::array<Index, 2>;
@@ -25,4 +25,4 @@ using CellFace = std::array<Index, 2>;
 /// O(m log d), see cell_neighbors().
 std::vector<CellFace> find_faces(const BodyMesh& body, const FaceQuery& query);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

@@ -9,7 +9,7 @@
 
 #include "mesamis/mesh/edges.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 namespace {
 
 /// A corner of a surface, by its place.
@@ -161,4 +161,4 @@ std::optional<JunctionPoint> JunctionLines::nearest(const Vec3& p,
   return JunctionPoint{edge[0] + share * along, unit_or_zero(along)};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

@@ -10,7 +10,7 @@
 #include "mesamis/surface/tri_mesh.h"
 #include "mesamis/surface/triangle_tree.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 
 /// The lines where three materials meet: edges of surfaces that share triangles.
 class JunctionLines {
@@ -32,4 +32,4 @@ class JunctionLines {
   std::int64_t edges_ = 0;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

@@ -17,7 +17,7 @@
 #include "mesamis/mesh/region.h"
 #include "mesamis/surface/measure.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 namespace {
 
 /// What the operations are held to, as a share of the tolerance: they look at four points of a
@@ -144,7 +144,7 @@ MeshedBody make_body(std::span<const TriMesh> surfaces, const Box& box,
   RemeshOptions remeshing;
   remeshing.draft = true;
   remeshing.progress = half_of(options.progress, 0);
-  const TetMesh start = remesh(coarse_box_mesh(box), sizes, remeshing);
+  const TetMesh start = remesh::remesh(coarse_box_mesh(box), sizes, remeshing);
   body.seconds.start = watch.lap();
   remeshing.draft = false;
   remeshing.balanced = !options.quadratic;  // whose mid-side nodes follow the surface
@@ -162,4 +162,4 @@ MeshedBody make_body(std::span<const TriMesh> surfaces, const Box& box,
   return body;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

@@ -11,7 +11,7 @@
 #include "mesamis/remesh/body.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 
 /// A body for finite elements.
 struct MeshedBody {
@@ -53,4 +53,4 @@ Box bounding_box(std::span<const TriMesh> surfaces);
 /// The same bits for any number of threads.
 MeshedBody make_body(std::span<const TriMesh> surfaces, const Box& box, const BodyOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

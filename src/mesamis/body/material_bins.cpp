@@ -9,7 +9,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/written_number.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 
 namespace {
 
@@ -81,4 +81,4 @@ MaterialBins bin_materials(std::span<const double> modulus, std::span<const doub
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

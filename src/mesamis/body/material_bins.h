@@ -6,9 +6,10 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/body/material_law.h"
+#include "mesamis/rooms.h"
 
 /// Elements of nearly equal stiffness share a material: solvers take a limited number of them.
-namespace mesamis {
+namespace mesamis::detail::body {
 
 /// How elements are sorted into bins.
 struct MaterialBinOptions {
@@ -47,4 +48,4 @@ struct MaterialBins {
 MaterialBins bin_materials(std::span<const double> modulus, std::span<const double> density,
                            const MaterialBinOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

@@ -7,7 +7,7 @@
 #include "mesamis/body/element_moduli.h"
 #include "mesamis/image/grey_values.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 namespace {
 
 void require_given(const VolumeView& volume, const MaterialOptions& options) {
@@ -82,4 +82,4 @@ std::vector<FiniteElements::Elastic> elastic_materials(const Materials& material
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

@@ -12,7 +12,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 
 /// Materials for a finite element model from a calibrated scan, in one call.
-namespace mesamis {
+namespace mesamis::detail::body {
 
 /// What was used, and how much rests on bounds. Shares are of the mesh's volume, 0 to 1.
 struct MaterialReport {
@@ -52,4 +52,4 @@ Materials assign_materials(const TetMesh& mesh, const VolumeView& volume,
 std::vector<FiniteElements::Elastic> elastic_materials(const Materials& materials,
                                                        const MaterialOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

@@ -8,7 +8,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/finite_elements.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 namespace {
 
 /// A curved element has at least this share of the Jacobian that it has with straight edges.
@@ -205,4 +205,4 @@ MidNodes mid_nodes(const BodyMesh& body, const BodyShape& shape, const Box& box)
   return MidNodeMaker(body, shape, box).make();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

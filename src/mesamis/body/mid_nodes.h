@@ -7,7 +7,7 @@
 
 #include "mesamis/remesh/body.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 
 /// The mid-side nodes that make the elements of a body quadratic.
 struct MidNodes {
@@ -35,4 +35,4 @@ MidNodes mid_nodes(const BodyMesh& body, const BodyShape& shape, const Box& box)
 /// @param middles  in the order of kMidNodeEdges, mm.
 double least_jacobian(const std::array<Vec3, 4>& corners, const std::array<Vec3, 6>& middles);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

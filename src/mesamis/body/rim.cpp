@@ -14,7 +14,7 @@
 #include "mesamis/image/trilinear.h"
 #include "mesamis/surface/signed_distance.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 namespace {
 
 constexpr double kDeviations = 2;        // of the blur: 2 % are left of the surroundings
@@ -147,4 +147,4 @@ Volume with_full_rim(const VolumeView& volume, std::span<const TriMesh> surfaces
   return filler.take();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

@@ -5,11 +5,12 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// The rim of an object in a scan: its outermost voxels, whose values are mixed with those of the
 /// surroundings.
-namespace mesamis {
+namespace mesamis::detail::body {
 
 /// How deep below its surface an object still shows its surroundings: the scanner's blur, and what
 /// the voxels themselves and linear interpolation between them add, half a voxel. At twice the
@@ -40,4 +41,4 @@ Vec3 rim_depth(const VoxelGrid& grid, const std::array<double, 3>& blur);
 Volume with_full_rim(const VolumeView& volume, std::span<const TriMesh> surfaces,
                      const Vec3& depth);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

@@ -9,7 +9,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/half_edges.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 namespace {
 
 /// Outside sizes grow this much over a length.
@@ -230,4 +230,4 @@ GridMetricField size_field(std::span<const TriMesh> surfaces, const BodySurface&
   return grid.metric();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

@@ -7,7 +7,7 @@
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 
 /// How large the elements of a body shall be.
 struct SizeRules {
@@ -42,4 +42,4 @@ std::vector<double> surface_sizes(const TriMesh& surface, std::span<const double
 GridMetricField size_field(std::span<const TriMesh> surfaces, const BodySurface& shape,
                            const Box& box, const SizeRules& rules);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

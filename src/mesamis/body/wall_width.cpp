@@ -6,7 +6,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/normals.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 namespace {
 
 /// A point of a surface, its outward normal, and the direction of the ball's middle, of length 1.
@@ -52,4 +52,4 @@ std::vector<double> wall_widths(const TriMesh& surface, const SignedDistance& di
   return widths;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

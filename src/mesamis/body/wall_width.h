@@ -6,7 +6,7 @@
 #include "mesamis/surface/signed_distance.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::body {
 
 /// On which side of a surface to measure.
 enum class Side {
@@ -28,4 +28,4 @@ enum class Side {
 std::vector<double> wall_widths(const TriMesh& surface, const SignedDistance& distance, Side side,
                                 double most);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::body

@@ -6,7 +6,7 @@
 
 #include "mesamis/decimate/crease.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 /// Cosine of the angle by which a triangle may turn, 75 degrees.
@@ -134,4 +134,4 @@ bool spoils_shape(const EditableSurface& surface, const std::vector<Vec3>& point
   return creases && has_creases(surface, points, normals, collapse, now);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

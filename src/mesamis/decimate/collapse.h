@@ -7,7 +7,7 @@
 #include "mesamis/decimate/editable_surface.h"
 #include "mesamis/surface/triangle_tree.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// A collapse: of what it changes, before and after. An edge goes, with its first point and the
 /// triangles on both sides; its second point may move.
@@ -42,4 +42,4 @@ void describe(const EditableSurface& surface, const std::vector<Vec3>& points, I
 bool spoils_shape(const EditableSurface& surface, const std::vector<Vec3>& points,
                   const std::vector<Vec3>& normals, const Collapse& collapse, bool creases);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -8,7 +8,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/triangle_intersection.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 /// What parts a triangle from most of those around it: its plane, and that through the side opposite
@@ -121,4 +121,4 @@ void CollapseIntersections::apply(const Collapse& collapse) {
   }
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

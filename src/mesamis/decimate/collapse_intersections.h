@@ -6,7 +6,7 @@
 #include "mesamis/decimate/collapse.h"
 #include "mesamis/surface/box_tree.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// Finds the triangles that a collapse would make intersect. Exact.
 class CollapseIntersections {
@@ -30,4 +30,4 @@ class CollapseIntersections {
   std::vector<Index> near_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// A surface on its way: triangles over the original's points, which may have moved. With a
 /// tolerance, each stands for some triangles of the original, parts of which lie near it, or for
@@ -29,4 +30,4 @@ inline Cover cover_of(const TriMesh& surface) {
   return cover;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -7,7 +7,7 @@
 
 #include "mesamis/surface/box_tree.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 /// So often a piece is halved; more help hardly ever.
@@ -145,4 +145,4 @@ bool Covering::halves_are_covered(const Piece& piece, std::size_t begin, int hal
          (other.count() < 3 || is_covered(other, begin, halvings));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

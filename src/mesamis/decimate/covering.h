@@ -6,7 +6,7 @@
 
 #include "mesamis/decimate/triangle_planes.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// Proves that a triangle lies near some others as a whole.
 ///
@@ -65,4 +65,4 @@ class Covering {
   std::vector<Index> used_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

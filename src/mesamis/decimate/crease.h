@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::decimate {
 
 /// The cosine of the angle, 25 degrees, from which on an edge is a crease.
 inline constexpr double kCrease = 0.9063;
@@ -16,4 +18,4 @@ inline bool makes_crease(double before, double now) noexcept {
   return now < std::min(kCrease, before) - kRounding;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -9,7 +9,7 @@
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/unused_points.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 void require_decimatable(const TriMesh& surface) {
@@ -44,4 +44,4 @@ TriMesh decimate(const TriMesh& surface, const DecimateOptions& options, Decimat
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

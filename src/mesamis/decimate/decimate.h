@@ -5,9 +5,10 @@
 #include <limits>
 
 #include "mesamis/base/progress.h"
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// How far and how long to decimate.
 struct DecimateOptions {
@@ -46,4 +47,4 @@ struct DecimateReport {
 TriMesh decimate(const TriMesh& surface, const DecimateOptions& options,
                  DecimateReport* report = nullptr);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

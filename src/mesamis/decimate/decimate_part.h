@@ -6,7 +6,7 @@
 #include "mesamis/decimate/cover.h"
 #include "mesamis/decimate/decimate.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// Decimates a part of a surface as decimate() does, but for points that are held: triangles whose
 /// corners are all held stay. So parts whose common points are held still fit.
@@ -23,4 +23,4 @@ namespace mesamis {
 Cover decimate_part(const TriMesh& original, Cover part, const std::vector<char>& held,
                     const DecimateOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -8,7 +8,7 @@
 #include "mesamis/decimate/interfaces.h"
 #include "mesamis/surface/unused_points.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 /// Triangles over the partition's points, where these are now, with the sides of their interfaces;
@@ -52,4 +52,4 @@ PartitionSurface decimate_partition(const PartitionSurface& partition,
   return joined(interfaces, partition, result);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

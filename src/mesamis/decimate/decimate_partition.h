@@ -4,7 +4,7 @@
 #include "mesamis/decimate/decimate.h"
 #include "mesamis/surface/partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// Reduces the number of triangles of several objects at once, within a tolerance.
 ///
@@ -35,4 +35,4 @@ PartitionSurface decimate_partition(const PartitionSurface& partition,
                                     const DecimateOptions& options,
                                     DecimateReport* report = nullptr);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -16,7 +16,7 @@
 #include "mesamis/decimate/two_sided_bound.h"
 #include "mesamis/mesh/tet_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 /// Weight, over that of the quadric, of the pull to the middle of an edge: it decides where the
@@ -311,4 +311,4 @@ Cover decimate_pass(const DecimateTask& task, const Patch& patch) {
   return pass.cover();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

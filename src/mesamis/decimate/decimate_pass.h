@@ -6,7 +6,7 @@
 #include "mesamis/decimate/interfaces.h"
 #include "mesamis/decimate/patch.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// The input that all passes of decimate() share.
 struct DecimateTask {
@@ -26,4 +26,4 @@ struct DecimateTask {
 /// @return over the points of the patch.
 Cover decimate_pass(const DecimateTask& task, const Patch& patch);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -11,7 +11,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/decimate/decimate_part.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -155,4 +155,4 @@ Cover decimate_patches(const TriMesh& original, Cover part, const std::vector<ch
   return Decimation(original, nullptr, options, work).run(std::move(part), held, side);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -5,7 +5,7 @@
 #include "mesamis/decimate/interfaces.h"
 #include "mesamis/decimate/patchwork.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// Triangles of a patch, about. Surfaces of less than two are one patch.
 inline constexpr double kTrianglesPerPatch = 40'000;
@@ -39,4 +39,4 @@ Cover decimate_patches(const TriMesh& original, Cover part, const std::vector<ch
 TriMesh decimate_interfaces(const Interfaces& interfaces, const DecimateOptions& options,
                             double triangles_per_patch, PatchworkReport& report);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -6,7 +6,7 @@
 
 #include "mesamis/surface/half_edges.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 EditableSurface::EditableSurface(std::size_t points, const std::vector<Triangle>& triangles)
     : opposite_(3 * triangles.size(), kNoIndex), leaving_(points, kNoIndex), is_inner_(points, 0) {
@@ -84,4 +84,4 @@ void EditableSurface::collapse(Index h) {
   }
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

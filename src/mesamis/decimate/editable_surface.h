@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// The half-edges of a surface, for what changes its connectivity, in flat arrays: half-edge 3 t + i
 /// runs from corner i of triangle t to the next corner.
@@ -61,4 +62,4 @@ class EditableSurface {
   std::vector<char> is_inner_;             // of each point
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -187,4 +187,4 @@ double fan_height(const EditableSurface& surface, const std::vector<Vec3>& point
   return View(surface, points, collapse).height();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

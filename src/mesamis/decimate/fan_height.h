@@ -3,7 +3,7 @@
 
 #include "mesamis/decimate/collapse.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// How far the triangles before and after a collapse lie apart at most, mm, along their common mean
 /// normal: they have the same rim. Their distance is greatest where their edges cross, or at a point
@@ -13,4 +13,4 @@ namespace mesamis {
 double fan_height(const EditableSurface& surface, const std::vector<Vec3>& points,
                   const Collapse& collapse);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

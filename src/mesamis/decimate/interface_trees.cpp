@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 std::vector<Index> interfaces_of_points(const SplitSurface& split) {
   constexpr Index kNotYet = -2;
@@ -29,4 +29,4 @@ InterfaceTrees::InterfaceTrees(const SplitSurface& split, std::size_t count) : c
   for (std::vector<Corners>& own : corners) trees_.emplace_back(std::move(own));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

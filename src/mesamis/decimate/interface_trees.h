@@ -7,7 +7,7 @@
 #include "mesamis/surface/tri_mesh.h"
 #include "mesamis/surface/triangle_tree.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// A surface whose triangles belong to interfaces: of one object, a single one.
 struct SplitSurface {
@@ -40,4 +40,4 @@ class InterfaceTrees {
   std::vector<TriangleTree> trees_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -8,7 +8,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/surface/half_edges.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 void require_sides(const PartitionSurface& partition) {
@@ -146,4 +146,4 @@ std::vector<TriMesh> split_interfaces(const Interfaces& interfaces,
   return split;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

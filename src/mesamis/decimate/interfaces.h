@@ -6,7 +6,7 @@
 
 #include "mesamis/surface/partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// The boundaries of a partition cut into interfaces, along the curves where other than two
 /// triangles share an edge, and at points where interfaces only touch: a 2-manifold with rims. Each
@@ -33,4 +33,4 @@ Interfaces cut_into_interfaces(const PartitionSurface& partition);
 std::vector<TriMesh> split_interfaces(const Interfaces& interfaces,
                                       const std::vector<Triangle>& triangles);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -6,7 +6,7 @@
 
 #include "mesamis/surface/triangle_tree.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 /// Of the mean weight of a point.
@@ -77,4 +77,4 @@ std::vector<double> normal_moves(const MovableSurface& movable,
   return {moves.begin(), moves.end()};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -5,9 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// A place of a surface, and how far above it lies what it stands for.
 struct HeightSample {
@@ -33,4 +34,4 @@ struct MovableSurface {
 std::vector<double> normal_moves(const MovableSurface& movable,
                                  std::span<const HeightSample> samples);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -3,10 +3,11 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// The half-edges of a surface, for what changes its connectivity.
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 struct DoubleTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
@@ -57,4 +58,4 @@ inline bool keeps_manifold(HalfedgeMesh& mesh, OpenMesh::HalfedgeHandle h) {
   return mesh.valence(left) > 3 && mesh.valence(right) > 3;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

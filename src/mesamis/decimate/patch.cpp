@@ -9,7 +9,7 @@
 
 #include "mesamis/mesh/tet_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 /// The number of the patch of each triangle; patches are numbered in the order of their boxes.
@@ -148,4 +148,4 @@ std::vector<Patch> cut_into_patches(Cover cover, double side) {
   return cutter.cut(std::move(cover), numbers);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

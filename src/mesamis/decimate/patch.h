@@ -5,7 +5,7 @@
 
 #include "mesamis/decimate/cover.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// A part of a cover that is decimated by itself.
 struct Patch {
@@ -35,4 +35,4 @@ void hold(Patch& patch, const std::vector<Index>& points, const std::vector<Inde
 /// O(n log n) for n triangles.
 std::vector<Patch> cut_into_patches(Cover cover, double side);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

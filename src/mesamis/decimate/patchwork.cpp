@@ -10,7 +10,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/self_intersections.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 /// So often patches are made anew.
@@ -148,4 +148,4 @@ Cover decimate_patchwork(const DecimateTask& task, std::vector<Vec3> points,
   return Patchwork(task, std::move(points), std::move(patches)).run(report);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

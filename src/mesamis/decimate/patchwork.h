@@ -6,7 +6,7 @@
 
 #include "mesamis/decimate/decimate_pass.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// What a cover made of patches has taken.
 struct PatchworkReport {
@@ -29,4 +29,4 @@ struct PatchworkReport {
 Cover decimate_patchwork(const DecimateTask& task, std::vector<Vec3> points,
                          std::vector<Patch> patches, PatchworkReport& report);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

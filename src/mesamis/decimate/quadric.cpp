@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 Vec3 minimum(const Quadric& q, const Vec3& near, double pull, const std::array<bool, 3>& stays) {
   const double w = pull * q.weight;
@@ -23,4 +23,4 @@ Vec3 minimum(const Quadric& q, const Vec3& near, double pull, const std::array<b
   return near + Vec3{step[0], step[1], step[2]};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -4,8 +4,9 @@
 #include <array>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// A quadratic function of a place: the sum of squared distances from planes, each times a weight
 /// (Garland and Heckbert 1997). Places are relative to an origin near by, which keeps digits.
@@ -56,4 +57,4 @@ struct Quadric {
 /// @param stays   of each axis, whether the coordinate is that of the other place.
 Vec3 minimum(const Quadric& q, const Vec3& near, double pull, const std::array<bool, 3>& stays);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -19,7 +19,7 @@
 #include "mesamis/surface/normals.h"
 #include "mesamis/surface/self_intersections.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 /// Cosine between the triangles of a sharp edge, 40 degrees, and of a flat part.
@@ -288,4 +288,4 @@ PartitionSurface refit_partition(PartitionSurface decimated, const PartitionSurf
   return put_back(std::move(surface), std::move(decimated));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

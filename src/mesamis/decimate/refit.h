@@ -4,7 +4,7 @@
 #include "mesamis/surface/partition.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// Moves the points of a decimated surface so that it lies on both sides of the original.
 ///
@@ -34,4 +34,4 @@ TriMesh refit(TriMesh decimated, const TriMesh& original, double tolerance);
 PartitionSurface refit_partition(PartitionSurface decimated, const PartitionSurface& original,
                                  double tolerance);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

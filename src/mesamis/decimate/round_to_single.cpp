@@ -13,7 +13,7 @@
 #include "mesamis/surface/triangle_intersection.h"
 #include "mesamis/surface/unused_points.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 /// Where triangles meet, shorter edges than this are collapsed, and the longest edges of less high
@@ -275,4 +275,4 @@ TriMesh round_to_single(const TriMesh& surface, RoundReport* report) {
   return rounding.result();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

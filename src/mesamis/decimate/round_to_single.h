@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// What rounding did to a surface.
 struct RoundReport {
@@ -33,4 +34,4 @@ struct RoundReport {
 /// O(n log n) for a surface that rarely meets itself.
 TriMesh round_to_single(const TriMesh& surface, RoundReport* report = nullptr);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -6,7 +6,7 @@
 
 #include "mesamis/decimate/single_places.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 /// The numbers of the points, sorted by place: equal points follow one another.
@@ -42,4 +42,4 @@ std::vector<Vec3> round_together(std::span<const Vec3> points) {
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

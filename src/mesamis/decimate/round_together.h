@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// Rounds points of several surfaces to single precision so that the surfaces still fit.
 ///
@@ -22,4 +23,4 @@ namespace mesamis {
 /// O(n log n) for n points.
 std::vector<Vec3> round_together(std::span<const Vec3> points);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -8,7 +8,7 @@
 #include "mesamis/decimate/refit.h"
 #include "mesamis/surface/distance.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 namespace {
 
 /// Of the tolerance, for decimation.
@@ -46,4 +46,4 @@ PartitionSurface simplify_partition(const PartitionSurface& partition,
   return refit_partition(std::move(few), partition, options.tolerance);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

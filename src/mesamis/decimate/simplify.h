@@ -4,7 +4,7 @@
 #include "mesamis/decimate/decimate.h"
 #include "mesamis/surface/partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// Reduces the number of triangles, see decimate(), and then moves the points to lie as near to the
 /// surface before as they can, see refit().
@@ -25,4 +25,4 @@ PartitionSurface simplify_partition(const PartitionSurface& partition,
                                     const DecimateOptions& options,
                                     DecimateReport* report = nullptr);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -14,7 +14,7 @@
 #include "mesamis/base/types.h"
 
 /// Places that single precision can name.
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// @throws InputError  if a coordinate exceeds single precision.
 inline void require_single(std::span<const Vec3> points) {
@@ -78,4 +78,4 @@ class SinglePlaces {
   std::set<Vec3, ByPlace> taken_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

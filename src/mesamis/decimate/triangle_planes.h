@@ -8,7 +8,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/triangle_tree.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// A triangle, its box, its plane and those through its sides across it: most distances follow from
 /// these without a branch.
@@ -68,4 +68,4 @@ class TrianglePlanes {
   bool is_flat_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -6,7 +6,7 @@
 
 #include "mesamis/surface/box_tree.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 TwoSidedBound::TwoSidedBound(const TriMesh& original, const Cover& cover, double tolerance)
     : tolerance_(tolerance), covering_(tolerance) {
   for (const auto& list : cover.originals)
@@ -180,4 +180,4 @@ bool TwoSidedBound::new_are_near(const Collapse& collapse) {
   return true;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

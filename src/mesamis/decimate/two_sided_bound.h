@@ -7,7 +7,7 @@
 #include "mesamis/decimate/cover.h"
 #include "mesamis/decimate/covering.h"
 
-namespace mesamis {
+namespace mesamis::detail::decimate {
 
 /// What the triangles of a surface stand for while it changes, and the proof that both are near each
 /// other: each triangle is near the originals, and each original is near triangles that are listed to
@@ -77,4 +77,4 @@ class TwoSidedBound {
   Index collapse_count_ = 0;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::decimate

@@ -11,7 +11,7 @@
 #include "mesamis/fem/amis.h"
 
 /// What the half steps of Algorithm 1 share, in double and in single precision.
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// @throws InputError  if a field has not one value per node.
 inline void require_size(const char* name, std::size_t found, std::size_t expected) {
@@ -51,4 +51,4 @@ double largest_change(const std::vector<Real>& a, const std::vector<Real>& b) {
   });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

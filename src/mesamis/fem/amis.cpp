@@ -5,7 +5,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/alternation.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 namespace {
 
 /// The two linear steps, each from and into the current fields.
@@ -81,4 +81,4 @@ AmisResult run_amis(const P1Space& space, std::span<const double> f, AmisStart s
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

@@ -9,7 +9,7 @@
 #include "mesamis/fem/p1_space.h"
 #include "mesamis/fem/solve.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// When the minimisation ends, and how its systems are solved.
 struct AmisOptions {
@@ -63,4 +63,4 @@ struct AmisResult {
 AmisResult run_amis(const P1Space& space, std::span<const double> f, AmisStart start,
                     const AmisOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

@@ -7,7 +7,7 @@
 
 #include "mesamis/mesh/tet_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 namespace {
 
 using Vec4 = std::array<double, 4>;
@@ -234,4 +234,4 @@ std::array<double, 4> fit_image_on_cell(const SplineImage& image,
   return cell.fit_fixed();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

@@ -5,7 +5,7 @@
 
 #include "mesamis/image/spline_image.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// Fits a linear function to the image on a cell.
 ///
@@ -19,4 +19,4 @@ namespace mesamis {
 std::array<double, 4> fit_image_on_cell(const SplineImage& image,
                                         const std::array<Vec3, 4>& points);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

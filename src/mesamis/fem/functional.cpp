@@ -7,7 +7,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 namespace {
 
 /// sum of weight(n) over the nodes
@@ -58,4 +58,4 @@ Energy energy(const P1Space& space, const AtParameters& parameters, const AtFiel
   return e;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

@@ -5,7 +5,7 @@
 
 #include "mesamis/fem/p1_space.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// Parameters of the Ambrosio-Tortorelli functional (2). Lengths are in the mesh's own unit,
 /// grey values in [0, 255].
@@ -44,4 +44,4 @@ struct Energy {
 /// Summed in blocks: the same bits for any number of threads.
 Energy energy(const P1Space& space, const AtParameters& parameters, const AtFields& fields);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

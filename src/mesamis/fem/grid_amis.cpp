@@ -5,7 +5,7 @@
 #include "mesamis/fem/alternation.h"
 #include "mesamis/fem/single_grid_system.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 namespace {
 
 /// The two linear steps, each from and into the current fields.
@@ -127,4 +127,4 @@ GridMinimum run_amis_on_grid(const KuhnGrid& grid, std::span<const float> f,
   return run_in_double(grid, f, options);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

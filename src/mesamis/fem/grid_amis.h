@@ -7,7 +7,7 @@
 #include "mesamis/fem/amis.h"
 #include "mesamis/fem/grid_space.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// The least relative residual for which single precision is used.
 inline constexpr double kLeastSingleTolerance = 1e-4;
@@ -33,4 +33,4 @@ struct GridMinimum {
 GridMinimum run_amis_on_grid(const KuhnGrid& grid, std::span<const float> f,
                              const AmisOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

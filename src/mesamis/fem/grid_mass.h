@@ -7,7 +7,7 @@
 #include "mesamis/base/types.h"
 #include "mesamis/fem/grid_space.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// The lumped masses of a Kuhn grid's nodes, by formula instead of one number per node: they depend
 /// only on which sides of the box a node lies, see P1Space::lumped_mass().
@@ -66,4 +66,4 @@ class GridMass {
   std::array<double, 27> masses_{};
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

@@ -8,7 +8,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/kuhn.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 namespace {
 
 /// Calls body(i, j, k, n) for every node, the layers k concurrently.
@@ -223,4 +223,4 @@ std::vector<double> GridSpace::gradient_squares(std::span<const double> u) const
   return squares;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

@@ -8,7 +8,7 @@
 
 #include "mesamis/fem/p1_space.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// A regular grid of nodes whose bricks are cut into Kuhn tetrahedra, none of them stored.
 struct KuhnGrid {
@@ -61,4 +61,4 @@ class GridSpace : public P1Space {
   std::vector<double> lumped_mass_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

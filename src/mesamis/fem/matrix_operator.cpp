@@ -6,7 +6,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/spd_operator.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 namespace {
 
 /// Pairs each row with the unpaired neighbour it is coupled to most strongly. A row whose
@@ -125,4 +125,4 @@ SparseMatrix MatrixOperator::coarsen(std::span<const Index> aggregate, Index cou
   return galerkin(matrix_, aggregate, count);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

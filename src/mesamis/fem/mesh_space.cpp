@@ -5,7 +5,7 @@
 
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 namespace {
 
 /// Neighbouring nodes and the node itself, increasing.
@@ -168,4 +168,4 @@ MatrixOperator MeshSpace::consistent_mass() const {
       assemble([&](Index c, std::size_t) { return volumes_[c] / 20; }, std::move(diagonal), false));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

@@ -9,7 +9,7 @@
 #include "mesamis/fem/p1_space.h"
 #include "mesamis/mesh/tet_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// A cell's volume and the constant gradients of its four hat functions.
 struct CellGeometry {
@@ -76,4 +76,4 @@ class MeshSpace : public P1Space {
   std::vector<double> lumped_mass_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

@@ -6,7 +6,7 @@
 
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 namespace {
 
 constexpr std::size_t kDirectSize = 400;  // small enough for a direct solve
@@ -114,4 +114,4 @@ void Multigrid::cycle(std::size_t level, std::span<const double> r, std::span<do
   }
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

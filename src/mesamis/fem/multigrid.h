@@ -7,7 +7,7 @@
 
 #include "mesamis/fem/spd_operator.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// Aggregation multigrid as a preconditioner: groups of about eight unknowns are one unknown of
 /// the next level, the coarse operator is the Galerkin one, the smoother is l1-Jacobi (which
@@ -31,4 +31,4 @@ class Multigrid {
   std::vector<std::unique_ptr<Level>> levels_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

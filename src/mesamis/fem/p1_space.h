@@ -8,7 +8,7 @@
 
 #include "mesamis/fem/spd_operator.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// Continuous piecewise linear functions on a tetrahedral mesh, and the matrices and integrals that
 /// the functional (2) needs. A function is its vector of n nodal values; lengths are in the mesh's
@@ -48,4 +48,4 @@ class P1Space {
   virtual std::vector<double> gradient_squares(std::span<const double> u) const = 0;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

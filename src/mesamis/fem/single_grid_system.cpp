@@ -6,7 +6,7 @@
 
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 namespace {
 
 /// The first nodes of the four lines of nodes around a line of bricks.
@@ -337,4 +337,4 @@ double sum_over_nodes(const KuhnGrid& grid, const GridMass& mass,
   });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

@@ -9,7 +9,7 @@
 #include "mesamis/fem/grid_mass.h"
 #include "mesamis/fem/solve.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// The systems diag(d) + K(c) of a Kuhn grid (GridSpace::diffusion()) in single precision: with
 /// half of the bytes they take half of the memory and of the time. Sums over the grid are in double
@@ -70,4 +70,4 @@ void find_gradient_squares(const KuhnGrid& grid, std::span<const float> u,
 double sum_over_nodes(const KuhnGrid& grid, const GridMass& mass,
                       const std::function<double(std::size_t, double)>& term);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

@@ -9,7 +9,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/multigrid.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 namespace {
 
 using Preconditioner = std::function<void(std::span<const double>, std::span<double>)>;
@@ -118,4 +118,4 @@ SolveReport solve(const SpdOperator& a, std::span<const double> b, std::span<dou
   return report;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

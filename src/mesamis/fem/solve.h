@@ -5,7 +5,7 @@
 
 #include "mesamis/fem/spd_operator.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// When the iteration ends.
 struct SolveOptions {
@@ -38,4 +38,4 @@ struct SolveReport {
 SolveReport solve(const SpdOperator& a, std::span<const double> b, std::span<double> x,
                   const SolveOptions& options = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

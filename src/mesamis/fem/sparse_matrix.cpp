@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 SparseMatrix from_triplets(Index rows, std::vector<Triplet> triplets) {
   std::stable_sort(triplets.begin(), triplets.end(), [](const Triplet& a, const Triplet& b) {
@@ -25,4 +25,4 @@ SparseMatrix from_triplets(Index rows, std::vector<Triplet> triplets) {
   return matrix;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

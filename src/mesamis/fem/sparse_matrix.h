@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// Compressed rows, columns increasing within a row, the diagonal always stored.
 struct SparseMatrix {
@@ -30,4 +31,4 @@ struct Triplet {
 /// O(t log t) for t triplets.
 SparseMatrix from_triplets(Index rows, std::vector<Triplet> triplets);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

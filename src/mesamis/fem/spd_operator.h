@@ -7,7 +7,7 @@
 
 #include "mesamis/fem/sparse_matrix.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// A symmetric positive definite linear operator A of n unknowns, as solve() needs it.
 class SpdOperator {
@@ -61,4 +61,4 @@ class MatrixOperator : public SpdOperator {
   std::vector<double> diagonal_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

@@ -8,7 +8,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/cell_quadrature.h"
 
-namespace mesamis {
+namespace mesamis::detail::fem {
 namespace {
 
 /// Weights of the voxels along one axis for each node: the hat function of the node's
@@ -174,4 +174,4 @@ std::vector<std::vector<double>> interpolate_fields(const KuhnGrid& from,
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

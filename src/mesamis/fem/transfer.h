@@ -14,7 +14,7 @@
 
 /// Transfer of fields to a mesh: of the image by projection or averaging, of u and v by
 /// interpolation.
-namespace mesamis {
+namespace mesamis::detail::fem {
 
 /// How the image is projected.
 struct ProjectionOptions {
@@ -93,4 +93,4 @@ std::vector<std::vector<double>> interpolate_fields(const KuhnGrid& from,
                                                     std::span<const std::span<const float>> fields,
                                                     std::span<const Vec3> points);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fem

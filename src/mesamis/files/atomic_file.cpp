@@ -7,12 +7,12 @@
 #include "mesamis/files/pending_file.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis {
+namespace mesamis::detail::files {
 
 namespace fs = std::filesystem;
 
 AtomicFile::AtomicFile(const OutputPath& target)
-    : file_(std::make_unique<detail::PendingFile>(target)),
+    : file_(std::make_unique<PendingFile>(target)),
       temporary_(file_->temporary()),
       set_(target.set) {}
 
@@ -24,7 +24,7 @@ void AtomicFile::commit() {
   file_->replace();
   const fs::path folder = file_->folder();
   file_.reset();
-  detail::flush_folder(folder);
+  flush_folder(folder);
 }
 
 void write_file(const OutputPath& path, std::string_view bytes) {
@@ -32,10 +32,10 @@ void write_file(const OutputPath& path, std::string_view bytes) {
   std::ofstream out(file.temporary_path(), std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
-  if (!out) detail::refuse(path, "cannot be written; is the disk full?");
+  if (!out) refuse(path, "cannot be written; is the disk full?");
   file.commit();
 }
 
-void remove_unfinished_files() noexcept { detail::remove_pending_files(); }
+void remove_unfinished_files() noexcept { remove_pending_files(); }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::files

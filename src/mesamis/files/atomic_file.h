@@ -6,12 +6,11 @@
 #include <string_view>
 
 #include "mesamis/files/output_path.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::files {
 
-namespace detail {
 class PendingFile;
-}
 
 /// A file that appears whole or not at all. The caller writes to temporary_path(); commit() renames
 /// that file to the target. Without commit(), the destructor or remove_unfinished_files() removes
@@ -43,7 +42,7 @@ class AtomicFile {
   void commit();
 
  private:
-  std::unique_ptr<detail::PendingFile> file_;  ///< none once it is committed
+  std::unique_ptr<PendingFile> file_;  ///< none once it is committed
   std::filesystem::path temporary_;
   OutputSet* set_;
 };
@@ -60,4 +59,4 @@ void write_file(const OutputPath& path, std::string_view bytes);
 /// most 1024 files at a time; further ones are removed by their destructors only.
 void remove_unfinished_files() noexcept;
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::files

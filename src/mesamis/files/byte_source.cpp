@@ -13,7 +13,7 @@
 #include "mesamis/files/read_record.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 namespace {
 
 constexpr std::size_t kChunk = 1 << 16;
@@ -180,4 +180,4 @@ std::string read_all(const std::filesystem::path& file, MemoryBudget& budget, Mo
   return bytes;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -10,7 +10,7 @@
 
 #include "mesamis/files/memory_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 /// How the bytes of a file are compressed.
 enum class Packing {
@@ -63,4 +63,4 @@ inline constexpr std::size_t kFirstBytes = 512;
 std::string read_all(const std::filesystem::path& file, MemoryBudget& budget,
                      MostBytes most = nullptr);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

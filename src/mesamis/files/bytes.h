@@ -8,7 +8,9 @@
 #include <cstring>
 #include <string>
 
-namespace mesamis::detail {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::files {
 
 enum class ByteOrder { kLittle, kBig };
 
@@ -31,4 +33,4 @@ void append(std::string& out, Number value) {
   out.append(own.data(), own.size());
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -5,7 +5,7 @@
 
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 struct Deflater::Stream {
   z_stream zlib{};
@@ -57,4 +57,4 @@ std::string gzipped(const std::filesystem::path& path, std::string_view bytes, i
   return packed + deflater.finish();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

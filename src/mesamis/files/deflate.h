@@ -7,7 +7,9 @@
 #include <string>
 #include <string_view>
 
-namespace mesamis::detail {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::files {
 
 /// The most that deflate can pack: 258 bytes in 2 bits, zlib's own figure. What a file claims of
 /// its unpacked bytes is compared with it before memory is taken for them.
@@ -47,4 +49,4 @@ class Deflater {
 /// Linear in the bytes; memory: the compressed bytes.
 std::string gzipped(const std::filesystem::path& path, std::string_view bytes, int level = 1);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -13,7 +13,7 @@
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 namespace {
 
 constexpr std::size_t kPreamble = 128;
@@ -357,4 +357,4 @@ const DicomSet* first_item(const DicomSet& set, DicomTag tag) {
   return &element->second.items.front();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -14,7 +14,7 @@
 
 /// The data elements of one DICOM file. The parser is our own, so that every length a file claims
 /// is checked against the bytes that are there before it is used.
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 using DicomTag = std::uint32_t;  ///< group << 16 | element
 using Bytes = std::span<const unsigned char>;
@@ -111,4 +111,4 @@ std::optional<std::vector<double>> decimals_of(const DicomSet& set, DicomTag tag
 /// The first item of a sequence; null if there is none.
 const DicomSet* first_item(const DicomSet& set, DicomTag tag);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

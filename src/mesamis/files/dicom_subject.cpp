@@ -13,7 +13,6 @@ namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace detail;
 
 struct Place {
   std::string DicomSubject::*field;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/files/dicom_text.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 std::string utf8_text(const DicomFile& file, const DicomSet& item, DicomTag tag) {
   const std::string text = text_of(item, tag);
@@ -19,4 +19,4 @@ std::string utf8_text(const DicomFile& file, const DicomSet& item, DicomTag tag)
   return out;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

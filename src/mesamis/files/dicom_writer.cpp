@@ -6,7 +6,7 @@
 
 #include "mesamis/files/bytes.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 namespace {
 
 void append_tag(std::string& out, DicomTag tag) {
@@ -130,4 +130,4 @@ std::string dicom_uid_of(std::string_view text) {
   return "2.25." + digits;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

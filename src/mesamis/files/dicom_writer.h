@@ -10,7 +10,7 @@
 #include "mesamis/files/dicom_data.h"
 
 /// The data elements of a DICOM file that is written: explicit little endian.
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 /// A data set, whose elements are written in the order of their tags.
 class DicomSetWriter {
@@ -42,4 +42,4 @@ std::string dicom_file_bytes(const DicomSetWriter& set, const std::array<std::st
 /// another, but for chance. O(characters).
 std::string dicom_uid_of(std::string_view text);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -13,7 +13,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/utf8.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -139,4 +139,4 @@ std::string contents_of(const fs::path& directory) {
                                    : text;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

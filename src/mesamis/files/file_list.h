@@ -7,7 +7,9 @@
 #include <system_error>
 #include <vector>
 
-namespace mesamis::detail {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::files {
 
 /// @return  what the system says of an error, in lower case: "permission denied".
 std::string reason_of(const std::error_code& error);
@@ -43,4 +45,4 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& directo
 /// @throws InputError  as files_below().
 std::string contents_of(const std::filesystem::path& directory);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

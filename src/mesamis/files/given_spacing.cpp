@@ -5,7 +5,7 @@
 
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 void require_positive_spacing(const std::filesystem::path& path, const Vec3& spacing) {
   for (int a = 0; a < 3; ++a) {
@@ -19,4 +19,4 @@ std::string spacing_is_replaced(const Vec3& stated) {
                  " mm, is replaced by the one given");
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

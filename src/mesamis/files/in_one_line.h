@@ -11,7 +11,7 @@
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 /// Runs the work of a reader on a path that is there. Every failure becomes an InputError of one
 /// line that begins with the path and names the broken file, where that is another one.
@@ -31,4 +31,4 @@ auto in_one_line(const std::filesystem::path& path, Work&& work) {
   }
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

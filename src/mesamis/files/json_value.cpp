@@ -7,7 +7,7 @@
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,4 +110,4 @@ std::string JsonValue::text() const {
   return value_->get<std::string>();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

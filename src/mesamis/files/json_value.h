@@ -11,7 +11,7 @@
 
 #include "mesamis/files/memory_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 /// Reads a file of JSON: at most 64 MiB, at most 64 levels.
 /// @throws InputError  naming the file.
@@ -60,4 +60,4 @@ class JsonValue {
   std::string where_;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

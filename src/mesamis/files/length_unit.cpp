@@ -7,7 +7,7 @@
 
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 namespace {
 
 struct LengthUnit {
@@ -74,4 +74,4 @@ std::optional<double> mm_per_unit(std::string_view text) {
   return find(name);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

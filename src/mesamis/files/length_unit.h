@@ -4,8 +4,10 @@
 #include <optional>
 #include <string_view>
 
+#include "mesamis/rooms.h"
+
 /// Units of length by the names that files give them.
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 /// Converts a unit of length to mm.
 /// @param name  symbol or word, singular or plural, in either case: "um", "\u00b5m", "microns",
@@ -16,4 +18,4 @@ namespace mesamis::detail {
 /// O(length of the name).
 std::optional<double> mm_per_unit(std::string_view name);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -7,7 +7,7 @@
 #include "mesamis/base/available_memory.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 namespace {
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
@@ -35,4 +35,4 @@ void MemoryBudget::claim(std::uint64_t count, std::uint64_t bytes_each, std::str
                         " for ", what, " beside ", megabytes(static_cast<double>(held_))));
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

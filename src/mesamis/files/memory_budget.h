@@ -10,10 +10,11 @@
 #include <vector>
 
 #include "mesamis/files/reading.h"
+#include "mesamis/rooms.h"
 
 /// The one account of the memory that a file may claim. Each reader asks it before it takes memory
 /// whose amount a file decides.
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 class MemoryBudget {
  public:
@@ -117,4 +118,4 @@ void free_within(MemoryBudget& budget, std::vector<Element>& array) noexcept {
   array = {};
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

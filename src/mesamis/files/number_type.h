@@ -5,7 +5,7 @@
 
 #include "mesamis/files/bytes.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 enum class NumberType {
   kInt8,
@@ -58,4 +58,4 @@ inline double load_number(const char* bytes, NumberType type, ByteOrder order) {
       type, [=](auto zero) { return static_cast<double>(load<decltype(zero)>(bytes, order)); });
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

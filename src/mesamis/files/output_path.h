@@ -7,7 +7,9 @@
 
 namespace mesamis {
 
+namespace detail::files {
 class OutputSet;
+}
 
 /// The path of an output file and the set of files that it appears with, see OutputSet::file(). A
 /// path converts implicitly: the file then appears on its own.
@@ -21,10 +23,10 @@ struct OutputPath : std::filesystem::path {
   // NOLINTEND(google-explicit-constructor,bugprone-forwarding-reference-overload)
   /// A file of a set.
   /// @param with  lives until the file is written; nullptr: none.
-  OutputPath(std::filesystem::path name, OutputSet* with)
+  OutputPath(std::filesystem::path name, detail::files::OutputSet* with)
       : std::filesystem::path(std::move(name)), set(with) {}
 
-  OutputSet* set = nullptr;
+  detail::files::OutputSet* set = nullptr;
 };
 
 }  // namespace mesamis

@@ -9,14 +9,14 @@
 #include "mesamis/files/pending_file.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis {
+namespace mesamis::detail::files {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// The one name of a file that is there or not.
 fs::path identity(const fs::path& path) {
-  const fs::path place = detail::without_links(path);
+  const fs::path place = without_links(path);
   std::error_code error;
   const fs::path folder = fs::canonical(place.parent_path(), error);
   return error ? place.lexically_normal() : folder / place.filename();
@@ -38,9 +38,7 @@ OutputSet::OutputSet(OutputSet* outer) : outer_(outer) {}
 
 OutputSet::~OutputSet() = default;
 
-void OutputSet::add(std::unique_ptr<detail::PendingFile> file) {
-  files_.push_back(std::move(file));
-}
+void OutputSet::add(std::unique_ptr<PendingFile> file) { files_.push_back(std::move(file)); }
 
 std::vector<OutputSet::Member> OutputSet::members() const {
   std::vector<Member> members;
@@ -57,7 +55,7 @@ void OutputSet::commit() {
   std::set<fs::path> folders;
   for (const auto& file : files_) folders.insert(file->folder());
   files_.clear();
-  for (const fs::path& folder : folders) detail::flush_folder(folder);
+  for (const fs::path& folder : folders) flush_folder(folder);
 }
 
 void OutputSet::replace_all() {
@@ -70,20 +68,20 @@ void OutputSet::replace_all() {
   }
 }
 
-void require_writable(const fs::path& target) { const detail::PendingFile tried(target); }
+void require_writable(const fs::path& target) { const PendingFile tried(target); }
 
 void require_distinct(std::span<const fs::path> outputs, std::span<const fs::path> inputs) {
   std::set<fs::path> seen;
   for (const fs::path& output : outputs) {
     if (output.empty()) continue;
     if (!seen.insert(identity(output)).second) {
-      detail::refuse(output, "expected a file of its own for each output, found it twice");
+      refuse(output, "expected a file of its own for each output, found it twice");
     }
     for (const fs::path& input : inputs) {
       if (input.empty() || !is_same_file(output, input)) continue;
-      detail::refuse(output, "expected another file than the input, found " + input.string());
+      refuse(output, "expected another file than the input, found " + input.string());
     }
   }
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::files

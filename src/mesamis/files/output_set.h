@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "mesamis/files/output_path.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::files {
 
-namespace detail {
 class PendingFile;
-}
 
 /// Files that appear together, when all of them are whole on the disk, or none of them.
 ///
@@ -49,11 +48,11 @@ class OutputSet {
 
  private:
   friend class AtomicFile;
-  void add(std::unique_ptr<detail::PendingFile> file);
+  void add(std::unique_ptr<PendingFile> file);
   void replace_all();
 
   OutputSet* outer_;
-  std::vector<std::unique_ptr<detail::PendingFile>> files_;
+  std::vector<std::unique_ptr<PendingFile>> files_;
 };
 
 /// Refuses a file that could not be written at the end of long work, by the same rules as
@@ -70,4 +69,4 @@ void require_writable(const std::filesystem::path& target);
 void require_distinct(std::span<const std::filesystem::path> outputs,
                       std::span<const std::filesystem::path> inputs);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::files

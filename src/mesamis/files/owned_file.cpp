@@ -17,7 +17,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ void remove_abandoned(const fs::path& folder) noexcept {
   closedir(entries);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -3,10 +3,12 @@
 
 #include <filesystem>
 
+#include "mesamis/rooms.h"
+
 /// Files that belong to a process as long as it lives, and can be told from those that a killed
 /// process has left: the owner holds an exclusive lock (flock), which the system gives back however
 /// the process ends. The number of the process would not do: in a container it is always the same.
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 /// @return  a name that nobody has in a folder: ".mesamis-", 16 random digits, ".unfinished".
 /// @throws InputError  if the system has no random numbers.
@@ -25,4 +27,4 @@ bool is_abandoned(const std::filesystem::path& file) noexcept;
 /// Removes the files with names of new_name() in a folder whose owners are gone. All else stays.
 void remove_abandoned(const std::filesystem::path& folder) noexcept;
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

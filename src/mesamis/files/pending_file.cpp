@@ -17,7 +17,7 @@
 #include "mesamis/files/owned_file.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -174,4 +174,4 @@ void remove_pending_files() noexcept {
   errno = error;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

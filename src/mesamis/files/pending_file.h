@@ -3,7 +3,9 @@
 
 #include <filesystem>
 
-namespace mesamis::detail {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::files {
 
 /// A new file beside the one that it will replace. At its end one of them is left: the new file if
 /// replace() was called.
@@ -50,4 +52,4 @@ std::filesystem::path without_links(const std::filesystem::path& path);
 /// Removes the new files of all PendingFile objects; see remove_unfinished_files().
 void remove_pending_files() noexcept;
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -9,7 +9,7 @@
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis {
+namespace mesamis::detail::files {
 namespace {
 
 thread_local ReadRecord* innermost = nullptr;
@@ -21,7 +21,7 @@ std::int64_t nanoseconds(const timespec& time) {
 bool path_is_less(const ReadFile& a, const ReadFile& b) { return a.path < b.path; }
 
 [[noreturn]] void refuse_changed(const std::filesystem::path& file) {
-  detail::refuse(file, "expected a file that stays as it is while it is read, found it changed");
+  refuse(file, "expected a file that stays as it is while it is read, found it changed");
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ bool path_is_less(const ReadFile& a, const ReadFile& b) { return a.path < b.path
 FileState state_of(const std::filesystem::path& file) {
   struct stat found {};
   if (stat(file.c_str(), &found) != 0) {
-    detail::refuse(file, "cannot be read: " + detail::reason_of(errno));
+    refuse(file, "cannot be read: " + reason_of(errno));
   }
   return {found.st_dev, found.st_ino, static_cast<std::uint64_t>(found.st_size),
           nanoseconds(found.st_mtim), nanoseconds(found.st_ctim)};
@@ -61,4 +61,4 @@ void require_unchanged(const ReadFile& file) {
   if (state_of(file.path) != file.state) refuse_changed(file.path);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::files

@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "mesamis/files/reading.h"
+#include "mesamis/rooms.h"
 
 /// Which files a reader has opened, and in which state, so that a sum over them can be known to be
 /// that of the bytes that were read.
-namespace mesamis {
+namespace mesamis::detail::files {
 
 /// @throws InputError  if there is no such file, or none that may be asked.
 FileState state_of(const std::filesystem::path& file);
@@ -42,4 +43,4 @@ void note_read(const std::filesystem::path& file, const FileState& before);
 /// @throws InputError  if the file is not in the state any more in which it was opened.
 void require_unchanged(const ReadFile& file);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::files

@@ -8,7 +8,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/files/utf8.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 namespace {
 
 template <class Number>
@@ -57,4 +57,4 @@ std::string_view trimmed(std::string_view text) {
 bool parse_number(std::string_view text, double& value) { return parse_whole(text, value); }
 bool parse_number(std::string_view text, std::int64_t& value) { return parse_whole(text, value); }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -10,7 +10,7 @@
 #include "mesamis/base/message.h"
 
 /// Errors of one line, the file first, and the parsing of words and numbers.
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 /// @return  a file's text as a message may show it: one line of plain ASCII, other characters as
 /// '?'.
@@ -37,4 +37,4 @@ std::string_view trimmed(std::string_view text);
 bool parse_number(std::string_view text, double& value);
 bool parse_number(std::string_view text, std::int64_t& value);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

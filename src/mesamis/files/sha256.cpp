@@ -11,11 +11,8 @@
 #include "mesamis/files/byte_source.h"
 #include "mesamis/files/file_list.h"
 
-namespace mesamis {
+namespace mesamis::detail::files {
 namespace {
-
-using detail::ByteSource;
-using detail::Packing;
 
 /// SHA-256 (FIPS 180-4) by libcrypto, which uses the processor's own instructions for it.
 class Sha256 {
@@ -62,7 +59,7 @@ std::string sha256(const std::filesystem::path& path) {
   Sha256 hash;
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    for (const auto& file : detail::files_below(path)) hash.add_file(file);
+    for (const auto& file : files_below(path)) hash.add_file(file);
   } else {
     hash.add_file(path);
   }
@@ -78,4 +75,4 @@ std::string sha256(const std::vector<ReadFile>& files) {
   return hash.hex();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::files

@@ -7,7 +7,7 @@
 
 #include "mesamis/files/read_record.h"
 
-namespace mesamis {
+namespace mesamis::detail::files {
 
 /// Computes the SHA-256 of a file or a directory (FIPS 180-4).
 ///
@@ -29,4 +29,4 @@ std::string sha256(const std::filesystem::path& path);
 /// Linear in the bytes; memory: one buffer of 64 KiB.
 std::string sha256(const std::vector<ReadFile>& files);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::files

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <string_view>
 
+#include "mesamis/rooms.h"
+
 /// Text in memory, cut without copies.
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 /// The next word between white space, taken off the front of the text; empty at the end.
 inline std::string_view take_word(std::string_view& text) {
@@ -26,4 +28,4 @@ inline bool take_line(std::string_view& text, std::string_view& line) {
   return true;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

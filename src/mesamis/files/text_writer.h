@@ -12,7 +12,7 @@
 #include "mesamis/files/atomic_file.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 /// Appends the shortest decimals that read back as the same double; never "-0".
 inline void append_shortest(std::string& out, double value) {
@@ -75,4 +75,4 @@ class TextWriter {
   std::string text_;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace mesamis {
+namespace mesamis::detail::files {
 namespace {
 
 /// How many bytes follow this first one of a character; -1 if no character begins so.
@@ -74,4 +74,4 @@ std::string shortened(const std::string& text, std::size_t longest) {
   return text.substr(0, head).append(kGap).append(text, tail);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::files

@@ -5,8 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "mesamis/rooms.h"
+
 /// Text that goes into files and messages.
-namespace mesamis {
+namespace mesamis::detail::files {
 
 /// Whether a text is UTF-8 (RFC 3629): no character in more bytes than it needs, no halves of
 /// pairs, none beyond U+10FFFF.
@@ -20,4 +22,4 @@ std::string as_one_line(std::string_view text);
 /// @param longest  bytes, at least 5.
 std::string shortened(const std::string& text, std::size_t longest);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::files

@@ -5,7 +5,7 @@
 
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 namespace {
 
 /// "5 volumes (--volume 0 to 4)"
@@ -40,4 +40,4 @@ TakenValue take_value(const std::filesystem::path& file, const ValueAxes& axes,
   return taken;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -7,9 +7,10 @@
 #include <string>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
 /// Files with more than one value per voxel: which one a reader takes.
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 /// What a file has beside the axes of space.
 struct ValueAxes {
@@ -36,4 +37,4 @@ struct TakenValue {
 TakenValue take_value(const std::filesystem::path& file, const ValueAxes& axes,
                       const ValueChoice& choice);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

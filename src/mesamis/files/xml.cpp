@@ -13,7 +13,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -261,4 +261,4 @@ std::string xml_unescaped(const std::string& text) {
   }
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -12,7 +12,7 @@
 #include "mesamis/files/memory_budget.h"
 
 /// The one reader of XML: expat, with bounds that keep a hostile file harmless.
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 struct XmlElement {
   std::string name;
@@ -59,4 +59,4 @@ XmlDocument parse_xml(const std::filesystem::path& file, std::string_view text,
 /// themselves where they are not well-formed.
 std::string xml_unescaped(const std::string& text);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace mesamis {
+namespace mesamis::detail::files {
 namespace {
 
 /// The bytes of the UTF-8 character that begins the text; 0 if it is none that XML allows.
@@ -61,4 +61,4 @@ std::string xml_escaped(std::string_view text) {
   return out;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::files

@@ -4,10 +4,12 @@
 #include <string>
 #include <string_view>
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::files {
 
 /// Escapes a text for an XML element or attribute, in UTF-8. '?' replaces each byte that XML does
 /// not allow: control characters other than tab and line ends, and bytes that are not UTF-8.
 std::string xml_escaped(std::string_view text);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::files

@@ -10,7 +10,7 @@
 #include "mesamis/files/deflate.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 namespace {
 
 /// Records of the format (APPNOTE 4.3) by their first four bytes, and their sizes without names.
@@ -160,4 +160,4 @@ std::optional<std::string> ZipArchive::part(std::string_view name) {
   return plain;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

@@ -10,7 +10,7 @@
 
 #include "mesamis/files/memory_budget.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::files {
 
 /// The parts of a ZIP archive in memory: stored or deflated, not encrypted; ZIP64 too.
 class ZipArchive {
@@ -58,4 +58,4 @@ class ZipArchive {
   std::vector<Part> parts_;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::files

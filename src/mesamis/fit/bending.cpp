@@ -3,7 +3,7 @@
 
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::fit {
 namespace {
 
 double product(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
@@ -122,4 +122,4 @@ std::vector<Vec3> relax(const Umbrella& umbrella, const Springs& springs, double
   return x;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

@@ -5,7 +5,7 @@
 
 #include "mesamis/fit/surface_moves.h"
 
-namespace mesamis {
+namespace mesamis::detail::fit {
 
 /// What smooths a surface: the umbrella operator L, the difference of a point from the mean of the
 /// points beside it. On curves where several boundaries meet these are those of the curve alone; a
@@ -48,4 +48,4 @@ Springs springs_at(const SurfaceSpace& space, const std::vector<Vec3>& points, d
 std::vector<Vec3> relax(const Umbrella& umbrella, const Springs& springs, double bending,
                         std::vector<Vec3> x);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

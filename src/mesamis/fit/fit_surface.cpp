@@ -9,7 +9,7 @@
 #include "mesamis/fit/image_edge.h"
 #include "mesamis/fit/surface_moves.h"
 
-namespace mesamis {
+namespace mesamis::detail::fit {
 namespace {
 
 /// The rounds of fit_surface().
@@ -85,4 +85,4 @@ TriMesh fit_surface(const TriMesh& surface, const SplineImage& image, const FitP
   return fit.surface();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

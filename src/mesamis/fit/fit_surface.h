@@ -7,7 +7,7 @@
 #include "mesamis/surface/tri_mesh.h"
 
 /// Surfaces that are fitted to an image, as smooth as they can be.
-namespace mesamis {
+namespace mesamis::detail::fit {
 
 /// How a surface is fitted.
 struct FitOptions {
@@ -43,4 +43,4 @@ struct FitPoints {
 TriMesh fit_surface(const TriMesh& surface, const SplineImage& image, const FitPoints& points,
                     const FitOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace mesamis {
+namespace mesamis::detail::fit {
 namespace {
 
 constexpr double kStep = 0.2;  // voxels between the samples along a normal
@@ -83,4 +83,4 @@ ImageEdge find_image_edge(const FollowSpace& space, const Vec3& point, const Vec
   return {distance, std::clamp((slope - kNoSlope) / (kSureSlope - kNoSlope), 0.0, 1.0)};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

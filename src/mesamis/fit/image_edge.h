@@ -3,7 +3,7 @@
 
 #include "mesamis/fit/surface_moves.h"
 
-namespace mesamis {
+namespace mesamis::detail::fit {
 
 /// The edge that a point of a surface sees along its normal.
 struct ImageEdge {
@@ -25,4 +25,4 @@ struct ImageEdge {
 ImageEdge find_image_edge(const FollowSpace& space, const Vec3& point, const Vec3& normal,
                           double contrast, double reach);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

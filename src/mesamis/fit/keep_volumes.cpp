@@ -8,7 +8,7 @@
 #include "mesamis/fit/surface_moves.h"
 #include "mesamis/surface/normals.h"
 
-namespace mesamis {
+namespace mesamis::detail::fit {
 namespace {
 
 using Sides = std::span<const std::array<Index, 2>>;
@@ -79,4 +79,4 @@ TriMesh keep_volumes(const MovedBoundaries& boundaries, const VoxelGrid& grid) {
   return moved_without_folds(space, now, std::move(shifts));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::fit {
 
 /// Boundaries of several objects, and where their points were.
 struct MovedBoundaries {
@@ -29,4 +30,4 @@ struct MovedBoundaries {
 /// O(n log n) for n points. The same bits for any number of threads.
 TriMesh keep_volumes(const MovedBoundaries& boundaries, const VoxelGrid& grid);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

@@ -8,7 +8,7 @@
 #include "mesamis/fit/bending.h"
 #include "mesamis/fit/surface_moves.h"
 
-namespace mesamis {
+namespace mesamis::detail::fit {
 
 TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid,
                        const std::vector<char>& on_curve, const SmoothingOptions& options) {
@@ -32,4 +32,4 @@ TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid,
   return moved_without_folds(space, surface, std::move(shifts));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::fit {
 
 /// How a surface is smoothed.
 struct SmoothingOptions {
@@ -33,4 +34,4 @@ struct SmoothingOptions {
 TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid,
                        const std::vector<char>& on_curve, const SmoothingOptions& options = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

@@ -11,7 +11,7 @@
 #include "mesamis/surface/normals.h"
 #include "mesamis/surface/self_intersections.h"
 
-namespace mesamis {
+namespace mesamis::detail::fit {
 namespace {
 
 /// Voxels of noise beyond which the image tells nothing that the mesh does not.
@@ -271,4 +271,4 @@ TriMesh moved_without_folds(const SurfaceSpace& space, const TriMesh& surface,
   return Unfolding(space, surface).run(std::move(shifts));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

@@ -11,7 +11,7 @@
 
 /// How the points of a surface are moved towards the level set of an image: the steps of
 /// follow_image() that hold for the boundaries of several objects, too.
-namespace mesamis {
+namespace mesamis::detail::fit {
 
 /// Voxels by which filtered_moves() moves a point at most.
 inline constexpr double kMostMove = 0.7;
@@ -134,4 +134,4 @@ std::vector<double> filtered_moves(const FollowSpace& space, const Offsets& offs
 TriMesh moved_without_folds(const SurfaceSpace& space, const TriMesh& surface,
                             std::vector<Vec3> shifts);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

@@ -6,7 +6,7 @@
 
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::fit {
 namespace {
 
 constexpr double kBending = 8, kWeight = 4;
@@ -69,4 +69,4 @@ std::vector<Vec3> without_terraces(const SurfaceSpace& space, const TriMesh& sur
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

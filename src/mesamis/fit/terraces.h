@@ -5,7 +5,7 @@
 
 #include "mesamis/fit/bending.h"
 
-namespace mesamis {
+namespace mesamis::detail::fit {
 
 /// How far terraces let a point move at most, in the unit of the surface; 0 without thick slices.
 double most_moved_by_terraces(const SurfaceSpace& space);
@@ -33,4 +33,4 @@ double most_moved_by_terraces(const SurfaceSpace& space);
 std::vector<Vec3> without_terraces(const SurfaceSpace& space, const TriMesh& surface,
                                    const Neighbors& neighbors, Springs springs);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::fit

@@ -9,7 +9,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::image {
 namespace {
 
 /// Weights at distance 0, 1, ...; they add up to 1 together with their mirror images.
@@ -83,4 +83,4 @@ Volume gaussian_smoothed(Volume volume, double sigma) {
   return volume;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

@@ -5,8 +5,9 @@
 #include <utility>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::image {
 
 /// How many voxels away a voxel still counts in gaussian_smoothed(): four standard deviations,
 /// rounded up.
@@ -48,4 +49,4 @@ class WeightedMeans {
   double pull_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

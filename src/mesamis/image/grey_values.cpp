@@ -12,7 +12,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::image {
 namespace {
 
 struct Histogram {
@@ -298,4 +298,4 @@ Volume smoothed(const VolumeView& volume) {
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
 /// From native units (HU, counts) to the grey values in [0, 255] the method works on.
-namespace mesamis {
+namespace mesamis::detail::image {
 
 /// f = 255 clamp((I - low) / (high - low), 0, 1), then (13): f_t = max(f, T).
 struct GreyMap {
@@ -99,4 +100,4 @@ Volume clamped(const VolumeView& volume, const Window& window);
 /// O(voxels), a copy of the samples. The same bits for any number of threads.
 Volume smoothed(const VolumeView& volume);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

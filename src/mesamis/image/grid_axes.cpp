@@ -7,7 +7,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis {
+namespace mesamis::detail::image {
 namespace {
 
 double column_cosine(const std::array<Vec3, 3>& unit) {
@@ -57,4 +57,4 @@ GridAxes grid_axes(const std::array<Vec3, 3>& steps) {
   return axes;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

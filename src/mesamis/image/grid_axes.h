@@ -4,9 +4,10 @@
 #include <array>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
 /// How steps along the axes of a grid, as affine matrices state them, become spacing and direction.
-namespace mesamis {
+namespace mesamis::detail::image {
 
 /// Axes whose cosines are larger are no axes of a grid; no unit.
 inline constexpr double kSkewTolerance = 1e-3;
@@ -25,4 +26,4 @@ struct GridAxes {
 ///                     finite.
 GridAxes grid_axes(const std::array<Vec3, 3>& steps);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

@@ -14,8 +14,6 @@
 namespace mesamis {
 namespace {
 
-using detail::message;
-
 /// From the voxels of one grid to those of another: both in voxels, the centre of the first at 0.
 class VoxelTransform {
  public:

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace mesamis {
+namespace mesamis::detail::image {
 
 NotNumbers fill_not_numbers(std::span<float> samples) noexcept {
   const auto is_nan = [](float x) { return std::isnan(x); };
@@ -17,4 +17,4 @@ NotNumbers fill_not_numbers(std::span<float> samples) noexcept {
   return {static_cast<std::size_t>(count), least};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

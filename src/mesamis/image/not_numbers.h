@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <span>
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::image {
 
 /// What was NaN in a scan: voxels outside of what was measured.
 struct NotNumbers {
@@ -21,4 +23,4 @@ struct NotNumbers {
 /// O(samples).
 NotNumbers fill_not_numbers(std::span<float> samples) noexcept;
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

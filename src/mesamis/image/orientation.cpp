@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace mesamis {
+namespace mesamis::detail::image {
 namespace {
 
 constexpr std::array<std::array<char, 2>, 3> kLetters{{{'L', 'R'}, {'P', 'A'}, {'S', 'I'}}};
@@ -50,4 +50,4 @@ GridOrientation orientation_of(const Mat3& direction) {
   return found;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

@@ -4,9 +4,10 @@
 #include <array>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
 /// How a grid lies in the body.
-namespace mesamis {
+namespace mesamis::detail::image {
 
 /// Finds the body axis nearest to a direction, either way; of equals the first.
 /// @param direction  LPS, not zero, of any unit.
@@ -29,4 +30,4 @@ struct GridOrientation {
 /// @param direction  orthonormal, see VoxelGrid::direction.
 GridOrientation orientation_of(const Mat3& direction);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

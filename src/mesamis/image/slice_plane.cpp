@@ -9,7 +9,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/image/orientation.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::image {
 
 Vec3 grid_direction(const VoxelGrid& grid, int grid_axis) {
   const auto& rows = grid.direction.rows;
@@ -84,4 +84,4 @@ Vec3 to_page(const VoxelGrid& grid, const SlicePlane& plane, const Vec3& world) 
           place[plane.axis[2]] - plane.index * grid.spacing[plane.axis[2]]};
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::image

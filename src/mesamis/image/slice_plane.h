@@ -4,9 +4,10 @@
 #include <array>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
 /// A slice of a voxel grid as it lies on a page.
-namespace mesamis::detail {
+namespace mesamis::detail::image {
 
 /// The orientation of a slice of the voxel grid on the page.
 struct SlicePlane {
@@ -36,4 +37,4 @@ Vec3 grid_direction(const VoxelGrid& grid, int grid_axis);
 /// of the slice.
 Vec3 to_page(const VoxelGrid& grid, const SlicePlane& plane, const Vec3& world);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::image

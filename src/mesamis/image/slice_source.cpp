@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/image/slice_source.h"
 
-namespace mesamis {
+namespace mesamis::detail::image {
 
 Volume read_slab(const SliceSource& source, Index first, Index count) {
   const VoxelGrid& whole = source.grid();
@@ -24,4 +24,4 @@ std::vector<float> VolumeSlices::read(Index first, Index count) const {
   return {begin, begin + static_cast<std::ptrdiff_t>(volume_.offset(0, 0, count))};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::image {
 
 /// A scan that is read a few slices at a time: one that is too large for the memory.
 class SliceSource {
@@ -54,4 +55,4 @@ class VolumeSlices : public SliceSource {
   VolumeView volume_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

@@ -9,7 +9,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/image/grey_values.h"
 
-namespace mesamis {
+namespace mesamis::detail::image {
 namespace {
 
 /// Rows of samples one after the other along an axis; each sample of a row belongs to a line of its
@@ -193,4 +193,4 @@ double SplineLine::at(double x) {
   return std::clamp<double>(value, image_.low, image_.high);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

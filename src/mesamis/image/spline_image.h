@@ -6,10 +6,11 @@
 #include <span>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
 /// An image between its voxels: scanners deliver band-limited images, and a cubic spline through
 /// the samples is much nearer to those than a linear interpolant is.
-namespace mesamis {
+namespace mesamis::detail::image {
 
 /// The cubic B-spline that interpolates the samples of an image. Its second derivative is zero at
 /// the outermost voxels, so that a linear image is reproduced. Values are bounded after they are
@@ -67,4 +68,4 @@ class SplineLine {
   Index cell_ = -100;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

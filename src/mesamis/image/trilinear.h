@@ -7,8 +7,9 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::image {
 
 /// An image between its voxels, linear along each axis; constant beyond the outermost voxel centres.
 class Trilinear {
@@ -45,4 +46,4 @@ class Trilinear {
   std::ptrdiff_t step_y_, step_z_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::image

@@ -9,8 +9,6 @@
 namespace mesamis {
 namespace {
 
-using detail::message;
-
 constexpr double kDirectionTolerance = 1e-6;
 
 void require_two_voxels(const std::array<Index, 3>& n) {

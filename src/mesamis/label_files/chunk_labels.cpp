@@ -13,7 +13,7 @@
 #include "mesamis/label_files/label_values.h"
 #include "mesamis/volume_files/chunked_scan.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ LabelFile read_chunk_labels(const fs::path& path, const ReadLimits& limits) {
   return out;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

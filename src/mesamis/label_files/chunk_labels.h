@@ -4,8 +4,9 @@
 #include <filesystem>
 
 #include "mesamis/label_files/read_labels.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// Whether a Zarr store or a group in it calls itself an image of labels; not if it cannot be
 /// opened.
@@ -22,4 +23,4 @@ bool has_labels_inside(const std::filesystem::path& path);
 /// O(voxels). Memory: 2 bytes per voxel, and a row of chunks at a time.
 LabelFile read_chunk_labels(const std::filesystem::path& path, const ReadLimits& limits);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -6,7 +6,7 @@
 
 #include "mesamis/base/types.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 /// The inverse of CIE's f(t), which is the cube root but near 0.
@@ -37,4 +37,4 @@ std::array<std::uint8_t, 3> srgb_from_cielab(const std::array<int, 3>& scaled) {
   return {gamma_coded(rgb.x), gamma_coded(rgb.y), gamma_coded(rgb.z)};
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 
-namespace mesamis::detail {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::label_files {
 
 /// Converts DICOM's Recommended Display CIELab Value to sRGB.
 ///
@@ -14,4 +16,4 @@ namespace mesamis::detail {
 /// @return red, green, blue.
 std::array<std::uint8_t, 3> srgb_from_cielab(const std::array<int, 3>& scaled);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

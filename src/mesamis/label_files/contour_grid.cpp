@@ -10,7 +10,7 @@
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 /// Half the sum of the cross products of neighbours: the area, along the normal.
@@ -352,4 +352,4 @@ ContourGrid place_contours(const std::filesystem::path& file, const StructureSet
   return out;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -11,7 +11,7 @@
 #include "mesamis/label_files/structure_set.h"
 
 /// Where the contours of a structure set lie: parallel planes, and the grid that they ask for.
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// A contour in its plane.
 struct PlaneContour {
@@ -43,4 +43,4 @@ struct ContourGrid {
 ContourGrid place_contours(const std::filesystem::path& file, const StructureSet& set,
                            const std::optional<VoxelGrid>& scan);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

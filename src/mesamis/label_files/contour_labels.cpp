@@ -12,7 +12,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/label_files/layer_stack.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 /// A contour as shares of the pixels of a window.
@@ -351,4 +351,4 @@ LabelFile read_contour_labels(const DicomFile& file, const std::function<VoxelGr
   return out;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -11,7 +11,7 @@
 #include "mesamis/label_files/contour_grid.h"
 #include "mesamis/label_files/read_labels.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// read_label_map() of a DICOM structure set.
 ///
@@ -39,4 +39,4 @@ std::vector<float> filled_plane(const std::filesystem::path& file,
                                 std::span<const PlaneContour> contours, const PixelWindow& plane,
                                 bool& overlaps);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -9,7 +9,7 @@
 #include "mesamis/label_files/layer_stack.h"
 #include "mesamis/label_files/seg_file.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 std::size_t frame_begin(const SegFile& seg, std::size_t frame) {
@@ -142,4 +142,4 @@ ProbabilityFile read_dicom_probabilities(const std::filesystem::path& path, Memo
   return out;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -6,7 +6,7 @@
 #include "mesamis/files/memory_budget.h"
 #include "mesamis/label_files/read_labels.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// read_label_map() of a DICOM segmentation.
 ///
@@ -23,4 +23,4 @@ LabelFile read_dicom_labels(const std::filesystem::path& path, MemoryBudget& bud
 /// O(pixels), plus the voxels of the layers.
 ProbabilityFile read_dicom_probabilities(const std::filesystem::path& path, MemoryBudget& budget);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -15,13 +15,10 @@
 #include "mesamis/files/text_writer.h"
 #include "mesamis/label_files/label_values.h"
 
-namespace mesamis {
+namespace mesamis::detail::label_files {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::in_quotes;
-using detail::message;
-using detail::refuse;
 
 constexpr std::uint64_t kMostBytes = 1 << 24;
 
@@ -37,7 +34,7 @@ std::optional<std::vector<Word>> words_of(std::string_view line) {
     line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
     if (line.empty()) return words;
     if (!line.starts_with('"')) {
-      words.push_back({detail::take_word(line)});
+      words.push_back({take_word(line)});
       continue;
     }
     const std::size_t end = line.find('"', 1);
@@ -53,7 +50,7 @@ std::optional<std::array<std::uint8_t, 3>> bytes_in(const std::vector<Word>& wor
   std::array<std::uint8_t, 3> colour{};
   for (std::size_t c = 0; c < 3; ++c) {
     std::int64_t value = 0;
-    if (!detail::parse_number(words[first + c].text, value) || value < 0 || value > 255) {
+    if (!parse_number(words[first + c].text, value) || value < 0 || value > 255) {
       return std::nullopt;
     }
     colour[c] = static_cast<std::uint8_t>(value);
@@ -66,13 +63,13 @@ std::optional<Segment> segment_in(std::string_view line) {
   const auto words = words_of(line);
   if (!words || words->size() < 2) return std::nullopt;
   Segment segment;
-  if (!detail::set_number(segment, (*words)[0].text)) return std::nullopt;
+  if (!set_number(segment, (*words)[0].text)) return std::nullopt;
   const bool snap = words->size() == 8 && (*words)[7].quoted;
   const std::size_t count = words->size();
   if (!snap && count != 2 && count != 5 && count != 6) return std::nullopt;
   const auto colour = count == 2 ? default_colour(segment.label) : bytes_in(*words, snap ? 1 : 2);
   segment.name = (*words)[snap ? 7 : 1].text;
-  if (!colour || (segment.name.empty() && detail::number_of(segment) > 0)) return std::nullopt;
+  if (!colour || (segment.name.empty() && number_of(segment) > 0)) return std::nullopt;
   segment.colour = *colour;
   return segment;
 }
@@ -81,8 +78,8 @@ std::vector<Segment> parse_table(const fs::path& path, std::string_view text) {
   std::vector<Segment> table;
   std::set<std::int64_t> seen;
   std::string_view line;
-  for (std::size_t number = 1; detail::take_line(text, line); ++number) {
-    const std::string_view content = detail::trimmed(line);
+  for (std::size_t number = 1; take_line(text, line); ++number) {
+    const std::string_view content = trimmed(line);
     if (content.empty() || content.starts_with('#')) continue;
     const auto segment = segment_in(content);
     if (!segment) {
@@ -90,7 +87,7 @@ std::vector<Segment> parse_table(const fs::path& path, std::string_view text) {
              message("line ", number, ": expected IDX R G B A VIS MSH \"NAME\" or IDX NAME R G B A",
                      " with a whole IDX from 0, found ", in_quotes(content)));
     }
-    const std::int64_t label = detail::number_of(*segment);
+    const std::int64_t label = number_of(*segment);
     if (label == 0) continue;
     if (!seen.insert(label).second) {
       refuse(path, message("line ", number, ": expected each label once, found ", label, " again"));
@@ -112,13 +109,13 @@ std::string plain_name(std::string name) {
 }  // namespace
 
 std::vector<Segment> read_label_table(const fs::path& path) {
-  return detail::in_one_line(path, [&] {
-    const std::uint64_t size = detail::size_of(path);
+  return in_one_line(path, [&] {
+    const std::uint64_t size = size_of(path);
     if (size > kMostBytes) {
       refuse(path, message("expected a table of at most ", kMostBytes, " bytes, found ", size));
     }
     std::string text(size, '\0');
-    text.resize(detail::ByteSource(path, detail::Packing::kPlain).read(text.data(), size));
+    text.resize(ByteSource(path, Packing::kPlain).read(text.data(), size));
     return parse_table(path, text);
   });
 }
@@ -131,7 +128,7 @@ void write_label_table(const OutputPath& path, std::span<const Segment> segments
                            " once, found ", s.label));
     }
   }
-  detail::TextWriter out(path);
+  TextWriter out(path);
   out << "# ITK-SnAP Label Description File\n"
          "# IDX  R  G  B  A  VIS MSH  LABEL (A: 0 to 1; VIS: shown; MSH: in 3D)\n"
          "0 0 0 0 0 0 0 \"Clear Label\"\n";
@@ -143,4 +140,4 @@ void write_label_table(const OutputPath& path, std::span<const Segment> segments
   out.commit();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::label_files

@@ -7,9 +7,10 @@
 
 #include "mesamis/files/output_path.h"
 #include "mesamis/image/label_map.h"
+#include "mesamis/rooms.h"
 
 /// Tables of labels in files of their own; with_names() applies one to a label map.
-namespace mesamis {
+namespace mesamis::detail::label_files {
 
 /// Reads a label description of ITK-SNAP (.label, .txt: IDX R G B A VIS MSH "NAME") or a colour
 /// table of 3D Slicer (.ctbl, .txt: IDX NAME R G B A), one label per line.
@@ -35,4 +36,4 @@ std::vector<Segment> read_label_table(const std::filesystem::path& path);
 /// O(segments), up to a logarithm.
 void write_label_table(const OutputPath& path, std::span<const Segment> segments);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::label_files

@@ -8,7 +8,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/text_writer.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 /// Calls visit(layer, voxel, sample) for each sample.
@@ -217,4 +217,4 @@ std::string colour_share(std::uint8_t colour) {
   return share;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

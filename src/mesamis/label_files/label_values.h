@@ -15,7 +15,7 @@
 #include "mesamis/image/label_map.h"
 
 /// Numbers of files as labels, probabilities and colours.
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// How the values of several layers lie among the samples of a file.
 struct LayerOrder {
@@ -102,4 +102,4 @@ std::optional<std::array<std::uint8_t, 3>> colour_in(const std::array<std::strin
 /// The share of a colour's greatest value, in the shortest decimals that colour_in() reads back.
 std::string colour_share(std::uint8_t colour);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

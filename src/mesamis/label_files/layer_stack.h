@@ -11,7 +11,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/image/label_map.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// Puts objects one after another into the layers of a label map: each into the first layer where
 /// none of its voxels is taken. The map and the budget must live as long.
@@ -92,4 +92,4 @@ class LayerStack {
   std::string first_, first_other_;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

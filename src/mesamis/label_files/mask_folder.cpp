@@ -16,7 +16,7 @@
 #include "mesamis/label_files/voxel_lattice.h"
 #include "mesamis/volume_files/formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -218,4 +218,4 @@ LabelFile read_masks(const std::vector<fs::path>& files, const MaskReader& reade
   return collector.finish();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

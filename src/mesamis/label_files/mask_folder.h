@@ -10,7 +10,7 @@
 #include "mesamis/label_files/read_labels.h"
 
 /// Folders that hold one object per file, as TotalSegmentator writes them.
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// The name of a file without its extensions: "hip_left" of "hip_left.nii.gz", and of
 /// "hip_left.seg.nrrd".
@@ -46,4 +46,4 @@ struct MaskReader {
 LabelFile read_masks(const std::vector<std::filesystem::path>& files, const MaskReader& reader,
                      MemoryBudget& budget);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

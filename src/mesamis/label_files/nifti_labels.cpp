@@ -12,7 +12,7 @@
 #include "mesamis/files/xml_text.h"
 #include "mesamis/label_files/label_values.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 constexpr std::string_view kRoot = "CaretExtension";
@@ -166,4 +166,4 @@ std::string nifti_header(const VoxelGrid& grid, std::size_t sample_bytes,
   return h.bytes();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -11,7 +11,7 @@
 #include "mesamis/image/label_map.h"
 
 /// Names and colours of labels in the header extensions of NIfTI files, and such files written.
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// The labels of the first extension that holds XML with the root CaretExtension; none if there is
 /// none. The label 0, labels without a name and those that come again are left out.
@@ -32,4 +32,4 @@ std::string caret_extension(std::span<const Segment> segments);
 std::string nifti_header(const VoxelGrid& grid, std::size_t sample_bytes,
                          std::string_view extension);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -9,7 +9,7 @@
 #include "mesamis/files/text_scan.h"
 #include "mesamis/label_files/label_values.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 /// The fields of one segment by name: "Name", "LabelValue", ...
@@ -136,4 +136,4 @@ std::vector<std::pair<std::string, std::string>> segment_keys(const LabelMap& ma
   return keys;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

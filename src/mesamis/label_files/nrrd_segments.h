@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "mesamis/image/label_map.h"
+#include "mesamis/rooms.h"
 
 /// The fields of 3D Slicer's segmentations (.seg.nrrd) among the keys of a NRRD file.
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// The segments that the fields SegmentN_Name, _ID, _LabelValue, _Layer and _Color describe, in the
 /// order of N; none if there are no such fields.
@@ -28,4 +29,4 @@ std::vector<Segment> segments_in_keys(const std::filesystem::path& file,
 /// O(voxels * layers + segments).
 std::vector<std::pair<std::string, std::string>> segment_keys(const LabelMap& map);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

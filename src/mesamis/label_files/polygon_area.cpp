@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 /// Sums of signed areas. Each edge adds, in the rows that it crosses, the area between it and the
@@ -125,4 +125,4 @@ std::vector<float> pixel_shares(std::span<const PlanePoint> polygon, const Pixel
   return area.shares();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
 /// How much of each pixel lies inside of a polygon.
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// A point in a plane of pixels: pixel (i, j) is the square of side 1 around (i, j).
 struct PlanePoint {
@@ -37,4 +38,4 @@ PixelWindow window_of(std::span<const PlanePoint> polygon, const PixelWindow& pl
 /// O(pixels of the window + pixels that the edges cross).
 std::vector<float> pixel_shares(std::span<const PlanePoint> polygon, const PixelWindow& window);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

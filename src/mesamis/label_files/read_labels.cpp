@@ -26,11 +26,6 @@ namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::LabelBuilder;
-using detail::MemoryBudget;
-using detail::message;
-using detail::refuse;
-using detail::ScanFile;
 
 /// A file, and what it is read with.
 struct Request {
@@ -39,9 +34,7 @@ struct Request {
   MemoryBudget& budget;
 
   Request at(const fs::path& other) const { return {other, how, budget}; }
-  detail::Opening opening() const {
-    return {budget, how.limits.allow_outside, detail::Values::kMany};
-  }
+  Opening opening() const { return {budget, how.limits.allow_outside, Values::kMany}; }
   ReadOptions options() const {
     ReadOptions all;
     all.limits = how.limits;
@@ -55,7 +48,7 @@ struct Request {
   }
 };
 
-detail::LayerOrder order_of(const ScanFile& scan) {
+LayerOrder order_of(const ScanFile& scan) {
   return {static_cast<std::size_t>(scan.inner), static_cast<std::size_t>(scan.outer)};
 }
 
@@ -65,10 +58,10 @@ std::vector<Segment> named_segments(const Request& request, const ScanFile& scan
                                     std::vector<std::string>& warnings) {
   const auto& [path, how, budget] = request;
   const auto layers = static_cast<std::size_t>(scan.inner) * static_cast<std::size_t>(scan.outer);
-  if (scan.format == "NRRD") return detail::segments_in_keys(path, scan.keys, layers);
+  if (scan.format == "NRRD") return segments_in_keys(path, scan.keys, layers);
   if (scan.format != "NIfTI") return {};
   try {
-    return detail::segments_in_extensions(path, detail::nifti_extensions(path, budget), budget);
+    return segments_in_extensions(path, nifti_extensions(path, budget), budget);
   } catch (const InputError& error) {
     warnings.push_back(message("the names of the labels are not read: ", error.what()));
     return {};
@@ -83,7 +76,7 @@ LabelFile labels_of_array(const Request& request, const ScanFile& scan) {
   LabelFile out{{scan.grid, {}, {}}, scan.format, scan.warnings};
   out.map.segments = named_segments(request, scan, out.warnings);
   LabelBuilder builder(path, scan.grid, order_of(scan), request.budget);
-  detail::visit_samples(scan, [&](std::span<const double> samples) { builder.add(samples); });
+  visit_samples(scan, [&](std::span<const double> samples) { builder.add(samples); });
   out.map = builder.finish(std::move(out.map), out.warnings);
   return out;
 }
@@ -113,23 +106,22 @@ LabelFile labels_of_volume(const Request& request) {
 /// The colours of labels that are the indices of a table of them.
 void take_colours(const ScanFile& scan, LabelMap& map) {
   for (Segment& segment : map.segments) {
-    const auto number = static_cast<std::size_t>(detail::number_of(segment));
+    const auto number = static_cast<std::size_t>(number_of(segment));
     if (number < scan.palette.size()) segment.colour = scan.palette[number];
   }
 }
 
 /// A picture, or the slices of a folder.
 LabelFile labels_of_pictures(const Request& request, const std::vector<fs::path>& files) {
-  detail::Opening opening = request.opening();
+  Opening opening = request.opening();
   opening.labels = true;
   const ScanFile scan = files.front() == request.path
-                            ? detail::open_picture(request.path, opening)
-                            : detail::open_stack(request.path, files, opening).scan;
+                            ? open_picture(request.path, opening)
+                            : open_stack(request.path, files, opening).scan;
   LabelFile out{{scan.grid, {}, {}}, scan.format, scan.warnings};
   LabelBuilder builder(request.path, scan.grid, {}, request.budget);
   for (const fs::path& file : files) {
-    detail::visit_picture(file, opening,
-                          [&](std::span<const double> samples) { builder.add(samples); });
+    visit_picture(file, opening, [&](std::span<const double> samples) { builder.add(samples); });
   }
   out.map = builder.finish(std::move(out.map), out.warnings);
   take_colours(scan, out.map);
@@ -139,9 +131,9 @@ LabelFile labels_of_pictures(const Request& request, const std::vector<fs::path>
 
 /// Whether the file is a DICOM segmentation or a structure set.
 bool holds_labels(const fs::path& file, MemoryBudget& budget) {
-  const detail::ScopedFile scope(budget, file);
-  const auto dicom = detail::read_dicom_file(file, budget);
-  return detail::is_seg(dicom) || detail::is_structure_set(dicom);
+  const ScopedFile scope(budget, file);
+  const auto dicom = read_dicom_file(file, budget);
+  return is_seg(dicom) || is_structure_set(dicom);
 }
 
 /// The DICOM files of a folder that hold labels.
@@ -152,8 +144,8 @@ struct DicomFolder {
 
 DicomFolder dicom_in(const fs::path& folder, MemoryBudget& budget) {
   DicomFolder found;
-  for (const fs::path& file : detail::files_in(folder)) {
-    if (!detail::looks_like_dicom(file)) continue;
+  for (const fs::path& file : files_in(folder)) {
+    if (!looks_like_dicom(file)) continue;
     ++found.files;
     if (holds_labels(file, budget)) found.labels.push_back(file);
   }
@@ -166,8 +158,8 @@ bool holds_labels_alone(const fs::path& folder, const ReadLimits& limits) {
   MemoryBudget budget(folder, limits);
   bool any = false;
   try {
-    for (const fs::path& file : detail::files_below(folder)) {
-      if (!detail::looks_like_dicom(file)) continue;
+    for (const fs::path& file : files_below(folder)) {
+      if (!looks_like_dicom(file)) continue;
       if (!holds_labels(file, budget)) return false;
       any = true;
     }
@@ -181,7 +173,7 @@ bool holds_labels_alone(const fs::path& folder, const ReadLimits& limits) {
   constexpr std::size_t kMostNamed = 4;
   std::string text;
   for (std::size_t n = 0; n < std::min(files.size(), kMostNamed); ++n) {
-    text += (n > 0 ? ", " : "") + detail::shown(files[n].filename().string());
+    text += (n > 0 ? ", " : "") + shown(files[n].filename().string());
   }
   refuse(folder,
          message("expected one DICOM segmentation or structure set in the directory, found ",
@@ -193,7 +185,7 @@ LabelFile read_map(const Request& request);
 
 /// The grid of a header; none for pictures, which state no place.
 std::optional<VoxelGrid> stated_grid(const Request& request, const fs::path& file) {
-  const auto scan = detail::open_array(file, request.opening());
+  const auto scan = open_array(file, request.opening());
   return scan ? std::optional<VoxelGrid>(scan->grid) : std::nullopt;
 }
 
@@ -202,42 +194,41 @@ LabelFile read_folder(const Request& request) {
   const DicomFolder dicom = dicom_in(folder, budget);
   if (dicom.labels.size() > 1) refuse_several(folder, dicom.labels);
   if (dicom.labels.size() == 1) return read_map(request.at(dicom.labels[0]));
-  const std::vector<fs::path> masks = detail::masks_in(folder, budget);
+  const std::vector<fs::path> masks = masks_in(folder, budget);
   if (!masks.empty()) {
-    const detail::MaskReader reader{
-        [&](const fs::path& file) { return read_map(request.at(file)); },
-        [&](const fs::path& file) { return stated_grid(request, file); }};
-    return detail::read_masks(masks, reader, budget);
+    const MaskReader reader{[&](const fs::path& file) { return read_map(request.at(file)); },
+                            [&](const fs::path& file) { return stated_grid(request, file); }};
+    return read_masks(masks, reader, budget);
   }
-  const std::vector<fs::path> slices = detail::slices_in(folder, budget);
+  const std::vector<fs::path> slices = slices_in(folder, budget);
   if (dicom.files == 0 && !slices.empty()) return labels_of_pictures(request, slices);
   refuse(folder,
          message("expected masks, slices of labels or one DICOM segmentation or structure set "
                  "in the directory, found ",
                  dicom.files > 0 ? message(dicom.files, " DICOM files of other kinds")
-                                 : detail::contents_of(folder)));
+                                 : contents_of(folder)));
 }
 
 LabelFile labels_of_dicom(const Request& request) {
   {
-    const detail::ScopedFile scope(request.budget, request.path);
-    const auto file = detail::read_dicom_file(request.path, request.budget);
-    if (detail::is_structure_set(file)) {
-      return detail::read_contour_labels(file, request.how.scan, request.budget);
+    const ScopedFile scope(request.budget, request.path);
+    const auto file = read_dicom_file(request.path, request.budget);
+    if (is_structure_set(file)) {
+      return read_contour_labels(file, request.how.scan, request.budget);
     }
   }
-  return detail::read_dicom_labels(request.path, request.budget);
+  return read_dicom_labels(request.path, request.budget);
 }
 
 LabelFile read_map(const Request& request) {
   const fs::path& path = request.path;
-  if (is_zarr(path) || is_hdf5(path)) return detail::read_chunk_labels(path, request.how.limits);
+  if (is_zarr(path) || is_hdf5(path)) return read_chunk_labels(path, request.how.limits);
   if (fs::is_directory(path)) return read_folder(request);
-  if (const auto scan = detail::open_array(path, request.opening())) {
+  if (const auto scan = open_array(path, request.opening())) {
     return labels_of_array(request, *scan);
   }
-  if (detail::is_picture(path)) return labels_of_pictures(request, {path});
-  if (!detail::looks_like_dicom(path)) return labels_of_volume(request);
+  if (is_picture(path)) return labels_of_pictures(request, {path});
+  if (!looks_like_dicom(path)) return labels_of_volume(request);
   return labels_of_dicom(request);
 }
 
@@ -266,22 +257,21 @@ void take_names(std::vector<Segment>& segments, const std::vector<Segment>& name
 
 ProbabilityFile probabilities_of_file(const Request& request) {
   const fs::path& file = request.path;
-  const auto scan = detail::open_array(file, request.opening());
+  const auto scan = open_array(file, request.opening());
   if (!scan) {
-    if (detail::looks_like_dicom(file)) {
-      return detail::read_dicom_probabilities(file, request.budget);
+    if (looks_like_dicom(file)) {
+      return read_dicom_probabilities(file, request.budget);
     }
     const VolumeFile volume = read_volume(file, request.options());
-    return {
-        {volume.volume, detail::probability_layers(file, volume.volume, {}, volume.volume.samples),
-         numbered_segments(1)},
-        volume.warnings};
+    return {{volume.volume, probability_layers(file, volume.volume, {}, volume.volume.samples),
+             numbered_segments(1)},
+            volume.warnings};
   }
   ProbabilityFile out{{scan->grid, {}, {}}, scan->warnings};
   const auto names = named_segments(request, *scan, out.warnings);
-  const std::vector<float> samples = detail::read_samples(*scan, request.budget);
+  const std::vector<float> samples = read_samples(*scan, request.budget);
   request.claim(*scan, sizeof(float), "probabilities");
-  out.probabilities.layers = detail::probability_layers(file, scan->grid, order_of(*scan), samples);
+  out.probabilities.layers = probability_layers(file, scan->grid, order_of(*scan), samples);
   out.probabilities.segments = numbered_segments(out.probabilities.layers.size());
   take_names(out.probabilities.segments, names, scan->format == "NRRD");
   return out;
@@ -290,8 +280,8 @@ ProbabilityFile probabilities_of_file(const Request& request) {
 /// The path itself, or the only DICOM file of a directory.
 fs::path file_of(const fs::path& path) {
   if (!fs::is_directory(path)) return path;
-  std::vector<fs::path> files = detail::files_in(path);
-  std::erase_if(files, [](const fs::path& file) { return !detail::looks_like_dicom(file); });
+  std::vector<fs::path> files = files_in(path);
+  std::erase_if(files, [](const fs::path& file) { return !looks_like_dicom(file); });
   if (files.size() != 1) {
     refuse(path, message("expected one DICOM segmentation in the directory, found ", files.size(),
                          " DICOM files"));
@@ -301,8 +291,8 @@ fs::path file_of(const fs::path& path) {
 
 /// The claims for one file are given back when it is read; what stays of it is claimed again.
 ProbabilityFile read_one(const fs::path& path, const ReadLimits& limits, MemoryBudget& budget) {
-  return detail::in_one_line(path, [&] {
-    const detail::ScopedFile scope(budget, path);
+  return in_one_line(path, [&] {
+    const ScopedFile scope(budget, path);
     return probabilities_of_file({file_of(path), {.limits = limits}, budget});
   });
 }
@@ -319,7 +309,7 @@ void append_volume(ProbabilityFile& all, const fs::path& path, const fs::path& f
                          one.probabilities.layers.size()));
   }
   if (to.layers.empty()) static_cast<VoxelGrid&>(to) = one.probabilities;
-  detail::require_same_grid(path, one.probabilities, first, to);
+  require_same_grid(path, one.probabilities, first, to);
   to.layers.push_back(std::move(one.probabilities.layers[0]));
   all.warnings.insert(all.warnings.end(), one.warnings.begin(), one.warnings.end());
 }
@@ -328,16 +318,16 @@ void append_volume(ProbabilityFile& all, const fs::path& path, const fs::path& f
 
 LabelFile read_label_map(const fs::path& path, const LabelOptions& options) {
   MemoryBudget budget(path, options.limits);
-  return detail::in_one_line(path, [&] { return read_map({path, options, budget}); });
+  return in_one_line(path, [&] { return read_map({path, options, budget}); });
 }
 
 bool is_label_file(const fs::path& path, const ReadLimits& limits) {
   std::error_code error;
-  if (is_zarr(path)) return detail::holds_chunk_labels(path, limits);
+  if (is_zarr(path)) return holds_chunk_labels(path, limits);
   if (fs::is_directory(path, error)) return holds_labels_alone(path, limits);
   if (!fs::is_regular_file(path, error)) return false;
-  if (detail::lower(path.filename().string()).ends_with(".seg.nrrd")) return true;
-  if (detail::is_array_file(path) || detail::is_picture(path) || !detail::looks_like_dicom(path)) {
+  if (lower(path.filename().string()).ends_with(".seg.nrrd")) return true;
+  if (is_array_file(path) || is_picture(path) || !looks_like_dicom(path)) {
     return false;
   }
   MemoryBudget budget(path, limits);
@@ -346,12 +336,12 @@ bool is_label_file(const fs::path& path, const ReadLimits& limits) {
 
 bool is_mask_folder(const fs::path& path, const ReadLimits& limits) {
   std::error_code error;
-  if (is_zarr(path)) return detail::has_labels_inside(path);
+  if (is_zarr(path)) return has_labels_inside(path);
   if (!fs::is_directory(path, error)) return false;
   MemoryBudget budget(path, limits);
-  const std::vector<fs::path> files = detail::files_below(path);
-  return std::none_of(files.begin(), files.end(), detail::looks_like_dicom) &&
-         !detail::masks_in(path, budget).empty();
+  const std::vector<fs::path> files = files_below(path);
+  return std::none_of(files.begin(), files.end(), looks_like_dicom) &&
+         !masks_in(path, budget).empty();
 }
 
 ProbabilityFile read_probabilities(const std::vector<fs::path>& paths, const ReadLimits& limits) {
@@ -362,7 +352,7 @@ ProbabilityFile read_probabilities(const std::vector<fs::path>& paths, const Rea
   for (const fs::path& path : paths) append_volume(all, path, paths[0], budget, limits);
   all.probabilities.segments = numbered_segments(paths.size());
   for (std::size_t n = 0; n < paths.size(); ++n) {
-    all.probabilities.segments[n].name = detail::object_name(paths[n]);
+    all.probabilities.segments[n].name = object_name(paths[n]);
   }
   return all;
 }

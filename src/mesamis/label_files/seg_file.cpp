@@ -9,7 +9,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/label_files/cielab.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 constexpr const char* kSegmentation = "1.2.840.10008.5.1.4.1.1.66.4";
@@ -175,4 +175,4 @@ void read_frame(const SegFile& seg, std::size_t frame, std::vector<float>& out,
   }
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -7,7 +7,7 @@
 #include "mesamis/image/label_map.h"
 #include "mesamis/label_files/seg_grid.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// What the frames of a DICOM segmentation hold.
 enum class SegType {
@@ -46,4 +46,4 @@ SegFile open_seg(const std::filesystem::path& path, MemoryBudget& budget);
 void read_frame(const SegFile& seg, std::size_t frame, std::vector<float>& out,
                 MemoryBudget& budget);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

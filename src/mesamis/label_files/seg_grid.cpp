@@ -11,7 +11,7 @@
 #include "mesamis/volume_files/dicom_spacing.h"
 #include "mesamis/volume_files/scan_file.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 constexpr double kSameDirection = 1e-3;  // of unit vectors
@@ -172,4 +172,4 @@ void require_voxels(const DicomFile& file, const VoxelGrid& grid, std::size_t la
                  " voxels in ", bytes, " bytes"));
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

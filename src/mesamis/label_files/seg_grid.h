@@ -6,7 +6,7 @@
 #include "mesamis/image/volume.h"
 #include "mesamis/volume_files/dicom_pixels.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// The grid on which the frames of a DICOM segmentation lie.
 struct SegGrid {
@@ -34,4 +34,4 @@ SegGrid grid_of_frames(const DicomFile& file, const DicomPixels& pixels);
 /// @throws InputError  if they are more than 8192 per byte of the file.
 void require_voxels(const DicomFile& file, const VoxelGrid& grid, std::size_t layers);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

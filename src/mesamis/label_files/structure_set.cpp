@@ -13,7 +13,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/image/label_map.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 constexpr const char* kStructureSet = "1.2.840.10008.5.1.4.1.1.481.3";
@@ -209,4 +209,4 @@ StructureSet read_structure_set(const DicomFile& file, MemoryBudget& budget) {
   return set;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -11,7 +11,7 @@
 #include "mesamis/files/memory_budget.h"
 
 /// The regions of a DICOM structure set of radiotherapy (RTSTRUCT).
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// A closed contour in a plane. The last point is joined to the first.
 struct Contour {
@@ -43,4 +43,4 @@ bool is_structure_set(const DicomFile& file);
 /// O(bytes), up to a logarithm. Memory: the points, claimed.
 StructureSet read_structure_set(const DicomFile& file, MemoryBudget& budget);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -8,7 +8,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/label_files/mask_folder.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 namespace {
 
 constexpr double kMostShift = 1e-3;  // voxels
@@ -133,4 +133,4 @@ VoxelGrid enclosing_grid(std::span<const std::filesystem::path> files,
   return cut_out(files[0], first, range);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -8,10 +8,11 @@
 #include <span>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
 /// Grids whose voxels coincide, though they begin and end elsewhere or their axes run elsewhere:
 /// cut out of one another, mirrored, turned by right angles.
-namespace mesamis::detail {
+namespace mesamis::detail::label_files {
 
 /// Where the voxels of a grid lie among those of another one.
 struct LatticePlace {
@@ -34,4 +35,4 @@ std::optional<LatticePlace> find_place(const VoxelGrid& grid, const VoxelGrid& o
 VoxelGrid enclosing_grid(std::span<const std::filesystem::path> files,
                          std::span<const VoxelGrid> grids);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::label_files

@@ -13,12 +13,10 @@
 #include "mesamis/label_files/nrrd_segments.h"
 #include "mesamis/volume_files/nrrd_header.h"
 
-namespace mesamis {
+namespace mesamis::detail::label_files {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::message;
-using detail::refuse;
 
 /// 1 if all labels fit into 8 bits, else 2.
 std::size_t bytes_per_label(const LabelMap& map) {
@@ -45,10 +43,10 @@ std::string label_bytes(const LabelMap& map, std::size_t width) {
 
 std::string nrrd_of(const fs::path& path, const LabelMap& map) {
   const std::size_t width = bytes_per_label(map);
-  detail::NrrdContent content{width == 1 ? "uint8" : "uint16", true};
+  NrrdContent content{width == 1 ? "uint8" : "uint16", true};
   content.values = static_cast<Index>(map.layers.size());
-  content.keys = detail::segment_keys(map);
-  return detail::nrrd_header(map, content) + detail::gzipped(path, label_bytes(map, width));
+  content.keys = segment_keys(map);
+  return nrrd_header(map, content) + gzipped(path, label_bytes(map, width));
 }
 
 std::string nifti_of(const fs::path& path, const LabelMap& map) {
@@ -63,18 +61,17 @@ std::string nifti_of(const fs::path& path, const LabelMap& map) {
                          map.size[1], " x ", map.size[2]));
   }
   const std::size_t width = bytes_per_label(map);
-  return detail::nifti_header(map, width, detail::caret_extension(map.segments)) +
-         label_bytes(map, width);
+  return nifti_header(map, width, caret_extension(map.segments)) + label_bytes(map, width);
 }
 
 void write(const OutputPath& path, const LabelMap& map) {
-  const std::string name = detail::lower(path.filename().string());
+  const std::string name = lower(path.filename().string());
   if (name.ends_with(".nrrd")) {
     write_file(path, nrrd_of(path, map));
   } else if (name.ends_with(".nii")) {
     write_file(path, nifti_of(path, map));
   } else if (name.ends_with(".nii.gz")) {
-    write_file(path, detail::gzipped(path, nifti_of(path, map)));
+    write_file(path, gzipped(path, nifti_of(path, map)));
   } else {
     refuse(path,
            "cannot be written: expected a name that ends with .nii, .nii.gz, .nrrd or "
@@ -93,4 +90,4 @@ void write_label_map(const OutputPath& path, const LabelMap& map) {
   write(path, map);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::label_files

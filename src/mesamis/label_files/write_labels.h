@@ -5,8 +5,9 @@
 
 #include "mesamis/files/output_path.h"
 #include "mesamis/image/label_map.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::label_files {
 
 /// Writes a label map as .nii, .nii.gz, .nrrd or .seg.nrrd; read_label_map() reads it back with the
 /// same labels, layers and segments.
@@ -26,4 +27,4 @@ namespace mesamis {
 /// O(voxels * layers). Memory: the samples once, gzipped twice.
 void write_label_map(const OutputPath& path, const LabelMap& map);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::label_files

@@ -15,7 +15,7 @@
 #include "mesamis/labels/label_flow.h"
 #include "mesamis/surface/list_materials.h"
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 namespace {
 
 /// A label and where it lies.
@@ -187,4 +187,4 @@ GridMemberships flow_memberships(const LabelGrid& grid, const FlowFields& fields
   return Assembly(grid, fields, labels, solved).run();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

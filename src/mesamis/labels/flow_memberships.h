@@ -6,7 +6,7 @@
 #include "mesamis/surface/grid_partition.h"
 #include "mesamis/surface/smooth_memberships.h"
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 
 /// How labels flow to the edges of an image.
 struct FlowOptions {
@@ -58,4 +58,4 @@ struct FlowFields {
 GridMemberships flow_memberships(const LabelGrid& grid, const FlowFields& fields,
                                  const FlowOptions& options, FlowReport* report = nullptr);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

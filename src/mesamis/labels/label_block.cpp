@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 namespace {
 
 constexpr Index kRoom = 4;  // voxels beside the room asked for
@@ -88,4 +88,4 @@ std::vector<std::uint16_t> labels_in(const LabelMap& map, Index layer, const Lab
   return part;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

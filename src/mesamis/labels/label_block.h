@@ -9,8 +9,9 @@
 
 #include "mesamis/image/label_map.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 
 /// A block of voxels of a grid; it may reach beyond it.
 struct LabelBlock {
@@ -42,4 +43,4 @@ VoxelGrid grid_of(const VoxelGrid& grid, const LabelBlock& block);
 /// @return one per voxel of the block; i runs fastest.
 std::vector<std::uint16_t> labels_in(const LabelMap& map, Index layer, const LabelBlock& block);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

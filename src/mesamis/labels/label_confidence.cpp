@@ -10,7 +10,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/types.h"
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 namespace {
 
 constexpr double kLeast = 0.005;  // so that what lies between two edges goes where most labels say
@@ -290,4 +290,4 @@ std::vector<float> label_confidence(const LabelGrid& grid, double margin) {
   return Depths(grid, margin).confidence();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

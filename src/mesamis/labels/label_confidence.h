@@ -5,7 +5,7 @@
 
 #include "mesamis/surface/smooth_memberships.h"
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 
 /// Weights of labels against the image: how sure it is that a voxel has the label that it is given.
 ///
@@ -30,4 +30,4 @@ std::vector<float> label_confidence(const LabelGrid& grid, double margin);
 /// The weight of what is certain.
 inline constexpr float kCertain = 1000;
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

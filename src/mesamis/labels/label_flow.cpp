@@ -8,7 +8,7 @@
 #include "mesamis/base/types.h"
 #include "mesamis/labels/label_confidence.h"
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 namespace {
 
 using Place = std::array<Index, 3>;
@@ -181,4 +181,4 @@ void LabelFlow::add_row(std::uint16_t label, const Window& w, std::size_t place,
   system.right.push_back(right);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

@@ -8,7 +8,7 @@
 #include "mesamis/fem/solve.h"
 #include "mesamis/labels/flow_memberships.h"
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 
 /// The nodes of a label's own: a range of each axis.
 struct LabelExtent {
@@ -55,4 +55,4 @@ class LabelFlow {
   int most_steps_ = 0;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

@@ -9,7 +9,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 namespace {
 
 /// For each label those that it meets.
@@ -83,4 +83,4 @@ Volume label_image(const GridMemberships& memberships, const VoxelGrid& grid) {
   return image;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

@@ -4,7 +4,7 @@
 #include "mesamis/image/volume.h"
 #include "mesamis/surface/grid_partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 
 /// Paints memberships: an image whose edges are the boundaries between labels.
 ///
@@ -20,4 +20,4 @@ namespace mesamis {
 /// threads.
 Volume label_image(const GridMemberships& memberships, const VoxelGrid& grid);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

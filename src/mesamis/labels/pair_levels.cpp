@@ -8,7 +8,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/normals.h"
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 namespace {
 
 constexpr std::array kDepths{0.75, 1.25, 1.75, 2.25, 3.0};  // voxels from the boundary
@@ -107,4 +107,4 @@ std::vector<PairLevel> measure_pair_levels(const PartitionSurface& partition,
   return pairs;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

@@ -7,7 +7,7 @@
 #include "mesamis/image/spline_image.h"
 #include "mesamis/surface/partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 
 /// What the image shows at the boundary between two materials.
 struct PairLevel {
@@ -40,4 +40,4 @@ std::vector<PairLevel> measure_pair_levels(const PartitionSurface& partition,
 std::vector<Index> pairs_of_points(const PartitionSurface& partition,
                                    const std::vector<PairLevel>& pairs);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

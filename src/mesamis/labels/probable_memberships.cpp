@@ -6,7 +6,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/list_materials.h"
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 namespace {
 
 /// What of 1 the objects leave, and who is the most probable.
@@ -69,4 +69,4 @@ std::vector<std::uint16_t> winning_labels(const GridMemberships& memberships) {
   return labels;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

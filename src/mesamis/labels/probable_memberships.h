@@ -7,7 +7,7 @@
 #include "mesamis/image/label_map.h"
 #include "mesamis/surface/grid_partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::labels {
 
 /// Takes probabilities as memberships: an object's boundary is where it is as probable as what lies
 /// beside it, between the voxels.
@@ -26,4 +26,4 @@ GridMemberships probable_memberships(const Probabilities& from, const VoxelGrid&
 /// The label that wins at each node.
 std::vector<std::uint16_t> winning_labels(const GridMemberships& memberships);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::labels

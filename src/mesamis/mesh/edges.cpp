@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 
 std::vector<Edge> unique_edges(const TetMesh& mesh) {
   // Edges are bucketed by their smaller point: sorting short lists beats sorting one long one.
@@ -33,4 +33,4 @@ std::vector<Edge> unique_edges(const TetMesh& mesh) {
   return edges;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 
 /// Two point indices, the smaller first.
 using Edge = std::array<Index, 2>;
@@ -19,4 +20,4 @@ using Edge = std::array<Index, 2>;
 /// O(m log d) for at most d cells at a point; 24 bytes per cell beside the result.
 std::vector<Edge> unique_edges(const TetMesh& mesh);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

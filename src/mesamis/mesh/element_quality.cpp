@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
@@ -63,4 +63,4 @@ ElementQuality element_quality(const TetMesh& mesh) {
   return quality;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

@@ -4,8 +4,9 @@
 #include <span>
 
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 
 /// The measures of a tetrahedron that solvers are sensitive to.
 struct ElementShape {
@@ -35,4 +36,4 @@ struct ElementQuality {
 /// The same bits for any number of threads.
 ElementQuality element_quality(const TetMesh& mesh);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

@@ -12,7 +12,7 @@
 #include "mesamis/base/sym3.h"
 #include "mesamis/mesh/metric.h"
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 namespace {
 
 Sym3 grown(const Sym3& m, const Vec3& e, double log_gradation) {
@@ -96,4 +96,4 @@ std::int64_t limit_gradation(const TetMesh& mesh, std::span<Sym3> node_metrics, 
   return std::accumulate(ever_changed.begin(), ever_changed.end(), std::int64_t{0});
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

@@ -5,8 +5,9 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 
 /// Limits how fast the sizes of nodal metrics grow from node to node.
 ///
@@ -33,4 +34,4 @@ namespace mesamis {
 /// that it changes. Memory: two metrics per node and the cells around each.
 std::int64_t limit_gradation(const TetMesh& mesh, std::span<Sym3> node_metrics, double gradation);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

@@ -5,8 +5,9 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 
 /// The six orders in which a brick's main diagonal can be walked along the axes; each walk's
 /// four corners are one Kuhn tetrahedron.
@@ -34,4 +35,4 @@ inline Cell kuhn_cell(Index corner, const std::array<Index, 3>& stride,
 inline constexpr std::array<std::array<Index, 3>, 7> kKuhnSteps{
     {{1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}};
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

@@ -7,7 +7,7 @@
 #include <unordered_set>
 #include <vector>
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 namespace {
 
 /// A point this far outside a face, relative to the cell, still counts as inside: round-off.
@@ -131,4 +131,4 @@ Location locate_in_piece(const TetMesh& mesh, std::span<const std::array<Index, 
   return walked.found ? *walked.found : try_around(mesh, neighbors, p, walked.cell).best();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

@@ -7,8 +7,9 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 
 /// Where a point lies in a mesh: its cell and its barycentric coordinates there, which are
 /// never negative and add up to 1.
@@ -47,4 +48,4 @@ Location locate(const TetMesh& mesh, std::span<const std::array<Index, 4>> neigh
 Location locate_in_piece(const TetMesh& mesh, std::span<const std::array<Index, 4>> neighbors,
                          const Vec3& p, Index start);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

@@ -10,7 +10,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/sym3.h"
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 namespace {
 
 /// s m s
@@ -147,4 +147,4 @@ MeshFit measure_fit(const TetMesh& mesh, std::span<const Sym3> node_metrics) {
   return fit;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

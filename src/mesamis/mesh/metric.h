@@ -10,7 +10,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 
 /// Metric tensors: symmetric positive definite, in 1/mm^2; edge e is ideal when e'Me = 1.
-namespace mesamis {
+namespace mesamis::detail::mesh {
 
 /// Checks that there is one metric per node. O(1): the cost is that of two sizes.
 /// @param caller        who asks, for the message.
@@ -88,4 +88,4 @@ struct MeshFit {
 /// O(m), memory as unique_edges().
 MeshFit measure_fit(const TetMesh& mesh, std::span<const Sym3> node_metrics);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

@@ -10,7 +10,7 @@
 #include "mesamis/base/sym3.h"
 #include "mesamis/mesh/metric.h"
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 namespace {
 
 void require_count(std::size_t nodes, std::size_t metrics) {
@@ -97,4 +97,4 @@ std::vector<Sym3> sample(const MetricField& field, std::span<const Vec3> points)
   return metrics;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

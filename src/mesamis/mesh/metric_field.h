@@ -9,7 +9,7 @@
 #include "mesamis/mesh/locate.h"
 #include "mesamis/mesh/tet_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 
 /// A metric at every point of a box, as the remesher needs it. Implementations are immutable: any
 /// number of threads may call at() at once.
@@ -88,4 +88,4 @@ class ScaledMetricField : public MetricField {
 /// number of threads.
 std::vector<Sym3> sample(const MetricField& field, std::span<const Vec3> points);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 
 /// Six times the volume of (a, b, c, d) in mm^3 if its sign is certainly positive, else 0.
 ///
@@ -48,4 +49,4 @@ inline bool certified_positive(const Vec3& a, const Vec3& b, const Vec3& c,
   return certified_six_volume(a, b, c, d) > 0;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

@@ -9,7 +9,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 namespace {
 
 using Neighbors = std::vector<std::array<Index, 4>>;
@@ -194,4 +194,4 @@ RestrictedMesh restrict_mesh(const TetMesh& mesh, std::span<const Index> cells) 
   return part;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

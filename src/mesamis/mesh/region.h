@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 
 /// Parts of a mesh: sets of cells, and the mesh of such a set.
-namespace mesamis {
+namespace mesamis::detail::mesh {
 
 /// The volume of all cells, mm^3. O(m) for m cells.
 /// @param mesh  mm.
@@ -84,4 +85,4 @@ struct RestrictedMesh {
 /// @throws InputError  if an index is out of range.
 RestrictedMesh restrict_mesh(const TetMesh& mesh, std::span<const Index> cells);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

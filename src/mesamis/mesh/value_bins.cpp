@@ -7,7 +7,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 namespace {
 
 std::vector<double> equal_edges(double low, double high, int count) {
@@ -38,4 +38,4 @@ ValueBins equal_bins(std::span<const double> values, int count) {
   return bins;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::mesh {
 
 /// Values sorted into bins of equal width.
 struct ValueBins {
@@ -24,4 +25,4 @@ struct ValueBins {
 /// O(m log n).
 ValueBins equal_bins(std::span<const double> values, int count);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::mesh

@@ -16,7 +16,7 @@
 #include "mesamis/restore/surface_extent.h"
 #include "mesamis/restore/tissue_threshold.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 /// Voxels: what is smaller cannot be told from noise.
@@ -44,9 +44,10 @@ Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
 
 /// What restore() makes of the image; where restoring is off, the image as it is, with its noise.
 Restored restore_if_asked(Volume image, const HalfMaximumLevel& object, const Settings& settings) {
-  if (settings.restore) return restore(std::move(image), object, {settings.noise, settings.blur});
+  if (settings.restore)
+    return restore::restore(std::move(image), object, {settings.noise, settings.blur});
   constexpr std::array<double, 3> kNone{};
-  Restored as_it_is = restore(image, object, {settings.noise, kNone});
+  Restored as_it_is = restore::restore(image, object, {settings.noise, kNone});
   as_it_is.volume = std::move(image);
   as_it_is.noise_left = as_it_is.noise;
   as_it_is.impulses = 0;
@@ -232,4 +233,4 @@ void choose_tolerance(Parameters& p, double voxel, double expected_error, double
   }
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

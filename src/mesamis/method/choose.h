@@ -15,7 +15,7 @@
 
 /// Every choice of a run is made here: window, threshold, noise, blur, level, price of edges, cells
 /// and tolerance. Other rooms measure; nothing else decides.
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// What a user asks of a run on an image.
 struct ImageSettings {
@@ -106,4 +106,4 @@ inline constexpr double kErrorsOfObject = 2.8, kErrorsOfLabels = 1.4, kErrorsOfD
 /// @param errors          how many it may lose, > 0.
 void choose_tolerance(Parameters& parameters, double voxel, double expected_error, double errors);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 /// With a T of the user's own the run places the level between it and the object.
@@ -80,4 +80,4 @@ LabelResult run_on_labels(const ObjectInPlace& in_place, const LabelRequest& req
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

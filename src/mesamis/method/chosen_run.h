@@ -9,7 +9,7 @@
 
 /// Runs on the image of a chosen object. Whatever they say in native units is in those of the scan,
 /// also where the image is mirrored; for a range of values it is by how much a sample lies within.
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// Makes the request that belongs to the settings of a run: their crop, their level, and whether a
 /// level is needed.
@@ -62,4 +62,4 @@ LabelResult run_on_labels(const ChosenObject& object, const LabelRequest& reques
 LabelResult run_on_labels(const ObjectInPlace& object, const LabelRequest& request,
                           const Settings& settings, const Progress& progress = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -10,7 +10,7 @@
 #include "mesamis/method/follow_image.h"
 #include "mesamis/surface/extract.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 TriMesh followed(const RunInput& run, TriMesh extracted) {
@@ -80,4 +80,4 @@ void tell_error(const RunInput& run, Result& result) {
   result.expected_error = expected_error(result.surface, run.image, delivered);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

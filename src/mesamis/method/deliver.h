@@ -6,7 +6,7 @@
 #include "mesamis/method/passes.h"
 
 /// From what a run has found to what it delivers.
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// Takes a solid in length units over into a result: it follows the image where that is
 /// more exact than the mesh; then it lies in the world frame, where a left-handed grid turns every
@@ -30,4 +30,4 @@ void finish_surface(const RunInput& run, const Progress& progress, Result& resul
 /// Tells the error of a result's surface, which has been made printable.
 void tell_error(const RunInput& run, Result& result);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

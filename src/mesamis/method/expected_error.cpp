@@ -8,7 +8,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/measure.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 constexpr double kOfNoise = 0.67, kOfBends = 0.18, kOfLevelAndBlur = 0.018, kOfLevel = 0.0085;
@@ -76,4 +76,4 @@ ErrorSummary summarize_error(const TriMesh& surface, const std::vector<double>& 
   return {sum / area, at == parts.end() ? parts.back().first : at->first, parts.back().first, area};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

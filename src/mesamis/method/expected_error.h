@@ -7,7 +7,7 @@
 #include "mesamis/image/spline_image.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// What expected_error() has to know of a scan.
 struct ErrorOptions {
@@ -53,4 +53,4 @@ struct ErrorSummary {
 /// O(n log n).
 ErrorSummary summarize_error(const TriMesh& surface, const std::vector<double>& values);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -14,7 +14,7 @@
 #include "mesamis/surface/normals.h"
 #include "mesamis/surface/split_edges.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 constexpr double kShortestEdge = 1;  // voxels: shorter ones are not split
@@ -178,4 +178,4 @@ FollowCounts look_along(const TriMesh& surface, const SplineImage& image,
   return count_told(Follower(image, options).measure(surface, vertex_normals(surface)));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -5,7 +5,7 @@
 #include "mesamis/image/spline_image.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// What follow_image() has to know.
 struct FollowOptions {
@@ -70,4 +70,4 @@ void follow_part(FollowedPart& part, const SplineImage& image, const FollowOptio
 FollowCounts look_along(const TriMesh& surface, const SplineImage& image,
                         const FollowOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

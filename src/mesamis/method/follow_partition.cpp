@@ -13,7 +13,7 @@
 #include "mesamis/fit/smooth_surface.h"
 #include "mesamis/fit/surface_moves.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 constexpr int kRounds = 2;            // a flow of labels ends up to a voxel from the level set
@@ -184,4 +184,4 @@ PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& 
   return put_back(std::move(kept), std::move(partition));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -7,7 +7,7 @@
 #include "mesamis/labels/pair_levels.h"
 #include "mesamis/surface/partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// Whether the image shows the edge between two materials: a contrast of at least four standard
 /// deviations of the noise, and ten grey values.
@@ -69,4 +69,4 @@ PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& i
 /// @return the same triangles. Cost as smooth_surface().
 PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -6,7 +6,7 @@
 
 #include "mesamis/fem/amis.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// One pass of Algorithm 2: minimise on a mesh, estimate, adapt.
 struct Iteration {
@@ -30,4 +30,4 @@ struct Iteration {
   } seconds;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -11,7 +11,7 @@
 #include "mesamis/method/passes.h"
 #include "mesamis/method/prepare.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 /// A label image as the loop works on it: numbers that differ by one are apart by a contrast.
@@ -48,4 +48,4 @@ Result mesh_beside_labels(const VolumeView& image, std::span<const Volume> label
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

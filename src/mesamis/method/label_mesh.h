@@ -7,7 +7,7 @@
 #include "mesamis/image/volume.h"
 #include "mesamis/method/mes_amis.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// Makes one mesh that is adapted to the edges of an image and to the boundaries of labels.
 ///
@@ -27,4 +27,4 @@ namespace mesamis {
 Result mesh_beside_labels(const VolumeView& image, std::span<const Volume> labels,
                           const ImageSettings& settings, const Progress& progress = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -32,7 +32,7 @@
 #include "mesamis/surface/select_parts.h"
 #include "mesamis/surface/smooth_memberships.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 constexpr double kMargin = 2.5;  // voxels, of the labels or of the scan
@@ -523,4 +523,4 @@ LabelResult surfaces_of_labels(const LabelRequest& request, const Settings& sett
   return by_labels({request, settings, progress});
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -18,7 +18,7 @@
 
 /// Surfaces of the objects of a label map: the labels choose the objects, the image places their
 /// surfaces.
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// Which objects are meant, and how exact their labels are.
 struct LabelRequest {
@@ -132,4 +132,4 @@ void require_chosen(const std::vector<Segment>& chosen, const LabelMap& map);
 /// @throws InputError  that no chosen segment has a voxel.
 [[noreturn]] void refuse_empty(const std::vector<Segment>& chosen);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -10,7 +10,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/image/trilinear.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 std::string adaptation_name(int k, const Parameters& p) {
@@ -107,4 +107,4 @@ void deliver_mesh(const RunInput& run, Loop loop, Result& result) {
   result.iterations = std::move(loop.passes);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -7,7 +7,7 @@
 #include "mesamis/method/passes.h"
 
 /// The loop of Algorithm 2.
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// What the loop leaves: the last mesh, the fields that belong to it, and its history.
 struct Loop {
@@ -31,4 +31,4 @@ Loop run_loop(const RunInput& run, const Progress& progress, const HasEnough& en
 /// and then has no fit.
 void deliver_mesh(const RunInput& run, Loop loop, Result& result);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

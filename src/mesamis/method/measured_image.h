@@ -3,7 +3,9 @@
 
 #include <array>
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::method {
 
 /// What was found out about a scan beside the parameters that follow from it.
 struct MeasuredImage {
@@ -17,4 +19,4 @@ struct MeasuredImage {
   std::array<double, 2> level_range{};
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

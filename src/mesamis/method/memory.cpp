@@ -11,7 +11,7 @@
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/prepare.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 constexpr double kBytesPerVoxel = 8;    // of the image in grey values, always, and its spline
@@ -84,4 +84,4 @@ void require_memory(const VoxelGrid& volume, const Settings& settings, double li
   throw InputError(message.str());
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

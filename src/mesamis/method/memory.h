@@ -6,8 +6,9 @@
 
 #include "mesamis/image/volume.h"
 #include "mesamis/method/settings.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// Predicts how much memory mes_amis() takes beside the volume it is given. The largest of three
 /// counts: preparing the image (by the voxel), the first pass (by the node of its grid), and the
@@ -33,4 +34,4 @@ std::optional<std::array<Index, 3>> stride_that_fits(const VoxelGrid& volume, Se
 void require_memory(const VoxelGrid& volume, const Settings& settings, double limit_gb,
                     double still_taken = 0);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -13,7 +13,7 @@
 #include "mesamis/method/setting_table.h"
 #include "mesamis/surface/depth_maximum.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 /// All passes, and the surface that comes of them.
@@ -84,4 +84,4 @@ std::vector<double> surface_grey(const Result& result, double voxel) {
                            {.depth = solid ? kVoxels * voxel : 0, .samples = kSamples});
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -16,7 +16,7 @@
 #include "mesamis/surface/tri_mesh.h"
 
 /// The whole method: a scan in, a surface and an adapted mesh out.
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// What a run delivers. Points are in the world frame (LPS), in mm.
 struct Result {
@@ -78,4 +78,4 @@ Result mes_amis(const VolumeView& volume, const ImageSettings& settings,
 /// @throws InputError  as max_below_surface().
 std::vector<double> surface_grey(const Result& result, double voxel);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

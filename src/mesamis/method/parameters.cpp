@@ -6,7 +6,7 @@
 
 #include "mesamis/method/setting_table.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 Parameters parameters_asked(const Settings& settings) {
   Parameters p;
@@ -72,4 +72,4 @@ double default_gamma(double epsilon, double beta, double contrast, double noise)
   return 4 * epsilon * beta * gradient * gradient;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -9,7 +9,7 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/method/settings.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// What a run uses, see choose.h. origin_of() tells of each setting whether it was given, is the
 /// default, or was measured.
@@ -126,4 +126,4 @@ std::array<Index, 3> stride_of(const Settings& settings, const std::array<Index,
 /// @return gamma, grey values squared times length units.
 double default_gamma(double epsilon, double beta, double contrast, double noise);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -22,7 +22,7 @@
 #include "mesamis/remesh/remesh.h"
 #include "mesamis/surface/extract.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 /// Sweeps over the grid's log-metric before the first mesh is refined towards it.
@@ -134,7 +134,7 @@ State remeshed(const Pass& pass, const TetMesh& start, const MetricField& field,
   };
   RemeshReport report;
   State next;
-  next.mesh = remesh(start, field, options, &report);
+  next.mesh = remesh::remesh(start, field, options, &report);
   next.metric = sample(ScaledMetricField(field, report.size_factor), next.mesh.points);
   next.cells_per_complexity = sizes.cells_per_complexity;
   if (pass.record.bounded) {
@@ -357,4 +357,4 @@ bool has_settled(const RunInput& run, const std::vector<Iteration>& passes) {
   return std::ssize(passes) >= needed && last.surface_change <= last.surface_tolerance;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

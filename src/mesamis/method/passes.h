@@ -22,7 +22,7 @@
 
 /// The steps of Algorithm 2: each takes what is known on one mesh and returns what is known next.
 /// Meshes lie in the grid's own axes, in length units.
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// A named part of the work that tells how far it has come.
 class Stage {
@@ -160,4 +160,4 @@ void record_surface(const Pass& pass, const TetMesh& mesh, std::span<const doubl
 /// made if as many are allowed: the first tell how many cells the remesher makes of a metric.
 bool has_settled(const RunInput& run, const std::vector<Iteration>& passes);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

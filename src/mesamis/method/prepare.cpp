@@ -8,7 +8,7 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/restore/restore.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 /// The restored image between its voxels, in grey values. It is bounded after it is interpolated: T
@@ -55,7 +55,7 @@ Prepared prepare_slab(const VolumeView& slab, const Chosen& choice) {
   Volume scan = clamped(slab, {p.grey.low, p.grey.high});
   if (!p.restore) return prepared_from(choice, std::move(scan));
   Restored restored =
-      restore(std::move(scan), choice.object, {p.noise, p.blur, choice.impulse_height});
+      restore::restore(std::move(scan), choice.object, {p.noise, p.blur, choice.impulse_height});
   return prepared_from(choice, std::move(restored.volume));
 }
 
@@ -68,4 +68,4 @@ double cells_of(const Prepared& slab) {
       p.accuracy);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

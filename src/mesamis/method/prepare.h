@@ -9,7 +9,7 @@
 #include "mesamis/method/measured_image.h"
 #include "mesamis/method/parameters.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// The image as the method works on it, and what was chosen for the run.
 struct Prepared {
@@ -50,4 +50,4 @@ Prepared prepare_slab(const VolumeView& slab, const Chosen& choice);
 /// How many cells the surface of a prepared slab asks for, see cells_of_image(). No unit.
 double cells_of(const Prepared& slab);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

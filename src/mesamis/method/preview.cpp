@@ -3,7 +3,7 @@
 
 #include "mesamis/surface/extract_cubes.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 TriMesh preview_surface(const Pass& pass) {
   const Parameters& p = pass.run.parameters;
@@ -12,4 +12,4 @@ TriMesh preview_surface(const Pass& pass) {
   return extract_cubes({grid.size, grid.spacing, found.minimum.u}, p.grey.to_grey(p.level));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -4,7 +4,7 @@
 #include "mesamis/method/passes.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// The solid of the functional's minimum on the first grid, by marching cubes: what can be seen
 /// before any mesh is adapted. Records the pass.
@@ -12,4 +12,4 @@ namespace mesamis {
 /// @throws Cancelled  if progress says stop.
 TriMesh preview_surface(const Pass& pass);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -10,7 +10,7 @@
 #include "mesamis/decimate/simplify.h"
 #include "mesamis/surface/select_parts.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 /// First rounded, then decimated and, if asked for, refitted, to values of single precision: what
@@ -25,7 +25,7 @@ TriMesh decimated(const TriMesh& surface, const PrintableOptions& printable,
   options.progress = printable.progress;
   DecimateReport decimation;
   TriMesh result = printable.refit ? simplify(rounded, options, &decimation)
-                                   : decimate(rounded, options, &decimation);
+                                   : decimate::decimate(rounded, options, &decimation);
   report.extracted_to_result = decimation.original_to_result + rounding.shift;
   report.result_to_extracted = decimation.result_to_original + rounding.shift;
   return result;
@@ -47,4 +47,4 @@ TriMesh make_printable(const TriMesh& extracted, const PrintableOptions& options
   return decimated(parts, options, done);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

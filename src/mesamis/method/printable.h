@@ -8,7 +8,7 @@
 #include "mesamis/surface/select_parts.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// From the surface as extracted to the one delivered.
 struct PrintableReport {
@@ -50,4 +50,4 @@ struct PrintableOptions {
 TriMesh make_printable(const TriMesh& extracted, const PrintableOptions& options,
                        PrintableReport* report = nullptr);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -8,7 +8,7 @@
 
 #include "mesamis/restore/deblur.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 bool is_word(const SettingValue& value, std::string_view word) {
   const auto* text = std::get_if<std::string>(&value);
@@ -399,4 +399,4 @@ std::vector<Setting> build_setting_rows() {
   return table;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

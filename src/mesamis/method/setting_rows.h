@@ -6,7 +6,7 @@
 
 #include "mesamis/method/setting_table.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// The rows of setting_table(), built.
 std::vector<Setting> build_setting_rows();
@@ -14,4 +14,4 @@ std::vector<Setting> build_setting_rows();
 /// Whether the value is this word, and no number.
 bool is_word(const SettingValue& value, std::string_view word);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -10,10 +10,8 @@
 #include "mesamis/base/written_number.h"
 #include "mesamis/method/setting_rows.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
-
-using detail::message;
 
 using Numbers = std::vector<double>;
 
@@ -248,4 +246,4 @@ std::string settings_page() {
   return page;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

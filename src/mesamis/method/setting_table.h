@@ -12,7 +12,7 @@
 
 /// The one table of settings. The command line, JSON files, the checks, the reports and
 /// docs/settings.md are made from it.
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// A value as text and files hold it: a switch, a word ("auto", "solid"), or numbers.
 using SettingValue = std::variant<bool, std::string, std::vector<double>>;
@@ -96,4 +96,4 @@ std::vector<std::string> preset_names();
 /// Writes the table as a page of Markdown: docs/settings.md.
 std::string settings_page();
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

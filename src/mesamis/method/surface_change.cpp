@@ -9,7 +9,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/fem/mesh_space.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 namespace {
 
 /// Of one cell: the area of its level sets, and the distance that they have moved.
@@ -66,4 +66,4 @@ double level_set_change(const TetMesh& mesh, std::span<const double> before,
   return was_there ? options.most : 0;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -4,8 +4,9 @@
 #include <span>
 
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::method {
 
 /// What level_set_change() looks at.
 struct LevelSetOptions {
@@ -28,4 +29,4 @@ struct LevelSetOptions {
 double level_set_change(const TetMesh& mesh, std::span<const double> before,
                         std::span<const double> now, const LevelSetOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::method

@@ -20,7 +20,7 @@
 #include "mesamis/object/voxel_islands.h"
 #include "mesamis/object/whole_values.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 namespace {
 
 constexpr double kAirHu = -1000, kSoftHu = 40;
@@ -339,4 +339,4 @@ std::vector<std::string> surface_warnings(const ChosenObject& object, const Volu
   return warnings;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

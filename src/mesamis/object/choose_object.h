@@ -14,7 +14,7 @@
 #include "mesamis/object/voxel_distance.h"
 
 /// From a scan and what a user says of the object to an image that shows this object alone.
-namespace mesamis {
+namespace mesamis::detail::object {
 
 /// Padding that was filled.
 struct FilledPadding {
@@ -88,4 +88,4 @@ std::vector<std::string> surface_warnings(const ChosenObject& object, double lev
 std::vector<std::string> surface_warnings(const ChosenObject& object, const VolumeView& image,
                                           double level);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

@@ -10,7 +10,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/object/voxel_distance.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 namespace {
 
 /// Voxels over which what is outside fades.
@@ -55,4 +55,4 @@ Volume without(Volume volume, std::span<const std::uint8_t> mask, const KeepOpti
   return kept_to(std::move(volume), complement(mask), options);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

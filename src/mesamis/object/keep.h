@@ -5,8 +5,9 @@
 #include <span>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 
 /// What is left around a mask.
 struct KeepOptions {
@@ -44,4 +45,4 @@ Volume kept_to(Volume volume, std::span<const std::uint8_t> mask, const KeepOpti
 /// O(voxels), as kept_to().
 Volume without(Volume volume, std::span<const std::uint8_t> mask, const KeepOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::object {
 
 /// Where a level comes from.
 enum class LevelSource {
@@ -20,4 +22,4 @@ struct KnownLevel {
   double uncertainty = 0;  ///< native units, see HalfMaximumLevel; 0: not known
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

@@ -7,7 +7,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 
 Volume mirrored(Volume volume) {
   parallel_for(volume.samples.size(),
@@ -40,4 +40,4 @@ Volume within_range(Volume volume, const Window& range) {
   return volume;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

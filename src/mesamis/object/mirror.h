@@ -6,7 +6,7 @@
 #include "mesamis/object/object_request.h"
 
 /// Dark objects (airways in CT, bone in MR): in the mirrored image they are bright.
-namespace mesamis {
+namespace mesamis::detail::object {
 
 /// Turns the sign of all samples. A dark object becomes a bright one, with the same surface at the
 /// mirrored level. Twice gives the volume back.
@@ -49,4 +49,4 @@ class ImageUnits {
 /// @throws InputError  unless low < high.
 Volume within_range(Volume volume, const Window& range);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

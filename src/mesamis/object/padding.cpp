@@ -238,6 +238,8 @@ PaddingRule parse_padding(std::string_view text) {
   return {.search = false, .value = value};
 }
 
+namespace detail::object {
+
 std::optional<Padding> find_padding(const VolumeView& volume, const PaddingRule& rule) {
   if (volume.samples.empty()) return std::nullopt;
   Padding padding;
@@ -281,5 +283,7 @@ double share_at_border(const VolumeView& volume, std::span<const std::uint8_t> m
   }
   return all > 0 ? static_cast<double>(at_border) / static_cast<double>(all) : 0;
 }
+
+}  // namespace detail::object
 
 }  // namespace mesamis

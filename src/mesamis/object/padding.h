@@ -12,7 +12,7 @@
 
 /// Voxels that the scanner never measured: the corners around a round field of view, and what a
 /// resampled or registered scan was filled up with.
-namespace mesamis {
+namespace mesamis::detail::object {
 
 /// The padding of a scan.
 struct Padding {
@@ -66,4 +66,4 @@ Volume filled(Volume volume, std::span<const std::uint8_t> mask, double value);
 /// @throws InputError  if the mask does not fit the volume.
 double share_at_border(const VolumeView& volume, std::span<const std::uint8_t> mask, double level);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

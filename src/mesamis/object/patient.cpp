@@ -12,7 +12,7 @@
 #include "mesamis/object/voxel_islands.h"
 #include "mesamis/object/voxel_neighbours.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 namespace {
 
 constexpr float kNoAir = -300;     // HU
@@ -235,4 +235,4 @@ Volume without_surroundings(Volume volume, const Patient& patient) {
   return kept_to(std::move(volume), patient.mask, {.margin = patient.grain, .background = kAir});
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

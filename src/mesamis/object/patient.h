@@ -9,7 +9,7 @@
 #include "mesamis/image/volume.h"
 #include "mesamis/object/voxel_distance.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 
 /// Something beside the patient.
 struct Surroundings {
@@ -59,4 +59,4 @@ std::optional<Patient> find_patient(const VolumeView& volume);
 /// O(voxels), as kept_to().
 Volume without_surroundings(Volume volume, const Patient& patient);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

@@ -12,7 +12,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/written_number.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -177,4 +177,4 @@ Box world_box(const VoxelGrid& grid, Frame frame) {
   return box_around(grid.box(), [&](const Vec3& p) { return in_frame(grid.to_world(p), frame); });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

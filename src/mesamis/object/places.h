@@ -6,9 +6,10 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
 /// Places in the world, as a user writes them down from a viewer.
-namespace mesamis {
+namespace mesamis::detail::object {
 
 /// Reads a point "X,Y,Z".
 /// @param text  three numbers, mm, in the frame.
@@ -43,4 +44,4 @@ CropRange box_to_range(const VoxelGrid& grid, std::string_view text, Frame frame
 /// @return mm, in the frame.
 Box world_box(const VoxelGrid& grid, Frame frame);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

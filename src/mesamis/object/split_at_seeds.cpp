@@ -13,7 +13,7 @@
 #include "mesamis/object/voxel_islands.h"
 #include "mesamis/object/voxel_neighbours.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 namespace {
 
 /// The value that a tenth of the marked samples above the level exceed.
@@ -176,4 +176,4 @@ LabelMap split_at_seeds(const VolumeView& volume, std::span<const std::uint8_t> 
   return map;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

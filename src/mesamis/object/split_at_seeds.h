@@ -8,8 +8,9 @@
 
 #include "mesamis/image/label_map.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 
 /// Splits objects that touch: each seed gets the part of the mask that belongs to it.
 ///
@@ -43,4 +44,4 @@ namespace mesamis {
 LabelMap split_at_seeds(const VolumeView& volume, std::span<const std::uint8_t> mask, double level,
                         std::span<const std::array<Index, 3>> seeds);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

@@ -84,7 +84,7 @@ Tissue parse_range(std::string_view text, std::size_t colon) {
 
 }  // namespace
 
-std::span<const Tissue> tissue_table() noexcept { return table(); }
+std::span<const Tissue> detail::object::tissue_table() noexcept { return table(); }
 
 Tissue parse_tissue(std::string_view text) {
   for (const Tissue& tissue : table()) {
@@ -95,13 +95,13 @@ Tissue parse_tissue(std::string_view text) {
   return parse_range(text, colon);
 }
 
-std::optional<Tissue> suggested_tissue(const VolumeView& volume) {
+std::optional<Tissue> detail::object::suggested_tissue(const VolumeView& volume) {
   if (!is_hounsfield(volume)) return std::nullopt;
   const bool has_bone = quantiles(volume.samples, {0.999})[0] > kBoneHu;
   return parse_tissue(has_bone ? "bone" : "skin");
 }
 
-std::string surface_at_level(const VolumeView& volume, double level) {
+std::string detail::object::surface_at_level(const VolumeView& volume, double level) {
   struct Row {
     double below;  // HU
     const char* name;

@@ -7,9 +7,10 @@
 
 #include "mesamis/image/volume.h"
 #include "mesamis/object/object_request.h"
+#include "mesamis/rooms.h"
 
 /// Tissues by their values in CT: what is meant by "bone" or "airway".
-namespace mesamis {
+namespace mesamis::detail::object {
 
 /// The presets, in the order in which help lists them: bone, teeth, soft, skin, lung, airway,
 /// vessel, dark.
@@ -28,4 +29,4 @@ std::optional<Tissue> suggested_tissue(const VolumeView& volume);
 ///         not CT, or nothing crosses the level.
 std::string surface_at_level(const VolumeView& volume, double level);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

@@ -7,7 +7,7 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/restore/object_edge.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 namespace {
 
 /// The edge of the bright object of a volume.
@@ -49,4 +49,4 @@ TissueLevel find_tissue_level(const VolumeView& image, const Tissue& tissue) {
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

@@ -5,7 +5,7 @@
 #include "mesamis/object/tissue.h"
 #include "mesamis/restore/half_maximum_level.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 
 /// The level of a tissue's surface.
 struct TissueLevel {
@@ -40,4 +40,4 @@ TissueLevel find_tissue_level(const VolumeView& image, const Tissue& tissue);
 /// @throws InputError  if the tissue needs Hounsfield units and the scan has none.
 void require_hounsfield(const VolumeView& scan, const Tissue& tissue);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

@@ -9,7 +9,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -125,4 +125,4 @@ std::size_t count_marked(std::span<const std::uint8_t> mask) {
          static_cast<std::size_t>(std::count(mask.begin(), mask.end(), std::uint8_t{0}));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

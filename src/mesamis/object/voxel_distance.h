@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
 /// Distances between voxel centres, and what grows and shrinks by them.
-namespace mesamis {
+namespace mesamis::detail::object {
 
 /// A mark per voxel, i fastest: 0 is outside, anything else inside. What mask_on() returns.
 using VoxelMask = std::vector<std::uint8_t>;
@@ -56,4 +57,4 @@ VoxelMask only_in(std::span<const std::uint8_t> mask, std::span<const std::uint8
 /// Counts the marked voxels.
 std::size_t count_marked(std::span<const std::uint8_t> mask);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

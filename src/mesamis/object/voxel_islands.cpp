@@ -9,7 +9,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/object/voxel_neighbours.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 namespace {
 
 /// Gives an island's number to all voxels that the first reaches; counts them.
@@ -155,4 +155,4 @@ VoxelMask mask_above(const VolumeView& volume, double level) {
   return mask;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

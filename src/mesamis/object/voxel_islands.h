@@ -12,7 +12,7 @@
 
 /// Islands of marked voxels: those that a way through faces of voxels connects. Cavities are what
 /// they enclose.
-namespace mesamis {
+namespace mesamis::detail::object {
 
 /// The islands of a mask. They are numbered from 1 in the order of their first voxels.
 struct VoxelIslands {
@@ -90,4 +90,4 @@ VoxelMask without_cavities_in_slices(std::span<const std::uint8_t> mask, const V
 /// @return 1 above, 0 elsewhere.
 VoxelMask mask_above(const VolumeView& volume, double level);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

@@ -7,8 +7,9 @@
 #include <cstddef>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::object {
 
 /// Calls visit(neighbour, axis) for each voxel that shares a face with a voxel, in the order of
 /// their places among the samples.
@@ -48,4 +49,4 @@ inline std::array<Index, 2> voxels_around(const VoxelGrid& grid, int axis, Index
   return {std::max(from - steps, 0), std::min(from + steps, grid.size[a] - 1)};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
-namespace mesamis {
+namespace mesamis::detail::object {
 namespace {
 
 using Counts = std::unordered_map<float, std::size_t>;
@@ -60,4 +60,4 @@ std::optional<FewValues> find_few_whole_values(const VolumeView& volume) {
   return is_even(volume, background) ? std::optional(found) : std::nullopt;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

@@ -5,9 +5,10 @@
 #include <optional>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
 /// Scans that are label maps by mistake.
-namespace mesamis {
+namespace mesamis::detail::object {
 
 /// The values of an image that looks like a label map.
 struct FewValues {
@@ -25,4 +26,4 @@ struct FewValues {
 /// O(voxels), as a rule less: the first fraction ends the search.
 std::optional<FewValues> find_few_whole_values(const VolumeView& volume);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::object

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 std::string base64(std::string_view bytes) {
   constexpr std::string_view kDigits =
@@ -23,4 +23,4 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

@@ -4,9 +4,11 @@
 #include <string>
 #include <string_view>
 
-namespace mesamis::detail {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::page {
 
 /// Bytes as base64 (RFC 4648) with padding, on one line.
 std::string base64(std::string_view bytes);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

@@ -11,7 +11,7 @@
 #include "mesamis/page/figures.h"
 #include "mesamis/picture/plot.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 namespace {
 
 using nlohmann::json;
@@ -128,4 +128,4 @@ std::string movement_svg(const json& report) {
                       "Movement of the surface", "mm");
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

@@ -5,9 +5,10 @@
 #include <string>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
 /// The diagrams of a page, as SVG elements.
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 /// How many voxels of a scan have each value, on a logarithmic axis, with the window, the threshold
 /// and the level of a report's run. Marks beyond single precision, which samples have, are left
@@ -26,4 +27,4 @@ std::string cells_svg(const nlohmann::json& report);
 /// measured.
 std::string movement_svg(const nlohmann::json& report);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

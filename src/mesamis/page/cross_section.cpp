@@ -7,7 +7,7 @@
 
 #include "mesamis/surface/measure.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 namespace {
 
 using Edge = std::pair<Index, Index>;
@@ -121,4 +121,4 @@ double middle_of(const std::vector<const TriMesh*>& surfaces, int axis) {
   return 0;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

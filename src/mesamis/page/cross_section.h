@@ -7,7 +7,7 @@
 #include "mesamis/image/slice_plane.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 /// A line through points of a page, mm; where it is closed, the first point is the last one too.
 using PageLine = std::vector<std::array<double, 2>>;
@@ -26,4 +26,4 @@ std::vector<PageLine> cross_section(const TriMesh& surface, const VoxelGrid& gri
 /// @return mm; 0 for surfaces without area. O(n log n).
 double middle_of(const std::vector<const TriMesh*>& surfaces, int axis);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

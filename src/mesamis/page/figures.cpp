@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 namespace {
 
 using nlohmann::json;
@@ -89,4 +89,4 @@ std::string native_unit(const json& report) {
   return ct ? "HU" : "native units";
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

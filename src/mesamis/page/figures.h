@@ -9,7 +9,7 @@
 #include "mesamis/page/html.h"
 
 /// Values of a report on a page.
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 /// A value as people read it: whole numbers in groups of three digits, others with four digits,
 /// lists with commas; a dash for null and "yes" or "no" for a switch.
@@ -39,4 +39,4 @@ Html figure_table(const nlohmann::json& report, std::string_view caption,
 /// "HU" for a scan that is a CT by its file or, "/page/unit", by its values; else "native units".
 std::string native_unit(const nlohmann::json& report);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

@@ -7,7 +7,7 @@
 #include "mesamis/files/utf8.h"
 #include "mesamis/files/xml_text.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 namespace {
 
 /// Elements that contain nothing and have no end tag.
@@ -71,4 +71,4 @@ Html of_class(std::string name, std::string_view css_class) {
   return made;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

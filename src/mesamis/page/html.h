@@ -6,8 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "mesamis/rooms.h"
+
 /// HTML from texts that may hold anything: the one place where markup is written.
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 /// A text as HTML and SVG take it, between tags and in attributes between double quotes: the five
 /// characters that mean something there are written as entities; control characters and bytes that
@@ -42,4 +44,4 @@ Html element(std::string name, std::string_view words);
 /// An element of a class.
 Html of_class(std::string name, std::string_view css_class);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 namespace {
 
 /// A corner of a cell on the plane: pixels, and its grey value.
@@ -150,4 +150,4 @@ Raster mesh_cut(const ShownMesh& mesh, const VoxelGrid& grid, const SlicePlane& 
   return halved(canvas.picture());
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

@@ -7,7 +7,7 @@
 #include "mesamis/page/slice_view.h"
 #include "mesamis/picture/raster.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 /// A mesh with a grey value per point.
 struct ShownMesh {
@@ -39,4 +39,4 @@ Raster mesh_cut(const ShownMesh& mesh, const VoxelGrid& grid, const SlicePlane& 
 /// @param box  of the slice, which the part does not leave; all of it where there are no lines.
 PageBox region_around(const std::vector<std::vector<PageLine>>& outlines, const PageBox& box);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

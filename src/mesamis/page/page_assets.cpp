@@ -6,10 +6,10 @@
 MESAMIS_EMBED(page_style, MESAMIS_PAGE_STYLE);
 MESAMIS_EMBED(page_script, MESAMIS_PAGE_SCRIPT);
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 std::string_view page_style() { return MESAMIS_EMBEDDED(page_style); }
 
 std::string_view page_script() { return MESAMIS_EMBEDDED(page_script); }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

@@ -6,8 +6,12 @@
 
 namespace mesamis {
 
+namespace detail::files {
 class OutputSet;
+}
+namespace detail::page {
 struct RunPage;
+}
 
 /// The files of a page and pictures.
 struct PageFiles {
@@ -25,6 +29,7 @@ std::vector<std::filesystem::path> page_outputs(const PageFiles& files);
 /// Writes the requested page and pictures into a set.
 /// @throws InputError  as run_page() and run_pictures(), or if a file cannot be written. Cost as
 ///                     there.
-void write_page(const PageFiles& files, const RunPage& page, OutputSet& set);
+void write_page(const PageFiles& files, const detail::page::RunPage& page,
+                detail::files::OutputSet& set);
 
 }  // namespace mesamis

@@ -13,7 +13,7 @@
 #include "mesamis/method/setting_table.h"
 #include "mesamis/page/figures.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 namespace {
 
 using nlohmann::json;
@@ -268,4 +268,4 @@ std::string repeat_command(const json& report, bool names) {
   return repeated.text();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

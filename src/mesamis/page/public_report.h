@@ -4,8 +4,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "mesamis/rooms.h"
+
 /// What of a report may be shown to anyone.
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 /// A report without what differs from run to run: times, memory, threads. Without names also no
 /// path and no file name, which may hold a patient's name: of a file the extension stays. Warnings
@@ -21,4 +23,4 @@ nlohmann::json public_report(nlohmann::json report, bool names);
 /// @param names  keep all words.
 std::string repeat_command(const nlohmann::json& report, bool names);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

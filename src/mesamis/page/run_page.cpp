@@ -20,9 +20,7 @@
 #include "mesamis/page/surface_copy.h"
 #include "mesamis/page/surface_view.h"
 
-namespace mesamis {
-
-using namespace detail;
+namespace mesamis::detail::page {
 
 namespace {
 
@@ -442,4 +440,4 @@ void write_run_page(const OutputPath& file, const RunPage& page) {
   write_file(file, run_page(page));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::page

@@ -12,10 +12,11 @@
 #include "mesamis/files/output_path.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// What came out of a run, as one HTML file that anyone can open, and as pictures.
-namespace mesamis {
+namespace mesamis::detail::page {
 
 /// A surface on a page.
 struct PageSurface {
@@ -77,4 +78,4 @@ struct RunPicture {
 /// O(voxels of the slices + triangles log(triangles) + cells + pixels).
 std::vector<RunPicture> run_pictures(const RunPage& page, int pixels = 1000);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::page

@@ -4,9 +4,7 @@
 #include "mesamis/page/shown_run.h"
 #include "mesamis/page/surface_view.h"
 
-namespace mesamis {
-
-using namespace detail;
+namespace mesamis::detail::page {
 
 std::vector<RunPicture> run_pictures(const RunPage& page, int pixels) {
   constexpr int kSmallest = 64, kLargest = 4096;
@@ -29,4 +27,4 @@ std::vector<RunPicture> run_pictures(const RunPage& page, int pixels) {
   return pictures;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::page

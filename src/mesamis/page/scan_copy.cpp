@@ -11,7 +11,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/files/deflate.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 namespace {
 
 /// A little more than nearly all samples, and what must be shown.
@@ -145,4 +145,4 @@ ScanCopy scan_copy(const VolumeView& scan, const Window& shown, std::size_t most
   }
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

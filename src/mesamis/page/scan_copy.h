@@ -8,7 +8,7 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/image/volume.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 /// A scan as the viewer takes it.
 struct ScanCopy {
@@ -29,4 +29,4 @@ ScanCopy scan_copy(const VolumeView& scan, const Window& shown, std::size_t most
 /// @throws InputError  if zlib cannot be started.
 std::string well_gzipped(const std::string& bytes);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

@@ -9,7 +9,7 @@
 #include "mesamis/page/base64.h"
 #include "mesamis/page/figures.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 namespace {
 
 using nlohmann::json;
@@ -478,4 +478,4 @@ Html methods_section(const json& report) {
   return section.add(p).add(element("p", kCitation).set("class", "citation"));
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

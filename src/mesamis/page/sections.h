@@ -11,7 +11,7 @@
 
 /// The parts of a page that are made of a report alone. Each is empty where the report has nothing
 /// for it.
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 /// A part of the page with its heading; others refer to it by its id.
 Html page_part(const std::string& id, std::string_view heading);
@@ -55,4 +55,4 @@ Html repeat_section(const nlohmann::json& report, const std::string& command);
 /// A paragraph for a publication, with the citation.
 Html methods_section(const nlohmann::json& report);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

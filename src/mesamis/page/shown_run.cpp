@@ -7,7 +7,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/page/figures.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 namespace {
 
 /// Of one object; stands out from grey.
@@ -112,4 +112,4 @@ Raster cut_picture(const ShownRun& run, int pixels) {
   return picture;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

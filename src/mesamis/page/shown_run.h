@@ -8,7 +8,7 @@
 #include "mesamis/page/run_page.h"
 #include "mesamis/page/slice_view.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 /// What of a run is drawn. It refers to what the RunPage refers to.
 struct ShownRun {
@@ -29,4 +29,4 @@ ShownRun shown_run(const RunPage& page);
 /// with a mesh.
 Raster cut_picture(const ShownRun& run, int pixels);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

@@ -12,7 +12,7 @@
 #include "mesamis/page/html.h"
 #include "mesamis/page/mesh_cut.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 namespace {
 
 constexpr std::array<const char*, 3> kNames{"sagittal", "coronal", "axial"};
@@ -234,4 +234,4 @@ Raster slice_picture(const SliceView& view, std::span<const ShownSurface> surfac
   return picture;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

@@ -10,7 +10,7 @@
 #include "mesamis/page/cross_section.h"
 #include "mesamis/picture/raster.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 /// A surface with its name and colour.
 struct ShownSurface {
@@ -71,4 +71,4 @@ Raster slice_picture(const SliceView& view, std::span<const ShownSurface> surfac
 /// @param width  mm, > 0.
 double bar_length(double width);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

@@ -12,7 +12,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/page/scan_copy.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 namespace {
 
 using Place = std::array<std::int64_t, 3>;
@@ -115,4 +115,4 @@ std::string mz3_gz(const SurfaceCopy& copy) {
   return well_gzipped(file);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 /// A surface to look at, with a value at each point, or none.
 struct SurfaceCopy {
@@ -28,4 +29,4 @@ SurfaceCopy coarse_surface(const SurfaceCopy& copy, std::int64_t most);
 /// @throws InputError  if zlib cannot be started.
 std::string mz3_gz(const SurfaceCopy& copy);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

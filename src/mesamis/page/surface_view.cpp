@@ -9,7 +9,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/normals.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 namespace {
 
 /// What runs to the right and upwards on the page, and towards the viewer; LPS.
@@ -123,4 +123,4 @@ Raster surface_view(std::span<const ShownSurface> surfaces, const std::string& v
   return halved(buffer.picture());
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

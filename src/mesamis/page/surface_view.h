@@ -8,7 +8,7 @@
 #include "mesamis/page/slice_view.h"
 #include "mesamis/picture/raster.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::page {
 
 /// The names of the views: front, left, top, oblique; anatomical in LPS.
 std::vector<std::string> surface_views();
@@ -22,4 +22,4 @@ std::vector<std::string> surface_views();
 /// O(points + triangles + pixels covered). Memory: 8 bytes and 12 per pixel.
 Raster surface_view(std::span<const ShownSurface> surfaces, const std::string& view, int pixels);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::page

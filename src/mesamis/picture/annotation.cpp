@@ -8,7 +8,7 @@
 #include "mesamis/picture/text.h"
 #include "mesamis/picture/ticks.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 namespace {
 
 constexpr Colour kInk{40, 44, 52};
@@ -108,4 +108,4 @@ void add_color_bar(Scene& scene, const ColorBar& bar) {
   add_label(scene, {bar.title, {(left + right) / 2, top + 24 * unit}, Align::kCenter, 18, true});
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -8,7 +8,7 @@
 #include "mesamis/picture/scene.h"
 
 /// Text, scale bar and colour bar over a picture, in pixels from the lower left corner.
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 
 enum class Align { kLeft, kCenter, kRight };
 
@@ -44,4 +44,4 @@ inline constexpr double kColorBarMargin = 0.17;
 /// At most four significant digits, without trailing zeros.
 std::string short_number(double value);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -8,7 +8,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/picture/ticks.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 namespace {
 
 struct Range {
@@ -98,4 +98,4 @@ Axis make_axis(const std::vector<double>& values, const AxisOptions& options) {
   return axis;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

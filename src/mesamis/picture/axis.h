@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace mesamis::detail {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::picture {
 
 struct AxisOptions {
   bool log_scale = false;
@@ -29,4 +31,4 @@ struct Axis {
 /// @throws InputError  if the axis is logarithmic and no value is positive.
 Axis make_axis(const std::vector<double>& values, const AxisOptions& options);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

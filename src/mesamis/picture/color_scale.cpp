@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 namespace {
 
 // Viridis (matplotlib, CC0) at nine even steps, interpolated linearly.
@@ -69,4 +69,4 @@ Colour viridis(double share) {
   return rgb;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -5,7 +5,7 @@
 
 #include "mesamis/picture/raster.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 
 struct ValueRange {
   double lo = 0, hi = 1;  ///< lo < hi
@@ -28,4 +28,4 @@ Colour grey(double share);
 /// uniform, and monotonic in lightness, so that it can be read without colour vision.
 Colour viridis(double share);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

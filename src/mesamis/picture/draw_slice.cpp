@@ -14,8 +14,6 @@
 
 namespace mesamis {
 
-using namespace detail;
-
 namespace {
 
 constexpr Colour kOutline{255, 107, 13};

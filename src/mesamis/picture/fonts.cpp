@@ -6,10 +6,10 @@
 MESAMIS_EMBED(font_regular, MESAMIS_FONT_REGULAR);
 MESAMIS_EMBED(font_bold, MESAMIS_FONT_BOLD);
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 
 std::string_view font_bytes(bool bold) noexcept {
   return bold ? MESAMIS_EMBEDDED(font_bold) : MESAMIS_EMBEDDED(font_regular);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

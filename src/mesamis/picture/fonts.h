@@ -3,9 +3,11 @@
 
 #include <string_view>
 
-namespace mesamis::detail {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::picture {
 
 /// The bytes of a TrueType font without serifs, DejaVu Sans, that is part of the library.
 std::string_view font_bytes(bool bold) noexcept;
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

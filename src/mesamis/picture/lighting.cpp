@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 namespace {
 
 struct Light {
@@ -41,4 +41,4 @@ Colour lit(const Colour& colour, const Vec3& normal, const Reflectance& reflecta
   return result;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -4,7 +4,7 @@
 #include "mesamis/base/types.h"
 #include "mesamis/picture/raster.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 
 /// How a surface answers to light, as shares of its colour.
 struct Reflectance {
@@ -18,4 +18,4 @@ struct Reflectance {
 /// @param normal  of length 1: to the right, upwards, towards the viewer; the last one >= 0.
 Colour lit(const Colour& colour, const Vec3& normal, const Reflectance& reflectance) noexcept;
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

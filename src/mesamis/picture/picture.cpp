@@ -14,8 +14,6 @@
 
 namespace mesamis {
 
-using namespace detail;
-
 namespace {
 
 constexpr double kCreaseAngleInDegrees = 40;  // sharper edges are not smoothed by the shading

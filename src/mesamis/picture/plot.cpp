@@ -11,9 +11,7 @@
 #include "mesamis/picture/series_style.h"
 #include "mesamis/picture/svg.h"
 
-namespace mesamis {
-
-using namespace detail;
+namespace mesamis::detail::picture {
 
 namespace {
 
@@ -348,4 +346,4 @@ void draw_plot(const OutputPath& file, std::span<const PlotSeries> series,
   write_file(file, plot_svg(series, options));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::picture

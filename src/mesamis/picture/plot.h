@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "mesamis/files/output_path.h"
+#include "mesamis/rooms.h"
 
 /// Diagrams of numbers as SVG. Nothing but this library is needed to draw them, and any browser
 /// shows them.
-namespace mesamis {
+namespace mesamis::detail::picture {
 
 /// A polyline through points.
 struct PlotSeries {
@@ -59,4 +60,4 @@ std::string plot_svg(std::span<const PlotSeries> series, const PlotOptions& opti
 void draw_plot(const OutputPath& file, std::span<const PlotSeries> series,
                const PlotOptions& options = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::picture

@@ -10,7 +10,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 namespace {
 
 void append_big_endian(std::string& to, std::uint32_t value) {
@@ -215,4 +215,4 @@ std::string png_bytes(const Raster& picture) {
   return png;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -10,8 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "mesamis/rooms.h"
+
 /// Pictures of pixels, and PNG files of them.
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 
 /// Red, green and blue (sRGB).
 using Colour = std::array<std::uint8_t, 3>;
@@ -97,4 +99,4 @@ void mix(Raster& on, const std::array<int, 2>& pixel, const Colour& colour, doub
 /// @throws InputError  if zlib cannot be started.
 std::string png_bytes(const Raster& picture);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -8,7 +8,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/files/atomic_file.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 namespace {
 
 constexpr int kMinPixels = 64, kMaxPixels = 8192;
@@ -103,4 +103,4 @@ void Scene::zoom_in(double zoom, const std::optional<Vec3>& focus) {
 
 void Scene::save(const std::filesystem::path& png) const { write_file(png, png_bytes(canvas_)); }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -12,7 +12,7 @@
 #include "mesamis/picture/triangles.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 
 /// The orientation of the camera: orthogonal unit vectors, forward pointing away from the viewer.
 struct CameraAxes {
@@ -71,4 +71,4 @@ class Scene {
   CameraAxes axes_{{0, 1, 0}, {0, 0, 1}};
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

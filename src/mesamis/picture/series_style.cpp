@@ -3,7 +3,7 @@
 
 #include <iterator>
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 namespace {
 
 // Dark and light alternate.
@@ -30,4 +30,4 @@ SeriesStyle series_style(std::size_t number) {
   return {cyclic(kColors, number), cyclic(kDashes, number), cyclic(kMarkers, number), filled};
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 
-namespace mesamis::detail {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::picture {
 
 /// What a series looks like.
 struct SeriesStyle {
@@ -19,4 +21,4 @@ struct SeriesStyle {
 /// @param number  of the series, from 0.
 SeriesStyle series_style(std::size_t number);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

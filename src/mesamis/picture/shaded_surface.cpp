@@ -6,7 +6,7 @@
 
 #include "mesamis/picture/triangles.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 namespace {
 
 constexpr Colour kEdge{31, 33, 46};
@@ -79,4 +79,4 @@ void draw_shaded(Scene& scene, const ShadedSurface& shown) {
                  [&shader](const Fragment& fragment) { return shader(fragment); });
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

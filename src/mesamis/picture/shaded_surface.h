@@ -10,7 +10,7 @@
 #include "mesamis/picture/scene.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 
 /// A surface, and how it looks.
 struct ShadedSurface {
@@ -27,4 +27,4 @@ struct ShadedSurface {
 /// O(triangles + pixels), with the memory of draw_triangles() and 36 bytes per point and triangle.
 void draw_shaded(Scene& scene, const ShadedSurface& shown);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -10,7 +10,7 @@
 #include "mesamis/picture/annotation.h"
 #include "mesamis/picture/ticks.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 namespace {
 
 /// @param side  0: along the bottom; 1: along the left side.
@@ -73,4 +73,4 @@ std::vector<std::array<Vec3, 2>> outline(const Volume& volume, const SlicePlane&
   return segments;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -10,7 +10,7 @@
 #include "mesamis/picture/color_scale.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 
 /// A mark at a side of a slice.
 struct SideTick {
@@ -34,4 +34,4 @@ ValueRange slice_window(const Volume& volume);
 std::vector<std::array<Vec3, 2>> outline(const Volume& volume, const SlicePlane& plane,
                                          const TriMesh& surface);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -5,7 +5,7 @@
 
 #include "mesamis/files/xml_text.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 
 std::string svg_number(double value) {
   char digits[400];
@@ -46,4 +46,4 @@ std::string SvgElement::to_string(int depth) const {
   return start + ">\n" + inside + indent + "</" + name_ + ">\n";
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
-namespace mesamis::detail {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::picture {
 
 /// A coordinate with at most two decimals, without needless zeros, whatever the locale.
 std::string svg_number(double value);
@@ -29,4 +31,4 @@ class SvgElement {
   std::vector<SvgElement> children_;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -11,7 +11,7 @@
 
 #include "mesamis/picture/fonts.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 namespace {
 
 constexpr int kReplacement = 0xFFFD;
@@ -126,4 +126,4 @@ void draw_text(Raster& on, const Place& start, std::string_view text, const Lett
   font.walk(text, [&](int glyph, double x) { draw_glyph(on, font, glyph, {start[0] + x, base}); });
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

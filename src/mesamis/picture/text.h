@@ -5,7 +5,7 @@
 
 #include "mesamis/picture/raster.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 
 /// How letters look.
 struct Lettering {
@@ -23,4 +23,4 @@ double text_width(std::string_view text, const Lettering& lettering);
 /// @param text   as of text_width().
 void draw_text(Raster& on, const Place& start, std::string_view text, const Lettering& lettering);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 namespace {
 
 constexpr const char* kMinus = "−";
@@ -80,4 +80,4 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks, double st
   return labels;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

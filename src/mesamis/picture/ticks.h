@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace mesamis::detail {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::picture {
 
 /// Evenly spaced round numbers: first, first + step, ...
 struct Ticks {
@@ -26,4 +28,4 @@ Ticks round_ticks(double lo, double hi, int count);
 /// @param step  the distance of the ticks, > 0.
 std::vector<std::string> tick_labels(const std::vector<double>& ticks, double step);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -7,7 +7,7 @@
 
 #include "mesamis/base/parallel.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 namespace {
 
 constexpr int kSamples = 3;  // per pixel, each way
@@ -187,4 +187,4 @@ void draw_triangles(Raster& on, const PageTriangles& shown, const Shader& shader
   });
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

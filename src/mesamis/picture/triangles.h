@@ -10,7 +10,7 @@
 #include "mesamis/base/types.h"
 #include "mesamis/picture/raster.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::picture {
 
 /// Triangles as they lie on a page.
 struct PageTriangles {
@@ -39,4 +39,4 @@ using Shader = std::function<Colour(const Fragment&)>;
 /// thread.
 void draw_triangles(Raster& on, const PageTriangles& shown, const Shader& shader);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::picture

@@ -3,7 +3,7 @@
 
 #include "mesamis/mesh/metric_field.h"
 
-namespace mesamis {
+namespace mesamis::detail::remesh {
 namespace {
 
 constexpr double kFitToKeep = 0.5;
@@ -25,4 +25,4 @@ AdaptedMesh adapt_mesh(const TetMesh& mesh, std::span<const Sym3> node_metrics,
   return adapted;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::remesh

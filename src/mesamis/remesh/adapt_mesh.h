@@ -7,7 +7,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/remesh/remesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::remesh {
 
 /// A mesh made for a metric that is known at the nodes of another mesh.
 struct AdaptedMesh {
@@ -34,4 +34,4 @@ struct AdaptedMesh {
 AdaptedMesh adapt_mesh(const TetMesh& mesh, std::span<const Sym3> node_metrics,
                        const RemeshOptions& options = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::remesh

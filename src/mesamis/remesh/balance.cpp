@@ -8,7 +8,7 @@
 #include "mesamis/remesh/body_shape.h"
 #include "mesamis/remesh/skin.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 /// How far the border lies from triangles, along their normals and in the mean over their area:
@@ -66,4 +66,4 @@ Counters balance_skin(Workbench& bench, const ShapeRule& rule) {
   return done;
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -4,7 +4,7 @@
 #include "mesamis/remesh/counters.h"
 #include "mesamis/remesh/shape_score.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// Moves the vertices of a body's skin off the border until its triangles lie as much outside as
 /// inside. With all corners on the border of a convex body each triangle cuts a little off.
@@ -16,4 +16,4 @@ namespace mesamis::remeshing {
 /// O(m) for m cells, and 3 look-ups of the border per triangle at each vertex of the skin.
 Counters balance_skin(Workbench& bench, const ShapeRule& rule);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -6,7 +6,7 @@
 
 #include "mesamis/remesh/geometry.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 /// Sums over the cells of one lane.
@@ -117,4 +117,4 @@ std::span<const double> BallShape::qualities(const Vertex& vertex) {
   return {qualities_.data(), size_};
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -7,7 +7,7 @@
 
 #include "mesamis/remesh/working_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// The cells around a vertex, laid side by side so that several are computed at a time: smoothing
 /// asks for all their qualities at one trial position after another.
@@ -57,4 +57,4 @@ class BallShape {
   std::size_t size_ = 0;
 };
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -11,10 +11,8 @@
 #include "mesamis/remesh/cut.h"
 #include "mesamis/remesh/remesher.h"
 
-namespace mesamis {
+namespace mesamis::detail::remesh {
 namespace {
-
-using namespace remeshing;
 
 /// The cells inside.
 BodyMesh unload_body(const WorkingMesh& mesh) {
@@ -50,4 +48,4 @@ BodyMesh remesh_body(const TetMesh& start, const MetricField& metric, const Body
   return body;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::remesh

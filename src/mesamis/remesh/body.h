@@ -8,7 +8,7 @@
 #include "mesamis/remesh/body_shape.h"
 #include "mesamis/remesh/remesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::remesh {
 
 /// A mesh of one or more objects: between two of them, and towards the outside, its faces are the
 /// skin.
@@ -40,4 +40,4 @@ struct BodyMesh {
 BodyMesh remesh_body(const TetMesh& start, const MetricField& metric, const BodyShape& shape,
                      const RemeshOptions& options = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::remesh

@@ -6,8 +6,9 @@
 #include <optional>
 
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::remesh {
 
 /// A point of the border between materials.
 struct BorderPoint {
@@ -55,4 +56,4 @@ class BodyShape {
                                                         const MaterialTriple& materials) const = 0;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::remesh

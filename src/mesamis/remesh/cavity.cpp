@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 /// Local indices c, d that make (a, b, c, d) positive for each pair of local indices a, b.
@@ -175,4 +175,4 @@ void Cavity::write_cell(Index id, const Proposal& proposal) {
   }
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -8,7 +8,7 @@
 
 #include "mesamis/remesh/working_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// The hole an operation works on: it finds the cells around a vertex or an edge, collects the
 /// cells that shall take their place, and replaces them. Nothing else changes connectivity.
@@ -75,4 +75,4 @@ class Cavity {
   std::uint32_t faces_epoch_ = 0;
 };
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -9,7 +9,7 @@
 #include "mesamis/remesh/skin.h"
 #include "mesamis/remesh/smooth.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 /// A vertex may leave for another only if that lies on all of its box planes, and on the skin.
@@ -102,4 +102,4 @@ std::int64_t collapse_short_edges(Workbench& bench, const CollapseRule& rule) {
   return collapses;
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -5,7 +5,7 @@
 
 #include "mesamis/remesh/workbench.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 struct CollapseRule {
   double length_min = 0.70710678118654752;  ///< shorter edges are collapsed
@@ -39,4 +39,4 @@ bool propose_collapse(Workbench& bench, std::span<const Index> ball, std::array<
 /// Moves a vertex onto a neighbour, which takes its place, if the rule allows.
 bool collapse_vertex(Workbench& bench, Index vertex, Index onto, const CollapseRule& rule);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 
-namespace mesamis::remeshing {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::remesh {
 
 /// How many operations were done.
 struct Counters {
@@ -17,4 +19,4 @@ struct Counters {
   }
 };
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

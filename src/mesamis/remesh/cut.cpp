@@ -15,7 +15,7 @@
 #include "mesamis/remesh/split.h"
 #include "mesamis/remesh/workbench.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 /// An edge, and how far along it something is.
@@ -154,4 +154,4 @@ WorkingMesh cut_along_border(const TetMesh& start, const BodyShape& shape,
   return mesh;
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

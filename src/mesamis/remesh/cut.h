@@ -4,7 +4,7 @@
 #include "mesamis/remesh/metric_sampler.h"
 #include "mesamis/remesh/working_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// Cuts a mesh along the border of a body: no cell is of two materials any more.
 ///
@@ -21,4 +21,4 @@ namespace mesamis::remeshing {
 WorkingMesh cut_along_border(const TetMesh& start, const BodyShape& shape,
                              const MetricSampler& sampler);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

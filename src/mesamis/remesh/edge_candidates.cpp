@@ -7,7 +7,7 @@
 
 #include "mesamis/remesh/geometry.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
@@ -68,4 +68,4 @@ std::vector<EdgeCandidate> short_edges(WorkingMesh& mesh, double limit) {
   return edges;
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -5,7 +5,7 @@
 
 #include "mesamis/remesh/working_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// An edge that is too long or too short, and one of its cells when it was found.
 struct EdgeCandidate {
@@ -26,4 +26,4 @@ std::vector<EdgeCandidate> long_edges(WorkingMesh& mesh, double limit);
 /// Edges shorter than `limit` of the cells that wait for kToCollapse, shortest first.
 std::vector<EdgeCandidate> short_edges(WorkingMesh& mesh, double limit);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -7,7 +7,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/remesh/geometry.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 constexpr int kProbesPerSide = 64;
@@ -153,4 +153,4 @@ double probe_complexity(const MetricSampler& sampler, const Box& box) {
   return sum / kProbes * box.volume();
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

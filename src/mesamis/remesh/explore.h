@@ -6,7 +6,7 @@
 #include "mesamis/remesh/split.h"
 #include "mesamis/remesh/workbench.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// Splits cells that fit the metric at their vertices but not inside, where it is much finer: thin
 /// features in a coarse mesh.
@@ -19,4 +19,4 @@ std::int64_t split_unseen_detail(Workbench& bench, const SplitRule& rule);
 /// Integral of sqrt(det M) over the box, from as many probes on a lattice.
 double probe_complexity(const MetricSampler& sampler, const Box& box);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -10,7 +10,7 @@
 #include "mesamis/remesh/working_mesh.h"
 
 /// Lengths and qualities in the metric, as every operation measures them.
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// A metric's factor in double precision, converted once for many uses.
 struct Factor {
@@ -101,4 +101,4 @@ inline constexpr double kTinyQuality3 = 1e-30;
 /// The energy of a cell, whose sum swaps and moves lower: 0 for a regular cell.
 inline double energy(double quality3) { return 1 / std::max(quality3, kTinyQuality3) - 1; }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -8,7 +8,7 @@
 #include "mesamis/remesh/body_shape.h"
 #include "mesamis/remesh/geometry.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 class ManifoldSkin {
@@ -155,4 +155,4 @@ class ManifoldSkin {
 
 std::int64_t make_skin_manifold(Workbench& bench) { return ManifoldSkin(bench).run(); }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -5,7 +5,7 @@
 
 #include "mesamis/remesh/workbench.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// Gives cells another material until the skin of no object touches itself: around each vertex the
 /// cells of a material hang together by faces.
@@ -20,4 +20,4 @@ namespace mesamis::remeshing {
 /// O(cells at the skin).
 std::int64_t make_skin_manifold(Workbench& bench);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

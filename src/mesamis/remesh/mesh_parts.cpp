@@ -11,7 +11,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/stopwatch.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 constexpr Index kShared = -2;
@@ -322,4 +322,4 @@ PartsReport work_on_parts(WorkingMesh& mesh, const PartSchedule& schedule,
   return report;
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

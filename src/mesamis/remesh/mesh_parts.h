@@ -7,7 +7,7 @@
 #include "mesamis/remesh/counters.h"
 #include "mesamis/remesh/working_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// How to cut a mesh into parts.
 struct PartSchedule {
@@ -33,4 +33,4 @@ struct PartsReport {
 PartsReport work_on_parts(WorkingMesh& mesh, const PartSchedule& schedule,
                           const std::function<Counters(WorkingMesh&)>& work);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -6,7 +6,7 @@
 
 #include "mesamis/mesh/metric.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 MetricFactor factorise(const Sym3& m, double pivot_min, double scale) {
@@ -35,4 +35,4 @@ MetricFactor MetricSampler::at(const Vec3& p, Index& hint) const {
   return factorise(m, 1 / (size_max_ * size_max_), 1 / size_factor_);
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -4,7 +4,7 @@
 #include "mesamis/base/types.h"
 #include "mesamis/mesh/metric_field.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// Lower Cholesky factor of a metric, M = L L^T: |L^T e| is the length of e. Single precision
 /// is plenty for lengths and qualities, and keeps a vertex in one cache line.
@@ -35,4 +35,4 @@ class MetricSampler {
   double size_factor_ = 1;
 };
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -7,10 +7,8 @@
 #include "mesamis/mesh/predicates.h"
 #include "mesamis/remesh/remesher.h"
 
-namespace mesamis {
+namespace mesamis::detail::remesh {
 namespace {
-
-using namespace remeshing;
 
 void require_positive_cells(const TetMesh& piece) {
   for (std::size_t c = 0; c < piece.cells.size(); ++c) {
@@ -51,4 +49,4 @@ TetMesh remesh_piece(const TetMesh& piece, const Box& box, const MetricField& me
   return unload(remesher.result());
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::remesh

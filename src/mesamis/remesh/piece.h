@@ -5,7 +5,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/remesh/remesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::remesh {
 
 /// Adapts a piece of a mesh of a box, so that it still fits to the pieces around it: remesh() for
 /// meshes that no single memory holds.
@@ -27,4 +27,4 @@ namespace mesamis {
 TetMesh remesh_piece(const TetMesh& piece, const Box& box, const MetricField& metric,
                      const RemeshOptions& options = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::remesh

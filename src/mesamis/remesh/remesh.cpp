@@ -8,10 +8,10 @@
 #include "mesamis/remesh/explore.h"
 #include "mesamis/remesh/remesher.h"
 
-namespace mesamis {
+namespace mesamis::detail::remesh {
 
 double cells_for_metric(const MetricField& metric, const Box& box) {
-  return kCellsPerComplexity * remeshing::probe_complexity({metric, box}, box);
+  return kCellsPerComplexity * probe_complexity({metric, box}, box);
 }
 
 TetMesh remesh(const TetMesh& start, const MetricField& metric, const RemeshOptions& options,
@@ -20,7 +20,7 @@ TetMesh remesh(const TetMesh& start, const MetricField& metric, const RemeshOpti
   const Box box = bounding_box(start.points);
   const std::string flaw = find_flaw(start, box);
   if (!flaw.empty()) throw InputError("remesh: the start mesh is not valid: " + flaw);
-  remeshing::Remesher remesher(remeshing::load(start, box), {metric, box}, options);
+  Remesher remesher(load(start, box), {metric, box}, options);
   remesher.adapt();
   remesher.polish();
   TetMesh result = unload(remesher.result());
@@ -31,4 +31,4 @@ TetMesh remesh(const TetMesh& start, const MetricField& metric, const RemeshOpti
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::remesh

@@ -8,7 +8,7 @@
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/mesh/tet_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::remesh {
 
 /// Cells that remesh() makes per unit of the metric's complexity, the integral of sqrt(det M).
 inline constexpr double kCellsPerComplexity = 9.3;
@@ -69,4 +69,4 @@ double cells_for_metric(const MetricField& metric, const Box& box);
 TetMesh remesh(const TetMesh& start, const MetricField& metric, const RemeshOptions& options = {},
                RemeshReport* report = nullptr);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::remesh

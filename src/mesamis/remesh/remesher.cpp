@@ -18,7 +18,7 @@
 #include "mesamis/remesh/split.h"
 #include "mesamis/remesh/swap.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 /// The least that kCellsPerComplexity was found to be: a metric is made coarser beforehand only
@@ -293,4 +293,4 @@ void Remesher::resize(double factor) {
   set_pending(mesh_, kToSplit | kToCollapse | kToExplore);
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

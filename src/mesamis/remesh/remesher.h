@@ -10,7 +10,7 @@
 #include "mesamis/remesh/workbench.h"
 #include "mesamis/remesh/working_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// What lengths new edges may have.
 enum class Bands {
@@ -68,4 +68,4 @@ class Remesher {
   RemeshReport report_;
 };
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -7,7 +7,7 @@
 #include "mesamis/remesh/smooth.h"
 #include "mesamis/remesh/swap.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 bool collapse_an_edge(Workbench& bench, Index cell, const CollapseRule& rule) {
@@ -57,4 +57,4 @@ Counters repair_worst_cells(Workbench& bench, const RepairRule& rule) {
   return done;
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -4,7 +4,7 @@
 #include "mesamis/remesh/counters.h"
 #include "mesamis/remesh/workbench.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 struct RepairRule {
   double quality3_max = 0.25;   ///< only worse cells are taken up
@@ -16,4 +16,4 @@ struct RepairRule {
 /// cells clearly better even at the price of lengths, swaps, moves.
 Counters repair_worst_cells(Workbench& bench, const RepairRule& rule);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

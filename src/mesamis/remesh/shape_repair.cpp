@@ -13,7 +13,7 @@
 #include "mesamis/remesh/skin.h"
 #include "mesamis/remesh/swap.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 /// An operation must make the worst shape better by this factor.
@@ -240,4 +240,4 @@ Counters repair_shapes(Workbench& bench, const ShapeRule& rule) {
   return ShapeRepair(bench, rule).run();
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -10,7 +10,7 @@
 #include "mesamis/remesh/geometry.h"
 #include "mesamis/remesh/skin.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 namespace {
 
@@ -77,4 +77,4 @@ void settle_moved(Workbench& bench, Index vertex, std::span<const Index> ball) {
   }
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -6,7 +6,7 @@
 #include "mesamis/remesh/workbench.h"
 
 /// The shape of cells in space, as solvers feel it, whatever the metric.
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// What shape a cell must have in space, not in the metric: solvers ask for it.
 struct ShapeRule {
@@ -33,4 +33,4 @@ bool are_positive(const WorkingMesh& mesh, std::span<const Index> cells);
 /// @param ball  the cells around the vertex.
 void settle_moved(Workbench& bench, Index vertex, std::span<const Index> ball);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -7,7 +7,7 @@
 
 #include "mesamis/mesh/edges.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 /// The points of a face, turned out of its cell.
@@ -292,4 +292,4 @@ bool may_collapse_in_body(Workbench& bench, std::span<const Index> ball, Index v
          keeps_skin(mesh, ball, {vertex, onto}) && keeps_junction(mesh, ball, {vertex, onto});
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

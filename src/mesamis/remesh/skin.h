@@ -12,7 +12,7 @@
 
 /// The skin of a body: the faces between two materials, of which the outside is one. Faces on the
 /// planes of the box are no skin.
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// What meets at a vertex or at an edge.
 struct Features {
@@ -76,4 +76,4 @@ std::vector<Corners3> skin_triangles(const WorkingMesh& mesh, std::span<const In
 /// @param ball  the cells around the vertex.
 bool may_collapse_in_body(Workbench& bench, std::span<const Index> ball, Index vertex, Index onto);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -10,7 +10,7 @@
 #include "mesamis/remesh/geometry.h"
 #include "mesamis/remesh/skin.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 /// One vertex on its way to a better place.
@@ -214,4 +214,4 @@ std::int64_t smooth_bad_cells(Workbench& bench, const SmoothRule& rule) {
   return moves;
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

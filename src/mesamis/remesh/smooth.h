@@ -5,7 +5,7 @@
 
 #include "mesamis/remesh/workbench.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 struct SmoothRule {
   double quality3_max = 0.729;  ///< vertices of better cells alone stay where they are
@@ -23,4 +23,4 @@ std::int64_t smooth_bad_cells(Workbench& bench, const SmoothRule& rule);
 /// changed the cells around since, the vertex rests for a request or two.
 bool smooth_vertex(Workbench& bench, Index vertex, const SmoothRule& rule);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

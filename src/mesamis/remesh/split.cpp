@@ -8,7 +8,7 @@
 #include "mesamis/remesh/geometry.h"
 #include "mesamis/remesh/skin.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 /// Where the edge's middle lies in the metric, as a share of the edge; the size is taken to
@@ -136,4 +136,4 @@ std::int64_t split_long_edges(Workbench& bench, const SplitRule& rule) {
   return splits;
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

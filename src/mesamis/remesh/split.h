@@ -5,7 +5,7 @@
 
 #include "mesamis/remesh/workbench.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 struct SplitRule {
   double length_max = 1.4142135623730951;  ///< longer edges are split
@@ -39,4 +39,4 @@ bool split_edge(Workbench& bench, const SplitEdge& edge, const SplitRule& rule);
 /// @return the new vertex; kNoIndex if a new cell would not be positive.
 Index split_edge_at(Workbench& bench, const SplitEdge& edge, double share, bool on_skin);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -9,7 +9,7 @@
 #include "mesamis/remesh/geometry.h"
 #include "mesamis/remesh/skin.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 constexpr double kImpossible = std::numeric_limits<double>::infinity();
@@ -370,4 +370,4 @@ bool propose_without_face(Workbench& bench, Index cell, int face) {
   return true;
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -5,7 +5,7 @@
 
 #include "mesamis/remesh/workbench.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 struct SwapRule {
   double quality3_max = 0.512;  ///< better cells are left alone
@@ -28,4 +28,4 @@ bool propose_without_edge(Workbench& bench, Index cell, std::array<Index, 2> edg
 /// @return false if there is no neighbour of the same material.
 bool propose_without_face(Workbench& bench, Index cell, int face);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -9,7 +9,7 @@
 #include "mesamis/remesh/metric_sampler.h"
 #include "mesamis/remesh/working_mesh.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// A set of vertices that is cleared in
 class VertexSet {
@@ -40,4 +40,4 @@ struct Workbench {
   BallShape shape;
 };
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -8,7 +8,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/remesh/geometry.h"
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 namespace {
 
 /// Spreads the lowest 21 bits of v to every third bit.
@@ -202,4 +202,4 @@ TetMesh unload(const WorkingMesh& mesh) {
   return result;
 }
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

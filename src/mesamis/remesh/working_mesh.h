@@ -11,11 +11,11 @@
 #include "mesamis/remesh/metric_sampler.h"
 
 /// The remesher's own mesh: data that changes often lies close together in memory.
-namespace mesamis {
+namespace mesamis::detail::remesh {
 class BodyShape;
 }
 
-namespace mesamis::remeshing {
+namespace mesamis::detail::remesh {
 
 /// Bits of Vertex::mask: the planes of the box that hold the vertex, see planes_of().
 inline constexpr std::uint8_t kPlanes = 0x3f;
@@ -116,4 +116,4 @@ void compact(WorkingMesh& mesh);
 /// Points and cells of a compact mesh.
 TetMesh unload(const WorkingMesh& mesh);
 
-}  // namespace mesamis::remeshing
+}  // namespace mesamis::detail::remesh

@@ -9,7 +9,7 @@
 
 #include "mesamis/report/json_file.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -95,4 +95,4 @@ nlohmann::ordered_json body_json(const BodyOutput& body) {
   return json;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

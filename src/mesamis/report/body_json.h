@@ -5,10 +5,10 @@
 
 #include "mesamis/report/body_output.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// The entry "body" of a report, as docs/formats.md lists it: elements and their shapes, sizes,
 /// parts, sets, materials.
 nlohmann::ordered_json body_json(const BodyOutput& body);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -15,7 +15,7 @@
 #include "mesamis/report/filled_objects.h"
 #include "mesamis/report/solver_name.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 std::string upper_case(std::string text) {
@@ -32,7 +32,7 @@ bool is_numbered(const std::string& upper, const std::string& prefix) {
 std::string part_name(const Segment& segment, std::size_t number) {
   constexpr std::size_t kMost = 40;
   const std::string of_segment = segment.name.empty() ? "" : "_" + segment.name.substr(0, kMost);
-  return detail::solver_name("PART_" + std::to_string(number) + of_segment);
+  return solver_name("PART_" + std::to_string(number) + of_segment);
 }
 
 void set_cells(FiniteElements& elements, const MeshedBody& body, const VoxelGrid& grid) {
@@ -195,4 +195,4 @@ BodyOutput make_body_output(MeshedBody&& filled, std::span<const FoundObject> ob
   return output;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -13,7 +13,7 @@
 #include "mesamis/mesh/finite_elements.h"
 #include "mesamis/report/label_output.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// What a body for a solver shall be.
 struct BodyRequest {
@@ -67,4 +67,4 @@ BodyOutput make_body_output(std::span<const FoundObject> objects, const VolumeVi
 BodyOutput make_body_output(MeshedBody&& filled, std::span<const FoundObject> objects,
                             const VolumeView& volume, const BodyRequest& request);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -81,6 +81,8 @@ void require_valid(const BodyWishes& wishes) {
   }
 }
 
+namespace detail::report {
+
 void require_fillable(const Settings& settings, std::optional<double> tolerance) {
   if (settings.surface == SurfaceKind::kBand) {
     throw InputError("surface: expected solid, found band");
@@ -114,5 +116,7 @@ std::string loose_parts(std::int64_t parts, std::int64_t objects) {
   return "expected " + std::to_string(objects) + " parts at most, found " + std::to_string(parts) +
          " that do not touch; a solver needs supports on each";
 }
+
+}  // namespace detail::report
 
 }  // namespace mesamis

@@ -11,7 +11,7 @@
 #include "mesamis/report/body_output.h"
 #include "mesamis/report/body_wishes.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// What a body follows where nothing was asked for.
 struct BodySource {
@@ -47,4 +47,4 @@ BodyRequest complete_request(const BodyWishes& wishes, std::span<const FoundObje
 /// @return empty if there are no more parts than objects.
 std::string loose_parts(std::int64_t parts, std::int64_t objects);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -9,7 +9,7 @@
 #include "mesamis/report/line_crossing.h"
 #include "mesamis/report/solver_name.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 constexpr double kPointsPerBin = 8;
@@ -102,7 +102,7 @@ std::vector<int> depths_in(const TriMesh& surface, std::span<const Vec3> points,
 }
 
 std::string set_name(const Segment& segment) {
-  return detail::solver_name("L" + std::to_string(segment.label) + "_" + segment.name);
+  return solver_name("L" + std::to_string(segment.label) + "_" + segment.name);
 }
 
 }  // namespace
@@ -134,4 +134,4 @@ CellSets label_sets(const TetMesh& mesh, std::span<const FoundObject> objects) {
   return sets;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -8,7 +8,7 @@
 #include "mesamis/report/label_output.h"
 #include "mesamis/shape_files/mesh_files.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// Finds for each point the object that it lies in.
 ///
@@ -29,4 +29,4 @@ std::vector<Index> objects_at(std::span<const Vec3> points, std::span<const Foun
 /// Cost as objects_at().
 CellSets label_sets(const TetMesh& mesh, std::span<const FoundObject> objects);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

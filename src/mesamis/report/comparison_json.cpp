@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -51,4 +51,4 @@ ordered_json frames_json(const SurfacePair& pair) {
           {"fits_better_flipped", flip}};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

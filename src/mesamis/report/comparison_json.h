@@ -6,7 +6,7 @@
 #include "mesamis/shape_files/surface_pair.h"
 #include "mesamis/surface/comparison.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// Distances in one direction, mm: vertices, mean (15), rms, p95, p99, max, and the same by area.
 ///  O(n log n) for n distances.
@@ -26,4 +26,4 @@ nlohmann::ordered_json paper_distances_json(const DirectedDistances& reference_t
 /// turned.
 nlohmann::ordered_json frames_json(const SurfacePair& pair);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

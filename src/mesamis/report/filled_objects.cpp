@@ -8,7 +8,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 constexpr double kVoxelsPerElement = 3;
@@ -86,4 +86,4 @@ FilledObjects fill_objects(std::span<const FoundObject> objects, const VoxelGrid
   return filled;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

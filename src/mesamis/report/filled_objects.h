@@ -9,7 +9,7 @@
 #include "mesamis/report/label_output.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// Objects of a scan filled with elements.
 struct FilledObjects {
@@ -35,4 +35,4 @@ double element_size(const BodyOptions& options, const VoxelGrid& grid);
 FilledObjects fill_objects(std::span<const FoundObject> objects, const VoxelGrid& grid,
                            const BodyOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

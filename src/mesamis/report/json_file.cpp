@@ -12,7 +12,7 @@
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 using nlohmann::json;
@@ -37,7 +37,7 @@ class Strictness {
 
  private:
   [[noreturn]] void refuse(const std::string& expected, const std::string& found = "more") const {
-    detail::refuse(path_, "expected JSON with " + expected + ", found " + found);
+    files::refuse(path_, "expected JSON with " + expected + ", found " + found);
   }
 
   std::filesystem::path path_;
@@ -52,19 +52,18 @@ void write_json(const OutputPath& path, const nlohmann::ordered_json& value) {
 }
 
 nlohmann::json read_json(const std::filesystem::path& path) {
-  detail::require_file(path);
+  require_file(path);
   std::ifstream in(path, std::ios::binary);
   try {
     Strictness strictness(path);
     return nlohmann::json::parse(in, std::ref(strictness));
   } catch (const nlohmann::json::parse_error& error) {
-    detail::refuse(path,
-                   "expected JSON, found something else at byte " + std::to_string(error.byte));
+    refuse(path, "expected JSON, found something else at byte " + std::to_string(error.byte));
   } catch (const nlohmann::json::exception&) {
-    detail::refuse(path, "expected JSON with numbers in range, found one out of range");
+    refuse(path, "expected JSON with numbers in range, found one out of range");
   }
 }
 
 nlohmann::ordered_json vec_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -6,8 +6,9 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/files/output_path.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// Writes an indented JSON file, which appears whole or not at all. Numbers that are not finite
 /// become null, text that is not UTF-8 is repaired.
@@ -22,4 +23,4 @@ nlohmann::json read_json(const std::filesystem::path& path);
 /// A point or vector as [x, y, z], in mm or whatever unit it has.
 nlohmann::ordered_json vec_json(const Vec3& v);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

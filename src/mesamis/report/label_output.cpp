@@ -10,7 +10,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/report/line_crossing.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 /// Of a voxel: no centre of a usual surface lies on such a line.
@@ -185,4 +185,4 @@ SurfaceLabels labels_of_surfaces(const VoxelGrid& grid, std::span<const FoundObj
   return out;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

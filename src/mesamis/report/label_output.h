@@ -9,7 +9,7 @@
 #include "mesamis/method/label_surfaces.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// An object whose surface was found.
 struct FoundObject {
@@ -55,4 +55,4 @@ struct SurfaceLabels {
 /// As label_map_of(), and a copy of the labels of one layer.
 SurfaceLabels labels_of_surfaces(const VoxelGrid& grid, std::span<const FoundObject> objects);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -8,7 +8,7 @@
 #include "mesamis/report/run_summary.h"
 #include "mesamis/report/settings_json.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -74,4 +74,4 @@ Verdict judge(const LabelResult& result, std::span<const SurfaceCheck> checks) {
   return {};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -7,7 +7,7 @@
 #include "mesamis/method/label_surfaces.h"
 #include "mesamis/report/verdict.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// What a report says of a run on labels: settings, object (its labels, margin, surfaces,
 /// boundaries), quality, seconds_parts; docs/formats.md lists the keys.
@@ -22,4 +22,4 @@ nlohmann::ordered_json label_run_json(const LabelResult& result,
 /// @param checks  as for label_run_json().
 Verdict judge(const LabelResult& result, std::span<const SurfaceCheck> checks);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

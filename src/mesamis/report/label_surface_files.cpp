@@ -6,14 +6,12 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/report/report.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr const char* kPlaceholder = "{label}";
-
-using detail::lower_extension;
 
 SurfaceWriteOptions write_options(const RunSurfaceOptions& options, const std::string& name) {
   SurfaceWriteOptions as;
@@ -101,4 +99,4 @@ void write_label_surfaces(std::span<const OutputPath> paths, const LabelResult& 
   }
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

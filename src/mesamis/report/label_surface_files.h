@@ -10,7 +10,7 @@
 #include "mesamis/shape_files/object_files.h"
 
 /// The surfaces of a run on labels as files: one for all objects, or one for each.
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// Gives each object a number of its own: its label, or where layers share labels a running one.
 /// @return in their order, without surfaces.
@@ -46,4 +46,4 @@ std::vector<std::filesystem::path> label_paths(const std::filesystem::path& path
 void write_label_surfaces(std::span<const OutputPath> paths, const LabelResult& result,
                           const RunSurfaceOptions& options, bool several);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/report/line_crossing.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 /// Twice the area of the triangle of an edge and a point, seen along x.
@@ -37,4 +37,4 @@ std::optional<LineCrossing> line_crossing(const std::array<NumberedCorner, 3>& c
   return LineCrossing{x, left == 3 ? -1 : 1};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -5,8 +5,9 @@
 #include <optional>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// A corner of a triangle, and its number: what is computed of an edge must not depend on the
 /// triangle that asks.
@@ -27,4 +28,4 @@ struct LineCrossing {
 std::optional<LineCrossing> line_crossing(const std::array<NumberedCorner, 3>& triangle, double y,
                                           double z);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -15,7 +15,7 @@
 #include "mesamis/report/cell_labels.h"
 #include "mesamis/surface/extract.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -276,7 +276,7 @@ MeshWithArrays make_mesh_piece(const Result& piece, const VolumeView& volume) {
 }
 
 void write_mesh(const OutputPath& path, const MeshOutput& mesh, Frame frame) {
-  const std::string extension = detail::lower_extension(path);
+  const std::string extension = lower_extension(path);
   if (extension == ".mesh") {
     write_medit(path, mesh, frame);
   } else if (extension == ".msh") {
@@ -297,4 +297,4 @@ void write_band_mesh(const OutputPath& path, const Result& result, Frame frame) 
   write_vtu(path, band.mesh, {.point_arrays = points, .frame = frame});
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

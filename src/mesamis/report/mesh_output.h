@@ -11,7 +11,7 @@
 #include "mesamis/report/label_output.h"
 #include "mesamis/shape_files/mesh_files.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// What is known of a set of cells.
 struct MeshBin {
@@ -80,4 +80,4 @@ std::vector<std::string> written_mesh_formats();
 /// @throws InputError  as write_vtu().
 void write_band_mesh(const OutputPath& path, const Result& result, Frame frame);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 nlohmann::ordered_json meshing_json(const MeshingQuality& quality) {
   return {{"least_angle_deg", quality.triangles.least_angle},
@@ -15,4 +15,4 @@ nlohmann::ordered_json meshing_json(const MeshingQuality& quality) {
           {"kept", unmet(quality).empty()}};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -5,9 +5,9 @@
 
 #include "mesamis/report/meshing_surface.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// The entry "meshing" of a surface in a report, as docs/formats.md lists it.
 nlohmann::ordered_json meshing_json(const MeshingQuality& quality);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -11,7 +11,7 @@
 #include "mesamis/surface/self_intersections.h"
 #include "mesamis/surface/signed_distance.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 constexpr double kLeastAngle = 20, kShareAbove30 = 0.99;
@@ -79,4 +79,4 @@ std::vector<double> carried_errors(const TriMesh& surface, const std::vector<dou
   return carried;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

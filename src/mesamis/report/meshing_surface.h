@@ -10,7 +10,7 @@
 
 /// Surfaces whose triangles suit other meshers: skins of bodies in place of the surfaces that the
 /// bodies were made of.
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// How well a surface for meshers keeps what it promises.
 struct MeshingQuality {
@@ -47,4 +47,4 @@ MeshingQuality meshing_quality(const TriMesh& surface, const TriMesh& given, dou
 std::vector<double> carried_errors(const TriMesh& surface, const std::vector<double>& errors,
                                    const std::vector<Vec3>& points);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

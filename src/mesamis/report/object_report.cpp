@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -62,4 +62,4 @@ ordered_json object_json(const ObjectRequest& request, const ChosenObject& chose
           {"padding", padding_json(chosen.padding)}};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -5,7 +5,7 @@
 
 #include "mesamis/object/choose_object.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// What a report says under "object" of which object was meant and what was done to the scan for
 /// it: tissue, level_from, mask, seeds_mm, removed, padding; docs/formats.md lists the keys.
@@ -13,4 +13,4 @@ namespace mesamis {
 /// @param chosen   what it returned.
 nlohmann::ordered_json object_json(const ObjectRequest& request, const ChosenObject& chosen);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -5,7 +5,7 @@
 
 #include "mesamis/report/json_file.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -46,4 +46,4 @@ ordered_json remesh_json(const RemeshReport& report) {
           {"moves", report.moves},         {"size_factor", report.size_factor}};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -12,7 +12,7 @@
 #include "mesamis/report/json_file.h"
 #include "mesamis/report/settings_json.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 using nlohmann::json;
@@ -305,4 +305,4 @@ ordered_json region_json(const MeshOutput& mesh) {
       {"bins", std::move(bins)}};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -19,7 +19,7 @@
 #include "mesamis/surface/tri_mesh.h"
 
 /// The entries of reports, as docs/formats.md describes them.
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// The scan a report is about.
 struct InputFacts {
@@ -94,4 +94,4 @@ nlohmann::ordered_json loop_json(const RunSummary& run);
 /// The region of a mesh that was written, and its sets of cells.
 nlohmann::ordered_json region_json(const MeshOutput& mesh);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

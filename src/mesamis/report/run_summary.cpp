@@ -3,7 +3,7 @@
 
 #include "mesamis/surface/self_intersections.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 template <class Array>
@@ -45,4 +45,4 @@ RunSummary summarize(const Result& result, const SurfaceCheck& check) {
   return summary;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

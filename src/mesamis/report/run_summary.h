@@ -8,7 +8,7 @@
 #include "mesamis/method/mes_amis.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// The figures of a run that reports and tables give, without its meshes and fields.
 struct RunSummary {
@@ -41,4 +41,4 @@ struct RunSummary {
 /// O(n log n) for n triangles: the function searches for self-intersections.
 RunSummary summarize(const Result& result, const SurfaceCheck& check);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

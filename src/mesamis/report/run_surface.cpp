@@ -9,7 +9,7 @@
 #include "mesamis/report/report.h"
 #include "mesamis/report/settings_json.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 namespace {
 
@@ -53,4 +53,4 @@ void require_surface(const Result& result) {
   throw InputError("surface: expected values above --level " + shortest(p.level) + ", found none");
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

@@ -7,7 +7,7 @@
 #include "mesamis/shape_files/surface_files.h"
 
 /// The surface of a run as a file: what is written beside its triangles.
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// What a user decides of a surface file.
 struct RunSurfaceOptions {
@@ -32,4 +32,4 @@ SurfaceWriteOptions surface_options(const Result& result, double voxel,
 ///                     can change.
 void require_surface(const Result& result);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

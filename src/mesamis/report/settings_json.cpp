@@ -12,7 +12,7 @@
 #include "mesamis/method/setting_table.h"
 #include "mesamis/report/json_file.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 using nlohmann::json;
@@ -125,9 +125,9 @@ Settings read_settings(const std::filesystem::path& path, Settings settings) {
     from_json(file, settings);
     require_valid(settings);
   } catch (const InputError& error) {
-    detail::refuse(path, error.what());
+    refuse(path, error.what());
   }
   return settings;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

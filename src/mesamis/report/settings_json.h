@@ -5,8 +5,9 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "mesamis/method/settings.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// Every setting of setting_table() under its name, as read_settings() reads it.
 nlohmann::ordered_json to_json(const Settings& settings);
@@ -23,4 +24,4 @@ void from_json(const nlohmann::json& object, Settings& settings);
 ///                     from_json(), or if the settings do not fit together.
 Settings read_settings(const std::filesystem::path& path, Settings settings);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

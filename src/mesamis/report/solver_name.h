@@ -5,8 +5,9 @@
 #include <string>
 
 #include "mesamis/mesh/finite_elements.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::report {
 
 /// A text as solvers take names, if it begins with a letter: letters, digits and underscores, cut
 /// where it is too long.
@@ -17,4 +18,4 @@ inline std::string solver_name(std::string text) {
   return text.substr(0, kLongestSolverName);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::report

@@ -5,7 +5,7 @@
 
 #include "mesamis/method/expected_error.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 namespace {
 
 std::string why_stopped(const Result& result) {
@@ -81,4 +81,4 @@ std::string tolerance_unmet(double tolerance, const PrintableReport& printable) 
   return line.str();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

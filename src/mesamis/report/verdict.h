@@ -6,7 +6,7 @@
 #include "mesamis/method/mes_amis.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::report {
 
 /// Whether a run kept what it promised, the worst last.
 enum class VerdictKind {
@@ -29,4 +29,4 @@ Verdict judge(const Result& result, const SurfaceCheck& check);
 /// @param tolerance  mm.
 std::string tolerance_unmet(double tolerance, const PrintableReport& printable);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::report

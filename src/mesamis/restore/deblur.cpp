@@ -7,7 +7,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 /// Of the symbol of the fourth-order second difference, k^2 + O(k^6).
@@ -192,4 +192,4 @@ double noise_gain(const std::array<double, 3>& blur, double regularization) {
   return std::sqrt(sum / (kAngles * kAngles * kAngles));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -4,8 +4,9 @@
 #include <array>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// Undoes a Gaussian blur as far as the noise permits: a regularised inverse (Wiener) filter.
 ///
@@ -41,4 +42,4 @@ double noise_gain(const std::array<double, 3>& blur, double regularization);
 
 inline constexpr double kLargestBlur = 3;  ///< voxels
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -3,7 +3,7 @@
 
 #include "mesamis/restore/edge_profile.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 std::optional<EdgeModel> measure_edge(const VolumeView& volume,
                                       const std::vector<SurfacePoint>& points, double thickest) {
@@ -15,4 +15,4 @@ std::optional<EdgeModel> measure_edge(const VolumeView& volume,
   return edge;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

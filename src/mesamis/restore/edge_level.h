@@ -8,7 +8,7 @@
 #include "mesamis/restore/edge_profile.h"
 #include "mesamis/restore/level_crossings.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// Measures the edge of a blurred image at an object's surface, by a fit of an edge with a shell
 /// behind it (cortical bone, or a wall with what is behind it) to the median profile along the
@@ -26,4 +26,4 @@ std::optional<EdgeModel> measure_edge(const VolumeView& volume,
                                       const std::vector<SurfacePoint>& points,
                                       double thickest = kThickestShell);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

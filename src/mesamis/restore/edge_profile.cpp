@@ -7,7 +7,7 @@
 #include "mesamis/base/median.h"
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 double normal_distribution(double t) { return 0.5 * std::erfc(-t / std::sqrt(2)); }
@@ -114,4 +114,4 @@ EdgeModel fit_edge_model(const Profile& profile, double thickest) {
   return best.edge;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -8,7 +8,7 @@
 #include "mesamis/restore/level_crossings.h"
 
 /// The image along the normals of an object's surface, and the edge that explains it.
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 inline constexpr int kProfileHalf = 12;       // samples on either side of the surface
 inline constexpr double kProfileStep = 0.25;  // voxels
@@ -58,4 +58,4 @@ inline constexpr double kThickestShell = 2.5;
 ///                  is 1.
 EdgeModel fit_edge_model(const Profile& profile, double thickest = kThickestShell);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

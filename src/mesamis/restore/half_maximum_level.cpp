@@ -11,7 +11,7 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/restore/scan_quality.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 constexpr double kBoneHu = 200;
@@ -166,4 +166,4 @@ HalfMaximumLevel find_half_maximum_level(const VolumeView& volume,
                        : iterate_from_histogram(volume, guide);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

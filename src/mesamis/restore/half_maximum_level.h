@@ -6,7 +6,7 @@
 #include "mesamis/image/volume.h"
 #include "mesamis/restore/object_contrast.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// The level of half maximum: midway between the background and the object, both measured at the
 /// object's surface. There a symmetric blur leaves a flat surface where it is.
@@ -43,4 +43,4 @@ struct HalfMaximumOptions {
 HalfMaximumLevel find_half_maximum_level(const VolumeView& volume,
                                          const HalfMaximumOptions& options = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

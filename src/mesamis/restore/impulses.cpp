@@ -10,7 +10,7 @@
 #include "mesamis/base/median.h"
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 /// Calls visit(value) for the 26 voxels around, cut off at the border, until it says stop (true).
@@ -73,4 +73,4 @@ WithoutImpulses remove_impulses(Volume volume, double difference, double least_s
   return {std::move(volume), found.size()};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

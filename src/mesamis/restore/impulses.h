@@ -4,8 +4,9 @@
 #include <cstddef>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// An image without impulses.
 struct WithoutImpulses {
@@ -25,4 +26,4 @@ struct WithoutImpulses {
 /// The same bits for any number of threads.
 WithoutImpulses remove_impulses(Volume volume, double difference, double least_share = 0);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

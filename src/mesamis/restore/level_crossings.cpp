@@ -10,7 +10,7 @@
 
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 /// The largest float that is not above the level: a sample exceeds both or none.
@@ -172,4 +172,4 @@ double level_area(const VolumeView& volume, double level) {
          1.5;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

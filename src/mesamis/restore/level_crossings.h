@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
 /// Where a volume crosses a level, seen along its grid lines: points and area of a level set
 /// without a mesh.
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// A point of a surface and its unit normal, pointing out of the (brighter) object.
 struct SurfacePoint {
@@ -40,4 +41,4 @@ std::vector<SurfacePoint> crossing_points(const VolumeView& volume, double level
 /// @param level  native units.
 double level_area(const VolumeView& volume, double level);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

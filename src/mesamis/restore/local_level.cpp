@@ -11,7 +11,7 @@
 #include "mesamis/image/trilinear.h"
 #include "mesamis/restore/level_crossings.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 constexpr double kEdgeScale = 0.8;  // voxels, of the gradient
@@ -177,4 +177,4 @@ void take_off(const LocalLevel& local, Volume& volume) {
                [&](std::size_t n) { volume.samples[n] -= local.excess.samples[n]; });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -8,7 +8,7 @@
 
 /// A level for each place: bones of one scan differ in density, and a level midway between the
 /// densest of them and soft tissue loses the others.
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// The level of half maximum at each voxel, against that of the whole object.
 struct LocalLevel {
@@ -42,4 +42,4 @@ LocalLevel find_local_level(const VolumeView& volume, const ObjectContrast& cont
 /// Takes the excess off an image: where its level was the local one, it is that of the object.
 void take_off(const LocalLevel& local, Volume& volume);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -7,7 +7,7 @@
 
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 constexpr NearbyRange::Range kNothing{std::numeric_limits<float>::infinity(),
@@ -63,4 +63,4 @@ void NearbyRange::widen(std::size_t axis, Index blocks) {
   });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// Bounds of values on a regular grid around each of its voxels: they tell where nothing is to be
 /// found, so that nothing need be looked for.
@@ -50,4 +51,4 @@ class NearbyRange {
   std::vector<Range> blocks_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -7,7 +7,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/restore/edge_profile.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 constexpr std::size_t kFewestPoints = 10;
@@ -53,4 +53,4 @@ std::optional<ObjectContrast> measure_contrast(const VolumeView& volume, const V
   return contrast;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

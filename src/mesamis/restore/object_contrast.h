@@ -9,7 +9,7 @@
 #include "mesamis/restore/level_crossings.h"
 
 /// What an object's values are on the two sides of its surface.
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// The values of an object and of the background at its surface.
 struct ObjectContrast {
@@ -47,4 +47,4 @@ std::optional<ObjectContrast> measure_contrast(const VolumeView& volume, const V
                                                const std::vector<SurfacePoint>& points,
                                                double level);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -9,7 +9,7 @@
 #include "mesamis/restore/thick_places.h"
 #include "mesamis/restore/value_variation.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 constexpr std::size_t kMostPoints = 200'000;
@@ -79,4 +79,4 @@ HalfMaximumLevel find_object_edge(const VolumeView& volume, const HalfMaximumLev
   return object;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

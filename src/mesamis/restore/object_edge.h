@@ -5,7 +5,7 @@
 #include "mesamis/image/volume.h"
 #include "mesamis/restore/half_maximum_level.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// Chooses the window in which an object's edge is measured: the default one, widened where the
 /// level has no room for half the contrast on both its sides. What lies beyond it (air, metal) must
@@ -39,4 +39,4 @@ Window window_with_room(const VolumeView& volume, const ObjectContrast& contrast
 /// O(voxels) per iteration, at most three; a smoothed copy of the samples.
 HalfMaximumLevel find_object_edge(const VolumeView& volume, const HalfMaximumLevel& seen);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

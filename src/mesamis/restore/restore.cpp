@@ -13,7 +13,7 @@
 #include "mesamis/restore/thick_places.h"
 #include "mesamis/restore/thin_sheets.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 constexpr std::size_t kMostPoints = 100'000;
@@ -59,7 +59,7 @@ Guide make_guide(const VolumeView& volume, double level) {
 /// @return whether there were any; then height and share are set.
 bool remove_impulses(Restored& restored, double height, double least_share) {
   if (!(height > 0)) return false;
-  WithoutImpulses clean = remove_impulses(std::move(restored.volume), height, least_share);
+  WithoutImpulses clean = restore::remove_impulses(std::move(restored.volume), height, least_share);
   restored.volume = std::move(clean.volume);
   if (clean.replaced == 0) return false;
   restored.impulse_height = height;
@@ -128,4 +128,4 @@ Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOpt
   return restored;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -7,7 +7,7 @@
 #include "mesamis/image/volume.h"
 #include "mesamis/restore/half_maximum_level.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// What is known of a scan's noise and blur; what is not known is measured.
 struct RestoreOptions {
@@ -44,4 +44,4 @@ struct Restored {
 /// O(voxels); about four copies of the samples.
 Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOptions& options = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -12,7 +12,7 @@
 #include "mesamis/restore/edge_profile.h"
 #include "mesamis/restore/object_contrast.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 constexpr std::size_t kFewestPlaces = 10, kFewestOfAnAxis = 100;
@@ -241,4 +241,4 @@ std::array<double, 3> measure_blur(const VolumeView& volume,
   return blur;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

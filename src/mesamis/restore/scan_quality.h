@@ -8,7 +8,7 @@
 #include "mesamis/restore/level_crossings.h"
 
 /// Noise and blur of a scan, measured in the image itself at the surface of its object.
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// Measures the standard deviation of the image's noise.
 ///
@@ -60,4 +60,4 @@ std::array<double, 3> measure_noise_correlation(const VolumeView& volume, const 
 std::array<double, 3> measure_blur(const VolumeView& volume,
                                    const std::vector<SurfacePoint>& points);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -9,7 +9,7 @@
 #include "mesamis/restore/level_crossings.h"
 #include "mesamis/restore/thick_places.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 constexpr double kThin = 2;  // voxels
@@ -45,4 +45,4 @@ SurfaceExtent measure_extent(const VolumeView& image, double level) {
   return {level_area(image, level), of_all > 0 ? of_thin / of_all : 0};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// How much surface an object has.
 struct SurfaceExtent {
@@ -19,4 +20,4 @@ struct SurfaceExtent {
 /// @param level  native units.
 SurfaceExtent measure_extent(const VolumeView& image, double level);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -7,7 +7,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/restore/edge_profile.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 constexpr double kClear = 2.5;  // voxels without object, outwards
@@ -56,4 +56,4 @@ ThickPlaces thick_places(const VolumeView& guide, const std::vector<SurfacePoint
   return thick;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

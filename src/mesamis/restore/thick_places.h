@@ -6,7 +6,7 @@
 #include "mesamis/image/volume.h"
 #include "mesamis/restore/level_crossings.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// No way is followed further, voxels.
 inline constexpr double kLongestWay = 6;
@@ -39,4 +39,4 @@ struct ThickPlaces {
 ThickPlaces thick_places(const VolumeView& guide, const std::vector<SurfacePoint>& points,
                          double level);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -12,7 +12,7 @@
 #include "mesamis/restore/level_crossings.h"
 #include "mesamis/restore/nearby_range.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 constexpr double kLeastPeak = 0.15;  // of the contrast
@@ -402,4 +402,4 @@ void lift_thin_sheets(Volume& restored, const VolumeView& guide, const SheetOpti
   });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -7,7 +7,7 @@
 #include "mesamis/image/volume.h"
 #include "mesamis/restore/object_contrast.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// What lift_thin_sheets() has to know of a scan.
 struct SheetOptions {
@@ -44,4 +44,4 @@ struct SheetOptions {
 /// O(voxels); two splines and four copies of the samples. The same bits for any number of threads.
 void lift_thin_sheets(Volume& restored, const VolumeView& guide, const SheetOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -8,7 +8,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/image/grey_values.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 /// Where the tissue around `value` ends upwards: right of its peak in the histogram, the first bin
@@ -55,4 +55,4 @@ std::optional<double> find_tissue_threshold(const VolumeView& volume,
                    level - kClearOfNoise * noise});
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -6,7 +6,7 @@
 #include "mesamis/image/volume.h"
 #include "mesamis/restore/object_contrast.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// Chooses the threshold T of (13) for images of three classes (air, soft tissue, bone).
 ///
@@ -24,4 +24,4 @@ std::optional<double> find_tissue_threshold(const VolumeView& volume,
                                             const ObjectContrast& contrast, double level,
                                             double noise);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

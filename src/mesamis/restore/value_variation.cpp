@@ -8,7 +8,7 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/restore/edge_profile.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 namespace {
 
 constexpr double kStep = 0.25;        // voxels
@@ -45,4 +45,4 @@ double measure_variation(const VolumeView& volume, const std::vector<SurfacePoin
   return std::sqrt(std::max(0.0, spread * spread - noise * noise));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

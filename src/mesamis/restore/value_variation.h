@@ -6,7 +6,7 @@
 #include "mesamis/image/volume.h"
 #include "mesamis/restore/level_crossings.h"
 
-namespace mesamis {
+namespace mesamis::detail::restore {
 
 /// Measures how much an object's own value varies from place to place along its surface: teeth are
 /// denser than the bone around them, cast plastic is everywhere the same.
@@ -21,4 +21,4 @@ namespace mesamis {
 double measure_variation(const VolumeView& volume, const std::vector<SurfacePoint>& points,
                          double noise);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::restore

@@ -7,7 +7,7 @@
 #include "mesamis/report/body_request.h"
 #include "mesamis/report/filled_objects.h"
 
-namespace mesamis {
+namespace mesamis::detail::run {
 
 ElementResults make_elements(const ElementRequest& asked, const ElementSource& source,
                              const Progress& progress) {
@@ -34,4 +34,4 @@ ElementResults make_elements(const ElementRequest& asked, const ElementSource& s
   return results;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::run

@@ -12,7 +12,7 @@
 #include "mesamis/report/meshing_surface.h"
 #include "mesamis/run/segment.h"
 
-namespace mesamis {
+namespace mesamis::detail::run {
 
 /// The objects whose elements are wanted, and where they lie.
 struct ElementSource {
@@ -38,4 +38,4 @@ struct ElementResults {
 ElementResults make_elements(const ElementRequest& request, const ElementSource& source,
                              const Progress& progress);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::run

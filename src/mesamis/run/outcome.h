@@ -14,7 +14,9 @@
 
 namespace mesamis {
 
+namespace detail::run {
 struct OutcomeDetails;
+}
 
 /// An object found by a run. It refers to its outcome.
 struct OutcomeObject {
@@ -39,7 +41,7 @@ class Outcome {
   /// An empty outcome; segment() makes those of runs.
   Outcome() = default;
   /// Takes the details of a run.
-  explicit Outcome(OutcomeDetails details);
+  explicit Outcome(detail::run::OutcomeDetails details);
 
   /// The objects found, in the order of the request; one object is a list of one.
   std::vector<OutcomeObject> objects() const;
@@ -54,10 +56,10 @@ class Outcome {
   /// The warnings, one line each.
   std::vector<std::string> warnings() const;
   /// All details, for this project's own code.
-  const OutcomeDetails& details() const { return *details_; }
+  const detail::run::OutcomeDetails& details() const { return *details_; }
 
  private:
-  std::shared_ptr<const OutcomeDetails> details_;
+  std::shared_ptr<const detail::run::OutcomeDetails> details_;
 };
 
 }  // namespace mesamis

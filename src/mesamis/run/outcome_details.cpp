@@ -3,7 +3,7 @@
 
 #include "mesamis/report/label_report.h"
 
-namespace mesamis {
+namespace mesamis::detail::run {
 
 std::vector<FoundObject> OutcomeDetails::objects() const {
   if (several) return found_objects(*several);
@@ -36,4 +36,4 @@ void judge_surfaces(OutcomeDetails& outcome) {
 
 Segment one_object() { return {"object", 1, 0, default_colour(1)}; }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::run

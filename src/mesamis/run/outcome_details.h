@@ -14,7 +14,7 @@
 #include "mesamis/run/elements.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::run {
 
 /// Everything that a run has found and used, see Outcome. Surfaces and meshes are in the world
 /// frame (LPS), mm.
@@ -54,4 +54,4 @@ void judge_surfaces(OutcomeDetails& outcome);
 /// The segment of a run for one object.
 Segment one_object();
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::run

@@ -13,7 +13,7 @@
 #include "mesamis/run/write.h"
 
 /// The files of a run as programs write them: with what reports say beside the outcome.
-namespace mesamis {
+namespace mesamis::detail::run {
 
 /// What a report says beside the outcome.
 struct ReportFacts {
@@ -48,4 +48,4 @@ void write(const OutcomeDetails& outcome, const RunFiles& files, OutputSet& set)
 /// @throws InputError  as write().
 void write(const OutcomeDetails& outcome, const RunFiles& files);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::run

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace mesamis {
+namespace mesamis::detail::run {
 namespace {
 
 using Stages = std::vector<StageShare>;
@@ -101,4 +101,4 @@ double RunShare::done(std::string_view stage, double fraction) {
   return done_;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::run

@@ -5,8 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "mesamis/rooms.h"
+
 /// How much of a run is done, from the stages that its Progress names.
-namespace mesamis {
+namespace mesamis::detail::run {
 
 /// A stage with its share of the time.
 struct StageShare {
@@ -49,4 +51,4 @@ class RunShare {
   double done_ = 0;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::run

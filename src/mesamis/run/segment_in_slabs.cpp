@@ -11,7 +11,7 @@
 #include "mesamis/run/outcome_details.h"
 #include "mesamis/shape_files/mesh_files.h"
 
-namespace mesamis {
+namespace mesamis::detail::run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,4 +101,4 @@ std::optional<LabelSlabOutcome> segment_labels_in_slabs(const LabelSlabRequest& 
   return LabelSlabOutcome{Outcome(std::move(outcome)), *std::move(work)};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::run

@@ -13,7 +13,7 @@
 #include "mesamis/slabs/map_scan.h"
 #include "mesamis/slabs/run_in_slabs.h"
 
-namespace mesamis {
+namespace mesamis::detail::run {
 
 /// A run in slabs for one object: all that is bright.
 struct SlabRequest {
@@ -54,4 +54,4 @@ std::optional<LabelSlabOutcome> segment_labels_in_slabs(const LabelSlabRequest& 
                                                         const Settings& settings,
                                                         const SlabRunOptions& options, Team& team);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::run

@@ -122,7 +122,7 @@ void write_report(const OutcomeDetails& o, const RunFiles& w, ordered_json repor
 
 }  // namespace
 
-ordered_json report_json(const OutcomeDetails& o, const RunFiles& w) {
+ordered_json detail::run::report_json(const OutcomeDetails& o, const RunFiles& w) {
   const ReportFacts& facts = w.facts;
   ordered_json report, chosen;
   if (o.object) chosen = object_json(o.object_asked, *o.object);
@@ -140,7 +140,7 @@ ordered_json report_json(const OutcomeDetails& o, const RunFiles& w) {
   return report;
 }
 
-void write(const OutcomeDetails& o, const RunFiles& w, OutputSet& set) {
+void detail::run::write(const OutcomeDetails& o, const RunFiles& w, OutputSet& set) {
   std::optional<MeshOutput> mesh;  // before any file is written: it may be refused
   if (!w.meshes.empty()) mesh = mesh_output(o, w.mesh);
   if (o.one && !w.surfaces.empty()) require_surface(*o.one);
@@ -158,7 +158,7 @@ void write(const OutcomeDetails& o, const RunFiles& w, OutputSet& set) {
   write_report(o, w, std::move(report), set);
 }
 
-void write(const OutcomeDetails& outcome, const RunFiles& files) {
+void detail::run::write(const OutcomeDetails& outcome, const RunFiles& files) {
   OutputSet set;
   write(outcome, files, set);
   set.commit();

@@ -7,7 +7,7 @@
 #include "mesamis/shape_files/element_formats.h"
 #include "mesamis/shape_files/surface_formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 constexpr double kTonnePerMm3 = 1e-9;  // of 1 g/cm^3: the unit of mass that goes with N, mm and s
@@ -110,4 +110,4 @@ void write_abaqus_elements(const OutputPath& path, const FiniteElements& element
   out.commit();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

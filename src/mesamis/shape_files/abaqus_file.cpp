@@ -6,8 +6,6 @@
 
 namespace mesamis {
 
-using namespace detail;
-
 namespace {
 
 /// C3D4: the first three nodes turn counter-clockwise seen from the fourth, as ours do.

@@ -8,7 +8,7 @@
 #include "mesamis/files/text_writer.h"
 
 /// What the writers of Abaqus .inp share.
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 
 // CalculiX refuses a number of more than 20 characters.
 inline constexpr int kAbaqusDigits = 13;  // with sign, point and a three-digit exponent, 20
@@ -45,4 +45,4 @@ inline void write_abaqus_set(TextWriter& out, std::string_view keyword, std::str
   }
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

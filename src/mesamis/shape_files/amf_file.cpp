@@ -9,7 +9,7 @@
 #include "mesamis/shape_files/object_formats.h"
 #include "mesamis/shape_files/polygons.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -230,4 +230,4 @@ SurfaceFile parse_amf(const fs::path& file, std::string_view bytes, MemoryBudget
   return parse_amf_objects(file, bytes, budget).file;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -11,9 +11,7 @@
 #include "mesamis/shape_files/surface_formats.h"
 #include "mesamis/shape_files/vtu_writer.h"
 
-namespace mesamis {
-
-using namespace detail;
+namespace mesamis::detail::shape_files {
 
 namespace {
 
@@ -157,8 +155,6 @@ void write_medit_elements(const OutputPath& path, const FiniteElements& elements
 
 }  // namespace
 
-namespace detail {
-
 std::vector<std::vector<Index>> cells_by_group(const std::vector<Index>& group_of_cell,
                                                std::size_t count) {
   std::vector<std::vector<Index>> cells(count);
@@ -187,8 +183,6 @@ std::vector<MeshArray> material_arrays(const FiniteElements& elements) {
   return arrays;
 }
 
-}  // namespace detail
-
 void write_elements(const OutputPath& path, const FiniteElements& elements,
                     const ElementWriteOptions& options) {
   Checks(path, elements).run();
@@ -201,4 +195,4 @@ void write_elements(const OutputPath& path, const FiniteElements& elements,
   refuse_extension(path, ".inp .feb .msh .vtu .mesh");
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::shape_files

@@ -6,10 +6,11 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/mesh/finite_elements.h"
+#include "mesamis/rooms.h"
 #include "mesamis/shape_files/mesh_files.h"
 
 /// Bodies of finite elements as the input of solvers.
-namespace mesamis {
+namespace mesamis::detail::shape_files {
 
 /// What a file holds beside the elements. The arrays are not copied.
 struct ElementWriteOptions {
@@ -43,4 +44,4 @@ struct ElementWriteOptions {
 void write_elements(const OutputPath& path, const FiniteElements& elements,
                     const ElementWriteOptions& options = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::shape_files

@@ -8,7 +8,7 @@
 #include "mesamis/shape_files/element_files.h"
 
 /// The formats behind element_files.h. They take elements that write_elements() has checked.
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 
 /// The cells of each of `count` groups, in increasing order.
 std::vector<std::vector<Index>> cells_by_group(const std::vector<Index>& group_of_cell,
@@ -25,4 +25,4 @@ void write_gmsh_elements(const OutputPath& path, const FiniteElements& elements,
 /// each cell: what formats without materials state.
 std::vector<MeshArray> material_arrays(const FiniteElements& elements);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

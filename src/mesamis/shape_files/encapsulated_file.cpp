@@ -14,7 +14,7 @@
 #include "mesamis/files/utf8.h"
 #include "mesamis/shape_files/surface_formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -191,4 +191,4 @@ bool is_encapsulated(const fs::path& path) {
   return false;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -5,7 +5,7 @@
 #include "mesamis/files/text_writer.h"
 #include "mesamis/shape_files/element_formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 constexpr double kTonnePerMm3 = 1e-9;  // of 1 g/cm^3
@@ -159,4 +159,4 @@ void write_febio(const OutputPath& path, const FiniteElements& elements,
   out.commit();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

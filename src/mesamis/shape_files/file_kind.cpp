@@ -9,14 +9,13 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/shape_files/surface_formats.h"
 
-namespace mesamis {
-using detail::lower_extension;
+namespace mesamis::detail::shape_files {
 namespace {
 
 /// DICOM holds images, labels and surfaces. What cannot be read may be a scan.
 bool is_surface_in_dicom(const std::filesystem::path& path) {
   try {
-    return detail::is_encapsulated(path);
+    return is_encapsulated(path);
   } catch (const InputError&) {
     return false;
   }
@@ -41,4 +40,4 @@ MeshWithArrays read_mesh(const std::filesystem::path& path, const ReadLimits& li
   return read_vtu(path, limits);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::shape_files

@@ -3,9 +3,10 @@
 
 #include <filesystem>
 
+#include "mesamis/rooms.h"
 #include "mesamis/shape_files/mesh_files.h"
 
-namespace mesamis {
+namespace mesamis::detail::shape_files {
 
 /// What a file holds.
 enum class FileKind {
@@ -28,4 +29,4 @@ FileKind kind_of(const std::filesystem::path& path);
 /// O(bytes of the file) time and memory.
 MeshWithArrays read_mesh(const std::filesystem::path& path, const ReadLimits& limits = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::shape_files

@@ -2,7 +2,7 @@
 // The text by which files state the frame of their coordinates.
 #include "mesamis/shape_files/surface_formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 constexpr std::string_view kMark = "SPACE=";
@@ -31,4 +31,4 @@ std::optional<Frame> frame_named_in(std::string_view note) {
   return frame_named(note.substr(0, note.find_first_not_of(kNameCharacters)));
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

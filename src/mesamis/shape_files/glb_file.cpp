@@ -9,7 +9,7 @@
 #include "mesamis/shape_files/object_formats.h"
 #include "mesamis/surface/normals.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 using nlohmann::ordered_json;
@@ -180,4 +180,4 @@ std::string glb_object_bytes(std::span<const NamedSurface> objects,
   return builder.bytes();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -10,7 +10,7 @@
 #include "mesamis/shape_files/gmsh_sections.h"
 #include "mesamis/shape_files/surface_formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 // Gmsh's numbers of its types of elements.
@@ -220,4 +220,4 @@ void write_gmsh_elements(const OutputPath& path, const FiniteElements& elements,
   Writer(path, elements, options).write();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -8,8 +8,6 @@
 
 namespace mesamis {
 
-using namespace detail;
-
 namespace {
 
 constexpr int kTetrahedron = 4;  // Gmsh's number for this type of element

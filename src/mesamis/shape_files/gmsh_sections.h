@@ -10,7 +10,7 @@
 #include "mesamis/shape_files/mesh_files.h"
 
 /// What the writers of Gmsh .msh share.
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 
 /// A point's coordinates, ending the line.
 inline void write_gmsh_point(TextWriter& out, const Vec3& p) {
@@ -57,4 +57,4 @@ inline void require_gmsh_scalars(const std::filesystem::path& path,
   }
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -16,9 +16,6 @@
 
 namespace mesamis {
 
-using detail::MemoryBudget;
-using detail::TextWriter;
-
 namespace {
 
 // ---------------------------------------------------------------- writing
@@ -36,8 +33,8 @@ void require_equal_sizes(const std::filesystem::path& path,
                          std::span<const std::vector<double>> fields) {
   for (const auto& field : fields) {
     if (field.size() == fields[0].size()) continue;
-    detail::refuse(path, "fields of " + std::to_string(fields[0].size()) + " and " +
-                             std::to_string(field.size()) + " values cannot share a file");
+    refuse(path, "fields of " + std::to_string(fields[0].size()) + " and " +
+                     std::to_string(field.size()) + " values cannot share a file");
   }
 }
 
@@ -57,9 +54,9 @@ void write_scalars(TextWriter& out, const char* section,
 // ---------------------------------------------------------------- reading
 
 std::string read_text(const std::filesystem::path& path, MemoryBudget& budget) {
-  detail::ByteSource source(path, detail::Packing::kPlain);
+  ByteSource source(path, Packing::kPlain);
   std::string text;
-  detail::reserve_within(budget, text, source.most_bytes(), "bytes of the file");
+  reserve_within(budget, text, source.most_bytes(), "bytes of the file");
   text.resize(source.most_bytes());
   text.resize(source.read(text.data(), text.size()));
   return text;
@@ -117,19 +114,19 @@ class Words {
   /// Room for as many elements, claimed.
   template <class Element>
   void reserve(std::vector<Element>& array, std::size_t count) {
-    detail::reserve_within(budget_, array, count, "entries");
+    reserve_within(budget_, array, count, "entries");
   }
 
   void enter(std::string_view section) { section_ = section; }
 
   [[noreturn]] void refuse(const std::string& what) const {
     const auto line = 1 + std::count(text_.data(), word_, '\n');
-    detail::refuse(name_ + ":" + std::to_string(line),
-                   (section_.empty() ? "" : section_ + ": ") + what);
+    mesamis::refuse(name_ + ":" + std::to_string(line),
+                    (section_.empty() ? "" : section_ + ": ") + what);
   }
 
   static std::string quoted(std::string_view word) {
-    return word.empty() ? "the end of the file" : detail::in_quotes(word);
+    return word.empty() ? "the end of the file" : in_quotes(word);
   }
 
  private:
@@ -188,15 +185,14 @@ void read_cells(Words& words, std::vector<Cell>& cells) {
 }
 
 void require_complete(const TetMesh& mesh, const std::string& name) {
-  if (mesh.points.empty()) detail::refuse(name, "holds no Vertices");
-  if (mesh.cells.empty()) detail::refuse(name, "holds no Tetrahedra");
+  if (mesh.points.empty()) refuse(name, "holds no Vertices");
+  if (mesh.cells.empty()) refuse(name, "holds no Tetrahedra");
   const auto points = static_cast<Index>(mesh.points.size());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const Index corner = *std::max_element(mesh.cells[c].begin(), mesh.cells[c].end());
     if (corner >= points) {
-      detail::refuse(name, "tetrahedron " + std::to_string(c + 1) + " names vertex " +
-                               std::to_string(corner + 1) + ", there are " +
-                               std::to_string(points));
+      refuse(name, "tetrahedron " + std::to_string(c + 1) + " names vertex " +
+                       std::to_string(corner + 1) + ", there are " + std::to_string(points));
     }
   }
 }
@@ -246,8 +242,8 @@ std::vector<Sym3> read_solution(Words& words) {
 void write_medit_mesh(const OutputPath& path, const TetMesh& mesh, Frame frame,
                       std::span<const Index> references) {
   if (!references.empty() && references.size() != mesh.cells.size()) {
-    detail::refuse(path, "expected a reference for each of " + std::to_string(mesh.cells.size()) +
-                             " cells, found " + std::to_string(references.size()));
+    refuse(path, "expected a reference for each of " + std::to_string(mesh.cells.size()) +
+                     " cells, found " + std::to_string(references.size()));
   }
   TextWriter out(path);
   out << "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n" << mesh.points.size() << "\n";
@@ -327,7 +323,7 @@ std::vector<Sym3> read_medit_metric(const std::filesystem::path& path, const Rea
     if (word == "Dimension") read_dimension(words);
     if (word == "SolAtVertices") return read_solution(words);
   }
-  detail::refuse(path.string(), "holds no SolAtVertices");
+  refuse(path.string(), "holds no SolAtVertices");
 }
 
 }  // namespace mesamis

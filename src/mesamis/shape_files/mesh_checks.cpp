@@ -3,7 +3,7 @@
 
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 
 void require_sets(const std::filesystem::path& path, const TetMesh& mesh, const CellSets& sets) {
   if (mesh.cells.empty()) refuse(path, "a mesh without cells cannot be written");
@@ -29,4 +29,4 @@ std::vector<std::int64_t> cells_per_set(const CellSets& sets) {
   return counts;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -4,7 +4,7 @@
 #include "mesamis/files/text_writer.h"
 #include "mesamis/shape_files/object_formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,4 +56,4 @@ std::map<std::string, Colour> parse_mtl(const fs::path& file, std::string_view b
   return colours;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

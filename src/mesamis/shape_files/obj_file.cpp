@@ -9,7 +9,7 @@
 #include "mesamis/files/text_writer.h"
 #include "mesamis/shape_files/object_formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -206,4 +206,4 @@ ParsedObjects parse_obj_objects(const fs::path& file, std::string_view bytes,
   return result;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

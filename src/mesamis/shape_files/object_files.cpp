@@ -15,8 +15,6 @@
 
 namespace mesamis {
 
-using namespace detail;
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -214,7 +212,7 @@ bool have_labels(const std::vector<ObjectFacts>& objects) {
 
 }  // namespace
 
-namespace detail {
+namespace detail::shape_files {
 
 std::optional<Index> object_label_in(std::string_view text) {
   std::int64_t label = 0;
@@ -241,7 +239,7 @@ std::vector<std::string> safe_names(std::span<const NamedSurface> objects) {
   return names;
 }
 
-}  // namespace detail
+}  // namespace detail::shape_files
 
 std::vector<std::string> written_object_formats() {
   std::vector<std::string> extensions;

@@ -9,7 +9,7 @@
 #include "mesamis/shape_files/surface_formats.h"
 
 /// The formats behind object_files.h, as surface_formats.h has them.
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 
 using Colour = std::array<std::uint8_t, 3>;
 
@@ -69,4 +69,4 @@ std::string mtl_bytes(std::span<const NamedSurface> objects);
 std::map<std::string, Colour> parse_mtl(const std::filesystem::path& file, std::string_view bytes,
                                         MemoryBudget& budget);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

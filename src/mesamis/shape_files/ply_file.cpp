@@ -8,7 +8,7 @@
 #include "mesamis/shape_files/polygons.h"
 #include "mesamis/shape_files/surface_formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -281,4 +281,4 @@ std::vector<double> parse_ply_array(const fs::path& file, std::string_view bytes
   refuse(file, "has no element vertex");
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

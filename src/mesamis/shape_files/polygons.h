@@ -10,7 +10,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 
 /// Cuts the polygons of a file into triangles and appends them to a surface; their points are
 /// numbered from the surface's number of points at the start.
@@ -64,4 +64,4 @@ class PolygonSink {
   double base_;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -5,8 +5,6 @@
 
 namespace mesamis {
 
-using namespace detail;
-
 namespace {
 
 void write_arrays(TextWriter& out, const char* element, std::span<const MeshArray> arrays) {

@@ -11,7 +11,7 @@
 #include "mesamis/files/text_scan.h"
 #include "mesamis/shape_files/surface_formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -187,4 +187,4 @@ SurfaceFile parse_stl(const fs::path& file, std::string_view bytes, MemoryBudget
           frame_named_in(binary ? head : head.substr(0, head.find('\n')))};
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -15,7 +15,7 @@ namespace mesamis {
 
 namespace fs = std::filesystem;
 
-namespace detail {
+namespace detail::shape_files {
 namespace {
 
 constexpr auto kMostPoints = static_cast<std::size_t>(std::numeric_limits<Index>::max());
@@ -67,9 +67,7 @@ void require_surface(const fs::path& path, const TriMesh& surface) {
   }
 }
 
-}  // namespace detail
-
-using namespace detail;
+}  // namespace detail::shape_files
 
 namespace {
 

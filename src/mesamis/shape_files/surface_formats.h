@@ -12,7 +12,7 @@
 /// file's bytes, unpacked, its path for messages, and the budget that they ask before they take
 /// memory, and throw InputError. What they return is not checked further: indices may be out of
 /// range.
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 
 /// The extension in lower case, without a final .gz.
 std::string extension_of(const std::filesystem::path& path);
@@ -99,4 +99,4 @@ SurfaceFile parse_encapsulated(const std::filesystem::path& file, std::string_vi
 /// @throws InputError  if it cannot be read.
 bool is_encapsulated(const std::filesystem::path& path);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -6,7 +6,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/surface/unused_points.h"
 
-namespace mesamis {
+namespace mesamis::detail::shape_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,4 +89,4 @@ SurfacePair read_pair(const fs::path& reference, const fs::path& surface, FrameR
                  surface.string());
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::shape_files

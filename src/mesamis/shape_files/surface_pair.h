@@ -9,7 +9,7 @@
 #include "mesamis/shape_files/surface_files.h"
 #include "mesamis/surface/axis_flip.h"
 
-namespace mesamis {
+namespace mesamis::detail::shape_files {
 
 /// What decides how two surfaces lie to each other.
 enum class FrameRule {
@@ -48,4 +48,4 @@ SurfacePair pair_up(const SurfaceFile& reference, const SurfaceFile& surface, Fr
 SurfacePair read_pair(const std::filesystem::path& reference, const std::filesystem::path& surface,
                       FrameRule rule, const ReadLimits& limits = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::shape_files

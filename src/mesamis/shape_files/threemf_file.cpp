@@ -14,7 +14,7 @@
 #include "mesamis/shape_files/object_formats.h"
 #include "mesamis/shape_files/polygons.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -426,4 +426,4 @@ SurfaceFile parse_threemf(const fs::path& file, std::string_view bytes, MemoryBu
   return parse_threemf_objects(file, bytes, budget).file;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -6,9 +6,10 @@
 #include <string>
 
 #include "mesamis/base/error.h"
+#include "mesamis/rooms.h"
 
 /// What reading and writing 3MF share.
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 
 /// Something of lib3mf's, released at the end.
 class Handle {
@@ -40,4 +41,4 @@ inline void require_done(LIB3MFRESULT result) {
   throw InputError("surface: lib3mf could not format it: error " + std::to_string(result));
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

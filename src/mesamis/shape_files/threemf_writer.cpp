@@ -9,7 +9,7 @@
 #include "mesamis/shape_files/object_formats.h"
 #include "mesamis/shape_files/threemf_handle.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 constexpr std::size_t kCorners = 3;
@@ -202,4 +202,4 @@ std::string threemf_object_bytes(std::span<const NamedSurface> objects,
   return bytes_of(model);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

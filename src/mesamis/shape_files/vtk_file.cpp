@@ -9,7 +9,7 @@
 #include "mesamis/shape_files/polygons.h"
 #include "mesamis/shape_files/surface_formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -230,4 +230,4 @@ SurfaceFile parse_vtk(const fs::path& file, std::string_view bytes, MemoryBudget
   return LegacyParser(file, bytes, budget).parse();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -10,7 +10,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/text_scan.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -291,4 +291,4 @@ std::string VtkXml::unpack(StoredArray& stored, const Layout& layout) {
   return plain;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

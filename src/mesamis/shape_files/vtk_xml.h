@@ -11,7 +11,7 @@
 #include "mesamis/files/xml.h"
 
 /// VTK's XML files, read without VTK: its own reader crashes on damaged ones.
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 
 /// An attribute that counts something; missing is 0.
 /// @throws InputError  if it is no whole number or negative.
@@ -78,4 +78,4 @@ class VtkXml {
   NumberType header_type_ = NumberType::kUint32;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

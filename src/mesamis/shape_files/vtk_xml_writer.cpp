@@ -16,7 +16,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/files/xml_text.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 constexpr std::size_t kBlockBytes = 32768;  // VTK's default; every array's values fill it evenly
@@ -262,4 +262,4 @@ std::string vtk_xml_bytes(const VtkFile& file) {
   return std::move(out).str();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -13,7 +13,7 @@
 
 /// VTK's XML files, written without VTK: raw appended data, blocks packed by zlib at level 1,
 /// 64-bit headers, little endian. The bytes are those of VTK 9.1's own writers.
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 
 /// VTK's name of a C++ type.
 template <class Number>
@@ -97,4 +97,4 @@ void write_vtk_xml(const OutputPath& path, const VtkFile& file);
 /// @throws InputError  if two arrays of a group have the same name.
 std::string vtk_xml_bytes(const VtkFile& file);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -11,7 +11,7 @@
 #include "mesamis/shape_files/vtk_xml.h"
 #include "mesamis/shape_files/vtp_names.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -269,4 +269,4 @@ std::vector<double> parse_vtp_array(const fs::path& file, std::string_view bytes
                  known.empty() ? "none" : known));
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

@@ -7,7 +7,7 @@
 #include "mesamis/shape_files/vtk_xml_writer.h"
 #include "mesamis/shape_files/vtp_names.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 namespace {
 
 VtkArray array_of(std::string name, const std::vector<double>& values) {
@@ -104,4 +104,4 @@ std::string vtp_object_bytes(std::span<const NamedSurface> objects,
   return polygon_bytes(all.surface, fields, {"PointData", {}}, cell_data);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

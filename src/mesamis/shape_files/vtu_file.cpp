@@ -11,8 +11,6 @@
 
 namespace mesamis {
 
-using namespace detail;
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -216,8 +214,8 @@ VtkArrayGroup group_of_cells(const VtuGrid& grid) {
 
 }  // namespace
 
-void detail::write_vtu_grid(const OutputPath& path, const VtuGrid& grid,
-                            const VtuOptions& options) {
+void detail::shape_files::write_vtu_grid(const OutputPath& path, const VtuGrid& grid,
+                                         const VtuOptions& options) {
   const Frame frame = options.frame;
   const std::size_t points = grid.points.size(), cells = grid.cells.size();
   VtkFile file{

@@ -10,7 +10,7 @@
 #include "mesamis/shape_files/vtk_xml_writer.h"
 
 /// The writer behind every .vtu.
-namespace mesamis::detail {
+namespace mesamis::detail::shape_files {
 
 /// Tetrahedra as they go to a file: linear (type 10), or quadratic (type 24) where they have
 /// mid-side nodes in the order of kMidNodeEdges.
@@ -25,4 +25,4 @@ struct VtuGrid {
 /// @throws InputError  as write_vtu().
 void write_vtu_grid(const OutputPath& path, const VtuGrid& grid, const VtuOptions& options);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::shape_files

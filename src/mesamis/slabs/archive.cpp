@@ -5,7 +5,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 namespace {
 
@@ -38,4 +38,4 @@ void ArchiveReader::refuse(const std::string& what) const {
   throw InputError(name_.string() + ": " + what + ": the scratch file is damaged");
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

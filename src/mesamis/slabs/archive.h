@@ -10,9 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "mesamis/rooms.h"
+
 /// Arrays in a file, one after the other, for this program on machines of one kind: the numbers are
 /// as in memory.
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// Collects arrays; scratch.h writes them.
 class ArchiveWriter {
@@ -72,4 +74,4 @@ class ArchiveReader {
   std::size_t at_ = 0;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -7,7 +7,7 @@
 
 #include "mesamis/fem/transfer.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 /// @param fields  u and v at the points.
@@ -142,4 +142,4 @@ std::unique_ptr<Background> stack(std::vector<GridWindow> windows) {
   return std::make_unique<StackedBackground>(std::move(parts), std::move(tops));
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

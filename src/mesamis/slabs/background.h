@@ -12,7 +12,7 @@
 #include "mesamis/mesh/metric_field.h"
 #include "mesamis/slabs/piece.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// What a mesh is made for: the metric, and the fields that are carried over, around a piece.
 class Background : public MetricField {
@@ -100,4 +100,4 @@ class StackedBackground : public Background {
 /// Windows one above the other, each with a slice of the next one.
 std::unique_ptr<Background> stack(std::vector<GridWindow> windows);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -12,7 +12,7 @@
 #include "mesamis/slabs/surface_files.h"
 #include "mesamis/surface/distance.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 /// Rings of points around those that a slab's own task has held: the border's task may remove them.
@@ -249,8 +249,8 @@ CoverPiece part_of(const Decimated& slab, const BorderShare& share) {
 
 /// Joins what the slabs below and above a border have left for it.
 CoverPiece join(const CoverPiece& below, const CoverPiece& above) {
-  CoverPiece both{mesamis::detail::join({below.piece, above.piece}),
-                  mesamis::detail::join({below.originals, above.originals}),
+  CoverPiece both{mesamis::join({below.piece, above.piece}),
+                  mesamis::join({below.originals, above.originals}),
                   {},
                   {},
                   {}};
@@ -426,4 +426,4 @@ PrintableReport printable_report(const SurfaceRun& run) {
   return report;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

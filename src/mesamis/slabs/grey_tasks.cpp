@@ -7,7 +7,7 @@
 #include "mesamis/slabs/surface_files.h"
 #include "mesamis/surface/depth_maximum.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 /// As surface_grey().
@@ -115,4 +115,4 @@ std::vector<double> grey_of(const SurfaceRun& run, const TriMesh& surface) {
   return found;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -11,7 +11,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/slabs/mapped_items.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 /// u, v and the six entries of the metric's logarithm.
@@ -67,4 +67,4 @@ GridWindow read_nodes(const std::filesystem::path& path, const GridWindow& frame
   return window;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -9,7 +9,7 @@
 /// The nodes of the first grid on the disk: 16 bytes each, since a large scan has many. Numbers are
 /// rounded: u to 0.01 grey values, v to 3e-5, logarithms of metrics to 5e-4. They are first guesses
 /// and sizes of cells.
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 inline constexpr std::int64_t kBytesOfNode = 16;
 
@@ -25,4 +25,4 @@ void write_nodes(const std::filesystem::path& path, const GridWindow& window);
 GridWindow read_nodes(const std::filesystem::path& path, const GridWindow& frame, double low,
                       double high);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -8,7 +8,7 @@
 #include "mesamis/slabs/same_run.h"
 #include "mesamis/slabs/scratch.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// Runs something in the scratch folder of a run, and clears or keeps the folder afterwards: after an
 /// error it is kept if the run may go on there.
@@ -35,4 +35,4 @@ auto run_in_scratch(const SlabRunOptions& options, const std::string& descriptio
   return found;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -14,7 +14,7 @@
 #include "mesamis/surface/part_filter.h"
 #include "mesamis/surface/yield_nodes.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 /// How many slices away the materials matter to whether a node may yield.
@@ -453,4 +453,4 @@ PartitionSurface joined_boundaries(const LayerRun& run) {
   return all;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -23,7 +23,7 @@
 /// let_yield(); smooth_slab(); measure_slab() until the volumes match; extract_slab(). What they
 /// reach is bounded, but for the order in which nodes yield: let_yield() does that for all slabs in
 /// turn; and for parts and volumes, which are numbers that learn_parts() and VolumeMatch add up.
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// What is known of the parts of a layer.
 struct LayerParts {
@@ -79,4 +79,4 @@ SlabWork extract_slab(const LayerRun& run, const VolumeMatch& match, Index s);
 /// The boundaries of all slabs, after extract_slab(): mm, the block's first node at the origin.
 PartitionSurface joined_boundaries(const LayerRun& run);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

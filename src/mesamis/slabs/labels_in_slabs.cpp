@@ -13,10 +13,8 @@
 #include "mesamis/slabs/stages.h"
 #include "mesamis/slabs/stored_labels.h"
 
-namespace mesamis {
+namespace mesamis::detail::slabs {
 namespace {
-
-using namespace detail;
 
 /// Slices of a slab, unless they are asked for; half of that where they have more voxels than this.
 constexpr Index kThickSlab = 64;
@@ -182,4 +180,4 @@ std::optional<LabelSlabResult> label_surfaces_in_slabs(const LabelSlabRequest& r
   });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::slabs

@@ -11,7 +11,7 @@
 #include "mesamis/slabs/run_in_slabs.h"
 
 /// Label maps that are larger than the memory.
-namespace mesamis {
+namespace mesamis::detail::slabs {
 
 /// A label map as it was read.
 struct ReadLabels {
@@ -67,4 +67,4 @@ std::optional<LabelSlabResult> label_surfaces_in_slabs(const LabelSlabRequest& r
                                                        const Settings& settings,
                                                        const SlabRunOptions& options, Team& team);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::slabs

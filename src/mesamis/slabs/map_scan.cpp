@@ -9,7 +9,7 @@
 
 #include "mesamis/slabs/mapped_items.h"
 
-namespace mesamis {
+namespace mesamis::detail::slabs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,14 +35,14 @@ class PassingName {
 MappedScan map_scan(const SliceSource& source, const fs::path& folder) {
   const VoxelGrid& grid = source.grid();
   const PassingName file(folder / ("mesamis-scan-" + std::to_string(::getpid())));
-  detail::make_item_file<float>(file.path(), grid.voxel_count());
+  make_item_file<float>(file.path(), grid.voxel_count());
   const Index slices = slab_slices(grid);
   for (Index first = 0; first < grid.size[2]; first += slices) {
     const Index count = std::min(slices, grid.size[2] - first);
-    detail::write_items<float>(file.path(), grid.offset(0, 0, first), source.read(first, count));
+    write_items<float>(file.path(), grid.offset(0, 0, first), source.read(first, count));
   }
-  auto mapped = detail::map_items<float>(file.path(), grid.voxel_count());
+  auto mapped = map_items<float>(file.path(), grid.voxel_count());
   return {{grid, mapped.values}, std::move(mapped.owner)};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::slabs

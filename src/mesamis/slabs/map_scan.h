@@ -7,7 +7,7 @@
 #include "mesamis/image/slice_source.h"
 #include "mesamis/image/volume.h"
 
-namespace mesamis {
+namespace mesamis::detail::slabs {
 
 /// A scan whose samples lie on a disk: what is looked at is fetched into the memory, and dropped
 /// again where memory is short.
@@ -25,4 +25,4 @@ struct MappedScan {
 /// O(voxels); memory of the slices that are read at once, see slab_slices().
 MappedScan map_scan(const SliceSource& source, const std::filesystem::path& folder);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::slabs

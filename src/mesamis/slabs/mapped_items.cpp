@@ -12,7 +12,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 /// A file that is closed at the end.
@@ -75,4 +75,4 @@ MappedBytes map_file(const std::filesystem::path& path, std::size_t bytes) {
           {memory, [bytes](const void* p) { ::munmap(const_cast<void*>(p), bytes); }}};
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -8,8 +8,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "mesamis/rooms.h"
+
 /// Large arrays in files of their own, of numbers or of what is as trivial.
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// A file as memory: what is read of it is fetched, and dropped again where memory is short.
 struct MappedBytes {
@@ -59,4 +61,4 @@ MappedItems<Item> map_items(const std::filesystem::path& path, std::size_t count
   return {{reinterpret_cast<const Item*>(mapped.bytes.data()), count}, std::move(mapped.owner)};
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

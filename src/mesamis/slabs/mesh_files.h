@@ -9,7 +9,7 @@
 #include "mesamis/slabs/tasks.h"
 
 /// What the tasks on voxels and on meshes share.
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -78,4 +78,4 @@ void hand_on(const MeshRun& run, int k, Index s, const Piece& mesh, SlabWork& wo
 /// Removes the nodes of slab g of the first grid, when all have made their first mesh.
 void remove_grid_files(const SlabRun& run, Index g);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

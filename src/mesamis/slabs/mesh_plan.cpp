@@ -9,7 +9,7 @@
 #include "mesamis/slabs/mesh_files.h"
 #include "mesamis/slabs/profile.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 /// How far cells reach that are adapted again, in overlaps, about.
@@ -116,4 +116,4 @@ void plan_next_mesh(MeshRun& run) {
   run.meshes.push_back(std::move(next));
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

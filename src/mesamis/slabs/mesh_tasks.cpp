@@ -18,7 +18,7 @@
 #include "mesamis/slabs/surface_files.h"
 #include "mesamis/slabs/tasks.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 std::string side_file(const char* what, int k, Index s, Side side) {
@@ -444,4 +444,4 @@ Piece collect(const MeshRun& run, int k) {
   return join(pieces);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -11,7 +11,7 @@
 #include "mesamis/surface/disjoint_sets.h"
 #include "mesamis/surface/measure.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 /// What is known of a slab's surface as a whole.
@@ -143,7 +143,7 @@ SlabWork list_parts(const SurfaceRun& run, Index s) {
   list.facts.error = error.mean;
   list.facts.area = error.area;
   for (const Vec3& p : surface.points) {
-    list.facts.shift = std::max(list.facts.shift, norm(rounded(p) - p));
+    list.facts.shift = std::max(list.facts.shift, norm(base::rounded(p) - p));
   }
   SurfaceComponents components = find_components(surface);
   const VoxelGrid& grid = run.mesh.slabs.plan.whole;
@@ -227,4 +227,4 @@ SurfacePiece chosen_surface_of(const SurfaceRun& run, Index s, SlabWork* work) {
   return select(surface_of(run, s, work), stays);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -8,7 +8,7 @@
 #include "mesamis/mesh/region.h"
 #include "mesamis/slabs/point_numbers.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 Piece join(std::span<const Piece* const> pieces) {
   Piece joined;
   PointNumbers numbers;
@@ -85,4 +85,4 @@ std::vector<double> lumped_mass_of(const TetMesh& mesh) {
   return mass;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

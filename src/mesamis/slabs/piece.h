@@ -10,7 +10,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/slabs/archive.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// What is known at a node.
 struct NodeValues {
@@ -55,4 +55,4 @@ bool is_near(const TetMesh& mesh, const Cell& cell, double height, double distan
 /// Of each point, a quarter of the volume of the cells around it.
 std::vector<double> lumped_mass_of(const TetMesh& mesh);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -9,7 +9,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis {
+namespace mesamis::detail::slabs {
 namespace {
 
 /// Voxels, where beta is 2: influences fall by e within its root, so that beyond this a changed
@@ -21,7 +21,7 @@ constexpr double kRoundOff = 1e-6;  // slices
 Index default_count(const VoxelGrid& whole, Index thinnest) {
   constexpr std::size_t kMostVoxels = std::size_t{1} << 28;
   const Index twice_as_thick = whole.size[2] / (2 * thinnest);
-  return std::clamp(std::max(parts_of(whole, kMostVoxels), twice_as_thick), 1,
+  return std::clamp(std::max(slabs::parts_of(whole, kMostVoxels), twice_as_thick), 1,
                     std::max(1, whole.size[2] / thinnest));
 }
 
@@ -117,4 +117,4 @@ SlabPlan plan_slabs(const VoxelGrid& whole, std::span<const double> work,
   return plan;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::slabs

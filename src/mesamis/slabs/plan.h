@@ -7,8 +7,9 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::slabs {
 
 /// Overlaps in the thinnest slab: those of both borders, and as much between them.
 inline constexpr Index kOverlapsInSlab = 4;
@@ -71,4 +72,4 @@ struct SlabOptions {
 SlabPlan plan_slabs(const VoxelGrid& whole, std::span<const double> work,
                     const SlabOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::slabs

@@ -7,8 +7,9 @@
 #include <unordered_map>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// Numbers points in the order in which they come. Points are the same if their coordinates are, to
 /// the bit; 0 and -0 are one.
@@ -47,4 +48,4 @@ class PointNumbers {
   std::unordered_map<Bits, Index, Hash> known_;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -8,7 +8,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 constexpr std::size_t kFactors = std::tuple_size_v<Complexities>;
@@ -95,4 +95,4 @@ double factor_for(const Complexities& c, double bound) {
   return all[i - 1] * std::pow(all[i] / all[i - 1], std::min(share, 1.0));
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

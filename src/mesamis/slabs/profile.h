@@ -12,7 +12,7 @@
 /// How many cells a metric asks for, slice by slice, for any factor that all its sizes are
 /// multiplied by: what slabs tell each other of a mesh, to choose the sizes of the next one and its
 /// slabs together.
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// One for each of the factors that are looked at; what lies between is interpolated.
 using Complexities = std::array<double, 97>;
@@ -42,4 +42,4 @@ double complexity_at(const Complexities& complexities, double factor);
 /// The factor, >= 1, by which all sizes are multiplied to bring the complexity to a bound.
 double factor_for(const Complexities& complexities, double bound);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 void add(AmisReport& sum, const AmisReport& other) {
@@ -55,4 +55,4 @@ Iteration sum_of_records(const std::vector<Iteration>& slabs) {
   return sum;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -5,7 +5,7 @@
 
 #include "mesamis/method/iteration.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// Puts together what slabs have recorded of one pass: counts, energies and estimators add up; of
 /// the solvers' figures the worst counts; means are weighted by cells. Where records are of slabs
@@ -13,4 +13,4 @@ namespace mesamis::detail {
 /// @param slabs  at least one.
 Iteration sum_of_records(const std::vector<Iteration>& slabs);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -23,10 +23,8 @@
 #include "mesamis/slabs/tasks.h"
 #include "mesamis/surface/self_intersections.h"
 
-namespace mesamis {
+namespace mesamis::detail::slabs {
 namespace {
-
-using namespace detail;
 
 /// Voxels of which the parameters are chosen.
 constexpr std::size_t kSample = std::size_t{1} << 27;
@@ -315,7 +313,8 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
     if (team.rank() != 0) return std::nullopt;
     return run_whole(source, settings, even, options);
   }
-  Stages stages(scratch, team, progress, options.turns.value_or(parts_of(whole, kVoxelsOfATurn)));
+  Stages stages(scratch, team, progress,
+                options.turns.value_or(slabs::parts_of(whole, kVoxelsOfATurn)));
   const SlabRun run = begin_run(source, settings, scratch, stages, even.count());
   stages.run("image", 1, [&](Index) {
     make_item_file<float>(scratch.path(kImageFile), run.plan.whole.voxel_count());
@@ -352,4 +351,4 @@ std::optional<SlabRunResult> run_in_slabs(const SliceSource& source, const Setti
   });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::slabs

@@ -15,7 +15,7 @@
 #include "mesamis/slabs/team.h"
 
 /// Scans that are larger than the memory: the whole method, slab by slab.
-namespace mesamis {
+namespace mesamis::detail::slabs {
 
 /// How a scan is worked on in slabs.
 struct SlabRunOptions {
@@ -90,4 +90,4 @@ struct SlabRunResult {
 std::optional<SlabRunResult> run_in_slabs(const SliceSource& source, const Settings& settings,
                                           const SlabRunOptions& options, Team& team);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::slabs

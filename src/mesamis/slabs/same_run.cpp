@@ -7,7 +7,7 @@
 #include "mesamis/base/version.h"
 #include "mesamis/method/setting_table.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 std::string description_of(const Settings& settings) {
   std::string text = version();
@@ -31,4 +31,4 @@ void require_same_run(const Scratch& scratch, const std::string& description, Te
                    "with another scan or other settings");
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

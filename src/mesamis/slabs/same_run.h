@@ -8,7 +8,7 @@
 #include "mesamis/slabs/team.h"
 
 /// Which run a folder of scratch files belongs to.
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// The version of this program and all settings, on one line.
 std::string description_of(const Settings& settings);
@@ -18,4 +18,4 @@ std::string description_of(const Settings& settings);
 /// @throws InputError  if the folder is another run's.
 void require_same_run(const Scratch& scratch, const std::string& description, Team& team);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

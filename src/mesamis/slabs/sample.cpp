@@ -5,7 +5,7 @@
 
 #include "mesamis/base/parallel.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 std::vector<SliceSums> sums_of_slices(const Volume& slab) {
   std::vector<SliceSums> sums(static_cast<std::size_t>(slab.size[2]));
@@ -43,4 +43,4 @@ SliceRange sample_slices(const VoxelGrid& whole, const std::vector<SliceSums>& s
   return best;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -6,7 +6,7 @@
 #include "mesamis/image/slice_source.h"
 
 /// What is looked at of a scan before it is cut into slabs.
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// Sums over the samples of a slice.
 struct SliceSums {
@@ -21,4 +21,4 @@ std::vector<SliceSums> sums_of_slices(const Volume& slab);
 SliceRange sample_slices(const VoxelGrid& whole, const std::vector<SliceSums>& sums,
                          std::size_t most);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -9,7 +9,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 namespace fs = std::filesystem;
 
@@ -71,4 +71,4 @@ void Scratch::clear() const {
   fs::remove(folder_.parent_path(), error);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

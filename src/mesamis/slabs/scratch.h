@@ -7,7 +7,7 @@
 
 #include "mesamis/slabs/archive.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// The folder through which the tasks of a run hand their results on. A file that it
 /// writes is whole: it appears under its name when all of it is written. (Those of mapped_items.h
@@ -35,4 +35,4 @@ class Scratch {
   std::filesystem::path folder_;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

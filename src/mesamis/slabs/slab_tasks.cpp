@@ -14,7 +14,7 @@
 #include "mesamis/slabs/mesh_files.h"
 #include "mesamis/slabs/tasks.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 /// Voxels that the restored image and its spline look across the border of a slab.
@@ -228,4 +228,4 @@ SlabWork first_mesh(const MeshRun& run, Index s) {
   return work;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::slabs {
 
 /// What tasks on slabs have done: to see whether slabs have equal work, and what they cost beside
 /// it.
@@ -25,4 +27,4 @@ struct SlabWork {
   }
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::slabs

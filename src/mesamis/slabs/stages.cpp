@@ -8,7 +8,7 @@
 #include "mesamis/base/stopwatch.h"
 #include "mesamis/method/passes.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 std::string done_file(const std::string& name, Index n) {
@@ -69,4 +69,4 @@ SlabWork Stages::work_of(const std::string& name, Index n) const {
   return scratch_.read(done_file(name, n)).next_one<SlabWork>();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

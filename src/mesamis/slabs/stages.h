@@ -11,7 +11,7 @@
 #include "mesamis/slabs/slab_work.h"
 #include "mesamis/slabs/team.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// Stages of a run: each process does its share of the tasks, unless they are done already.
 class Stages {
@@ -40,4 +40,4 @@ class Stages {
   std::vector<std::string> of_slabs_, of_borders_;  // the stages so far
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -8,7 +8,7 @@
 
 #include "mesamis/slabs/mapped_items.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 constexpr const char* kHeadFile = "labels";
@@ -100,4 +100,4 @@ std::vector<std::uint16_t> StoredLabels::read(Index layer, Index first, Index co
   return {at, at + static_cast<std::ptrdiff_t>(head_.offset(0, 0, count))};
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -8,7 +8,7 @@
 #include "mesamis/image/label_map.h"
 #include "mesamis/slabs/scratch.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// Writes a label map into a scratch folder: two bytes per voxel and layer.
 /// @param warnings  of who has read it, one line each.
@@ -41,4 +41,4 @@ class StoredLabels {
   std::vector<std::string> warnings_;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

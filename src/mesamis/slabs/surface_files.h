@@ -7,7 +7,7 @@
 #include "mesamis/slabs/surface_tasks.h"
 
 /// What the tasks on the surface share, and what they find of the mesh.
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// The last mesh of slab s, its own cells.
 /// @param work  optional: where the bytes of another slab are counted.
@@ -58,4 +58,4 @@ TriMesh in_world(const SurfaceRun& run, const SurfacePiece& piece);
 /// The same in single precision.
 TriMesh rounded_in_world(const SurfaceRun& run, const SurfacePiece& piece);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -6,7 +6,7 @@
 #include "mesamis/slabs/point_numbers.h"
 #include "mesamis/surface/half_edges.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 SurfacePiece join(const std::vector<SurfacePiece>& pieces) {
   SurfacePiece joined;
@@ -88,4 +88,4 @@ SurfacePiece next_surface(ArchiveReader& archive) {
   return piece;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -6,7 +6,7 @@
 #include "mesamis/slabs/archive.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// A point of the surface; length units, in the grid's own axes.
 struct SurfacePoint {
@@ -46,4 +46,4 @@ void add_surface(ArchiveWriter& archive, const SurfacePiece& piece);
 /// @throws InputError  as ArchiveReader::next().
 SurfacePiece next_surface(ArchiveReader& archive);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -16,7 +16,7 @@
 #include "mesamis/surface/extract.h"
 #include "mesamis/surface/split_edges.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 namespace {
 
 /// How near to a border a task on a slab leaves the surface as it is, in overlaps.
@@ -273,4 +273,4 @@ TriMesh followed_surface(const SurfaceRun& run) {
   return in_world(run, join(pieces));
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

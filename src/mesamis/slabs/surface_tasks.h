@@ -20,7 +20,7 @@
 /// In their order: extract_slab(); follow_slab(), follow_border(); list_parts(), cross_rays();
 /// decimate_slab(), decimate_border(); measure_slab(), find_grey(). Between them learn_...() reads
 /// what all slabs have left.
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// The heights between which something lies, length units.
 struct HeightRange {
@@ -91,4 +91,4 @@ TriMesh decimated_surface(const SurfaceRun& run);
 /// What was done to it.
 PrintableReport printable_report(const SurfaceRun& run);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

@@ -21,7 +21,7 @@
 /// cells up to their borders (first_mesh(), adapt_slab()), then the cells that touch a border
 /// between two slabs are adapted as a piece of their own (seam()), and the functional is minimised
 /// on each slab and what lies around it (solve(), finish()).
-namespace mesamis::detail {
+namespace mesamis::detail::slabs {
 
 /// What all tasks know.
 struct SlabRun {
@@ -109,4 +109,4 @@ MeshFit fit_of(const MeshRun& run, int k);
 /// The whole last mesh and its fields; after finish().
 Piece collect(const MeshRun& run, int k);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::slabs

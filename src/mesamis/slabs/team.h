@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::slabs {
 
 /// The processes that work on one run, each of them on its share of the tasks. They see the same
 /// folder of scratch files.
@@ -32,4 +34,4 @@ inline Team& alone() noexcept {
   return team;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::slabs

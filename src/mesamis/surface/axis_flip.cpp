@@ -9,7 +9,7 @@
 #include "mesamis/surface/sampling.h"
 #include "mesamis/surface/unused_points.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 // Shares of the longer diagonal: boxes nearer than the first fit, boxes farther than the second
@@ -138,4 +138,4 @@ std::optional<FlipFound> find_axis_flip(const TriMesh& reference, const TriMesh&
   return best->flipped_distance_mm <= kMoreNear * lps_ras->flipped_distance_mm ? best : lps_ras;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

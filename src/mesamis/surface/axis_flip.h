@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// Finds out whether two surfaces lie in one frame. Files of one object in LPS and in RAS look
 /// alike, but the distances between them mean nothing.
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Axes exchanged and negated: coordinate i becomes sign[i] times coordinate axis[i].
 struct AxisFlip {
@@ -62,4 +63,4 @@ struct FlipFound {
 /// O(m log m) for m triangles of both.
 std::optional<FlipFound> find_axis_flip(const TriMesh& reference, const TriMesh& surface);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -7,7 +7,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/tet_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Of each node of a mesh the planes of a box that it lies on, see planes_of().
 inline std::vector<std::uint8_t> box_planes(const TetMesh& mesh, const Box& box) {
@@ -21,4 +21,4 @@ inline std::vector<std::uint8_t> box_planes(const TetMesh& mesh) {
   return box_planes(mesh, bounding_box(mesh.points));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

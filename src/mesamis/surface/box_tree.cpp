@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 Box united(const Box& a, const Box& b) {
@@ -61,4 +61,4 @@ void BoxTree::update(std::size_t i, const Box& box) {
   }
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Whether two boxes share a point; touching counts.
 inline bool overlap(const Box& a, const Box& b) {
@@ -64,4 +65,4 @@ class BoxTree {
   std::vector<Index> leaf_of_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

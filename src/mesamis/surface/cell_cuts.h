@@ -8,7 +8,7 @@
 #include "mesamis/surface/extract.h"
 
 /// How surfaces cut cells, of one material and of many.
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// The first two corners of each kCellEdges pair with the other two corners in the order that
 /// makes the four an even permutation.
@@ -21,4 +21,4 @@ inline double kept_off_ends(double t) noexcept {
   return t > kCrossingMargin ? std::min(t, 1 - kCrossingMargin) : kCrossingMargin;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

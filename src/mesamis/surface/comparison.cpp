@@ -8,7 +8,7 @@
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/sampling.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 constexpr std::size_t kAreaSamples = 200000;
@@ -52,7 +52,7 @@ DirectedDistances measure_distances(const std::string& name, const TriMesh& from
 }
 
 DirectedSummary summarize(const DirectedDistances& distances) {
-  return {summarize(distances.from_vertices), summarize(distances.from_area)};
+  return {mesamis::summarize(distances.from_vertices), mesamis::summarize(distances.from_area)};
 }
 
 DistanceHistogram histogram_of(std::span<const DirectedDistances> directions) {
@@ -81,4 +81,4 @@ std::string to_csv(const DistanceHistogram& histogram) {
   return text.str();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

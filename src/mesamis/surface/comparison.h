@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// Distances between two surfaces, as reports and histograms show them.
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Distances (16) from one surface to another, mm.
 struct DirectedDistances {
@@ -61,4 +62,4 @@ DistanceHistogram histogram_of(std::span<const DirectedDistances> directions);
 /// from_mm and to_mm, and the counts.  O(bins) for each column.
 std::string to_csv(const DistanceHistogram& histogram);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

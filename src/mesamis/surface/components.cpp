@@ -8,7 +8,7 @@
 #include "mesamis/surface/half_edges.h"
 #include "mesamis/surface/measure.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// Numbers the parts in the order of their first triangles and measures them.
@@ -91,4 +91,4 @@ std::vector<TriMesh> split_components(const TriMesh& surface) {
   return parts;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

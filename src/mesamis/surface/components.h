@@ -4,9 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// The parts of a surface that are connected by edges.
 struct SurfaceComponents {
@@ -40,4 +41,4 @@ SurfaceComponents find_components(const TriMesh& surface);
 /// O(n log n).
 std::vector<TriMesh> split_components(const TriMesh& surface);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -7,7 +7,7 @@
 #include "mesamis/surface/disjoint_sets.h"
 #include "mesamis/surface/half_edges.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// Normals whose lengths are twice the areas.
@@ -55,4 +55,4 @@ std::vector<std::array<Vec3, 3>> crease_normals(const TriMesh& surface, double a
   return normals;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -4,9 +4,10 @@
 #include <array>
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Normals at the corners of triangles for smooth shading that keeps sharp edges: at each point the
 /// mean, weighted by area, over those of its triangles that are connected by edges which are not
@@ -19,4 +20,4 @@ namespace mesamis {
 /// O(m log d) for m triangles, at most d at a point; 150 bytes per triangle.
 std::vector<std::array<Vec3, 3>> crease_normals(const TriMesh& surface, double angle_deg);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -9,7 +9,7 @@
 #include "mesamis/mesh/locate.h"
 #include "mesamis/surface/normals.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 double value_at(const TetMesh& mesh, std::span<const double> u, const Location& place) {
@@ -62,4 +62,4 @@ std::vector<double> max_below_surface(const TetMesh& mesh, std::span<const doubl
   return maxima;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

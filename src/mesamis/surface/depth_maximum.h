@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// How far below a surface to look, and how closely.
 struct DepthRange {
@@ -32,4 +33,4 @@ struct DepthRange {
 std::vector<double> max_below_surface(const TetMesh& mesh, std::span<const double> u,
                                       const TriMesh& surface, const DepthRange& range);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

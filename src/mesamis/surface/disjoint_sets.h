@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Sets of items 0 ... n - 1 that grow together. The smallest item names its set, so that the
 /// names do not depend on the order of the unions.
@@ -53,4 +54,4 @@ class DisjointSets {
   std::vector<std::size_t> parent_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// A sum of doubles that do not overlap, smallest first, none of them zero: its exact value. The
@@ -148,4 +148,4 @@ int orientation_along(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
   return sum(e, negated(f)).sign();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// How extract_solid() treats the box and the places between nodes.
 struct SolidOptions {
@@ -69,4 +70,4 @@ std::vector<Index> band_cells(const TetMesh& mesh, std::span<const double> v, do
 /// O(m log d) for at most d cells at a node.
 TriMesh extract_band(const TetMesh& mesh, std::span<const double> v, double threshold);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

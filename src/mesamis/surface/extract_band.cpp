@@ -9,7 +9,7 @@
 #include "mesamis/surface/extract.h"
 #include "mesamis/surface/half_edges.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// Corners of all triangles are numbered 3 t + i; side i runs from corner i to the next.
@@ -183,4 +183,4 @@ TriMesh extract_band(const TetMesh& mesh, std::span<const double> v, double thre
   return surface;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

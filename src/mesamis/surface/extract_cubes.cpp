@@ -11,7 +11,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/extract.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// An edge of a cube by the corner it begins at and its axis. Bit a of a corner's number is its
@@ -240,4 +240,4 @@ TriMesh extract_cubes(const GridValues& grid, double level) {
   return Extraction(grid, level).run();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -5,9 +5,10 @@
 #include <span>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Values at the nodes of a regular grid.
 struct GridValues {
@@ -34,4 +35,4 @@ struct GridValues {
 /// O(nodes), 12 bytes for each. The same bits for any number of threads.
 TriMesh extract_cubes(const GridValues& grid, double level);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -11,7 +11,7 @@
 #include "mesamis/surface/partition.h"
 #include "mesamis/surface/partition_cells.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 using Fields = std::span<const std::vector<double>>;
@@ -132,4 +132,4 @@ std::vector<Index> materials_of(const PartitionSurface& partition) {
   return materials;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -10,7 +10,7 @@
 #include "mesamis/surface/cell_cuts.h"
 #include "mesamis/surface/extract.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// Where a point of the surface sits: on the mesh edge {a, b}, a < b, or at node a = b of the box.
@@ -183,4 +183,4 @@ TriMesh extract_solid(const TetMesh& mesh, std::span<const double> u, double lev
   return surface;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

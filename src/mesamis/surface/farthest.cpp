@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// Pieces smaller than this, relative to what is enough, are not cut again.
@@ -159,4 +159,4 @@ double farthest_distance(const Corners& triangle, const TriangleTree& tree, cons
   return Search(tree, enough, hint).run(triangle);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

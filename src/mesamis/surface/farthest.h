@@ -5,7 +5,7 @@
 
 #include "mesamis/surface/triangle_tree.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// A bound exceeds the true value by this factor at most.
 inline constexpr double kDistanceSlack = 1.004;
@@ -23,4 +23,4 @@ struct Enough {
 double farthest_distance(const Corners& triangle, const TriangleTree& tree, const Enough& enough,
                          std::size_t& hint);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -8,7 +8,7 @@
 #include "mesamis/mesh/kuhn.h"
 #include "mesamis/surface/grid_partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// A field of partition_cells.h: memberships on a grid.
 class GridField {
@@ -71,4 +71,4 @@ class GridField {
   std::array<Index, 3> stride_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

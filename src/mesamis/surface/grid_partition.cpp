@@ -11,7 +11,7 @@
 #include "mesamis/surface/grid_field.h"
 #include "mesamis/surface/partition_cells.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 void require(bool holds, const char* what) {
@@ -75,4 +75,4 @@ PartitionSurface extract_partition_on_grid(const GridMemberships& memberships,
   return partition;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

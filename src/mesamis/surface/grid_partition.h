@@ -8,7 +8,7 @@
 #include "mesamis/base/types.h"
 #include "mesamis/surface/partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Memberships of many materials at the nodes of a regular grid, kept only where they decide: at
 /// each node those of its own material and of its neighbours' materials. The neighbours of a node
@@ -41,4 +41,4 @@ struct GridMemberships {
 PartitionSurface extract_partition_on_grid(const GridMemberships& memberships,
                                            const PartitionOptions& options = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -7,7 +7,7 @@
 
 #include "mesamis/base/parallel.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 std::vector<HalfEdge> sorted_half_edges(std::span<const Triangle> triangles,
                                         std::size_t point_count) {
@@ -50,4 +50,4 @@ DisjointSets connected_triangles(std::span<const HalfEdge> half_edges, std::size
   return parts;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -7,7 +7,7 @@
 #include "mesamis/surface/disjoint_sets.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Whether a point index occurs twice.
 inline bool is_degenerate(const Triangle& t) noexcept {
@@ -60,4 +60,4 @@ void for_each_edge(std::span<const HalfEdge> half_edges, Visit&& visit) {
 /// @param half_edges  of sorted_half_edges().
 DisjointSets connected_triangles(std::span<const HalfEdge> half_edges, std::size_t triangle_count);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -12,7 +12,7 @@
 #include "mesamis/surface/label_parts.h"
 #include "mesamis/surface/neighbours.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 using Place = std::array<Index, 3>;
@@ -302,4 +302,4 @@ std::vector<std::uint16_t> join_diagonals(const LabelGrid& grid) {
   return labels;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

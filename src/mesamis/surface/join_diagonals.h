@@ -8,7 +8,7 @@
 
 #include "mesamis/surface/smooth_memberships.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// How many slices away labels matter to a DiagonalJoin.
 inline constexpr Index kJoinReach = 3;
@@ -52,4 +52,4 @@ std::vector<DiagonalJoin> choose_joins(std::span<const DiagonalJoin> joins,
 /// @return the labels, one per node: an object has the nodes that it takes.
 std::vector<std::uint16_t> join_diagonals(const LabelGrid& grid);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

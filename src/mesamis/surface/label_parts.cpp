@@ -6,7 +6,7 @@
 #include "mesamis/surface/disjoint_sets.h"
 #include "mesamis/surface/grid_field.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 LabelParts find_label_parts(const LabelGrid& grid) {
   const auto [nx, ny, nz] = grid.size;
@@ -30,4 +30,4 @@ LabelParts find_label_parts(const LabelGrid& grid) {
   return parts;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -5,7 +5,7 @@
 
 #include "mesamis/surface/smooth_memberships.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// The connected parts of all labels of a grid, neighbours as in GridMemberships.
 struct LabelParts {
@@ -16,4 +16,4 @@ struct LabelParts {
 /// Finds the parts.
 LabelParts find_label_parts(const LabelGrid& grid);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

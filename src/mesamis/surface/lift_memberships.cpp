@@ -9,7 +9,7 @@
 #include "mesamis/surface/match_volumes.h"
 #include "mesamis/surface/neighbours.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// By how much the own material wins where it is one node thick: as far as the boundary of such a
@@ -86,4 +86,4 @@ class Lift {
 
 void lift_memberships(GridMemberships& grid) { Lift(grid).run(); }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

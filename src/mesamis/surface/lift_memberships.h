@@ -3,7 +3,7 @@
 
 #include "mesamis/surface/grid_partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// How many nodes away other memberships matter to one that is raised.
 inline constexpr Index kLiftReach = 4;
@@ -14,4 +14,4 @@ inline constexpr Index kLiftReach = 4;
 /// @param grid  at each node listed, its own material is listed first.
 void lift_memberships(GridMemberships& grid);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

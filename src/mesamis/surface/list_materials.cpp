@@ -7,7 +7,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/neighbours.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// The materials at a node and around it, and how many they are.
@@ -50,4 +50,4 @@ void list_materials(GridMemberships& grid) {
   });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -3,7 +3,7 @@
 
 #include "mesamis/surface/grid_partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Lists, at each node beside a boundary between materials, its own material first and those of its
 /// 14 neighbours, each once: what GridMemberships promises.
@@ -12,4 +12,4 @@ namespace mesamis {
 /// O(nodes), in threads. The same lists for any number of them.
 void list_materials(GridMemberships& grid);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

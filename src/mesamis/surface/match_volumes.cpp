@@ -11,7 +11,7 @@
 #include "mesamis/surface/grid_field.h"
 #include "mesamis/surface/partition_cells.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// No constant changes by more in a round.
@@ -219,4 +219,4 @@ SmoothReport match_volumes(GridMemberships& memberships, std::vector<double> wan
   return match.report();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

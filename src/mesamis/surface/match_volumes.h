@@ -8,7 +8,7 @@
 
 #include "mesamis/surface/smooth_memberships.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// By how much a node's own material wins at least.
 inline constexpr float kLeastLead = 0.02F;
@@ -77,4 +77,4 @@ class VolumeMatch {
 SmoothReport match_volumes(GridMemberships& memberships, std::vector<double> wanted,
                            const SmoothOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

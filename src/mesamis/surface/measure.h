@@ -3,10 +3,11 @@
 
 #include <algorithm>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// What one triangle adds to the measures of its surface.
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// The vector along the outward normal with twice the area as its length, mm^2.
 /// @param t  a triangle's index in range.
@@ -40,4 +41,4 @@ inline double cone_volume(const TriMesh& surface, std::size_t t) noexcept {
   return cone_volume(surface, t, surface.points[0]);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

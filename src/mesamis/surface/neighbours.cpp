@@ -3,7 +3,7 @@
 
 #include <bit>
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// Of each neighbour of a node, a bit for each other neighbour beside it.
@@ -39,4 +39,4 @@ Index count_parts(unsigned neighbours) {
   return count;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

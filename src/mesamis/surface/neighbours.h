@@ -7,7 +7,7 @@
 #include "mesamis/base/types.h"
 #include "mesamis/surface/grid_field.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// The 14 nodes of a grid with which one shares an edge of the Kuhn tetrahedra: seven below along
 /// kKuhnSteps, then seven above in the same order. kNoIndex where the grid ends.
@@ -45,4 +45,4 @@ inline constexpr unsigned kAllNeighbours = (1U << 14) - 1;
 /// How many parts a set of a node's neighbours has: connected along edges of the tetrahedra.
 Index count_parts(unsigned neighbours);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -8,7 +8,7 @@
 
 #include "mesamis/mesh/tet_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// Whether the ray's foot lies left of the edge from a to b, seen along x. Symbolic perturbation: a
@@ -130,4 +130,4 @@ Nesting find_nesting(const TriMesh& surface, const SurfaceComponents& components
       ray_crossings(component_feet(surface, components), surface, components.of_triangle));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -7,7 +7,7 @@
 
 #include "mesamis/surface/components.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Which component of a closed surface lies in which.
 struct Nesting {
@@ -47,4 +47,4 @@ Nesting nesting_of(RayCrossings crossings);
 /// O(m root n) in the mean for n components.
 Nesting find_nesting(const TriMesh& surface, const SurfaceComponents& components);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -3,7 +3,7 @@
 
 #include "mesamis/surface/measure.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 std::vector<Vec3> vertex_normals(const TriMesh& surface) {
   require_sound(surface);
@@ -16,4 +16,4 @@ std::vector<Vec3> vertex_normals(const TriMesh& surface) {
   return normals;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Outward normals at the points: the means of the triangles' normals, weighted by area.
 /// @param surface      n points, m triangles, mm.
@@ -13,4 +14,4 @@ namespace mesamis {
 /// @throws InputError  as require_sound().
 std::vector<Vec3> vertex_normals(const TriMesh& surface);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -9,7 +9,7 @@
 #include "mesamis/base/types.h"
 #include "mesamis/surface/list_materials.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 using Place = std::array<Index, 3>;
@@ -189,4 +189,4 @@ void filter_parts(const std::vector<Index>& part, double sigma_voxel, GridMember
   parallel_for_each(filter.brick_count(), [&](std::size_t b) { filter.run(b); });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

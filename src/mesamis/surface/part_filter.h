@@ -5,7 +5,7 @@
 
 #include "mesamis/surface/grid_partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// How many nodes away the Gaussian of so many nodes is cut off. The filter, which applies it
 /// twice, reaches twice as far.
@@ -18,4 +18,4 @@ Index filter_radius(double sigma_voxel);
 /// @param grid         its size and materials are read; its lists are set.
 void filter_parts(const std::vector<Index>& part, double sigma_voxel, GridMemberships& grid);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// Surfaces of several objects that share their boundaries: space is divided among materials, and
 /// the boundary between two of them is one sheet of triangles.
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// The boundaries between the materials that fill a box.
 struct PartitionSurface {
@@ -86,4 +87,4 @@ std::vector<TriMesh> object_surfaces(const PartitionSurface& partition,
 /// @return increasing; without kNoIndex.
 std::vector<Index> materials_of(const PartitionSurface& partition);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

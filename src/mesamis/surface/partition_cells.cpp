@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/surface/partition_cells.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 void sort_once(std::vector<Simplex>& sites) {
@@ -63,4 +63,4 @@ PartitionSurface joined(std::span<const PartitionBlock> blocks, std::span<const 
   return partition;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -18,7 +18,7 @@
 ///
 ///   Vec3 point(Index node);            Index material(Index node);
 ///   unsigned planes(Index node);       double membership(Index node, Index material);
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Where a point of a partition sits: inside of the simplex of these nodes, increasing; after them
 /// kNoIndex.
@@ -276,4 +276,4 @@ PartitionSurface extract_blocks(const Field& field, std::size_t block_count, Mar
   return partition;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

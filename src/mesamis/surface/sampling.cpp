@@ -8,7 +8,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/surface/measure.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// Point i of the two-dimensional Weyl sequence with the plastic number, in the unit square.
@@ -75,4 +75,4 @@ std::vector<TriangleSample> sample_triangles_by_area(const TriMesh& surface, dou
   return samples;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -4,10 +4,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// Points spread over a surface evenly by area.
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Samples the surface evenly by area: one point in each of `count` equal shares of it.
 ///
@@ -42,4 +43,4 @@ struct TriangleSample {
 /// O(m) for m triangles.
 std::vector<TriangleSample> sample_triangles_by_area(const TriMesh& surface, double scale = 1);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -8,7 +8,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/surface/unused_points.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 bool is_cavity(const Nesting& nesting, std::size_t part) { return nesting.depth[part] % 2 != 0; }
@@ -87,4 +87,4 @@ TriMesh select_parts(const TriMesh& surface, const PartSelection& selection,
   return without(surface, parts, choice.goes);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

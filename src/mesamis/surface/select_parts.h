@@ -8,7 +8,7 @@
 #include "mesamis/surface/nesting.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// Which parts of a closed surface to keep. A part inside a part that is removed is removed too.
 struct PartSelection {
@@ -46,4 +46,4 @@ PartChoice choose_parts(std::span<const SurfaceComponents::Size> parts, const Ne
 TriMesh select_parts(const TriMesh& surface, const PartSelection& selection,
                      SelectionReport* report = nullptr);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

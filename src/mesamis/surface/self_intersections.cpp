@@ -8,7 +8,7 @@
 #include "mesamis/surface/box_tree.h"
 #include "mesamis/surface/triangle_intersection.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 Box box_of_triangle(const TriMesh& surface, const Triangle& t) {
@@ -82,4 +82,4 @@ std::vector<TrianglePair> SelfIntersections::after_move_of(std::span<const Index
       }));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

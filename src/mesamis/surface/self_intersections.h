@@ -6,9 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 class BoxTree;
 
@@ -60,4 +61,4 @@ class SelfIntersections {
   std::unique_ptr<BoxTree> tree_;  // of the triangles
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -10,7 +10,7 @@
 #include "mesamis/surface/farthest.h"
 #include "mesamis/surface/half_edges.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// Where on a triangle the nearest point is: 0 to 2 its corners, 3 to 5 its edges from corner i to
@@ -153,4 +153,4 @@ NearestPoint SignedDistance::at(const Vec3& p) const {
           unit_or_zero(normal)};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -8,7 +8,7 @@
 #include "mesamis/surface/tri_mesh.h"
 #include "mesamis/surface/triangle_tree.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// The point of a surface that is nearest to another.
 struct NearestPoint {
@@ -55,4 +55,4 @@ class SignedDistance {
   std::vector<std::size_t> hints_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

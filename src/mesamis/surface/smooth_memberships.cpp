@@ -15,7 +15,7 @@
 #include "mesamis/surface/part_filter.h"
 #include "mesamis/surface/yield_nodes.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 void require_labels(const LabelGrid& grid, const SmoothOptions& options) {
@@ -69,4 +69,4 @@ GridMemberships smooth_memberships(const LabelGrid& grid, const SmoothOptions& o
   return memberships;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

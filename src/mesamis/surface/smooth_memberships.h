@@ -6,7 +6,7 @@
 
 #include "mesamis/surface/grid_partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// A label at each node of a regular grid: at the centres of voxels.
 struct LabelGrid {
@@ -61,4 +61,4 @@ Index smoothing_reach(const SmoothOptions& options);
 GridMemberships smooth_memberships(const LabelGrid& grid, const SmoothOptions& options = {},
                                    SmoothReport* report = nullptr);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

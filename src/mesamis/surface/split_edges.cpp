@@ -11,7 +11,7 @@
 #include "mesamis/surface/half_edges.h"
 #include "mesamis/surface/measure.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 constexpr Index kWhole = -1;  // an edge that is not split
@@ -163,4 +163,4 @@ TriMesh split_edges(TriMesh surface, const SplitRule& rule, SplitOptions options
   return surface;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -4,9 +4,10 @@
 #include <functional>
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// What split_edges() leaves of a point's edges.
 enum HeldPoint : char {
@@ -43,4 +44,4 @@ struct SplitOptions {
 /// O(m log m) for m triangles in the end, and one call of the rule per edge and round.
 TriMesh split_edges(TriMesh surface, const SplitRule& rule, SplitOptions options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

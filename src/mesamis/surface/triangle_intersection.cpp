@@ -8,7 +8,7 @@
 #include "mesamis/surface/exact_predicates.h"
 #include "mesamis/surface/triangle_tree.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// An axis along which the triangle has an area, that with the largest first; -1: it has none.
@@ -140,4 +140,4 @@ bool intersect(std::span<const Vec3> points, const Triangle& s, const Triangle& 
   return folded(corners_from(points, s, (s_apex + 1) % 3), points[t[t_apex]]);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -7,7 +7,7 @@
 
 #include "mesamis/surface/measure.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
@@ -43,4 +43,4 @@ TriangleShapes triangle_shapes(const TriMesh& surface) {
   return shapes;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// How well shaped the triangles of a surface are.
 struct TriangleShapes {
@@ -17,4 +18,4 @@ struct TriangleShapes {
 /// @return the defaults if there is no triangle.
 TriangleShapes triangle_shapes(const TriMesh& surface);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 constexpr std::size_t kLeafSize = 4;
@@ -81,7 +81,7 @@ void extend(Box& box, const Vec3& p) {
 std::vector<Corners> corners_of(const TriMesh& surface) {
   std::vector<Corners> corners;
   corners.reserve(surface.triangles.size());
-  for (const Triangle& t : surface.triangles) corners.push_back(corners_of(surface, t));
+  for (const Triangle& t : surface.triangles) corners.push_back(mesamis::corners_of(surface, t));
   return corners;
 }
 
@@ -218,4 +218,4 @@ double TriangleTree::squared_distance_to(const Vec3& p, std::size_t& hint) const
   return nearest;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -4,9 +4,10 @@
 #include <array>
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 using Corners = std::array<Vec3, 3>;
 
@@ -59,4 +60,4 @@ class TriangleTree {
   std::vector<Index> order_;        // of the triangles there
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/surface/unused_points.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 TriMesh without_unused_points(const TriMesh& surface) {
   std::vector<Index> new_index(surface.points.size(), kNoIndex);
@@ -20,4 +20,4 @@ TriMesh without_unused_points(const TriMesh& surface) {
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

@@ -7,7 +7,7 @@
 
 #include "mesamis/surface/neighbours.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 namespace {
 
 /// A node whose membership is smaller by more stays: less than at the end of a thin part, more than
@@ -84,4 +84,4 @@ std::int64_t yield_nodes(GridMemberships& grid) {
   return std::ssize(yield_where_allowed(find_yields(grid), nodes, grid));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

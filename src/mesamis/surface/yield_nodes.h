@@ -7,7 +7,7 @@
 
 #include "mesamis/surface/grid_partition.h"
 
-namespace mesamis {
+namespace mesamis::detail::surface {
 
 /// A node that changes its material.
 struct Yield {
@@ -48,4 +48,4 @@ std::vector<Yield> yield_where_allowed(std::span<const Yield> wanted,
 /// O(nodes), in the order of the nodes.
 std::int64_t yield_nodes(GridMemberships& grid);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::surface

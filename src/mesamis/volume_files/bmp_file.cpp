@@ -10,7 +10,7 @@
 #include "mesamis/volume_files/formats.h"
 #include "mesamis/volume_files/grey_pixels.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 constexpr std::size_t kFileHeader = 14, kSmallestInfo = 40;
@@ -142,4 +142,4 @@ VolumeFile read_bmp(const std::filesystem::path& file, const Opening& opening) {
   });
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -13,7 +13,7 @@
 #include "mesamis/files/in_one_line.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -386,4 +386,4 @@ std::unique_ptr<ChunkedScan> make_chunked_scan(OpenedArray array) {
   return std::make_unique<ChunkArray>(std::move(array));
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -17,7 +17,7 @@
 #include "mesamis/volume_files/chunked_scan.h"
 
 /// What Zarr and HDF5 share: an array in chunks, read as the slices of a scan.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// The layout of an array of three axes or more, the slowest first.
 struct ChunkLayout {
@@ -79,4 +79,4 @@ std::unique_ptr<ChunkedScan> make_chunked_scan(OpenedArray array);
 void set_spacing(OpenedArray& array, const std::optional<Vec3>& stated,
                  const std::optional<Vec3>& asked);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -13,7 +13,7 @@
 #include "mesamis/files/bytes.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -210,4 +210,4 @@ std::string unpack_chunk(const fs::path& file, std::string packed,
   return packed;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace mesamis::detail {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::volume_files {
 
 /// One step of how a chunk is packed.
 struct ChunkCodec {
@@ -37,4 +39,4 @@ void require_chain(const std::filesystem::path& file, const std::vector<ChunkCod
 std::string unpack_chunk(const std::filesystem::path& file, std::string packed,
                          const std::vector<ChunkCodec>& codecs, std::size_t size);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

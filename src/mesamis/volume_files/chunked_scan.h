@@ -15,7 +15,7 @@
 #include "mesamis/image/slice_source.h"
 
 /// Scans that lie in chunks, of which only those are decoded that are asked for: Zarr and HDF5.
-namespace mesamis {
+namespace mesamis::detail::volume_files {
 
 struct ChunkOptions {
   /// Path of the array inside: "0", "/entry/data". Empty: the only 3D one; of OME-Zarr the finest.
@@ -103,4 +103,4 @@ std::unique_ptr<ChunkedScan> open_zarr(const std::filesystem::path& path,
 std::unique_ptr<ChunkedScan> open_hdf5(const std::filesystem::path& path,
                                        const ChunkOptions& options = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::volume_files

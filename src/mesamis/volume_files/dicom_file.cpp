@@ -16,7 +16,7 @@
 #include "mesamis/volume_files/dicom_store.h"
 #include "mesamis/volume_files/formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -210,4 +210,4 @@ std::vector<VolumeInfo> list_dicom(const fs::path& path, const ReadOptions& opti
   return infos;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

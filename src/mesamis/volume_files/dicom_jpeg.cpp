@@ -5,7 +5,7 @@
 #include <array>
 #include <limits>
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 int big16(Bytes b, std::size_t at) { return b[at] << 8 | b[at + 1]; }
@@ -145,4 +145,4 @@ std::optional<JpegSamples> decode_jpeg(Bytes picture, const PictureHeader& heade
   return header.bits <= 12 ? decode_jpeg12(picture, header) : decode_jpeg16(picture, header);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -8,7 +8,7 @@
 #include "mesamis/files/dicom_data.h"
 
 /// Compressed pictures inside DICOM files: what their headers state, and JPEG's samples.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// What a compressed picture states about itself. It is read before any decoder sees the data.
 struct PictureHeader {
@@ -54,4 +54,4 @@ std::optional<JpegSamples> decode_jpeg8(Bytes picture, const PictureHeader& head
 std::optional<JpegSamples> decode_jpeg12(Bytes picture, const PictureHeader& header);
 std::optional<JpegSamples> decode_jpeg16(Bytes picture, const PictureHeader& header);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

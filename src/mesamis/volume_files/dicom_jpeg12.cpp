@@ -6,10 +6,10 @@ extern "C" {
 }
 #include "mesamis/volume_files/dicom_jpeg_decoder.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 std::optional<JpegSamples> decode_jpeg12(Bytes picture, const PictureHeader& header) {
   return JpegDecoder<12>(picture, header).decode();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -14,7 +14,7 @@
 /// The decoder of one precision. Each dicom_jpeg<BITS>.cpp includes the jpeglib.h of that
 /// precision before this header: the three libraries share their names, not their sample types. The
 /// template's argument tells their decoders apart.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// The library's state. Errors leave through `escape_`, warnings are counted, nothing is printed.
 template <int kPrecision>
@@ -111,4 +111,4 @@ class JpegDecoder {
   std::vector<std::uint16_t> samples_;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -13,7 +13,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/volume_files/dicom_spacing.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 enum class Form { kText, kWhole, kReal };
@@ -214,4 +214,4 @@ PhaseChoice choose_phase(const std::filesystem::path& path, const DicomStack& st
           message("volume ", n, " of ", count, " is taken, by ", phases.told_by, value)};
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

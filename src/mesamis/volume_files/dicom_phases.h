@@ -9,7 +9,7 @@
 #include "mesamis/volume_files/dicom_series.h"
 
 /// Series that show the same places several times: phases of the heart, times, echoes.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// By what slices at one place may differ: the values of the tags that tell times, phases, echoes
 /// and acquisitions, in a fixed order. O(tags).
@@ -34,4 +34,4 @@ struct PhaseChoice {
 PhaseChoice choose_phase(const std::filesystem::path& path, const DicomStack& stack,
                          const ValueChoice& choice);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

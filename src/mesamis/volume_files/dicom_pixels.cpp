@@ -9,7 +9,7 @@
 #include "mesamis/volume_files/dicom_rle.h"
 #include "mesamis/volume_files/gdcm_picture.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 enum class Coding { kNative, kRle, kJpeg, kJpegLs, kJpeg2000 };
@@ -282,4 +282,4 @@ bool append_frame(const DicomFile& file, const DicomPixels& p, const FrameRescal
   return decoded.intact;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

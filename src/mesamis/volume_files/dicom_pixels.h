@@ -6,7 +6,7 @@
 #include "mesamis/files/dicom_data.h"
 
 /// The pixels of a DICOM file: how they are coded, and their values.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// How the pixels of a file are coded.
 struct DicomPixels {
@@ -48,4 +48,4 @@ struct FrameRescale {
 bool append_frame(const DicomFile& file, const DicomPixels& pixels, const FrameRescale& rescale,
                   std::vector<float>& out);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

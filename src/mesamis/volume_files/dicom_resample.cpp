@@ -10,7 +10,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/volume_files/scan_file.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 constexpr double kSmallestShare = 0.25;  // of the median distance, between planes
@@ -198,4 +198,4 @@ std::vector<float> resampled(const ResamplePlan& plan, const std::array<int, 2>&
   return out;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -9,7 +9,7 @@
 #include "mesamis/volume_files/dicom_spacing.h"
 
 /// Stacks that are no regular grid, brought onto one: a tilted gantry, uneven or missing slices.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// A regular grid for a stack, and where the slices lie in it.
 struct ResamplePlan {
@@ -42,4 +42,4 @@ ResamplePlan plan_resampling(const std::filesystem::path& path, const SortedSlic
 std::vector<float> resampled(const ResamplePlan& plan, const std::array<int, 2>& columns_rows,
                              const std::vector<float>& samples);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

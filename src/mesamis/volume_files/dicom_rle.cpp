@@ -3,7 +3,7 @@
 
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 /// One RLE segment (PackBits) fills `out`, whose bytes lie `stride` apart.
@@ -47,4 +47,4 @@ std::vector<unsigned char> decode_rle(const std::filesystem::path& file, Bytes p
   return out;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

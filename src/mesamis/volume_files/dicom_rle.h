@@ -5,7 +5,7 @@
 
 #include "mesamis/files/dicom_data.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// Decodes one frame of RLE pixels: PS3.5 annex G, one segment of PackBits per byte of the pixel,
 /// the most significant first.
@@ -19,4 +19,4 @@ namespace mesamis::detail {
 std::vector<unsigned char> decode_rle(const std::filesystem::path& file, Bytes packed,
                                       std::size_t pixels, std::size_t width);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -9,7 +9,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/volume_files/dicom_spacing.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 constexpr double kSameOrientation = 1e-3;   // largest difference of direction cosines
@@ -199,4 +199,4 @@ const DicomSeries& choose_series(const std::filesystem::path& path,
          message("expected one series of slices, found ", volumes, ": ", titles(all, volumes > 1)));
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

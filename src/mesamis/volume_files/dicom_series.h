@@ -9,7 +9,7 @@
 #include "mesamis/volume_files/dicom_slice.h"
 
 /// Slices grouped into series and stacks, and the choice of one series.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// Slices of one orientation, size and pixel spacing, in the order of the files.
 using DicomStack = std::vector<DicomSlice>;
@@ -43,4 +43,4 @@ const DicomSeries& choose_series(const std::filesystem::path& path,
 /// UID, modality, description and number of slices of each, up to 20.
 std::string titles_of(const std::vector<DicomSeries>& all);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -11,7 +11,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/volume_files/dicom_phases.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 /// The data sets that describe one frame: its own functional groups, those shared by all frames,
@@ -345,4 +345,4 @@ DicomImage describe_image(const DicomFile& file, MemoryBudget& budget,
   return image;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -11,7 +11,7 @@
 #include "mesamis/files/dicom_data.h"
 #include "mesamis/volume_files/dicom_pixels.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// What tells where a slice lies.
 enum class PlacedBy {
@@ -88,4 +88,4 @@ std::array<Vec3, 3> grid_steps(const DicomSlice& slice, const Vec3& up) noexcept
 /// "IM0001.dcm", "IM0001.dcm frame 3": how messages name a slice.
 std::string name_of(const DicomSlice& slice);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -6,7 +6,7 @@
 
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 constexpr const char* kHint = " (--resample interpolates such stacks)";
@@ -96,4 +96,4 @@ void require_no_tilt(const std::filesystem::path& path, const SortedSlices& sort
   }
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -8,7 +8,7 @@
 
 /// The third axis of a DICOM stack: the order of its slices, their spacing, and the checks that
 /// they form a regular grid.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// Largest deviation of a slice from its place, as a share of the slice spacing.
 inline constexpr double kStepTolerance = 0.02;
@@ -52,4 +52,4 @@ void require_even_spacing(const std::filesystem::path& path, const SortedSlices&
 ///                     kStepTolerance of the spacing, or any slice by more than kDriftTolerance.
 void require_no_tilt(const std::filesystem::path& path, const SortedSlices& sorted);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -10,7 +10,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/volume_files/formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,4 +76,4 @@ DicomFile DicomStore::read(const fs::path& file) const {
   return parse_dicom_file(file, {bytes.begin(), bytes.end()}, budget_);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -10,7 +10,7 @@
 #include "mesamis/files/zip_archive.h"
 
 /// Where the files of a DICOM series lie: in a directory and those below it, or in a ZIP archive.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// Whether a path is a file that begins like a ZIP archive and is called .zip.
 bool is_zip(const std::filesystem::path& path);
@@ -44,4 +44,4 @@ class DicomStore {
   std::vector<std::string> unreadable_;
 };
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

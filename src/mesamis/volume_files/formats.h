@@ -13,7 +13,7 @@
 
 /// The formats of this room, one .cpp each. Every function throws InputError, one line, and asks
 /// the budget before it takes memory whose amount a file decides.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// A header, and how to read the samples of some slices.
 struct OpenSlices {
@@ -139,4 +139,4 @@ std::vector<VolumeInfo> list_dicom(const std::filesystem::path& path, const Read
 /// Whether the file begins like DICOM, with or without the preamble; not if it cannot be opened.
 bool looks_like_dicom(const std::filesystem::path& file);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

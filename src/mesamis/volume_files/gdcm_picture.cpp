@@ -10,7 +10,7 @@
 #include <exception>
 #include <mutex>
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 gdcm::PixelFormat gdcm_format(const DicomPixels& p) {
@@ -91,4 +91,4 @@ std::optional<std::vector<unsigned char>> decode_by_gdcm(Bytes picture,
   return out;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -7,7 +7,7 @@
 
 #include "mesamis/volume_files/dicom_pixels.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// Decodes one frame of JPEG-LS or JPEG 2000 pixels by GDCM.
 ///
@@ -20,4 +20,4 @@ std::optional<std::vector<unsigned char>> decode_by_gdcm(Bytes picture,
                                                          const std::string& transfer_syntax,
                                                          const DicomPixels& pixels);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -5,7 +5,7 @@
 
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 void warn_of_screen_resolution(double spacing_mm, std::vector<std::string>& warnings) {
   constexpr double kInch = 25.4, kTolerance = 0.05;
@@ -47,4 +47,4 @@ void keep_palette(ScanFile& scan, std::string_view palette, std::size_t stride) 
       "black");
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -13,7 +13,7 @@
 #include "mesamis/volume_files/scan_file.h"
 
 /// Shared by the readers of pictures that hold one slice: PNG, BMP and JPEG.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// A warning if the pixels are as large as programs have it that know of screens alone: 72 or 96
 /// per inch.
@@ -53,4 +53,4 @@ VolumeFile grey_picture(ScanFile scan, const ColorAt& color_at) {
   return out;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

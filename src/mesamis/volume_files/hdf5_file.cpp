@@ -15,19 +15,10 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/volume_files/chunk_array.h"
 
-namespace mesamis {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::ChunkCodec;
-using detail::ChunkLayout;
-using detail::in_quotes;
-using detail::MemoryBudget;
-using detail::message;
-using detail::NumberType;
-using detail::OpenedArray;
-using detail::refuse;
-using detail::StoredChunk;
 
 /// One thread at a time calls the library, which does not print meanwhile.
 class LibraryCall {
@@ -188,7 +179,7 @@ std::string find_dataset(const fs::path& path, hid_t file) {
   if (volumes.size() == 1) return volumes.front();
   if (volumes.empty()) refuse(path, "expected a dataset of 3 axes, found none");
   refuse(path, message("expected one dataset of 3 axes, or a path to one inside, found ",
-                       volumes.size(), ": ", detail::first_of(volumes)));
+                       volumes.size(), ": ", first_of(volumes)));
 }
 
 /// Opens a dataset for what follows, with the way to refuse it.
@@ -219,8 +210,7 @@ void set_type(const Dataset& dataset, ChunkLayout& layout) {
   const Handle type = number_type(dataset.id);
   const std::size_t size = H5Tget_size(type);
   const auto is = [&](hid_t other) { return H5Tequal(type, other) > 0; };
-  layout.byte_order =
-      H5Tget_order(type) == H5T_ORDER_BE ? detail::ByteOrder::kBig : detail::ByteOrder::kLittle;
+  layout.byte_order = H5Tget_order(type) == H5T_ORDER_BE ? ByteOrder::kBig : ByteOrder::kLittle;
   const bool whole = H5Tget_class(type) == H5T_INTEGER && size <= 8 && (size & (size - 1)) == 0 &&
                      H5Tget_precision(type) == 8 * size;
   if (whole) {
@@ -341,7 +331,7 @@ std::optional<StoredChunk> read_slice(const Dataset& dataset, const ChunkLayout&
                                       MemoryBudget& budget) {
   const std::vector<hsize_t> first = first_element(layout, place);
   const std::vector<hsize_t> count(layout.chunk.begin(), layout.chunk.end());
-  const std::size_t size = detail::chunk_bytes(layout);
+  const std::size_t size = chunk_bytes(layout);
   budget.claim(size, 1, "a slice");
   StoredChunk chunk{dataset.path, std::string(size, '\0'), {}};
   const Handle type(H5Dget_type(dataset.id), H5Tclose);
@@ -380,7 +370,7 @@ std::optional<StoredChunk> read_chunk(const Dataset& dataset, const ChunkLayout&
     refuse_chunk();
   }
   if (address == HADDR_UNDEF) return {};
-  if (size > detail::size_of(dataset.path)) refuse_chunk();
+  if (size > size_of(dataset.path)) refuse_chunk();
   budget.claim(size, 1, "a chunk as stored");
   StoredChunk chunk{dataset.path, std::string(size, '\0'), {}};
   std::uint32_t mask = 0;
@@ -396,15 +386,14 @@ OpenedArray opened(Dataset dataset, const ChunkOptions& options) {
   out.path = dataset.path;
   out.format = "HDF5";
   out.layout = layout_of(dataset);
-  out.grid.size =
-      detail::require_layout(dataset.path, out.layout, {}, {options.volume, options.channel});
+  out.grid.size = require_layout(dataset.path, out.layout, {}, {options.volume, options.channel});
   for (const char* name : {"scale_factor", "add_offset"}) {
     if (H5Aexists(dataset.id, name) <= 0) continue;
     out.warnings.push_back(
         message("the attribute ", name, " is not applied: values are kept as stored"));
   }
-  detail::require_chain(dataset.path, out.layout.codecs);
-  detail::set_spacing(out, spacing_of(dataset), options.spacing);
+  require_chain(dataset.path, out.layout.codecs);
+  set_spacing(out, spacing_of(dataset), options.spacing);
   out.limits = options.limits;
   const auto read = H5Pget_layout(dataset.properties) == H5D_CHUNKED ? read_chunk : read_slice;
   out.fetch = [read, layout = out.layout, held = std::make_shared<Dataset>(std::move(dataset))](
@@ -442,10 +431,10 @@ bool is_hdf5(const fs::path& path) noexcept {
 
 std::unique_ptr<ChunkedScan> open_hdf5(const fs::path& path, const ChunkOptions& options) {
   const Place place = place_of(path);
-  return detail::in_one_line(place.file, [&] {
+  return in_one_line(place.file, [&] {
     const LibraryCall call;
-    return detail::make_chunked_scan(opened(open_place(place, options.dataset), options));
+    return make_chunked_scan(opened(open_place(place, options.dataset), options));
   });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::volume_files

@@ -7,7 +7,7 @@
 #include "mesamis/files/xml.h"
 #include "mesamis/volume_files/formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 constexpr std::size_t kTarBlock = 512;
@@ -210,4 +210,4 @@ ScanFile open_inv3(const std::filesystem::path& file, const Opening& opening) {
   return scan;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -10,7 +10,7 @@
 #include "mesamis/volume_files/formats.h"
 #include "mesamis/volume_files/grey_pixels.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 struct Jpeg {
@@ -91,4 +91,4 @@ VolumeFile read_jpeg(const std::filesystem::path& file, const Opening& opening) 
   return out;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

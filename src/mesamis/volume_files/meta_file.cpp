@@ -9,7 +9,7 @@
 #include "mesamis/volume_files/formats.h"
 #include "mesamis/volume_files/text_header.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 struct MetaHeader {
@@ -243,4 +243,4 @@ ScanFile open_meta(const std::filesystem::path& file, const Opening& opening) {
   return scan;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -9,7 +9,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/volume_files/formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 constexpr std::size_t kHeader = 284;
@@ -90,4 +90,4 @@ ScanFile open_mgh(const std::filesystem::path& file, const Opening& opening) {
   return scan;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

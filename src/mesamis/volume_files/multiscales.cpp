@@ -13,7 +13,7 @@
 #include "mesamis/files/length_unit.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 struct Axis {
@@ -207,4 +207,4 @@ std::vector<ScaleLevel> read_multiscales(const JsonValue& attributes) {
   return levels;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

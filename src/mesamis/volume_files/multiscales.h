@@ -11,7 +11,7 @@
 #include "mesamis/volume_files/chunked_scan.h"
 
 /// The metadata by which OME-Zarr groups arrays of one image (NGFF 0.1 to 0.5).
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// One resolution of an image.
 struct ScaleLevel {
@@ -30,4 +30,4 @@ struct ScaleLevel {
 /// @throws InputError  for what else contradicts the format, and space axes other than z, y, x.
 std::vector<ScaleLevel> read_multiscales(const JsonValue& attributes);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

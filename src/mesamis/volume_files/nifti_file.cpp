@@ -11,7 +11,7 @@
 #include "mesamis/volume_files/formats.h"
 #include "mesamis/volume_files/spm_matrix.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 /// What Analyze 7.5 has where NIfTI has other fields.
@@ -497,4 +497,4 @@ std::vector<std::string> nifti_extensions(const std::filesystem::path& file, Mem
   return extensions;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

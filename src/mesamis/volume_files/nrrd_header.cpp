@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string_view>
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 /// A stream that writes numbers so that they read back to the same bits.
@@ -58,4 +58,4 @@ std::string nrrd_header(const VoxelGrid& grid, const NrrdContent& content) {
   return text.str();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -7,8 +7,9 @@
 
 #include "mesamis/base/types.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// What the samples behind a NRRD header are, and the user's own lines.
 struct NrrdContent {
@@ -24,4 +25,4 @@ struct NrrdContent {
 /// read back to the same bits, whatever the locale.
 std::string nrrd_header(const VoxelGrid& grid, const NrrdContent& content);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

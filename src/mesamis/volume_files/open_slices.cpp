@@ -13,17 +13,10 @@
 #include "mesamis/volume_files/formats.h"
 #include "mesamis/volume_files/slice_stack.h"
 
-namespace mesamis {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::in_one_line;
-using detail::MemoryBudget;
-using detail::message;
-using detail::Opening;
-using detail::OpenSlices;
-using detail::refuse;
-using detail::ScanFile;
 
 OpenSlices open_plain(ScanFile scan) {
   if (scan.sheared) {
@@ -31,9 +24,9 @@ OpenSlices open_plain(ScanFile scan) {
            "expected orthogonal axes, which can be read a slice at a time, found sheared ones; run "
            "without --slabs");
   }
-  const std::uint64_t begin = detail::find_plain_samples(scan);
+  const std::uint64_t begin = find_plain_samples(scan);
   return {scan, [scan, begin](const SliceRange& slices, MemoryBudget&, std::vector<float>& out) {
-            detail::append_slices(scan, begin, slices, out);
+            append_slices(scan, begin, slices, out);
           }};
 }
 
@@ -44,28 +37,28 @@ OpenSlices open_plain(ScanFile scan) {
 }
 
 OpenSlices open_directory(const fs::path& directory, const Opening& opening) {
-  const std::vector<fs::path> slices = detail::slices_without_dicom(directory, opening.budget);
-  if (!slices.empty()) return detail::open_stack(directory, slices, opening);
-  const std::vector<fs::path> files = detail::files_below(directory);
-  if (std::any_of(files.begin(), files.end(), detail::looks_like_dicom)) refuse_dicom(directory);
+  const std::vector<fs::path> slices = slices_without_dicom(directory, opening.budget);
+  if (!slices.empty()) return open_stack(directory, slices, opening);
+  const std::vector<fs::path> files = files_below(directory);
+  if (std::any_of(files.begin(), files.end(), looks_like_dicom)) refuse_dicom(directory);
   refuse(directory, "expected slices as .tif, .png or .bmp, one per file, found none");
 }
 
 OpenSlices open_any(const fs::path& path, const ReadOptions& options, MemoryBudget& budget) {
-  if (options.raw) return open_plain(detail::open_raw(path, *options.raw));
-  const Opening opening = detail::opening_of(options, budget);
+  if (options.raw) return open_plain(open_raw(path, *options.raw));
+  const Opening opening = opening_of(options, budget);
   if (fs::is_directory(path)) return open_directory(path, opening);
-  if (auto scan = detail::open_array(path, opening)) {
+  if (auto scan = open_array(path, opening)) {
     return open_plain(std::move(*scan));
   }
-  if (detail::is_picture(path)) return detail::open_picture_slices(path, opening);
-  if (detail::looks_like_dicom(path)) refuse_dicom(path);
-  detail::refuse_unknown(path);
+  if (is_picture(path)) return open_picture_slices(path, opening);
+  if (looks_like_dicom(path)) refuse_dicom(path);
+  refuse_unknown(path);
 }
 
 class OpenedSlices final : public FileSlices {
  public:
-  OpenedSlices(fs::path path, const ReadLimits& limits, VolumeFile head, detail::SliceReader reader)
+  OpenedSlices(fs::path path, const ReadLimits& limits, VolumeFile head, SliceReader reader)
       : path_(std::move(path)),
         limits_(limits),
         head_(std::move(head)),
@@ -84,7 +77,7 @@ class OpenedSlices final : public FileSlices {
   fs::path path_;
   ReadLimits limits_;
   VolumeFile head_;
-  detail::SliceReader reader_;
+  SliceReader reader_;
 };
 
 std::vector<float> OpenedSlices::read_checked(const SliceRange& slices) const {
@@ -96,7 +89,7 @@ std::vector<float> OpenedSlices::read_checked(const SliceRange& slices) const {
   MemoryBudget budget(path_, limits_);
   const ReadRecord record;
   std::vector<float> samples;
-  detail::reserve_within(budget, samples, grid().offset(0, 0, slices.count), "samples");
+  reserve_within(budget, samples, grid().offset(0, 0, slices.count), "samples");
   reader_(slices, budget, samples);
   for (const ReadFile& file : record.files()) require_same(file);
   return samples;
@@ -116,15 +109,15 @@ std::unique_ptr<FileSlices> open_slices(const fs::path& path, const ReadOptions&
   MemoryBudget budget(path, options.limits);
   const ReadRecord record;
   return in_one_line(path, [&] {
-    detail::require_options(path, options);
+    require_options(path, options);
     OpenSlices slices = open_any(path, options, budget);
-    detail::announce(slices.scan.grid, options);
+    announce(slices.scan.grid, options);
     VolumeFile head{slices.scan.grid, slices.scan.format, slices.scan.warnings};
-    detail::apply_options(options, head);
+    apply_options(options, head);
     head.files = record.files();
     return std::make_unique<OpenedSlices>(path, options.limits, std::move(head),
                                           std::move(slices.read));
   });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::volume_files

@@ -7,7 +7,7 @@
 #include "mesamis/image/slice_source.h"
 #include "mesamis/volume_files/read_volume.h"
 
-namespace mesamis {
+namespace mesamis::detail::volume_files {
 
 /// The slices of a scan in files. Several threads may read at the same time.
 class FileSlices : public SliceSource {
@@ -38,4 +38,4 @@ class FileSlices : public SliceSource {
 std::unique_ptr<FileSlices> open_slices(const std::filesystem::path& path,
                                         const ReadOptions& options = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::volume_files

@@ -14,7 +14,7 @@
 #include "mesamis/volume_files/formats.h"
 #include "mesamis/volume_files/grey_pixels.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
@@ -218,4 +218,4 @@ VolumeFile read_png(const std::filesystem::path& file, const Opening& opening) {
   });
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

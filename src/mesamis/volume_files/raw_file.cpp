@@ -13,8 +13,6 @@
 namespace mesamis {
 namespace {
 
-using detail::NumberType;
-
 constexpr std::array<std::pair<std::string_view, RawType>, 6> kRawTypes{
     {{"uint8", RawType::kUint8},
      {"int16", RawType::kInt16},
@@ -50,7 +48,7 @@ bool read_type(std::string_view word, RawLayout& layout) {
 }
 
 bool read_count(std::string_view word, std::int64_t least, std::int64_t& count) {
-  return detail::parse_number(word, count) && count >= least;
+  return parse_number(word, count) && count >= least;
 }
 
 bool read_layout(std::string_view text, RawLayout& layout) {
@@ -71,10 +69,11 @@ RawLayout parse_raw_layout(std::string_view text) {
   throw InputError(
       "expected NX,NY,NZ,TYPE or NX,NY,NZ,TYPE,HEADERBYTES with TYPE uint8, int16, uint16, int32, "
       "float32 or float64, and be or le behind it for the byte order, found " +
-      detail::in_quotes(text));
+      in_quotes(text));
 }
 
-detail::ScanFile detail::open_raw(const std::filesystem::path& file, const RawLayout& layout) {
+ScanFile detail::volume_files::open_raw(const std::filesystem::path& file,
+                                        const RawLayout& layout) {
   ScanFile scan{file, "raw", {}, {}, {}};
   set_size(scan, layout.size);
   set_axes(scan, {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}});

@@ -23,13 +23,6 @@ namespace mesamis {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::in_one_line;
-using detail::MemoryBudget;
-using detail::Opening;
-using detail::OpenSlices;
-using detail::refuse;
-using detail::refuse_unknown;
-using detail::ScanFile;
 
 /// A format of plain arrays and the ends of its files' names.
 struct ArrayFormat {
@@ -38,20 +31,20 @@ struct ArrayFormat {
 };
 
 constexpr std::array kArrayFormats{
-    ArrayFormat{".nii", detail::open_nifti}, ArrayFormat{".nii.gz", detail::open_nifti},
-    ArrayFormat{".hdr", detail::open_nifti}, ArrayFormat{".hdr.gz", detail::open_nifti},
-    ArrayFormat{".img", detail::open_nifti}, ArrayFormat{".img.gz", detail::open_nifti},
-    ArrayFormat{".nrrd", detail::open_nrrd}, ArrayFormat{".nhdr", detail::open_nrrd},
-    ArrayFormat{".mha", detail::open_meta},  ArrayFormat{".mhd", detail::open_meta},
-    ArrayFormat{".inv3", detail::open_inv3}, ArrayFormat{".mgh", detail::open_mgh},
-    ArrayFormat{".mgz", detail::open_mgh},   ArrayFormat{".isq", detail::open_isq},
-    ArrayFormat{".aim", detail::open_aim},   ArrayFormat{".vgi", detail::open_vgi},
-    ArrayFormat{".vol", detail::open_vgi},
+    ArrayFormat{".nii", open_nifti}, ArrayFormat{".nii.gz", open_nifti},
+    ArrayFormat{".hdr", open_nifti}, ArrayFormat{".hdr.gz", open_nifti},
+    ArrayFormat{".img", open_nifti}, ArrayFormat{".img.gz", open_nifti},
+    ArrayFormat{".nrrd", open_nrrd}, ArrayFormat{".nhdr", open_nrrd},
+    ArrayFormat{".mha", open_meta},  ArrayFormat{".mhd", open_meta},
+    ArrayFormat{".inv3", open_inv3}, ArrayFormat{".mgh", open_mgh},
+    ArrayFormat{".mgz", open_mgh},   ArrayFormat{".isq", open_isq},
+    ArrayFormat{".aim", open_aim},   ArrayFormat{".vgi", open_vgi},
+    ArrayFormat{".vol", open_vgi},
 };
 
 /// The name in lower case, without the version that VMS puts behind it: "a.aim;1".
 std::string plain_name(const fs::path& file) {
-  const std::string name = detail::lower(file.filename().string());
+  const std::string name = lower(file.filename().string());
   const auto mark = name.find(';');
   const bool version = mark != std::string::npos &&
                        name.find_first_not_of("0123456789", mark + 1) == std::string::npos;
@@ -64,8 +57,8 @@ bool needs_header_beside(std::string_view extension) {
 }
 
 bool has_header_beside(fs::path file) {
-  if (detail::lower_extension(file) == ".gz") file.replace_extension();
-  const bool vol = detail::lower_extension(file) == ".vol";
+  if (lower_extension(file) == ".gz") file.replace_extension();
+  const bool vol = lower_extension(file) == ".vol";
   std::error_code ignored;
   for (const char* extension : {vol ? ".vgi" : ".hdr", vol ? ".VGI" : ".hdr.gz"}) {
     if (fs::is_regular_file(fs::path(file).replace_extension(extension), ignored)) return true;
@@ -99,28 +92,26 @@ struct PictureFormat {
 
 /// A picture that holds one slice.
 OpenSlices open_one_slice(const fs::path& file, const Opening& opening) {
-  return {detail::open_picture(file, opening), detail::read_pictures({file})};
+  return {open_picture(file, opening), read_pictures({file})};
 }
 
 constexpr std::array<PictureFormat, 6> kPictureFormats{
-    {{".jpg", detail::open_jpeg, detail::read_jpeg, open_one_slice},
-     {".jpeg", detail::open_jpeg, detail::read_jpeg, open_one_slice},
-     {".tif", detail::open_tiff_header, detail::read_tiff, detail::open_tiff_slices},
-     {".tiff", detail::open_tiff_header, detail::read_tiff, detail::open_tiff_slices},
-     {".png", detail::open_png, detail::read_png, open_one_slice},
-     {".bmp", detail::open_bmp, detail::read_bmp, open_one_slice}}};
+    {{".jpg", open_jpeg, read_jpeg, open_one_slice},
+     {".jpeg", open_jpeg, read_jpeg, open_one_slice},
+     {".tif", open_tiff_header, read_tiff, open_tiff_slices},
+     {".tiff", open_tiff_header, read_tiff, open_tiff_slices},
+     {".png", open_png, read_png, open_one_slice},
+     {".bmp", open_bmp, read_bmp, open_one_slice}}};
 
 const PictureFormat* picture_format_of(const fs::path& file) {
-  const std::string extension = detail::lower_extension(file);
+  const std::string extension = lower_extension(file);
   for (const PictureFormat& format : kPictureFormats) {
     if (extension == format.extension) return &format;
   }
   return nullptr;
 }
 
-bool has_known_extension(const fs::path& file) {
-  return array_format_of(file) || detail::is_picture(file);
-}
+bool has_known_extension(const fs::path& file) { return array_format_of(file) || is_picture(file); }
 
 /// Whether a file of a directory is listed: not what a header lists, nor what is hidden.
 bool is_listed(const fs::path& file) {
@@ -134,63 +125,63 @@ struct Request {
   const ReadOptions& options;
   MemoryBudget& budget;
 
-  Opening opening() const { return detail::opening_of(options, budget); }
+  Opening opening() const { return opening_of(options, budget); }
 };
 
 VolumeFile read_sheared(const Request& request, const ScanFile& scan) {
-  const auto plan = detail::plan_unsheared(scan.file, scan.grid, *scan.sheared);
-  detail::announce(plan.grid, request.options);
+  const auto plan = plan_unsheared(scan.file, scan.grid, *scan.sheared);
+  announce(plan.grid, request.options);
   VolumeFile out{{plan.grid, {}}, scan.format, scan.warnings};
   out.warnings.push_back(plan.note);
-  const std::vector<float> samples = detail::read_samples(scan, request.budget);
+  const std::vector<float> samples = read_samples(scan, request.budget);
   request.budget.claim(plan.grid.voxel_count(), sizeof(float), "samples between voxels");
-  out.volume.samples = detail::unsheared(plan, samples);
+  out.volume.samples = unsheared(plan, samples);
   return out;
 }
 
 VolumeFile read_array(const Request& request, const ScanFile& scan) {
   if (scan.sheared) return read_sheared(request, scan);
-  detail::announce(scan.grid, request.options);
+  announce(scan.grid, request.options);
   VolumeFile out{scan.grid, scan.format, scan.warnings};
-  out.volume.samples = detail::read_samples(scan, request.budget);
+  out.volume.samples = read_samples(scan, request.budget);
   return out;
 }
 
 VolumeFile read_one_picture(const Request& request) {
-  detail::announce(detail::open_picture(request.path, request.opening()).grid, request.options);
-  return detail::read_picture(request.path, request.opening());
+  announce(open_picture(request.path, request.opening()).grid, request.options);
+  return read_picture(request.path, request.opening());
 }
 
 /// A directory without DICOM may hold volumes that are files of their own.
 void require_dicom(const fs::path& directory) {
-  if (detail::holds_dicom(directory)) return;
-  const std::vector<fs::path> here = detail::files_in(directory);
+  if (holds_dicom(directory)) return;
+  const std::vector<fs::path> here = files_in(directory);
   const auto volume = std::find_if(here.begin(), here.end(), is_listed);
-  const std::string contents = detail::contents_of(directory);
-  refuse(directory,
-         detail::message(
-             "expected DICOM images, found none", contents == "nothing" ? "" : " but " + contents,
-             volume == here.end() ? "" : "; name the file itself, as " + volume->string()));
+  const std::string contents = contents_of(directory);
+  refuse(
+      directory,
+      message("expected DICOM images, found none", contents == "nothing" ? "" : " but " + contents,
+              volume == here.end() ? "" : "; name the file itself, as " + volume->string()));
 }
 
 VolumeFile read_directory(const Request& request) {
   const auto& [path, options, budget] = request;
-  const std::vector<fs::path> slices = detail::slices_without_dicom(path, budget);
-  if (!slices.empty()) return detail::read_slices(path, slices, options, budget);
+  const std::vector<fs::path> slices = slices_without_dicom(path, budget);
+  if (!slices.empty()) return read_slices(path, slices, options, budget);
   require_dicom(path);
-  return detail::read_dicom(path, options, budget);
+  return read_dicom(path, options, budget);
 }
 
 VolumeFile read_file(const Request& request) {
   const auto& [path, options, budget] = request;
-  if (options.raw) return read_array(request, detail::open_raw(path, *options.raw));
+  if (options.raw) return read_array(request, open_raw(path, *options.raw));
   if (fs::is_directory(path)) return read_directory(request);
-  if (const auto scan = detail::open_array(path, request.opening())) {
+  if (const auto scan = open_array(path, request.opening())) {
     return read_array(request, *scan);
   }
-  if (detail::is_picture(path)) return read_one_picture(request);
-  if (detail::is_zip(path) || detail::looks_like_dicom(path)) {
-    return detail::read_dicom(path, options, budget);
+  if (is_picture(path)) return read_one_picture(request);
+  if (is_zip(path) || looks_like_dicom(path)) {
+    return read_dicom(path, options, budget);
   }
   refuse_unknown(path);
 }
@@ -198,13 +189,13 @@ VolumeFile read_file(const Request& request) {
 /// The header of a file with a known name, or of a raw one.
 ScanFile open_header(const Request& request) {
   const fs::path& file = request.path;
-  if (request.options.raw) return detail::open_raw(file, *request.options.raw);
-  return detail::is_picture(file) ? detail::open_picture(file, request.opening())
-                                  : *detail::open_array(file, request.opening());
+  if (request.options.raw) return open_raw(file, *request.options.raw);
+  return is_picture(file) ? open_picture(file, request.opening())
+                          : *open_array(file, request.opening());
 }
 
 VolumeInfo describe(const Request& request) {
-  const detail::ScopedFile scope(request.budget, request.path);
+  const ScopedFile scope(request.budget, request.path);
   VolumeInfo info;
   info.description = request.path.filename().string();
   try {
@@ -212,9 +203,8 @@ VolumeInfo describe(const Request& request) {
     info.format = scan.format;
     info.modality = scan.grid.modality;
     info.warnings = scan.warnings;
-    detail::set_grid(info, scan.sheared
-                               ? detail::plan_unsheared(scan.file, scan.grid, *scan.sheared).grid
-                               : static_cast<const VoxelGrid&>(scan.grid));
+    set_grid(info, scan.sheared ? plan_unsheared(scan.file, scan.grid, *scan.sheared).grid
+                                : static_cast<const VoxelGrid&>(scan.grid));
   } catch (const InputError& error) {
     info.problem = error.what();
   }
@@ -224,17 +214,16 @@ VolumeInfo describe(const Request& request) {
 /// DICOM series, or slices, then the other volumes.
 std::vector<VolumeInfo> list_directory(const Request& request) {
   const auto& [path, options, budget] = request;
-  const std::vector<fs::path> slices = detail::slices_without_dicom(path, budget);
-  std::vector<VolumeInfo> all =
-      slices.empty() ? detail::list_dicom(path, options, budget)
-                     : std::vector{detail::describe_slices(path, slices, request.opening())};
-  for (const fs::path& file : detail::files_in(path)) {
+  const std::vector<fs::path> slices = slices_without_dicom(path, budget);
+  std::vector<VolumeInfo> all = slices.empty()
+                                    ? list_dicom(path, options, budget)
+                                    : std::vector{describe_slices(path, slices, request.opening())};
+  for (const fs::path& file : files_in(path)) {
     const bool slice = std::find(slices.begin(), slices.end(), file) != slices.end();
     if (is_listed(file) && !slice) all.push_back(describe({file, options, budget}));
   }
   if (all.empty())
-    refuse(path,
-           "expected DICOM series, slices or volume files, found " + detail::contents_of(path));
+    refuse(path, "expected DICOM series, slices or volume files, found " + contents_of(path));
   return all;
 }
 
@@ -242,8 +231,8 @@ std::vector<VolumeInfo> list(const Request& request) {
   const auto& [path, options, budget] = request;
   if (fs::is_directory(path) && !options.raw) return list_directory(request);
   if (options.raw || has_known_extension(path)) return {describe(request)};
-  if (detail::is_zip(path) || detail::looks_like_dicom(path)) {
-    std::vector<VolumeInfo> all = detail::list_dicom(path, options, budget);
+  if (is_zip(path) || looks_like_dicom(path)) {
+    std::vector<VolumeInfo> all = list_dicom(path, options, budget);
     if (all.empty()) refuse(path, "expected DICOM images, found none");
     return all;
   }
@@ -257,7 +246,9 @@ struct GridFound {
 
 }  // namespace
 
-std::optional<ScanFile> detail::open_array(const fs::path& file, const Opening& opening) {
+namespace detail::volume_files {
+
+std::optional<ScanFile> open_array(const fs::path& file, const Opening& opening) {
   const ArrayFormat* format = array_format_of(file);
   if (format == nullptr) return std::nullopt;
   ScanFile scan = format->open(file, opening);
@@ -267,34 +258,34 @@ std::optional<ScanFile> detail::open_array(const fs::path& file, const Opening& 
   return scan;
 }
 
-detail::Opening detail::opening_of(const ReadOptions& options, MemoryBudget& budget) {
+Opening opening_of(const ReadOptions& options, MemoryBudget& budget) {
   return {budget,           options.limits.allow_outside,     Values::kOne, options.spacing,
           options.resample, {options.volume, options.channel}};
 }
 
-bool detail::is_array_file(const fs::path& file) { return array_format_of(file) != nullptr; }
+bool is_array_file(const fs::path& file) { return array_format_of(file) != nullptr; }
 
-void detail::announce(VoxelGrid grid, const ReadOptions& options) {
+void announce(VoxelGrid grid, const ReadOptions& options) {
   grid.spacing = options.spacing.value_or(grid.spacing);
   if (!options.modality.empty()) grid.modality = options.modality;
   if (options.on_grid) options.on_grid(grid);
 }
 
-void detail::refuse_unknown(const fs::path& file) {
+void refuse_unknown(const fs::path& file) {
   refuse(file,
          "expected .nii .nii.gz .hdr .mgz .nrrd .nhdr .mha .mhd .tif .png .bmp .jpg .inv3 .isq "
          ".aim .vgi, "
          "DICOM, or --raw with the layout of a raw file, found none of them");
 }
 
-void detail::require_options(const fs::path& path, const ReadOptions& options) {
+void require_options(const fs::path& path, const ReadOptions& options) {
   if (options.spacing) require_positive_spacing(path, *options.spacing);
   const std::string& modality = options.modality;
   if (modality.empty() || modality == "CT" || modality == "MR" || modality == "other") return;
   refuse(path, "expected the modality CT, MR or other, found " + in_quotes(modality));
 }
 
-std::size_t detail::drop_spacing_warnings(std::vector<std::string>& warnings) {
+std::size_t drop_spacing_warnings(std::vector<std::string>& warnings) {
   std::erase_if(warnings, [](const std::string& warning) {
     return warning.find("is typical of screens") != std::string::npos;
   });
@@ -303,7 +294,7 @@ std::size_t detail::drop_spacing_warnings(std::vector<std::string>& warnings) {
   });
 }
 
-void detail::apply_options(const ReadOptions& options, VolumeFile& file) {
+void apply_options(const ReadOptions& options, VolumeFile& file) {
   if (!options.modality.empty()) file.volume.modality = options.modality;
   if (!options.spacing) return;
   const std::size_t assumed = drop_spacing_warnings(file.warnings);
@@ -313,14 +304,13 @@ void detail::apply_options(const ReadOptions& options, VolumeFile& file) {
   }
 }
 
-bool detail::is_picture(const fs::path& file) { return picture_format_of(file) != nullptr; }
+bool is_picture(const fs::path& file) { return picture_format_of(file) != nullptr; }
 
-VolumeFile detail::read_picture(const fs::path& file, const Opening& opening) {
+VolumeFile read_picture(const fs::path& file, const Opening& opening) {
   return picture_format_of(file)->read(file, opening);
 }
 
-void detail::visit_picture(const fs::path& file, const Opening& opening,
-                           const VisitSamples& visit) {
+void visit_picture(const fs::path& file, const Opening& opening, const VisitSamples& visit) {
   const ScopedFile scope(opening.budget, file);
   const PictureFormat* format = picture_format_of(file);
   if (format->read == read_tiff) return visit_tiff(file, opening, visit);
@@ -328,30 +318,32 @@ void detail::visit_picture(const fs::path& file, const Opening& opening,
   visit(std::vector<double>(samples.begin(), samples.end()));
 }
 
-ScanFile detail::open_picture(const fs::path& file, const Opening& opening) {
+ScanFile open_picture(const fs::path& file, const Opening& opening) {
   const ScopedFile scope(opening.budget, file);
   return picture_format_of(file)->open(file, opening);
 }
 
-detail::OpenSlices detail::open_picture_slices(const fs::path& file, const Opening& opening) {
+OpenSlices open_picture_slices(const fs::path& file, const Opening& opening) {
   const ScopedFile scope(opening.budget, file);
   return picture_format_of(file)->slices(file, opening);
 }
 
-void detail::set_grid(VolumeInfo& info, const VoxelGrid& grid) {
+void set_grid(VolumeInfo& info, const VoxelGrid& grid) {
   info.size = grid.size;
   info.spacing = grid.spacing;
   info.origin = grid.origin;
   info.direction = grid.direction;
 }
 
+}  // namespace detail::volume_files
+
 VolumeFile read_volume(const fs::path& path, const ReadOptions& options) {
   MemoryBudget budget(path, options.limits);
   const ReadRecord record;
   return in_one_line(path, [&] {
-    detail::require_options(path, options);
+    require_options(path, options);
     VolumeFile file = read_file({path, options, budget});
-    detail::apply_options(options, file);
+    apply_options(options, file);
     file.files = record.files();
     return file;
   });
@@ -372,7 +364,7 @@ std::vector<VolumeInfo> list_volumes(const fs::path& path, const ReadOptions& op
   std::vector<VolumeInfo> all = in_one_line(path, [&] { return list({path, options, budget}); });
   for (VolumeInfo& info : all) {
     info.spacing = options.spacing.value_or(info.spacing);
-    if (options.spacing) detail::drop_spacing_warnings(info.warnings);
+    if (options.spacing) drop_spacing_warnings(info.warnings);
     if (!options.modality.empty()) info.modality = options.modality;
   }
   return all;

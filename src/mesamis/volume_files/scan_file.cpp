@@ -10,7 +10,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 constexpr std::size_t kSamplesAtOnce = 1 << 16;
@@ -459,4 +459,4 @@ void append_slices(const ScanFile& scan, std::uint64_t begin, const SliceRange& 
               [&](auto block) { append_picked(scan, block, out); });
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -22,7 +22,7 @@
 
 /// Shared by the readers of plain arrays (NIfTI, NRRD, MetaImage, InVesalius): a header is read
 /// into a grid and the place and coding of the samples, and read_samples() reads them.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// Where a file's samples lie and how they are coded. i runs fastest, then j, k.
 struct SampleSource {
@@ -172,4 +172,4 @@ void append_samples(std::span<const unsigned char> bytes, const SampleSource& so
 void append_samples(std::span<const unsigned char> bytes, const SampleSource& source,
                     std::vector<double>& out);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -9,7 +9,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/volume_files/formats.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 constexpr std::size_t kBlock = 512;
@@ -159,4 +159,4 @@ ScanFile open_aim(const std::filesystem::path& file, const Opening& opening) {
   return scan;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

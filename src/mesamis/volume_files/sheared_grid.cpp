@@ -8,7 +8,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 constexpr double kRoundOff = 1e-6;  // voxels
@@ -152,4 +152,4 @@ std::vector<float> unsheared(const ShearPlan& plan, const std::vector<float>& sa
   return out;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

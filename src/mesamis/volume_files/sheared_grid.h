@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
 /// Grids whose axes are not orthogonal, brought onto one whose are.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// A sheared grid and the one that replaces it.
 struct ShearPlan {
@@ -41,4 +42,4 @@ ShearPlan plan_unsheared(const std::filesystem::path& file, const VoxelGrid& old
 /// O(voxels of the new grid), in threads; the same bits for any number of them.
 std::vector<float> unsheared(const ShearPlan& plan, const std::vector<float>& samples);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -9,7 +9,7 @@
 #include "mesamis/files/read_record.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,4 +47,4 @@ std::string modality_in_sidecar(const fs::path& image, MemoryBudget& budget,
   }
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -8,7 +8,7 @@
 #include "mesamis/files/memory_budget.h"
 
 /// The JSON file beside an image, as the Brain Imaging Data Structure and dcm2niix have it.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// Reads the modality that a sidecar states: "a.json" beside "a.nii.gz", field "Modality".
 /// @param image     the image's path.
@@ -20,4 +20,4 @@ namespace mesamis::detail {
 std::string modality_in_sidecar(const std::filesystem::path& image, MemoryBudget& budget,
                                 std::vector<std::string>& warnings);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

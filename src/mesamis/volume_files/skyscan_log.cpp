@@ -11,7 +11,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/volume_files/text_header.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -67,4 +67,4 @@ std::optional<SkyscanLog> find_skyscan_log(const fs::path& directory) {
 
 bool is_scout(const fs::path& picture) { return lower(picture.stem().string()).ends_with("_spr"); }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -5,9 +5,10 @@
 #include <optional>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
 /// The log that SkyScan's scanners (Bruker) leave beside the slices that they reconstruct.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// What a log says of the slices beside it.
 struct SkyscanLog {
@@ -26,4 +27,4 @@ std::optional<SkyscanLog> find_skyscan_log(const std::filesystem::path& director
 /// Whether a picture is a scout view, by its name: "..._spr".
 bool is_scout(const std::filesystem::path& picture);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -13,7 +13,7 @@
 #include "mesamis/volume_files/formats.h"
 #include "mesamis/volume_files/skyscan_log.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -208,4 +208,4 @@ VolumeInfo describe_slices(const fs::path& directory, const std::vector<fs::path
   return info;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

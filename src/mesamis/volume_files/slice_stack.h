@@ -10,7 +10,7 @@
 #include "mesamis/volume_files/read_volume.h"
 
 /// Pictures of a directory as the slices of one volume.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// Compares names as people count: a run of digits counts as a number, so that "s9" comes before
 /// "s10". Names that differ only in zeros before a number are ordered by their characters.
@@ -63,4 +63,4 @@ VolumeFile read_slices(const std::filesystem::path& directory,
 VolumeInfo describe_slices(const std::filesystem::path& directory,
                            const std::vector<std::filesystem::path>& files, const Opening& opening);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

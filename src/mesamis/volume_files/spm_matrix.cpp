@@ -12,7 +12,7 @@
 #include "mesamis/files/number_type.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -269,4 +269,4 @@ std::optional<SpmMatrix> read_spm_matrix(const fs::path& file, std::int64_t volu
   return found.place;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -7,9 +7,10 @@
 #include <optional>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
 /// The matrix that SPM stores in a MATLAB file beside an image.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// Where the voxels lie: RAS, mm.
 struct SpmMatrix {
@@ -29,4 +30,4 @@ struct SpmMatrix {
 /// O(variables) and the bytes of compressed ones; constant memory.
 std::optional<SpmMatrix> read_spm_matrix(const std::filesystem::path& file, std::int64_t volume);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -10,7 +10,7 @@
 #include "mesamis/files/read_record.h"
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ std::vector<std::int64_t> whole_numbers_of(const std::filesystem::path& file,
   return parse_all<std::int64_t>(file, field, text, expected);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -9,8 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "mesamis/rooms.h"
+
 /// Shared by the text headers of NRRD and MetaImage.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// Header lines one by one; bounded, so that a binary file is not taken for a long line.
 class HeaderLines {
@@ -69,4 +71,4 @@ std::vector<std::int64_t> whole_numbers_of(const std::filesystem::path& file,
                                            const std::string& field, std::string_view text,
                                            std::size_t expected);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

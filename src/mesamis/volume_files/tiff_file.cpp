@@ -18,7 +18,7 @@
 #include "mesamis/volume_files/grey_pixels.h"
 #include "mesamis/volume_files/tiff_layout.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 struct CloseTiff {
@@ -587,4 +587,4 @@ OpenSlices open_tiff_slices(const std::filesystem::path& file, const Opening& op
           }};
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -11,7 +11,7 @@
 #include "mesamis/files/text_scan.h"
 #include "mesamis/files/xml.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -453,4 +453,4 @@ TiffLayout read_tiff_layout(const fs::path& file, std::string_view text, std::in
   return layout;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -13,7 +13,7 @@
 #include "mesamis/files/value_axes.h"
 
 /// What the description of a TIFF says of its pages: ImageJ's, OME-XML, and tifffile's.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// How the pages of a file are slices, volumes and channels, and what their values and pixels are.
 struct TiffLayout {
@@ -43,4 +43,4 @@ struct TiffLayout {
 TiffLayout read_tiff_layout(const std::filesystem::path& file, std::string_view text,
                             std::int64_t pages, std::int64_t most, MemoryBudget& budget);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -12,7 +12,7 @@
 #include "mesamis/volume_files/formats.h"
 #include "mesamis/volume_files/text_header.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -155,4 +155,4 @@ ScanFile open_vgi(const fs::path& file, const Opening& opening) {
   return scan;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

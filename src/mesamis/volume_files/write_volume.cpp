@@ -17,7 +17,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/volume_files/nrrd_header.h"
 
-namespace mesamis {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,8 +29,8 @@ std::vector<std::int16_t> rounded(const fs::path& path, std::span<const float> s
   for (std::size_t n = 0; n < samples.size(); ++n) {
     const float value = std::round(samples[n]);
     if (!(value >= float{Limits::lowest()} && value <= float{Limits::max()})) {
-      detail::refuse(path, "cannot be written: expected samples that fit into 16 bits, found " +
-                               std::to_string(samples[n]));
+      refuse(path, "cannot be written: expected samples that fit into 16 bits, found " +
+                       std::to_string(samples[n]));
     }
     shorts[n] = static_cast<std::int16_t>(value);
   }
@@ -51,7 +51,7 @@ class NrrdFile {
         file_(path),
         out_(file_.temporary_path(), std::ios::binary) {
     const char* type = type_ == SampleType::kFloat ? "float" : "int16";
-    put(detail::nrrd_header(grid, {.type = type, .gzip = options.gzip}));
+    put(nrrd_header(grid, {.type = type, .gzip = options.gzip}));
     if (options.gzip) packer_.emplace(path);
   }
 
@@ -77,29 +77,29 @@ class NrrdFile {
   }
 
   void require_written() const {
-    if (!out_) detail::refuse(path_, "cannot be written; is the disk full?");
+    if (!out_) refuse(path_, "cannot be written; is the disk full?");
   }
 
   fs::path path_;
   SampleType type_;
   AtomicFile file_;
   std::ofstream out_;
-  std::optional<detail::Deflater> packer_;
+  std::optional<Deflater> packer_;
 };
 
 }  // namespace
 
 void write_nrrd(const OutputPath& path, const Volume& volume, const NrrdOptions& options) {
   if (volume.samples.size() != volume.voxel_count()) {
-    detail::refuse(path, "cannot be written: expected " + std::to_string(volume.voxel_count()) +
-                             " samples, found " + std::to_string(volume.samples.size()));
+    refuse(path, "cannot be written: expected " + std::to_string(volume.voxel_count()) +
+                     " samples, found " + std::to_string(volume.samples.size()));
   }
   write_nrrd(path, VolumeSlices(volume), options);
 }
 
 void write_nrrd(const OutputPath& path, const SliceSource& source, const NrrdOptions& options) {
   if (path.extension() != ".nrrd" && path.extension() != ".NRRD") {
-    detail::refuse(path, "cannot be written: expected a name that ends with .nrrd");
+    refuse(path, "cannot be written: expected a name that ends with .nrrd");
   }
   const VoxelGrid& grid = source.grid();
   const Index slab = options.slab > 0 ? options.slab : slab_slices(grid);
@@ -115,4 +115,4 @@ void write_nrrd(const OutputPath& path, const SliceSource& source, const NrrdOpt
   file.commit();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::volume_files

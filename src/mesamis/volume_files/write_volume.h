@@ -7,7 +7,7 @@
 #include "mesamis/image/slice_source.h"
 #include "mesamis/image/volume.h"
 
-namespace mesamis {
+namespace mesamis::detail::volume_files {
 
 enum class SampleType {
   kFloat,  ///< 32-bit floating point
@@ -41,4 +41,4 @@ void write_nrrd(const OutputPath& path, const Volume& volume, const NrrdOptions&
 /// Memory: a slab's samples.
 void write_nrrd(const OutputPath& path, const SliceSource& source, const NrrdOptions& options = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::volume_files

@@ -10,7 +10,7 @@
 
 #include "mesamis/files/refuse.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 namespace {
 
 using Kind = ChunkCodec::Kind;
@@ -274,4 +274,4 @@ std::string chunk_name(const ZarrArray& array, const std::vector<std::uint64_t>&
   return name;
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -11,7 +11,7 @@
 #include "mesamis/volume_files/chunk_array.h"
 
 /// The metadata of one array in a Zarr store.
-namespace mesamis::detail {
+namespace mesamis::detail::volume_files {
 
 /// A file of many chunks, with a table of where each lies.
 struct ZarrShard {
@@ -40,4 +40,4 @@ ZarrArray read_zarr_v3(const JsonValue& metadata);
 /// The name of a chunk's or a shard's file below the array's folder: "0.3.12", "c/0/3/12".
 std::string chunk_name(const ZarrArray& array, const std::vector<std::uint64_t>& place);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::volume_files

@@ -14,19 +14,10 @@
 #include "mesamis/volume_files/multiscales.h"
 #include "mesamis/volume_files/zarr_array.h"
 
-namespace mesamis {
+namespace mesamis::detail::volume_files {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::in_quotes;
-using detail::JsonValue;
-using detail::MemoryBudget;
-using detail::message;
-using detail::OpenedArray;
-using detail::refuse;
-using detail::ScaleLevel;
-using detail::StoredChunk;
-using detail::ZarrArray;
 
 constexpr const char *kArray2 = ".zarray", *kGroup2 = ".zgroup", *kAttributes2 = ".zattrs",
                      *kNode3 = "zarr.json";
@@ -49,7 +40,7 @@ struct Document {
 
 Document read_document(const fs::path& file, MemoryBudget& budget) {
   if (!is_there(file)) return {file};
-  return {file, detail::read_metadata(file, budget)};
+  return {file, read_metadata(file, budget)};
 }
 
 /// A group or an array.
@@ -59,9 +50,9 @@ struct Node {
 
   std::vector<ScaleLevel> levels() const {
     const JsonValue all = attributes.value();
-    if (!v3) return detail::read_multiscales(all);
+    if (!v3) return read_multiscales(all);
     const auto own = all.find("attributes");
-    return own ? detail::read_multiscales(*own) : std::vector<ScaleLevel>{};
+    return own ? read_multiscales(*own) : std::vector<ScaleLevel>{};
   }
 };
 
@@ -162,9 +153,9 @@ std::string names_of(const fs::path& root, const std::vector<Found>& found) {
   std::vector<std::string> names;
   names.reserve(found.size());
   for (const Found& array : found) {
-    names.push_back(detail::shown(array.folder.lexically_relative(root).string()));
+    names.push_back(shown(array.folder.lexically_relative(root).string()));
   }
-  return detail::first_of(names);
+  return first_of(names);
 }
 
 Found find_array(const fs::path& path, const std::string& dataset, MemoryBudget& budget) {
@@ -195,30 +186,29 @@ struct ShardIndex {
 
 std::string read_bytes_of(const fs::path& file, std::uint64_t begin, std::uint64_t size,
                           MemoryBudget& budget) {
-  const std::uint64_t there = detail::size_of(file);
+  const std::uint64_t there = size_of(file);
   if (begin > there || size > there - begin) {
     refuse(file,
            message("expected ", size, " bytes from byte ", begin, " on, found a file of ", there));
   }
   budget.claim(size, 1, "a chunk as stored");
   std::string bytes(size, '\0');
-  detail::ByteSource source(file, detail::Packing::kPlain, begin);
+  ByteSource source(file, Packing::kPlain, begin);
   bytes.resize(source.read(bytes.data(), size));
   return bytes;
 }
 
-void read_index(const fs::path& file, const detail::ZarrShard& shard, MemoryBudget& budget,
+void read_index(const fs::path& file, const ZarrShard& shard, MemoryBudget& budget,
                 ShardIndex& index) {
   if (index.file == file) return;
-  const std::uint64_t size = shard.index_bytes(), all = detail::size_of(file);
+  const std::uint64_t size = shard.index_bytes(), all = size_of(file);
   if (size > all) {
     refuse(file, message("expected a table of ", size, " bytes in the shard, found ", all));
   }
   index.file.clear();
   std::string table = read_bytes_of(file, shard.index_at_end ? all - size : 0, size, budget);
   if (shard.index_has_sum) {
-    table = detail::unpack_chunk(file, std::move(table), {{detail::ChunkCodec::Kind::kCrc32c}},
-                                 size - 4);
+    table = unpack_chunk(file, std::move(table), {{ChunkCodec::Kind::kCrc32c}}, size - 4);
   }
   index.table = std::move(table);
   index.file = file;
@@ -229,27 +219,27 @@ std::optional<StoredChunk> read_chunk_in_shard(const fs::path& folder, const Zar
                                                std::vector<std::uint64_t> place,
                                                MemoryBudget& budget, ShardIndex& index) {
   constexpr std::uint64_t kMissing = ~std::uint64_t{0};
-  const detail::ZarrShard& shard = *array.shard;
+  const ZarrShard& shard = *array.shard;
   std::uint64_t within = 0;
   for (std::size_t a = 0; a < place.size(); ++a) {
     within = within * shard.chunks[a] + place[a] % shard.chunks[a];
     place[a] /= shard.chunks[a];
   }
-  const fs::path file = folder / detail::chunk_name(array, place);
+  const fs::path file = folder / chunk_name(array, place);
   if (!is_there(file)) return {};
-  detail::require_file(file);
+  require_file(file);
   read_index(file, shard, budget, index);
-  const auto begin = detail::load<std::uint64_t>(index.table.data() + 16 * within);
-  const auto size = detail::load<std::uint64_t>(index.table.data() + 16 * within + 8);
+  const auto begin = load<std::uint64_t>(index.table.data() + 16 * within);
+  const auto size = load<std::uint64_t>(index.table.data() + 16 * within + 8);
   if (begin == kMissing && size == kMissing) return {};
   return StoredChunk{file, read_bytes_of(file, begin, size, budget), array.layout.codecs};
 }
 
-std::optional<StoredChunk> read_chunk(const fs::path& file, const detail::ChunkLayout& layout,
+std::optional<StoredChunk> read_chunk(const fs::path& file, const ChunkLayout& layout,
                                       MemoryBudget& budget) {
   if (!is_there(file)) return {};
-  detail::require_file(file);
-  detail::ByteSource source(file, detail::Packing::kPlain);
+  require_file(file);
+  ByteSource source(file, Packing::kPlain);
   const std::uint64_t size = source.most_bytes();
   budget.claim(size, 1, "a chunk as stored");
   StoredChunk chunk{file, std::string(size, '\0'), layout.codecs};
@@ -261,7 +251,7 @@ ZarrArray read_array(const fs::path& folder, MemoryBudget& budget) {
   const Node node = read_node(folder, budget);
   if (!node.array) refuse(folder, "expected a Zarr array, found none");
   const JsonValue metadata = node.metadata.value();
-  return node.v3 ? detail::read_zarr_v3(metadata) : detail::read_zarr_v2(metadata);
+  return node.v3 ? read_zarr_v3(metadata) : read_zarr_v2(metadata);
 }
 
 /// The attributes by which CF conventions scale values are told: they are not applied.
@@ -285,12 +275,12 @@ OpenedArray opened(const fs::path& path, const Found& found, const ChunkOptions&
   out.format = found.level ? "OME-Zarr" : "Zarr";
   const auto axes = found.level ? found.level->axes : std::vector<std::string>{};
   out.grid.size =
-      detail::require_layout(found.folder, array.layout, axes, {options.volume, options.channel});
+      require_layout(found.folder, array.layout, axes, {options.volume, options.channel});
   if (!axes.empty() && axes.size() != array.layout.shape.size()) {
     refuse(found.folder, message("expected as many axes as the image states, ", axes.size(),
                                  ", found ", array.layout.shape.size()));
   }
-  detail::require_chain(found.folder, array.layout.codecs);
+  require_chain(found.folder, array.layout.codecs);
   warn_of_scale(found.folder, budget, out.warnings);
   if (found.level) {
     const auto& more = found.level->warnings;
@@ -298,7 +288,7 @@ OpenedArray opened(const fs::path& path, const Found& found, const ChunkOptions&
     out.grid.origin = found.level->origin;
     out.labels = found.level->labels;
   }
-  detail::set_spacing(out, found.level ? found.level->spacing : std::nullopt, options.spacing);
+  set_spacing(out, found.level ? found.level->spacing : std::nullopt, options.spacing);
   out.layout = array.layout;
   out.limits = options.limits;
   // One read() at a time fetches chunks.
@@ -306,7 +296,7 @@ OpenedArray opened(const fs::path& path, const Found& found, const ChunkOptions&
                index = std::make_shared<ShardIndex>()](const std::vector<std::uint64_t>& place,
                                                        MemoryBudget& memory) {
     if (array.shard) return read_chunk_in_shard(folder, array, place, memory, *index);
-    return read_chunk(folder / detail::chunk_name(array, place), array.layout, memory);
+    return read_chunk(folder / chunk_name(array, place), array.layout, memory);
   };
   return out;
 }
@@ -323,10 +313,10 @@ bool is_zarr(const fs::path& path) noexcept {
 
 std::unique_ptr<ChunkedScan> open_zarr(const fs::path& path, const ChunkOptions& options) {
   MemoryBudget budget(path, options.limits);
-  return detail::in_one_line(path, [&] {
+  return in_one_line(path, [&] {
     const Found found = find_array(path, options.dataset, budget);
-    return detail::make_chunked_scan(opened(path, found, options, budget));
+    return make_chunked_scan(opened(path, found, options, budget));
   });
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::volume_files

@@ -43,7 +43,7 @@ double quantile(std::vector<double>& values, double share) {
 Volume denoised(const Volume& volume, const GeodesicOptions& options, const Progress& progress) {
   Volume smooth = gaussian_smoothed(volume, options.smooth_voxels);
   if (options.diffusions == 0) return smooth;
-  return detail::diffused(smooth, options.diffusions, options.conductance, progress);
+  return diffused(smooth, options.diffusions, options.conductance, progress);
 }
 
 void require_crossing(const Volume& volume, double level, const char* what) {
@@ -110,8 +110,8 @@ Start prepare(const Volume& volume, double level, const GeodesicOptions& options
               const Progress& progress) {
   const Volume image = denoised(volume, options, progress);
   require_crossing(image, level, "the level");
-  Volume gradient = detail::gradient_magnitude(image, options.sigma * volume.shortest_side());
-  Volume distance = detail::signed_distance(image, level, kBand);
+  Volume gradient = gradient_magnitude(image, options.sigma * volume.shortest_side());
+  Volume distance = signed_distance(image, level, kBand);
   Start start;
   start.report.edge_gradient = edge_gradient(image, level, gradient);
   start.report.flat_gradient = flat_gradient(distance, gradient);
@@ -124,7 +124,7 @@ Start prepare(const Volume& volume, double level, const GeodesicOptions& options
 
 }  // namespace
 
-bool has_geodesic_contour() { return detail::have_itk(); }
+bool has_geodesic_contour() { return have_itk(); }
 
 void require_valid(const GeodesicOptions& o) {
   const auto within = [](double x, double low, double high) { return low <= x && x <= high; };
@@ -151,11 +151,10 @@ GeodesicContour geodesic_contour(const Volume& volume, double level, const Geode
   require_valid(options);
   require_scan(volume);
   const Start start = prepare(volume, level, options, progress);
-  detail::EvolutionResult result =
-      detail::evolved(start.level_set, start.speed,
-                      {options.propagation, options.curvature, options.advection,
-                       options.iterations, options.rms_change},
-                      progress);
+  EvolutionResult result = evolved(start.level_set, start.speed,
+                                   {options.propagation, options.curvature, options.advection,
+                                    options.iterations, options.rms_change},
+                                   progress);
   require_crossing(result.level_set, 0, "the contour's end");
   GeodesicContour contour{std::move(result.level_set), start.report};
   contour.report.iterations = result.iterations;

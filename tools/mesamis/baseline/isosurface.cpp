@@ -8,7 +8,7 @@
 
 namespace mesamis {
 
-bool has_isosurface() { return detail::have_vtk(); }
+bool has_isosurface() { return have_vtk(); }
 
 void require_valid(const IsosurfaceOptions& options) {
   constexpr double kMost = 100;  // voxels, as of gaussian_smoothed()
@@ -20,7 +20,7 @@ void require_valid(const IsosurfaceOptions& options) {
 
 TriMesh isosurface(const Volume& volume, double level, const IsosurfaceOptions& options) {
   require_valid(options);
-  return detail::vtk_isosurface(volume, level, options);
+  return vtk_isosurface(volume, level, options);
 }
 
 }  // namespace mesamis

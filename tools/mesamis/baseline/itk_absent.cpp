@@ -3,7 +3,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/baseline/itk_level_set.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::baseline {
 namespace {
 
 [[noreturn]] void refuse() {
@@ -20,4 +20,4 @@ EvolutionResult evolved(const Volume&, const Volume&, const Evolution&, const Pr
   refuse();
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::baseline

@@ -19,7 +19,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::baseline {
 namespace {
 
 using Image = itk::Image<float, 3>;
@@ -224,4 +224,4 @@ EvolutionResult evolved(const Volume& start, const Volume& speed, const Evolutio
           monitor.rms_change(), monitor.converged()};
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::baseline

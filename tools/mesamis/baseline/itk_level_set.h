@@ -3,6 +3,7 @@
 
 #include "mesamis/base/progress.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 
 /// ITK's filters on volumes, in the axes of the grid. A length in voxels is a multiple of the
 /// shortest side of a voxel. Two sources define these functions: one calls ITK, the other, for a
@@ -10,7 +11,7 @@
 ///
 /// Each filter runs in thread_count() work units and gives the same bits for any number. The
 /// filters that ITK makes within a filter follow ITK's global default, which is not changed here.
-namespace mesamis::detail {
+namespace mesamis::detail::baseline {
 
 /// Whether the library was built with ITK.
 bool have_itk();
@@ -51,4 +52,4 @@ struct EvolutionResult {
 EvolutionResult evolved(const Volume& start, const Volume& speed, const Evolution& evolution,
                         const Progress& progress);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::baseline

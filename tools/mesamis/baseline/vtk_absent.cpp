@@ -3,7 +3,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/baseline/vtk_isosurface.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::baseline {
 
 bool have_vtk() { return false; }
 
@@ -11,4 +11,4 @@ TriMesh vtk_isosurface(const Volume&, double, const IsosurfaceOptions&) {
   throw InputError("isosurface: not in this program, which was built without VTK");
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::baseline

@@ -19,7 +19,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::baseline {
 namespace {
 
 /// Keeps the first error of a filter. VTK prints no message that an observer receives.
@@ -140,4 +140,4 @@ TriMesh vtk_isosurface(const Volume& volume, double level, const IsosurfaceOptio
   return in_world(*surface, volume);
 }
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::baseline

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "mesamis/baseline/isosurface.h"
+#include "mesamis/rooms.h"
 
-namespace mesamis::detail {
+namespace mesamis::detail::baseline {
 
 /// Whether VTK was there when the program was built.
 bool have_vtk();
@@ -13,4 +14,4 @@ bool have_vtk();
 /// @throws InputError  as isosurface(), or if there is no VTK.
 TriMesh vtk_isosurface(const Volume& volume, double level, const IsosurfaceOptions& options);
 
-}  // namespace mesamis::detail
+}  // namespace mesamis::detail::baseline

@@ -10,7 +10,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis {
+namespace mesamis::detail::parallel {
 
 MpiTeam::MpiTeam(int& count, char**& arguments) {
   int provided = 0;
@@ -45,4 +45,4 @@ void MpiTeam::end_all(int status) {
   std::_Exit(status);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::parallel

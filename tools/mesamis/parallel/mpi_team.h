@@ -3,7 +3,7 @@
 
 #include "mesamis/slabs/team.h"
 
-namespace mesamis {
+namespace mesamis::detail::parallel {
 
 /// The processes that mpirun or srun has started together.
 class MpiTeam : public Team {
@@ -29,4 +29,4 @@ class MpiTeam : public Team {
   int size_ = 1, rank_ = 0;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::parallel

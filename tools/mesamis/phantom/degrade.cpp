@@ -10,7 +10,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/image/gaussian.h"
 
-namespace mesamis {
+namespace mesamis::detail::phantom {
 namespace {
 
 constexpr double kHuge = 1e30;  // no limit but finite
@@ -113,4 +113,4 @@ Index DegradedSlices::slab() const {
   return slab_slices(grid(), 2 * gaussian_reach(options_.blur));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::phantom

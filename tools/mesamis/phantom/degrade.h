@@ -6,7 +6,7 @@
 #include "mesamis/image/slice_source.h"
 #include "mesamis/image/volume.h"
 
-namespace mesamis {
+namespace mesamis::detail::phantom {
 
 /// What a scanner does to an image, in the order in which it is applied.
 struct DegradeOptions {
@@ -51,4 +51,4 @@ class DegradedSlices : public SliceSource {
   DegradeOptions options_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::phantom

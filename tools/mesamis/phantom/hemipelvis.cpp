@@ -2,7 +2,7 @@
 #include "mesamis/phantom/implicit_shapes.h"
 #include "mesamis/phantom/phantom_designs.h"
 
-namespace mesamis {
+namespace mesamis::detail::phantom {
 namespace {
 
 /// A left hip bone: x to the side, y to the back, z up; the middle of the socket is at kSocket.
@@ -113,4 +113,4 @@ double hemipelvis_inside(const Vec3& p) {
 /// A dense shell of 1.5 mm around lighter bone.
 double hemipelvis_grey(const Vec3&, double depth) { return kBone - 30 * smooth_step(depth, 1, 2); }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::phantom

@@ -5,10 +5,11 @@
 #include <cmath>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
 /// Shapes as functions that are positive inside, at most 1-Lipschitz, and near their zero the
 /// signed distance or close to it. Lengths in mm.
-namespace mesamis {
+namespace mesamis::detail::phantom {
 
 inline Vec3 unit(const Vec3& v) { return (1 / norm(v)) * v; }
 
@@ -86,4 +87,4 @@ inline double smooth_step(double x, double lo, double hi) {
   return t * t * (3 - 2 * t);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::phantom

@@ -13,7 +13,7 @@
 #include "mesamis/surface/half_edges.h"
 #include "mesamis/surface/measure.h"
 
-namespace mesamis {
+namespace mesamis::detail::phantom {
 namespace {
 
 constexpr std::size_t kBlockBricks = 8;  // bricks per direction that are decided at once
@@ -435,4 +435,4 @@ TriMesh extract_implicit(const GridLines& lines, const ImplicitField& inside, do
   return surface;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::phantom

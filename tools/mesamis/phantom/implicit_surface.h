@@ -5,10 +5,11 @@
 #include <functional>
 #include <vector>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// Surfaces given as the zero of a function.
-namespace mesamis {
+namespace mesamis::detail::phantom {
 
 /// Positive inside. At most 1-Lipschitz; near its zero the gradient is continuous and its norm at
 /// least 0.2. Called by several threads at once.
@@ -50,4 +51,4 @@ ImplicitError implicit_error(const TriMesh& surface, const ImplicitField& inside
 /// Only bricks near the zero are evaluated, and one value per 512 bricks elsewhere:
 TriMesh extract_implicit(const GridLines& lines, const ImplicitField& inside, double tolerance);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::phantom

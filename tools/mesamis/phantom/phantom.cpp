@@ -7,7 +7,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/phantom/phantom_designs.h"
 
-namespace mesamis {
+namespace mesamis::detail::phantom {
 namespace {
 
 constexpr Index kSizeMax = 4096;
@@ -215,4 +215,4 @@ std::vector<float> PhantomSlices::read(Index first, Index count) const {
   return samples;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::phantom

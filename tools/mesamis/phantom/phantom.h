@@ -11,7 +11,7 @@
 #include "mesamis/image/volume.h"
 
 /// Phantoms: synthetic scans whose surface is known. Each is an implicit function, sampled.
-namespace mesamis {
+namespace mesamis::detail::phantom {
 
 /// One of the phantoms.
 struct PhantomInfo {
@@ -82,4 +82,4 @@ class PhantomSlices : public SliceSource {
   VoxelGrid grid_;
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::phantom

@@ -5,7 +5,7 @@
 
 #include "mesamis/phantom/implicit_shapes.h"
 
-namespace mesamis {
+namespace mesamis::detail::phantom {
 namespace {
 
 /// The vector in a frame that is turned about z, then about its own y.
@@ -104,4 +104,4 @@ const std::vector<PhantomDesign>& phantom_designs() {
   return designs;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::phantom

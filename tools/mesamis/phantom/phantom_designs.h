@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
+#include "mesamis/rooms.h"
 
 /// The phantoms in a box of their own, in mm, the origin in the middle of the box.
-namespace mesamis {
+namespace mesamis::detail::phantom {
 
 /// Between two planes across an axis, grid lines are denser.
 struct FineSlab {
@@ -34,4 +35,4 @@ const std::vector<PhantomDesign>& phantom_designs();
 double hemipelvis_inside(const Vec3& p);
 double hemipelvis_grey(const Vec3& p, double depth);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::phantom

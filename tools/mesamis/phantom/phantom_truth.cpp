@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace mesamis {
+namespace mesamis::detail::phantom {
 namespace {
 
 constexpr double kToleranceVoxel = 0.012;  // leaves room below kTruthErrorVoxel between the samples
@@ -21,4 +21,4 @@ PhantomTruth make_truth(const Phantom& phantom) {
   return truth;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::phantom

@@ -5,7 +5,7 @@
 #include "mesamis/phantom/phantom.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::phantom {
 
 /// The greatest error that the true surface of a phantom may have, of the shortest side of a voxel.
 inline constexpr double kTruthErrorVoxel = 0.02;
@@ -28,4 +28,4 @@ struct PhantomTruth {
 /// @throws InputError  as extract_implicit(). Cost as there.
 PhantomTruth make_truth(const Phantom& phantom);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::phantom

@@ -3,7 +3,7 @@
 
 #include "mesamis/surface/self_intersections.h"
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 
 PrintCheck check_printable(const TriMesh& surface) {
   return {check_surface(surface), find_self_intersections(surface).size()};
@@ -17,4 +17,4 @@ std::string print_flaws_of(const PrintCheck& check) {
   return flaws;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

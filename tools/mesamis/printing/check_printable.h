@@ -8,7 +8,7 @@
 #include "mesamis/printing/prusa_info.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 
 /// What decides whether a surface can be printed. A slicer makes a hollow or truncated print of a
 /// surface that is open or badly oriented, and reports success.
@@ -33,4 +33,4 @@ PrintCheck check_printable(const TriMesh& surface);
 /// @return empty if it can be printed.
 std::string print_flaws_of(const PrintCheck& check);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

@@ -22,7 +22,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -312,4 +312,4 @@ ChildRun run_child(const ChildRequest& request, const std::function<bool()>& sto
   return run;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::printing {
 
 /// A program to be run as a child process. No shell is involved.
 struct ChildRequest {
@@ -66,4 +68,4 @@ std::filesystem::path find_program(const std::string& name);
 /// @throws Cancelled   if stop returned true. The child has ended by then, also if `stop` throws.
 ChildRun run_child(const ChildRequest& request, const std::function<bool()>& stop = {});
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

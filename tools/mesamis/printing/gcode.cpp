@@ -8,7 +8,7 @@
 
 #include "mesamis/files/refuse.h"
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 namespace {
 
 /// The text after the key; none if it does not begin with the key.
@@ -122,7 +122,7 @@ std::string gcode_header_in(std::string_view log) {
 
 std::optional<double> parse_duration(std::string_view text) {
   double seconds = 0;
-  text = detail::trimmed(text);
+  text = trimmed(text);
   if (text.empty()) return std::nullopt;
   while (!text.empty()) {
     const auto number = leading_number(text, &text);
@@ -130,9 +130,9 @@ std::optional<double> parse_duration(std::string_view text) {
     if (!number || unit == 0) return std::nullopt;
     seconds += *number * unit;
     text.remove_prefix(1);
-    text = detail::trimmed(text);
+    text = trimmed(text);
   }
   return seconds;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

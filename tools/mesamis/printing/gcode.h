@@ -7,7 +7,9 @@
 #include <string>
 #include <string_view>
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::printing {
 
 /// What a G-code file states about the print in the comments of its slicer. Values that it does not
 /// state, or that cannot be read, are empty.
@@ -50,4 +52,4 @@ std::string gcode_header_in(std::string_view log);
 /// @return seconds; none if the text is no duration.
 std::optional<double> parse_duration(std::string_view text);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

@@ -7,7 +7,7 @@
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/unused_points.h"
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 
 void require_valid(const PrintBed& bed) {
   for (const double length : {bed.width, bed.depth, bed.height}) {
@@ -42,4 +42,4 @@ std::string size_text(const Vec3& size) {
   return text.str();
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

@@ -3,10 +3,11 @@
 
 #include <string>
 
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// The size of the printer's bed, and the surface on it.
-namespace mesamis {
+namespace mesamis::detail::printing {
 
 inline constexpr double kBedLengthMin = 1;    // mm
 inline constexpr double kBedLengthMax = 1e4;  // mm
@@ -44,4 +45,4 @@ bool fits_on(const PrintBed& bed, const Vec3& size);
 /// Writes a size in mm as "250 x 210 x 210 mm".
 std::string size_text(const Vec3& size);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

@@ -9,7 +9,7 @@
 #include "mesamis/files/refuse.h"
 #include "mesamis/printing/slicer_log.h"
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 namespace {
 
 /// Splits "key = value", without the blanks around them.
@@ -36,7 +36,7 @@ void take_entry(const std::string& key, const std::string& value, PrusaInfo& inf
     return;
   }
   double number = 0;
-  if (is_description(key) || !detail::parse_number(value, number) || !std::isfinite(number)) return;
+  if (is_description(key) || !parse_number(value, number) || !std::isfinite(number)) return;
   const auto whole = static_cast<std::int64_t>(std::clamp(number, -1e18, 1e18));
   if (key == "volume") {
     info.volume = number;
@@ -73,4 +73,4 @@ std::string flaws_of(const PrusaInfo& info) {
   return flaws;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::printing {
 
 /// What `prusa-slicer --info` states about a surface.
 struct PrusaInfo {
@@ -32,4 +34,4 @@ PrusaInfo parse_prusa_info(std::string_view output);
 /// @return empty if it does.
 std::string flaws_of(const PrusaInfo& info);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

@@ -5,7 +5,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 namespace {
 
 struct Range {
@@ -31,4 +31,4 @@ void require_valid(const SliceSettings& settings) {
   require_valid(settings.bed);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

@@ -3,7 +3,7 @@
 
 #include "mesamis/printing/print_bed.h"
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 
 inline constexpr double kLayerMin = 0.02;          // mm
 inline constexpr double kNozzle = 0.4;             // mm, diameter
@@ -24,4 +24,4 @@ struct SliceSettings {
 /// @throws InputError  if a setting is out of its range; the message names it.
 void require_valid(const SliceSettings& settings);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

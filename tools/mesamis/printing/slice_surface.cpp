@@ -15,7 +15,7 @@
 #include "mesamis/printing/temporary_folder.h"
 #include "mesamis/shape_files/surface_files.h"
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 namespace {
 
 namespace fs = std::filesystem;
@@ -176,4 +176,4 @@ SliceResult slice_surface(TriMesh surface, const SliceOptions& options) {
   return result;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

@@ -12,7 +12,7 @@
 #include "mesamis/printing/slice_settings.h"
 #include "mesamis/printing/slicer.h"
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 
 struct SliceOptions {
   Slicer slicer = Slicer::kPrusaSlicer;
@@ -77,4 +77,4 @@ struct SliceResult {
 /// temporary folder holds 50 bytes per triangle and the G-code.
 SliceResult slice_surface(TriMesh surface, const SliceOptions& options);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

@@ -10,7 +10,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/printing/child_process.h"
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 namespace {
 
 namespace fs = std::filesystem;
@@ -61,4 +61,4 @@ InstalledSlicer require_slicer(Slicer slicer) {
   return {slicer, std::move(program), require_cura_definition()};
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

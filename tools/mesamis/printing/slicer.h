@@ -3,8 +3,10 @@
 
 #include <filesystem>
 
+#include "mesamis/rooms.h"
+
 /// The slicers, which are programs of their own: names and places.
-namespace mesamis {
+namespace mesamis::detail::printing {
 
 enum class Slicer { kPrusaSlicer, kCuraEngine };
 
@@ -30,4 +32,4 @@ InstalledSlicer require_slicer(Slicer slicer);
 /// @throws as find_program().
 std::filesystem::path find_slicer(Slicer slicer);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

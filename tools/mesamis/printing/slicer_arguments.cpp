@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 namespace {
 
 constexpr double kGridUpTo = 25;  // percent; above, lines that alternate from layer to layer
@@ -137,4 +137,4 @@ std::vector<std::string> slicer_arguments(const InstalledSlicer& slicer,
   return cura_arguments(slicer, settings);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

@@ -7,7 +7,7 @@
 #include "mesamis/printing/slice_settings.h"
 #include "mesamis/printing/slicer.h"
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 
 /// The files that a slicer reads and writes, in the folder where it runs.
 inline constexpr const char* kSurfaceFile = "surface.stl";
@@ -21,4 +21,4 @@ inline constexpr const char* kGcodeFile = "print.gcode";
 std::vector<std::string> slicer_arguments(const InstalledSlicer& slicer,
                                           const SliceSettings& settings);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

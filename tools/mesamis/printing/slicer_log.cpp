@@ -4,7 +4,7 @@
 #include <sstream>
 #include <utility>
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 namespace {
 
 constexpr std::size_t kLongestLine = 200;
@@ -49,4 +49,4 @@ std::string failure_line(std::string_view output) {
   return (before + last).substr(0, kLongestLine);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

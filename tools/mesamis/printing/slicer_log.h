@@ -4,7 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::printing {
 
 /// Text on one line: control characters become blanks, blanks at the end are removed.
 std::string one_log_line(std::string_view text);
@@ -16,4 +18,4 @@ std::string one_log_line(std::string_view text);
 ///         progress nor warnings; empty if there are none. At most 200 characters.
 std::string failure_line(std::string_view output);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

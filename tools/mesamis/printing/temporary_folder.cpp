@@ -11,7 +11,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/files/owned_file.h"
 
-namespace mesamis {
+namespace mesamis::detail::printing {
 namespace {
 
 namespace fs = std::filesystem;
@@ -21,8 +21,7 @@ constexpr const char* kOwner = ".owner";  // in each folder; locked as long as i
 /// A folder whose maker is gone, and no link to one.
 bool is_left_behind(const fs::directory_entry& entry) {
   std::error_code error;
-  return fs::is_directory(entry.symlink_status(error)) &&
-         detail::is_abandoned(entry.path() / kOwner);
+  return fs::is_directory(entry.symlink_status(error)) && is_abandoned(entry.path() / kOwner);
 }
 
 /// Removes what killed processes of this user have left.
@@ -58,7 +57,7 @@ void TemporaryFolder::make(const fs::path& pattern) {
     std::string name = pattern.string();
     if (!mkdtemp(name.data())) break;
     path_ = name;
-    lock_ = detail::create_owned(path_ / kOwner);
+    lock_ = create_owned(path_ / kOwner);
   }
   if (lock_ >= 0) return;
   throw InputError(pattern.parent_path().string() +
@@ -72,4 +71,4 @@ TemporaryFolder::~TemporaryFolder() {
   if (lock_ >= 0) close(lock_);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

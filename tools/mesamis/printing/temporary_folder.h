@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <string>
 
-namespace mesamis {
+#include "mesamis/rooms.h"
+
+namespace mesamis::detail::printing {
 
 /// A folder for temporary files that only this user can read, in the folder that TMPDIR names or
 /// the system's place for them. The destructor removes it with its content. What a killed process
@@ -29,4 +31,4 @@ class TemporaryFolder {
   int lock_ = -1;  ///< descriptor of the file that tells that the owner lives
 };
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::printing

@@ -3,7 +3,7 @@
 
 #include "mesamis/base/error.h"
 
-namespace mesamis {
+namespace mesamis::detail::study {
 namespace {
 
 constexpr Index kInPlane = 2;  // of the paper: 102 x 122 of 204 x 244 pixels
@@ -48,4 +48,4 @@ Experiment region_experiment(const Volume& scan, const CropRange& region, const 
   return experiment;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::study

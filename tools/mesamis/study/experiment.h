@@ -8,10 +8,11 @@
 
 #include "mesamis/image/volume.h"
 #include "mesamis/method/settings.h"
+#include "mesamis/rooms.h"
 
 /// Experiments that measure how the surface depends on the resolution of the scan: section 5 of the
 /// paper, on any scan with a reference surface.
-namespace mesamis {
+namespace mesamis::detail::study {
 
 /// One run of the method on a subsampled volume.
 struct PlannedRun {
@@ -56,4 +57,4 @@ Experiment subsampling_experiment(const Volume& scan, const Settings& settings,
 Experiment region_experiment(const Volume& scan, const CropRange& region, const Settings& settings,
                              std::span<const int> s);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::study

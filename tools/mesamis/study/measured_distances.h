@@ -6,7 +6,7 @@
 
 #include "mesamis/study/study_run.h"
 
-namespace mesamis {
+namespace mesamis::detail::study {
 
 /// The distances from the reference of the runs that have some, in their order. O(n) for n
 /// distances, which are copied.
@@ -19,4 +19,4 @@ inline std::vector<DirectedDistances> measured_distances(std::span<const StudyRu
   return directions;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::study

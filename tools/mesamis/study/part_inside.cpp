@@ -5,7 +5,7 @@
 
 #include "mesamis/surface/unused_points.h"
 
-namespace mesamis {
+namespace mesamis::detail::study {
 
 TriMesh part_inside(const TriMesh& surface, const Volume& volume, const Vec3& margin) {
   const Box box{margin, volume.box().hi - margin};
@@ -21,4 +21,4 @@ TriMesh part_inside(const TriMesh& surface, const Volume& volume, const Vec3& ma
   return without_unused_points(part);
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::study

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "mesamis/image/volume.h"
+#include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
-namespace mesamis {
+namespace mesamis::detail::study {
 
 /// Selects the triangles whose three points lie inside the volume's box, at least `margin` away
 /// from its faces.
@@ -15,4 +16,4 @@ namespace mesamis {
 ///         inside.  O(n) for n points and triangles.
 TriMesh part_inside(const TriMesh& surface, const Volume& volume, const Vec3& margin);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::study

@@ -5,7 +5,7 @@
 
 #include "mesamis/study/measured_distances.h"
 
-namespace mesamis {
+namespace mesamis::detail::study {
 namespace {
 
 /// A mean distance over s. The baseline has no place on that axis: its voxels are smaller in the
@@ -129,4 +129,4 @@ std::vector<std::string> draw_diagrams(const std::filesystem::path& folder,
   return names;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::study

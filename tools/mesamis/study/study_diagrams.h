@@ -10,7 +10,7 @@
 #include "mesamis/study/study_run.h"
 
 /// The diagrams of a study.
-namespace mesamis {
+namespace mesamis::detail::study {
 
 /// A diagram that plot_svg() draws.
 struct Diagram {
@@ -36,4 +36,4 @@ std::vector<Diagram> study_diagrams(std::span<const StudyRun> runs);
 std::vector<std::string> draw_diagrams(const std::filesystem::path& folder,
                                        const std::string& prefix, std::span<const StudyRun> runs);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::study

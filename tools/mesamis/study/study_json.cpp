@@ -8,7 +8,7 @@
 #include "mesamis/report/json_file.h"
 #include "mesamis/report/settings_json.h"
 
-namespace mesamis {
+namespace mesamis::detail::study {
 namespace {
 
 using nlohmann::ordered_json;
@@ -97,4 +97,4 @@ ordered_json study_json(const StudyRecord& study) {
   return report;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::study

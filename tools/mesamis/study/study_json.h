@@ -13,7 +13,7 @@
 #include "mesamis/study/study_run.h"
 
 /// A study as JSON, as docs/formats.md describes study.json.
-namespace mesamis {
+namespace mesamis::detail::study {
 
 /// The runs of one experiment.
 struct ExperimentRecord {
@@ -46,4 +46,4 @@ nlohmann::ordered_json run_json(const Settings& settings, const StudyRun& run);
 /// @throws InputError  as run_json(). Cost as there, for each run.
 nlohmann::ordered_json study_json(const StudyRecord& study);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::study

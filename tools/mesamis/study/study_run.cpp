@@ -8,7 +8,7 @@
 #include "mesamis/study/part_inside.h"
 #include "mesamis/surface/unused_points.h"
 
-namespace mesamis {
+namespace mesamis::detail::study {
 namespace {
 
 void mark_failed(StudyRun& run, const std::string& reason) {
@@ -108,4 +108,4 @@ std::vector<StudyRun> with_distance_variations(std::vector<StudyRun> runs) {
   return runs;
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::study

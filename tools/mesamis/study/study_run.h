@@ -13,7 +13,7 @@
 #include "mesamis/surface/comparison.h"
 
 /// The runs of a study: segmentation, and comparison with the reference.
-namespace mesamis {
+namespace mesamis::detail::study {
 
 /// The distances between a run's surface and the reference.
 struct RunComparison {
@@ -84,4 +84,4 @@ StudyRun with_comparison(const TriMesh& reference, const Experiment& experiment,
 /// @return the runs; without a baseline, or one with a mean distance above 0 mm, as they are.
 std::vector<StudyRun> with_distance_variations(std::vector<StudyRun> runs);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::study

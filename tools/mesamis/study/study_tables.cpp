@@ -7,7 +7,7 @@
 #include "mesamis/files/atomic_file.h"
 #include "mesamis/study/measured_distances.h"
 
-namespace mesamis {
+namespace mesamis::detail::study {
 namespace {
 
 std::string text(std::int64_t value) { return std::to_string(value); }
@@ -151,4 +151,4 @@ void write_tables(const std::filesystem::path& folder, const std::string& prefix
   write_file(folder / (prefix + "histogram.csv"), histogram_csv(runs));
 }
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::study

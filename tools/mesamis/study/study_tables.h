@@ -9,7 +9,7 @@
 
 /// The tables of a study as CSV, in the columns that docs/formats.md describes. Numbers have the
 /// digits of study.json. A figure that a run does not have is an empty cell.
-namespace mesamis {
+namespace mesamis::detail::study {
 
 /// Tables 1 and 2 and Figure 6 of the paper: a row per run.
 /// @return the names of the columns, then the rows; lengths in mm.
@@ -32,4 +32,4 @@ std::string histogram_csv(std::span<const StudyRun> runs);
 void write_tables(const std::filesystem::path& folder, const std::string& prefix,
                   std::span<const StudyRun> runs);
 
-}  // namespace mesamis
+}  // namespace mesamis::detail::study
