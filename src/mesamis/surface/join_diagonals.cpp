@@ -78,7 +78,6 @@ Fills find_fills() {
 struct Fill {
   std::int64_t node = 0;
   Index label = 0;
-  auto operator<=>(const Fill&) const = default;
 };
 
 class Joiner {
@@ -190,7 +189,9 @@ std::vector<Fill> fills_of(const LabelGrid& grid) {
                     [&](std::size_t k) { above[k] = joiner.fills_above(static_cast<Index>(k)); });
   std::vector<Fill> all;
   for (const auto& fills : above) all.insert(all.end(), fills.begin(), fills.end());
-  std::sort(all.begin(), all.end());
+  std::sort(all.begin(), all.end(), [](const Fill& a, const Fill& b) {
+    return a.node != b.node ? a.node < b.node : a.label < b.label;
+  });
   const auto same_node = [](const Fill& a, const Fill& b) { return a.node == b.node; };
   all.erase(std::unique(all.begin(), all.end(), same_node), all.end());
   return all;
