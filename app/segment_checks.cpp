@@ -6,6 +6,7 @@
 
 #include "arguments.h"
 #include "mesamis/base/error.h"
+#include "mesamis/files/refuse.h"
 #include "mesamis/report/label_surface_files.h"
 #include "mesamis/report/mesh_output.h"
 #include "mesamis/shape_files/surface_files.h"
@@ -182,9 +183,19 @@ void require_layers(const SegmentOptions& options, const std::vector<Segment>& w
   }
 }
 
+/// A list takes all words up to the next option, the scan with them.
+void require_input_before_list(const ScanArguments& scan) {
+  if (!scan.input.empty() || scan.labels.chosen.empty()) return;
+  const std::string& last = scan.labels.chosen.back();
+  if (!fs::exists(last)) return;
+  throw CLI::ValidationError("--label", "expected names or numbers of objects, found the file " +
+                                            in_quotes(last) + "; the scan goes before --label");
+}
+
 }  // namespace
 
 void require_segment(const SegmentOptions& options, const Settings& settings) {
+  require_input_before_list(options.scan);
   if (!options.plan) require_outputs(options);
   require_places(options, settings);
   require_mesh_for(options, settings);

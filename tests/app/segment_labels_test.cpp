@@ -218,6 +218,7 @@ TEST_F(SegmentLabels, RefusesInOneLine) {
   };
   const std::string scan = folder / "balls.nrrd", out = folder / "x.stl";
   expect_refused({scan, "-o", out, "--label", "nose"}, 3, "nose");
+  expect_refused({"-o", out, "--label", "1", scan}, 2, "the scan goes before --label");
   expect_refused({scan, "-o", out, "--mesh", folder / "x.vtu", "--preview"}, 2, "--preview");
   expect_refused({scan, "-o", out, "--error"}, 2, "--error");
   expect_refused({scan, "--labelmap", folder / "x.gz"}, 2, "--labelmap");
