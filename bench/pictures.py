@@ -87,6 +87,24 @@ def body(runs, out):
     draw(out, filled, "--view", "oblique", "--clip", "x,97", "--edges", *small(560, 440))
 
 
+def left_hip(runs):
+    """The bone of the looks study that is one voxel thick in places."""
+    from looks_study import GUIDING, Bone  # which needs VTK and nibabel
+    return Bone(runs.scans, *GUIDING["left hip"])
+
+
+def hip(runs, out):
+    left_hip(runs).ours(runs.folder, "left hip", with_scan=True)
+    draw(out, runs.folder / "left_hip.scan.ply", "--view", "front", *small(420, 450))
+
+
+def hip_slicer(runs, out):
+    from distances import write_surface
+    surface = runs.folder / "left_hip.slicer.vtp"
+    write_surface(surface, left_hip(runs).slicer())
+    draw(out, surface, "--view", "front", *small(420, 450))
+
+
 def example(name, *arguments):
     """A script of the tutorial; it needs what docs/tutorial.md says."""
     subprocess.run([sys.executable, TUTORIAL / name, *arguments], check=True, stdout=subprocess.DEVNULL)
@@ -135,14 +153,16 @@ def tutorial_thickness(runs, out):
 # Name of the file in docs/images: the page that shows it, the scans that it needs, and how it is made.
 PICTURES = {
     "surface.png": ("README.md", ["head"], surface),
-    "mesh.png": ("README.md", ["head"], mesh),
-    "slice.png": ("README.md", ["head"], slice_of_scan),
-    "report.png": ("README.md", ["head"], page),
+    "mesh.png": ("docs/gallery.md", ["head"], mesh),
+    "slice.png": ("docs/gallery.md", ["head"], slice_of_scan),
+    "report.png": ("docs/report.md", ["head"], page),
     "phantom.png": ("docs/results.md", ["skull"], skull),
     "phantom_cubes.png": ("docs/results.md", ["skull"], skull_cubes),
     "phantom_hemipelvis.png": ("docs/phantoms.md", [], hemipelvis),
     "phantom_femur.png": ("docs/phantoms.md", [], femur),
     "phantom_fracture.png": ("docs/phantoms.md", [], fracture),
+    "hip.png": ("README.md", ["pelvis"], hip),
+    "hip_slicer.png": ("README.md", ["pelvis"], hip_slicer),
     "body.png": ("docs/body.md", [], body),
     "tutorial_hip.png": ("docs/tutorial.md", [], tutorial_hip),
     "tutorial_slice.png": ("docs/tutorial.md", [], tutorial_slice),
