@@ -385,6 +385,7 @@ def segment(
     level: Literal["auto", "local"] | float | None = ...,
     follow: bool | None = ...,
     fit: bool | None = ...,
+    keep_topology: bool | None = ...,
     band_threshold: float | None = ...,
     min_volume: Literal["auto"] | float | None = ...,
     keep_largest: int | None = ...,
