@@ -58,6 +58,21 @@ TEST(TextHeader, DataLieInTheHeadersFolder) {
   EXPECT_EQ(data_path(header, "../b.raw", true), "/scans/here/../b.raw");
 }
 
+TEST(TextHeader, DataHaveNamesThatAFileCanHave) {
+  const std::filesystem::path header = "folder/a.nhdr";
+  const std::string longest(255, 'n'), cut("a.raw\0b", 7);
+  EXPECT_EQ(data_path(header, longest, false), "folder/" + longest);
+  EXPECT_EQ(data_path(header, "/" + longest + "/a", true), "/" + longest + "/a");
+  const auto expect_refused = [&](const std::string& name, bool allow_outside) {
+    EXPECT_REFUSED(data_path(header, name, allow_outside),
+                   HasSubstr("folder/a.nhdr: expected the name of a data file, found \""));
+  };
+  expect_refused(longest + "n", false);
+  expect_refused("b/" + longest, false);
+  expect_refused(std::string(5000, '/'), true);
+  for (const bool allow_outside : {false, true}) expect_refused(cut, allow_outside);
+}
+
 TEST(TextHeader, APipeIsRefusedWithoutWaiting) {
   const TempFolder folder;
   ASSERT_EQ(mkfifo((folder / "a.nhdr").c_str(), 0600), 0);

@@ -66,6 +66,11 @@ bool HeaderLines::next(std::string& line) {
 std::filesystem::path data_path(const std::filesystem::path& header, const std::string& name,
                                 bool allow_outside) {
   const std::filesystem::path path(name);
+  const std::size_t longest = allow_outside ? 4096 : 255;  // bytes: of a path, of a file's name
+  const bool is_name = name.size() <= longest && name.find('\0') == std::string::npos;
+  if (!is_name) {
+    refuse(header, message("expected the name of a data file, found ", in_quotes(name)));
+  }
   const bool leaves = path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end();
   if (leaves && !allow_outside) {
     refuse(header, message("expected a data file in the header's folder, found ", in_quotes(name),
