@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 /// How 3D Slicer learns what `slicer-segment` takes: the module description of its execution model,
 /// docs/slicer.md.
@@ -9,6 +10,12 @@ namespace mesamis {
 
 /// The value of --tissue that stands for all that is bright, which has no name of its own.
 inline constexpr const char* kAnyBright = "bright";
+
+/// The value of --modality that leaves it to the file and its values.
+inline constexpr const char* kStatedModality = "auto";
+
+/// The values of --modality.
+inline std::vector<std::string> modality_words() { return {kStatedModality, "CT", "MR", "other"}; }
 
 /// The results that the module gives back in its file of return parameters, in this order. Slicer
 /// keeps values and results under one set of names: none of these is that of a setting.

@@ -32,6 +32,7 @@ struct SlicerArguments {
   bool xml = false;
   std::filesystem::path model, mesh, results;  ///< may be empty, the model but for --xml
   std::string tissue = kAnyBright;
+  std::string modality = kStatedModality;
   std::string values, labels, region;  ///< as Slicer writes them; may be empty
   std::string margin, time_limit;      ///< numbers; may be empty
 };
@@ -105,6 +106,7 @@ SegmentOptions segment_options(SlicerArguments a) {
   s.out.surfaces = {a.model};
   if (!a.mesh.empty()) s.out.meshes = {a.mesh};
   s.scan.places.tissue = tissue_of(a);
+  if (a.modality != kStatedModality) s.scan.read.modality = a.modality;
   s.scan.labels.chosen = parts_of(a.labels);
   s.scan.labels.margin = optional_number(a.margin, "--margin");
   s.time_limit = optional_number(a.time_limit, "--time_limit");
@@ -206,6 +208,9 @@ int print_description() {
 void add_object_options(CLI::App& c, SlicerArguments& a) {
   ScanArguments& scan = a.segment.scan;
   c.add_option("--tissue", a.tissue, "Tissue, as of segment; bright: all that is bright");
+  c.add_option("--modality", a.modality,
+               "Modality of the scan, which Slicer's temporary files do not state")
+      ->check(CLI::IsMember(modality_words()));
   c.add_option("--values", a.values, "LO:HI, native units, instead of a tissue");
   c.add_option("--labels", scan.labels.file, "Label map whose labels choose the objects");
   c.add_option("--label", a.labels, "Numbers or names of labels, commas between");

@@ -363,6 +363,8 @@ TEST_F(Slicer, IsToldInOneLineWhatIsWrong) {
   fails({{"margin", {"wide"}}}, 2, "--margin: expected a number above 0, found 'wide'");
   fails({{"region", {"1,2,3"}}}, 2, "--region: expected 6 numbers");
   fails({{"tissue", {"bone"}}, {"values", {"1:2"}}}, 2, "--values: expected --tissue bright");
+  fails({{"modality", {"US"}}}, 2, "modality");
+  fails({{"tissue", {"bone"}}, {"modality", {"MR"}}}, 3, "tissue: expected a CT scan");
   fails({{"scan", {folder_ / "none.nrrd"}}}, 3, "none.nrrd");
   fails({{"level", {"5000"}}}, 3, "level");
   EXPECT_FAILS(run_program(folder_, {"slicer-segment", scan()}), 2, "expected a scan and a model");
