@@ -66,12 +66,7 @@ std::vector<std::uint16_t> labels_of(const LayerRun& run, const BlockSlices& sli
   some.size[2] = end - first;
   part.begin[2] -= first;
   std::vector<std::uint16_t> labels = labels_in(some, 0, part);
-  const std::int64_t lowest = nodes_in(run, slices.begin);
-  for (const DiagonalJoin& join : run.joins) {
-    const std::int64_t node = join.node - lowest;
-    if (node < 0 || node >= std::ssize(labels)) continue;
-    labels[static_cast<std::size_t>(node)] = static_cast<std::uint16_t>(join.label);
-  }
+  take_nodes(run.joins, nodes_in(run, slices.begin), labels);
   return labels;
 }
 

@@ -255,16 +255,22 @@ std::vector<std::size_t> touched_sets(std::span<const DiagonalJoin* const> joins
   return sets;
 }
 
-}  // namespace
-
-std::vector<DiagonalJoin> find_diagonal_joins(const LabelGrid& grid, std::span<const Index> parts) {
+std::vector<DiagonalJoin> joins_of(const std::vector<Fill>& fills, const LabelGrid& grid,
+                                   std::span<const Index> parts) {
   std::vector<std::uint16_t> labels(grid.labels.begin(), grid.labels.end());
   std::vector<DiagonalJoin> joins;
-  for (const Fill& fill : fills_of(grid)) {
+  joins.reserve(fills.size());
+  for (const Fill& fill : fills) {
     joins.push_back(join_at(grid, labels, parts, fill));
     labels[static_cast<std::size_t>(fill.node)] = static_cast<std::uint16_t>(fill.label);
   }
   return joins;
+}
+
+}  // namespace
+
+std::vector<DiagonalJoin> find_diagonal_joins(const LabelGrid& grid, std::span<const Index> parts) {
+  return joins_of(fills_of(grid), grid, parts);
 }
 
 std::vector<DiagonalJoin> choose_joins(std::span<const DiagonalJoin> joins,
@@ -294,12 +300,21 @@ std::vector<DiagonalJoin> choose_joins(std::span<const DiagonalJoin> joins,
   return chosen;
 }
 
+void take_nodes(std::span<const DiagonalJoin> joins, std::int64_t first,
+                std::span<std::uint16_t> labels) {
+  for (const DiagonalJoin& join : joins) {
+    const std::int64_t n = join.node - first;
+    if (n < 0 || n >= std::ssize(labels)) continue;
+    labels[static_cast<std::size_t>(n)] = static_cast<std::uint16_t>(join.label);
+  }
+}
+
 std::vector<std::uint16_t> join_diagonals(const LabelGrid& grid) {
   std::vector<std::uint16_t> labels(grid.labels.begin(), grid.labels.end());
-  const auto joins = find_diagonal_joins(grid, find_label_parts(grid).of_node);
-  for (const DiagonalJoin& join : choose_joins(joins, grid.size)) {
-    labels[static_cast<std::size_t>(join.node)] = static_cast<std::uint16_t>(join.label);
-  }
+  const std::vector<Fill> fills = fills_of(grid);
+  if (fills.empty()) return labels;
+  const auto joins = joins_of(fills, grid, find_label_parts(grid).of_node);
+  take_nodes(choose_joins(joins, grid.size), 0, labels);
   return labels;
 }
 

@@ -48,7 +48,13 @@ std::vector<DiagonalJoin> find_diagonal_joins(const LabelGrid& grid, std::span<c
 std::vector<DiagonalJoin> choose_joins(std::span<const DiagonalJoin> joins,
                                        const std::array<Index, 3>& size);
 
-/// Both of these.
+/// Gives objects the nodes that they take.
+/// @param first   the node that the first label belongs to; nodes beyond the labels do not count.
+/// @param labels  one per node from there on; changed.
+void take_nodes(std::span<const DiagonalJoin> joins, std::int64_t first,
+                std::span<std::uint16_t> labels);
+
+/// All of these.
 /// @return the labels, one per node: an object has the nodes that it takes.
 std::vector<std::uint16_t> join_diagonals(const LabelGrid& grid);
 
