@@ -36,6 +36,7 @@ TEST(Refuse, QuotesAreShortAndPlain) {
 
 TEST(Refuse, WordsAreTrimmedAndLowered) {
   EXPECT_EQ(lower("aZ\xc4 9_"), "az\xc4 9_");
+  EXPECT_EQ(upper("aZ\xe4 9_"), "AZ\xe4 9_");
   EXPECT_EQ(trimmed(std::string_view(" \t\r\n\0 a b \0\v\f", 13)), "a b");
   EXPECT_EQ(trimmed(" \n"), "");
   EXPECT_EQ(trimmed(""), "");

@@ -25,6 +25,8 @@ std::string in_quotes(std::string_view text, std::size_t longest = 60);
 
 /// @return  the text with ASCII letters in lower case.
 std::string lower(std::string_view text);
+/// @return  the same in upper case.
+std::string upper(std::string_view text);
 
 /// @return  the last extension of a path in lower case, with its dot; empty if there is none.
 std::string lower_extension(const std::filesystem::path& path);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesamis/files/refuse.h"
 #include "mesamis/method/setting_table.h"
 #include "mesamis/page/figures.h"
 
@@ -172,9 +173,7 @@ std::string stand_in(const std::string& option, const std::string& value) {
   name.erase(0, name.find_first_not_of('-'));
   const std::string extension = extension_of(value);
   if (!extension.empty()) return name + extension;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return name;
+  return upper(name);
 }
 
 class Repeated {

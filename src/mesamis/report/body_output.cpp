@@ -11,6 +11,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/written_number.h"
 #include "mesamis/body/rim.h"
+#include "mesamis/files/refuse.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/report/filled_objects.h"
 #include "mesamis/report/solver_name.h"
@@ -18,15 +19,10 @@
 namespace mesamis::detail::report {
 namespace {
 
-std::string upper_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
 /// PART_1, MAT_001_..., as this program and its parts call them.
-bool is_numbered(const std::string& upper, const std::string& prefix) {
-  return upper.starts_with(prefix) && upper.size() > prefix.size() &&
-         std::isdigit(static_cast<unsigned char>(upper[prefix.size()])) != 0;
+bool is_numbered(const std::string& name, const std::string& prefix) {
+  return name.starts_with(prefix) && name.size() > prefix.size() &&
+         std::isdigit(static_cast<unsigned char>(name[prefix.size()])) != 0;
 }
 
 std::string part_name(const Segment& segment, std::size_t number) {
@@ -143,13 +139,13 @@ std::string unmet(const BodyOutput& body) {
 void require_set_names(std::span<const FaceQuery> sets) {
   std::map<std::string, std::string> names;
   for (const FaceQuery& query : sets) {
-    const std::string upper = upper_case(query.name);
-    if (upper == "ALL" || is_numbered(upper, "PART_") || is_numbered(upper, "MAT_")) {
+    const std::string name = upper(query.name);
+    if (name == "ALL" || is_numbered(name, "PART_") || is_numbered(name, "MAT_")) {
       throw InputError(
           "set: expected a name other than ALL and those of parts and materials, found '" +
           query.name + "'");
     }
-    const auto [earlier, is_new] = names.emplace(upper, query.name);
+    const auto [earlier, is_new] = names.emplace(name, query.name);
     if (is_new) continue;
     throw InputError(
         "set: expected names that differ in more than case, found '" + query.name +

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/volume_files/sidecar.h"
 
-#include <algorithm>
 #include <system_error>
 
 #include "mesamis/base/error.h"
@@ -20,15 +19,6 @@ fs::path sidecar_of(fs::path image) {
   return image.replace_extension(".json");
 }
 
-/// The code as DICOM has it: "CT" for "ct".
-std::string modality_code(const std::string& text) {
-  std::string code = shown(text);
-  std::transform(code.begin(), code.end(), code.begin(), [](char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  });
-  return code;
-}
-
 }  // namespace
 
 std::string modality_in_sidecar(const fs::path& image, MemoryBudget& budget,
@@ -40,7 +30,7 @@ std::string modality_in_sidecar(const fs::path& image, MemoryBudget& budget,
   try {
     const auto json = read_metadata(file, budget);
     const auto modality = JsonValue(file, json).find("Modality");
-    return modality ? modality_code(modality->text()) : "";
+    return modality ? upper(shown(modality->text())) : "";
   } catch (const InputError& error) {
     warnings.push_back(message("the sidecar does not count: ", error.what()));
     return "";
