@@ -108,7 +108,7 @@ void add_modality_option(CLI::App& command, ReadOptions& options) {
   command
       .add_option("--modality", options.modality,
                   "Modality, if the file states none or a wrong one: CT, MR, other")
-      ->check(CLI::IsMember({"CT", "MR", "other"}, CLI::ignore_case));
+      ->check(CLI::IsMember(kModalities, CLI::ignore_case));
 }
 
 void add_read_options(CLI::App& command, ReadOptions& options) {

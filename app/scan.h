@@ -12,6 +12,9 @@ class App;
 
 namespace mesamis {
 
+/// The values of --modality.
+inline const std::vector<std::string> kModalities{"CT", "MR", "other"};
+
 /// Adds --modality alone. `options` must outlive the parsing.
 void add_modality_option(CLI::App& command, ReadOptions& options);
 

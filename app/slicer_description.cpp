@@ -13,6 +13,7 @@
 #include "mesamis/files/xml_text.h"
 #include "mesamis/method/setting_table.h"
 #include "mesamis/object/tissue.h"
+#include "scan.h"
 #include "settings_options.h"
 #include "slicer_progress.h"
 
@@ -357,6 +358,12 @@ std::string head() {
 }
 
 }  // namespace
+
+std::vector<std::string> modality_words() {
+  std::vector<std::string> words{kStatedModality};
+  words.insert(words.end(), kModalities.begin(), kModalities.end());
+  return words;
+}
 
 std::string slicer_description() {
   std::string xml = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<executable>\n" + head();

@@ -14,8 +14,8 @@ inline constexpr const char* kAnyBright = "bright";
 /// The value of --modality that leaves it to the file and its values.
 inline constexpr const char* kStatedModality = "auto";
 
-/// The values of --modality.
-inline std::vector<std::string> modality_words() { return {kStatedModality, "CT", "MR", "other"}; }
+/// That and the modalities.
+std::vector<std::string> modality_words();
 
 /// The results that the module gives back in its file of return parameters, in this order. Slicer
 /// keeps values and results under one set of names: none of these is that of a setting.
