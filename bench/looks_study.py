@@ -7,12 +7,13 @@
     bench/looks_study.py FOLDER --scans DATA --no-labels   whole scans, beside flying edges at the same level
 
 Creases: the length of edges above 40 (25) degrees, times the voxel, over the area; flat faces at the box of the surface are
-left out. Slope: how steep the image is at the surface in the median, over that at 3D Slicer's. Distances are those from and to
-3D Slicer's surface of the same label, voxels: the mean, and what 99 % do not exceed. Slicer's surface: flying edges of the label, windowed
-sinc, smoothing 0.5, as its closed surface. Surface nets are VTK's (9.3 or later, else the row is left out) with their own
-smoothing. `mesamis` is the one in build/release, or that of the variable MESAMIS.
+left out. Slope: how steep the image is at the surface in the median, over that at 3D Slicer's. Distances are those from and
+to 3D Slicer's surface of the same label, voxels: the mean, and what 99 % do not exceed. Slicer's surface: flying edges of
+the label, windowed sinc, smoothing 0.5, as its closed surface. Surface nets are VTK's (9.3 or later, else the row is left
+out) with their own smoothing. `mesamis` is the one in build/release, or that of the variable MESAMIS.
 """
 import argparse
+import functools
 import pathlib
 
 import nibabel
@@ -25,6 +26,7 @@ from vtk.util.numpy_support import numpy_to_vtk
 
 from distances import SAMPLES, Target, area_samples, read_surface, triangles_of
 from mesamis_runs import once
+from rivals import sinc
 
 LPS = np.diag([-1, -1, 1, 1])
 PELVIS = ("pelvis_ts/ct.nii.gz", "pelvis_ts/labels_total.nii.gz")
@@ -107,16 +109,8 @@ class Bone:
         edges = vtk.vtkDiscreteFlyingEdges3D()
         edges.SetInputData(self.image())
         edges.SetValue(0, 1)
-        sinc = vtk.vtkWindowedSincPolyDataFilter()
-        sinc.SetInputConnection(edges.GetOutputPort())
-        sinc.SetNumberOfIterations(20 + int(40 * smoothing))
-        sinc.SetPassBand(10 ** (-4 * smoothing))
-        sinc.BoundarySmoothingOff()
-        sinc.FeatureEdgeSmoothingOff()
-        sinc.NonManifoldSmoothingOn()
-        sinc.NormalizeCoordinatesOn()
-        sinc.Update()
-        return self.in_world(sinc.GetOutput())
+        edges.Update()
+        return self.in_world(sinc(edges.GetOutput(), 10 ** (-4 * smoothing), 20 + int(40 * smoothing)))
 
     def nets(self):
         """VTK's surface nets, or None."""
@@ -129,22 +123,28 @@ class Bone:
         nets.Update()
         return self.in_world(nets.GetOutput())
 
+    @functools.cached_property
+    def steepness(self):
+        """Of the scan, and the way from the world to its voxels."""
+        scan = nibabel.load(self.scan)
+        return gaussian_gradient_magnitude(np.asarray(scan.dataobj, float), 0.7), np.linalg.inv(LPS @ scan.affine)
+
     def slope(self, surface):
         """Of the image at the surface, in the median."""
-        image = nibabel.load(self.scan)
-        steepness = gaussian_gradient_magnitude(np.asarray(image.dataobj, float), 0.7)
-        places = np.linalg.inv(LPS @ image.affine) @ np.c_[area_samples(surface, SAMPLES), np.ones(SAMPLES)].T
+        steepness, to_voxels = self.steepness
+        places = to_voxels @ np.c_[area_samples(surface, SAMPLES), np.ones(SAMPLES)].T
         return np.median(map_coordinates(steepness, places[:3], order=1))
 
-    def ours(self, folder, name, with_scan):
+    def ours(self, folder, name, with_scan=True):
+        """The file of our surface."""
         path = folder / f"{name.replace(' ', '_')}.{'scan' if with_scan else 'alone'}.ply"
         once(path.with_suffix(".json"), "segment", *([self.scan] if with_scan else []), "--labels", self.labels,
              "--label", self.number, "-o", path)
-        return read_surface(path)
+        return path
 
     def surfaces(self, folder, name):
-        yield "with the scan", self.ours(folder, name, True)
-        yield "label alone", self.ours(folder, name, False)
+        yield "with the scan", read_surface(self.ours(folder, name))
+        yield "label alone", read_surface(self.ours(folder, name, with_scan=False))
         yield "3D Slicer", self.slicer()
         nets = self.nets()
         if nets:
@@ -165,14 +165,20 @@ def figures(found):
             f"{found['creases_25']:.3f}"]
 
 
-def study(name, bone, folder):
+def measured(name, bone, folder):
+    """Each surface of a bone by its kind: looks(), distances to 3D Slicer's, slope over that."""
     theirs = bone.slicer()
     target, slope = Target(theirs), bone.slope(theirs)
     for kind, surface in bone.surfaces(folder, name):
         away = np.concatenate([target.distances(area_samples(surface, SAMPLES)),
                                Target(surface).distances(area_samples(theirs, SAMPLES))]) / bone.voxel
-        row([name, kind, *figures(looks(surface, bone.voxel)), f"{away.mean():.2f}",
-             f"{np.percentile(away, 99):.2f}", f"{bone.slope(surface) / slope:.2f}"])
+        yield kind, looks(surface, bone.voxel) | {"mean": away.mean(), "most": np.percentile(away, 99),
+                                                  "slope": bone.slope(surface) / slope}
+
+
+def study(name, bone, folder):
+    for kind, found in measured(name, bone, folder):
+        row([name, kind, *figures(found), *(f"{found[what]:.2f}" for what in ("mean", "most", "slope"))])
 
 
 def study_scan(name, scan, folder):

@@ -94,8 +94,7 @@ def left_hip(runs):
 
 
 def hip(runs, out):
-    left_hip(runs).ours(runs.folder, "left hip", with_scan=True)
-    draw(out, runs.folder / "left_hip.scan.ply", "--view", "front", *small(420, 450))
+    draw(out, left_hip(runs).ours(runs.folder, "left hip"), "--view", "front", *small(420, 450))
 
 
 def hip_slicer(runs, out):

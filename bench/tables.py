@@ -74,6 +74,7 @@ NOTES = {
     "results-sizes": f"`bench/tables.py` writes this table. It runs {SEGMENT}.",
     "results-distances": "`bench/tables.py` writes this table with the commands above.",
     "printing-decimation": "`bench/tables.py` writes this table with the commands above.",
+    "labels-bones": "`bench/tables.py` writes this table with what `bench/looks_study.py` measures.",
 }
 
 
@@ -200,6 +201,29 @@ def decimation_row(runs, name, options):
             version(report)]
 
 
+def bone_row(runs, name, case):
+    from looks_study import Bone, measured  # which needs VTK and nibabel
+    bone = Bone(runs.scans, *case)
+    found = dict(measured(name, bone, runs.folder))
+    scan, alone, slicer = (found[kind] for kind in ("with the scan", "label alone", "3D Slicer"))
+    report = json.loads(bone.ours(runs.folder, name).with_suffix(".json").read_text())
+    return [*(f"{each['creases']:.3f}" for each in (scan, alone, slicer)),
+            *(count(each["triangles"]) for each in (scan, alone, slicer)),
+            *(str(each["genus"]) for each in (scan, slicer)),
+            *(f"{each[what]:.2f}" for what in ("mean", "slope") for each in (scan, alone)), version(report)]
+
+
+def bone_rows(runs):
+    """The bones of the looks study whose scans are there."""
+    try:
+        from looks_study import GUIDING, JUDGING
+    except ImportError as missing:
+        note(f"bones of labels: {missing}, the old rows stay")
+        return {}
+    return {name: bone_row(runs, name, case) for name, case in (GUIDING | JUDGING).items()
+            if runs.scans and all((runs.scans / file).exists() for file in case[:2])}
+
+
 def scan_rows(runs, cases, row):
     """First cell and further cells of each case: `row` takes the scan's name and what the case adds; it returns
     None where something that it needs is missing."""
@@ -264,6 +288,7 @@ TABLES = {
     "readme-scans": ("README.md", lambda runs: scan_rows(runs, named(README_SCANS), readme_row)),
     "results-sizes": ("docs/results.md", lambda runs: scan_rows(runs, named(SIZE_SCANS), size_row)),
     "results-distances": ("docs/results.md", lambda runs: scan_rows(runs, DISTANCES, distance_row)),
+    "labels-bones": ("docs/labels.md", bone_rows),
     "printing-decimation": ("docs/printing.md", lambda runs: scan_rows(runs, DECIMATED, decimation_row)),
 }
 
