@@ -40,7 +40,8 @@ std::string identity_of(const LabelArguments& labels) {
   std::string text = identity_of(labels.file);
   if (!labels.names.empty()) text += " " + identity_of(labels.names);
   for (const std::string& name : labels.chosen) text += " label " + name;
-  return text;
+  if (labels.margin) text += " margin " + std::to_string(*labels.margin);
+  return text + " ";
 }
 
 bool is_in_pieces(const fs::path& mesh) { return lower_extension(mesh) == kPiecesExtension; }
@@ -79,6 +80,11 @@ bool wants_grey(const SegmentOptions& run) {
   return std::any_of(run.out.surfaces.begin(), run.out.surfaces.end(), carries_grey);
 }
 
+fs::path first_output(const SegmentOptions& run) {
+  if (!run.out.surfaces.empty()) return run.out.surfaces.front();
+  return run.out.meshes.empty() ? run.out.report : run.out.meshes.front();
+}
+
 /// Without a place for checkpoints, scratch files lie beside the first output.
 SlabRunOptions slab_options(const SegmentOptions& run, const SlabArguments& slabs,
                             const Progress& progress) {
@@ -87,16 +93,11 @@ SlabRunOptions slab_options(const SegmentOptions& run, const SlabArguments& slab
   options.scratch = slabs.checkpoint;
   options.resumable = !slabs.checkpoint.empty();
   options.progress = progress;
-  options.input =
-      run.scan.labels.given() ? identity_of(run.scan.labels) : identity_of(run.scan.input);
+  if (run.scan.labels.given()) options.input += identity_of(run.scan.labels);
+  if (!run.scan.input.empty()) options.input += identity_of(run.scan.input);
   options.mesh = !meshes_of(run, false).empty();
   options.grey = wants_grey(run);
-  if (options.scratch.empty()) {
-    options.scratch = !run.out.surfaces.empty() ? run.out.surfaces.front()
-                      : !run.out.meshes.empty() ? run.out.meshes.front()
-                                                : run.out.report;
-    options.scratch += ".slabs";
-  }
+  if (options.scratch.empty()) options.scratch = first_output(run) += ".slabs";
   return options;
 }
 
@@ -127,10 +128,10 @@ nlohmann::ordered_json slabs_json(const SlabRunResult& found, const Team& team) 
           {"slabs", std::move(each)}};
 }
 
-/// Labels are found without their scan; what reads more than one file at once is not read by slabs.
+/// What is needed of labels in more than their slabs.
 void require_label_slabs(const SegmentOptions& run) {
   if (!run.scan.labels.probabilities.empty()) refuse_with_slabs("--probabilities");
-  if (!run.scan.input.empty()) refuse_with_slabs("--labels beside a scan");
+  if (run.wants_mesh()) refuse_with_slabs("--mesh with --labels");
 }
 
 nlohmann::ordered_json slabs_json(const LabelSlabResult& found, const Team& team) {
@@ -149,7 +150,7 @@ LabelSlabRequest label_request(const SegmentOptions& run) {
   LabelSlabRequest request;
   request.read = [&run] {
     ReadLabels labels;
-    labels.map = read_named_labels(run.scan.labels, {}, labels.warnings);
+    labels.map = read_named_labels(run.scan.labels, grid_of_scan(run.scan), labels.warnings);
     return labels;
   };
   request.choose = [&run](const LabelMap& head) {
@@ -158,22 +159,40 @@ LabelSlabRequest label_request(const SegmentOptions& run) {
     require_object_files(run, wanted);
     return wanted;
   };
+  request.margin = run.scan.labels.margin;
   return request;
+}
+
+/// Of the report: a scan that is read a few slices at a time. Its samples were not all looked at,
+/// and its files are too large for a sum.
+InputFacts facts_of_slices(const SegmentOptions& run, const FileSlices& source) {
+  const VolumeFile& head = source.head();
+  return facts_of({run.scan.input, head.format, head.warnings, {}}, head.volume);
 }
 
 int run_label_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Settings& settings,
                     const CommonOptions& common) {
   require_several(run);
+  const bool has_scan = !run.scan.input.empty();
+  std::unique_ptr<FileSlices> source;
+  if (has_scan) {
+    source = open_any_slices(run.scan.input, run.scan.read);
+    for (const std::string& warning : source->head().warnings) log_warning(warning);
+  }
   ProgressDisplay display(common.quiet || common.is_helper(),
-                          stage_shares({.labels = true, .scan = false, .slabs = true}));
-  const auto found = segment_labels_in_slabs(
-      label_request(run), settings, slab_options(run, slabs, display.callback()), *common.team);
+                          stage_shares({.labels = true, .scan = has_scan, .slabs = true}));
+  const LabelSlabRun request{label_request(run), source.get(), settings,
+                             slab_options(run, slabs, display.callback())};
+  const auto found =
+      segment_labels_in_slabs(request, fs::absolute(first_output(run)).parent_path(), *common.team);
   display.finish();
   if (!found) return kExitDone;
   const OutcomeDetails& outcome = found->outcome.details();
   for (const std::string& warning : outcome.warnings) log_warning(warning);
   RunFiles out = outputs_of(run, common);
-  out.facts.warnings = found->work.warnings;
+  if (source) out.facts.input = facts_of_slices(run, *source);
+  out.facts.warnings.insert(out.facts.warnings.end(), found->work.warnings.begin(),
+                            found->work.warnings.end());
   out.facts.complete = [&, others = out.facts.complete](nlohmann::ordered_json& report) {
     report["slabs"] = slabs_json(found->work, *common.team);
     others(report);
@@ -186,9 +205,7 @@ RunFiles outputs_of(const SegmentOptions& run, const FileSlices& source, const S
                     const CommonOptions& common) {
   RunFiles out = outputs_of(run, common);
   out.meshes = meshes_of(run, false);
-  const VolumeFile& head = source.head();
-  // Its samples were not all looked at, and its files are too large for a sum.
-  out.facts.input = facts_of({run.scan.input, head.format, head.warnings, {}}, head.volume);
+  out.facts.input = facts_of_slices(run, source);
   out.facts.complete = [&, others = out.facts.complete](nlohmann::ordered_json& report) {
     report["slabs"] = slabs_json(found.work, *common.team);
     others(report);

@@ -277,6 +277,35 @@ TEST(SlabsOfSegment, LabelsHaveTheBytesOfARunWithoutSlabs) {
   EXPECT_EQ(read_bytes(folder / "together.vtp"), whole);
 }
 
+/// The same with a scan, whose rods are brighter than labels say they are wide.
+TEST(SlabsOfSegment, LabelsInAScanHaveTheBytesOfARunWithoutSlabs) {
+  const TempFolder folder;
+  write_labels(folder);
+  ASSERT_EQ(
+      run_program(folder, {"phantom", "sphere", "--size", "12,10,132", "-o", folder / "scan.nrrd"})
+          .status,
+      0);
+  const auto run = [&](const std::string& name, std::vector<std::string> more) {
+    more.insert(more.begin(), folder / "scan.nrrd");
+    std::vector<std::string> arguments = segment_labels(folder, name, {});
+    arguments.insert(arguments.begin() + 1, more.begin(), more.end());
+    const ProgramRun done = run_program(folder, arguments);
+    EXPECT_EQ(done.status, 0) << done.err;
+    return read_bytes(folder / (name + ".vtp"));
+  };
+  const std::string whole = run("whole", {});
+  EXPECT_EQ(run("two", {"--slabs", "2", "--report", folder / "two.json"}), whole);
+  EXPECT_FALSE(has_scratch(folder));
+  const nlohmann::json report = report_of(folder, "two");
+  EXPECT_EQ(report["slabs"]["count"], 2);
+  EXPECT_EQ(report["input"]["size"], (std::vector<int>{12, 10, 132}));
+  const ProgramRun meshed =
+      run_program(folder, {"segment", folder / "scan.nrrd", "--labels", folder / "labels.nii.gz",
+                           "--slabs", "2", "-o", folder / "none.vtp", "--mesh", folder / "m.vtu"});
+  EXPECT_EQ(meshed.status, 2);
+  EXPECT_THAT(meshed.err, HasSubstr("--mesh with --labels"));
+}
+
 TEST(SlabsOfSegment, LabelsRefuseWhatNeedsMoreThanTheirSlices) {
   const TempFolder folder;
   write_labels(folder);

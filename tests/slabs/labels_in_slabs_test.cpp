@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
 #include <string>
 
 #include "mesamis/base/parallel.h"
@@ -108,6 +110,71 @@ TEST(LabelsInSlabs, JoinThinObjectsAsInTheWhole) {
     ASSERT_TRUE(found);
     expect_same(found->result, whole);
   }
+}
+
+/// A scan of the balls with finer voxels, askew to those of the labels, whose edges are noisy and
+/// lie half a voxel farther out.
+Volume scan_of_balls() {
+  Volume scan;
+  scan.size = {20, 19, 34};
+  scan.spacing = {0.85, 0.95, 1};
+  scan.origin = {2.8, -4.3, 4.9};
+  std::minstd_rand generator(3);
+  for (std::size_t n = 0; n < scan.voxel_count(); ++n) {
+    const auto [i, j, k] = scan.voxel(n);
+    const Vec3 p = scan.to_world({i * scan.spacing.x, j * scan.spacing.y, k * scan.spacing.z}) -
+                   Vec3{3, -4, 5};
+    const double first = 6.5 - norm(p - Vec3{7, 7, 9}), second = 8 - norm(p - Vec3{8.5, 9, 22});
+    const double inside = std::clamp(std::max(first, second) + 0.5, 0.0, 1.0);
+    const double noise = static_cast<double>(generator() % 1000) / 50 - 10;
+    scan.samples.push_back(static_cast<float>(300 * inside + (first < second ? 60 : 0) + noise));
+  }
+  return scan;
+}
+
+/// The image places what slabs have extracted.
+TEST(LabelsInSlabs, AreFittedToAScanAsInTheWhole) {
+  const LabelMap& map = balls().map;
+  const Volume scan = scan_of_balls();
+  const Settings settings = all_triangles();
+  const LabelResult whole = find_labelled_objects(scan, {map}, settings);
+  ASSERT_EQ(whole.objects.size(), 2u);
+  EXPECT_FALSE(whole.objects[0].surface.points == balls().whole.objects[0].surface.points);
+  LabelSlabRequest request = request_for(map);
+  request.scan = scan;
+  request.find = [&](const LabelRequest& extracted) {
+    return find_labelled_objects(scan, extracted, settings);
+  };
+  for (const Index slabs : {1, 3}) {
+    const TempFolder folder;
+    const auto found = results_of_ranks<LabelSlabResult>(2, [&](Team& team) {
+      return label_surfaces_in_slabs(request, settings, {.slabs = slabs, .scratch = folder.path()},
+                                     team);
+    });
+    ASSERT_TRUE(found[0]);
+    expect_same(found[0]->result, whole);
+    EXPECT_EQ(found[0]->result.margin, whole.margin);
+    EXPECT_EQ(found[0]->head.size, scan.size);
+  }
+}
+
+/// Where labels flow, what is far away counts.
+TEST(LabelsInSlabs, RefuseAScanThatTheyFlowIn) {
+  const TempFolder folder;
+  LabelSlabRequest request = request_for(balls().map);
+  request.scan = scan_of_balls();
+  request.scan->spacing = {0.5, 0.5, 0.5};
+  const SlabRunOptions options{.scratch = folder.path(), .resumable = false};
+  EXPECT_REFUSED(label_surfaces_in_slabs(request, all_triangles(), options, alone()),
+                 HasSubstr("1.25 voxels of it, and no --no-fit, found coarser ones"));
+  request.scan = scan_of_balls();
+  Settings no_fit = all_triangles();
+  no_fit.fit = false;
+  EXPECT_REFUSED(label_surfaces_in_slabs(request, no_fit, options, alone()),
+                 HasSubstr("found --no-fit"));
+  request.margin = 1000;
+  EXPECT_REFUSED(label_surfaces_in_slabs(request, all_triangles(), options, alone()),
+                 HasSubstr("margin: expected more than 0 and at most"));
 }
 
 TEST(LabelsInSlabs, FindChosenObjectsOfSeveralLayers) {

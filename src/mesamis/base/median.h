@@ -11,7 +11,8 @@ namespace mesamis::detail::base {
 /// Finds the median; of an even count the upper of the two values in the middle.
 /// @param values  n >= 1 values of any unit; their order changes.
 /// @return in the same unit.
-inline double median(std::vector<double>& values) {
+template <class Real>
+Real median(std::vector<Real>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;

@@ -53,7 +53,7 @@ void bring_to_world(const VoxelGrid& grid, PartitionSurface& partition) {
 /// Native units half way between the voxels that are chosen and the others; nothing where they are
 /// alike.
 std::optional<double> level_between(const Volume& scan, const std::vector<char>& chosen) {
-  std::vector<double> in, out;
+  std::vector<float> in, out;
   for (std::size_t n = 0; n < chosen.size(); ++n) {
     (chosen[n] != 0 ? in : out).push_back(scan.samples[n]);
   }
@@ -128,14 +128,13 @@ struct LabelRun {
     require_chosen(chosen, asked.map);
   }
   /// Whether boundaries are fitted to an image of these voxels; else labels flow.
-  bool fits(const VoxelGrid& scan) const {
-    return settings.fit && request.map.voxel_size() <= kAsFine * scan.voxel_size();
-  }
+  bool fits(const VoxelGrid& scan) const { return image_fits_labels(settings, scan, request.map); }
   bool makes_mesh() const { return request.mesh && !settings.preview; }
   void begin(const char* stage) const { begin_stage(progress, stage); }
 };
 
 LabelBlock require_block(const LabelRun& run, const LabelMap& map) {
+  if (run.request.extracted != nullptr) return run.request.extracted->block;
   const auto block = block_around(map, run.chosen, run.margin);
   if (!block) refuse_empty(run.chosen);
   return *block;
@@ -225,11 +224,10 @@ PartitionSurface moved_to_image(const LabelRun& run, PartitionSurface partition,
   return fit_boundaries(std::move(partition), input.image, guides, reach);
 }
 
-/// Boundaries of the labels, as the image places them.
-LayerBoundaries place_by_image(const LabelRun& run, Index layer, std::vector<std::uint16_t> labels,
-                               const Edges& edges, LabelResult::Seconds& seconds) {
-  Stopwatch watch;
-  run.begin("flow of the labels");
+/// Boundaries between all labels, in the block's axes: by the labels alone where the image fits
+/// them, else where they flow to.
+LayerBoundaries extract_in_image(const LabelRun& run, Index layer,
+                                 std::vector<std::uint16_t> labels, const Edges& edges) {
   LayerBoundaries found{layer, {}};
   const VoxelGrid& voxels = edges.prepared.grey;
   GridMemberships memberships = without_image(run, voxels, labels);
@@ -237,11 +235,18 @@ LayerBoundaries place_by_image(const LabelRun& run, Index layer, std::vector<std
     memberships =
         flowed(run, memberships, {voxels.size, voxels.spacing, labels}, edges, found.converged);
   }
-  if (run.makes_mesh()) found.image = label_image(memberships, edges.prepared.grey);
-  seconds.flow += watch.lap();
-  run.begin("surface");
-  const RunInput input(edges.prepared);
+  if (run.makes_mesh()) found.image = label_image(memberships, voxels);
   found.partition = extract_partition_on_grid(memberships);
+  return found;
+}
+
+/// Boundaries of the labels, as the image places them.
+LayerBoundaries place_by_image(const LabelRun& run, LayerBoundaries found, const Edges& edges,
+                               LabelResult::Seconds& seconds) {
+  Stopwatch watch;
+  run.begin("surface");
+  const Index layer = found.layer;
+  const RunInput input(edges.prepared);
   const auto pairs = measure_pair_levels(found.partition, input.image);
   found.boundaries = boundaries_of(run, layer, pairs, input);
   auto guides = guides_of_points(found.partition, pairs, input.error.noise);
@@ -257,6 +262,7 @@ PartitionSurface extract_by_labels(const LabelRun& run, Index layer, const Label
                                    LabelResult::Seconds& seconds) {
   Stopwatch watch;
   const LabelMap& map = run.request.map;
+  if (run.request.extracted != nullptr) return run.request.extracted->of_layer(layer);
   auto labels = labels_in(map, layer, block);
   run.begin("smoothing the labels");
   const GridMemberships memberships = without_image(run, grid_of(map, block), labels);
@@ -396,19 +402,27 @@ LabelResult with_image(const LabelRun& run, const VolumeView& scan) {
   LabelResult result;
   result.has_image = true;
   result.margin = run.margin;
-  const LabelMap on_scan = labels_on(run.request.map, scan);
+  LabelMap on_scan = labels_on(run.request.map, scan);
   const LabelBlock block = clipped(require_block(run, on_scan), scan);
   const CropRange range = range_of(block);
-  const Volume part = crop(scan, range);
+  Volume part = crop(scan, range);
   const Edges edges = find_edges(part, with_level(run, part, on_scan, block), !run.fits(scan));
+  if (!run.makes_mesh()) part.samples = {};
+  if (run.request.extracted != nullptr) on_scan.layers.clear();
   const RunInput input(edges.prepared);
   result.parameters = parameters_of(run, edges.prepared, range);
   result.image = edges.prepared.measured;
   result.seconds.prepare = watch.lap();
   std::vector<LayerBoundaries> layers;
   for (const Index layer : layers_of(run.chosen)) {
-    layers.push_back(
-        place_by_image(run, layer, labels_in(on_scan, layer, block), edges, result.seconds));
+    watch.lap();
+    run.begin("flow of the labels");
+    LayerBoundaries extracted =
+        run.request.extracted != nullptr
+            ? LayerBoundaries{layer, run.request.extracted->of_layer(layer)}
+            : extract_in_image(run, layer, labels_in(on_scan, layer, block), edges);
+    result.seconds.flow += watch.lap();
+    layers.push_back(place_by_image(run, std::move(extracted), edges, result.seconds));
   }
   watch.lap();
   if (run.makes_mesh()) result.mesh = mesh_of(run, part, layers, result.parameters);
@@ -418,32 +432,23 @@ LabelResult with_image(const LabelRun& run, const VolumeView& scan) {
   return result;
 }
 
-LabelResult by_boundaries(const LabelRun& run, const ExtractedBoundaries& all) {
+LabelResult by_labels(const LabelRun& run) {
+  Stopwatch all, watch;
+  run.begin("preparation");
   LabelResult result;
   result.parameters = parameters_asked(run.settings);
+  const LabelBlock block = require_block(run, run.request.map);
+  const VoxelGrid grid = grid_of(run.request.map, block);
+  result.seconds.prepare = watch.lap();
   std::vector<LayerBoundaries> layers;
   for (const Index layer : layers_of(run.chosen)) {
-    PartitionSurface partition = all.of_layer(layer);
-    Stopwatch watch;
-    layers.push_back(place_by_labels(run, layer, all.grid, std::move(partition)));
+    PartitionSurface partition = extract_by_labels(run, layer, block, result.seconds);
+    watch.lap();
+    layers.push_back(place_by_labels(run, layer, grid, std::move(partition)));
     result.seconds.surface += watch.lap();
   }
   finish_layers(run, std::move(layers), nullptr, result);
-  return result;
-}
-
-LabelResult by_labels(const LabelRun& run) {
-  Stopwatch all;
-  run.begin("preparation");
-  const LabelBlock block = require_block(run, run.request.map);
-  LabelResult::Seconds seconds;
-  seconds.prepare = all.lap();
-  const auto extract = [&](Index layer) { return extract_by_labels(run, layer, block, seconds); };
-  LabelResult result = by_boundaries(run, {grid_of(run.request.map, block), extract});
-  result.seconds.prepare = seconds.prepare;
-  result.seconds.flow = seconds.flow;
-  result.seconds.surface += seconds.surface;
-  result.seconds.total = seconds.prepare + all.lap();
+  result.seconds.total = all.lap();
   return result;
 }
 
@@ -494,32 +499,31 @@ double label_margin(const VoxelGrid& scan, const VoxelGrid& labels) {
   return std::min(kMostMargin * voxel, kMargin * std::max(labels.voxel_size(), voxel));
 }
 
+double margin_of(const std::optional<double>& asked, const VoxelGrid& scan,
+                 const VoxelGrid& labels) {
+  const double margin = asked.value_or(label_margin(scan, labels));
+  const double most = kMostMargin * scan.voxel_size();
+  if (margin > 0 && margin <= most) return margin;
+  throw InputError("margin: expected more than 0 and at most " + std::to_string(most) +
+                   " mm, found " + std::to_string(margin));
+}
+
+bool image_fits_labels(const Settings& settings, const VoxelGrid& scan, const VoxelGrid& labels) {
+  return settings.fit && labels.voxel_size() <= kAsFine * scan.voxel_size();
+}
+
 LabelResult find_labelled_objects(const VolumeView& scan, const LabelRequest& request,
                                   const ImageSettings& settings, const Progress& progress) {
   require_usable(scan);
   require_valid(request.map);
-  const double margin = request.margin.value_or(label_margin(scan, request.map));
-  if (!(margin > 0 && margin <= kMostMargin * scan.voxel_size())) {
-    throw InputError("margin: expected more than 0 and at most " +
-                     std::to_string(kMostMargin * scan.voxel_size()) + " mm, found " +
-                     std::to_string(margin));
-  }
   LabelRun run(request, settings, progress);
-  run.margin = margin;
+  run.margin = margin_of(request.margin, scan, request.map);
   return with_image(run, scan);
-}
-
-LabelResult surfaces_of_boundaries(const LabelRequest& request, const Settings& settings,
-                                   const ExtractedBoundaries& all, const Progress& progress) {
-  Stopwatch watch;
-  LabelResult result = by_boundaries({request, settings, progress}, all);
-  result.seconds.total = watch.lap();
-  return result;
 }
 
 LabelResult surfaces_of_labels(const LabelRequest& request, const Settings& settings,
                                const Progress& progress) {
-  require_valid(request.map);
+  if (request.extracted == nullptr) require_valid(request.map);
   return by_labels({request, settings, progress});
 }
 

@@ -9,6 +9,7 @@
 #include "mesamis/base/progress.h"
 #include "mesamis/image/label_map.h"
 #include "mesamis/image/volume.h"
+#include "mesamis/labels/label_block.h"
 #include "mesamis/method/measured_image.h"
 #include "mesamis/method/mes_amis.h"
 #include "mesamis/method/parameters.h"
@@ -19,6 +20,14 @@
 /// Surfaces of the objects of a label map: the labels choose the objects, the image places their
 /// surfaces.
 namespace mesamis::detail::method {
+
+/// The boundaries between all labels of a map, which were extracted of their smooth_memberships()
+/// beforehand, slab by slab.
+struct ExtractedBoundaries {
+  LabelBlock block;  ///< of the map's voxels: around the chosen segments; within the scan, if any
+  /// Those of a layer, in the block's axes, mm, its first voxel at the origin; sides are labels.
+  std::function<PartitionSurface(Index layer)> of_layer;
+};
 
 /// Which objects are meant, and how exact their labels are.
 struct LabelRequest {
@@ -31,6 +40,10 @@ struct LabelRequest {
   /// then where two objects are as probable, see probable_memberships(); none: see
   /// smooth_memberships().
   const Probabilities* probabilities = nullptr;
+  /// Extracted boundaries, of which each chosen layer is asked for once; they must live as long. With
+  /// a scan the map must lie on its grid, and image_fits_labels() must hold; without one the map
+  /// needs no layers. nullptr: they are extracted.
+  const ExtractedBoundaries* extracted = nullptr;
 };
 
 /// One object, world frame (LPS), mm.
@@ -72,6 +85,17 @@ struct LabelResult {
 /// @return mm.
 double label_margin(const VoxelGrid& scan, const VoxelGrid& labels);
 
+/// The margin of a run.
+/// @param asked  mm; none: label_margin().
+/// @throws InputError  unless it is more than 0 and at most 50 voxels of the scan.
+double margin_of(const std::optional<double>& asked, const VoxelGrid& scan,
+                 const VoxelGrid& labels);
+
+/// Whether boundaries are extracted of the labels alone and then fitted to the image: voxels of the
+/// labels are at most a quarter larger than those of the scan. Else, and with `no fit`, labels flow
+/// to the edges of the image.
+bool image_fits_labels(const Settings& settings, const VoxelGrid& scan, const VoxelGrid& labels);
+
 /// Finds the objects of a label map in a scan.
 ///
 /// Algorithm 1 finds the edges v of the image; labels flow to the nearest of them within the margin
@@ -102,22 +126,6 @@ LabelResult find_labelled_objects(const VolumeView& scan, const LabelRequest& re
 /// O(voxels around the labels); about 40 bytes for each. The same bits for any number of threads.
 LabelResult surfaces_of_labels(const LabelRequest& request, const Settings& settings,
                                const Progress& progress = {});
-
-/// The boundaries between all labels of a map.
-struct ExtractedBoundaries {
-  VoxelGrid grid;  ///< of the block of the map's voxels that they were extracted in
-  /// Those of a layer, in the block's axes, mm, its first voxel at the origin; sides are labels.
-  std::function<PartitionSurface(Index layer)> of_layer;
-};
-
-/// Makes surfaces of labels as surfaces_of_labels() does, of boundaries that were extracted of
-/// their smooth_memberships().
-/// @param request  its map needs no layers, and probabilities are not used.
-/// @param all      called once for each layer that has a chosen segment, in their order.
-/// @return one object per chosen segment that has voxels.
-/// @throws what surfaces_of_labels() throws, and what `all` throws.
-LabelResult surfaces_of_boundaries(const LabelRequest& request, const Settings& settings,
-                                   const ExtractedBoundaries& all, const Progress& progress = {});
 
 /// The layers of segments, increasing.
 std::vector<Index> layers_of(const std::vector<Segment>& segments);

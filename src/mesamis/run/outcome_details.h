@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "mesamis/report/label_output.h"
 #include "mesamis/report/verdict.h"
 #include "mesamis/run/elements.h"
+#include "mesamis/run/segment.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis::detail::run {
@@ -47,6 +49,16 @@ struct OutcomeDetails {
   /// The mean error to expect of each point of an object's surface, mm; empty: not known.
   const std::vector<double>& expected_error(std::size_t object) const;
 };
+
+/// Says lines to a listener, if it hears them.
+void tell(const std::function<void(const std::string&)>& hear,
+          const std::vector<std::string>& lines);
+
+/// Chooses the object in the scan of a request: the first step of segment().
+/// @param request  with a scan; a Volume is taken over.
+/// @param outcome  learns grid, object, object_asked and in_place.
+/// @throws InputError  as choose_object(). Cost as there.
+void choose_image(Request& request, const Listener& listener, OutcomeDetails& outcome);
 
 /// Checks the surfaces of the objects that were found, and judges them.
 void judge_surfaces(OutcomeDetails& outcome);

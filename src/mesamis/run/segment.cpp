@@ -12,56 +12,6 @@
 namespace mesamis {
 namespace {
 
-void tell(const std::function<void(const std::string&)>& hear,
-          const std::vector<std::string>& lines) {
-  if (!hear) return;
-  for (const std::string& line : lines) hear(line);
-}
-
-/// What was asked for of the object, with what the settings say of it.
-ObjectRequest completed(const Request& request) {
-  const ObjectRequest by_settings = object_request(request.settings);
-  ObjectRequest object = request.object;
-  object.level = by_settings.level;
-  object.measure_level = by_settings.measure_level && !request.labels;
-  object.has_labels = request.labels.has_value();
-  if (object.crop == CropRange{}) object.crop = by_settings.crop;
-  if (object.has_labels && object.surroundings == SurroundingsRule::kRemoveIfPatient) {
-    object.surroundings = SurroundingsRule::kKeep;
-  }
-  return object;
-}
-
-/// The scan of a request that has one.
-VolumeView view_of(const Request& request) {
-  if (const auto* volume = std::get_if<Volume>(&request.scan)) return *volume;
-  return std::get<VolumeView>(request.scan);
-}
-
-/// Copies the samples only where they change.
-ChosenObject choose(Request& request, const ObjectRequest& wanted,
-                    std::span<const float>& in_place) {
-  if (auto* volume = std::get_if<Volume>(&request.scan)) {
-    return choose_object(std::move(*volume), wanted);
-  }
-  const auto& view = std::get<VolumeView>(request.scan);
-  if (auto same = choose_in_place(view, wanted)) {
-    in_place = view.samples;
-    return *std::move(same);
-  }
-  return choose_object(copy_volume(view), wanted);
-}
-
-void choose_image(Request& request, const Listener& listener, OutcomeDetails& outcome) {
-  outcome.object_asked = completed(request);
-  const VolumeView scan = view_of(request);
-  require_usable(scan);
-  outcome.grid = scan;
-  outcome.object = choose(request, outcome.object_asked, outcome.in_place);
-  tell(listener.note, outcome.object->notes);
-  tell(listener.warning, outcome.object->warnings);
-}
-
 void require_scan_where_needed(const Request& request) {
   if (request.has_scan()) return;
   if (!request.labels) throw InputError("request: expected a scan or labels, found neither");

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "mesamis/method/chosen_run.h"
 #include "mesamis/report/label_report.h"
 #include "mesamis/report/mesh_output.h"
 #include "mesamis/run/outcome_details.h"
@@ -86,19 +87,30 @@ std::optional<SlabOutcome> segment_in_slabs(const SlabRequest& request, const fs
   return SlabOutcome{Outcome(std::move(outcome)), *std::move(work), std::move(scan)};
 }
 
-std::optional<LabelSlabOutcome> segment_labels_in_slabs(const LabelSlabRequest& request,
-                                                        const Settings& settings,
-                                                        const SlabRunOptions& options, Team& team) {
-  auto work = label_surfaces_in_slabs(request, settings, options, team);
-  if (!work) return std::nullopt;
+std::optional<LabelSlabOutcome> segment_labels_in_slabs(const LabelSlabRun& run,
+                                                        const fs::path& scratch, Team& team) {
   OutcomeDetails outcome;
-  outcome.asked = settings;
-  outcome.grid = work->head;
+  outcome.asked = run.settings;
+  std::optional<MappedScan> scan;
+  LabelSlabRequest labels = run.labels;
+  if (run.scan != nullptr) {
+    labels.scan = run.scan->grid();
+    labels.find = [&](const LabelRequest& extracted) {
+      scan.emplace(map_scan(*run.scan, scratch));
+      Request request{.scan = scan->volume, .labels = LabelChoice{}, .settings = run.settings};
+      choose_image(request, {}, outcome);
+      return run_on_labels(ObjectInPlace{*outcome.object, outcome.image()}, extracted, run.settings,
+                           run.slabs.progress);
+    };
+  }
+  auto work = label_surfaces_in_slabs(labels, run.settings, run.slabs, team);
+  if (!work) return std::nullopt;
+  if (!scan) outcome.grid = work->head;
   outcome.several = std::move(work->result);
   outcome.wanted = work->chosen;
   outcome.warnings = missing_objects(*outcome.several, outcome.wanted);
   judge_surfaces(outcome);
-  return LabelSlabOutcome{Outcome(std::move(outcome)), *std::move(work)};
+  return LabelSlabOutcome{Outcome(std::move(outcome)), *std::move(work), std::move(scan)};
 }
 
 }  // namespace mesamis::detail::run

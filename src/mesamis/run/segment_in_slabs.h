@@ -41,17 +41,31 @@ struct SlabOutcome {
 std::optional<SlabOutcome> segment_in_slabs(const SlabRequest& request,
                                             const std::filesystem::path& scratch, Team& team);
 
-/// What came out of a run on labels.
-struct LabelSlabOutcome {
-  Outcome outcome;
-  LabelSlabResult work;  ///< its result is moved into the outcome
+/// A run in slabs on labels.
+struct LabelSlabRun {
+  LabelSlabRequest labels;            ///< its scan, and how objects are found in it, follow
+  const SliceSource* scan = nullptr;  ///< whose image places the surfaces; nullptr: labels alone
+  Settings settings{};
+  SlabRunOptions slabs{};
 };
 
-/// Does what segment() does for labels without a scan, slab by slab: see label_surfaces_in_slabs().
+/// What came out of it.
+struct LabelSlabOutcome {
+  Outcome outcome;
+  LabelSlabResult work;            ///< its result is moved into the outcome
+  std::optional<MappedScan> scan;  ///< the samples that the outcome refers to
+};
+
+/// Does what segment() does for labels, their boundaries slab by slab: see
+/// label_surfaces_in_slabs().
+/// @param scratch  folder for a copy of the scan.
 /// @return on rank 0; nothing elsewhere.
-/// @throws InputError, Cancelled  as label_surfaces_in_slabs(). Cost as that.
-std::optional<LabelSlabOutcome> segment_labels_in_slabs(const LabelSlabRequest& request,
-                                                        const Settings& settings,
-                                                        const SlabRunOptions& options, Team& team);
+/// @throws InputError, Cancelled  as label_surfaces_in_slabs(), map_scan() and segment().
+///
+/// Cost as label_surfaces_in_slabs(); with a scan, rank 0 holds the block of it around the labels,
+/// about 25 bytes per voxel.
+std::optional<LabelSlabOutcome> segment_labels_in_slabs(const LabelSlabRun& run,
+                                                        const std::filesystem::path& scratch,
+                                                        Team& team);
 
 }  // namespace mesamis::detail::run

@@ -45,9 +45,9 @@ CropRange range_in(const StoredLabels& labels, const std::vector<Segment>& chose
   return range;
 }
 
-/// The block around the chosen segments.
-LabelBlock find_block(const StoredLabels& labels, const std::vector<Segment>& chosen,
-                      const Scratch& scratch, Stages& stages) {
+/// The range of the chosen segments.
+CropRange find_range(const StoredLabels& labels, const std::vector<Segment>& chosen,
+                     const Scratch& scratch, Stages& stages) {
   const VoxelGrid& grid = labels.head();
   const Index slices = grid.size[2], chunks = (slices + kSlicesSeen - 1) / kSlicesSeen;
   stages.run("look", chunks, [&](Index c) {
@@ -66,7 +66,7 @@ LabelBlock find_block(const StoredLabels& labels, const std::vector<Segment>& ch
     }
   }
   if (all.end[0] == 0) refuse_empty(chosen);
-  return block_around(grid, all, 0);
+  return all;
 }
 
 /// Slabs of equal numbers of slices, as near as possible.
@@ -117,8 +117,52 @@ void run_layer(LayerRun& run, bool keep_topology, Stages& stages) {
   each("surface", [&](Index s) { return extract_slab(run, match, s); });
 }
 
-LabelSlabResult finish(const std::vector<LayerRun>& runs, const std::vector<Segment>& chosen,
+constexpr char kMarginFile[] = "margin";
+
+/// Reads labels, and leaves them in the scratch folder on the grid that they are worked on.
+void bring_labels(const Scratch& scratch, const LabelSlabRequest& request,
+                  const Settings& settings) {
+  ReadLabels labels = request.read();
+  require_valid(labels.map);
+  double margin = 0;
+  if (request.scan) {
+    if (!image_fits_labels(settings, *request.scan, labels.map)) {
+      throw InputError(
+          "slabs: expected labels beside a scan to be no coarser than 1.25 voxels of it, and no "
+          "--no-fit, found " +
+          std::string(settings.fit ? "coarser ones" : "--no-fit") +
+          ": they flow in the whole image");
+    }
+    margin = margin_of(request.margin, *request.scan, labels.map);
+    labels.map = labels_on(labels.map, *request.scan);
+  }
+  store_labels(scratch, labels.map, labels.warnings);
+  ArchiveWriter archive;
+  archive.add_one(margin);
+  scratch.write(kMarginFile, archive);
+}
+
+/// The map that was stored, with its layers.
+LabelMap whole_map(const StoredLabels& labels) {
+  LabelMap map = labels.head();
+  Index layers = 0;
+  for (const Segment& s : map.segments) layers = std::max(layers, s.layer + 1);
+  for (Index layer = 0; layer < layers; ++layer) {
+    map.layers.push_back(labels.read(layer, 0, map.size[2]));
+  }
+  return map;
+}
+
+/// What the runs on all layers know in common.
+struct AllLayers {
+  const std::vector<LayerRun>& runs;
+  const std::vector<Segment>& chosen;
+  double margin = 0;  ///< mm
+};
+
+LabelSlabResult finish(const AllLayers& found, const LabelSlabRequest& request,
                        const Settings& settings, const Progress& progress) {
+  const auto& [runs, chosen, margin] = found;
   const LayerRun& any = runs.front();
   const LabelMap& head = any.source.head();
   const auto extract = [&](Index layer) {
@@ -126,9 +170,15 @@ LabelSlabResult finish(const std::vector<LayerRun>& runs, const std::vector<Segm
                                  [&](const LayerRun& run) { return run.layer == layer; });
     return joined_boundaries(*at);
   };
+  const ExtractedBoundaries extracted{any.block, extract};
   LabelSlabResult all;
-  all.result = surfaces_of_boundaries({head, chosen}, settings, {grid_of(head, any.block), extract},
-                                      progress);
+  if (request.scan) {
+    const LabelMap map = whole_map(any.source);
+    all.result = request.find({map, chosen, margin, false, nullptr, &extracted});
+  } else {
+    all.result =
+        surfaces_of_labels({head, chosen, {}, false, nullptr, &extracted}, settings, progress);
+  }
   all.head = head;
   all.chosen = chosen;
   for (const Index cut : any.cuts) all.cuts.push_back(any.block.begin[2] + cut);
@@ -140,9 +190,7 @@ std::optional<LabelSlabResult> run_through(const Scratch& scratch, const LabelSl
                                            Team& team) {
   const Progress& progress = options.progress;
   Stages(scratch, team, progress, 1).run("labels", 1, [&](Index) {
-    const ReadLabels labels = request.read();
-    require_valid(labels.map);
-    store_labels(scratch, labels.map, labels.warnings);
+    bring_labels(scratch, request, settings);
     return SlabWork{};
   });
   const StoredLabels labels(scratch);
@@ -150,7 +198,10 @@ std::optional<LabelSlabResult> run_through(const Scratch& scratch, const LabelSl
   require_chosen(chosen, labels.head());
   Stages stages(scratch, team, progress,
                 options.turns.value_or(parts_of(labels.head(), kVoxelsOfATurn)));
-  const LabelBlock block = find_block(labels, chosen, scratch, stages);
+  const auto margin = scratch.read(kMarginFile).next_one<double>();
+  LabelBlock block =
+      block_around(labels.head(), find_range(labels, chosen, scratch, stages), margin);
+  if (request.scan) block = clipped(block, *request.scan);
   const std::vector<Index> cuts = cuts_of(block, options.slabs);
   std::vector<LayerRun> runs;
   for (const Index layer : layers_of(chosen)) {
@@ -159,7 +210,7 @@ std::optional<LabelSlabResult> run_through(const Scratch& scratch, const LabelSl
   }
   team.wait_for_all();  // all have read what rank 0 removes at the end
   if (team.rank() != 0) return std::nullopt;
-  LabelSlabResult all = finish(runs, chosen, settings, progress);
+  LabelSlabResult all = finish({runs, chosen, margin}, request, settings, progress);
   all.warnings = labels.warnings();
   all.slabs = stages.work_of_slabs(runs.front().count());
   return all;

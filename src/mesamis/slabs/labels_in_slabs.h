@@ -26,12 +26,19 @@ struct LabelSlabRequest {
   /// Chooses segments, which become those of the result: each once. Called on every rank with the
   /// map's grid and segments; its layers are empty. It may throw.
   std::function<std::vector<Segment>(const LabelMap& head)> choose;
+  /// Where the voxels of the scan lie that places the surfaces: the map is brought to them. Nothing:
+  /// the labels alone.
+  std::optional<VoxelGrid> scan{};
+  std::optional<double> margin{};  ///< mm, see margin_of(); with a scan only
+  /// With a scan: finds the objects in it, of boundaries that were extracted; called on rank 0, by
+  /// find_labelled_objects() in the end.
+  std::function<LabelResult(const LabelRequest&)> find{};
 };
 
 /// The surfaces of labels, and how they came about.
 struct LabelSlabResult {
   LabelResult result;
-  LabelMap head;                      ///< the map without its layers
+  LabelMap head;                      ///< the map, on the scan's grid if any, without its layers
   std::vector<std::string> warnings;  ///< of reading it
   std::vector<Segment> chosen;        ///< its segments that were chosen
   /// Slab s has the slices cuts[s] to cuts[s + 1] - 1 of the block around the chosen segments,
@@ -40,8 +47,9 @@ struct LabelSlabResult {
   std::vector<SlabWork> slabs;  ///< one per slab: of `voxels` those at a time, the most of any task
 };
 
-/// Makes surfaces of a label map alone as surfaces_of_labels() does, to the bit, without holding
-/// more of it than the slabs of a turn once it is read.
+/// Makes surfaces of a label map as surfaces_of_labels() does, or with a scan what its `find` makes
+/// of the boundaries, to the bit, without holding the memberships of more voxels than those of the
+/// slabs of a turn.
 ///
 /// Labels are read whole (two bytes per voxel and layer) and written to the scratch folder. Parts,
 /// memberships, volumes and boundaries are found slab by slab, each with the slices around it that
@@ -57,7 +65,8 @@ struct LabelSlabResult {
 /// @param team      the processes that all call this function with the same arguments.
 /// @return on rank 0; nothing elsewhere.
 /// @throws InputError  as surfaces_of_labels() and the functions of the request; for slabs that are
-///                     thinner than two slices; or if the folder holds files of another run.
+///                     thinner than two slices; for labels that the image does not fit, see
+///                     image_fits_labels(); or if the folder holds files of another run.
 /// @throws Cancelled   if progress says stop; the folder is kept.
 ///
 /// Time as surfaces_of_labels(), and for each slab that of 28 slices more. Memory of a process:
