@@ -26,10 +26,12 @@ std::vector<std::string> lines_of(std::string_view text) {
   return lines;
 }
 
-TEST(TextScan, LinesEndInEitherWayOrWithTheText) {
+TEST(TextScan, LinesEndInAnyWayOrWithTheText) {
   EXPECT_THAT(lines_of("a\r\n\nb c\nd"), ElementsAre("a", "", "b c", "d"));
   EXPECT_THAT(lines_of("a\n"), ElementsAre("a"));
   EXPECT_THAT(lines_of("\n"), ElementsAre(""));
+  EXPECT_THAT(lines_of("a\rb c\r\rd"), ElementsAre("a", "b c", "", "d")) << "old Macs";
+  EXPECT_THAT(lines_of("a\r\r\nb\r"), ElementsAre("a", "b")) << "converted twice";
   EXPECT_THAT(lines_of(""), ElementsAre());
 }
 

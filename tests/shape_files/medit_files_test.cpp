@@ -80,7 +80,7 @@ TEST(Medit, ToleratesLayoutCommentsAndOtherSections) {
   const TempFolder folder;
   const TetMesh mesh =
       read_text(folder,
-                "# made by hand\n MeshVersionFormatted\n1 Dimension\t3\r\nCorners 2 1 2\n"
+                "# made on an old Mac\r#\n MeshVersionFormatted\n1 Dimension\t3\r\nCorners 2 1 2\n"
                 "Triangles\n1\n1 2 3 7\nVertices 4 # four\n0 0 0 1\n+1 0 0 2 0 1 0 3\n0 0 1.e0 4\n"
                 "Normals 1\n0 0 1.5\nTetrahedra 1 1 2 3 4 99");
   EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));

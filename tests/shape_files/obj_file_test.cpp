@@ -23,6 +23,16 @@ TEST(Obj, ReadsAllWaysToNamePoints) {
   EXPECT_EQ(surface.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}}));
 }
 
+TEST(Obj, LinesMayEndAsOnOldMacsOrGoOnBehindABackslash) {
+  const TempFolder folder;
+  write_bytes(folder / "a.obj", "# by hand\rv 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r");
+  EXPECT_EQ(read_surface(folder / "a.obj").triangles, (std::vector<Triangle>{{0, 1, 2}}));
+  write_bytes(folder / "a.obj", "v 0 0 0\nv 1 0\\\n0\nv 0 1 0\nf 1 \\\r\n 2\\\n3\n");
+  EXPECT_EQ(read_surface(folder / "a.obj").triangles, (std::vector<Triangle>{{0, 1, 2}}));
+  write_bytes(folder / "a.obj", "v 0 0 0\nv 1 0\\\n0\nv 0 1 x\nf 1 2 \\");
+  EXPECT_REFUSED(read_surface(folder / "a.obj"), HasSubstr("line 4"));
+}
+
 TEST(Obj, SaysInWhichLineItIsWrong) {
   const TempFolder folder;
   for (const auto& [text, message] :

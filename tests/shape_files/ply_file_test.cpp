@@ -2,6 +2,7 @@
 // PLY files of other writers, and damaged ones.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 
 #include "mesamis/shape_files/surface_files.h"
@@ -28,6 +29,23 @@ TEST(Ply, ReadsTextWithMoreThanItNeeds) {
   EXPECT_EQ(surface.points.size(), 5u);
   EXPECT_EQ(surface.points[4], (Vec3{0, 0, 2}));
   EXPECT_EQ(surface.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 4}}));
+}
+
+/// The first value of the second file looks like the end of a line.
+TEST(Ply, LinesMayEndAsOnOldMacs) {
+  const TempFolder folder;
+  std::string text = kTextPly;
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  write_bytes(folder / "a.ply", text);
+  EXPECT_EQ(read_surface(folder / "a.ply").triangles.size(), 3u);
+  write_bytes(folder / "b.ply",
+              "ply\rformat binary_little_endian 1.0\relement vertex 3\rproperty uchar x\r"
+              "property uchar y\rproperty uchar z\relement face 1\r"
+              "property list uchar uchar vertex_indices\rend_header\r" +
+                  std::string("\n\0\0\0\1\0\0\0\1\3\0\1\2", 13));
+  const TriMesh surface = read_surface(folder / "b.ply");
+  EXPECT_EQ(surface.points, (std::vector<Vec3>{{10, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+  EXPECT_EQ(surface.triangles, (std::vector<Triangle>{{0, 1, 2}}));
 }
 
 TEST(Ply, ArraysOnItsPointsAreReadBackByName) {

@@ -2,6 +2,7 @@
 // STL files: the ways to write them that are not ours, and how they go wrong.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "mesamis/shape_files/surface_files.h"
@@ -69,7 +70,9 @@ TEST(Stl, ReadsTextInAnyCaseAndBehindAMark) {
       "endloop\nendfacet\nendsolid a\n";
   std::string upper = text;
   for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  for (const std::string& bytes : {text, upper, "\xef\xbb\xbf" + text, "\r\n  " + upper}) {
+  std::string old_mac = text;
+  std::replace(old_mac.begin(), old_mac.end(), '\n', '\r');
+  for (const std::string& bytes : {text, upper, old_mac, "\xef\xbb\xbf" + text, "\r\n  " + upper}) {
     const TempFolder folder;
     write_bytes(folder / "a.stl", bytes);
     EXPECT_EQ(read_surface(folder / "a.stl").triangles.size(), 1u) << bytes;

@@ -2,6 +2,7 @@
 // Legacy VTK files, which are read alone.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
 
@@ -27,6 +28,10 @@ TEST(Vtk, ReadsPolygonsAndStrips) {
   EXPECT_EQ(surface.points.size(), 5u);
   EXPECT_EQ(surface.triangles,
             (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 4}, {0, 1, 3}, {1, 2, 3}}));
+  std::string old_mac = kTextVtk;
+  std::replace(old_mac.begin(), old_mac.end(), '\n', '\r');
+  write_bytes(folder / "c.vtk", old_mac);
+  EXPECT_EQ(read_surface(folder / "c.vtk").triangles, surface.triangles);
   write_bytes(folder / "b.vtk.gz", packed(kTextVtk));
   EXPECT_EQ(read_surface(folder / "b.vtk.gz").triangles, surface.triangles);
 }

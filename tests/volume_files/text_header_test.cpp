@@ -24,6 +24,21 @@ TEST(TextHeader, LinesEndAsOnUnixOrOnWindows) {
   EXPECT_EQ(lines.position(), 14u);
 }
 
+TEST(TextHeader, LinesEndAsOnOldMacsIfTheFirstDoes) {
+  const TempFolder folder;
+  write_bytes(folder / "a", "one\rtwo\r\r\nx");
+  HeaderLines lines(folder / "a");
+  std::string line;
+  EXPECT_TRUE(lines.next(line) && line == "one");
+  EXPECT_TRUE(lines.next(line) && line == "two");
+  EXPECT_TRUE(lines.next(line) && line.empty());
+  EXPECT_EQ(lines.position(), 9u) << "the first sample may look like the end of a line";
+  write_bytes(folder / "b", "one\ntw\ro\n");
+  HeaderLines unix_lines(folder / "b");
+  EXPECT_TRUE(unix_lines.next(line) && unix_lines.next(line));
+  EXPECT_EQ(line, "tw\ro");
+}
+
 TEST(TextHeader, ThePositionIsThatBehindTheLine) {
   const TempFolder folder;
   write_bytes(folder / "a", "one\r\n\1\2\3");

@@ -18,13 +18,19 @@ inline std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-/// The next line without its end (\n or \r\n), taken off the front of the text; false at the end.
+/// Whether a character ends a line, alone or before another.
+inline bool ends_line(char c) { return c == '\n' || c == '\r'; }
+
+/// The next line without its end (\n, \r\n, \r\r\n or, as old Macs wrote it, \r), taken off the front
+/// of the text; false at the end.
 inline bool take_line(std::string_view& text, std::string_view& line) {
   if (text.empty()) return false;
-  const std::size_t end = std::min(text.find('\n'), text.size());
-  line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  if (line.ends_with('\r')) line.remove_suffix(1);
+  const auto at = std::find_if(text.begin(), text.end(), ends_line);
+  line = text.substr(0, static_cast<std::size_t>(at - text.begin()));
+  text.remove_prefix(line.size());
+  const std::size_t returns = std::min(text.find_first_not_of('\r'), text.size());
+  const bool newline = returns < text.size() && text[returns] == '\n';
+  text.remove_prefix(newline ? returns + 1 : std::min<std::size_t>(1, text.size()));
   return true;
 }
 

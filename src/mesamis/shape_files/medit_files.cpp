@@ -10,6 +10,7 @@
 #include "mesamis/files/byte_source.h"
 #include "mesamis/files/memory_budget.h"
 #include "mesamis/files/refuse.h"
+#include "mesamis/files/text_scan.h"
 #include "mesamis/files/text_writer.h"
 #include "mesamis/shape_files/mesh_checks.h"
 #include "mesamis/shape_files/mesh_files.h"
@@ -74,7 +75,7 @@ class Words {
   /// The next word, empty at the end of the file.
   std::string_view next() {
     while (at_ != end() && (is_space(*at_) || *at_ == '#')) {
-      at_ = *at_ == '#' ? std::find(at_, end(), '\n') : at_ + 1;
+      at_ = *at_ == '#' ? std::find_if(at_, end(), ends_line) : at_ + 1;
     }
     word_ = at_;
     while (at_ != end() && !is_space(*at_) && *at_ != '#') ++at_;
@@ -120,7 +121,8 @@ class Words {
   void enter(std::string_view section) { section_ = section; }
 
   [[noreturn]] void refuse(const std::string& what) const {
-    const auto line = 1 + std::count(text_.data(), word_, '\n');
+    const auto ends = std::count(text_.data(), word_, '\n');
+    const auto line = 1 + (ends > 0 ? ends : std::count(text_.data(), word_, '\r'));
     mesamis::refuse(name_ + ":" + std::to_string(line),
                     (section_.empty() ? "" : section_ + ": ") + what);
   }

@@ -22,7 +22,7 @@ class ObjParser {
       : file_(file), text_(text), budget_(budget) {}
 
   ParsedObjects parse() {
-    for (std::string_view line; take_line(text_, line); ++line_number_) {
+    for (std::string_view line; next_line(line); ++line_number_) {
       const std::string_view whole = line, keyword = take_word(line);
       if (keyword == "v") add_point(line);
       if (keyword == "f") add_face(line);
@@ -42,6 +42,25 @@ class ObjParser {
   const std::vector<std::string>& materials() const { return materials_; }
 
  private:
+  /// A backslash at the end of a line joins the next one to it.
+  bool next_line(std::string_view& line) {
+    if (!take_line(text_, line)) return false;
+    if (!line.ends_with('\\')) return true;
+    joined_.clear();
+    for (bool more = true; more;) {
+      more = line.ends_with('\\');
+      if (more) line.remove_suffix(1);
+      joined_ += line;
+      if (more) {
+        joined_ += ' ';
+        ++line_number_;
+        more = take_line(text_, line);
+      }
+    }
+    line = joined_;
+    return true;
+  }
+
   void read_comment(std::string_view whole, std::string_view rest) {
     if (!frame_) frame_ = frame_named_in(whole);
     if (take_word(rest) == kLabelComment && object_ < 0)
@@ -122,6 +141,7 @@ class ObjParser {
   const fs::path& file_;
   std::string_view text_;
   MemoryBudget& budget_;
+  std::string joined_;  // a line in several parts
   std::size_t line_number_ = 1;
   TriMesh surface_;
   std::optional<Frame> frame_;

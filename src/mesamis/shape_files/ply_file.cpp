@@ -91,13 +91,19 @@ void read_property(const fs::path& file, std::string_view line, Header& header) 
 /// Takes the header off the front of the bytes.
 Header take_header(const fs::path& file, std::string_view& bytes) {
   Header header;
-  std::string_view line;
+  std::string_view line, whole = bytes;
   if (!take_line(bytes, line) || trimmed(line) != "ply") {
     refuse(file, "is not a PLY file: the first line is not ply");
   }
-  while (take_line(bytes, line)) {
+  const bool old_mac = whole[bytes.data() - whole.data() - 1] == '\r';
+  for (whole = bytes; take_line(bytes, line); whole = bytes) {
+    const std::size_t end = line.size();
     const std::string_view keyword = take_word(line);
-    if (keyword == "end_header") return header;
+    if (keyword == "end_header") {
+      // Values may begin with a byte that looks like the rest of a line's end.
+      if (old_mac) bytes = whole.substr(std::min(end + 1, whole.size()));
+      return header;
+    }
     if (keyword == "format") read_format(file, line, header);
     if (keyword == "element") read_element(file, line, header);
     if (keyword == "property") read_property(file, line, header);

@@ -184,7 +184,7 @@ SurfaceFile parse_stl(const fs::path& file, std::string_view bytes, MemoryBudget
   require_finite(file, corners);
   const std::string_view head = bytes.substr(0, kHeader);
   return {weld(file, corners, budget),
-          frame_named_in(binary ? head : head.substr(0, head.find('\n')))};
+          frame_named_in(binary ? head : head.substr(0, head.find_first_of("\r\n")))};
 }
 
 }  // namespace mesamis::detail::shape_files

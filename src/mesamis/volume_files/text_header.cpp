@@ -46,6 +46,15 @@ HeaderLines::HeaderLines(const std::filesystem::path& file) : file_(file) {
   note_read(file, before);
 }
 
+bool HeaderLines::ends_here() {
+  if (ends_ == Ends::kUnknown) {
+    const auto follows = in_.peek();
+    const bool alone = follows != '\n' && follows != '\r';
+    ends_ = alone ? Ends::kReturn : Ends::kNewline;
+  }
+  return ends_ == Ends::kReturn;
+}
+
 bool HeaderLines::next(std::string& line) {
   line.clear();
   char c = 0;
@@ -56,7 +65,8 @@ bool HeaderLines::next(std::string& line) {
       refuse(file_,
              message("expected a header of at most ", kLongestHeader, " bytes, found no end"));
     }
-    if (c == '\n') break;
+    if (c == '\n' && ends_ == Ends::kUnknown) ends_ = Ends::kNewline;
+    if (c == '\n' || (c == '\r' && ends_here())) break;
     line += c;
   }
   if (line.ends_with('\r')) line.pop_back();

@@ -19,15 +19,21 @@ class HeaderLines {
  public:
   /// @throws InputError  if the file cannot be read.
   explicit HeaderLines(const std::filesystem::path& file);
-  /// The next line without its end (\n or \r\n); false at the end of the file.
+  /// The next line without its end (\n, \r\n or, if the first line has it, \r alone); false at the end of the file.
   /// @throws InputError  if a line or the header is longer than a header can be.
   bool next(std::string& line);
   /// Bytes read so far.
   std::uint64_t position() const { return position_; }
 
  private:
+  enum class Ends { kUnknown, kNewline, kReturn };
+
+  /// Whether a \r that was read ends its line alone: the first line tells.
+  bool ends_here();
+
   std::filesystem::path file_;
   std::ifstream in_;
+  Ends ends_ = Ends::kUnknown;
   std::uint64_t position_ = 0;
 };
 
