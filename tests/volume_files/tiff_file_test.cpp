@@ -90,6 +90,14 @@ TEST(Tiff, ReadsEveryTypeOfGreySamples) {
   EXPECT_EQ(first(page(16, kUnsigned, bytes_of(std::uint16_t{40000}))), 40000);
   EXPECT_EQ(first(page(32, kSigned, bytes_of(std::int32_t{-70000}))), -70000);
   EXPECT_EQ(first(page(32, kReal, bytes_of(0.25F))), 0.25F);
+  const auto half = [&](int bits) {
+    return first(page(16, kReal, bytes_of(static_cast<std::uint16_t>(bits))));
+  };
+  EXPECT_EQ(half(0x3555), 0.333251953125F);
+  EXPECT_EQ(half(0xfbff), -65504);
+  EXPECT_EQ(half(0x0001), 0x1p-24F) << "the least number";
+  EXPECT_EQ(half(0x83ff), -1023 * 0x1p-24F);
+  EXPECT_EQ(half(0x6400), 1024);
   EXPECT_EQ(first(page(64, kReal, bytes_of(-1e10))), -1e10F);
 }
 

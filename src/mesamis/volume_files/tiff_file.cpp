@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -59,6 +61,7 @@ struct Page {
   /// Bytes of so many pixels of one line: samples of less than a byte are packed.
   std::size_t bytes_of_line(std::size_t pixels) const { return (pixels * bits + 7) / 8; }
   std::size_t bytes_of_all() const { return height * bytes_of_line(width); }
+  bool is_half() const { return bits == 16 && format == SAMPLEFORMAT_IEEEFP; }
 };
 
 /// The table of colours of a page; empty if there is none.
@@ -108,7 +111,7 @@ std::optional<NumberType> sample_type(const Page& page) {
       if (real) return std::nullopt;
       return sign ? NumberType::kInt8 : NumberType::kUint8;
     case 16:
-      if (real) return std::nullopt;
+      if (real) return NumberType::kFloat32;  // once they are widened
       return sign ? NumberType::kInt16 : NumberType::kUint16;
     case 32:
       return real ? NumberType::kFloat32 : sign ? NumberType::kInt32 : NumberType::kUint32;
@@ -505,13 +508,45 @@ std::vector<unsigned char> unpacked(std::span<const unsigned char> bytes, const 
   return samples;
 }
 
+/// A number of half precision: a sign, five bits of exponent, ten of fraction. Exact.
+float widened(std::uint16_t half) {
+  constexpr int kExponentBias = 15, kFractionBits = 10, kMostExponent = 31;
+  const int exponent = half >> kFractionBits & kMostExponent;
+  const int fraction = half & ((1 << kFractionBits) - 1);
+  float size = std::ldexp(static_cast<float>(fraction + (exponent > 0 ? 1 << kFractionBits : 0)),
+                          std::max(exponent, 1) - kExponentBias - kFractionBits);
+  if (exponent == kMostExponent) {
+    using Limits = std::numeric_limits<float>;
+    size = fraction == 0 ? Limits::infinity() : Limits::quiet_NaN();
+  }
+  return half >> 15 != 0 ? -size : size;
+}
+
+/// Samples of half precision in single precision, in this machine's byte order.
+std::vector<unsigned char> widened(std::span<const unsigned char> bytes, bool big_endian) {
+  const ByteOrder order = big_endian ? ByteOrder::kBig : ByteOrder::kLittle;
+  std::vector<unsigned char> samples(2 * bytes.size());
+  for (std::size_t n = 0; n + 1 < bytes.size(); n += 2) {
+    const float value =
+        widened(load<std::uint16_t>(reinterpret_cast<const char*>(bytes.data() + n), order));
+    std::memcpy(samples.data() + 2 * n, &value, sizeof value);
+  }
+  return samples;
+}
+
 /// Appends the samples of a page. Number is float or double.
 template <class Number>
 void append_page(const TiffPages& in, std::span<const unsigned char> bytes,
                  std::vector<Number>& out, MemoryBudget& budget) {
-  if (in.page.bits >= 8) return append_samples(bytes, in.scan.source, out);
-  const ScopedClaim claim(budget, std::uint64_t{in.page.width} * in.page.height, 1, "a page");
-  append_samples(unpacked(bytes, in.page), in.scan.source, out);
+  const Page& page = in.page;
+  const bool half = page.is_half();
+  if (page.bits >= 8 && !half) return append_samples(bytes, in.scan.source, out);
+  const ScopedClaim claim(budget, std::uint64_t{page.width} * page.height,
+                          byte_size(in.scan.source.type), "a page");
+  SampleSource source = in.scan.source;
+  source.big_endian = false;
+  append_samples(half ? widened(bytes, in.scan.source.big_endian) : unpacked(bytes, page), source,
+                 out);
 }
 
 /// Appends planes that lie behind one directory.
