@@ -332,13 +332,14 @@ TEST(Dicom, SurvivesDeepNesting) {
 
 /// Slices at 0, 2, 4 and so on, each with some change.
 template <class Change>
-std::filesystem::path changed_series(const TempFolder& folder, const Change& change) {
+std::filesystem::path changed_series(const TempFolder& folder, const Change& change,
+                                     const std::string& prefix = "") {
   for (int k = 0; k < 4; ++k) {
     SliceBytes slice;
     slice.position = {0, 0, 2.0 * k};
     slice.pixels = ramp<std::int16_t>(12, 12 * k);
     change(slice, k);
-    write_bytes(folder / (std::to_string(k) + ".dcm"), slice.bytes());
+    write_bytes(folder / (prefix + std::to_string(k) + ".dcm"), slice.bytes());
   }
   return folder / "";
 }
@@ -428,6 +429,33 @@ TEST(Dicom, CopiesOfAFileCountOnce) {
   const VolumeFile file = read_volume(path);
   EXPECT_EQ(file.volume.size[2], 4);
   EXPECT_THAT(file.warnings, testing::ElementsAre(HasSubstr("2 files left out: copies")));
+}
+
+TEST(Dicom, SlicesInTwoEncodingsCountOnce) {
+  const TempFolder folder;
+  const auto number = [](SliceBytes& slice, int k) {
+    slice.more[0x00200013] = {"IS", std::to_string(k)};
+  };
+  const auto path = changed_series(folder, number);
+  const Volume plain = read_volume(path).volume;
+  changed_series(
+      folder,
+      [&](SliceBytes& slice, int k) {
+        number(slice, k);
+        slice.coding = DicomCoding::kDeflated;
+      },
+      "packed");
+  VolumeFile file = read_volume(path);
+  EXPECT_EQ(file.volume.samples, plain.samples);
+  EXPECT_THAT(file.warnings, testing::ElementsAre(HasSubstr("4 files left out: the same slices")));
+  changed_series(
+      folder,
+      [&](SliceBytes& slice, int k) {
+        number(slice, k + 10);
+        slice.coding = DicomCoding::kDeflated;
+      },
+      "packed");
+  EXPECT_THAT(complaint(path), HasSubstr("Instance Number")) << "others, at the same places";
 }
 
 /// Another picture at the same place, or the same UID elsewhere, is no copy.

@@ -52,6 +52,27 @@ TEST(DicomSeries, GroupsByUidInTheOrderOfTheFiles) {
   EXPECT_EQ(all[1].modality, "CT");
 }
 
+/// Two files of one slice, coded in two ways; a third one is another slice.
+TEST(DicomSeries, OfTwoEncodingsThatWithoutLossIsKept) {
+  auto all = images("1", 3);
+  all[0].instance = all[1].instance = "1.5";
+  all[0].file = "lossy.dcm";
+  all[0].slices[0].file = "lossy.dcm";
+  all[0].transfer_syntax = "1.2.840.10008.1.2.4.50";
+  all[0].lossy = true;
+  all[1].transfer_syntax = "1.2.840.10008.1.2.1";
+  all[2].slices[0].position = {0, 0, 1};
+  const auto series = group_by_series(all);
+  ASSERT_EQ(series.size(), 1u);
+  ASSERT_EQ(series[0].stacks[0].size(), 2u);
+  EXPECT_EQ(series[0].stacks[0][0].file, "folder/1");
+  EXPECT_THAT(series[0].warnings, ElementsAre(AllOf(HasSubstr("1 file left out: the same slices"),
+                                                    HasSubstr("lossy.dcm"))));
+  all[1].transfer_syntax = all[0].transfer_syntax;
+  all[1].content = 7;
+  EXPECT_EQ(group_by_series(all)[0].stacks[0].size(), 3u) << "another picture";
+}
+
 TEST(DicomSeries, FilesWithoutPixelsAreSkipped) {
   DicomImage report = image("1");
   report.has_pixels = false;

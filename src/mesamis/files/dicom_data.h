@@ -43,7 +43,7 @@ inline constexpr DicomTag kTransferSyntax = 0x00020010, kCharacterSet = 0x000800
                           kDoublePixelData = 0x7fe00009, kSopInstance = 0x00080018,
                           kInstanceNumber = 0x00200013, kSliceLocation = 0x00201041,
                           kFrameIncrement = 0x00280009, kFrameOffsets = 0x3004000c,
-                          kDoseScaling = 0x3004000e;
+                          kDoseScaling = 0x3004000e, kLossy = 0x00282110;
 inline constexpr DicomTag kSharedGroups = 0x52009229, kFrameGroups = 0x52009230,
                           kFrameContent = 0x00209111, kPlanePosition = 0x00209113,
                           kPlaneOrientation = 0x00209116, kPixelMeasures = 0x00289110,

@@ -188,6 +188,10 @@ std::string phase_marks(const DicomFile& file, std::size_t frame) {
   return marks;
 }
 
+bool has_instance_number(const std::string& marks) {
+  return !marks.empty() && marks.back() != kSeparator;
+}
+
 PhaseChoice choose_phase(const std::filesystem::path& path, const DicomStack& stack,
                          const ValueChoice& choice) {
   const Places places = places_of(stack);

@@ -16,6 +16,10 @@ namespace mesamis::detail::volume_files {
 /// @throws nothing
 std::string phase_marks(const DicomFile& file, std::size_t frame);
 
+/// Whether an Instance Number is among the marks that phase_marks() returns. O(1).
+/// @throws nothing
+bool has_instance_number(const std::string& marks);
+
 /// The stack of one phase.
 struct PhaseChoice {
   DicomStack stack;

@@ -2,11 +2,14 @@
 #include "mesamis/volume_files/dicom_series.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "mesamis/files/refuse.h"
+#include "mesamis/volume_files/dicom_phases.h"
 #include "mesamis/volume_files/dicom_spacing.h"
 
 namespace mesamis::detail::volume_files {
@@ -44,36 +47,81 @@ void add_slice(DicomSeries& series, const DicomSlice& slice) {
 bool same_frames(const DicomImage& a, const DicomImage& b) {
   const auto same = [](const DicomSlice& x, const DicomSlice& y) {
     return norm(x.position - y.position) <= kDuplicateDistance && x.slope == y.slope &&
-           x.intercept == y.intercept;
+           x.intercept == y.intercept && x.columns == y.columns && x.rows == y.rows;
   };
   return std::equal(a.slices.begin(), a.slices.end(), b.slices.begin(), b.slices.end(), same);
 }
 
-/// Files of one SOP Instance UID, place and content: one is enough.
+/// Files that are there twice: one is enough.
 class Copies {
  public:
-  bool holds(const DicomImage& image) {
-    if (image.instance.empty() || !image.problem.empty()) return false;
-    const auto [first, is_new] = first_.emplace(std::pair(image.series, image.instance), &image);
-    const DicomImage& other = *first->second;
-    if (is_new || other.content != image.content || !same_frames(other, image)) return false;
-    auto& [count, copy] = found_[image.series];
-    if (count++ == 0) copy = &image;
-    return true;
+  explicit Copies(const std::vector<DicomImage>& images) {
+    for (const DicomImage& image : images) {
+      if (image.has_pixels && image.problem.empty()) add(image);
+    }
   }
+  bool left_out(const DicomImage& image) const { return left_out_.count(&image) > 0; }
   void warn(DicomSeries& series) const {
-    const auto found = found_.find(series.uid);
-    if (found == found_.end()) return;
-    const auto& [count, copy] = found->second;
-    series.warnings.push_back(
-        message(count, count == 1 ? " file" : " files",
-                " left out: copies with the same SOP Instance UID, the first ",
-                shown(copy->file.filename().string())));
+    warn_of(same_, "copies with the same SOP Instance UID", series);
+    warn_of(recoded_, "the same slices in another encoding", series);
   }
 
  private:
-  std::map<std::pair<std::string, std::string>, const DicomImage*> first_;
-  std::map<std::string, std::pair<std::size_t, const DicomImage*>> found_;
+  /// Those of a series: how many, and the first one.
+  using Found = std::map<std::string, std::pair<std::size_t, const DicomImage*>>;
+  using Keys = std::array<std::string, 2>;
+
+  /// What copies have in common; empty if an image lacks it.
+  static Keys keys_of(const DicomImage& image) {
+    Keys keys;
+    if (!image.instance.empty()) keys[0] = image.series + '\n' + image.instance;
+    const DicomSlice& first = image.slices.front();
+    if (!has_instance_number(first.phase)) return keys;
+    const Vec3& p = first.position;
+    keys[1] = message(image.series, '\n', first.phase, '\n', p.x, ' ', p.y, ' ', p.z);
+    return keys;
+  }
+
+  void add(const DicomImage& image) {
+    if (image.slices.empty()) return;
+    const Keys keys = keys_of(image);
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const auto found = first_.find(keys[k]);
+      if (found == first_.end()) continue;
+      const DicomImage& other = *found->second;
+      if (!same_frames(other, image)) continue;
+      const bool recoded = other.transfer_syntax != image.transfer_syntax;
+      if (!recoded && (k > 0 || other.content != image.content)) continue;
+      const bool better = other.lossy && !image.lossy;
+      leave_out(better ? other : image, recoded ? recoded_ : same_);
+      if (better) keep(image, keys_of(other)), keep(image, keys);
+      return;
+    }
+    for (const std::string& key : keys) {
+      if (!key.empty()) first_.emplace(key, &image);
+    }
+  }
+  void keep(const DicomImage& image, const Keys& keys) {
+    for (const std::string& key : keys) {
+      if (!key.empty()) first_[key] = &image;
+    }
+  }
+  void leave_out(const DicomImage& image, Found& found) {
+    left_out_.insert(&image);
+    auto& [count, copy] = found[image.series];
+    if (count++ == 0) copy = &image;
+  }
+  static void warn_of(const Found& all, const char* what, DicomSeries& series) {
+    const auto found = all.find(series.uid);
+    if (found == all.end()) return;
+    const auto& [count, copy] = found->second;
+    series.warnings.push_back(message(count, count == 1 ? " file" : " files", " left out: ", what,
+                                      ", the first ", shown(copy->file.filename().string())));
+  }
+
+  std::map<std::string, const DicomImage*> first_;
+  std::set<const DicomImage*> left_out_;
+  Found same_, recoded_;
 };
 
 /// Slices that are placed in different ways do not lie in one frame.
@@ -165,9 +213,9 @@ std::string titles(const std::vector<DicomSeries>& all, bool volumes_only) {
 std::vector<DicomSeries> group_by_series(const std::vector<DicomImage>& images) {
   std::vector<DicomSeries> all;
   std::map<std::string, std::size_t> index;
-  Copies copies;
+  const Copies copies(images);
   for (const DicomImage& image : images) {
-    if (!image.has_pixels || copies.holds(image)) continue;
+    if (!image.has_pixels || copies.left_out(image)) continue;
     const auto [entry, is_new] = index.emplace(image.series, all.size());
     if (is_new) all.push_back({image.series, "", "", "", {}, 0, "", {}});
     add_image(all[entry->second], image);

@@ -24,7 +24,9 @@ struct DicomSeries {
 
 /// Groups images by their series UID, in the order in which the UIDs come.
 ///
-/// Files that are copies, of one SOP Instance UID, place and content, count once, with a warning.
+/// Files that are copies, of one SOP Instance UID, place and content, count once, with a warning. So
+/// do those of one place that differ in their transfer syntax alone, by SOP Instance UID or by what
+/// tells phases and Instance Number: one that is not lossy is kept before one that is.
 /// Within a series, slices are grouped into stacks. Localizers are left out with a warning:
 /// slices that call themselves so where others do not, and a stack across the main one that is
 /// single or has at most a quarter of its slices. Two larger stacks are a problem.

@@ -282,6 +282,18 @@ std::size_t content_of(const DicomFile& file) {
   return all;
 }
 
+/// By its own word or its transfer syntax: JPEG baseline and extended, JPEG-LS near-lossless, and
+/// JPEG 2000 that need not be lossless.
+bool is_lossy(const DicomFile& file) {
+  constexpr std::string_view kJpeg = "1.2.840.10008.1.2.4.";
+  const std::string_view syntax = file.transfer_syntax;
+  if (text_of(file.elements, dicom::kLossy) == "01") return true;
+  if (!syntax.starts_with(kJpeg)) return false;
+  const std::string_view kind = syntax.substr(kJpeg.size());
+  return kind == "50" || kind == "51" || kind == "53" || kind == "55" || kind == "81" ||
+         kind == "91";
+}
+
 }  // namespace
 
 DicomSlice place_frame(const DicomFile& file, const DicomPixels& pixels, std::size_t frame,
@@ -333,6 +345,8 @@ DicomImage describe_image(const DicomFile& file, MemoryBudget& budget,
                      set.count(dicom::kDoublePixelData);
   if (!image.has_pixels) return image;
   image.content = content_of(file);
+  image.transfer_syntax = file.transfer_syntax;
+  image.lossy = is_lossy(file);
   if (text_of(set, dicom::kPhotometric) == "MONOCHROME1") {
     image.warning = "MONOCHROME1: meant to be shown inverted; the values are kept as stored";
   }

@@ -50,6 +50,8 @@ struct DicomImage {
   std::string warning;
   std::string instance{};   ///< SOP Instance UID
   std::size_t content = 0;  ///< a hash of the pixel data, equal for copies
+  std::string transfer_syntax{};
+  bool lossy = false;  ///< its pixels were compressed with loss, now or before
 };
 
 /// Places one frame, from 0, of a file of pixels: all of a DicomSlice but rescale, localizer and
