@@ -217,6 +217,7 @@ TEST(Nifti, WarnsWhereQformAndSformTurnTheAxesDifferently) {
   const TempFolder folder;
   NiftiBytes nifti;
   nifti.qform_code = 1;
+  nifti.quatern = {0, 0, 0, 10, 20, 30};
   EXPECT_THAT(read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).warnings, IsEmpty());
   const float half = std::sqrt(0.5F);
   nifti.quatern = {0, 0, half, 0, 0, 0};  // a quarter turn about z
@@ -227,6 +228,23 @@ TEST(Nifti, WarnsWhereQformAndSformTurnTheAxesDifferently) {
   nifti.pixdim[0] = -1;  // the third axis the other way round
   EXPECT_THAT(read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).warnings,
               ElementsAre(HasSubstr("differently, by 180")));
+}
+
+TEST(Nifti, WarnsWhereQformAndSformShiftVoxels) {
+  const TempFolder folder;
+  const auto warnings = [&](const NiftiBytes& nifti) {
+    return read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).warnings;
+  };
+  NiftiBytes nifti;
+  nifti.qform_code = 1;
+  nifti.quatern = {0, 0, 0, 13, 20, 34};
+  EXPECT_THAT(warnings(nifti),
+              ElementsAre(HasSubstr("the qform puts voxels up to 5 mm elsewhere")));
+  nifti.quatern = {0, 0, 0, 10, 20, 30.001F};
+  EXPECT_THAT(warnings(nifti), IsEmpty()) << "less than a hundredth of a voxel";
+  nifti.quatern = {0, 0, 0, 10, 20, 30};
+  nifti.pixdim[3] = 2.015625F;  // 5 slices
+  EXPECT_THAT(warnings(nifti), ElementsAre(HasSubstr("voxels up to 0.0625 mm elsewhere")));
 }
 
 TEST(Nifti, AGivenSpacingTakesThePlaceOfWhatCannotBeUsed) {

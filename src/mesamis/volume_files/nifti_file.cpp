@@ -268,6 +268,47 @@ double angle_between_deg(const Placement& a, const Placement& b) {
   return angle * 45 / std::atan(1);
 }
 
+/// The step from voxel to voxel along an axis.
+Vec3 step_along(const Placement& p, std::size_t axis) {
+  return p.axes.spacing[static_cast<int>(axis)] * unit_or_zero(p.axes.direction[axis]);
+}
+
+/// The greatest distance between the places of a voxel.
+double farthest(const ScanFile& scan, const Placement& a, const SpmMatrix& b) {
+  double most = 0;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Vec3 apart = b.origin - a.origin;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if ((corner >> axis & 1) == 0) continue;
+      apart = apart +
+              static_cast<double>(scan.grid.size[axis] - 1) * (b.steps[axis] - step_along(a, axis));
+    }
+    most = std::max(most, norm(apart));
+  }
+  return most;
+}
+
+double least_spacing(const Placement& p) {
+  return std::min({p.axes.spacing.x, p.axes.spacing.y, p.axes.spacing.z});
+}
+
+/// Where the forms turn the axes alike but put voxels elsewhere, or do not.
+void warn_of_forms(ScanFile& scan, const Placement& sform, const Placement& qform) {
+  constexpr double kSameDeg = 0.1, kSame = 0.01;  // of the smallest spacing
+  const double angle = angle_between_deg(sform, qform);
+  if (angle > kSameDeg) {
+    scan.warnings.push_back(message("qform and sform turn the axes differently, by ", angle,
+                                    " degrees: the sform is used"));
+    return;
+  }
+  const double apart =
+      farthest(scan, sform,
+               {{step_along(qform, 0), step_along(qform, 1), step_along(qform, 2)}, qform.origin});
+  if (!has_axes(qform) || apart <= kSame * least_spacing(sform)) return;
+  scan.warnings.push_back(
+      message("the qform puts voxels up to ", apart, " mm elsewhere: the sform is used"));
+}
+
 /// The matrix of SPM beside an image.
 std::filesystem::path matrix_beside(std::filesystem::path file) {
   if (lower_extension(file) == ".gz") file.replace_extension();
@@ -323,7 +364,6 @@ Placement place_analyze(ScanFile& scan, const NiftiHeader& h) {
 /// The sform where its code is above 0 and it has axes, else the qform. Neither where the user gives
 /// the spacing that both lack.
 Placement choose_placement(ScanFile& scan, const NiftiHeader& h) {
-  constexpr double kSameDeg = 0.1;
   const bool has_sform = h.sform_code > 0, has_qform = h.qform_code > 0;
   if (!has_sform && !has_qform) {
     scan.warnings.push_back("no orientation (sform and qform codes are 0): axes taken as RAS");
@@ -337,11 +377,7 @@ Placement choose_placement(ScanFile& scan, const NiftiHeader& h) {
     return has_qform ? qform : without_form(h);
   }
   if (!has_qform) return sform;
-  const double angle = angle_between_deg(sform, qform);
-  if (angle > kSameDeg) {
-    scan.warnings.push_back(message("qform and sform turn the axes differently, by ", angle,
-                                    " degrees: the sform is used"));
-  }
+  warn_of_forms(scan, sform, qform);
   return sform;
 }
 
@@ -355,31 +391,14 @@ void warn_of_spacing(ScanFile& scan, const Vec3& declared, const char* used_in_p
   }
 }
 
-/// The greatest distance between the places of a voxel.
-double farthest(const ScanFile& scan, const Placement& a, const SpmMatrix& b) {
-  double most = 0;
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    Vec3 apart = b.origin - a.origin;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if ((corner >> axis & 1) == 0) continue;
-      const Vec3 step =
-          a.axes.spacing[static_cast<int>(axis)] * unit_or_zero(a.axes.direction[axis]);
-      apart = apart + static_cast<double>(scan.grid.size[axis] - 1) * (b.steps[axis] - step);
-    }
-    most = std::max(most, norm(apart));
-  }
-  return most;
-}
-
 /// SPM takes the matrix beside a NIfTI file for its place; the header counts for other programs.
 void warn_of_matrix(ScanFile& scan, const Placement& placed) {
   constexpr double kSame = 1e-3;  // of the smallest spacing
   try {
     const auto matrix = matrix_of(scan);
     if (!matrix) return;
-    const Vec3& s = placed.axes.spacing;
     const double apart = farthest(scan, placed, *matrix);
-    if (apart <= kSame * std::min({s.x, s.y, s.z})) return;
+    if (apart <= kSame * least_spacing(placed)) return;
     scan.warnings.push_back(
         message("the matrix of SPM in ", in_quotes(matrix_beside(scan.file).filename().string()),
                 " puts voxels up to ", apart, " mm elsewhere: the place in the header is used"));
