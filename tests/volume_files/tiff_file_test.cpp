@@ -57,7 +57,38 @@ TEST(Tiff, TheUnitOfImageJComesBeforeTheTag) {
   expect_near(spacing("cm"), {0.5, 0.5, 40});
   expect_near(spacing("micron"), {5e-5, 5e-5, 4e-3});
   expect_near(spacing("um"), {5e-5, 5e-5, 4e-3});
-  expect_near(spacing("parsec"), {0.5, 0.5, 40});
+  expect_near(spacing("pixel"), {1, 1, 1});
+  expect_near(spacing("parsec"), {1, 1, 1});
+}
+
+TEST(Tiff, AUnitThatIsNoLengthGivesNoSpacing) {
+  const TempFolder folder;
+  auto pages = five_pages();
+  pages[0].description = "ImageJ=1.53\nimages=5\nslices=5\nunit=pixel\nspacing=4\n";
+  write_bytes(folder / "a.tif", tiff_bytes(pages));
+  EXPECT_THAT(read_volume(folder / "a.tif").warnings,
+              ElementsAre(HasSubstr("\"pixel\" of the description is no length"),
+                          HasSubstr("resolution has no unit: 1 mm"),
+                          HasSubstr("slices has no unit: 1 mm")));
+  const VolumeFile given = read_volume(folder / "a.tif", {.spacing = Vec3{1, 2, 3}});
+  EXPECT_EQ(given.volume.spacing, (Vec3{1, 2, 3}));
+  EXPECT_THAT(given.warnings, ElementsAre(HasSubstr("no length")));
+}
+
+/// Without its tag the unit is inch in TIFF, but ImageJ takes pixels for the unit then.
+TEST(Tiff, WithoutAUnitImageJCountsPixels) {
+  const TempFolder folder;
+  auto pages = five_pages();
+  pages[0].description = "ImageJ=1.54f\nimages=5\nslices=5\nspacing=20\n";
+  std::string bytes = tiff_bytes(pages);
+  const auto tag = [](std::uint16_t number) {
+    return bytes_of(number) + bytes_of(std::uint16_t{3}) + bytes_of(std::uint32_t{1});
+  };
+  bytes.replace(bytes.find(tag(296)), 8, tag(297));  // another tag in place of the unit's
+  const VolumeFile file = read(folder, "a.tif", bytes);
+  expect_near(file.volume.spacing, {1, 1, 1});
+  EXPECT_THAT(file.warnings,
+              ElementsAre(HasSubstr("resolution has no unit"), HasSubstr("slices has no unit")));
 }
 
 TEST(Tiff, WithoutResolutionOneMillimetreIsTakenWithWarnings) {
@@ -192,6 +223,20 @@ TEST(Tiff, TheOriginOfImageJIsAPixel) {
   const VolumeFile file = described(
       folder, "ImageJ=1.54f\nimages=5\nslices=5\nunit=mm\nspacing=2\nxorigin=4\nzorigin=-1\n");
   expect_near(file.volume.origin, {-0.2, 0, 2});
+}
+
+TEST(Tiff, ChannelsOfOneSliceAreNoVolume) {
+  const TempFolder folder;
+  auto pages = five_pages();
+  pages[0].description = "ImageJ=1.54f\nimages=5\nchannels=5\nunit=mm\n";
+  EXPECT_THAT(complaint(folder, "a.tif", tiff_bytes(pages)),
+              HasSubstr("expected slices, found 5 channels of one slice each"));
+  EXPECT_REFUSED(read_volume(folder / "a.tif", {.channel = 1}), HasSubstr("one slice is none"));
+  write_bytes(folder / "b.tif", tiff_bytes(pages));
+  const Volume slices = read_volume(folder / "", {.channel = 3}).volume;
+  EXPECT_EQ(slices.size[2], 2) << "a channel of a folder of slices";
+  EXPECT_EQ(slices.samples[0], -40 + 36);
+  EXPECT_REFUSED(read_volume(folder / ""), HasSubstr("--channel 0 to 4"));
 }
 
 TEST(Tiff, TakesOneChannelOfAHyperstack) {

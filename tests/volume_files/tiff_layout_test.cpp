@@ -83,6 +83,15 @@ TEST(TiffLayout, TimesOfOneSliceAreSlices) {
   }
 }
 
+TEST(TiffLayout, TimesOfOneSliceAreSlicesOfEachChannel) {
+  const TiffLayout found = layout("ImageJ=1.53\nimages=6\nchannels=2\nframes=3\n", 6);
+  EXPECT_EQ(found.slices, 3);
+  EXPECT_EQ(found.axes.volumes, 1);
+  EXPECT_EQ(found.axes.channels, 2);
+  EXPECT_THAT(found.planes, ElementsAre(0, 2, 4, 1, 3, 5));
+  EXPECT_THAT(found.warnings, Contains(HasSubstr("3 times of one slice each")));
+}
+
 /// tifffile calls the first of three axes channels where it is told nothing of them.
 TEST(TiffLayout, ManyChannelsOfOneSliceAreSlices) {
   for (const std::string& text :

@@ -92,7 +92,7 @@ struct PictureFormat {
 
 /// A picture that holds one slice.
 OpenSlices open_one_slice(const fs::path& file, const Opening& opening) {
-  return {open_picture(file, opening), read_pictures({file})};
+  return {open_picture(file, opening), read_pictures({file}, opening.choice)};
 }
 
 constexpr std::array<PictureFormat, 6> kPictureFormats{
@@ -148,7 +148,12 @@ VolumeFile read_array(const Request& request, const ScanFile& scan) {
 }
 
 VolumeFile read_one_picture(const Request& request) {
-  announce(open_picture(request.path, request.opening()).grid, request.options);
+  const auto& [path, options, budget] = request;
+  const ScanFile scan = open_picture(path, request.opening());
+  if (scan.grid.size[2] == 1 && (options.volume || options.channel)) {
+    refuse(path, "expected a volume, found one slice of each channel: one slice is none");
+  }
+  announce(scan.grid, options);
   return read_picture(request.path, request.opening());
 }
 

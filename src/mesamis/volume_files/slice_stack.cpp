@@ -163,14 +163,16 @@ std::vector<fs::path> slices_without_dicom(const fs::path& directory, MemoryBudg
   return slices.empty() || holds_dicom(directory) ? std::vector<fs::path>{} : slices;
 }
 
-SliceReader read_pictures(std::vector<fs::path> files) {
-  return [files = std::move(files)](const SliceRange& slices, MemoryBudget& budget,
-                                    std::vector<float>& out) {
+SliceReader read_pictures(std::vector<fs::path> files, const ValueChoice& choice) {
+  return [files = std::move(files), choice](const SliceRange& slices, MemoryBudget& budget,
+                                            std::vector<float>& out) {
     const auto asked = std::span(files).subspan(static_cast<std::size_t>(slices.first),
                                                 static_cast<std::size_t>(slices.count));
     for (const fs::path& file : asked) {
       const ScopedFile scope(budget, file);
-      const std::vector<float> slice = read_picture(file, {budget}).volume.samples;
+      Opening opening{budget};
+      opening.choice = choice;
+      const std::vector<float> slice = read_picture(file, opening).volume.samples;
       out.insert(out.end(), slice.begin(), slice.end());
     }
   };
@@ -178,7 +180,7 @@ SliceReader read_pictures(std::vector<fs::path> files) {
 
 OpenSlices open_stack(const fs::path& directory, const std::vector<fs::path>& files,
                       const Opening& opening) {
-  return {open_headers(directory, files, opening), read_pictures(files)};
+  return {open_headers(directory, files, opening), read_pictures(files, opening.choice)};
 }
 
 VolumeFile read_slices(const fs::path& directory, const std::vector<fs::path>& files,

@@ -34,8 +34,9 @@ std::vector<std::filesystem::path> slices_without_dicom(const std::filesystem::p
                                                         MemoryBudget& budget);
 
 /// Reads pictures of one slice each, only those that are asked for.
-/// @param files  in the order of the slices.
-SliceReader read_pictures(std::vector<std::filesystem::path> files);
+/// @param files   in the order of the slices.
+/// @param choice  which of several channels.
+SliceReader read_pictures(std::vector<std::filesystem::path> files, const ValueChoice& choice);
 
 /// The headers of all files, held against each other, as one volume. Its reader opens only the
 /// files of the slices that are asked for.

@@ -226,23 +226,26 @@ std::string description_of(TIFF* tiff) {
   return text ? text : "";
 }
 
-/// mm per unit of the resolution: that of the description, else that of the tag; 0 if it is none.
-double unit_in_mm(TIFF* tiff, const std::string& named, std::vector<std::string>& warnings) {
-  if (const auto mm = mm_per_unit(named)) return *mm;
-  if (!named.empty()) {
-    warnings.push_back(message("the unit ", in_quotes(named),
-                               " of the description is no length: that of the tag is taken"));
-  }
-  std::uint16_t unit = RESUNIT_INCH;
-  TIFFGetFieldDefaulted(tiff, TIFFTAG_RESOLUTIONUNIT, &unit);
+/// mm per unit of the tag; 0 if it is none.
+double unit_of_tag(TIFF* tiff, const TiffLayout& layout) {
+  std::uint16_t unit = layout.unit_of_tag_alone ? RESUNIT_NONE : RESUNIT_INCH;
+  TIFFGetField(tiff, TIFFTAG_RESOLUTIONUNIT, &unit);
   return unit == RESUNIT_INCH ? 25.4 : unit == RESUNIT_CENTIMETER ? 10 : 0;
+}
+
+/// mm per unit that the description names; 0 if it is no length, such as "pixel".
+double unit_named(const std::string& name, std::vector<std::string>& warnings) {
+  if (const auto mm = mm_per_unit(name)) return *mm;
+  warnings.push_back(message("the unit ", in_quotes(name), " of the description is no length"));
+  return 0;
 }
 
 /// The same along x, y and z: ImageJ may name a unit for each.
 Vec3 units_in_mm(TIFF* tiff, const TiffLayout& layout, std::vector<std::string>& warnings) {
-  const double x = unit_in_mm(tiff, layout.unit, warnings);
-  const auto other = [&](const std::string& named) {
-    return named.empty() ? x : unit_in_mm(tiff, named, warnings);
+  const double x =
+      layout.unit.empty() ? unit_of_tag(tiff, layout) : unit_named(layout.unit, warnings);
+  const auto other = [&](const std::string& name) {
+    return name.empty() || name == layout.unit ? x : unit_named(name, warnings);
   };
   return {x, other(layout.unit_y), other(layout.unit_z)};
 }
@@ -431,6 +434,13 @@ void take_pages(TiffPages& in, const std::vector<std::int64_t>& planes, bool wit
 
 /// Which planes are read, in the order of the slices.
 void choose_planes(TiffPages& in, TIFF* tiff, const TiffLayout& layout, const ValueChoice& choice) {
+  if (layout.slices == 1 && layout.axes.channels > 1 && !choice.volume && !choice.channel) {
+    refuse(in.scan.file,
+           message("expected slices, found ", layout.axes.channels,
+                   " channels of one slice each: save them as slices if they are (of a folder of "
+                   "such files --channel 0 to ",
+                   layout.axes.channels - 1, " takes one)"));
+  }
   const TakenValue taken = take_value(in.scan.file, layout.axes, choice);
   const auto begin =
       layout.planes.begin() + (taken.channel * layout.axes.volumes + taken.volume) * layout.slices;

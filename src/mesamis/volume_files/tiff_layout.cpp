@@ -64,9 +64,9 @@ void number_planes(TiffLayout& layout, const Steps& steps) {
 void take_as_slices(TiffLayout& layout) {
   constexpr std::int64_t kMostChannels = 7;
   auto& [volumes, channels] = layout.axes;
-  const bool times = channels == 1 && volumes > 1;
-  if (layout.slices != 1 || !(times || (volumes == 1 && channels > kMostChannels))) return;
-  layout.warnings.push_back(message("the file has ", volumes * channels,
+  const bool times = volumes > 1;
+  if (layout.slices != 1 || !(times || channels > kMostChannels)) return;
+  layout.warnings.push_back(message("the file has ", times ? volumes : channels,
                                     times ? " times" : " channels",
                                     " of one slice each: they are taken as slices"));
   std::swap(layout.slices, times ? volumes : channels);
@@ -155,6 +155,7 @@ TiffLayout read_imagej(const Pages& pages, std::string_view description) {
   layout.one_directory = true;
   set_planes(pages, text, layout);
   layout.unit = text.value("unit");
+  layout.unit_of_tag_alone = true;
   layout.unit_y = text.value("yunit");
   layout.unit_z = text.value("zunit");
   layout.between = std::abs(text.number("spacing").value_or(0));

@@ -23,6 +23,7 @@ struct TiffLayout {
                                      ///< number of a page; -1: not in this file
   Vec3 spacing{};                    ///< mm along x, y, z; 0 where it is not stated
   std::string unit;                  ///< of the resolution; empty: that of the tag
+  bool unit_of_tag_alone = false;    ///< without a tag there is no unit; else it is inch then
   std::string unit_y, unit_z;        ///< along y and of `between`; empty: that along x
   double between = 0;                ///< of slices, in its unit; 0: not stated
   Vec3 zero_pixel{};                 ///< the pixel at the world's origin, pixels
