@@ -181,6 +181,20 @@ TEST(SliceStack, SpacingIsThatOfSkyscansLog) {
   EXPECT_EQ(read_volume(folder / "", {.spacing = Vec3{1, 2, 3}}).volume.spacing, (Vec3{1, 2, 3}));
 }
 
+TEST(SliceStack, ProjectionsBesideTheirLogAreNoSlices) {
+  const TempFolder folder;
+  for (const char* name : {"a0001.png", "a0002.png"}) {
+    write_bytes(folder / name, png_bytes(3, 2, "abcdef"));
+  }
+  const std::string log = "[Acquisition]\nImage Pixel Size (um)=20\nNumber of Columns=3\n";
+  write_bytes(folder / "a.log", log + "Number of Rows=2\n");
+  EXPECT_THAT(complaint(folder / ""), HasSubstr("found the projections of a scan"));
+  write_bytes(folder / "a.log", log + "Number of Rows=4\n");
+  EXPECT_THAT(read_volume(folder / "").warnings,
+              ElementsAre(HasSubstr("that of SkyScan's log"), HasSubstr("projections alone"),
+                          HasSubstr("tells of 3 x 4 pixels, the slices have 3 x 2")));
+}
+
 TEST(SliceStack, AGivenSpacingCountsBeforeResolutionsThatDiffer) {
   const TempFolder folder;
   for (const char* name : {"s1.png", "s2.png"}) {

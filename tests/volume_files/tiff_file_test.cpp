@@ -312,16 +312,17 @@ TEST(Tiff, NamesACompressionThatNobodyDecodes) {
   EXPECT_THAT(complaint(folder, "a.tif", tiff_bytes(pages)), HasSubstr("compression 34712"));
 }
 
-TEST(Tiff, AsksWhetherTheResolutionOfAScreenIsMeant) {
+TEST(Tiff, AsksWhetherTheResolutionOfAScreenOrADefaultIsMeant) {
   const TempFolder folder;
   for (const auto& [per_cm, is_screen] :
-       {std::pair(72 / 2.54F, true), std::pair(96 / 2.54F, true), std::pair(20.F, false)}) {
+       {std::pair(72 / 2.54F, true), std::pair(96 / 2.54F, true), std::pair(1 / 2.54F, true),
+        std::pair(1.F, true), std::pair(20.F, false)}) {
     auto pages = five_pages();
     for (TiffPage& page : pages) page.pixels_per_cm = per_cm;
     const auto warnings = read(folder, "a.tif", tiff_bytes(pages)).warnings;
     EXPECT_EQ(std::ranges::any_of(warnings,
                                   [](const std::string& w) {
-                                    return w.find("typical of screens") != std::string::npos;
+                                    return w.find("is typical of ") != std::string::npos;
                                   }),
               is_screen)
         << per_cm;

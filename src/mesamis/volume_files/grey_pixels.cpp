@@ -2,6 +2,7 @@
 #include "mesamis/volume_files/grey_pixels.h"
 
 #include <cmath>
+#include <utility>
 
 #include "mesamis/files/refuse.h"
 
@@ -13,6 +14,11 @@ void warn_of_screen_resolution(double spacing_mm, std::vector<std::string>& warn
     if (!(std::abs(kInch / spacing_mm - per_inch) < kTolerance)) continue;
     warnings.push_back(message("the resolution of ", per_inch,
                                " pixels per inch is typical of screens: check it (--spacing)"));
+  }
+  for (const auto& [mm, name] : {std::pair(kInch, "inch"), std::pair(10.0, "centimetre")}) {
+    if (!(std::abs(spacing_mm - mm) < 1e-3 * mm)) continue;
+    warnings.push_back(message("the resolution of one pixel per ", name,
+                               " is typical of files without a measure: check it (--spacing)"));
   }
 }
 

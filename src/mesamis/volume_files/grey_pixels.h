@@ -15,8 +15,8 @@
 /// Shared by the readers of pictures that hold one slice: PNG, BMP and JPEG.
 namespace mesamis::detail::volume_files {
 
-/// A warning if the pixels are as large as programs have it that know of screens alone: 72 or 96
-/// per inch.
+/// A warning if the pixels are as large as programs have it that know of screens alone, 72 or 96
+/// per inch, or of nothing: one per inch or centimetre.
 void warn_of_screen_resolution(double spacing_mm, std::vector<std::string>& warnings);
 
 /// Sets the grid of one slice; x to the left, y to the back, z to the head. Where the spacing is

@@ -292,7 +292,7 @@ void require_options(const fs::path& path, const ReadOptions& options) {
 
 std::size_t drop_spacing_warnings(std::vector<std::string>& warnings) {
   std::erase_if(warnings, [](const std::string& warning) {
-    return warning.find("is typical of screens") != std::string::npos;
+    return warning.find(" is typical of ") != std::string::npos;
   });
   return std::erase_if(warnings, [](const std::string& warning) {
     return warning.find(": 1 mm assumed") != std::string::npos;

@@ -100,6 +100,28 @@ void require_same_palette(const ScanFile& first, const ScanFile& slice) {
                              "its indices"));
 }
 
+/// The spacing of SkyScan's log, if there is one; projections that lie beside theirs are no slices.
+void take_log(ScanFile& scan, const std::string& picture) {
+  const auto log = find_skyscan_log(scan.file, picture);
+  if (!log) return;
+  const std::string name = shown(log->file.filename().string());
+  const auto& [width, height] = log->size;
+  const bool same = width == scan.grid.size[0] && height == scan.grid.size[1];
+  if (!log->reconstructed && same && width != height) {
+    refuse(scan.file, message("expected slices, found the projections of a scan: of ", width, " x ",
+                              height, " pixels, as SkyScan's log ", name, " says"));
+  }
+  if (scan.given_spacing) return;
+  scan.grid.spacing = log->spacing;
+  drop_spacing_warnings(scan.warnings);
+  scan.warnings.push_back(message("the spacing is that of SkyScan's log ", name));
+  scan.warnings.insert(scan.warnings.end(), log->warnings.begin(), log->warnings.end());
+  if (width == 0 || height == 0 || same) return;
+  scan.warnings.push_back(message(
+      "SkyScan's log ", name, " tells of ", width, " x ", height, " pixels, the slices have ",
+      scan.grid.size[0], " x ", scan.grid.size[1], ": if they were scaled, the spacing is wrong"));
+}
+
 /// The headers of all files, checked, as one volume without samples.
 ScanFile open_headers(const fs::path& directory, const std::vector<fs::path>& files,
                       const Opening& opening) {
@@ -116,12 +138,7 @@ ScanFile open_headers(const fs::path& directory, const std::vector<fs::path>& fi
   ScanFile scan = first;
   scan.file = directory;
   scan.format += " slices";
-  if (const auto log = opening.spacing ? std::nullopt : find_skyscan_log(directory)) {
-    scan.grid.spacing = log->spacing;
-    drop_spacing_warnings(scan.warnings);
-    scan.warnings.push_back(
-        message("the spacing is that of SkyScan's log ", shown(log->file.filename().string())));
-  }
+  take_log(scan, files[0].filename().string());
   set_size(scan, {first.grid.size[0], first.grid.size[1], std::ssize(files)});
   warn_of_gaps(files, scan.warnings);
   return scan;
