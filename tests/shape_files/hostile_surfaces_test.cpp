@@ -148,10 +148,14 @@ TEST(HostileSurfaces, AreRefusedBeforeTheyTakeMoreThanIsAllowed) {
   }
 }
 
-/// What lies behind the triangles that the header counts is not even unpacked.
+/// What lies behind the triangles that the header counts is not even unpacked, but for one more.
 TEST(HostileSurfaces, AnStlIsUnpackedAsFarAsItsHeaderJustifies) {
   const TempFolder folder;
-  write_bytes(folder / "a.stl.gz", packed(stl(10, kMany)));
+  std::string bytes = stl(10, kMany);
+  write_bytes(folder / "a.stl.gz", packed(bytes));
+  EXPECT_REFUSED(read_surface(folder / "a.stl.gz", {1e-4}), HasSubstr("but more follow"));
+  bytes.replace(84 + 10 * 50, 50, 50, '\0');
+  write_bytes(folder / "a.stl.gz", packed(bytes));
   EXPECT_EQ(read_surface(folder / "a.stl.gz", {1e-4}).triangles.size(), 10u);
 }
 

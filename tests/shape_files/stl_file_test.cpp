@@ -95,6 +95,23 @@ TEST(Stl, BinaryThatBeginsWithSolidMayHaveBytesBehind) {
   }
 }
 
+TEST(Stl, RefusesMoreTrianglesThanItsHeaderPromises) {
+  const TempFolder folder;
+  write_surface(folder / "a.stl", cube());
+  std::string bytes = read_bytes(folder / "a.stl");
+  for (const std::uint32_t count : {0u, 5u, 11u}) {
+    bytes.replace(80, 4, bytes_of(count));
+    write_bytes(folder / "a.stl", bytes);
+    EXPECT_REFUSED(read_surface(folder / "a.stl"), HasSubstr("triangles, but more follow"));
+  }
+  bytes.replace(80, 4, bytes_of(12u));
+  for (const std::string& behind : {std::string(500, '\0'), std::string(500, ' '),
+                                    std::string(20, '\1') + std::string(30, '\xff')}) {
+    write_bytes(folder / "a.stl", bytes + behind);
+    EXPECT_EQ(read_surface(folder / "a.stl").triangles.size(), 12u);
+  }
+}
+
 TEST(Stl, LeavesOutWhatSinglePrecisionCollapses) {
   const TempFolder folder;
   TriMesh surface = cube({1000, 0, 0});

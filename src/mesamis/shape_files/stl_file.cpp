@@ -73,12 +73,28 @@ void require_finite(const fs::path& file, const std::vector<Corner>& corners) {
   }
 }
 
+/// Whether a record is that of a triangle: numbers of a usual size, and a normal of length 1 or none.
+bool is_triangle(const char* record) {
+  std::array<double, 12> n{};
+  double most = 0;
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    n[i] = static_cast<double>(load<float>(record + 4 * i));
+    if (!std::isfinite(n[i]) || (n[i] != 0 && std::abs(n[i]) < 1e-12)) return false;
+    if (i >= 3) most = std::max(most, std::abs(n[i]));
+  }
+  const double length = norm(Vec3{n[0], n[1], n[2]});
+  return most > 0 && most < 1e9 && (length == 0 || std::abs(length - 1) < 0.01);
+}
+
 std::vector<Corner> binary_corners(const fs::path& file, std::string_view bytes,
                                    MemoryBudget& budget) {
   const std::uint64_t count = load<std::uint32_t>(bytes.data() + kHeader);
   const std::uint64_t room = (bytes.size() - kBegin) / kRecord;
   if (count > room) {
     refuse(file, message("the header promises ", count, " triangles, the file ends after ", room));
+  }
+  if (count < room && is_triangle(bytes.data() + kBegin + count * kRecord)) {
+    refuse(file, message("the header promises ", count, " triangles, but more follow"));
   }
   std::vector<Corner> corners;
   reserve_within(budget, corners, 3 * count, "corners");
@@ -171,7 +187,8 @@ std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options
 
 std::uint64_t most_stl_bytes(std::string_view first_bytes) {
   if (first_bytes.size() < kBegin || begins_like_text(first_bytes)) return 0;
-  return kBegin + std::uint64_t{load<std::uint32_t>(first_bytes.data() + kHeader)} * kRecord;
+  // One more tells whether the number holds.
+  return kBegin + (std::uint64_t{load<std::uint32_t>(first_bytes.data() + kHeader)} + 1) * kRecord;
 }
 
 SurfaceFile parse_stl(const fs::path& file, std::string_view bytes, MemoryBudget& budget) {

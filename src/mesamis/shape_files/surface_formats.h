@@ -42,7 +42,7 @@ inline constexpr const char* kProducer = "producer";
 
 /// Single precision, as the format has it, see round_to_single().
 std::string stl_bytes(const TriMesh& surface, const SurfaceWriteOptions& options);
-/// How many bytes a binary file has by its count of triangles; 0 for text.
+/// How many bytes a binary file has by its count of triangles, and one more; 0 for text.
 std::uint64_t most_stl_bytes(std::string_view first_bytes);
 /// Binary or text; equal corners become one point, in the order of their first use.
 SurfaceFile parse_stl(const std::filesystem::path& file, std::string_view bytes,
