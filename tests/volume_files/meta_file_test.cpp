@@ -39,6 +39,14 @@ TEST(Meta, ReadsLocalPackedTextAndDetachedData) {
               HasSubstr("slice"));
 }
 
+TEST(Meta, WarnsOfSlicesBehindThoseOfItsHeader) {
+  const TempFolder folder;
+  const std::string bytes = meta_bytes("BinaryData = True\n") + bytes_of_all(kRamp);
+  EXPECT_TRUE(read(folder, "a.mha", bytes + std::string(23, 'x')).warnings.empty());
+  EXPECT_THAT(read(folder, "a.mha", bytes + std::string(24, 'x')).warnings,
+              testing::ElementsAre(HasSubstr("goes on for 24 bytes")));
+}
+
 TEST(Meta, ListsTheAxesOneAfterAnother) {
   const TempFolder folder;
   const Volume volume =

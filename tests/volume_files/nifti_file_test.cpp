@@ -145,6 +145,29 @@ TEST(Nifti, RefusesWhatIsNoVolume) {
   EXPECT_THAT(complaint(folder, "a.nii", std::string(600, 'x')), HasSubstr("found neither"));
 }
 
+TEST(Nifti, WarnsWhereTheHeaderContradictsTheFile) {
+  const TempFolder folder;
+  const auto warnings = [&](const NiftiBytes& nifti, std::size_t more = 0) {
+    return read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp) + std::string(more, 'x'))
+        .warnings;
+  };
+  NiftiBytes nifti;
+  EXPECT_THAT(warnings(nifti, 16), IsEmpty()) << "less than a slice";
+  EXPECT_THAT(warnings(nifti, 24), ElementsAre(HasSubstr("goes on for 24 bytes")));
+  nifti.bitpix = 32;
+  EXPECT_THAT(warnings(nifti), ElementsAre(HasSubstr("bitpix states 32 bits")));
+  nifti = {};
+  nifti.vox_offset = 348;
+  EXPECT_THAT(warnings(nifti), ElementsAre(HasSubstr("vox_offset 348 lies before")));
+}
+
+TEST(Nifti, AcceptsALaterDimensionOfZero) {
+  const TempFolder folder;
+  NiftiBytes nifti;
+  nifti.dim = {5, 4, 3, 5, 0, 0, 0, 0};
+  expect_ramp(read(folder, "a.nii", nifti.header() + bytes_of_all(kRamp)).volume);
+}
+
 TEST(Nifti, AcceptsAFourthDimensionOfOne) {
   const TempFolder folder;
   NiftiBytes nifti;

@@ -239,6 +239,7 @@ ScanFile open_meta(const std::filesystem::path& file, const Opening& opening) {
   scan.source.type = sample_type(header);
   set_scale(scan, header);
   find_data(scan, header, opening.allow_outside);
+  warn_of_bytes_behind(scan);
   scan.grid.modality = modality(header);
   return scan;
 }

@@ -29,7 +29,7 @@ struct NiftiHeader {
   std::size_t size = 0;  // in bytes
   std::array<std::int64_t, 8> dim{};
   std::array<double, 8> pixdim{};
-  std::int64_t datatype = 0, units = 0, qform_code = 0, sform_code = 0;
+  std::int64_t datatype = 0, bitpix = 0, units = 0, qform_code = 0, sform_code = 0;
   double vox_offset = 0, slope = 0, intercept = 0;
   std::array<double, 6> quatern{};  // b c d, then the offsets x y z
   std::array<double, 12> srow{};
@@ -69,6 +69,7 @@ NiftiHeader parse_version_1(const Fields& f) {
   NiftiHeader h;
   f.fill<std::int16_t>(40, h.dim);
   h.datatype = f.at<std::int16_t>(70);
+  h.bitpix = f.at<std::int16_t>(72);
   f.fill<float>(76, h.pixdim);
   h.vox_offset = f.at<float>(108);
   h.slope = f.at<float>(112);
@@ -95,6 +96,7 @@ AnalyzeHeader parse_analyze(const Fields& f) {
 NiftiHeader parse_version_2(const Fields& f) {
   NiftiHeader h;
   h.datatype = f.at<std::int16_t>(12);
+  h.bitpix = f.at<std::int16_t>(14);
   f.fill<std::int64_t>(16, h.dim);
   f.fill<double>(104, h.pixdim);
   h.vox_offset = static_cast<double>(f.at<std::int64_t>(168));
@@ -194,9 +196,12 @@ void set_dimensions(ScanFile& scan, const NiftiHeader& h, const Opening& opening
     refuse(scan.file, message("expected a 3-D image, found ", h.dim[0], " dimensions"));
   }
   const auto dimensions = static_cast<std::size_t>(h.dim[0]);
-  const auto count = [&](std::size_t axis) { return axis <= dimensions ? h.dim[axis] : 1; };
+  // 0 along an axis that is no more than named counts as 1, as in other readers.
+  const auto count = [&](std::size_t axis) {
+    return axis > dimensions || h.dim[axis] == 0 ? 1 : h.dim[axis];
+  };
   for (std::size_t axis = 6; axis <= dimensions; ++axis) {
-    if (h.dim[axis] == 1) continue;
+    if (count(axis) == 1) continue;
     refuse(scan.file, message("expected a 3-D image, found ", h.dim[0], "-D with ", h.dim[axis],
                               " values along dimension ", axis));
   }
@@ -468,6 +473,20 @@ void set_scale(ScanFile& scan, const NiftiHeader& h) {
   scan.source.intercept = h.intercept;
 }
 
+/// Where the header contradicts itself or the file.
+void warn_of_samples(ScanFile& scan, const NiftiHeader& h, bool pair) {
+  const auto bytes = static_cast<std::uint64_t>(byte_size(scan.source.type));
+  if (h.bitpix != 0 && h.bitpix != static_cast<std::int64_t>(8 * bytes)) {
+    scan.warnings.push_back(message("bitpix states ", h.bitpix, " bits, the data type ", 8 * bytes,
+                                    ": the data type is used"));
+  }
+  if (!pair && h.vox_offset < static_cast<double>(h.size + 4)) {
+    scan.warnings.push_back(message("vox_offset ", h.vox_offset,
+                                    " lies before the end of the header: the samples begin there"));
+  }
+  warn_of_bytes_behind(scan);
+}
+
 }  // namespace
 
 ScanFile open_nifti(const std::filesystem::path& file, const Opening& opening) {
@@ -487,6 +506,7 @@ ScanFile open_nifti(const std::filesystem::path& file, const Opening& opening) {
   scan.source.packing = Packing::kSniffed;
   scan.source.skip = static_cast<std::uint64_t>(h.vox_offset);
   set_scale(scan, h);
+  warn_of_samples(scan, h, files.pair());
   return scan;
 }
 

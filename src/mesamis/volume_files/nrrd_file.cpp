@@ -470,6 +470,7 @@ ScanFile open_nrrd(const std::filesystem::path& file, const Opening& opening) {
   scan.source.type = sample_type(header);
   set_encoding(scan.source, header);
   find_data(scan, header, opening.allow_outside);
+  warn_of_bytes_behind(scan);
   scan.keys = std::move(header.keys);
   return scan;
 }

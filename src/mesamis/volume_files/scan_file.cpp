@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <system_error>
 
 #include "mesamis/base/error.h"
 #include "mesamis/files/refuse.h"
@@ -338,6 +339,19 @@ void set_stated_axes(ScanFile& scan, const StatedAxes& stated) {
   }
   scan.grid.spacing = usable.spacing;
   scan.grid.direction = axes.direction;
+}
+
+void warn_of_bytes_behind(ScanFile& scan) {
+  const SampleSource& source = scan.source;
+  if (source.text || source.at_end || source.exact || !scan.parts.empty()) return;
+  if (source.packing == Packing::kDeflated) return;
+  const std::uint64_t samples = fewest_bytes(scan), begin = source.offset + source.skip;
+  const std::uint64_t slice = samples / static_cast<std::uint64_t>(scan.grid.size[2]);
+  std::error_code error;
+  const std::uint64_t size = std::filesystem::file_size(source.file, error);
+  if (error || size < begin || size - begin < samples + slice) return;
+  scan.warnings.push_back(message("the file goes on for ", size - begin - samples,
+                                  " bytes behind the samples that the header states"));
 }
 
 void set_axes(ScanFile& scan, const std::array<Vec3, 3>& steps) {

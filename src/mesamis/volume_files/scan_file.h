@@ -141,6 +141,10 @@ Stated stated_or(ScanFile& scan, const Read& read, const Stated& fallback) {
 /// Sets the origin. @throws InputError  if it is not finite.
 void set_origin(ScanFile& scan, const Vec3& origin);
 
+/// Adds a warning where at least one slice more lies behind the samples of one plain file than the
+/// header states. Of packed ones the end is not known. Call it when the source is set.
+void warn_of_bytes_behind(ScanFile& scan);
+
 /// Reads the samples: of the value that is picked, or of all values, in the order of the file. A
 /// header that promises more than the file can hold is refused before anything is claimed; then the
 /// samples are, and stay so.
