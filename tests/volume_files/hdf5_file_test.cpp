@@ -207,6 +207,13 @@ TEST(Hdf5File, FindsTheOnlyVolumeOrTheOneThatIsNamed) {
   expect_whole(folder / "b.h5/b");
 }
 
+/// Its values are scaled slice by slice, and its axes placed by attributes of its own.
+TEST(Hdf5File, RefusesMinc) {
+  const TempFolder folder;
+  FileBytes(folder / "a.mnc").add("minc-2.0/image/0/image", H5T_STD_I16LE);
+  EXPECT_REFUSED(open_hdf5(folder / "a.mnc"), HasSubstr("found a MINC file"));
+}
+
 TEST(Hdf5File, FillsWhatWasNeverWritten) {
   const TempFolder folder;
   for (const bool chunked : {false, true}) {

@@ -132,6 +132,47 @@ TEST(Tiff, ReadsEveryTypeOfGreySamples) {
   EXPECT_EQ(first(page(64, kReal, bytes_of(-1e10))), -1e10F);
 }
 
+/// The tag of LSM in place of the description.
+std::string lsm_bytes(std::int32_t slices, std::int32_t times) {
+  std::vector<TiffPage> pages(6);
+  for (std::size_t n = 0; n < pages.size(); ++n) {
+    pages[n].pixels = bytes_of_all(ramp<std::int16_t>(12, static_cast<int>(100 * n)));
+  }
+  std::string info(508, '\0');
+  info.replace(16, 4, bytes_of(slices)).replace(24, 4, bytes_of(times));
+  info.replace(40, 24, bytes_of(2e-6) + bytes_of(2e-6) + bytes_of(5e-6));
+  pages[0].description = info;
+  std::string bytes = tiff_bytes(pages);
+  const auto tag = [](std::uint16_t id, std::uint16_t type) {
+    return bytes_of(id) + bytes_of(type);
+  };
+  return bytes.replace(bytes.find(tag(270, 2)), 4, tag(34412, 1));
+}
+
+TEST(Tiff, LsmHasVoxelsInMetresAndTimes) {
+  const TempFolder folder;
+  const VolumeFile slices = read(folder, "a.lsm", lsm_bytes(6, 1));
+  expect_near(slices.volume.spacing, {0.002, 0.002, 0.005});
+  EXPECT_EQ(slices.volume.size[2], 6);
+  EXPECT_THAT(slices.warnings, IsEmpty());
+  EXPECT_THAT(complaint(folder, "b.lsm", lsm_bytes(3, 2)),
+              HasSubstr("2 volumes (--volume 0 to 1)"));
+  const Volume second = read_volume(folder / "b.lsm", {.volume = 1}).volume;
+  EXPECT_EQ(second.size[2], 3);
+  EXPECT_EQ(second.samples[0], 300);
+  EXPECT_THAT(read(folder, "c.lsm", lsm_bytes(4, 2)).warnings,
+              ElementsAre(HasSubstr("2 times of 4 slices, found 6 pages")));
+}
+
+TEST(Tiff, SamplesOfNoFormatAreWholeNumbers) {
+  const TempFolder folder;
+  auto pages = five_pages();
+  for (TiffPage& page : pages) page.format = 4;
+  const VolumeFile file = read(folder, "a.tif", tiff_bytes(pages));
+  EXPECT_EQ(file.volume.samples[0], 65536 - 40);
+  EXPECT_THAT(file.warnings, testing::Contains(HasSubstr("taken as whole numbers")));
+}
+
 TEST(Tiff, KeepsTheValuesOfInvertedPagesAndWarns) {
   const TempFolder folder;
   auto pages = five_pages();

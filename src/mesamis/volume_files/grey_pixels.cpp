@@ -16,7 +16,7 @@ void warn_of_screen_resolution(double spacing_mm, std::vector<std::string>& warn
                                " pixels per inch is typical of screens: check it (--spacing)"));
   }
   for (const auto& [mm, name] : {std::pair(kInch, "inch"), std::pair(10.0, "centimetre")}) {
-    if (!(std::abs(spacing_mm - mm) < 1e-3 * mm)) continue;
+    if (!(std::abs(spacing_mm - mm) < 2e-3 * mm)) continue;
     warnings.push_back(message("the resolution of one pixel per ", name,
                                " is typical of files without a measure: check it (--spacing)"));
   }

@@ -409,6 +409,11 @@ Dataset open_place(const Place& place, const std::string& asked) {
   dataset.path = place.file;
   if (!has_signature(place.file)) refuse(place.file, "expected an HDF5 file, found another one");
   dataset.file = open_file(place.file);
+  if (H5Lexists(dataset.file, "minc-2.0", H5P_DEFAULT) > 0) {
+    refuse(place.file,
+           "expected an array with its values, found a MINC file, which scales and places them by "
+           "rules of its own: convert it to NIfTI (mnc2nii)");
+  }
   dataset.name = asked.empty() ? place.dataset : place.dataset + "/" + asked;
   if (dataset.name.empty()) dataset.name = find_dataset(place.file, dataset.file);
   dataset.id = open_dataset(dataset.file, dataset.name);

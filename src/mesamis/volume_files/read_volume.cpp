@@ -14,6 +14,7 @@
 #include "mesamis/files/read_record.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/volume_files/dicom_store.h"
+#include "mesamis/volume_files/foreign_format.h"
 #include "mesamis/volume_files/formats.h"
 #include "mesamis/volume_files/sheared_grid.h"
 #include "mesamis/volume_files/sidecar.h"
@@ -95,11 +96,12 @@ OpenSlices open_one_slice(const fs::path& file, const Opening& opening) {
   return {open_picture(file, opening), read_pictures({file}, opening.choice)};
 }
 
-constexpr std::array<PictureFormat, 6> kPictureFormats{
+constexpr std::array<PictureFormat, 7> kPictureFormats{
     {{".jpg", open_jpeg, read_jpeg, open_one_slice},
      {".jpeg", open_jpeg, read_jpeg, open_one_slice},
      {".tif", open_tiff_header, read_tiff, open_tiff_slices},
      {".tiff", open_tiff_header, read_tiff, open_tiff_slices},
+     {".lsm", open_tiff_header, read_tiff, open_tiff_slices},
      {".png", open_png, read_png, open_one_slice},
      {".bmp", open_bmp, read_bmp, open_one_slice}}};
 
@@ -277,10 +279,12 @@ void announce(VoxelGrid grid, const ReadOptions& options) {
 }
 
 void refuse_unknown(const fs::path& file) {
+  const std::string foreign = foreign_format(file);
   refuse(file,
          "expected .nii .nii.gz .hdr .mgz .nrrd .nhdr .mha .mhd .tif .png .bmp .jpg .inv3 .isq "
          ".aim .vgi, "
-         "DICOM, or --raw with the layout of a raw file, found none of them");
+         "DICOM, or --raw with the layout of a raw file, found " +
+             (foreign.empty() ? "none of them" : foreign));
 }
 
 void require_options(const fs::path& path, const ReadOptions& options) {

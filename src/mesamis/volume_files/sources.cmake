@@ -22,6 +22,7 @@ set(ROOM_SOURCES
   dicom_series.cpp
   dicom_slice.cpp
   dicom_spacing.cpp
+  foreign_format.cpp
   grey_pixels.cpp
   inv3_file.cpp
   NEXT gdcm_picture.cpp

@@ -100,7 +100,8 @@ bool is_thumbnail(TIFF* tiff) {
 
 std::optional<NumberType> sample_type(const Page& page) {
   const bool real = page.format == SAMPLEFORMAT_IEEEFP, sign = page.format == SAMPLEFORMAT_INT;
-  if (!real && !sign && page.format != SAMPLEFORMAT_UINT) return std::nullopt;
+  const bool open = page.format == SAMPLEFORMAT_VOID;  // taken as unsigned, as TIFF advises
+  if (!real && !sign && !open && page.format != SAMPLEFORMAT_UINT) return std::nullopt;
   switch (page.bits) {
     case 1:
     case 2:
@@ -284,6 +285,21 @@ Vec3 spacing_of(TIFF* tiff, const TiffLayout& layout, std::vector<std::string>& 
   return spacing;
 }
 
+/// The slices of each time, of pages that no description orders.
+void take_lsm_times(const char* bytes, ByteOrder order, TiffLayout& layout) {
+  const std::int64_t slices = load<std::int32_t>(bytes + 16, order),
+                     times = load<std::int32_t>(bytes + 24, order);
+  if (times <= 1 || slices <= 1 || layout.axes.volumes * layout.axes.channels != 1) return;
+  if (slices > layout.slices || times != layout.slices / slices || layout.slices % slices != 0) {
+    layout.warnings.push_back(message("the tag of LSM states ", times, " times of ", slices,
+                                      " slices, found ", layout.slices,
+                                      " pages: all are taken as slices"));
+    return;
+  }
+  layout.axes.volumes = times;  // one after the other
+  layout.slices = slices;
+}
+
 /// The tag of Zeiss LSM files: voxels in metres, and how many times there are.
 void take_lsm(TIFF* tiff, TiffLayout& layout) {
   constexpr std::uint32_t kTag = 34412, kLeast = 64;
@@ -296,6 +312,7 @@ void take_lsm(TIFF* tiff, TiffLayout& layout) {
     const double metres = load<double>(bytes + 40 + 8 * a, order);
     if (metres > 0 && std::isfinite(metres)) layout.spacing[a] = kMetre * metres;
   }
+  take_lsm_times(bytes, order, layout);
 }
 
 /// Stacks of MetaMorph have planes behind one directory that no other tag counts.
@@ -490,6 +507,9 @@ TiffPages open_pages(const std::filesystem::path& file, TIFF* tiff, const Openin
   scan.palette = page.palette;
   if (page.photometric == PHOTOMETRIC_PALETTE) {
     scan.warnings.push_back("the pages have a table of colours: the values are its indices");
+  }
+  if (page.format == SAMPLEFORMAT_VOID) {
+    scan.warnings.push_back("the file leaves open what its samples are: taken as whole numbers");
   }
   if (page.photometric == PHOTOMETRIC_MINISWHITE) {
     scan.warnings.push_back("small values are meant to be shown white; they are kept as stored");
