@@ -73,6 +73,15 @@ TEST(DicomSeries, OfTwoEncodingsThatWithoutLossIsKept) {
   EXPECT_EQ(group_by_series(all)[0].stacks[0].size(), 3u) << "another picture";
 }
 
+TEST(DicomSeries, WarnsWhereSomeSlicesAloneHaveNoRescale) {
+  auto all = images("1", 3);
+  EXPECT_THAT(group_by_series(all)[0].warnings, IsEmpty()) << "none has one";
+  for (std::size_t n : {0, 2}) all[n].slices[0].rescaled = true;
+  all[1].slices[0].file = "folder/b.dcm";
+  EXPECT_THAT(group_by_series(all)[0].warnings,
+              ElementsAre(HasSubstr("1 slice, the first b.dcm, without Rescale Slope")));
+}
+
 TEST(DicomSeries, FilesWithoutPixelsAreSkipped) {
   DicomImage report = image("1");
   report.has_pixels = false;

@@ -145,6 +145,19 @@ void check_places(DicomSeries& series) {
   }
 }
 
+/// Values of some slices alone may be in other units.
+void check_rescale(DicomSeries& series) {
+  if (series.stacks.empty()) return;
+  const DicomStack& stack = series.stacks.front();
+  const auto plain = [](const DicomSlice& slice) { return !slice.rescaled; };
+  const auto count = std::count_if(stack.begin(), stack.end(), plain);
+  if (count == 0 || count == std::ssize(stack)) return;
+  series.warnings.push_back(message(
+      count, count == 1 ? " slice" : " slices", ", the first ",
+      name_of(*std::find_if(stack.begin(), stack.end(), plain)),
+      ", without Rescale Slope and Intercept among others: the values there are as stored"));
+}
+
 void add_image(DicomSeries& series, const DicomImage& image) {
   series.description = series.description.empty() ? image.description : series.description;
   series.modality = series.modality.empty() ? image.modality : series.modality;
@@ -224,6 +237,7 @@ std::vector<DicomSeries> group_by_series(const std::vector<DicomImage>& images) 
     copies.warn(series);
     drop_localizers(series);
     check_places(series);
+    check_rescale(series);
   }
   return all;
 }

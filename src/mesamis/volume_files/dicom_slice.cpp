@@ -135,6 +135,7 @@ void set_pixel_size(DicomSlice& slice, const FrameTags& tags, const std::optiona
 void scale(DicomSlice& slice, const FrameTags& tags) {
   const auto slope = tags.find({dicom::kPixelTransformation, dicom::kSlope}, 1);
   const auto intercept = tags.find({dicom::kPixelTransformation, dicom::kIntercept}, 1);
+  slice.rescaled = slope || intercept;
   if (slope) slice.slope = slope->front();
   if (intercept) slice.intercept = intercept->front();
   if (const auto dose = tags.find({dicom::kPixelTransformation, dicom::kDoseScaling}, 1)) {

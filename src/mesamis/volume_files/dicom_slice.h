@@ -29,6 +29,7 @@ struct DicomSlice {
   Vec3 position;                 ///< centre of the first pixel
   double column_step = 1, row_step = 1;
   double slope = 1, intercept = 0;
+  bool rescaled = false;   ///< the file states the slope or the intercept
   bool localizer = false;  ///< its Image Type says LOCALIZER
   PlacedBy placed_by = PlacedBy::kPosition;
   bool oriented = true;  ///< false: the directions are taken as LPS
