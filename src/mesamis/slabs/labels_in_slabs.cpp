@@ -162,7 +162,7 @@ struct AllLayers {
 
 LabelSlabResult finish(const AllLayers& found, const LabelSlabRequest& request,
                        const Settings& settings, const Progress& progress) {
-  const auto& [runs, chosen, margin] = found;
+  const std::vector<LayerRun>& runs = found.runs;
   const LayerRun& any = runs.front();
   const LabelMap& head = any.source.head();
   const auto extract = [&](Index layer) {
@@ -174,13 +174,13 @@ LabelSlabResult finish(const AllLayers& found, const LabelSlabRequest& request,
   LabelSlabResult all;
   if (request.scan) {
     const LabelMap map = whole_map(any.source);
-    all.result = request.find({map, chosen, margin, false, nullptr, &extracted});
+    all.result = request.find({map, found.chosen, found.margin, false, nullptr, &extracted});
   } else {
-    all.result =
-        surfaces_of_labels({head, chosen, {}, false, nullptr, &extracted}, settings, progress);
+    const LabelRequest alone{head, found.chosen, {}, false, nullptr, &extracted};
+    all.result = surfaces_of_labels(alone, settings, progress);
   }
   all.head = head;
-  all.chosen = chosen;
+  all.chosen = found.chosen;
   for (const Index cut : any.cuts) all.cuts.push_back(any.block.begin[2] + cut);
   return all;
 }
