@@ -20,6 +20,7 @@ One run at a time, with default settings. Times mean something only on a machine
 the one in build/release, or that of the variable MESAMIS.
 """
 import argparse
+import importlib.util
 import json
 import math
 import os
@@ -394,6 +395,9 @@ def main():
     if arguments.prune:
         prune()
         return
+    if arguments.all and not importlib.util.find_spec("mesamis"):
+        parser.error("expected the Python package mesamis, which the tutorial's pictures need, found none; "
+                     "build it with scripts/python and set PYTHONPATH=build/release/python")
     places = places_of(parser, arguments.scan)
     if not (arguments.all or arguments.only or places):
         parser.error("expected --all, --only PAGE or --scan NAME=PATH, found none of them")
