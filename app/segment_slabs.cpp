@@ -163,6 +163,22 @@ LabelSlabRequest label_request(const SegmentOptions& run) {
   return request;
 }
 
+/// Opens the scan of a run, and logs the reader's warnings.
+std::unique_ptr<FileSlices> open_slices_of(const SegmentOptions& run) {
+  std::unique_ptr<FileSlices> source = open_any_slices(run.scan.input, run.scan.read);
+  for (const std::string& warning : source->head().warnings) log_warning(warning);
+  return source;
+}
+
+/// Lets the report tell of the slabs too.
+void tell_of_slabs(ReportFacts& facts, nlohmann::ordered_json slabs) {
+  facts.complete = [slabs = std::move(slabs),
+                    others = facts.complete](nlohmann::ordered_json& report) {
+    report["slabs"] = slabs;
+    others(report);
+  };
+}
+
 /// Of the report: a scan that is read a few slices at a time. Its samples were not all looked at,
 /// and its files are too large for a sum.
 InputFacts facts_of_slices(const SegmentOptions& run, const FileSlices& source) {
@@ -175,10 +191,7 @@ int run_label_slabs(const SegmentOptions& run, const SlabArguments& slabs, const
   require_several(run);
   const bool has_scan = !run.scan.input.empty();
   std::unique_ptr<FileSlices> source;
-  if (has_scan) {
-    source = open_any_slices(run.scan.input, run.scan.read);
-    for (const std::string& warning : source->head().warnings) log_warning(warning);
-  }
+  if (has_scan) source = open_slices_of(run);
   ProgressDisplay display(common.quiet || common.is_helper(),
                           stage_shares({.labels = true, .scan = has_scan, .slabs = true}));
   const LabelSlabRun request{label_request(run), source.get(), settings,
@@ -193,10 +206,7 @@ int run_label_slabs(const SegmentOptions& run, const SlabArguments& slabs, const
   if (source) out.facts.input = facts_of_slices(run, *source);
   out.facts.warnings.insert(out.facts.warnings.end(), found->work.warnings.begin(),
                             found->work.warnings.end());
-  out.facts.complete = [&, others = out.facts.complete](nlohmann::ordered_json& report) {
-    report["slabs"] = slabs_json(found->work, *common.team);
-    others(report);
-  };
+  tell_of_slabs(out.facts, slabs_json(found->work, *common.team));
   OutputSet set;
   return deliver(outcome, out, set, display);
 }
@@ -206,10 +216,7 @@ RunFiles outputs_of(const SegmentOptions& run, const FileSlices& source, const S
   RunFiles out = outputs_of(run, common);
   out.meshes = meshes_of(run, false);
   out.facts.input = facts_of_slices(run, source);
-  out.facts.complete = [&, others = out.facts.complete](nlohmann::ordered_json& report) {
-    report["slabs"] = slabs_json(found.work, *common.team);
-    others(report);
-  };
+  tell_of_slabs(out.facts, slabs_json(found.work, *common.team));
   return out;
 }
 
@@ -262,9 +269,7 @@ int run_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Setti
               const CommonOptions& common) {
   if (run.scan.labels.given()) return run_label_slabs(run, slabs, settings, common);
   Team& team = *common.team;
-  const std::unique_ptr<FileSlices> source = open_any_slices(run.scan.input, run.scan.read);
-  const VolumeFile& head = source->head();
-  for (const std::string& warning : head.warnings) log_warning(warning);
+  const std::unique_ptr<FileSlices> source = open_slices_of(run);
   ProgressDisplay display(common.quiet || common.is_helper(), stage_shares({.slabs = true}));
   std::optional<OutputSet> set;
   if (team.rank() == 0) set.emplace();

@@ -41,7 +41,6 @@ constexpr double kMostMargin = 50;       // voxels of the scan
 constexpr double kReach = 2;             // margins that a label may flow
 constexpr double kReachOfFit = 0.64;     // margins in which a fitted surface looks for edges
 constexpr double kErrorOfLabels = 0.04;  // voxels of the labels, where they are right
-constexpr double kAsFine = 1.25;         // voxels of the scan: labels no coarser are fitted
 
 void bring_to_world(const VoxelGrid& grid, PartitionSurface& partition) {
   parallel_for(partition.points.size(),
@@ -260,9 +259,9 @@ LayerBoundaries place_by_image(const LabelRun& run, LayerBoundaries found, const
 /// The boundaries between the labels of a layer, which may have the steps of their voxels.
 PartitionSurface extract_by_labels(const LabelRun& run, Index layer, const LabelBlock& block,
                                    LabelResult::Seconds& seconds) {
+  if (run.request.extracted != nullptr) return run.request.extracted->of_layer(layer);
   Stopwatch watch;
   const LabelMap& map = run.request.map;
-  if (run.request.extracted != nullptr) return run.request.extracted->of_layer(layer);
   auto labels = labels_in(map, layer, block);
   run.begin("smoothing the labels");
   const GridMemberships memberships = without_image(run, grid_of(map, block), labels);
@@ -402,13 +401,14 @@ LabelResult with_image(const LabelRun& run, const VolumeView& scan) {
   LabelResult result;
   result.has_image = true;
   result.margin = run.margin;
-  LabelMap on_scan = labels_on(run.request.map, scan);
+  const bool on_its_grid = run.request.extracted != nullptr;
+  const LabelMap brought = on_its_grid ? LabelMap{} : labels_on(run.request.map, scan);
+  const LabelMap& on_scan = on_its_grid ? run.request.map : brought;
   const LabelBlock block = clipped(require_block(run, on_scan), scan);
   const CropRange range = range_of(block);
   Volume part = crop(scan, range);
   const Edges edges = find_edges(part, with_level(run, part, on_scan, block), !run.fits(scan));
   if (!run.makes_mesh()) part.samples = {};
-  if (run.request.extracted != nullptr) on_scan.layers.clear();
   const RunInput input(edges.prepared);
   result.parameters = parameters_of(run, edges.prepared, range);
   result.image = edges.prepared.measured;
@@ -418,9 +418,8 @@ LabelResult with_image(const LabelRun& run, const VolumeView& scan) {
     watch.lap();
     run.begin("flow of the labels");
     LayerBoundaries extracted =
-        run.request.extracted != nullptr
-            ? LayerBoundaries{layer, run.request.extracted->of_layer(layer)}
-            : extract_in_image(run, layer, labels_in(on_scan, layer, block), edges);
+        on_its_grid ? LayerBoundaries{layer, run.request.extracted->of_layer(layer)}
+                    : extract_in_image(run, layer, labels_in(on_scan, layer, block), edges);
     result.seconds.flow += watch.lap();
     layers.push_back(place_by_image(run, std::move(extracted), edges, result.seconds));
   }
@@ -509,7 +508,7 @@ double margin_of(const std::optional<double>& asked, const VoxelGrid& scan,
 }
 
 bool image_fits_labels(const Settings& settings, const VoxelGrid& scan, const VoxelGrid& labels) {
-  return settings.fit && labels.voxel_size() <= kAsFine * scan.voxel_size();
+  return settings.fit && labels.voxel_size() <= kCoarsestFitted * scan.voxel_size();
 }
 
 LabelResult find_labelled_objects(const VolumeView& scan, const LabelRequest& request,

@@ -91,9 +91,12 @@ double label_margin(const VoxelGrid& scan, const VoxelGrid& labels);
 double margin_of(const std::optional<double>& asked, const VoxelGrid& scan,
                  const VoxelGrid& labels);
 
-/// Whether boundaries are extracted of the labels alone and then fitted to the image: voxels of the
-/// labels are at most a quarter larger than those of the scan. Else, and with `no fit`, labels flow
-/// to the edges of the image.
+/// Voxels of the scan: labels no coarser are fitted.
+inline constexpr double kCoarsestFitted = 1.25;
+
+/// Whether boundaries are extracted of the labels alone and then fitted to the image: labels are no
+/// coarser than kCoarsestFitted. Else, and without Settings::fit, labels flow to the edges of the
+/// image.
 bool image_fits_labels(const Settings& settings, const VoxelGrid& scan, const VoxelGrid& labels);
 
 /// Finds the objects of a label map in a scan.

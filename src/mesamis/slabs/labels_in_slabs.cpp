@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/message.h"
 #include "mesamis/method/setting_table.h"
 #include "mesamis/slabs/in_scratch.h"
 #include "mesamis/slabs/label_tasks.h"
@@ -21,6 +22,8 @@ constexpr Index kThickSlab = 64;
 constexpr std::int64_t kMostVoxels = std::int64_t{1} << 28;
 /// Slices that are looked at together before there are slabs.
 constexpr Index kSlicesSeen = 16;
+
+constexpr char kMarginFile[] = "margin";
 
 std::string range_file(Index chunk) { return "range." + std::to_string(chunk); }
 
@@ -117,8 +120,6 @@ void run_layer(LayerRun& run, bool keep_topology, Stages& stages) {
   each("surface", [&](Index s) { return extract_slab(run, match, s); });
 }
 
-constexpr char kMarginFile[] = "margin";
-
 /// Reads labels, and leaves them in the scratch folder on the grid that they are worked on.
 void bring_labels(const Scratch& scratch, const LabelSlabRequest& request,
                   const Settings& settings) {
@@ -127,11 +128,10 @@ void bring_labels(const Scratch& scratch, const LabelSlabRequest& request,
   double margin = 0;
   if (request.scan) {
     if (!image_fits_labels(settings, *request.scan, labels.map)) {
-      throw InputError(
-          "slabs: expected labels beside a scan to be no coarser than 1.25 voxels of it, and no "
-          "--no-fit, found " +
-          std::string(settings.fit ? "coarser ones" : "--no-fit") +
-          ": they flow in the whole image");
+      throw InputError(message("slabs: expected labels beside a scan to be no coarser than ",
+                               kCoarsestFitted, " voxels of it, and no --no-fit, found ",
+                               settings.fit ? "coarser ones" : "--no-fit",
+                               ": they flow in the whole image"));
     }
     margin = margin_of(request.margin, *request.scan, labels.map);
     labels.map = labels_on(labels.map, *request.scan);

@@ -19,7 +19,8 @@ class HeaderLines {
  public:
   /// @throws InputError  if the file cannot be read.
   explicit HeaderLines(const std::filesystem::path& file);
-  /// The next line without its end (\n, \r\n or, if the first line has it, \r alone); false at the end of the file.
+  /// The next line without its end (\n, \r\n or, if the first line has it, \r alone); false at the
+  /// end of the file.
   /// @throws InputError  if a line or the header is longer than a header can be.
   bool next(std::string& line);
   /// Bytes read so far.
