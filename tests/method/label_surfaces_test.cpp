@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/surface/join_diagonals.h"
 #include "mesamis/surface/self_intersections.h"
 #include "support/throws.h"
 
@@ -156,15 +157,21 @@ TEST(LabelSurfaces, OneObjectEndsWhereAnotherBegins) {
               check_surface(both.objects[1].surface).volume, 0.01 * 2900);
 }
 
+/// With the voxels that mend their topology, if they may.
 TEST(LabelSurfaces, OfLabelsAloneKeepTheVolume) {
-  for (const Index every : {1, 2}) {
+  for (const auto& [every, as_they_are] :
+       {std::pair<Index, bool>{1, true}, {1, false}, {2, true}, {2, false}}) {
     const LabelMap labels = labels_of(every, 0);
-    const LabelResult found = surfaces_of_labels({labels}, {});
+    Settings settings;
+    settings.keep_topology = as_they_are;
+    const LabelResult found = surfaces_of_labels({labels}, settings);
     ASSERT_EQ(found.objects.size(), 2U);
     expect_closed(found);
+    std::vector<std::uint16_t> kept = labels.layers[0];
+    if (!as_they_are) kept = join_diagonals({labels.size, labels.spacing, kept});
     for (const LabelledObject& object : found.objects) {
-      const auto voxels = std::count(labels.layers[0].begin(), labels.layers[0].end(),
-                                     static_cast<std::uint16_t>(object.segment.label));
+      const auto voxels =
+          std::count(kept.begin(), kept.end(), static_cast<std::uint16_t>(object.segment.label));
       const double volume = static_cast<double>(voxels * every * every * every);
       EXPECT_NEAR(check_surface(object.surface).volume, volume, 0.01 * volume);
       EXPECT_LT(mean_error(object.segment.label, object.surface), 0.3 * every);
