@@ -258,7 +258,6 @@ void require_slabs(const SegmentOptions& run, const Settings& settings) {
   if (!run.out.labelmap.empty()) refuse("--labelmap");
   if (run.out.page.given()) refuse("--html or --pictures");
   if (settings.preview) refuse("--preview");
-  if (settings.has_local_level()) refuse("--level local");
   if (!(settings.crop == CropRange{})) refuse("--crop");
   if (run.scan.input.empty() && !run.scan.labels.given()) {
     throw CLI::ValidationError("input", "expected a scan, found none");

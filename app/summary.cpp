@@ -81,7 +81,12 @@ std::string surface_text(const RunFigures& run) {
   for (const ObjectFigures& object : run.objects) triangles += object.triangles;
   const std::string text = plural(triangles, "triangle");
   if (!run.level) return text;
-  return text + fmt::format(", level {} {}", significant_text(*run.level, 4), run.unit);
+  const std::string level =
+      text + fmt::format(", level {} {}", significant_text(*run.level, 4), run.unit);
+  if (!run.level_range) return level;
+  const auto [low, high] = *run.level_range;
+  return level + fmt::format(" ({} to {} from place to place)", significant_text(low, 3),
+                             significant_text(high, 3));
 }
 
 std::string expected_text(const RunFigures& run) {
@@ -110,6 +115,7 @@ void name_object(const OutcomeDetails& outcome, RunFigures& figures) {
     figures.objects.front().name = named ? outcome.object->tissue : "all that is bright";
   }
   if (result.parameters.surface == SurfaceKind::kSolid) figures.level = result.parameters.level;
+  if (result.image.has_local_levels()) figures.level_range = result.image.level_range;
   figures.unit = outcome.grid.modality == "CT" ? "HU" : "native units";
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -23,7 +24,9 @@ struct ObjectFigures {
 /// What came out of a run, for people.
 struct RunFigures {
   std::vector<ObjectFigures> objects;
-  std::optional<double> level;           ///< native units
+  std::optional<double> level;  ///< native units
+  /// Of most places, native units; where these differ.
+  std::optional<std::array<double, 2>> level_range{};
   std::string unit;                      ///< of the level
   Vec3 size;                             ///< of the box around all surfaces, mm
   std::optional<double> expected_error;  ///< in the mean over all surfaces, mm

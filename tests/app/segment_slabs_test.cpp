@@ -337,7 +337,6 @@ TEST(SlabsOfSegment, WhatNeedsAllOfAScanIsRefused) {
            {"--labelmap", folder / "l.nrrd"},
            {"--crop", "0:20,,"},
            {"--preview"},
-           {"--level", "local"},
            {"--mesh", folder / "m.pvtu", "--mesh-region", "object"},
            {"--slabs", "0"},
            {"--html", folder / "p.html"}}) {

@@ -37,13 +37,14 @@ TEST(Choose, LeavesTheToleranceOpenUnlessItIsGiven) {
 TEST(ChooseFromPart, ChoosesAllButTheCells) {
   const Volume scan = ball();
   const Parameters whole = choose(scan, Settings{}).chosen.parameters;
-  const Chosen all = choose_from_part(scan, scan, Settings{});
+  const Chosen all = choose_from_part(scan, scan, Settings{}).chosen;
   EXPECT_EQ(all.parameters.level, whole.level);
   EXPECT_EQ(all.parameters.functional.gamma, whole.functional.gamma);
   EXPECT_GT(whole.max_tets, 0);
   EXPECT_EQ(all.parameters.max_tets, 0);
   // From a part of it; but what follows from the grid is that of the whole.
-  const Chosen part = choose_from_part(crop(scan, {{0, 0, 8}, {-1, -1, 30}}), scan, Settings{});
+  const Chosen part =
+      choose_from_part(crop(scan, {{0, 0, 8}, {-1, -1, 30}}), scan, Settings{}).chosen;
   EXPECT_EQ(part.parameters.h_max, whole.h_max);
   EXPECT_EQ(part.parameters.unit_mm, whole.unit_mm);
   EXPECT_NEAR(part.parameters.level, whole.level, 3);

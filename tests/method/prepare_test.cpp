@@ -160,10 +160,10 @@ TEST(PrepareSlab, IsAPieceOfThePreparedWholeAwayFromItsEnds) {
       scan.samples[n] = n % 2 == 0 ? 0 : 255;
     }
     const Prepared whole = prepare_image(scan, Settings{});
-    const Chosen choice = choose_from_part(scan, scan, Settings{});
+    const Chosen choice = choose_from_part(scan, scan, Settings{}).chosen;
     EXPECT_EQ(choice.impulse_height > 0, impulses);
     const Index begin = 10, end = 50, outer = 12;
-    const Prepared slab = prepare_slab(slices_of(scan, begin, end), choice);
+    const Prepared slab = prepare_slab(slices_of(scan, begin, end), {}, choice);
     EXPECT_EQ(slab.parameters.level, whole.parameters.level);
     float grey = 0, spline = 0;
     const std::size_t slice = scan.offset(0, 0, 1);
@@ -184,7 +184,7 @@ TEST(PrepareSlab, WithoutRestoringItIsAPieceToTheBit) {
   settings.restore = false;
   const Prepared whole = prepare_image(scan, settings);
   const Prepared slab =
-      prepare_slab(slices_of(scan, 5, 25), choose_from_part(scan, scan, settings));
+      prepare_slab(slices_of(scan, 5, 25), {}, choose_from_part(scan, scan, settings).chosen);
   EXPECT_EQ(slab.grey.samples, slices_of(whole.grey, 5, 25).samples);
 }
 

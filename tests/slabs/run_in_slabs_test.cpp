@@ -424,6 +424,47 @@ TEST(SlabRun, RefusesScratchFilesThatAreCutOff) {
   EXPECT_TRUE(fs::exists(files)) << "kept";
 }
 
+/// Two rods of which one is less dense but for its core, in Hounsfield units.
+Volume unlike_rods() {
+  Volume scan = sampled_volume({52, 26, 72}, {1, 1, 1}, [](const Vec3& p) {
+    const auto rod = [&p](double x, double radius) {
+      const double outside = std::hypot(p.x - x, p.y - 13) - radius;
+      return std::clamp(0.5 - outside, 0.0, 1.0) * std::clamp(p.z - 9.5, 0.0, 1.0) *
+             std::clamp(62.5 - p.z, 0.0, 1.0);
+    };
+    return 50 + 1150 * rod(13, 8) + 300 * rod(38, 8) + 600 * rod(38, 1.5);
+  });
+  scan.modality = "CT";
+  return degrade(scan, {.blur = 0.7, .noise = 4});
+}
+
+TEST(SlabRun, HasTheLevelsOfEachPlaceOfTheWholeScan) {
+  const Volume scan = unlike_rods();
+  const TempFolder folder;
+  const SlabRunOptions in_turns{.turns = 2, .slabs = 2, .scratch = folder / "a", .grey = true};
+  const SlabRunOptions at_once{.turns = 1, .slabs = 2, .scratch = folder / "b", .grey = true};
+  const SlabRunResult run = run_alone(scan, in_turns);
+  expect_same(run_alone(scan, at_once), run);
+  expect_same(run_with_ranks(scan, in_turns, 2), run);
+
+  const Result whole = mes_amis(scan, quick_settings());
+  EXPECT_TRUE(run.result.parameters.local_level);
+  EXPECT_EQ(run.result.image.level_range, whole.image.level_range);
+  const SurfaceCheck check = check_surface(run.result.surface);
+  EXPECT_EQ(solid_flaws_of(check), "");
+  EXPECT_EQ(check.components, 2);
+  EXPECT_NEAR(check.volume / check_surface(whole.surface).volume, 1, 0.01);
+  // The fields are those of the scan: without the excess the light rod has 800.
+  ASSERT_EQ(run.result.u.size(), run.result.mesh.points.size());
+  for (std::size_t n = 0; n < run.result.u.size(); ++n) {
+    const Vec3& p = run.result.mesh.points[n];
+    const double light = std::hypot(p.x - 38, p.y - 13);
+    if (light > 3.5 && light < 5.5 && p.z > 16 && p.z < 56) {
+      EXPECT_NEAR(run.result.parameters.grey.to_native(run.result.u[n]), 350, 100);
+    }
+  }
+}
+
 TEST(SlabRun, RefusesWhatHasNoMeaningInSlabs) {
   const TempFolder folder;
   const Volume scan = scan_of_rod(72);
@@ -432,7 +473,6 @@ TEST(SlabRun, RefusesWhatHasNoMeaningInSlabs) {
     change(settings);
     run_alone(scan, {.slabs = 2, .scratch = folder / "scratch"}, settings);
   };
-  EXPECT_REFUSED(run_with([](Settings& s) { s.local_level = true; }), HasSubstr("one level"));
   EXPECT_REFUSED(run_with([](Settings& s) { s.preview = true; }), HasSubstr("preview"));
   EXPECT_REFUSED(run_with([](Settings& s) { s.crop.begin[0] = 2; }), HasSubstr("crop"));
   EXPECT_REFUSED(run_with([](Settings& s) { s.until = StopRule::kEnergy; }), HasSubstr("energy"));

@@ -51,7 +51,7 @@ struct SmallRun {
       : scan(scan_of_rod(slices)),
         source(scan),
         scratch(folder.path()),
-        run{source, scratch, {}, choose_from_part(scan, scan, settings)} {
+        run{source, scratch, {}, choose_from_part(scan, scan, settings).chosen} {
     Parameters& p = run.choice.parameters;
     const std::vector<double> work(static_cast<std::size_t>(slices), 1.0);
     run.plan =

@@ -132,7 +132,7 @@ double level_or(const ImageSettings& settings, double measured) {
 LocalLevel level_out(Restored& restored, const ObjectContrast& contrast, double level) {
   if (!(contrast.difference() > 0)) return {};
   LocalLevel local = find_local_level(restored.volume, contrast, level, restored.noise);
-  take_off(local, restored.volume);
+  take_off(local.excess, restored.volume);
   return local;
 }
 
@@ -177,6 +177,7 @@ ChosenImage choose_but_cells(const VolumeView& image, const VoxelGrid& whole,
   p.noise = restored.noise;
   p.blur = restored.blur;
   const double level = level_or(settings, object.level);
+  p.local_level = p.local_level && is_hounsfield(image);
   if (p.local_level) found.local = level_out(restored, object.contrast, level);
   const auto threshold = find_tissue_threshold(image, seen.contrast, seen.level, restored.noise);
   p.grey.threshold = choose_threshold(asked, p.grey, threshold, level);
@@ -202,9 +203,9 @@ ChosenImage choose(const VolumeView& image, const ImageSettings& settings) {
   return found;
 }
 
-Chosen choose_from_part(const VolumeView& part, const VoxelGrid& whole,
-                        const ImageSettings& settings) {
-  return choose_but_cells(part, whole, settings).chosen;
+ChosenImage choose_from_part(const VolumeView& part, const VoxelGrid& whole,
+                             const ImageSettings& settings) {
+  return choose_but_cells(part, whole, settings);
 }
 
 double cells_of_image(const VolumeView& image, const LevelInNoise& object, double accuracy) {

@@ -66,8 +66,8 @@ ChosenImage choose(const VolumeView& image, const ImageSettings& settings);
 /// @param whole     the image that it is a part of: the sizes that follow from a grid are its own.
 /// @param settings  valid.
 /// @throws InputError  as choose(). Cost as there.
-Chosen choose_from_part(const VolumeView& part, const VoxelGrid& whole,
-                        const ImageSettings& settings);
+ChosenImage choose_from_part(const VolumeView& part, const VoxelGrid& whole,
+                             const ImageSettings& settings);
 
 /// The level of an object in an image, and what noise is there; in the image's unit.
 struct LevelInNoise {

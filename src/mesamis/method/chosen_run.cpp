@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/method/chosen_run.h"
 
+#include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace mesamis::detail::method {
@@ -58,6 +60,10 @@ Result run_on_object(const ObjectInPlace& in_place, const Settings& settings,
   const auto& [object, image] = in_place;
   Result result = mes_amis(image, settings_for(object, settings), progress, enough);
   result.parameters = in_scan_units(result.parameters, object);
+  auto& [low, high] = result.image.level_range;
+  if (result.image.has_local_levels()) {
+    std::tie(low, high) = std::minmax({object.units().turned(low), object.units().turned(high)});
+  }
   return result;
 }
 

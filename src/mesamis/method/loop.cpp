@@ -46,13 +46,15 @@ std::vector<Sym3> world_metric(const RunInput& run, const std::vector<Sym3>& met
 /// @param points  length units.
 std::vector<double> excess_at(const RunInput& run, const std::vector<Vec3>& points) {
   if (run.excess.samples.empty()) return {};
-  const VolumeView excess = run.excess;
+  const VolumeView& excess = run.excess;
   const Trilinear between(excess);
+  const double scale = run.parameters.grey.grey_per_native();
   const double unit = run.parameters.unit_mm;
   std::vector<double> found(points.size());
   parallel_for(found.size(), [&](std::size_t n) {
     const Vec3 p = unit * points[n];
-    found[n] = between.at({p.x / excess.spacing.x, p.y / excess.spacing.y, p.z / excess.spacing.z});
+    found[n] = scale *
+               between.at({p.x / excess.spacing.x, p.y / excess.spacing.y, p.z / excess.spacing.z});
   });
   return found;
 }

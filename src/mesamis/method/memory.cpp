@@ -15,6 +15,7 @@ namespace mesamis::detail::method {
 namespace {
 
 constexpr double kBytesPerVoxel = 8;    // of the image in grey values, always, and its spline
+constexpr double kBytesPerLevel = 4;    // per voxel: where each has a level of its own, always
 constexpr double kBytesToPrepare = 10;  // per voxel: a smoothed image and the steps of a filter
 constexpr double kBytesPerNode = 54;    // of the first grid: fields, metrics, their eigenvalues
 constexpr double kBytesPerDoubleNode = 112;  // where the fields are solved in double precision
@@ -41,7 +42,8 @@ double memory_needed(const VoxelGrid& volume, const Settings& settings) {
   const double cells = settings.preview    ? 0
                        : settings.max_tets ? static_cast<double>(*settings.max_tets)
                                            : std::min<double>(kMostTets, 12 * voxels);
-  return kBytesOfProgram + kBytesPerVoxel * voxels +
+  const double per_voxel = kBytesPerVoxel + (settings.has_local_level() ? kBytesPerLevel : 0);
+  return kBytesOfProgram + per_voxel * voxels +
          std::max(
              {kBytesToPrepare * voxels, bytes_per_node(settings) * nodes, kBytesPerCell * cells});
 }

@@ -53,7 +53,7 @@ struct RunInput {
   const Volume& grey;        ///< the image, restored, in grey values
   const SplineImage& image;  ///< the same between the voxels
   Box box;                   ///< of the voxel centres, length units
-  const Volume& excess;      ///< see Prepared
+  VolumeView excess;         ///< see Prepared
   ErrorOptions error;        ///< what is known of the image, grey values
   /// Images on the same grid to whose edges the meshes are adapted as well; mostly none.
   std::vector<const RunInput*> beside{};

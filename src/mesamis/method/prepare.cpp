@@ -6,6 +6,7 @@
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/image/grey_values.h"
+#include "mesamis/restore/local_level.h"
 #include "mesamis/restore/restore.h"
 
 namespace mesamis::detail::method {
@@ -45,18 +46,19 @@ Prepared prepare_image(const VolumeView& volume, const ImageSettings& settings) 
   ChosenImage found = choose(volume, settings);
   Prepared prepared = prepared_from(found.chosen, std::move(found.restored));
   prepared.excess = std::move(found.local.excess);
-  const double scale = prepared.parameters.grey.grey_per_native();
-  for (float& value : prepared.excess.samples) value = static_cast<float>(scale * value);
   return prepared;
 }
 
-Prepared prepare_slab(const VolumeView& slab, const Chosen& choice) {
+Prepared prepare_slab(const VolumeView& slab, const VolumeView& excess, const Chosen& choice) {
   const Parameters& p = choice.parameters;
-  Volume scan = clamped(slab, {p.grey.low, p.grey.high});
-  if (!p.restore) return prepared_from(choice, std::move(scan));
-  Restored restored =
-      restore::restore(std::move(scan), choice.object, {p.noise, p.blur, choice.impulse_height});
-  return prepared_from(choice, std::move(restored.volume));
+  Volume image = clamped(slab, {p.grey.low, p.grey.high});
+  if (p.restore) {
+    image =
+        restore::restore(std::move(image), choice.object, {p.noise, p.blur, choice.impulse_height})
+            .volume;
+  }
+  take_off(excess, image);
+  return prepared_from(choice, std::move(image));
 }
 
 double cells_of(const Prepared& slab) {

@@ -18,7 +18,7 @@ struct Prepared {
   Volume grey;  ///< the volume, restored, in grey values
   /// The same between the voxels: the spline through what the bounds have not cut yet.
   SplineImage image;
-  /// What was taken off both where each place has a level of its own, grey values; no samples where
+  /// What was taken off both where each place has a level of its own, native units; no samples where
   /// there is one level.
   Volume excess{};
 };
@@ -41,11 +41,12 @@ Prepared prepare_image(const VolumeView& volume, const ImageSettings& settings);
 /// Prepares some slices of a scan as prepare_image() would with this choice.
 /// @param slab    native units. The outer slices lack neighbours: twelve of them are not as they
 ///                would be in the whole.
+/// @param excess  of choose_from_part(), of these slices; no samples: there is one level.
 /// @param choice  of choose_from_part().
 /// @return parameters and measured values as chosen; image and grey of the slab.
 ///
 /// As prepare_image().
-Prepared prepare_slab(const VolumeView& slab, const Chosen& choice);
+Prepared prepare_slab(const VolumeView& slab, const VolumeView& excess, const Chosen& choice);
 
 /// How many cells the surface of a prepared slab asks for, see cells_of_image(). No unit.
 double cells_of(const Prepared& slab);

@@ -332,7 +332,7 @@ std::vector<Setting> surface_rows() {
                "cells where v is small", .paper = "band"}, &Settings::surface, &Parameters::surface),
     level_row({.name = "level", .form = "X", .count = 1, .low = -kLargestValue, .high = kLargestValue,
            .words = {"auto", "local"}, .unit = "native", .help = "Value of the solid surface; local: "
-               "that of auto, but where the object's parts differ in density, for each place midway "
+               "that of auto, but where bones of a CT differ in density, for each place midway "
                "between the two sides of the edges around it",
            .automatic = "half maximum of the object's edge, fitted to the image where the object "
                "is thickest; above T"}),

@@ -72,8 +72,8 @@ struct Settings {
   // The surface.
   SurfaceKind surface = SurfaceKind::kSolid;
   std::optional<double> level;
-  /// Without a `level`: one for each place, where these differ, see LocalLevel.
-  bool local_level = false;
+  /// Without a `level`: one for each place of a CT scan, where these differ, see LocalLevel.
+  bool local_level = true;
   bool follow = true;
   bool fit = true;
   bool keep_topology = false;

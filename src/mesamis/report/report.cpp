@@ -99,7 +99,7 @@ ordered_json surface_json(const RunSummary& run) {
   if (solid) {
     j["level_native"] = p.level;
     j["level_grey"] = p.grey.to_grey(p.level);
-    if (p.local_level) j["level_range_native"] = run.image.level_range;
+    if (run.image.has_local_levels()) j["level_range_native"] = run.image.level_range;
     j.update(printable_json(run.printable, p.tolerance.value()));
   }
   j.update(check_json(run.triangles, run.vertices, run.check));

@@ -16,7 +16,9 @@ namespace {
 
 constexpr double kEdgeScale = 0.8;  // voxels, of the gradient
 constexpr double kSpread = 3;       // voxels, of the mean over edges
-constexpr double kThick = 4;        // voxels, of both sides of an edge that counts
+/// Voxels from an edge to where its sides have their value, and of the contrast, how exactly.
+constexpr double kBesideEdge = 3, kLevelSide = 0.25;
+constexpr double kThick = 4;  // voxels, of both sides of an edge that counts
 constexpr double kLeastOfContrast = 0.1, kLeastOfNoise = 4, kMostOfContrast = 0.6;
 /// The dark side of an edge against the object's background, of its contrast.
 constexpr double kDarkest = -0.25, kBrightest = 0.35;
@@ -25,9 +27,12 @@ constexpr double kPull = 0.005;
 /// Standard deviations of the local level, of the contrast: up to the first it is the scatter of one
 /// level, from the second on each place has its own.
 constexpr double kOneLevel = 0.06, kManyLevels = 0.12;
+/// Voxels, along each axis, over which a part of low density belongs to what is beside it.
+constexpr Index kNear = 2;
 
-/// The two sides of an edge, native units.
-struct Sides {
+/// An edge and its two sides, native units.
+struct Edge {
+  std::size_t voxel = 0;
   double dark = 0, bright = 0;
 };
 
@@ -52,24 +57,46 @@ class EdgeFinder {
         background_(contrast.background),
         contrast_(contrast.difference()),
         least_(std::max(kLeastOfContrast * contrast_, kLeastOfNoise * noise)) {
-    for_each_voxel([&](Index i, Index j, Index k) {
-      steepness_.samples[volume_.offset(i, j, k)] =
-          static_cast<float>(norm(gradient_at(smooth_, i, j, k)));
+    for_each_slice([&](Index k) {
+      for_each_voxel_in(k, [&](Index i, Index j, std::size_t voxel) {
+        steepness_.samples[voxel] = static_cast<float>(norm(gradient_at(smooth_, i, j, k)));
+      });
     });
+  }
+
+  /// All edges, in the order of the voxels.
+  std::vector<Edge> all() const {
+    std::vector<std::vector<Edge>> slices(static_cast<std::size_t>(volume_.size[2]));
+    for_each_slice([&](Index k) {
+      for_each_voxel_in(k, [&](Index i, Index j, std::size_t voxel) {
+        const Edge edge = at(i, j, k, voxel);
+        if (edge.bright > edge.dark) slices[static_cast<std::size_t>(k)].push_back(edge);
+      });
+    });
+    std::vector<Edge> edges;
+    for (const std::vector<Edge>& slice : slices) {
+      edges.insert(edges.end(), slice.begin(), slice.end());
+    }
+    return edges;
+  }
+
+ private:
+  template <class Visit>
+  void for_each_slice(Visit&& visit) const {
+    parallel_for(static_cast<std::size_t>(volume_.size[2]),
+                 [&](std::size_t k) { visit(static_cast<Index>(k)); });
   }
 
   template <class Visit>
-  void for_each_voxel(Visit&& visit) const {
-    parallel_for(static_cast<std::size_t>(volume_.size[2]), [&](std::size_t k) {
-      for (Index j = 0; j < volume_.size[1]; ++j) {
-        for (Index i = 0; i < volume_.size[0]; ++i) visit(i, j, static_cast<Index>(k));
-      }
-    });
+  void for_each_voxel_in(Index k, Visit&& visit) const {
+    for (Index j = 0; j < volume_.size[1]; ++j) {
+      for (Index i = 0; i < volume_.size[0]; ++i) visit(i, j, volume_.offset(i, j, k));
+    }
   }
 
   /// @return equal sides where there is none.
-  Sides at(Index i, Index j, Index k) const {
-    const double steep = steepness_.samples[volume_.offset(i, j, k)];
+  Edge at(Index i, Index j, Index k, std::size_t voxel) const {
+    const double steep = steepness_.samples[voxel];
     // A blurred step of the least height rises by about a sixth of it per voxel.
     if (steep < least_ / 6) return {};
     const Vec3 here{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
@@ -77,20 +104,27 @@ class EdgeFinder {
     if (slopes_.at(here + up) > steep || slopes_.at(here - up) > steep) {
       return {};
     }
-    const double middle = volume_.samples[volume_.offset(i, j, k)];
-    Sides sides{middle, middle};
+    const double middle = volume_.samples[voxel];
+    Edge edge{voxel, middle, middle};
     for (const double t : {0.5, 1.0, 1.5, 2.0}) {
-      sides.bright = std::max(sides.bright, image_.at(here + t * up));
-      sides.dark = std::min(sides.dark, image_.at(here - t * up));
+      edge.bright = std::max(edge.bright, image_.at(here + t * up));
+      edge.dark = std::min(edge.dark, image_.at(here - t * up));
     }
-    return counts(sides) && are_thick(sides, here, up) ? sides : Sides{};
+    return counts(edge) && are_level(edge, here, up) && are_thick(edge, here, up) ? edge : Edge{};
   }
 
- private:
+  /// Whether the sides have come to an end: skin that falls to air within more than two voxels would
+  /// be taken for bone against soft tissue.
+  bool are_level(const Edge& edge, const Vec3& here, const Vec3& up) const {
+    const double most = kLevelSide * (edge.bright - edge.dark);
+    return image_.at(here - kBesideEdge * up) > edge.dark - most &&
+           image_.at(here + kBesideEdge * up) < edge.bright + most;
+  }
+
   /// Whether each side stays on its side of the middle, as far as thin walls and clefts do not: the
   /// blur keeps these from their own value.
-  bool are_thick(const Sides& sides, const Vec3& here, const Vec3& up) const {
-    const double middle = (sides.bright + sides.dark) / 2;
+  bool are_thick(const Edge& edge, const Vec3& here, const Vec3& up) const {
+    const double middle = (edge.bright + edge.dark) / 2;
     for (double t = 1; t <= kThick; t += 0.5) {
       if (image_.at(here + t * up) < middle) return false;
       if (image_.at(here - t * up) > middle) return false;
@@ -98,10 +132,10 @@ class EdgeFinder {
     return true;
   }
 
-  bool counts(const Sides& sides) const {
-    const double dark = (sides.dark - background_) / contrast_;
-    return sides.bright - sides.dark > least_ && dark > kDarkest && dark < kBrightest &&
-           sides.bright > background_ + kLeastOfContrast * contrast_;
+  bool counts(const Edge& edge) const {
+    const double dark = (edge.dark - background_) / contrast_;
+    return edge.bright - edge.dark > least_ && dark > kDarkest && dark < kBrightest &&
+           edge.bright > background_ + least_;
   }
 
   const VolumeView& volume_;
@@ -112,69 +146,110 @@ class EdgeFinder {
   double background_, contrast_, least_;
 };
 
+/// Visits a voxel and those near it.
+template <class Visit>
+void for_each_near(const VoxelGrid& grid, std::size_t voxel, Visit&& visit) {
+  const auto [nx, ny, nz] = grid.size;
+  const auto n = static_cast<Index>(voxel);
+  const Index i = n % nx, j = n / nx % ny, k = n / (nx * ny);
+  for (Index c = std::max<Index>(k - kNear, 0); c <= std::min(k + kNear, nz - 1); ++c) {
+    for (Index b = std::max<Index>(j - kNear, 0); b <= std::min(j + kNear, ny - 1); ++b) {
+      for (Index a = std::max<Index>(i - kNear, 0); a <= std::min(i + kNear, nx - 1); ++a) {
+        visit(grid.offset(a, b, c));
+      }
+    }
+  }
+}
+
+/// The mean excess over a level of the edges around each voxel, native units.
+Volume mean_excess(const std::vector<Edge>& edges, const VoxelGrid& grid, double level,
+                   double contrast) {
+  Volume weighted{grid, std::vector<float>(grid.voxel_count(), 0)}, weights = weighted;
+  std::vector<float> all;
+  all.reserve(edges.size());
+  for (const Edge& edge : edges) {
+    const double weight = std::min(edge.bright - edge.dark, kMostOfContrast * contrast);
+    const double excess = (edge.bright + edge.dark) / 2 - level;
+    weights.samples[edge.voxel] = static_cast<float>(weight);
+    weighted.samples[edge.voxel] = static_cast<float>(weight * excess);
+    all.push_back(weights.samples[edge.voxel]);
+  }
+  const double pull = kPull * quantiles(all, {0.5})[0];
+  const WeightedMeans means(std::move(weighted), std::move(weights), kSpread, pull);
+  Volume mean{grid, std::vector<float>(grid.voxel_count())};
+  parallel_for(mean.samples.size(),
+               [&](std::size_t n) { mean.samples[n] = static_cast<float>(means.at(n)); });
+  return mean;
+}
+
 /// How much of the local levels counts, 0 to 1: where they hardly differ, they are one.
-/// @param excess    of each voxel, native units.
-/// @param at_edges  the voxels that lie on edges.
-double share_that_counts(const Volume& excess, const std::vector<std::size_t>& at_edges,
-                         double contrast) {
+/// @param excess  of each voxel, native units.
+double share_that_counts(const Volume& excess, const std::vector<Edge>& edges, double contrast) {
   double sum = 0, squares = 0;
-  for (const std::size_t n : at_edges) {
-    const double level = excess.samples[n] / contrast;
+  for (const Edge& edge : edges) {
+    const double level = excess.samples[edge.voxel] / contrast;
     sum += level;
     squares += level * level;
   }
-  const auto count = static_cast<double>(at_edges.size());
+  const auto count = static_cast<double>(edges.size());
   const double variance = squares / count - (sum / count) * (sum / count);
   const double deviation = std::sqrt(std::max(variance, 0.0));
   return std::clamp((deviation - kOneLevel) / (kManyLevels - kOneLevel), 0.0, 1.0);
+}
+
+/// Gives parts that nowhere reach the object's level that level back: ears, and vessels full of
+/// contrast agent, have edges too. A part is what lies above its local level, without a gap of more
+/// than a voxel.
+void drop_parts_below(double level, const VolumeView& image, Volume& excess) {
+  const std::span<const float> samples = image.samples;
+  std::vector<float>& above = excess.samples;
+  const auto is_object = [&](std::size_t n) { return samples[n] - above[n] > level; };
+  std::vector<unsigned char> reaches(samples.size(), 0);
+  std::vector<std::size_t> front;
+  const auto reach = [&](std::size_t n) {
+    if (reaches[n] != 0 || !is_object(n)) return;
+    reaches[n] = 1;
+    front.push_back(n);
+  };
+  for (std::size_t n = 0; n < samples.size(); ++n) {
+    if (samples[n] > level) reach(n);
+    while (!front.empty()) {
+      const std::size_t here = front.back();
+      front.pop_back();
+      for_each_near(image, here, reach);
+    }
+  }
+  parallel_for(samples.size(), [&](std::size_t n) {
+    if (reaches[n] == 0 && is_object(n)) above[n] = 0;
+  });
 }
 
 }  // namespace
 
 LocalLevel find_local_level(const VolumeView& volume, const ObjectContrast& contrast, double level,
                             double noise) {
-  const double most = kMostOfContrast * contrast.difference();
-  Volume weight{volume, std::vector<float>(volume.samples.size(), 0)}, pulled = weight;
-  const EdgeFinder edges(volume, contrast, noise);
-  edges.for_each_voxel([&](Index i, Index j, Index k) {
-    const Sides sides = edges.at(i, j, k);
-    if (!(sides.bright > sides.dark)) return;
-    const std::size_t n = volume.offset(i, j, k);
-    const double w = std::min(sides.bright - sides.dark, most);
-    weight.samples[n] = static_cast<float>(w);
-    pulled.samples[n] = static_cast<float>(w * ((sides.bright + sides.dark) / 2 - level));
-  });
+  const std::vector<Edge> edges = EdgeFinder(volume, contrast, noise).all();
   LocalLevel local;
-  std::vector<float> weights;
-  std::vector<std::size_t> at_edges;
-  for (std::size_t n = 0; n < weight.samples.size(); ++n) {
-    if (!(weight.samples[n] > 0)) continue;
-    weights.push_back(weight.samples[n]);
-    at_edges.push_back(n);
-  }
-  local.range = {level, level};
-  local.edge_share =
-      static_cast<double>(at_edges.size()) / static_cast<double>(weight.samples.size());
-  local.excess = std::move(pulled);
-  if (at_edges.empty()) return local;
-  const double pull = kPull * quantiles(weights, {0.5})[0];
-  const WeightedMeans means(local.excess, std::move(weight), kSpread, pull);
-  std::vector<float>& excess = local.excess.samples;
-  parallel_for(excess.size(), [&](std::size_t n) { excess[n] = static_cast<float>(means.at(n)); });
-  const auto share =
-      static_cast<float>(share_that_counts(local.excess, at_edges, contrast.difference()));
-  parallel_for(excess.size(), [&](std::size_t n) { excess[n] *= share; });
+  local.edge_share = static_cast<double>(edges.size()) / static_cast<double>(volume.samples.size());
+  if (edges.empty()) return local;
+  Volume excess = mean_excess(edges, volume, level, contrast.difference());
+  const auto share = static_cast<float>(share_that_counts(excess, edges, contrast.difference()));
+  if (share == 0) return local;
+  parallel_for(excess.samples.size(), [&](std::size_t n) { excess.samples[n] *= share; });
+  drop_parts_below(level, volume, excess);
   std::vector<float> levels;
-  levels.reserve(at_edges.size());
-  for (const std::size_t n : at_edges) levels.push_back(excess[n]);
+  levels.reserve(edges.size());
+  for (const Edge& edge : edges) levels.push_back(excess.samples[edge.voxel]);
   const auto ends = quantiles(levels, {0.05, 0.95});
   local.range = {level + ends[0], level + ends[1]};
+  local.excess = std::move(excess);
   return local;
 }
 
-void take_off(const LocalLevel& local, Volume& volume) {
+void take_off(const VolumeView& excess, Volume& volume) {
+  if (excess.samples.empty()) return;
   parallel_for(volume.samples.size(),
-               [&](std::size_t n) { volume.samples[n] -= local.excess.samples[n]; });
+               [&](std::size_t n) { volume.samples[n] -= excess.samples[n]; });
 }
 
 }  // namespace mesamis::detail::restore

@@ -12,8 +12,9 @@ namespace mesamis::detail::restore {
 
 /// The level of half maximum at each voxel, against that of the whole object.
 struct LocalLevel {
-  Volume excess;  ///< of the local level over the object's, native units
-  /// 5 % and 95 % quantiles of the local levels at edges, native units; equal: there is one level.
+  /// Of the local level over the object's, native units; no samples: there is one level.
+  Volume excess{};
+  /// 5 % and 95 % quantiles of the local levels at edges, native units; both 0: there is one level.
   std::array<double, 2> range{};
   double edge_share = 0;  ///< voxels at edges over all voxels
 };
@@ -30,16 +31,19 @@ struct LocalLevel {
 ///
 /// Objects of one density scatter too, by up to 0.06 of the contrast (standard deviation over the
 /// edges): then there is one level, also for a part with so few edges that it does not count. From
-/// 0.12 on each place has its own; between, a share of it.
+/// 0.12 on each place has its own; between, a share of it. Parts that are two voxels away from all
+/// others and nowhere reach the object's level keep that level: ears, and vessels full of contrast
+/// agent, have edges too.
 /// @param volume    native values.
 /// @param contrast  of the object; its difference is > 0.
 /// @param noise     standard deviation, native units, >= 0.
 ///
-/// O(voxels); five copies of the samples. The same bits for any number of threads.
+/// O(voxels); three copies of the samples. The same bits for any number of threads.
 LocalLevel find_local_level(const VolumeView& volume, const ObjectContrast& contrast, double level,
                             double noise);
 
 /// Takes the excess off an image: where its level was the local one, it is that of the object.
-void take_off(const LocalLevel& local, Volume& volume);
+/// @param excess  of each voxel of the volume, its unit; no samples: nothing changes.
+void take_off(const VolumeView& excess, Volume& volume);
 
 }  // namespace mesamis::detail::restore

@@ -94,6 +94,7 @@ MeshRun::MeshRun(const SlabRun& run)
   auto mapped = map_items<float>(run.scratch.path(kImageFile), whole.voxel_count());
   prepared.image = {whole, mapped.values, grid[0].extent.low, grid[0].extent.high, mapped.owner};
   input.box = run.plan.box();
+  input.excess = {whole, run.excess.values};
   meshes.push_back(plan_first_mesh(*this));
 }
 

@@ -69,15 +69,25 @@ SlabPlan even_plan(const VoxelGrid& whole, const SlabOptions& options) {
   return plan_slabs(whole, equal, options);
 }
 
+/// The file of SlabRun::excess.
+constexpr const char* kExcessFile = "excess";
+
 /// Chooses the parameters and cuts the scan: what must be known before slabs can be worked on.
-SlabRun begin_run(const SliceSource& source, const Settings& settings, const Scratch& scratch,
+SlabRun begin_run(const SliceSource& source, Settings settings, const Scratch& scratch,
                   Stages& stages, Index slabs) {
   const VoxelGrid& whole = source.grid();
   const SliceRange sample = slices_to_look_at(source, scratch, stages);
+  if (sample.count < whole.size[2]) settings.local_level = false;
   stages.run("choose", 1, [&](Index) {
     const ChosenObject object = choose_in(read_slab(source, sample.first, sample.count), settings);
+    const ChosenImage found =
+        choose_from_part(object.volume, whole, settings_for(object, settings));
+    if (found.chosen.measured.has_local_levels()) {
+      make_item_file<float>(scratch.path(kExcessFile), whole.voxel_count());
+      write_items<float>(scratch.path(kExcessFile), 0, found.local.excess.samples);
+    }
     ArchiveWriter archive;
-    archive.add_one(choose_from_part(object.volume, whole, settings_for(object, settings)));
+    archive.add_one(found.chosen);
     scratch.write("choice", archive);
     return SlabWork{};
   });
@@ -85,7 +95,11 @@ SlabRun begin_run(const SliceSource& source, const Settings& settings, const Scr
   Parameters& p = choice.parameters;
   const SlabPlan plan = even_plan(whole, {p.unit_mm, p.functional.beta, slabs});
   p.h_max = std::max(p.h_min, std::min(p.h_max, plan.least_thickness()));
-  return {source, scratch, plan, choice};
+  MappedItems<float> excess;
+  if (choice.measured.has_local_levels()) {
+    excess = map_items<float>(scratch.path(kExcessFile), whole.voxel_count());
+  }
+  return {source, scratch, plan, choice, excess};
 }
 
 std::string of_mesh(const char* what, int k) { return what + (" " + std::to_string(k)); }
@@ -246,9 +260,6 @@ void require_possible(const Settings& settings, const SlabRunOptions& options) {
   if (settings.preview) throw InputError("slabs: expected a run with meshes, found a preview");
   if (!(settings.crop == CropRange{})) {
     throw InputError("slabs: expected the whole scan, found a crop");
-  }
-  if (settings.has_local_level()) {
-    throw InputError("slabs: expected one level, found one for each place");
   }
   if (settings.until != StopRule::kSurface) {
     throw InputError("slabs: expected a run until the surface has settled, found until energy");

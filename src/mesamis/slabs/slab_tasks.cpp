@@ -44,6 +44,14 @@ Volume cut_out(const Volume& volume, const Slices& held, const Slices& wanted) {
   return crop(volume, range);
 }
 
+/// Of some slices, see SlabRun::excess.
+std::span<const float> excess_in(const SlabRun& run, const Slices& slices) {
+  if (run.excess.values.empty()) return {};
+  const VoxelGrid& whole = run.plan.whole;
+  return run.excess.values.subspan(whole.offset(0, 0, slices.begin),
+                                   whole.offset(0, 0, slices.count()));
+}
+
 void write_spline(const SlabRun& run, Index s, const SplineImage& image, const Slices& held) {
   const Slices own = slices_of(run.plan, s, 0);
   const VoxelGrid& whole = run.plan.whole;
@@ -162,7 +170,8 @@ SlabWork prepare_and_minimise(const SlabRun& run, Index g) {
   const double voxel = plan.whole.voxel_size() / plan.unit_mm;
   const Slices own = slices_of(plan, g, 0);
   const Slices held = slices_of(plan, g, plan.slices_in(kReach * voxel));
-  Prepared prepared = prepare_slab(read_slab(run.source, held.begin, held.count()), run.choice);
+  const Volume scan = read_slab(run.source, held.begin, held.count());
+  Prepared prepared = prepare_slab(scan, {scan, excess_in(run, held)}, run.choice);
   write_spline(run, g, prepared.image, held);
   const SlabExtent extent = extent_in(run, g, prepared, held);
 

@@ -8,6 +8,7 @@
 #include "mesamis/mesh/metric.h"
 #include "mesamis/method/passes.h"
 #include "mesamis/slabs/background.h"
+#include "mesamis/slabs/mapped_items.h"
 #include "mesamis/slabs/piece.h"
 #include "mesamis/slabs/plan.h"
 #include "mesamis/slabs/scratch.h"
@@ -30,6 +31,9 @@ struct SlabRun {
   SlabPlan plan;  ///< of voxels
   /// h_max at most least_thickness(): larger cells would reach over whole slabs.
   Chosen choice;
+  /// What the level of each place exceeds that of the object by, native units, of the whole scan; no
+  /// samples: there is one level.
+  MappedItems<float> excess{};
 };
 
 /// What the surface in a slab asks for.
