@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   bending.h
+  close_tunnels.h
   fit_surface.h
   keep_volumes.h
   smooth_surface.h
@@ -8,6 +9,7 @@ set(ROOM_HEADERS
   terraces.h)
 set(ROOM_SOURCES
   bending.cpp
+  close_tunnels.cpp
   fit_surface.cpp
   image_edge.cpp
   keep_volumes.cpp

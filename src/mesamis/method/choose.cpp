@@ -9,9 +9,12 @@
 #include <utility>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/fit/close_tunnels.h"
 #include "mesamis/image/grey_values.h"
 #include "mesamis/method/setting_table.h"
 #include "mesamis/restore/level_crossings.h"
+#include "mesamis/restore/local_level.h"
 #include "mesamis/restore/object_edge.h"
 #include "mesamis/restore/surface_extent.h"
 #include "mesamis/restore/tissue_threshold.h"
@@ -23,6 +26,8 @@ namespace {
 constexpr double kDefaultMinVolume = 4;
 /// The paper's T of (13), of 255 grey values.
 constexpr double kPaperThreshold = 140;
+/// Half the contrast at a place, of that of the object.
+constexpr double kLeastHalf = 0.1;
 
 /// A quarter of the box's longest side, in length units.
 double default_h_max(const VoxelGrid& volume, double unit_mm) {
@@ -129,11 +134,38 @@ double level_or(const ImageSettings& settings, double measured) {
 }
 
 /// Takes what the level of each place exceeds the object's off the image.
-LocalLevel level_out(Restored& restored, const ObjectContrast& contrast, double level) {
+/// @return that excess, native units; no samples: there is one level.
+Volume level_out(Restored& restored, const ObjectContrast& contrast, double level,
+                 MeasuredImage& measured) {
   if (!(contrast.difference() > 0)) return {};
   LocalLevel local = find_local_level(restored.volume, contrast, level, restored.noise);
+  measured.level_range = local.range;
   take_off(local.excess, restored.volume);
-  return local;
+  return std::move(local.excess);
+}
+
+/// Lowers the level where a faint sheet closes a tunnel through a thin wall.
+/// @param excess    of the level of each place; gets less.
+/// @param levelled  the image less the excess; rises by as much.
+/// @return how many sheets there are.
+std::int64_t lower_at_tunnels(Volume& excess, const ObjectContrast& contrast, double level,
+                              Volume& levelled) {
+  const auto half = [&](std::size_t n) {
+    return std::max(level + excess.samples[n] - contrast.background,
+                    kLeastHalf * contrast.difference());
+  };
+  Volume height{excess, std::vector<float>(excess.samples.size())};
+  parallel_for(height.samples.size(), [&](std::size_t n) {
+    height.samples[n] = static_cast<float>((levelled.samples[n] - level) / half(n));
+  });
+  const TunnelLift found = find_tunnel_lift(std::move(height));
+  if (found.sheets == 0) return 0;
+  parallel_for(excess.samples.size(), [&](std::size_t n) {
+    const auto lift = static_cast<float>(half(n) * found.lift.samples[n]);
+    excess.samples[n] -= lift;
+    levelled.samples[n] += lift;
+  });
+  return found.sheets;
 }
 
 /// The window and the object that is seen in it.
@@ -153,13 +185,10 @@ Seen look_at(const VolumeView& image, const ImageSettings& settings) {
 
 /// What was found out about the image beside the parameters.
 MeasuredImage measured_of(const Restored& restored, const HalfMaximumLevel& object,
-                          const ImageSettings& settings, const LocalLevel& local) {
-  return {restored.noise_left,
-          restored.noise_correlation,
-          restored.impulses,
+                          const ImageSettings& settings) {
+  return {restored.noise_left, restored.noise_correlation, restored.impulses,
           object.contrast.difference(),
-          settings.level ? settings.level->uncertainty : object.uncertainty,
-          local.range};
+          settings.level ? settings.level->uncertainty : object.uncertainty};
 }
 
 ChosenImage choose_but_cells(const VolumeView& image, const VoxelGrid& whole,
@@ -177,12 +206,17 @@ ChosenImage choose_but_cells(const VolumeView& image, const VoxelGrid& whole,
   p.noise = restored.noise;
   p.blur = restored.blur;
   const double level = level_or(settings, object.level);
+  MeasuredImage& measured = found.chosen.measured;
+  measured = measured_of(restored, object, settings);
   p.local_level = p.local_level && is_hounsfield(image);
-  if (p.local_level) found.local = level_out(restored, object.contrast, level);
+  if (p.local_level) found.excess = level_out(restored, object.contrast, level, measured);
+  if (measured.has_local_levels() && !asked.keep_topology) {
+    measured.closed_tunnels =
+        lower_at_tunnels(found.excess, object.contrast, level, restored.volume);
+  }
   const auto threshold = find_tissue_threshold(image, seen.contrast, seen.level, restored.noise);
   p.grey.threshold = choose_threshold(asked, p.grey, threshold, level);
   p.level = settings.level ? level : level_above(p.grey, object);
-  found.chosen.measured = measured_of(restored, object, settings, found.local);
   if (!asked.gamma) {
     p.functional.gamma = choose_gamma(p, object.contrast.difference(), restored.noise_left);
   }

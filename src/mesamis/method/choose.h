@@ -10,7 +10,6 @@
 #include "mesamis/method/settings.h"
 #include "mesamis/object/known_level.h"
 #include "mesamis/restore/half_maximum_level.h"
-#include "mesamis/restore/local_level.h"
 #include "mesamis/restore/restore.h"
 
 /// Every choice of a run is made here: window, threshold, noise, blur, level, price of edges, cells
@@ -44,8 +43,10 @@ struct Chosen {
 /// What a run uses, and the image that it was chosen from.
 struct ChosenImage {
   Chosen chosen;
-  Volume restored;     ///< native units; its edges are at one level
-  LocalLevel local{};  ///< that was taken off; no samples: there is one level
+  Volume restored;  ///< native units; its edges are at one level
+  /// Of the level of each place over the object's, native units, that was taken off; no samples:
+  /// there is one level.
+  Volume excess{};
 };
 
 /// Chooses what the settings leave open from an image: all but the tolerance.

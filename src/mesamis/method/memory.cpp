@@ -17,6 +17,7 @@ namespace {
 constexpr double kBytesPerVoxel = 8;    // of the image in grey values, always, and its spline
 constexpr double kBytesPerLevel = 4;    // per voxel: where each has a level of its own, always
 constexpr double kBytesToPrepare = 10;  // per voxel: a smoothed image and the steps of a filter
+constexpr double kBytesToLevel = 14;    // per voxel: edges, means around them, thinned walls
 constexpr double kBytesPerNode = 54;    // of the first grid: fields, metrics, their eigenvalues
 constexpr double kBytesPerDoubleNode = 112;  // where the fields are solved in double precision
 constexpr double kBytesPerCell = 450;        // of the adapted meshes
@@ -42,10 +43,11 @@ double memory_needed(const VoxelGrid& volume, const Settings& settings) {
   const double cells = settings.preview    ? 0
                        : settings.max_tets ? static_cast<double>(*settings.max_tets)
                                            : std::min<double>(kMostTets, 12 * voxels);
-  const double per_voxel = kBytesPerVoxel + (settings.has_local_level() ? kBytesPerLevel : 0);
+  const bool local = settings.has_local_level();
+  const double per_voxel = kBytesPerVoxel + (local ? kBytesPerLevel : 0);
   return kBytesOfProgram + per_voxel * voxels +
-         std::max(
-             {kBytesToPrepare * voxels, bytes_per_node(settings) * nodes, kBytesPerCell * cells});
+         std::max({(local ? kBytesToLevel : kBytesToPrepare) * voxels,
+                   bytes_per_node(settings) * nodes, kBytesPerCell * cells});
 }
 
 std::optional<std::array<Index, 3>> stride_that_fits(const VoxelGrid& volume, Settings settings,

@@ -45,7 +45,7 @@ std::array<Index, 3> first_grid_size(const std::array<Index, 3>& voxels,
 Prepared prepare_image(const VolumeView& volume, const ImageSettings& settings) {
   ChosenImage found = choose(volume, settings);
   Prepared prepared = prepared_from(found.chosen, std::move(found.restored));
-  prepared.excess = std::move(found.local.excess);
+  prepared.excess = std::move(found.excess);
   return prepared;
 }
 

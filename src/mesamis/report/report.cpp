@@ -99,7 +99,10 @@ ordered_json surface_json(const RunSummary& run) {
   if (solid) {
     j["level_native"] = p.level;
     j["level_grey"] = p.grey.to_grey(p.level);
-    if (run.image.has_local_levels()) j["level_range_native"] = run.image.level_range;
+    if (run.image.has_local_levels()) {
+      j["level_range_native"] = run.image.level_range;
+      j["tunnels_closed"] = run.image.closed_tunnels;
+    }
     j.update(printable_json(run.printable, p.tolerance.value()));
   }
   j.update(check_json(run.triangles, run.vertices, run.check));

@@ -23,7 +23,7 @@ constexpr double kLeastOfContrast = 0.1, kLeastOfNoise = 4, kMostOfContrast = 0.
 /// The dark side of an edge against the object's background, of its contrast.
 constexpr double kDarkest = -0.25, kBrightest = 0.35;
 /// Of the median weight of an edge: what holds the level at the object's where there are no edges.
-constexpr double kPull = 0.005;
+constexpr double kPull = 0.01;
 /// Standard deviations of the local level, of the contrast: up to the first it is the scatter of one
 /// level, from the second on each place has its own.
 constexpr double kOneLevel = 0.06, kManyLevels = 0.12;

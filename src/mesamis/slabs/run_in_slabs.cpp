@@ -84,7 +84,7 @@ SlabRun begin_run(const SliceSource& source, Settings settings, const Scratch& s
         choose_from_part(object.volume, whole, settings_for(object, settings));
     if (found.chosen.measured.has_local_levels()) {
       make_item_file<float>(scratch.path(kExcessFile), whole.voxel_count());
-      write_items<float>(scratch.path(kExcessFile), 0, found.local.excess.samples);
+      write_items<float>(scratch.path(kExcessFile), 0, found.excess.samples);
     }
     ArchiveWriter archive;
     archive.add_one(found.chosen);

@@ -13,6 +13,7 @@ namespace mesamis::detail::surface {
 /// kKuhnSteps, then seven above in the same order. kNoIndex where the grid ends.
 class Neighbours {
  public:
+  /// @param size  nodes along i, j, k.
   Neighbours(const std::array<Index, 3>& size, Index node) {
     const std::array<Index, 3> at = grid_place(size, node);
     for (std::size_t s = 0; s < 7; ++s) {
@@ -27,6 +28,7 @@ class Neighbours {
       nodes_[s + 7] = has_above ? node + step : kNoIndex;
     }
   }
+  /// The i-th one, or kNoIndex.
   Index operator[](std::size_t i) const { return nodes_[i]; }
 
   /// The step to a neighbour.

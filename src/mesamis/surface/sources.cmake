@@ -19,6 +19,7 @@ set(ROOM_HEADERS
   list_materials.h
   match_volumes.h
   measure.h
+  neighbours.h
   nesting.h
   normals.h
   part_filter.h
