@@ -26,6 +26,9 @@ constexpr double kPull = 1e-3;
 constexpr double kShortFirst = 1e-6;
 /// Squared height over length up to which an edge lies on a flat part.
 constexpr double kFlat = 1e-12;
+/// Root mean square distance of a place from the planes that it stands for, over the tolerance: where
+/// it is greater, hardly any collapse keeps the tolerance, and none is looked at.
+constexpr double kHopeless = 1.3;
 /// So often refused collapses are tried again where the surface has changed.
 constexpr int kMostRounds = 12;
 
@@ -54,6 +57,7 @@ class Pass {
         quadrics_(points_.size()),
         left_(surface_.count()) {
     if (std::isfinite(task.tolerance)) bound_.emplace(task.surface, patch.cover, task.tolerance);
+    hopeless_ = kHopeless * kHopeless * task.tolerance * task.tolerance;
     const Box box = bounding_box(points_);
     origin_ = 0.5 * (box.lo + box.hi);
     if (task.interfaces) {
@@ -142,18 +146,27 @@ class Pass {
       const Index o = surface_.opposite(h);
       if (o == kNoIndex || o < h) continue;
       const std::optional<Vec3> place = place_of(h);
-      if (place) queue_.push(candidate(h, *place));
+      if (!place) continue;
+      const Quadric q = quadric_of(h);
+      const double squares = std::max(q.at(*place - origin_), 0.0);
+      if (squares > hopeless_ * q.weight) continue;
+      const Index a = surface_.from(h), b = surface_.to(h);
+      const Vec3 way = points_[a] - points_[b];
+      const double error = squares + kShortFirst * q.weight * dot(way, way);
+      queue_.push({error, h, a, b, stamps_[a], stamps_[b]});
     }
   }
 
-  Candidate candidate(Index h, const Vec3& place) const {
-    const Index a = surface_.from(h), b = surface_.to(h);
-    Quadric q = quadrics_[a];
-    q += quadrics_[b];
-    const Vec3 way = points_[a] - points_[b];
-    const double error =
-        std::max(q.at(place - origin_), 0.0) + kShortFirst * q.weight * dot(way, way);
-    return {error, h, a, b, stamps_[a], stamps_[b]};
+  /// Of both ends of an edge.
+  Quadric quadric_of(Index h) const {
+    Quadric q = quadrics_[surface_.from(h)];
+    q += quadrics_[surface_.to(h)];
+    return q;
+  }
+
+  bool is_hopeless(Index h, const Vec3& place) const {
+    const Quadric q = quadric_of(h);
+    return q.at(place - origin_) > hopeless_ * q.weight;
   }
 
   /// Which of the axis planes that one point keeps to, the other does not.
@@ -178,8 +191,7 @@ class Pass {
         return std::nullopt;
       }
     }
-    Quadric q = quadrics_[a];
-    q += quadrics_[b];
+    const Quadric q = quadric_of(h);
     const double at_a = q.at(points_[a] - origin_), at_b = q.at(points_[b] - origin_);
     const Vec3 better = at_a < at_b ? points_[a] : points_[b];
     // Where it is flat, points that are there lie better than new ones, which are rounded.
@@ -217,7 +229,10 @@ class Pass {
       return false;
     }
     const Vec3 first = *place == to ? from : to, second = first == to ? from : to;
-    return (may_become(h, first) && become()) || (is_new && may_become(h, second) && become());
+    const auto may_go_to = [&](const Vec3& end) {
+      return !is_hopeless(h, end) && may_become(h, end) && become();
+    };
+    return may_go_to(first) || (is_new && may_go_to(second));
   }
 
   /// Whether the shapes of the triangles allow a collapse to a place.
@@ -295,6 +310,7 @@ class Pass {
   std::vector<Quadric> quadrics_;            // relative to the origin
   std::vector<Vec3> normals_;                // of triangles
   Vec3 origin_;
+  double hopeless_;  // mean square distance, mm^2
   std::int64_t left_;
   bool relaxed_ = false;  // without a tolerance, once nothing else can be done: ends that cost more
                           // are taken, and planes left
