@@ -63,34 +63,22 @@ class Refit {
         pairs_(triangles_at_edges(start_.surface)) {}
 
   TriMesh run() {
-    const std::vector<Vec3> up = vertex_normals(start_.surface);
+    up_ = vertex_normals(start_.surface);
     const std::vector<HeightSample> samples = sampled();
-    std::vector<double> moves = normal_moves({start_.surface, up, points_that_stay()}, samples);
+    moves_ = normal_moves({start_.surface, up_, points_that_stay()}, samples);
     for (const HeightSample& sample : samples) nearest_.push_back(sample.triangle);
     const double most = kFarthest * tolerance_;
-    std::vector<char> changed(moves.size());
     moved_ = start_;
-    const auto place = [&](std::size_t p) {
-      const Vec3& from = start_.surface.points[p];
-      moved_.surface.points[p] = moves[p] == 0 ? from : rounded(from + moves[p] * up[p]);
-    };
-    for (std::size_t p = 0; p < moves.size(); ++p) {
-      moves[p] = std::clamp(moves[p], -most, most);
-      changed[p] = moves[p] != 0 ? 1 : 0;
-      place(p);
-    }
+    changed_.assign(moves_.size(), 0);
+    for (std::size_t p = 0; p < moves_.size(); ++p) move(p, std::clamp(moves_[p], -most, most));
+    keep_shapes(changed_);
     SelfIntersections meeting(moved_.surface);
     for (int round = 0; round < kMostChecks; ++round) {
-      const std::vector<char> at_fault = corners_at_fault(changed, meeting, round == 0);
-      bool any = false;
-      for (std::size_t p = 0; p < moves.size(); ++p) {
-        changed[p] = at_fault[p] != 0 && moves[p] != 0 ? 1 : 0;
-        if (changed[p] == 0) continue;
-        any = true;
-        moves[p] *= round < kHalvings ? 0.5 : 0;
-        place(p);
-      }
-      if (!any) return std::move(moved_.surface);
+      const std::vector<char> at_fault = corners_out_of_place(meeting, round == 0);
+      changed_.assign(changed_.size(), 0);
+      const std::vector<char> drawn = draw_back(at_fault, round);
+      if (drawn.empty()) return std::move(moved_.surface);
+      keep_shapes(drawn);
     }
     return std::move(start_.surface);
   }
@@ -144,49 +132,91 @@ class Refit {
     return samples;
   }
 
-  /// Where points have changed: the corners of triangles that have turned or bend at a crease, meet
-  /// others or are too far from the original, and of those nearest to what is too far of that.
-  std::vector<char> corners_at_fault(const std::vector<char>& changed, SelfIntersections& meeting,
-                                     bool all) const {
-    const std::vector<Triangle>& triangles = moved_.surface.triangles;
-    std::vector<Index> touched;
-    std::vector<char> is_touched(triangles.size(), 0), at_fault = is_touched;
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      const Triangle& k = triangles[t];
-      if (changed[k[0]] == 0 && changed[k[1]] == 0 && changed[k[2]] == 0) continue;
-      is_touched[t] = 1;
-      touched.push_back(static_cast<Index>(t));
+  void move(std::size_t p, double move) {
+    if (move == 0 && moves_[p] == 0) return;
+    const Vec3& from = start_.surface.points[p];
+    moves_[p] = move;
+    moved_.surface.points[p] = move == 0 ? from : rounded(from + move * up_[p]);
+    changed_[p] = 1;
+  }
+
+  /// Halves the moves of points, or takes them back once they have been halved so often.
+  /// @return of each point 1 if it has changed; empty: none.
+  std::vector<char> draw_back(const std::vector<char>& chosen, int times) {
+    std::vector<char> drawn(moves_.size(), 0);
+    bool any = false;
+    for (std::size_t p = 0; p < moves_.size(); ++p) {
+      if (chosen[p] == 0 || moves_[p] == 0) continue;
+      move(p, times < kHalvings ? 0.5 * moves_[p] : 0);
+      drawn[p] = 1;
+      any = true;
     }
+    return any ? drawn : std::vector<char>{};
+  }
+
+  /// Draws back what has turned triangles or bent them at a crease. These are most of all faults, and
+  /// seen at once; distances are searched for when none is left.
+  void keep_shapes(std::vector<char> changed) {
+    for (int times = 0; !changed.empty(); ++times) {
+      changed = draw_back(corners_of_all(misshapen(touched_by(changed))), times);
+    }
+  }
+
+  std::vector<Index> touched_by(const std::vector<char>& changed) const {
+    std::vector<Index> touched;
+    for (Index t = 0; t < std::ssize(moved_.surface.triangles); ++t) {
+      const Triangle& k = moved_.surface.triangles[t];
+      if (changed[k[0]] + changed[k[1]] + changed[k[2]] != 0) touched.push_back(t);
+    }
+    return touched;
+  }
+
+  std::vector<char> corners_of_all(const std::vector<char>& triangles) const {
+    std::vector<char> corners(moves_.size(), 0);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      if (triangles[t] == 0) continue;
+      for (const Index p : moved_.surface.triangles[t]) corners[p] = 1;
+    }
+    return corners;
+  }
+
+  /// Of each triangle 1 if it has turned or bends at a crease.
+  std::vector<char> misshapen(const std::vector<Index>& touched) {
+    std::vector<char> is_touched(normals_.size(), 0), at_fault = is_touched;
+    if (normals_now_.empty()) normals_now_ = normals_;
+    for (const Index t : touched) {
+      is_touched[t] = 1;
+      normals_now_[t] = unit_normal(corners_of(moved_.surface, moved_.surface.triangles[t]));
+      if (dot(normals_now_[t], normals_[t]) < kTurn) at_fault[t] = 1;
+    }
+    for (const auto& [a, b] : pairs_) {
+      if (is_touched[a] + is_touched[b] == 0) continue;
+      const double now = dot(normals_now_[a], normals_now_[b]);
+      if (makes_crease(dot(normals_[a], normals_[b]), now)) at_fault[a] = at_fault[b] = 1;
+    }
+    return at_fault;
+  }
+
+  /// Where points have changed: the corners of triangles that meet others or are too far from the
+  /// original, and of those nearest to what is too far of that.
+  std::vector<char> corners_out_of_place(SelfIntersections& meeting, bool all) const {
+    const std::vector<Triangle>& triangles = moved_.surface.triangles;
+    const std::vector<Index> touched = touched_by(changed_);
+    std::vector<char> is_touched(triangles.size(), 0), at_fault = is_touched;
+    for (const Index t : touched) is_touched[t] = 1;
     parallel_blocks(touched.size(), kTrianglesInBlock, [&](std::size_t begin, std::size_t end) {
       std::vector<std::size_t> hints = to_original_.hints();
       for (std::size_t n = begin; n < end; ++n) {
         const Index t = touched[n];
         const Corners now = corners_of(moved_.surface, triangles[t]);
-        if (dot(unit_normal(now), normals_[t]) < kTurn ||
-            is_far(now, to_original_, moved_.interface[t], hints)) {
-          at_fault[t] = 1;
-        }
+        if (is_far(now, to_original_, moved_.interface[t], hints)) at_fault[t] = 1;
       }
     });
     for (const Index t : nearest_to_what_is_far(is_touched)) at_fault[t] = 1;
-    for (const auto& [a, b] : pairs_) {
-      if (is_touched[a] + is_touched[b] == 0) continue;
-      const double now = dot(normal_now(a), normal_now(b));
-      if (makes_crease(dot(normals_[a], normals_[b]), now)) at_fault[a] = at_fault[b] = 1;
-    }
     for (const TrianglePair& pair : all ? meeting.all() : meeting.after_move_of(touched)) {
       for (const Index t : pair) at_fault[t] = 1;
     }
-    std::vector<char> corners(changed.size(), 0);
-    for (std::size_t t = 0; t < at_fault.size(); ++t) {
-      if (at_fault[t] == 0) continue;
-      for (const Index p : triangles[t]) corners[p] = 1;
-    }
-    return corners;
-  }
-
-  Vec3 normal_now(Index t) const {
-    return unit_normal(corners_of(moved_.surface, moved_.surface.triangles[t]));
+    return corners_of_all(at_fault);
   }
 
   /// Whether a triangle reaches farther than the tolerance from an interface.
@@ -248,9 +278,13 @@ class Refit {
   double tolerance_;
   Enough enough_;
   InterfaceTrees to_original_;
-  std::vector<Vec3> normals_;  // of the triangles, before any move
+  std::vector<Vec3> normals_;      // of the triangles, before any move
+  std::vector<Vec3> normals_now_;  // once points have moved
   std::vector<TrianglePair> pairs_;
   std::vector<Index> nearest_;  // to each original point, the triangle before any move
+  std::vector<Vec3> up_;        // of each point, before any move
+  std::vector<double> moves_;   // along it, mm
+  std::vector<char> changed_;   // of each point 1 if it has moved since the last search
 };
 
 }  // namespace

@@ -53,6 +53,7 @@ class Search {
         hint_(hint) {}
 
   double run(const Corners& triangle) {
+    if (is_enough(triangle, tree_.triangle(hint_))) return enough_.below;
     pieces_.push_back({triangle[0], triangle[1], triangle[2]});
     while (!pieces_.empty() && lower_ <= enough_.above) {
       Polygon piece = std::move(pieces_.back());
@@ -64,6 +65,8 @@ class Search {
 
  private:
   void examine(Polygon piece) {
+    // Most pieces are near enough to the triangle that the last one was near to: no search.
+    if (is_enough(piece, tree_.triangle(hint_))) return;
     see(center_of(piece));
     const Corners near = tree_.triangle(hint_);
     if (settles(piece, near)) return;
@@ -78,6 +81,13 @@ class Search {
   /// A point of the triangle: its distance is a lower bound.
   void see(const Vec3& p) {
     lower_ = std::max(lower_, std::sqrt(tree_.squared_distance_to(p, hint_)));
+  }
+
+  template <class Points>
+  bool is_enough(const Points& piece, const Corners& near) const {
+    return std::all_of(piece.begin(), piece.end(), [&](const Vec3& p) {
+      return squared_distance(p, near) <= enough_.below * enough_.below;
+    });
   }
 
   bool settles(const Polygon& piece, const Corners& near) {
