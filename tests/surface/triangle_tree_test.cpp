@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesamis/mesh/tet_mesh.h"
 #include "surface/random_surfaces.h"
 
 namespace mesamis {
@@ -46,6 +47,21 @@ TEST(NearestPlace, IsWhereTheDistanceIsMeasured) {
       EXPECT_NEAR(a + b + c, 1, 1e-6);
       const Vec3 way = p - (a * t[0] + b * t[1] + c * t[2]);
       EXPECT_NEAR(norm(way), std::sqrt(squared_distance(p, t)), 1e-5);
+    }
+  }
+}
+
+TEST(TriangleTree, FindsTheTrianglesWhoseBoxesOverlapAnother) {
+  const TriMesh surface = random_triangles(300, {1, 1, 1});
+  const TriangleTree tree(surface);
+  for (const Vec3& p : random_points(20, {-3, -3, -3}, {3, 3, 3}, 12)) {
+    const Box box{p - Vec3{0.3, 0.3, 0.3}, p + Vec3{0.3, 0.3, 0.3}};
+    std::vector<char> found(surface.triangles.size(), 0);
+    tree.for_each_overlap(box, [&](std::size_t hint) { found[tree.index_of(hint)] = 1; });
+    for (std::size_t t = 0; t < found.size(); ++t) {
+      if (overlap(box, bounding_box(corners_of(surface, surface.triangles[t])))) {
+        EXPECT_EQ(found[t], 1);
+      }
     }
   }
 }

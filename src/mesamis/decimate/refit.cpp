@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,6 +16,7 @@
 #include "mesamis/decimate/crease.h"
 #include "mesamis/decimate/interface_trees.h"
 #include "mesamis/decimate/normal_moves.h"
+#include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/farthest.h"
 #include "mesamis/surface/half_edges.h"
 #include "mesamis/surface/measure.h"
@@ -57,12 +61,12 @@ class Refit {
         original_(original),
         count_(count),
         tolerance_(tolerance),
-        enough_{tolerance, tolerance},
         to_original_(original, count),
         normals_(triangle_normals(start_.surface)),
         pairs_(triangles_at_edges(start_.surface)) {}
 
-  TriMesh run() {
+  /// @param report  as of refit().
+  TriMesh run(DecimateReport* report) {
     up_ = vertex_normals(start_.surface);
     const std::vector<HeightSample> samples = sampled();
     moves_ = normal_moves({start_.surface, up_, points_that_stay()}, samples);
@@ -70,14 +74,19 @@ class Refit {
     const double most = kFarthest * tolerance_;
     moved_ = start_;
     changed_.assign(moves_.size(), 0);
+    result_bounds_.assign(normals_.size(), 0);
+    original_bounds_.assign(original_.surface.triangles.size(), 0);
     for (std::size_t p = 0; p < moves_.size(); ++p) move(p, std::clamp(moves_[p], -most, most));
     keep_shapes(changed_);
     SelfIntersections meeting(moved_.surface);
     for (int round = 0; round < kMostChecks; ++round) {
       const std::vector<char> at_fault = corners_out_of_place(meeting, round == 0);
       changed_.assign(changed_.size(), 0);
-      const std::vector<char> drawn = draw_back(at_fault, round);
-      if (drawn.empty()) return std::move(moved_.surface);
+      const std::vector<char> drawn = draw_back(at_fault, round == 0 ? 0 : kHalvings);
+      if (drawn.empty()) {
+        if (report) measure(*report);
+        return std::move(moved_.surface);
+      }
       keep_shapes(drawn);
     }
     return std::move(start_.surface);
@@ -199,84 +208,141 @@ class Refit {
 
   /// Where points have changed: the corners of triangles that meet others or are too far from the
   /// original, and of those nearest to what is too far of that.
-  std::vector<char> corners_out_of_place(SelfIntersections& meeting, bool all) const {
-    const std::vector<Triangle>& triangles = moved_.surface.triangles;
+  std::vector<char> corners_out_of_place(SelfIntersections& meeting, bool all) {
     const std::vector<Index> touched = touched_by(changed_);
-    std::vector<char> is_touched(triangles.size(), 0), at_fault = is_touched;
-    for (const Index t : touched) is_touched[t] = 1;
+    std::vector<char> at_fault(moved_.surface.triangles.size(), 0);
     parallel_blocks(touched.size(), kTrianglesInBlock, [&](std::size_t begin, std::size_t end) {
       std::vector<std::size_t> hints = to_original_.hints();
       for (std::size_t n = begin; n < end; ++n) {
         const Index t = touched[n];
-        const Corners now = corners_of(moved_.surface, triangles[t]);
-        if (is_far(now, to_original_, moved_.interface[t], hints)) at_fault[t] = 1;
+        const Corners now = corners_of(moved_.surface, moved_.surface.triangles[t]);
+        result_bounds_[t] = bound(now, to_original_, moved_.interface[t], hints);
+        if (result_bounds_[t] > tolerance_) at_fault[t] = 1;
       }
     });
-    for (const Index t : nearest_to_what_is_far(is_touched)) at_fault[t] = 1;
+    const std::vector<Index> near = all ? all_originals() : originals_near(touched);
+    for (const Index t : nearest_to_what_is_far(near)) at_fault[t] = 1;
     for (const TrianglePair& pair : all ? meeting.all() : meeting.after_move_of(touched)) {
       for (const Index t : pair) at_fault[t] = 1;
     }
     return corners_of_all(at_fault);
   }
 
-  /// Whether a triangle reaches farther than the tolerance from an interface.
-  bool is_far(const Corners& triangle, const InterfaceTrees& trees, Index interface,
-              std::vector<std::size_t>& hints) const {
-    return farthest_distance(triangle, trees.tree(interface), enough_, hints[interface]) >
-           tolerance_;
+  std::vector<Index> all_originals() const {
+    std::vector<Index> all(original_.surface.triangles.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
   }
 
-  /// Of the originals nearest to what is touched, those that no moved triangle nearest to one of
-  /// their corners is near to as a whole: most are, and need no search.
-  std::vector<Index> originals_to_search_for(const std::vector<char>& is_touched) const {
-    const auto is_near_all = [this](Index moved, const Corners& original) {
-      const Corners t = corners_of(moved_.surface, moved_.surface.triangles[moved]);
-      return std::all_of(original.begin(), original.end(), [&](const Vec3& p) {
-        return squared_distance(p, t) <= tolerance_ * tolerance_;
-      });
-    };
-    const std::vector<Triangle>& originals = original_.surface.triangles;
+  /// Of the distance of a triangle from an interface; above the tolerance where a point is farther.
+  double bound(const Corners& triangle, const InterfaceTrees& trees, Index interface,
+               std::vector<std::size_t>& hints) const {
+    return farthest_distance(triangle, trees.tree(interface), {tolerance_, tolerance_},
+                             hints[interface]);
+  }
+
+  /// The originals that may be near what is touched, increasing.
+  std::vector<Index> originals_near(const std::vector<Index>& touched) const {
+    // No point has moved by more than the tolerance, nor did an original reach farther before.
+    const double reach = 3 * tolerance_;
+    std::vector<Index> near = parallel_collect<Index>(
+        touched.size(), kTrianglesInBlock, [&](std::size_t begin, std::size_t end, auto& found) {
+          for (std::size_t n = begin; n < end; ++n) {
+            Box box =
+                bounding_box(corners_of(moved_.surface, moved_.surface.triangles[touched[n]]));
+            box.lo = box.lo - Vec3{reach, reach, reach};
+            box.hi = box.hi + Vec3{reach, reach, reach};
+            const Index own = moved_.interface[touched[n]];
+            to_original_.tree(own).for_each_overlap(
+                box, [&](std::size_t t) { found.push_back(to_original_.index_of(own, t)); });
+          }
+        });
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    return near;
+  }
+
+  /// Of originals those that no moved triangle nearest to one of their corners is near to as a whole:
+  /// most are, and need no search.
+  std::vector<Index> originals_to_search_for(const std::vector<Index>& originals) {
     return parallel_collect<Index>(
         originals.size(), kTrianglesInBlock, [&](std::size_t begin, std::size_t end, auto& found) {
-          for (std::size_t t = begin; t < end; ++t) {
-            const Corners corners = corners_of(original_.surface, originals[t]);
-            bool touched = false, near = false;
-            for (const Index p : originals[t]) {
-              const Index moved = nearest_[p];
-              if (moved == kNoIndex) continue;
-              touched |= is_touched[moved] != 0;
-              near = near || is_near_all(moved, corners);
+          for (std::size_t n = begin; n < end; ++n) {
+            const Triangle& k = original_.surface.triangles[originals[n]];
+            double& least = original_bounds_[originals[n]] =
+                std::numeric_limits<double>::infinity();
+            for (std::size_t i = 0; i < 3 && least > tolerance_; ++i) {
+              if (nearest_[k[i]] != kNoIndex) {
+                least = farthest_corner(corners_of(original_.surface, k), nearest_[k[i]]);
+              }
             }
-            if (touched && !near) found.push_back(static_cast<Index>(t));
+            if (least > tolerance_) found.push_back(originals[n]);
           }
         });
   }
 
-  std::vector<Index> nearest_to_what_is_far(const std::vector<char>& is_touched) const {
-    const std::vector<Index> open = originals_to_search_for(is_touched);
+  double farthest_corner(const Corners& original, Index moved) const {
+    const Corners t = corners_of(moved_.surface, moved_.surface.triangles[moved]);
+    double greatest = 0;
+    for (const Vec3& p : original) greatest = std::max(greatest, squared_distance(p, t));
+    return std::sqrt(greatest);
+  }
+
+  /// Of the originals given, the triangles nearest to the corners of those that are too far.
+  std::vector<Index> nearest_to_what_is_far(const std::vector<Index>& originals) {
+    const std::vector<Index> open = originals_to_search_for(originals);
     if (open.empty()) return {};
-    const InterfaceTrees to_moved(moved_, count_);
-    return parallel_collect<Index>(open.size(), kTrianglesInBlock,
-                                   [&](std::size_t begin, std::size_t end, auto& found) {
-                                     std::vector<std::size_t> hints = to_moved.hints();
-                                     for (std::size_t n = begin; n < end; ++n) {
-                                       const Triangle& k = original_.surface.triangles[open[n]];
-                                       if (!is_far(corners_of(original_.surface, k), to_moved,
-                                                   original_.interface[open[n]], hints)) {
-                                         continue;
-                                       }
-                                       for (const Index p : k) {
-                                         if (nearest_[p] != kNoIndex) found.push_back(nearest_[p]);
-                                       }
-                                     }
-                                   });
+    to_moved_.emplace(moved_, count_);
+    return parallel_collect<Index>(
+        open.size(), kTrianglesInBlock, [&](std::size_t begin, std::size_t end, auto& found) {
+          std::vector<std::size_t> hints = to_moved_->hints();
+          for (std::size_t n = begin; n < end; ++n) {
+            const Index t = open[n];
+            const Triangle& k = original_.surface.triangles[t];
+            original_bounds_[t] =
+                bound(corners_of(original_.surface, k), *to_moved_, original_.interface[t], hints);
+            if (original_bounds_[t] <= tolerance_) continue;
+            for (const Index p : k) {
+              if (nearest_[p] != kNoIndex) found.push_back(nearest_[p]);
+            }
+          }
+        });
+  }
+
+  void measure(DecimateReport& report) {
+    if (!to_moved_) to_moved_.emplace(moved_, count_);
+    report.original_to_result =
+        greatest_distance(original_, *to_moved_, report.original_to_result, original_bounds_);
+    report.result_to_original =
+        greatest_distance(moved_, to_original_, report.result_to_original, result_bounds_);
+  }
+
+  /// The greatest distance of a triangle, from bounds that are kept of each: most are below it.
+  double greatest_distance(const SplitSurface& from, const InterfaceTrees& to, double proved,
+                           const std::vector<double>& bounds) const {
+    std::vector<Index> order;
+    for (Index t = 0; t < std::ssize(bounds); ++t) {
+      if (bounds[t] > proved) order.push_back(t);
+    }
+    std::sort(order.begin(), order.end(), [&bounds](Index a, Index b) {
+      return std::pair{-bounds[a], a} < std::pair{-bounds[b], b};
+    });
+    std::vector<std::size_t> hints = to.hints();
+    double greatest = proved;
+    for (const Index t : order) {
+      if (bounds[t] <= greatest) break;
+      const Index own = from.interface[t];
+      greatest =
+          std::max(greatest, farthest_distance(corners_of(from.surface, from.surface.triangles[t]),
+                                               to.tree(own), {greatest}, hints[own]));
+    }
+    return greatest;
   }
 
   SplitSurface start_, moved_;
   const SplitSurface& original_;
   std::size_t count_;
   double tolerance_;
-  Enough enough_;
   InterfaceTrees to_original_;
   std::vector<Vec3> normals_;      // of the triangles, before any move
   std::vector<Vec3> normals_now_;  // once points have moved
@@ -284,16 +350,19 @@ class Refit {
   std::vector<Index> nearest_;  // to each original point, the triangle before any move
   std::vector<Vec3> up_;        // of each point, before any move
   std::vector<double> moves_;   // along it, mm
-  std::vector<char> changed_;   // of each point 1 if it has moved since the last search
+  std::vector<double> result_bounds_, original_bounds_;  // of triangles that were searched for, mm
+  std::optional<InterfaceTrees> to_moved_;               // as it was then
+  std::vector<char> changed_;  // of each point 1 if it has moved since the last search
 };
 
 }  // namespace
 
-TriMesh refit(TriMesh decimated, const TriMesh& original, double tolerance) {
+TriMesh refit(TriMesh decimated, const TriMesh& original, double tolerance,
+              DecimateReport* report) {
   if (decimated.triangles.empty()) return decimated;
   const SplitSurface whole{original, std::vector<Index>(original.triangles.size(), 0)};
   std::vector<Index> interface(decimated.triangles.size(), 0);
-  return Refit({std::move(decimated), std::move(interface)}, whole, 1, tolerance).run();
+  return Refit({std::move(decimated), std::move(interface)}, whole, 1, tolerance).run(report);
 }
 
 PartitionSurface refit_partition(PartitionSurface decimated, const PartitionSurface& original,
@@ -318,7 +387,7 @@ PartitionSurface refit_partition(PartitionSurface decimated, const PartitionSurf
   const SplitSurface whole{{original.points, original.triangles}, numbered(original)};
   if (numbers.size() != count) throw InputError("refit: expected a triangle of each interface");
   TriMesh surface =
-      Refit({taken_from(decimated), std::move(interface)}, whole, count, tolerance).run();
+      Refit({taken_from(decimated), std::move(interface)}, whole, count, tolerance).run(nullptr);
   return put_back(std::move(surface), std::move(decimated));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "mesamis/decimate/decimate.h"
 #include "mesamis/surface/partition.h"
 #include "mesamis/surface/tri_mesh.h"
 
@@ -21,10 +22,13 @@ namespace mesamis::detail::decimate {
 /// @param decimated  as decimate() returns it; taken over.
 /// @param original   what was decimated, mm; n triangles.
 /// @param tolerance  mm, > 0, finite.
+/// @param report     optional: the distances that decimate() proved; then those after the moves, where
+///                   these are greater to within kDistanceSlack.
 /// @return the same triangles. The same bits for any number of threads.
 ///
 /// O(n log n): about two searches for each original point, and one for each triangle of both.
-TriMesh refit(TriMesh decimated, const TriMesh& original, double tolerance);
+TriMesh refit(TriMesh decimated, const TriMesh& original, double tolerance,
+              DecimateReport* report = nullptr);
 
 /// The same for the boundaries of a partition: each interface is refitted to its own original, and
 /// points where other than one pair of sides meet stay.

@@ -6,7 +6,6 @@
 
 #include "mesamis/decimate/decimate_partition.h"
 #include "mesamis/decimate/refit.h"
-#include "mesamis/surface/distance.h"
 
 namespace mesamis::detail::decimate {
 namespace {
@@ -27,14 +26,8 @@ DecimateOptions within_share(DecimateOptions options) {
 
 TriMesh simplify(const TriMesh& surface, const DecimateOptions& options, DecimateReport* report) {
   if (!leaves_room(options)) return decimate(surface, options, report);
-  TriMesh result =
-      refit(decimate(surface, within_share(options), report), surface, options.tolerance);
-  if (report) {
-    const double fine = fine_enough(surface, options.tolerance);
-    report->original_to_result = max_distance(surface, result, fine);
-    report->result_to_original = max_distance(result, surface, fine);
-  }
-  return result;
+  TriMesh few = decimate(surface, within_share(options), report);
+  return refit(std::move(few), surface, options.tolerance, report);
 }
 
 PartitionSurface simplify_partition(const PartitionSurface& partition,

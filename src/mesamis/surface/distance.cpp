@@ -60,7 +60,8 @@ double max_distance(const TriMesh& from, const TriMesh& to, double fine) {
     std::size_t hint = 0;
     double farthest = fine;
     for (std::size_t t = begin; t < end; ++t) {
-      farthest = farthest_distance(corners_of(from, from.triangles[t]), tree, {farthest}, hint);
+      farthest = std::max(
+          farthest, farthest_distance(corners_of(from, from.triangles[t]), tree, {farthest}, hint));
     }
     return farthest;
   });

@@ -46,14 +46,10 @@ Polygon cut_off(Polygon& piece, const Vec3& p, const Vec3& n, double thin) {
 class Search {
  public:
   Search(const TriangleTree& tree, const Enough& enough, std::size_t& hint)
-      : tree_(tree),
-        enough_(enough),
-        upper_(enough.below),
-        smallest_(kSmallest * enough.below),
-        hint_(hint) {}
+      : tree_(tree), enough_(enough), smallest_(kSmallest * enough.below), hint_(hint) {}
 
   double run(const Corners& triangle) {
-    if (is_enough(triangle, tree_.triangle(hint_))) return enough_.below;
+    if (is_near(triangle, tree_.triangle(hint_))) return upper_;
     pieces_.push_back({triangle[0], triangle[1], triangle[2]});
     while (!pieces_.empty() && lower_ <= enough_.above) {
       Polygon piece = std::move(pieces_.back());
@@ -66,7 +62,7 @@ class Search {
  private:
   void examine(Polygon piece) {
     // Most pieces are near enough to the triangle that the last one was near to: no search.
-    if (is_enough(piece, tree_.triangle(hint_))) return;
+    if (is_near(piece, tree_.triangle(hint_))) return;
     see(center_of(piece));
     const Corners near = tree_.triangle(hint_);
     if (settles(piece, near)) return;
@@ -84,10 +80,14 @@ class Search {
   }
 
   template <class Points>
-  bool is_enough(const Points& piece, const Corners& near) const {
-    return std::all_of(piece.begin(), piece.end(), [&](const Vec3& p) {
-      return squared_distance(p, near) <= enough_.below * enough_.below;
-    });
+  bool is_near(const Points& piece, const Corners& near) {
+    double greatest = 0;
+    for (const Vec3& p : piece) {
+      greatest = std::max(greatest, squared_distance(p, near));
+      if (greatest > enough_.below * enough_.below) return false;
+    }
+    upper_ = std::max(upper_, std::sqrt(greatest));
+    return true;
   }
 
   bool settles(const Polygon& piece, const Corners& near) {
@@ -157,7 +157,7 @@ class Search {
 
   const TriangleTree& tree_;
   Enough enough_;
-  double lower_ = 0, upper_, smallest_;
+  double lower_ = 0, upper_ = 0, smallest_;
   std::size_t& hint_;
   std::vector<Polygon> pieces_;
 };

@@ -18,8 +18,8 @@ struct Enough {
 
 /// The greatest distance of any point of the triangle from the surface in the tree.
 /// @param hint  see TriangleTree.
-/// @return enough.below, or an upper bound above it that exceeds the true value by kDistanceSlack
-///         at most, or a distance above enough.above that occurs.
+/// @return an upper bound, which exceeds the true value by kDistanceSlack at most where it is above
+///         enough.below; or a distance above enough.above that occurs.
 double farthest_distance(const Corners& triangle, const TriangleTree& tree, const Enough& enough,
                          std::size_t& hint);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesamis/rooms.h"
+#include "mesamis/surface/box_tree.h"
 #include "mesamis/surface/tri_mesh.h"
 
 namespace mesamis::detail::surface {
@@ -38,6 +39,26 @@ class TriangleTree {
   /// @param hint  where the last search ended; start with 0. It speeds the search up when the last
   ///              point was near, and never changes the answer beyond round-off.
   double squared_distance_to(const Vec3& p, std::size_t& hint) const;
+
+  /// Calls visit(hint) for the triangles of leaves whose boxes overlap the given one, among them all
+  /// whose own boxes do.
+  template <class Visit>
+  void for_each_overlap(const Box& box, Visit&& visit) const {
+    std::array<std::size_t, 64> stack;  // halved at each step: depth at most 32
+    std::size_t size = 0;
+    stack[size++] = 0;
+    while (size > 0) {
+      const std::size_t n = stack[--size];
+      const Node& node = nodes_[n];
+      if (!overlap(node.box, box)) continue;
+      const auto first = static_cast<std::size_t>(node.first);
+      if (node.count == 0) {
+        stack[size++] = first;
+        stack[size++] = n + 1;
+      }
+      for (std::size_t i = 0; i < static_cast<std::size_t>(node.count); ++i) visit(first + i);
+    }
+  }
 
   /// The triangle a search ended at.
   const Corners& triangle(std::size_t hint) const { return triangles_[hint]; }
