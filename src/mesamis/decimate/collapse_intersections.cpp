@@ -91,7 +91,10 @@ bool CollapseIntersections::occur(const EditableSurface& surface, std::vector<Ve
     const bool changes =
         t == collapse.gone[0] || t == collapse.gone[1] ||
         std::find(collapse.faces.begin(), collapse.faces.end(), t) != collapse.faces.end();
-    if (!changes) near_.push_back(t);
+    if (changes) return true;
+    const Triangle k = surface.triangle(t);
+    const Corners corners{points[k[0]], points[k[1]], points[k[2]]};
+    near_.push_back({k, corners, bounding_box(corners)});
     return true;
   });
   const bool folds = std::isinf(collapse.height);
@@ -104,10 +107,9 @@ bool CollapseIntersections::occur(const EditableSurface& surface, std::vector<Ve
     found = !has_area(points, own);
     for (std::size_t j = 0; j < i && !found && folds; ++j) found = meets(points, own, changed(j));
     for (std::size_t k = 0; k < near_.size() && !found; ++k) {
-      const Triangle other = surface.triangle(near_[k]);
-      const Corners corners{points[other[0]], points[other[1]], points[other[2]]};
-      found = overlap(box, bounding_box(corners)) && !partition.parts(own, other, corners) &&
-              meets(points, own, other);
+      const Near& other = near_[k];
+      found = overlap(box, other.box) && !partition.parts(own, other.triangle, other.corners) &&
+              meets(points, own, other.triangle);
     }
   }
   points[collapse.kept] = before;

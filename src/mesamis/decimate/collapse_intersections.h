@@ -27,7 +27,12 @@ class CollapseIntersections {
 
   std::vector<Index> first_copies_;
   BoxTree tree_;
-  std::vector<Index> near_;
+  struct Near {
+    Triangle triangle;
+    Corners corners;
+    Box box;
+  };
+  std::vector<Near> near_;
 };
 
 }  // namespace mesamis::detail::decimate

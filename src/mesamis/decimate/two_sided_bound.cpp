@@ -95,7 +95,7 @@ void TwoSidedBound::gather(const Collapse& collapse) {
     for (const Index o : lists_[t]) {
       if (seen_[o] == collapse_count_) continue;
       seen_[o] = collapse_count_;
-      affected_.push_back({o, guess});
+      affected_.push_back({o, guess, 0});
     }
   };
   for (std::size_t i = 0; i < collapse.faces.size(); ++i) add(collapse.faces[i], i);
@@ -153,8 +153,32 @@ void TwoSidedBound::look_around(const EditableSurface& surface, const Collapse& 
   if (!collapse.moves) see(collapse.kept);
 }
 
+/// Whether the centres of the originals are near; what is farthest comes first from now on, and most
+/// refusals are found there.
+bool TwoSidedBound::centers_are_near() {
+  const double most = tolerance_ * tolerance_;
+  for (Affected& a : affected_) {
+    const Corners& t = originals_[a.original].corners();
+    const Vec3 center = (1.0 / 3) * (t[0] + t[1] + t[2]);
+    a.distance = around_[a.guess]->squared_distance_up_to(most, center);
+    for (std::size_t n = 0; a.distance > most && n < around_.size(); ++n) {
+      const double distance =
+          around_[n]->squared_distance_up_to(std::min(most, a.distance), center);
+      if (distance >= a.distance) continue;
+      a.distance = distance;
+      a.guess = n;
+    }
+    if (a.distance > most) return false;
+  }
+  std::sort(affected_.begin(), affected_.end(), [](const Affected& a, const Affected& b) {
+    return std::pair{-a.distance, a.original} < std::pair{-b.distance, b.original};
+  });
+  return true;
+}
+
 bool TwoSidedBound::old_are_near() {
-  for (const auto& [o, guess] : affected_) {
+  if (!centers_are_near()) return false;
+  for (const auto& [o, guess, squared] : affected_) {
     const double distance = covering_.bound(originals_[o].corners(), around_, guess);
     if (!std::isfinite(distance)) return false;
     for (const Index used : covering_.used()) uses_.push_back({o, around_number_[used], distance});

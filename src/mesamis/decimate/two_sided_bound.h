@@ -43,7 +43,8 @@ class TwoSidedBound {
   };
   struct Affected {
     Index original;
-    std::size_t guess;  ///< the place of a triangle that stood for it
+    std::size_t guess;  ///< the place of a triangle that it may be near as a whole
+    double distance;    ///< of its centre, mm^2
   };
   struct Use {
     Index original, triangle;
@@ -55,6 +56,7 @@ class TwoSidedBound {
   bool ends_are_near(const std::vector<Vec3>& points, const Collapse& collapse) const;
   Bounds bounds_before(const Collapse& collapse) const;
   void lift(const Bounds& bounds, const Collapse& collapse);
+  bool centers_are_near();
   bool old_are_near();
   bool new_are_near(const Collapse& collapse);
 
