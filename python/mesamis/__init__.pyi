@@ -201,7 +201,9 @@ class Result(_AnyResult, _Shape):
         """The metric that the mesh was made for, at the nodes, 1/mm^2: xx xy xz yy yz zz."""
     @property
     def level(self) -> float:
-        """The level of the surface, native units of the scan."""
+        """The level of the surface, native units of the scan: of the object as a whole, also where places of a
+        CT have levels of their own (report['surface']['level_range_native']).
+        """
     @property
     def converged(self) -> bool: ...
     @property

@@ -147,7 +147,8 @@ class Result(_AnyResult, Shape):
 
     @property
     def level(self):
-        """The level of the surface, native units of the scan."""
+        """The level of the surface, native units of the scan: of the object as a whole, also where places of a
+        CT have levels of their own (report['surface']['level_range_native'])."""
         return self._run.level
 
     @property
