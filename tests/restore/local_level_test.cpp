@@ -18,14 +18,15 @@ const Vec3 kDenseCentre{14, 14, 14}, kLightCentre{46, 14, 14};
 const ObjectContrast kOfDense{kAround, kDense, 1000};
 constexpr double kHalfMaximum = (kAround + kDense) / 2;
 
-/// Two balls, of which one is less dense but for a grain of the given height in its middle.
-Volume two_balls(double grain = kDense - kLight) {
-  return sampled_volume({61, 29, 29}, {1, 1, 1}, [grain](const Vec3& p) {
+/// Two balls, of which one is less dense but for a grain in its middle, which is as dense as asked for.
+Volume two_balls(double light = kLight, double grain = kDense) {
+  return sampled_volume({61, 29, 29}, {1, 1, 1}, [&](const Vec3& p) {
     const auto ball = [&p](const Vec3& centre, double radius) {
       return blurred_ball(norm(p - centre), radius, kBlur);
     };
     return kAround + (kDense - kAround) * ball(kDenseCentre, kBall) +
-           (kLight - kAround) * ball(kLightCentre, kBall) + grain * ball(kLightCentre, 1.5);
+           (light - kAround) * ball(kLightCentre, kBall) +
+           (grain - light) * ball(kLightCentre, 1.5);
   });
 }
 
@@ -50,9 +51,25 @@ TEST(LocalLevel, TakenOffMakesTheObjectsLevelThatOfEachPlace) {
   EXPECT_LT(Trilinear(scan).at(kLightCentre + Vec3{0, kBall + 2, 0}), kHalfMaximum);
 }
 
+/// What holds the level where there are no edges weighs most beside faint ones.
+TEST(LocalLevel, OfFaintEdgesIsDrawnTowardsThatOfTheObject) {
+  const double light = 350, contrast = light - kAround;
+  Volume scan = two_balls(light);
+  const LocalLevel local = find_local_level(scan, kOfDense, kHalfMaximum, 0);
+  for (const Vec3& way : {Vec3{0, 1, 0}, Vec3{0, 0, -1}, Vec3{0, 0.6, 0.8}}) {
+    const double level = kHalfMaximum + Trilinear(local.excess).at(kLightCentre + kBall * way);
+    EXPECT_GT(level, (kAround + light) / 2);
+    EXPECT_LT(level, (kAround + light) / 2 + 0.12 * contrast);
+  }
+  take_off(local.excess, scan);
+  const double middle = middle_radius(kBall, kBlur);
+  EXPECT_GT(Trilinear(scan).at(kLightCentre + Vec3{0, middle - 0.3, 0}), kHalfMaximum);
+  EXPECT_LT(Trilinear(scan).at(kLightCentre + Vec3{0, middle + 0.1, 0}), kHalfMaximum);
+}
+
 /// Ears and vessels have edges, and are no bone.
 TEST(LocalLevel, PartsThatNowhereReachTheObjectsLevelKeepIt) {
-  Volume scan = two_balls(0);
+  Volume scan = two_balls(kLight, kLight);
   const LocalLevel local = find_local_level(scan, kOfDense, kHalfMaximum, 0);
   EXPECT_LT(local.range[0], 0.5 * kHalfMaximum);
   take_off(local.excess, scan);
@@ -93,14 +110,8 @@ TEST(LocalLevel, ThinWallsAndNoiseHaveNoSay) {
 }
 
 TEST(LocalLevel, IsOneWhereTheDensitiesScatterAsThoseOfOneObject) {
-  const auto balls = [](double light) {
-    return sampled_volume({61, 29, 29}, {1, 1, 1}, [light](const Vec3& p) {
-      return kAround + (kDense - kAround) * blurred_ball(norm(p - kDenseCentre), kBall, kBlur) +
-             (light - kAround) * blurred_ball(norm(p - kLightCentre), kBall, kBlur);
-    });
-  };
-  const LocalLevel one =
-      find_local_level(balls(kDense - 0.15 * (kDense - kAround)), kOfDense, kHalfMaximum, 0);
+  const double light = kDense - 0.15 * (kDense - kAround);
+  const LocalLevel one = find_local_level(two_balls(light, light), kOfDense, kHalfMaximum, 0);
   EXPECT_GT(one.edge_share, 0);
   EXPECT_TRUE(one.excess.samples.empty());
   EXPECT_EQ(one.range[0], one.range[1]);

@@ -20,6 +20,25 @@ TEST(Neighbours, SetsHaveNoMorePartsThanNeighboursAndGainAtMostOneWithEach) {
   }
 }
 
+/// A node that stands alone adds a part, one between two parts joins them, and one in a cavity fills
+/// that.
+TEST(Neighbours, TellTheChangeOfTheEulerCharacteristic) {
+  EXPECT_EQ(euler_change(0), 1);
+  EXPECT_EQ(euler_change(kAllNeighbours), -1);
+  for (std::size_t i = 0; i < 14; ++i) {
+    EXPECT_EQ(euler_change(1U << i), 0) << "it grows";
+    EXPECT_EQ(euler_change(kAllNeighbours & ~(1U << i)), 0) << "a dent is filled";
+  }
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(euler_change(1U << i | 1U << (i + 7)), -1);
+}
+
+TEST(Neighbours, OfAKindAreThoseThatThereAre) {
+  const std::array<Index, 3> size{3, 3, 3};
+  EXPECT_EQ(Neighbours(size, 13).set_of([](Index) { return true; }), kAllNeighbours);
+  EXPECT_EQ(Neighbours(size, 13).set_of([](Index) { return false; }), 0U);
+  EXPECT_EQ(std::popcount(Neighbours(size, 0).set_of([](Index) { return true; })), 7);
+}
+
 TEST(Neighbours, OppositeOnesAreApart) {
   for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(count_parts(1U << i | 1U << (i + 7)), 2);
 }

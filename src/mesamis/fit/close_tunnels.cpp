@@ -7,7 +7,6 @@
 #include <functional>
 #include <limits>
 #include <queue>
-#include <span>
 #include <utility>
 
 #include "mesamis/base/parallel.h"
@@ -39,7 +38,6 @@ class TunnelFinder {
       const float h = height.samples[n];
       states_[n] = h >= 0 ? State::kObject : h >= kFaintest ? State::kFaint : State::kBackground;
     });
-    bright_ = states_;
   }
 
   std::vector<Sheet> closing_sheets() {
@@ -60,13 +58,11 @@ class TunnelFinder {
   State& state(Index voxel) { return states_[static_cast<std::size_t>(voxel)]; }
   State state(Index voxel) const { return states_[static_cast<std::size_t>(voxel)]; }
 
-  /// The neighbours that are in that state or brighter, see kAllNeighbours.
-  unsigned set_of(const Neighbours& around, State least) const {
-    unsigned set = 0;
-    for (std::size_t i = 0; i < 14; ++i) {
-      if (around[i] != kNoIndex && state(around[i]) >= least) set |= 1U << i;
-    }
-    return set;
+  /// The neighbours of a voxel that are in that state or brighter.
+  unsigned set_around(Index voxel, State least) const {
+    return Neighbours(height_.size, voxel).set_of([&](Index other) {
+      return state(other) >= least;
+    });
   }
 
   template <class Visit>
@@ -94,10 +90,10 @@ class TunnelFinder {
       const Index voxel = queue.top().second;
       queue.pop();
       waits[static_cast<std::size_t>(voxel)] = false;
-      const unsigned set = set_of(Neighbours(height_.size, voxel), State::kFaint);
-      const Index parts = count_parts(set);
+      const unsigned set = set_around(voxel, State::kFaint);
       if (count_parts(kAllNeighbours & ~set) != 1) continue;
-      if (parts != 1 && !(cut_bridges && parts > 1)) continue;
+      const Index parts = count_parts(set);
+      if (parts == 0 || (parts > 1 && !cut_bridges)) continue;
       state(voxel) = State::kBackground;
       for_each_neighbour(voxel, [&](Index other) {
         const auto n = static_cast<std::size_t>(other);
@@ -155,9 +151,10 @@ class TunnelFinder {
     }
     for (Index k = low[2]; k <= high[2]; ++k) {
       for (Index j = low[1]; j <= high[1]; ++j) {
-        const auto row = bright_.begin() + static_cast<std::ptrdiff_t>(height_.offset(0, j, k));
-        const auto end = row + high[0] + 1;
-        if (std::find(row + low[0], end, State::kBackground) != end) return true;
+        const auto row =
+            height_.samples.begin() + static_cast<std::ptrdiff_t>(height_.offset(0, j, k));
+        const auto is_dark = [](float height) { return height < kFaintest; };
+        if (std::any_of(row + low[0], row + high[0] + 1, is_dark)) return true;
       }
     }
     return false;
@@ -190,8 +187,7 @@ class TunnelFinder {
     for (const Index voxel : sheet) state(voxel) = State::kBackground;
     Index change = 0;
     for (const Index voxel : sheet) {
-      const unsigned set = set_of(Neighbours(height_.size, voxel), State::kObject);
-      change += count_parts(kAllNeighbours & ~set) - count_parts(set);
+      change += euler_change(set_around(voxel, State::kObject));
       state(voxel) = State::kObject;
     }
     if (change > 0) return true;
@@ -200,8 +196,8 @@ class TunnelFinder {
   }
 
   const VolumeView height_;
-  std::vector<State> states_, bright_;  // as thinned, and before
-  std::vector<Index> parts_;            // of the object's voxels as they were, else kNoIndex
+  std::vector<State> states_;  // as thinned
+  std::vector<Index> parts_;   // of the object's voxels as they were, else kNoIndex
   std::vector<std::size_t> part_sizes_;
 };
 

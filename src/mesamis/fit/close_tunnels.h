@@ -34,7 +34,7 @@ struct TunnelLift {
 /// @return what brings the sheets to 0.5, falling off within two voxels; nothing for more voxels than
 ///         an Index counts.
 ///
-/// O(voxels log voxels), one thread but for the last step; 14 bytes per voxel beside the image.
+/// O(voxels log voxels), one thread but for the last step; 13 bytes per voxel beside the image.
 TunnelLift find_tunnel_lift(Volume height);
 
 }  // namespace mesamis::detail::fit

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/method/chosen_run.h"
 
-#include <algorithm>
-#include <tuple>
 #include <utility>
 
 namespace mesamis::detail::method {
@@ -61,9 +59,9 @@ Result run_on_object(const ObjectInPlace& in_place, const Settings& settings,
   Result result = mes_amis(image, settings_for(object, settings), progress, enough);
   result.parameters = in_scan_units(result.parameters, object);
   auto& [low, high] = result.image.level_range;
-  if (result.image.has_local_levels()) {
-    std::tie(low, high) = std::minmax({object.units().turned(low), object.units().turned(high)});
-  }
+  const Window levels = object.units().turned(Window{low, high});
+  low = levels.low;
+  high = levels.high;
   return result;
 }
 

@@ -23,11 +23,18 @@ struct LocalLevel {
 ///
 /// A voxel lies on an edge where the gradient (of a Gaussian of 0.8 voxels) has its maximum along
 /// itself. The sides of the edge are the largest value within two voxels up the gradient and the
-/// least within two voxels down. Edges count if they have a tenth of the object's contrast and six
-/// standard deviations of the noise, and if their dark side is about as dark as the object's
-/// background: skin against air is none, nor is cortical bone against marrow. The level is the mean
-/// of (bright + dark) / 2 over the edges around, weighted by their contrast and a Gaussian of three
-/// voxels; far from all edges it is the object's.
+/// least within two voxels down. An edge counts if
+/// - its contrast, and the bright side over the object's background, are a tenth of the object's
+///   contrast and four standard deviations of the noise;
+/// - its dark side is about as dark as the background: skin against air is none, nor is cortical bone
+///   against marrow;
+/// - a voxel beyond each side the image has gone on by a quarter of the contrast at most, and each
+///   side stays on its side of the middle for four voxels.
+///
+/// The level is the mean of (bright + dark) / 2 over the edges around, weighted by their contrast and
+/// a Gaussian of three voxels. The object's level has a hundredth of a usual edge's weight everywhere.
+/// It is that far from all edges, and draws the level of faint ones, by a tenth of their contrast
+/// where that is a quarter of the object's.
 ///
 /// Objects of one density scatter too, by up to 0.06 of the contrast (standard deviation over the
 /// edges): then there is one level, also for a part with so few edges that it does not count. From

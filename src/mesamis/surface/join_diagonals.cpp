@@ -203,17 +203,14 @@ DiagonalJoin join_at(const LabelGrid& grid, std::span<const std::uint16_t> label
                      std::span<const Index> parts, const Fill& fill) {
   DiagonalJoin join{fill.node, fill.label, 0, {}};
   const Neighbours around(grid.size, static_cast<Index>(fill.node));
-  unsigned object = 0;
   auto end = join.touched.begin();
   for (std::size_t i = 0; i < 14; ++i) {
     const Index n = around[i];
-    if (n == kNoIndex) continue;
-    if (labels[n] == fill.label) object |= 1U << i;
-    if (grid.labels[n] != fill.label) continue;
+    if (n == kNoIndex || grid.labels[n] != fill.label) continue;
     if (std::find(join.touched.begin(), end, parts[n]) == end) *end++ = parts[n];
   }
   std::fill(end, join.touched.end(), kNoIndex);
-  join.change = count_parts(kAllNeighbours & ~object) - count_parts(object);
+  join.change = euler_change(around.set_of([&](Index n) { return labels[n] == fill.label; }));
   return join;
 }
 

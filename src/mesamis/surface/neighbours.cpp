@@ -39,4 +39,8 @@ Index count_parts(unsigned neighbours) {
   return count;
 }
 
+Index euler_change(unsigned object) {
+  return count_parts(kAllNeighbours & ~object) - count_parts(object);
+}
+
 }  // namespace mesamis::detail::surface

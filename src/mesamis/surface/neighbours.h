@@ -31,6 +31,17 @@ class Neighbours {
   /// The i-th one, or kNoIndex.
   Index operator[](std::size_t i) const { return nodes_[i]; }
 
+  /// Those that are of a kind, as a set.
+  /// @param is_in  called with the node of each neighbour that there is.
+  template <class IsIn>
+  unsigned set_of(const IsIn& is_in) const {
+    unsigned set = 0;
+    for (std::size_t i = 0; i < 14; ++i) {
+      if (nodes_[i] != kNoIndex && is_in(nodes_[i])) set |= 1U << i;
+    }
+    return set;
+  }
+
   /// The step to a neighbour.
   static std::array<Index, 3> step_to(std::size_t i) {
     const auto& d = kKuhnSteps[i % 7];
@@ -46,5 +57,9 @@ inline constexpr unsigned kAllNeighbours = (1U << 14) - 1;
 
 /// How many parts a set of a node's neighbours has: connected along edges of the tetrahedra.
 Index count_parts(unsigned neighbours);
+
+/// By how much the Euler characteristic of an object grows when it takes a node.
+/// @param object  the node's neighbours that are of the object.
+Index euler_change(unsigned object);
 
 }  // namespace mesamis::detail::surface
