@@ -46,6 +46,7 @@ set(ROOM_SOURCES
   skyscan_log.cpp
   NEXT scanco_file.cpp
   tiff_layout.cpp
+  tiff_tags.cpp
   vgi_file.cpp
   NEXT nifti_file.cpp
   spm_matrix.cpp
