@@ -216,6 +216,10 @@ RunFiles outputs_of(const SegmentOptions& run, const FileSlices& source, const S
   RunFiles out = outputs_of(run, common);
   out.meshes = meshes_of(run, false);
   out.facts.input = facts_of_slices(run, source);
+  for (const std::string& warning : found.outcome.warnings()) {
+    log_warning(warning);
+    out.facts.warnings.push_back(warning);
+  }
   tell_of_slabs(out.facts, slabs_json(found.work, *common.team));
   return out;
 }

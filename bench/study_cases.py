@@ -19,13 +19,13 @@ from mesamis_runs import run
 from volumes import (SPECK, cropped, isosurface, noisy, read_nifti, read_nrrd, smoothed,
                      thinned, upsampled, write_nrrd)
 
-# Set aside on 2026-11-23: no setting of mesamis may be chosen by these. Once they have guided
+# Set aside on 2026-11-28: no setting of mesamis may be chosen by these. Once they have guided
 # anything, others take their place.
 JUDGING = """
-    spine_f2_n2 template_f2_n8 aj_f2_n2 trabecular_f3_n2 cranium_f3_n8 skull_f2_n8
-    ct_femur_fine ct_fracture_fine ct_plates_thick ct_shell_thick ct_wing_fine
-    femur_b0.5_n15 femur_thick_n30 plate_b0.5_n15 hemipelvis_b2_n15
-    wall_b0.8_n8 noise_3 ball_n45
+    spine_f2_n8 template_z4_n2 aj_f3_n8 trabecular_z4_n8 cranium_z4_n2 skull_f3_n2
+    ct_plates_fine ct_shell_fine ct_wing_thick ct_femur_coarse ct_fracture_coarse
+    fracture_b1.5_n8 hemipelvis_b1_n30 femur_inverted_n30 plate_bias_n30 femur_b2_n15
+    wall_b1.2_n8 noise_4 ball_n20
 """.split()
 
 MARGIN = 2.5  # voxels at the box where what is bright leaves it: nothing is measured there
@@ -54,16 +54,19 @@ SOURCES = {
 }
 REAL = """template_f2_n2 template_f3_n2 template_z4_n8 aj_f2_n8 aj_f3_n2 aj_z4_n2 trabecular_f2_n2
     trabecular_f3_n8 trabecular_z4_n2 trabecular_f2_n8 cranium_f2_n2 cranium_f2_n8 skull_f2_n2
-    skull_f3_n8 spine_f2_n2 template_f2_n8 aj_f2_n2 trabecular_f3_n2 cranium_f3_n8 skull_f2_n8""".split()
+    skull_f3_n8 spine_f2_n2 template_f2_n8 aj_f2_n2 trabecular_f3_n2 cranium_f3_n8 skull_f2_n8
+    spine_f2_n8 template_z4_n2 aj_f3_n8 trabecular_z4_n8 cranium_z4_n2 skull_f3_n2""".split()
 FACTORS = {"f1": (1, 1, 1), "f2": (2, 2, 2), "f3": (3, 3, 3), "z4": (1, 1, 4)}
 
 SCANNERS = {"soft": ct_simulator.Scanner("soft", 9, 0.8, 1.0),
             "sharp": ct_simulator.Scanner("sharp", 80, 0.7, 1.0),
             "fine": ct_simulator.Scanner("soft", 30, 0.6, 1.5),
-            "thick": ct_simulator.Scanner("soft", 9, 0.9, 2.5)}
+            "thick": ct_simulator.Scanner("soft", 9, 0.9, 2.5),
+            "coarse": ct_simulator.Scanner("soft", 15, 1.2, 2.0)}
 SIMULATED = """ct_femur_soft ct_femur_sharp ct_femur_thick ct_fracture_soft ct_fracture_sharp
     ct_fracture_thick ct_plates_soft ct_plates_sharp ct_shell_soft ct_shell_sharp ct_wing_soft
-    ct_wing_sharp ct_femur_fine ct_fracture_fine ct_plates_thick ct_shell_thick ct_wing_fine""".split()
+    ct_wing_sharp ct_femur_fine ct_fracture_fine ct_plates_thick ct_shell_thick ct_wing_fine
+    ct_plates_fine ct_shell_fine ct_wing_thick ct_femur_coarse ct_fracture_coarse""".split()
 
 SIZES = {"hemipelvis": "82,98,122"}
 THICK_SIZES = dict.fromkeys(("fracture", "femur", "plate"), "64,64,26")
@@ -71,10 +74,12 @@ PHANTOM_VALUES = 120, 230
 PHANTOMS = """fracture_b0.5_n4 fracture_b1_n30 fracture_b2_n15 fracture_inverted_n15 fracture_bias_n15
     fracture_thick_n15 hemipelvis_b0.5_n60 hemipelvis_b1_n15 hemipelvis_inverted_n15 femur_b2_n4
     femur_b1_n30 femur_bias_n15 plate_b1_n15 plate_thick_n15 femur_b0.5_n15
-    femur_thick_n30 plate_b0.5_n15 hemipelvis_b2_n15 fracture_inverted_n60""".split()
+    femur_thick_n30 plate_b0.5_n15 hemipelvis_b2_n15 fracture_inverted_n60
+    fracture_b1.5_n8 hemipelvis_b1_n30 femur_inverted_n30 plate_bias_n30 femur_b2_n15""".split()
 
-WALLS = ["wall_b0.6_n4", "wall_b0.6_n15", "wall_b1_n4", "wall_b1_n15", "wall_b0.8_n8"]
-NOTHING = ["noise_1", "noise_2", "noise_3", "ball_n30", "ball_n60", "ball_n45"]
+WALLS = ["wall_b0.6_n4", "wall_b0.6_n15", "wall_b1_n4", "wall_b1_n15", "wall_b0.8_n8", "wall_b1.2_n8"]
+NOTHING = ["noise_1", "noise_2", "noise_3", "noise_4", "ball_n20", "ball_n30", "ball_n60",
+           "ball_n45"]
 
 GROUPS = {"a": REAL, "b": SIMULATED, "c": PHANTOMS, "d": WALLS + NOTHING}
 

@@ -448,6 +448,7 @@ TEST(SlabRun, HasTheLevelsOfEachPlaceOfTheWholeScan) {
   expect_same(run_with_ranks(scan, in_turns, 2), run);
 
   const Result whole = mes_amis(scan, quick_settings());
+  EXPECT_FALSE(run.is_too_large);
   EXPECT_TRUE(run.result.parameters.local_level);
   EXPECT_EQ(run.result.image.level_range, whole.image.level_range);
   const SurfaceCheck check = check_surface(run.result.surface);
@@ -463,6 +464,20 @@ TEST(SlabRun, HasTheLevelsOfEachPlaceOfTheWholeScan) {
       EXPECT_NEAR(run.result.parameters.grey.to_native(run.result.u[n]), 350, 100);
     }
   }
+}
+
+/// What is chosen from a part of the scan is one level; whoever asked for more is told.
+TEST(SlabRun, OfMoreVoxelsThanAreLookedAtHasOneLevel) {
+  Volume scan = unlike_rods();
+  const TempFolder folder;
+  SlabRunOptions options{.slabs = 2, .scratch = folder / "a", .most_looked_at = 52 * 26 * 60};
+  const SlabRunResult run = run_alone(scan, options);
+  EXPECT_TRUE(run.is_too_large);
+  EXPECT_FALSE(run.result.parameters.local_level);
+  EXPECT_FALSE(run.result.image.has_local_levels());
+  scan.modality = "MR";  // no scan for which each place would have a level
+  options.scratch = folder / "b";
+  EXPECT_FALSE(run_alone(scan, options).is_too_large);
 }
 
 TEST(SlabRun, RefusesWhatHasNoMeaningInSlabs) {

@@ -22,8 +22,9 @@ constexpr double kThick = 4;  // voxels, of both sides of an edge that counts
 constexpr double kLeastOfContrast = 0.1, kLeastOfNoise = 4, kMostOfContrast = 0.6;
 /// The dark side of an edge against the object's background, of its contrast.
 constexpr double kDarkest = -0.25, kBrightest = 0.35;
-/// Of the median weight of an edge: what holds the level at the object's where there are no edges.
-constexpr double kPull = 0.01;
+/// Edges, in the mean around a voxel, that the object's level weighs as much as: it is that of places
+/// far from all edges. The least weight of edges that are told from none.
+constexpr double kPull = 0.005, kLeastWeight = 1e-6;
 /// Standard deviations of the local level, of the contrast: up to the first it is the scatter of one
 /// level, from the second on each place has its own.
 constexpr double kOneLevel = 0.06, kManyLevels = 0.12;
@@ -164,22 +165,22 @@ void for_each_near(const VoxelGrid& grid, std::size_t voxel, Visit&& visit) {
 /// The mean excess over a level of the edges around each voxel, native units.
 Volume mean_excess(const std::vector<Edge>& edges, const VoxelGrid& grid, double level,
                    double contrast) {
-  Volume weighted{grid, std::vector<float>(grid.voxel_count(), 0)}, weights = weighted;
-  std::vector<float> all;
-  all.reserve(edges.size());
+  Volume counts{grid, std::vector<float>(grid.voxel_count(), 0)}, weights = counts;
+  Volume weighted = counts;
   for (const Edge& edge : edges) {
-    const double weight = std::min(edge.bright - edge.dark, kMostOfContrast * contrast);
-    const double excess = (edge.bright + edge.dark) / 2 - level;
+    const double weight = std::min(edge.bright - edge.dark, kMostOfContrast * contrast) / contrast;
+    const double above = (edge.bright + edge.dark) / 2 - level;
     weights.samples[edge.voxel] = static_cast<float>(weight);
-    weighted.samples[edge.voxel] = static_cast<float>(weight * excess);
-    all.push_back(weights.samples[edge.voxel]);
+    weighted.samples[edge.voxel] = static_cast<float>(weight * above);
+    counts.samples[edge.voxel] = 1;
   }
-  const double pull = kPull * quantiles(all, {0.5})[0];
-  const WeightedMeans means(std::move(weighted), std::move(weights), kSpread, pull);
-  Volume mean{grid, std::vector<float>(grid.voxel_count())};
-  parallel_for(mean.samples.size(),
-               [&](std::size_t n) { mean.samples[n] = static_cast<float>(means.at(n)); });
-  return mean;
+  const WeightedMeans means(std::move(weighted), std::move(weights), kSpread, kLeastWeight);
+  Volume excess = gaussian_smoothed(std::move(counts), kSpread);
+  parallel_for(excess.samples.size(), [&](std::size_t n) {
+    const double count = excess.samples[n];
+    excess.samples[n] = static_cast<float>(means.at(n) * count / (count + kPull));
+  });
+  return excess;
 }
 
 /// How much of the local levels counts, 0 to 1: where they hardly differ, they are one.

@@ -32,9 +32,8 @@ struct LocalLevel {
 ///   side stays on its side of the middle for four voxels.
 ///
 /// The level is the mean of (bright + dark) / 2 over the edges around, weighted by their contrast and
-/// a Gaussian of three voxels. The object's level has a hundredth of a usual edge's weight everywhere.
-/// It is that far from all edges, and draws the level of faint ones, by a tenth of their contrast
-/// where that is a quarter of the object's.
+/// a Gaussian of three voxels. The object's level counts as a two hundredth of an edge everywhere: it
+/// is that far from all edges, and draws that of faint ones by about a twentieth of their contrast.
 ///
 /// Objects of one density scatter too, by up to 0.06 of the contrast (standard deviation over the
 /// edges): then there is one level, also for a part with so few edges that it does not count. From

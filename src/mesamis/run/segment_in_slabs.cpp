@@ -54,6 +54,12 @@ class PieceWriter {
   MeshWithArrays index_;                                   // names and components of the arrays
 };
 
+std::string of_one_level(const VoxelGrid& grid, const SlabRunOptions& options) {
+  return "--level local: expected at most " + std::to_string(options.most_looked_at) +
+         " voxels of a CT in slabs, found " + std::to_string(grid.voxel_count()) +
+         ": one level for all places (take a crop, or every n-th voxel)";
+}
+
 OutcomeDetails outcome_of(const SlabRequest& request, SlabRunResult& work) {
   OutcomeDetails outcome;
   outcome.asked = request.settings;
@@ -61,6 +67,7 @@ OutcomeDetails outcome_of(const SlabRequest& request, SlabRunResult& work) {
   outcome.one = std::move(work.result);
   outcome.grey = std::move(work.grey);
   outcome.wanted = {one_object()};
+  if (work.is_too_large) outcome.warnings.push_back(of_one_level(outcome.grid, request.slabs));
   judge_surfaces(outcome);
   return outcome;
 }

@@ -11,6 +11,7 @@
 #include "mesamis/base/stopwatch.h"
 #include "mesamis/base/written_number.h"
 #include "mesamis/decimate/round_to_single.h"
+#include "mesamis/image/grey_values.h"
 #include "mesamis/method/chosen_run.h"
 #include "mesamis/method/deliver.h"
 #include "mesamis/method/setting_table.h"
@@ -26,8 +27,6 @@
 namespace mesamis::detail::slabs {
 namespace {
 
-/// Voxels of which the parameters are chosen.
-constexpr std::size_t kSample = std::size_t{1} << 27;
 /// Slices that are looked at together before there is a plan.
 constexpr Index kChunk = 16;
 
@@ -45,9 +44,11 @@ ChosenObject choose_in(Volume scan, const Settings& settings) {
 }
 
 /// The slices that stand for the scan.
-SliceRange slices_to_look_at(const SliceSource& source, const Scratch& scratch, Stages& stages) {
+/// @param most  voxels of them.
+SliceRange slices_to_look_at(const SliceSource& source, std::size_t most, const Scratch& scratch,
+                             Stages& stages) {
   const VoxelGrid& whole = source.grid();
-  if (whole.voxel_count() <= kSample) return {0, whole.size[2]};
+  if (whole.voxel_count() <= most) return {0, whole.size[2]};
   const Index chunks = (whole.size[2] + kChunk - 1) / kChunk;
   stages.run("look", chunks, [&](Index c) {
     ArchiveWriter archive;
@@ -60,7 +61,7 @@ SliceRange slices_to_look_at(const SliceSource& source, const Scratch& scratch, 
     const auto some = scratch.read(sums_file(c)).next<SliceSums>();
     all.insert(all.end(), some.begin(), some.end());
   }
-  return sample_slices(whole, all, kSample);
+  return sample_slices(whole, all, most);
 }
 
 /// The plan if all slices are equal work, as on a grid.
@@ -73,11 +74,13 @@ SlabPlan even_plan(const VoxelGrid& whole, const SlabOptions& options) {
 constexpr const char* kExcessFile = "excess";
 
 /// Chooses the parameters and cuts the scan: what must be known before slabs can be worked on.
-SlabRun begin_run(const SliceSource& source, Settings settings, const Scratch& scratch,
-                  Stages& stages, Index slabs) {
+/// @param options  whose number of slabs is told.
+SlabRun begin_run(const SliceSource& source, Settings settings, const SlabRunOptions& options,
+                  const Scratch& scratch, Stages& stages) {
   const VoxelGrid& whole = source.grid();
-  const SliceRange sample = slices_to_look_at(source, scratch, stages);
-  if (sample.count < whole.size[2]) settings.local_level = false;
+  const SliceRange sample = slices_to_look_at(source, options.most_looked_at, scratch, stages);
+  const bool wants_levels = settings.has_local_level(), is_part = sample.count < whole.size[2];
+  if (is_part) settings.local_level = false;
   stages.run("choose", 1, [&](Index) {
     const ChosenObject object = choose_in(read_slab(source, sample.first, sample.count), settings);
     const ChosenImage found =
@@ -88,18 +91,20 @@ SlabRun begin_run(const SliceSource& source, Settings settings, const Scratch& s
     }
     ArchiveWriter archive;
     archive.add_one(found.chosen);
+    archive.add_one(static_cast<char>(is_part && wants_levels && is_hounsfield(object.volume)));
     scratch.write("choice", archive);
     return SlabWork{};
   });
-  auto choice = scratch.read("choice").next_one<Chosen>();
+  ArchiveReader archive = scratch.read("choice");
+  auto choice = archive.next_one<Chosen>();
   Parameters& p = choice.parameters;
-  const SlabPlan plan = even_plan(whole, {p.unit_mm, p.functional.beta, slabs});
+  const SlabPlan plan = even_plan(whole, {p.unit_mm, p.functional.beta, options.slabs});
   p.h_max = std::max(p.h_min, std::min(p.h_max, plan.least_thickness()));
   MappedItems<float> excess;
   if (choice.measured.has_local_levels()) {
     excess = map_items<float>(scratch.path(kExcessFile), whole.voxel_count());
   }
-  return {source, scratch, plan, choice, excess};
+  return {source, scratch, plan, choice, excess, archive.next_one<char>() != 0};
 }
 
 std::string of_mesh(const char* what, int k) { return what + (" " + std::to_string(k)); }
@@ -248,6 +253,7 @@ SlabRunResult deliver(const SurfaceRun& run, const SlabRunOptions& options, cons
   }
   if (!options.mesh) drop_mesh(result);
   hand_out_pieces(run, options);
+  all.is_too_large = mesh.slabs.is_too_large;
   all.plan = mesh.slabs.plan;
   all.mesh_plan = mesh.plan(run.last);
   all.slabs = stages.work_of_slabs(run.count());
@@ -283,8 +289,8 @@ std::uint64_t hash_of_slice(const SliceSource& source, Index k) {
 std::string description_of_run(const SliceSource& source, const Settings& settings,
                                const SlabRunOptions& options, Index slabs) {
   const VoxelGrid& grid = source.grid();
-  std::string text =
-      description_of(settings) + " " + options.input + " slabs " + std::to_string(slabs);
+  std::string text = description_of(settings) + " " + options.input + " slabs " +
+                     std::to_string(slabs) + " looked at " + std::to_string(options.most_looked_at);
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<int>(a);
     text += " " + std::to_string(grid.size[a]);
@@ -326,7 +332,9 @@ std::optional<SlabRunResult> run_through(const Scratch& scratch, const SliceSour
   }
   Stages stages(scratch, team, progress,
                 options.turns.value_or(slabs::parts_of(whole, kVoxelsOfATurn)));
-  const SlabRun run = begin_run(source, settings, scratch, stages, even.count());
+  SlabRunOptions planned = options;
+  planned.slabs = even.count();
+  const SlabRun run = begin_run(source, settings, planned, scratch, stages);
   stages.run("image", 1, [&](Index) {
     make_item_file<float>(scratch.path(kImageFile), run.plan.whole.voxel_count());
     return SlabWork{};

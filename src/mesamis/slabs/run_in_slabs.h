@@ -25,11 +25,13 @@ struct SlabRunOptions {
   std::optional<Index> turns{};
   std::optional<Index> slabs{};   ///< default: as plan_slabs(); another number, another result
   std::filesystem::path scratch;  ///< a folder on a disk that all processes see; made where missing
-  bool keep_scratch = false;      ///< at the end; else what is in the folder goes
-  bool mesh = true;               ///< whether the result has its mesh and fields
-  bool grey = false;              ///< whether to find SlabRunResult::grey
-  bool resumable = true;          ///< a run that fails leaves its files, to be gone on with
-  std::string input{};            ///< what tells this scan from others, such as a path and a date
+  /// Of so many the parameters are chosen, at most; another number, another result.
+  std::size_t most_looked_at = std::size_t{1} << 27;
+  bool keep_scratch = false;  ///< at the end; else what is in the folder goes
+  bool mesh = true;           ///< whether the result has its mesh and fields
+  bool grey = false;          ///< whether to find SlabRunResult::grey
+  bool resumable = true;      ///< a run that fails leaves its files, to be gone on with
+  std::string input{};        ///< what tells this scan from others, such as a path and a date
   /// Optional; "slabs: ..." and the stages of mes_amis(). Called from any thread, one at a time.
   Progress progress{};
   /// Optional: takes the mesh of each slab in turn, with its fields as Result has them of the
@@ -47,9 +49,10 @@ void require_turns(const SlabRunOptions& options);
 /// A result, and how it came about.
 struct SlabRunResult {
   Result result;
-  std::vector<double> grey{};   ///< of the points of the surface, see surface_grey(); if asked for
-  SlabPlan plan;                ///< of voxels
-  SlabPlan mesh_plan;           ///< of the last mesh: as many slabs, cut elsewhere
+  bool is_too_large = false;   ///< for a level of each place, which was asked for: it has one level
+  std::vector<double> grey{};  ///< of the points of the surface, see surface_grey(); if asked for
+  SlabPlan plan;               ///< of voxels
+  SlabPlan mesh_plan;          ///< of the last mesh: as many slabs, cut elsewhere
   std::vector<SlabWork> slabs;  ///< one per slab
   std::int64_t own_rows = 0;    ///< rows without those that slabs have in common
   std::int64_t own_cells = 0;   ///< of all meshes, each cell once
@@ -57,9 +60,9 @@ struct SlabRunResult {
 
 /// Segments a scan as mes_amis() does, without ever holding more of it than the slabs of a turn.
 ///
-/// The parameters come from the whole scan where it has no more than 2^27 voxels, and then are
-/// those of mes_amis(); else from so many voxels of consecutive slices, those whose samples vary
-/// most. The image is restored and minimised on slab by slab, each with the slices around that
+/// The parameters come from the whole scan where it has no more than most_looked_at voxels, and then
+/// are those of mes_amis(); else from so many voxels of consecutive slices, those whose samples vary
+/// most, and there is one level for all places. The image is restored and minimised on slab by slab, each with the slices around that
 /// matter to it. Each mesh is adapted in two steps: slabs on their own, their borders kept; then
 /// the cells around each border, kept at their own borders. On meshes the functional is minimised
 /// slab by slab with the cells around. Surfaces are extracted slab by slab, follow the image and

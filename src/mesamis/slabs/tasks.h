@@ -34,6 +34,7 @@ struct SlabRun {
   /// What the level of each place exceeds that of the object by, native units, of the whole scan; no
   /// samples: there is one level.
   MappedItems<float> excess{};
+  bool is_too_large = false;  ///< see SlabRunResult
 };
 
 /// What the surface in a slab asks for.
