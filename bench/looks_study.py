@@ -4,7 +4,8 @@
 
     bench/looks_study.py FOLDER --scans DATA               bones of label maps
     bench/looks_study.py FOLDER --scans DATA --judging     those that were set aside
-    bench/looks_study.py FOLDER --scans DATA --no-labels   whole scans, beside flying edges at the same level
+    bench/looks_study.py FOLDER --scans DATA --no-labels   whole scans, beside flying edges at the same level,
+                                                           and at a level for each place (local_level.py)
 
 Creases: the length of edges above 40 (25) degrees, times the voxel, over the area; flat faces at the box of the surface are
 left out. Slope: how steep the image is at the surface in the median, over that at 3D Slicer's. Distances are those from and
@@ -13,6 +14,7 @@ the label, windowed sinc, smoothing 0.5, as its closed surface. Surface nets are
 out) with their own smoothing. `mesamis` is the one in build/release, or that of the variable MESAMIS.
 """
 import argparse
+import dataclasses
 import functools
 import pathlib
 
@@ -25,8 +27,10 @@ from scipy.sparse.csgraph import connected_components
 from vtk.util.numpy_support import numpy_to_vtk
 
 from distances import SAMPLES, Target, area_samples, read_surface, triangles_of
+from local_level import local_level
 from mesamis_runs import once
 from rivals import sinc
+from volumes import read_nrrd, write_nrrd
 
 LPS = np.diag([-1, -1, 1, 1])
 PELVIS = ("pelvis_ts/ct.nii.gz", "pelvis_ts/labels_total.nii.gz")
@@ -36,8 +40,11 @@ SPINE = ("thoracic_spine_ts/ct.nii.gz", "thoracic_spine_ts/vertebra_T12.nii.gz")
 GUIDING = {"left hip": (*PELVIS, 77), "sacrum": (*PELVIS, 25), "L5": (*PELVIS, 27), "left femur": (*PELVIS, 75)}
 JUDGING = {"right hip": (*PELVIS, 78), "right femur": (*PELVIS, 76), "L4": (*PELVIS, 28), "L3": (*PELVIS, 29),
            "L2": (*PELVIS, 30), "T12": (*SPINE, 1)}
-SCANS = {"head CT": "cranium_inv/ct.nrrd", "pelvis CT": PELVIS[0], "thoracic spine CT": SPINE[0],
-         "trabecular bone": "trabecular_microct/ct.nrrd", "mouse": "mouse_skull/ct_A_J.nii.gz"}
+# Name: scan, labels of its bones.
+SCANS = {"head CT": ("cranium_inv/ct.nrrd", None), "pelvis CT": (PELVIS[0], "pelvis_ts/bone.nii.gz"),
+         "thoracic spine CT": SPINE[:2], "trabecular bone": ("trabecular_microct/ct.nrrd", None),
+         "mouse": ("mouse_skull/ct_A_J.nii.gz", None)}
+CTS = ("head CT", "pelvis CT", "thoracic spine CT")
 
 
 def edges_of(triangles):
@@ -105,12 +112,24 @@ class Bone:
         moved.Update()
         return moved.GetOutput()
 
-    def slicer(self, smoothing=0.5):
+    def edges(self):
         edges = vtk.vtkDiscreteFlyingEdges3D()
         edges.SetInputData(self.image())
         edges.SetValue(0, 1)
         edges.Update()
-        return self.in_world(sinc(edges.GetOutput(), 10 ** (-4 * smoothing), 20 + int(40 * smoothing)))
+        return edges.GetOutput()
+
+    def slicer(self, smoothing=0.5):
+        return self.in_world(sinc(self.edges(), 10 ** (-4 * smoothing), 20 + int(40 * smoothing)))
+
+    def away(self, surface):
+        """From the label's surface to that of its scan and back, mm."""
+        label = self.in_world(self.edges())
+        points, back = triangles_of(label)[0], area_samples(surface, 4 * SAMPLES)
+        reach = 3 * self.voxel
+        inside = np.all((back > points.min(0) - reach) & (back < points.max(0) + reach), axis=1)
+        to = Target(surface).distances(area_samples(label, SAMPLES))
+        return to.mean(), (to > 2 * self.voxel).mean(), Target(label).distances(back[inside]).mean()
 
     def nets(self):
         """VTK's surface nets, or None."""
@@ -181,14 +200,44 @@ def study(name, bone, folder):
         row([name, kind, *figures(found), *(f"{found[what]:.2f}" for what in ("mean", "most", "slope"))])
 
 
-def study_scan(name, scan, folder):
-    ours = folder / f"{name.replace(' ', '_')}.ply"
+def surfaces_of_scan(name, scan, folder):
+    """The kind and the file of each surface of a scan, and the voxel."""
+    stem = folder / name.replace(" ", "_")
+    ours, cubes = stem.with_suffix(".ply"), stem.with_suffix(".cubes.ply")
     report = once(ours.with_suffix(".json"), "segment", scan, "-o", ours)
-    voxel = np.prod(report["input"]["spacing_mm"]) ** (1 / 3)
-    cubes = folder / f"{name.replace(' ', '_')}.cubes.ply"
-    once(cubes.with_suffix(".json"), "baseline", scan, "--level", report["parameters"]["level"], "-o", cubes)
-    for kind, path in (("ours", ours), ("flying edges", cubes)):
-        row([name, kind, *figures(looks(read_surface(path), voxel))])
+    level, voxel = report["parameters"]["level"], np.prod(report["input"]["spacing_mm"]) ** (1 / 3)
+    once(cubes.with_suffix(".json"), "baseline", scan, "--level", level, "-o", cubes)
+    found = {"ours": ours, "flying edges": cubes}
+    if name in CTS:
+        found["flying edges, local level"] = stem.with_suffix(".local.ply")
+        less = less_local_level(scan, level, stem)
+        once(stem.with_suffix(".local.json"), "baseline", less, "--level", 0, "-o", stem.with_suffix(".local.ply"))
+    return found, voxel
+
+
+def less_local_level(scan, level, stem):
+    """The file of a scan without its local levels, in the scan's frame."""
+    if scan.suffix == ".nrrd":
+        volume, less = read_nrrd(scan), stem.with_suffix(".less.nrrd")
+        write_nrrd(less, dataclasses.replace(volume, values=volume.values - local_level(volume.values, level)))
+        return less
+    image, less = nibabel.load(scan), stem.with_suffix(".less.nii.gz")
+    values = np.asarray(image.dataobj, np.float32)
+    nibabel.save(nibabel.Nifti1Image(values - local_level(values, level), image.affine), less)
+    return less
+
+
+def study_scan(name, case, arguments):
+    scan, labels = case
+    found, voxel = surfaces_of_scan(name, arguments.scans / scan, arguments.folder)
+    bone = Bone(arguments.scans, scan, labels, 1) if labels else None
+    for kind, path in found.items():
+        surface = read_surface(path)
+        away = ("", "", "")
+        if bone:
+            to, far, back = bone.away(surface)
+            away = f"{to:.2f}", f"{100 * far:.1f} %", f"{back:.2f}"
+        row([name, kind, *figures(looks(surface, voxel)), *away])
 
 
 def main():
@@ -201,9 +250,9 @@ def main():
     arguments.folder.mkdir(parents=True, exist_ok=True)
     counts = ("triangles", "parts", "genus", "creases", "above 25°")
     if arguments.no_labels:
-        head("scan", "surface", *counts)
-        for name, scan in SCANS.items():
-            study_scan(name, arguments.scans / scan, arguments.folder)
+        head("scan", "surface", *counts, "label to it, mm", "over 2 voxels", "back, mm")
+        for name, case in SCANS.items():
+            study_scan(name, case, arguments)
         return
     head("bone", "surface", *counts, "to 3D Slicer's", "99 %", "slope")
     for name, case in (JUDGING if arguments.judging else GUIDING).items():

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
+#include "mesamis/image/gaussian.h"
 #include "support/ball_volume.h"
 #include "support/sampled_volume.h"
 
@@ -73,6 +75,31 @@ TEST(Choose, ClosesFaintWindowsInThinBone) {
   settings.keep_topology = false;
   settings.local_level = false;
   EXPECT_TRUE(choose(scan, settings).excess.samples.empty());
+}
+
+/// A shell in the noise of a reconstruction, which undoing the blur raises beyond what is measured.
+Volume shell_in_shared_noise(float deviation) {
+  std::mt19937 generator(3);
+  std::normal_distribution<float> white(0, deviation);
+  Volume scan =
+      sampled_volume({64, 64, 64}, {1, 1, 1}, [&](const Vec3&) { return white(generator); });
+  scan = gaussian_smoothed(std::move(scan), 0.6);
+  const Volume shell = sampled_volume({64, 64, 64}, {1, 1, 1}, [](const Vec3& p) {
+    const double r = norm(p - Vec3{31, 32, 33});
+    return 50 + 950 * (blurred_ball(r, 9, 0.9) - blurred_ball(r, 4, 0.9));
+  });
+  for (std::size_t n = 0; n < scan.samples.size(); ++n) scan.samples[n] += shell.samples[n];
+  scan.modality = "CT";
+  return scan;
+}
+
+TEST(Choose, FindsOneLevelWhereUndoingTheBlurRaisesTheNoise) {
+  for (const float deviation : {20.0F, 60.0F, 140.0F}) {
+    const Chosen chosen = choose(shell_in_shared_noise(deviation), {}).chosen;
+    EXPECT_GT(chosen.measured.noise_left, 1.2 * chosen.parameters.noise) << deviation;
+    EXPECT_FALSE(chosen.measured.has_local_levels()) << deviation;
+    EXPECT_EQ(chosen.measured.closed_tunnels, 0) << deviation;
+  }
 }
 
 TEST(ChooseFromPart, ChoosesAllButTheCells) {

@@ -93,6 +93,22 @@ TEST(LocalLevel, ThinWallsAndNoiseHaveNoSay) {
   }
 }
 
+/// A small object in much noise: the noise has more voxels for its extremes than the object has edges.
+TEST(LocalLevel, NoiseAroundASmallObjectHasNoSay) {
+  for (const double deviation : {30.0, 45.0, 60.0}) {
+    std::mt19937 generator(5);
+    std::normal_distribution<double> noise(0, deviation);
+    const Vec3 centre{40, 40, 40};
+    const Volume scan = sampled_volume({81, 81, 81}, {1, 1, 1}, [&](const Vec3& p) {
+      return kAround + (kDense - kAround) * blurred_ball(norm(p - centre), 5, kBlur) +
+             noise(generator);
+    });
+    const LocalLevel local = find_local_level(scan, kOfDense, kHalfMaximum, deviation);
+    EXPECT_GT(local.edge_share, 0) << deviation;
+    EXPECT_TRUE(local.excess.samples.empty()) << deviation;
+  }
+}
+
 TEST(LocalLevel, IsOneWhereTheDensitiesScatterAsThoseOfOneObject) {
   const double light = kDense - 0.15 * (kDense - kAround);
   const LocalLevel one = find_local_level(two_balls(light, light), kOfDense, kHalfMaximum, 0);

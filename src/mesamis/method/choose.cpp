@@ -138,7 +138,7 @@ double level_or(const ImageSettings& settings, double measured) {
 Volume level_out(Restored& restored, const ObjectContrast& contrast, double level,
                  MeasuredImage& measured) {
   if (!(contrast.difference() > 0)) return {};
-  LocalLevel local = find_local_level(restored.volume, contrast, level, restored.noise);
+  LocalLevel local = find_local_level(restored.volume, contrast, level, restored.noise_left);
   measured.level_range = local.range;
   take_off(local.excess, restored.volume);
   return std::move(local.excess);
@@ -214,7 +214,7 @@ ChosenImage choose_but_cells(const VolumeView& image, const VoxelGrid& whole,
     measured.closed_tunnels =
         lower_at_tunnels(found.excess, object.contrast, level, restored.volume);
   }
-  const auto threshold = find_tissue_threshold(image, seen.contrast, seen.level, restored.noise);
+  const auto threshold = find_tissue_threshold(image, seen.contrast, seen.level, restored.noise_left);
   p.grey.threshold = choose_threshold(asked, p.grey, threshold, level);
   p.level = settings.level ? level : level_above(p.grey, object);
   if (!asked.gamma) {

@@ -18,8 +18,8 @@ struct MeasuredImage {
   double level_uncertainty = 0;  ///< see HalfMaximumLevel, native units; 0: not known
   /// Of levels for each place, see LocalLevel::range, native units; both 0: there is one level.
   std::array<double, 2> level_range{};
-  std::int64_t closed_tunnels =
-      0;  ///< sheets that close tunnels through thin walls, see TunnelLift
+  /// Sheets that close tunnels through thin walls, see TunnelLift.
+  std::int64_t closed_tunnels = 0;
 
   /// Whether places differ in their level.
   bool has_local_levels() const { return level_range[0] != level_range[1]; }

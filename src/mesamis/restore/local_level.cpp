@@ -19,17 +19,55 @@ constexpr double kSpread = 3;       // voxels, of the mean over edges
 /// Voxels from an edge to where its sides have their value, and of the contrast, how exactly.
 constexpr double kBesideEdge = 3, kLevelSide = 0.25;
 constexpr double kThick = 4;  // voxels, of both sides of an edge that counts
-constexpr double kLeastOfContrast = 0.1, kLeastOfNoise = 4, kMostOfContrast = 0.6;
+constexpr double kLeastOfContrast = 0.1, kLeastOfNoise = 5, kMostOfContrast = 0.6;
 /// The dark side of an edge against the object's background, of its contrast.
 constexpr double kDarkest = -0.25, kBrightest = 0.35;
 /// Edges, in the mean around a voxel, that the object's level weighs as much as: it is that of places
-/// far from all edges. The least weight of edges that are told from none.
-constexpr double kPull = 0.005, kLeastWeight = 1e-6;
+/// far from all edges. The mean on a flat edge, where it shall weigh nothing.
+constexpr double kPull = 0.02, kOfFlatEdge = 0.133;
+constexpr double kLeastWeight = 1e-6;  // of edges that are told from none
 /// Standard deviations of the local level, of the contrast: up to the first it is the scatter of one
 /// level, from the second on each place has its own.
 constexpr double kOneLevel = 0.06, kManyLevels = 0.12;
 /// Voxels, along each axis, over which a part of low density belongs to what is beside it.
 constexpr Index kNear = 2;
+
+/// What counts as even tissue, of the contrast about the background, and how many of its voxels are
+/// looked at. Of the deviations there the quantile that no anatomy has raised.
+constexpr double kEven = 0.25, kQuiet = 0.25;
+constexpr std::size_t kMostLookedAt = 50'000;
+
+/// The standard deviation of a voxel inside the grid and the 26 around it.
+double deviation_around(const VolumeView& volume, Index i, Index j, Index k) {
+  double sum = 0, squares = 0;
+  for (Index c = k - 1; c <= k + 1; ++c) {
+    for (Index b = j - 1; b <= j + 1; ++b) {
+      for (Index a = i - 1; a <= i + 1; ++a) {
+        const double f = volume.at(a, b, c);
+        sum += f;
+        squares += f * f;
+      }
+    }
+  }
+  return std::sqrt(std::max(squares / 27 - (sum / 27) * (sum / 27), 0.0));
+}
+
+/// The standard deviation in even tissue, native units: what undoing the blur has made of noise that
+/// neighbours share. 0: there is no such tissue.
+double noise_in_even_tissue(const VolumeView& volume, const ObjectContrast& contrast) {
+  const auto [nx, ny, nz] = volume.size;
+  const std::size_t every = std::max<std::size_t>(1, volume.voxel_count() / kMostLookedAt);
+  std::vector<float> deviations;
+  for (std::size_t voxel = 0; voxel < volume.voxel_count(); voxel += every) {
+    const auto n = static_cast<Index>(voxel);
+    const Index i = n % nx, j = n / nx % ny, k = n / (nx * ny);
+    if (i < 1 || j < 1 || k < 1 || i + 1 >= nx || j + 1 >= ny || k + 1 >= nz) continue;
+    const double above = volume.samples[voxel] - contrast.background;
+    if (std::abs(above) > kEven * contrast.difference()) continue;
+    deviations.push_back(static_cast<float>(deviation_around(volume, i, j, k)));
+  }
+  return deviations.empty() ? 0 : quantiles(deviations, {kQuiet})[0];
+}
 
 /// An edge and its two sides, native units.
 struct Edge {
@@ -57,7 +95,8 @@ class EdgeFinder {
         slopes_(steepness_),
         background_(contrast.background),
         contrast_(contrast.difference()),
-        least_(std::max(kLeastOfContrast * contrast_, kLeastOfNoise * noise)) {
+        least_(std::max(kLeastOfContrast * contrast_,
+                        kLeastOfNoise * std::max(noise, noise_in_even_tissue(volume, contrast)))) {
     for_each_slice([&](Index k) {
       for_each_voxel_in(k, [&](Index i, Index j, std::size_t voxel) {
         steepness_.samples[voxel] = static_cast<float>(norm(gradient_at(smooth_, i, j, k)));
@@ -178,7 +217,8 @@ Volume mean_excess(const std::vector<Edge>& edges, const VoxelGrid& grid, double
   Volume excess = gaussian_smoothed(std::move(counts), kSpread);
   parallel_for(excess.samples.size(), [&](std::size_t n) {
     const double count = excess.samples[n];
-    excess.samples[n] = static_cast<float>(means.at(n) * count / (count + kPull));
+    const double share = std::min(1.0, count / (count + kPull) * (1 + kPull / kOfFlatEdge));
+    excess.samples[n] = static_cast<float>(means.at(n) * share);
   });
   return excess;
 }

@@ -25,15 +25,15 @@ struct LocalLevel {
 /// itself. The sides of the edge are the largest value within two voxels up the gradient and the
 /// least within two voxels down. An edge counts if
 /// - its contrast, and the bright side over the object's background, are a tenth of the object's
-///   contrast and four standard deviations of the noise;
+///   contrast and five standard deviations of the noise, or of even tissue where that scatters more;
 /// - its dark side is about as dark as the background: skin against air is none, nor is cortical bone
 ///   against marrow;
 /// - a voxel beyond each side the image has gone on by a quarter of the contrast at most, and each
 ///   side stays on its side of the middle for four voxels.
 ///
 /// The level is the mean of (bright + dark) / 2 over the edges around, weighted by their contrast and
-/// a Gaussian of three voxels. The object's level counts as a two hundredth of an edge everywhere: it
-/// is that far from all edges, and draws that of faint ones by about a twentieth of their contrast.
+/// a Gaussian of three voxels. The object's level counts as a fiftieth of an edge everywhere: it
+/// is that far from all edges, and does not count on a flat edge.
 ///
 /// Objects of one density scatter too, by up to 0.06 of the contrast (standard deviation over the
 /// edges): then there is one level, also for a part with so few edges that it does not count. From
