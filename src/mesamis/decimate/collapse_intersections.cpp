@@ -78,13 +78,7 @@ bool CollapseIntersections::occur(const EditableSurface& surface, std::vector<Ve
     return Triangle{collapse.kept, surface.from(h), surface.to(h)};
   };
   Box whole = bounding_box(collapse.after[0]);
-  for (const Corners& t : collapse.after) {
-    const Box box = bounding_box(t);
-    for (int axis = 0; axis < 3; ++axis) {
-      whole.lo[axis] = std::min(whole.lo[axis], box.lo[axis]);
-      whole.hi[axis] = std::max(whole.hi[axis], box.hi[axis]);
-    }
-  }
+  for (const Corners& t : collapse.after) whole = united(whole, bounding_box(t));
   near_.clear();
   tree_.for_each_overlap(whole, [&](std::size_t other) {
     const auto t = static_cast<Index>(other);

@@ -8,7 +8,10 @@
 #include <utility>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/surface/box_tree.h"
 #include "mesamis/surface/self_intersections.h"
+#include "mesamis/surface/triangle_tree.h"
 
 namespace mesamis::detail::decimate {
 namespace {
@@ -102,9 +105,13 @@ class Patchwork {
     for (Triangle& t : whole.triangles) {
       for (Index& p : t) p = task_.first_copy(p);
     }
-    for (const auto& pair : find_self_intersections(whole)) {
-      if (patch_of(pair[0]) == patch_of(pair[1])) continue;  // seen there: it was so before
-      for (const Index t : pair) {
+    const std::vector<Index> chosen = reaching_others(whole, ends);
+    TriMesh few{std::move(whole.points), {}};
+    for (const Index t : chosen) few.triangles.push_back(whole.triangles[t]);
+    for (const auto& pair : find_self_intersections(few)) {
+      if (patch_of(chosen[pair[0]]) == patch_of(chosen[pair[1]])) continue;  // it was so before
+      for (const Index place : pair) {
+        const Index t = chosen[place];
         const std::size_t k = patch_of(t);
         const auto& triangles = done_[k].triangles;
         const std::size_t n = static_cast<std::size_t>(t) + triangles.size() - ends[k];
@@ -112,6 +119,32 @@ class Patchwork {
       }
     }
     return meeting;
+  }
+
+  /// The triangles that reach into the box of another patch, increasing: no others meet one of it.
+  /// @param ends  of the patches' triangles in the joined surface.
+  static std::vector<Index> reaching_others(const TriMesh& whole,
+                                            const std::vector<std::size_t>& ends) {
+    const auto box_of = [&whole](std::size_t t) {
+      return bounding_box(corners_of(whole, whole.triangles[t]));
+    };
+    std::vector<Box> boxes(ends.size(), kNoBox);
+    for (std::size_t t = 0, k = 0; t < whole.triangles.size(); ++t) {
+      while (t >= ends[k]) ++k;
+      boxes[k] = united(boxes[k], box_of(t));
+    }
+    const BoxTree tree(boxes);
+    std::vector<Index> reaching;
+    for (std::size_t t = 0, k = 0; t < whole.triangles.size(); ++t) {
+      while (t >= ends[k]) ++k;
+      bool reaches = false;
+      tree.for_each_overlap(box_of(t), [&](std::size_t other) {
+        reaches = other != k;
+        return !reaches;
+      });
+      if (reaches) reaching.push_back(static_cast<Index>(t));
+    }
+    return reaching;
   }
 
   /// A new triangle whose corners are held with a ring around them cannot come back.

@@ -4,15 +4,6 @@
 #include <numeric>
 
 namespace mesamis::detail::surface {
-namespace {
-
-Box united(const Box& a, const Box& b) {
-  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
-          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
-}
-
-}  // namespace
-
 BoxTree::BoxTree(std::span<const Box> boxes) {
   if (boxes.empty()) return;
   std::vector<Index> items(boxes.size());

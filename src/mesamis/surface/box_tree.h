@@ -22,6 +22,12 @@ inline bool overlap(const Box& a, const Box& b) {
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
 inline constexpr Box kNoBox{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 
+/// The least box around two others.
+inline Box united(const Box& a, const Box& b) {
+  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
+          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
+}
+
 /// A bounding volume hierarchy over boxes that may change; finds the boxes that overlap another.
 class BoxTree {
  public:
