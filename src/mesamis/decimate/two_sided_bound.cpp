@@ -7,24 +7,28 @@
 #include "mesamis/surface/box_tree.h"
 
 namespace mesamis::detail::decimate {
-TwoSidedBound::TwoSidedBound(const TriMesh& original, const Cover& cover, double tolerance)
-    : tolerance_(tolerance), covering_(tolerance) {
-  for (const auto& list : cover.originals)
-    numbers_.insert(numbers_.end(), list.begin(), list.end());
+TwoSidedBound::TwoSidedBound(const TriMesh& original, const Cover& cover,
+                             const std::vector<char>& held, double tolerance)
+    : cover_(cover), tolerance_(tolerance), covering_(tolerance) {
+  for (std::size_t t = 0; t < cover.triangles.size(); ++t) {
+    const Triangle& k = cover.triangles[t];
+    stays_.push_back(held[k[0]] != 0 && held[k[1]] != 0 && held[k[2]] != 0 ? 1 : 0);
+    if (stays_[t] != 0) continue;
+    numbers_.insert(numbers_.end(), cover.originals[t].begin(), cover.originals[t].end());
+  }
   std::sort(numbers_.begin(), numbers_.end());
   numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
   for (const Index t : numbers_) {
     originals_.emplace_back(corners_of(original, original.triangles[t]));
   }
-  for (const auto& list : cover.originals) {
-    std::vector<Index>& own = lists_.emplace_back();
-    for (const Index t : list) {
-      own.push_back(static_cast<Index>(std::lower_bound(numbers_.begin(), numbers_.end(), t) -
-                                       numbers_.begin()));
-    }
-  }
+  lists_.resize(stays_.size());
   for (std::size_t t = 0; t < lists_.size(); ++t) {
     bounds_.push_back({cover.to_originals[t], cover.from_originals[t]});
+    if (stays_[t] != 0) continue;
+    for (const Index o : cover.originals[t]) {
+      lists_[t].push_back(static_cast<Index>(std::lower_bound(numbers_.begin(), numbers_.end(), o) -
+                                             numbers_.begin()));
+    }
   }
   for (const Triangle& t : cover.triangles) {
     triangles_.emplace_back(Corners{cover.points[t[0]], cover.points[t[1]], cover.points[t[2]]});
@@ -34,8 +38,10 @@ TwoSidedBound::TwoSidedBound(const TriMesh& original, const Cover& cover, double
 
 std::vector<Index> TwoSidedBound::originals_of(Index triangle) const {
   std::vector<Index> numbers;
+  if (stays_[triangle] != 0) numbers = cover_.originals[triangle];
   for (const Index o : lists_[triangle]) numbers.push_back(numbers_[o]);
   std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
 }
 

@@ -18,9 +18,11 @@ namespace mesamis::detail::decimate {
 class TwoSidedBound {
  public:
   /// @param original   mm; what cover.originals number.
-  /// @param cover      over points as they are.
+  /// @param cover      over points as they are; read where it is, also later.
+  /// @param held       of each point 1 if it stays: triangles between such points stay too.
   /// @param tolerance  mm, > 0, finite.
-  TwoSidedBound(const TriMesh& original, const Cover& cover, double tolerance);
+  TwoSidedBound(const TriMesh& original, const Cover& cover, const std::vector<char>& held,
+                double tolerance);
 
   /// Whether the proof holds after a collapse.
   bool allows(const EditableSurface& surface, const std::vector<Vec3>& points,
@@ -60,11 +62,14 @@ class TwoSidedBound {
   bool old_are_near();
   bool new_are_near(const Collapse& collapse);
 
+  const Cover& cover_;  // as it was
   double tolerance_;
   Covering covering_;
-  std::vector<Index> numbers_;             // of the originals, increasing
+  std::vector<Index> numbers_;  // of the originals of triangles that may change, increasing
   std::vector<TrianglePlanes> originals_;  // in this order
-  std::vector<std::vector<Index>> lists_;  // of each triangle, places in this order
+  std::vector<char> stays_;                // of each triangle 1 if it does
+  std::vector<std::vector<Index>> lists_;  // of each triangle, places in this order; of those that
+                                           // stay only what they have come to stand for
   std::vector<TrianglePlanes> triangles_;  // as they are
   std::vector<Bounds> bounds_;             // of each triangle
   // Of the collapse that is looked at.
