@@ -26,8 +26,9 @@ TriMesh torus() {
 
 TriMesh decimated(const TriMesh& surface, double per_patch, const Progress& progress = {}) {
   PatchworkReport report;
-  return decimate_surface(surface, {.tolerance = kTolerance, .progress = progress}, per_patch,
-                          report);
+  const Cover cover =
+      decimate_surface(surface, {.tolerance = kTolerance, .progress = progress}, per_patch, report);
+  return {cover.points, cover.triangles};
 }
 
 TEST(DecimateSurface, KeepsItsPromisesAndLeavesNoSeams) {

@@ -95,6 +95,24 @@ TEST(Refit, ThinWavesKeepWhatDecimationPromised) {
   }
 }
 
+/// What decimation proved only spares searches; where it took all of the tolerance, few of them.
+TEST(Refit, IsTheSameWhereItIsKnownWhatTrianglesStandFor) {
+  constexpr double kTolerance = 0.03;
+  const TriMesh original = shells();
+  for (const double share : {0.6, 1.0}) {
+    DecimateReport known, unknown;
+    const Cover few = decimate_to_cover(original, {.tolerance = share * kTolerance}, &known);
+    unknown = known;
+    const TriMesh result = refit(few, original, kTolerance, &known);
+    expect_promises_kept(result, original, kTolerance);
+    const TriMesh same = refit(TriMesh{few.points, few.triangles}, original, kTolerance, &unknown);
+    EXPECT_EQ(result.points, same.points) << share;
+    EXPECT_NE(result.points, few.points) << share;
+    EXPECT_NEAR(known.original_to_result, unknown.original_to_result, 0.004 * kTolerance);
+    EXPECT_NEAR(known.result_to_original, unknown.result_to_original, 0.004 * kTolerance);
+  }
+}
+
 /// As where the box of a scan cuts the object.
 TEST(Refit, FlatPartsStayInTheirPlane) {
   const TriMesh original = round_to_single(level_set(

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "mesamis/base/error.h"
 #include "mesamis/decimate/decimation.h"
@@ -22,6 +23,12 @@ void require_decimatable(const TriMesh& surface) {
 }  // namespace
 
 TriMesh decimate(const TriMesh& surface, const DecimateOptions& options, DecimateReport* report) {
+  Cover cover = decimate_to_cover(surface, options, report);
+  return {std::move(cover.points), std::move(cover.triangles)};
+}
+
+Cover decimate_to_cover(const TriMesh& surface, const DecimateOptions& options,
+                        DecimateReport* report) {
   require_valid(options);
   require_decimatable(surface);
   DecimateReport unused;
@@ -29,10 +36,10 @@ TriMesh decimate(const TriMesh& surface, const DecimateOptions& options, Decimat
   counts = {};
   counts.triangles_before = counts.triangles_after =
       static_cast<std::int64_t>(surface.triangles.size());
-  if (options.tolerance == 0) return surface;
+  if (options.tolerance == 0) return cover_of(surface);
   PatchworkReport work;
-  const TriMesh result =
-      without_unused_points(decimate_surface(surface, options, kTrianglesPerPatch, work));
+  Cover cover = decimate_surface(surface, options, kTrianglesPerPatch, work);
+  TriMesh result = without_unused_points({std::move(cover.points), std::move(cover.triangles)});
   counts.triangles_after = static_cast<std::int64_t>(result.triangles.size());
   counts.original_to_result = work.from_originals;
   counts.result_to_original = work.to_originals;
@@ -41,7 +48,9 @@ TriMesh decimate(const TriMesh& surface, const DecimateOptions& options, Decimat
     counts.original_to_result = max_distance(surface, result, fine);
     counts.result_to_original = max_distance(result, surface, fine);
   }
-  return result;
+  cover.points = std::move(result.points);
+  cover.triangles = std::move(result.triangles);
+  return cover;
 }
 
 }  // namespace mesamis::detail::decimate

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mesamis/base/progress.h"
+#include "mesamis/decimate/cover.h"
 #include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
 
@@ -46,5 +47,9 @@ struct DecimateReport {
 /// O(n log n).
 TriMesh decimate(const TriMesh& surface, const DecimateOptions& options,
                  DecimateReport* report = nullptr);
+
+/// The same, with what was proved of each triangle: nothing without a finite tolerance.
+Cover decimate_to_cover(const TriMesh& surface, const DecimateOptions& options,
+                        DecimateReport* report = nullptr);
 
 }  // namespace mesamis::detail::decimate

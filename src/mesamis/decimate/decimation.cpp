@@ -39,7 +39,7 @@ class Decimation {
       : surface_(surface), interfaces_(interfaces), options_(options), report_(report) {}
 
   /// @param side  of the patches' boxes, mm; infinity: one patch.
-  TriMesh run(double side) {
+  Cover run(double side) {
     const std::vector<char> held =
         interfaces_ ? interfaces_->at_rim : std::vector<char>(surface_.points.size(), 0);
     Cover cover = run(cover_of(surface_), held, side);
@@ -48,7 +48,7 @@ class Decimation {
     for (const double from_originals : cover.from_originals) {
       report_.from_originals = std::max(report_.from_originals, from_originals);
     }
-    return {std::move(cover.points), std::move(cover.triangles)};
+    return cover;
   }
 
   /// @param held  of each point of the surface 1 if it stays.
@@ -124,16 +124,17 @@ void require_valid(const DecimateOptions& options) {
   }
 }
 
-TriMesh decimate_surface(const TriMesh& surface, const DecimateOptions& options,
-                         double triangles_per_patch, PatchworkReport& report) {
+Cover decimate_surface(const TriMesh& surface, const DecimateOptions& options,
+                       double triangles_per_patch, PatchworkReport& report) {
   return Decimation(surface, nullptr, options, report)
       .run(patch_side(surface, options, triangles_per_patch));
 }
 
 TriMesh decimate_interfaces(const Interfaces& interfaces, const DecimateOptions& options,
                             double triangles_per_patch, PatchworkReport& report) {
-  return Decimation(interfaces.surface, &interfaces, options, report)
-      .run(patch_side(interfaces.surface, options, triangles_per_patch));
+  Cover cover = Decimation(interfaces.surface, &interfaces, options, report)
+                    .run(patch_side(interfaces.surface, options, triangles_per_patch));
+  return {std::move(cover.points), std::move(cover.triangles)};
 }
 
 Cover decimate_part(const TriMesh& original, Cover part, const std::vector<char>& held,

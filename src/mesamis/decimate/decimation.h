@@ -26,8 +26,8 @@ void require_valid(const DecimateOptions& options);
 /// @throws Cancelled  if progress returns false.
 ///
 /// As decimate().
-TriMesh decimate_surface(const TriMesh& surface, const DecimateOptions& options,
-                         double triangles_per_patch, PatchworkReport& report);
+Cover decimate_surface(const TriMesh& surface, const DecimateOptions& options,
+                       double triangles_per_patch, PatchworkReport& report);
 
 /// What decimate_part() does.
 /// @param triangles_per_patch  about, > 0; of a part that has not been decimated before.

@@ -5,7 +5,6 @@
 #include <array>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -32,6 +31,8 @@ constexpr double kSharp = 0.766, kFlat = 1 - 1e-9;
 constexpr double kTurn = 0.9;
 /// Of the tolerance: no point moves farther.
 constexpr double kFarthest = 0.7;
+/// Of the tolerance: searches may take no place nearer than this for one that is too far.
+constexpr double kProved = 0.997;
 constexpr int kHalvings = 3, kMostChecks = 9;
 constexpr std::size_t kTrianglesInBlock = 256, kPointsInBlock = 512;
 
@@ -65,8 +66,9 @@ class Refit {
         normals_(triangle_normals(start_.surface)),
         pairs_(triangles_at_edges(start_.surface)) {}
 
+  /// @param before  what was proved of the triangles before any move; without originals: nothing.
   /// @param report  as of refit().
-  TriMesh run(DecimateReport* report) {
+  TriMesh run(const Cover& before, DecimateReport* report) {
     up_ = vertex_normals(start_.surface);
     const std::vector<HeightSample> samples = sampled();
     moves_ = normal_moves({start_.surface, up_, points_that_stay()}, samples);
@@ -78,6 +80,7 @@ class Refit {
     original_bounds_.assign(original_.surface.triangles.size(), 0);
     for (std::size_t p = 0; p < moves_.size(); ++p) move(p, std::clamp(moves_[p], -most, most));
     keep_shapes(changed_);
+    prove_by_moves(before);
     SelfIntersections meeting(moved_.surface);
     for (int round = 0; round < kMostChecks; ++round) {
       const std::vector<char> at_fault = corners_out_of_place(meeting, round == 0);
@@ -206,6 +209,26 @@ class Refit {
     return at_fault;
   }
 
+  /// What decimation proved, and the moves: no point of a triangle moves farther than its corners.
+  void prove_by_moves(const Cover& before) {
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    result_proofs_.assign(normals_.size(), kUnknown);
+    original_proofs_.assign(original_bounds_.size(), before.originals.empty() ? kUnknown : 0);
+    for (std::size_t t = 0; t < before.originals.size(); ++t) {
+      double moved = 0;
+      for (const Index p : start_.surface.triangles[t]) {
+        moved = std::max(moved, norm(moved_.surface.points[p] - start_.surface.points[p]));
+      }
+      result_proofs_[t] = before.to_originals[t] + moved;
+      for (const Index o : before.originals[t]) {
+        original_proofs_[o] = std::max(original_proofs_[o], before.from_originals[t] + moved);
+      }
+    }
+  }
+
+  /// Whether no search could find it too far.
+  bool is_near(double proof) const { return proof <= kProved * tolerance_; }
+
   /// Where points have changed: the corners of triangles that meet others or are too far from the
   /// original, and of those nearest to what is too far of that.
   std::vector<char> corners_out_of_place(SelfIntersections& meeting, bool all) {
@@ -216,11 +239,13 @@ class Refit {
       for (std::size_t n = begin; n < end; ++n) {
         const Index t = touched[n];
         const Corners now = corners_of(moved_.surface, moved_.surface.triangles[t]);
-        result_bounds_[t] = bound(now, to_original_, moved_.interface[t], hints);
+        result_bounds_[t] = all && is_near(result_proofs_[t])
+                                ? result_proofs_[t]
+                                : bound(now, to_original_, moved_.interface[t], hints);
         if (result_bounds_[t] > tolerance_) at_fault[t] = 1;
       }
     });
-    const std::vector<Index> near = all ? all_originals() : originals_near(touched);
+    const std::vector<Index> near = all ? originals_without_proof() : originals_near(touched);
     for (const Index t : nearest_to_what_is_far(near)) at_fault[t] = 1;
     for (const TrianglePair& pair : all ? meeting.all() : meeting.after_move_of(touched)) {
       for (const Index t : pair) at_fault[t] = 1;
@@ -228,10 +253,13 @@ class Refit {
     return corners_of_all(at_fault);
   }
 
-  std::vector<Index> all_originals() const {
-    std::vector<Index> all(original_.surface.triangles.size());
-    std::iota(all.begin(), all.end(), 0);
-    return all;
+  std::vector<Index> originals_without_proof() {
+    std::vector<Index> open;
+    for (Index o = 0; o < std::ssize(original_proofs_); ++o) {
+      original_bounds_[o] = original_proofs_[o];
+      if (!is_near(original_proofs_[o])) open.push_back(o);
+    }
+    return open;
   }
 
   /// Of the distance of a triangle from an interface; above the tolerance where a point is farther.
@@ -350,7 +378,8 @@ class Refit {
   std::vector<Index> nearest_;  // to each original point, the triangle before any move
   std::vector<Vec3> up_;        // of each point, before any move
   std::vector<double> moves_;   // along it, mm
-  std::vector<double> result_bounds_, original_bounds_;  // of triangles that were searched for, mm
+  std::vector<double> result_proofs_, original_proofs_;  // of triangles, without a search, mm
+  std::vector<double> result_bounds_, original_bounds_;  // of triangles that were looked at, mm
   std::optional<InterfaceTrees> to_moved_;               // as it was then
   std::vector<char> changed_;  // of each point 1 if it has moved since the last search
 };
@@ -359,10 +388,19 @@ class Refit {
 
 TriMesh refit(TriMesh decimated, const TriMesh& original, double tolerance,
               DecimateReport* report) {
-  if (decimated.triangles.empty()) return decimated;
+  Cover cover;
+  cover.points = std::move(decimated.points);
+  cover.triangles = std::move(decimated.triangles);
+  return refit(std::move(cover), original, tolerance, report);
+}
+
+TriMesh refit(Cover decimated, const TriMesh& original, double tolerance, DecimateReport* report) {
+  TriMesh surface{std::move(decimated.points), std::move(decimated.triangles)};
+  if (surface.triangles.empty()) return surface;
   const SplitSurface whole{original, std::vector<Index>(original.triangles.size(), 0)};
-  std::vector<Index> interface(decimated.triangles.size(), 0);
-  return Refit({std::move(decimated), std::move(interface)}, whole, 1, tolerance).run(report);
+  std::vector<Index> interface(surface.triangles.size(), 0);
+  return Refit({std::move(surface), std::move(interface)}, whole, 1, tolerance)
+      .run(decimated, report);
 }
 
 PartitionSurface refit_partition(PartitionSurface decimated, const PartitionSurface& original,
@@ -386,8 +424,8 @@ PartitionSurface refit_partition(PartitionSurface decimated, const PartitionSurf
   const std::size_t count = numbers.size();
   const SplitSurface whole{{original.points, original.triangles}, numbered(original)};
   if (numbers.size() != count) throw InputError("refit: expected a triangle of each interface");
-  TriMesh surface =
-      Refit({taken_from(decimated), std::move(interface)}, whole, count, tolerance).run(nullptr);
+  TriMesh surface = Refit({taken_from(decimated), std::move(interface)}, whole, count, tolerance)
+                        .run({}, nullptr);
   return put_back(std::move(surface), std::move(decimated));
 }
 

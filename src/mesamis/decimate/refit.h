@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "mesamis/decimate/cover.h"
 #include "mesamis/decimate/decimate.h"
 #include "mesamis/surface/partition.h"
 #include "mesamis/surface/tri_mesh.h"
@@ -28,6 +29,11 @@ namespace mesamis::detail::decimate {
 ///
 /// O(n log n): about two searches for each original point, and one for each triangle of both.
 TriMesh refit(TriMesh decimated, const TriMesh& original, double tolerance,
+              DecimateReport* report = nullptr);
+/// The same where it is known what the triangles stand for, and how near: hardly any needs a search
+/// then.
+/// @param decimated  as decimate_to_cover() returns it for a finite tolerance; taken over.
+TriMesh refit(Cover decimated, const TriMesh& original, double tolerance,
               DecimateReport* report = nullptr);
 
 /// The same for the boundaries of a partition: each interface is refitted to its own original, and

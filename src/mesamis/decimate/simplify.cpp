@@ -26,7 +26,7 @@ DecimateOptions within_share(DecimateOptions options) {
 
 TriMesh simplify(const TriMesh& surface, const DecimateOptions& options, DecimateReport* report) {
   if (!leaves_room(options)) return decimate(surface, options, report);
-  TriMesh few = decimate(surface, within_share(options), report);
+  Cover few = decimate_to_cover(surface, within_share(options), report);
   return refit(std::move(few), surface, options.tolerance, report);
 }
 
