@@ -205,7 +205,7 @@ def surfaces_of_scan(name, scan, folder):
     stem = folder / name.replace(" ", "_")
     ours, cubes = stem.with_suffix(".ply"), stem.with_suffix(".cubes.ply")
     report = once(ours.with_suffix(".json"), "segment", scan, "-o", ours)
-    level, voxel = report["parameters"]["level"], np.prod(report["input"]["spacing_mm"]) ** (1 / 3)
+    level, voxel = report["surface"]["level_native"], np.prod(report["input"]["spacing_mm"]) ** (1 / 3)
     once(cubes.with_suffix(".json"), "baseline", scan, "--level", level, "-o", cubes)
     found = {"ours": ours, "flying edges": cubes}
     if name in CTS:
