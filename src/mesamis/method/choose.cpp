@@ -214,7 +214,7 @@ ChosenImage choose_but_cells(const VolumeView& image, const VoxelGrid& whole,
     measured.closed_tunnels =
         lower_at_tunnels(found.excess, object.contrast, level, restored.volume);
   }
-  const auto threshold = find_tissue_threshold(image, seen.contrast, seen.level, restored.noise_left);
+  const auto threshold = find_tissue_threshold(image, seen.contrast, seen.level, restored.noise);
   p.grey.threshold = choose_threshold(asked, p.grey, threshold, level);
   p.level = settings.level ? level : level_above(p.grey, object);
   if (!asked.gamma) {
