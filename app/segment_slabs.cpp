@@ -216,10 +216,8 @@ RunFiles outputs_of(const SegmentOptions& run, const FileSlices& source, const S
   RunFiles out = outputs_of(run, common);
   out.meshes = meshes_of(run, false);
   out.facts.input = facts_of_slices(run, source);
-  for (const std::string& warning : found.outcome.warnings()) {
-    log_warning(warning);
-    out.facts.warnings.push_back(warning);
-  }
+  const std::vector<std::string> warnings = found.outcome.warnings();
+  out.facts.warnings.insert(out.facts.warnings.end(), warnings.begin(), warnings.end());
   tell_of_slabs(out.facts, slabs_json(found.work, *common.team));
   return out;
 }
@@ -286,6 +284,7 @@ int run_slabs(const SegmentOptions& run, const SlabArguments& slabs, const Setti
   const auto found = segment_in_slabs(request, folder, team);
   display.finish();
   if (!found) return kExitDone;
+  for (const std::string& warning : found->outcome.warnings()) log_warning(warning);
   return deliver(found->outcome.details(), outputs_of(run, *source, *found, common), *set, display);
 }
 

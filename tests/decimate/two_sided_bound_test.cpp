@@ -19,6 +19,11 @@ double distance_between(const TriMesh& a, const TriMesh& b) {
   return std::max(max_distance(a, b, 1e-3), max_distance(b, a, 1e-3));
 }
 
+TriMesh coarse_sphere() {
+  return level_set({{-1, -1, -1}, {1, 1, 1}}, {14, 14, 14},
+                   [](const Vec3& p) { return 0.8 - norm(p); });
+}
+
 TEST(TwoSidedBound, AgreesWithTheDistanceOfTheWholeSurfaces) {
   const TriMesh mesh = small_sphere();
   Collapses collapses(mesh);
@@ -42,8 +47,7 @@ TEST(TwoSidedBound, AgreesWithTheDistanceOfTheWholeSurfaces) {
 }
 
 TEST(TwoSidedBound, HoldsThroughManyCollapses) {
-  const TriMesh mesh = level_set({{-1, -1, -1}, {1, 1, 1}}, {14, 14, 14},
-                                 [](const Vec3& p) { return 0.8 - norm(p); });
+  const TriMesh mesh = coarse_sphere();
   Collapses now(mesh);
   const Cover cover = cover_of(mesh);
   const std::vector<char> held(mesh.points.size(), 0);
@@ -79,8 +83,7 @@ TEST(TwoSidedBound, HoldsThroughManyCollapses) {
 
 /// Triangles that stay are not looked into, but may come to stand for more.
 TEST(TwoSidedBound, IsTheSameWhetherItKnowsWhatStays) {
-  const TriMesh mesh = level_set({{-1, -1, -1}, {1, 1, 1}}, {14, 14, 14},
-                                 [](const Vec3& p) { return 0.8 - norm(p); });
+  const TriMesh mesh = coarse_sphere();
   Collapses now(mesh);
   const Cover cover = cover_of(mesh);
   const std::vector<char> none(mesh.points.size(), 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "mesamis/rooms.h"
@@ -20,6 +21,11 @@ struct Cover {
   std::vector<double> from_originals;  ///< of each triangle: no original that it stands for
                                        ///< lies farther from the surface, mm
 };
+
+/// A surface of whose triangles nothing is known.
+inline Cover unproved(TriMesh surface) {
+  return {std::move(surface.points), std::move(surface.triangles), {}, {}, {}};
+}
 
 /// Every triangle stands for itself.
 inline Cover cover_of(const TriMesh& surface) {

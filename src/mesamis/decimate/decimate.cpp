@@ -36,7 +36,7 @@ Cover decimate_to_cover(const TriMesh& surface, const DecimateOptions& options,
   counts = {};
   counts.triangles_before = counts.triangles_after =
       static_cast<std::int64_t>(surface.triangles.size());
-  if (options.tolerance == 0) return cover_of(surface);
+  if (options.tolerance == 0) return unproved(surface);
   PatchworkReport work;
   Cover cover = decimate_surface(surface, options, kTrianglesPerPatch, work);
   TriMesh result = without_unused_points({std::move(cover.points), std::move(cover.triangles)});

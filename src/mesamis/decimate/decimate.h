@@ -48,7 +48,8 @@ struct DecimateReport {
 TriMesh decimate(const TriMesh& surface, const DecimateOptions& options,
                  DecimateReport* report = nullptr);
 
-/// The same, with what was proved of each triangle: nothing without a finite tolerance.
+/// The same, with what was proved of each triangle: nothing unless the tolerance is positive and
+/// finite.
 Cover decimate_to_cover(const TriMesh& surface, const DecimateOptions& options,
                         DecimateReport* report = nullptr);
 

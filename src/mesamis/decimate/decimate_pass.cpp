@@ -56,8 +56,9 @@ class Pass {
         planes_(points_.size()),
         quadrics_(points_.size()),
         left_(surface_.count()) {
-    if (std::isfinite(task.tolerance))
+    if (std::isfinite(task.tolerance)) {
       bound_.emplace(task.surface, patch.cover, held_, task.tolerance);
+    }
     hopeless_ = kHopeless * kHopeless * task.tolerance * task.tolerance;
     const Box box = bounding_box(points_);
     origin_ = 0.5 * (box.lo + box.hi);

@@ -388,10 +388,7 @@ class Refit {
 
 TriMesh refit(TriMesh decimated, const TriMesh& original, double tolerance,
               DecimateReport* report) {
-  Cover cover;
-  cover.points = std::move(decimated.points);
-  cover.triangles = std::move(decimated.triangles);
-  return refit(std::move(cover), original, tolerance, report);
+  return refit(unproved(std::move(decimated)), original, tolerance, report);
 }
 
 TriMesh refit(Cover decimated, const TriMesh& original, double tolerance, DecimateReport* report) {

@@ -30,6 +30,7 @@ namespace mesamis::detail::decimate {
 /// O(n log n): about two searches for each original point, and one for each triangle of both.
 TriMesh refit(TriMesh decimated, const TriMesh& original, double tolerance,
               DecimateReport* report = nullptr);
+
 /// The same where it is known what the triangles stand for, and how near: hardly any needs a search
 /// then.
 /// @param decimated  as decimate_to_cover() returns it for a finite tolerance; taken over.

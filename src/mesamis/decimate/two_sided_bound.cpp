@@ -7,6 +7,7 @@
 #include "mesamis/surface/box_tree.h"
 
 namespace mesamis::detail::decimate {
+
 TwoSidedBound::TwoSidedBound(const TriMesh& original, const Cover& cover,
                              const std::vector<char>& held, double tolerance)
     : cover_(cover), tolerance_(tolerance), covering_(tolerance) {

@@ -23,7 +23,7 @@ constexpr double kLeastOfContrast = 0.1, kLeastOfNoise = 5, kMostOfContrast = 0.
 /// The dark side of an edge against the object's background, of its contrast.
 constexpr double kDarkest = -0.25, kBrightest = 0.35;
 /// Edges, in the mean around a voxel, that the object's level weighs as much as: it is that of places
-/// far from all edges. The mean on a flat edge, where it shall weigh nothing.
+/// far from all edges. The mean on a flat edge, where it shall weigh nothing: 1 / (sqrt(2 pi) kSpread).
 constexpr double kPull = 0.02, kOfFlatEdge = 0.133;
 constexpr double kLeastWeight = 1e-6;  // of edges that are told from none
 /// Standard deviations of the local level, of the contrast: up to the first it is the scatter of one
@@ -32,10 +32,10 @@ constexpr double kOneLevel = 0.06, kManyLevels = 0.12;
 /// Voxels, along each axis, over which a part of low density belongs to what is beside it.
 constexpr Index kNear = 2;
 
-/// What counts as even tissue, of the contrast about the background, and how many of its voxels are
-/// looked at. Of the deviations there the quantile that no anatomy has raised.
+/// What counts as even tissue, of the contrast about the background. Of the deviations there the
+/// quantile that no anatomy has raised.
 constexpr double kEven = 0.25, kQuiet = 0.25;
-constexpr std::size_t kMostLookedAt = 50'000;
+constexpr std::size_t kLookedAt = 50'000;  // voxels, about
 
 /// The standard deviation of a voxel inside the grid and the 26 around it.
 double deviation_around(const VolumeView& volume, Index i, Index j, Index k) {
@@ -56,11 +56,10 @@ double deviation_around(const VolumeView& volume, Index i, Index j, Index k) {
 /// neighbours share. 0: there is no such tissue.
 double noise_in_even_tissue(const VolumeView& volume, const ObjectContrast& contrast) {
   const auto [nx, ny, nz] = volume.size;
-  const std::size_t every = std::max<std::size_t>(1, volume.voxel_count() / kMostLookedAt);
+  const std::size_t every = std::max<std::size_t>(1, volume.voxel_count() / kLookedAt);
   std::vector<float> deviations;
   for (std::size_t voxel = 0; voxel < volume.voxel_count(); voxel += every) {
-    const auto n = static_cast<Index>(voxel);
-    const Index i = n % nx, j = n / nx % ny, k = n / (nx * ny);
+    const auto [i, j, k] = volume.voxel(voxel);
     if (i < 1 || j < 1 || k < 1 || i + 1 >= nx || j + 1 >= ny || k + 1 >= nz) continue;
     const double above = volume.samples[voxel] - contrast.background;
     if (std::abs(above) > kEven * contrast.difference()) continue;
@@ -190,8 +189,7 @@ class EdgeFinder {
 template <class Visit>
 void for_each_near(const VoxelGrid& grid, std::size_t voxel, Visit&& visit) {
   const auto [nx, ny, nz] = grid.size;
-  const auto n = static_cast<Index>(voxel);
-  const Index i = n % nx, j = n / nx % ny, k = n / (nx * ny);
+  const auto [i, j, k] = grid.voxel(voxel);
   for (Index c = std::max<Index>(k - kNear, 0); c <= std::min(k + kNear, nz - 1); ++c) {
     for (Index b = std::max<Index>(j - kNear, 0); b <= std::min(j + kNear, ny - 1); ++b) {
       for (Index a = std::max<Index>(i - kNear, 0); a <= std::min(i + kNear, nx - 1); ++a) {

@@ -32,8 +32,8 @@ struct LocalLevel {
 ///   side stays on its side of the middle for four voxels.
 ///
 /// The level is the mean of (bright + dark) / 2 over the edges around, weighted by their contrast and
-/// a Gaussian of three voxels. The object's level counts as a fiftieth of an edge everywhere: it
-/// is that far from all edges, and does not count on a flat edge.
+/// a Gaussian of three voxels. Far from all edges it is the object's, which counts as a fiftieth of an
+/// edge everywhere but on a flat edge.
 ///
 /// Objects of one density scatter too, by up to 0.06 of the contrast (standard deviation over the
 /// edges): then there is one level, also for a part with so few edges that it does not count. From

@@ -75,23 +75,24 @@ constexpr const char* kExcessFile = "excess";
 
 /// Chooses the parameters and cuts the scan: what must be known before slabs can be worked on.
 /// @param options  whose number of slabs is told.
-SlabRun begin_run(const SliceSource& source, Settings settings, const SlabRunOptions& options,
-                  const Scratch& scratch, Stages& stages) {
+SlabRun begin_run(const SliceSource& source, const Settings& settings,
+                  const SlabRunOptions& options, const Scratch& scratch, Stages& stages) {
   const VoxelGrid& whole = source.grid();
   const SliceRange sample = slices_to_look_at(source, options.most_looked_at, scratch, stages);
-  const bool wants_levels = settings.has_local_level(), is_part = sample.count < whole.size[2];
-  if (is_part) settings.local_level = false;
   stages.run("choose", 1, [&](Index) {
     const ChosenObject object = choose_in(read_slab(source, sample.first, sample.count), settings);
-    const ChosenImage found =
-        choose_from_part(object.volume, whole, settings_for(object, settings));
+    ImageSettings chosen = settings_for(object, settings);
+    const bool is_too_large = sample.count < whole.size[2] && chosen.asked.has_local_level() &&
+                              is_hounsfield(object.volume);
+    if (is_too_large) chosen.asked.local_level = false;
+    const ChosenImage found = choose_from_part(object.volume, whole, chosen);
     if (found.chosen.measured.has_local_levels()) {
       make_item_file<float>(scratch.path(kExcessFile), whole.voxel_count());
       write_items<float>(scratch.path(kExcessFile), 0, found.excess.samples);
     }
     ArchiveWriter archive;
     archive.add_one(found.chosen);
-    archive.add_one(static_cast<char>(is_part && wants_levels && is_hounsfield(object.volume)));
+    archive.add_one(static_cast<char>(is_too_large));
     scratch.write("choice", archive);
     return SlabWork{};
   });
