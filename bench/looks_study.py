@@ -112,6 +112,7 @@ class Bone:
         moved.Update()
         return moved.GetOutput()
 
+    @functools.cached_property
     def edges(self):
         edges = vtk.vtkDiscreteFlyingEdges3D()
         edges.SetInputData(self.image())
@@ -120,11 +121,11 @@ class Bone:
         return edges.GetOutput()
 
     def slicer(self, smoothing=0.5):
-        return self.in_world(sinc(self.edges(), 10 ** (-4 * smoothing), 20 + int(40 * smoothing)))
+        return self.in_world(sinc(self.edges, 10 ** (-4 * smoothing), 20 + int(40 * smoothing)))
 
     def away(self, surface):
         """From the label's surface to that of its scan and back, mm."""
-        label = self.in_world(self.edges())
+        label = self.in_world(self.edges)
         points, back = triangles_of(label)[0], area_samples(surface, 4 * SAMPLES)
         reach = 3 * self.voxel
         inside = np.all((back > points.min(0) - reach) & (back < points.max(0) + reach), axis=1)
@@ -203,27 +204,30 @@ def study(name, bone, folder):
 def surfaces_of_scan(name, scan, folder):
     """The kind and the file of each surface of a scan, and the voxel."""
     stem = folder / name.replace(" ", "_")
-    ours, cubes = stem.with_suffix(".ply"), stem.with_suffix(".cubes.ply")
+    ours, cubes, local = (stem.with_suffix(end) for end in (".ply", ".cubes.ply", ".local.ply"))
     report = once(ours.with_suffix(".json"), "segment", scan, "-o", ours)
     level, voxel = report["surface"]["level_native"], np.prod(report["input"]["spacing_mm"]) ** (1 / 3)
     once(cubes.with_suffix(".json"), "baseline", scan, "--level", level, "-o", cubes)
     found = {"ours": ours, "flying edges": cubes}
     if name in CTS:
-        found["flying edges, local level"] = stem.with_suffix(".local.ply")
+        found["flying edges, local level"] = local
         less = less_local_level(scan, level, stem)
-        once(stem.with_suffix(".local.json"), "baseline", less, "--level", 0, "-o", stem.with_suffix(".local.ply"))
+        once(local.with_suffix(".json"), "baseline", less, "--level", 0, "-o", local)
     return found, voxel
 
 
 def less_local_level(scan, level, stem):
-    """The file of a scan without its local levels, in the scan's frame."""
-    if scan.suffix == ".nrrd":
-        volume, less = read_nrrd(scan), stem.with_suffix(".less.nrrd")
-        write_nrrd(less, dataclasses.replace(volume, values=volume.values - local_level(volume.values, level)))
+    """The file of a scan less its local levels, in the scan's frame. It is not made again."""
+    less = stem.with_suffix(".less.nrrd" if scan.suffix == ".nrrd" else ".less.nii.gz")
+    if less.exists():
         return less
-    image, less = nibabel.load(scan), stem.with_suffix(".less.nii.gz")
-    values = np.asarray(image.dataobj, np.float32)
-    nibabel.save(nibabel.Nifti1Image(values - local_level(values, level), image.affine), less)
+    if scan.suffix == ".nrrd":
+        volume = read_nrrd(scan)
+        write_nrrd(less, dataclasses.replace(volume, values=volume.values - local_level(volume.values, level)))
+    else:
+        image = nibabel.load(scan)
+        values = np.asarray(image.dataobj, np.float32)
+        nibabel.save(nibabel.Nifti1Image(values - local_level(values, level), image.affine), less)
     return less
 
 
