@@ -17,11 +17,11 @@
 namespace mesamis::detail::method {
 namespace {
 
-constexpr double kShortestEdge = 1;  // voxels: shorter ones are not split
-constexpr double kLeastBend = 0.03;  // voxels between an edge and the level set that are worth it
+constexpr double kShortestEdge = 1.4;  // voxels: shorter ones are not split
+constexpr double kLeastBend = 0.03;    // voxels between an edge and the level set that are worth it
 constexpr double kLeastHeight = 0.002;  // voxels: edges of less high triangles are not split
 constexpr int kMostRounds = 8;          // of splitting: about two halve every edge of a triangle
-constexpr double kBending = 8;          // against a weight of 1 of the place where a point is
+constexpr double kBending = 6;          // against a weight of 1 of the place where a point is
 constexpr double kMostSmoothed = 0.25;  // voxels
 /// Voxels: points that noise moves by more are held with the weight 1, by half of it or less with 4.
 constexpr double kNoiseOfWeight = 0.15, kMostWeight = 4;
@@ -78,12 +78,18 @@ class Follower {
 
   void move_to_image(const FollowedPart& part, const Neighbors& neighbors,
                      std::vector<Vec3>& points) const {
-    const TriMesh& surface = part.extracted;
-    const std::vector<Vec3> normals = smoothed_normals(surface, neighbors);
-    const std::vector<double> moves = filtered_moves(space_, measure(surface, normals), neighbors);
-    for (std::size_t p = 0; p < moves.size(); ++p) {
-      if (part.held[p] != kFree) continue;
-      points[p] += space_.within_box(surface.points[p], moves[p] * normals[p]);
+    constexpr int kRounds = 3;     // the image is not linear
+    TriMesh now = part.extracted;  // held points too: others see what they do
+    for (int round = 0; round < kRounds; ++round) {
+      const std::vector<Vec3> normals = smoothed_normals(now, neighbors);
+      const std::vector<double> moves = filtered_moves(space_, measure(now, normals), neighbors);
+      parallel_for(moves.size(), [&](std::size_t p) {
+        const Vec3 &start = part.extracted.points[p], goal = now.points[p] + moves[p] * normals[p];
+        now.points[p] = start + space_.step_to(goal, start, kMostMove);
+      });
+    }
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      if (part.held[p] == kFree) points[p] = now.points[p];
     }
   }
 

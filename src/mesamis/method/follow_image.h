@@ -20,19 +20,19 @@ struct FollowOptions {
 /// image's noise can be told from what the mesh's cells could not follow, and smooths it.
 ///
 /// Where a scan has little noise, cells of several voxels are the larger error: they cut bends and
-/// fine structures. Edges of more than a voxel are split where the level set leaves them by more
+/// fine structures. Edges of more than 1.4 voxels are split where the level set leaves them by more
 /// than the noise (and 0.03 voxel), unless a triangle of theirs is less high than 0.002 voxel. Each
 /// point's distance d to the level set along the normal is (I - level) / slope, the noise's share
 /// of it N = noise / slope. With the local mean m and variance V of d along the surface (Lee 1980),
 /// the point moves by
 ///   a m + k (d - m),   k = max(0, 1 - N^2 / V),   a = max(0, 1 - 0.2 N^2 / m^2),
-/// by no more than 0.7 voxels, and never out of the image's box. Points where the image is too flat
+/// three times, by no more than 0.7 voxels in all, and never out of the image's box. Points where the image is too flat
 /// to tell stay, as do those on the box; edges between two of these are not split.
 ///
 /// Smoothing lowers the terraces of thick slices, see without_terraces(), then takes off the ripples of
 /// noise and of single voxels: the points x move, by no more than a quarter of a voxel, from where
 /// they are, x_0, to the least of
-///   sum of w |x - x_0|^2 + 8 |L x|^2,   w = (3 / t)^2 min(max((0.15 / N)^2, 1), 4),
+///   sum of w |x - x_0|^2 + 6 |L x|^2,   w = (3 / t)^2 min(max((0.15 / N)^2, 1), 4),
 /// with the umbrella operator L and the thickness t, at most 3 voxels, that the object has behind
 /// the point or a neighbour: thin walls and struts, which bending would shrink, are held more
 /// firmly.
