@@ -145,6 +145,15 @@ TEST(Intersect, AgreesWithIntegerSeparatingAxes) {
   }
 }
 
+TEST(Intersect, TrianglesWithoutAreaMeetNothing) {
+  const std::vector<Vec3> p{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {1, 1, 0}};
+  EXPECT_FALSE(meet(p, {0, 1, 2}, {3, 4, 5})) << "a segment that pierces";
+  EXPECT_FALSE(meet(p, {0, 1, 2}, {3, 3, 4})) << "the same, of two points";
+  for (const Triangle& t : {Triangle{0, 0, 1}, {0, 0, 0}, {1, 0, 1}}) {
+    for (const Triangle& s : {Triangle{0, 1, 2}, {0, 0, 1}, {0, 3, 4}}) EXPECT_FALSE(meet(p, s, t));
+  }
+}
+
 TEST(HasArea, SeesOneUnitInTheLastPlace) {
   const std::vector<Vec3> p{{1e6, 1e6, 1e6},
                             {1e6 + 1, 1e6 + 1, 1e6 + 1},

@@ -6,18 +6,19 @@
 #include <cmath>
 
 #include "mesamis/surface/exact_predicates.h"
+#include "mesamis/surface/half_edges.h"
 #include "mesamis/surface/triangle_tree.h"
 
 namespace mesamis::detail::surface {
 namespace {
 
-/// An axis along which the triangle has an area, that with the largest first; -1: it has none.
+/// An axis along which the triangle has an area, the first to be tried that of the largest; -1: it
+/// has none.
 int axis_with_area(const Corners& t) {
   const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
-  std::array<int, 3> axes{0, 1, 2};
-  std::sort(axes.begin(), axes.end(),
-            [&n](int a, int b) { return std::abs(n[a]) > std::abs(n[b]); });
-  for (const int axis : axes) {
+  const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
+  const int largest = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+  for (const int axis : {largest, (largest + 1) % 3, (largest + 2) % 3}) {
     if (orientation_along(axis, t[0], t[1], t[2]) != 0) return axis;
   }
   return -1;
@@ -60,12 +61,13 @@ bool plane_segment_meets(int axis, const Vec3& p, const Vec3& q, const Corners& 
   return false;
 }
 
-/// Closed segment and closed triangle, which has an area.
+/// Closed segment and closed triangle. One without area meets none.
 bool segment_meets(const Vec3& p, const Vec3& q, const Corners& t) {
   const int at_p = orientation(t[0], t[1], t[2], p), at_q = orientation(t[0], t[1], t[2], q);
   if (at_p * at_q > 0) return false;
   if (at_p == 0 || at_q == 0) {
     const int axis = axis_with_area(t);
+    if (axis < 0) return false;
     if (at_p == 0 && at_q == 0) return plane_segment_meets(axis, p, q, t);
     return plane_point_in(axis, at_p == 0 ? p : q, t);
   }
@@ -105,21 +107,16 @@ bool fans_meet(const Corners& s, const Corners& t) {
 bool folded(const Corners& s, const Vec3& b) {
   if (orientation(s[0], s[1], s[2], b) != 0) return false;
   const int axis = axis_with_area(s);
-  return orientation_along(axis, s[0], s[1], s[2]) == orientation_along(axis, s[0], s[1], b);
+  return axis >= 0 &&
+         orientation_along(axis, s[0], s[1], s[2]) == orientation_along(axis, s[0], s[1], b);
 }
 
 Corners corners_from(std::span<const Vec3> points, const Triangle& t, std::size_t first) {
   return {points[t[first]], points[t[(first + 1) % 3]], points[t[(first + 2) % 3]]};
 }
 
-}  // namespace
-
-bool has_area(std::span<const Vec3> points, const Triangle& t) {
-  return axis_with_area(corners_from(points, t, 0)) >= 0;
-}
-
-bool intersect(std::span<const Vec3> points, const Triangle& s, const Triangle& t) {
-  if (!has_area(points, s) || !has_area(points, t)) return false;
+/// As intersect(), for two triangles with areas. The corners of each must differ.
+bool share_a_place(std::span<const Vec3> points, const Triangle& s, const Triangle& t) {
   std::array<std::size_t, 3> in_s{}, in_t{};  // corners in common
   std::size_t common = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -138,6 +135,18 @@ bool intersect(std::span<const Vec3> points, const Triangle& s, const Triangle& 
   // Corners 0, 1 of s in turn are common; the third is opposite.
   const std::size_t s_apex = 3 - in_s[0] - in_s[1], t_apex = 3 - in_t[0] - in_t[1];
   return folded(corners_from(points, s, (s_apex + 1) % 3), points[t[t_apex]]);
+}
+
+}  // namespace
+
+bool has_area(std::span<const Vec3> points, const Triangle& t) {
+  return axis_with_area(corners_from(points, t, 0)) >= 0;
+}
+
+bool intersect(std::span<const Vec3> points, const Triangle& s, const Triangle& t) {
+  if (is_degenerate(s) || is_degenerate(t)) return false;
+  // Most pairs are told apart by their planes: what is rarely needed comes last.
+  return share_a_place(points, s, t) && has_area(points, s) && has_area(points, t);
 }
 
 }  // namespace mesamis::detail::surface
