@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <set>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/self_intersections.h"
@@ -70,6 +72,17 @@ TEST(SplitEdges, EndsAfterItsRounds) {
   EXPECT_EQ(split_edges(cube(), always, {0}).triangles, cube().triangles);
   EXPECT_EQ(split_edges(cube(), always, {1}).triangles.size(), 24u);
   EXPECT_GT(split_edges(cube(), always, {3}).triangles.size(), 60u);
+}
+
+TEST(SplitEdges, AsksOnceOfEachEdge) {
+  const auto rule = longer_than(0.2);
+  std::set<std::array<double, 6>> asked;
+  const SplitRule once = [&](const Vec3& a, const Vec3& b) {
+    EXPECT_TRUE(asked.insert({a.x, a.y, a.z, b.x, b.y, b.z}).second);
+    return rule(a, b);
+  };
+  const TriMesh split = with_threads(1, [&] { return split_edges(cube(), once, {kRounds}); });
+  EXPECT_EQ(split.triangles, split_edges(cube(), rule, {kRounds}).triangles);
 }
 
 TEST(SplitEdges, LeavesTheOthersAlone) {

@@ -34,6 +34,13 @@ struct SplitTriangle {
 /// The half edges that run along one edge.
 using Edge = std::span<const HalfEdge>;
 
+/// An edge and what the rule says of it.
+enum class Answer : char { kUnknown, kNo, kYes };
+struct AskedEdge {
+  std::array<Index, 2> ends;
+  Answer answer;
+};
+
 class Splitter {
  public:
   Splitter(TriMesh& surface, const SplitRule& rule, SplitOptions options)
@@ -71,18 +78,33 @@ class Splitter {
     return static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
   }
 
+  /// Finds what the rule says of each edge; most edges have been asked in the last round.
+  void ask(const std::vector<Edge>& edges) {
+    std::vector<AskedEdge> now(edges.size());
+    std::size_t before = 0;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const std::array<Index, 2> ends{edges[e][0].lo, edges[e][0].hi};
+      while (before < answers_.size() && answers_[before].ends < ends) ++before;
+      const bool known = before < answers_.size() && answers_[before].ends == ends;
+      now[e] = {ends, known ? answers_[before].answer : Answer::kUnknown};
+    }
+    parallel_for(edges.size(), [&](std::size_t e) {
+      auto& [ends, answer] = now[e];
+      if (answer != Answer::kUnknown) return;
+      const auto [a, b] = ends;
+      const bool splits = !stays(a, b) && rule_(surface_.points[a], surface_.points[b]);
+      answer = splits ? Answer::kYes : Answer::kNo;
+    });
+    answers_ = std::move(now);
+  }
+
   /// Of each triangle the corner from which the edge to split runs, or none. That is the longest
   /// edge, whichever the rule asks for: others would make needles.
-  std::vector<int> edges_to_split(const std::vector<Edge>& edges) const {
-    std::vector<char> asked(edges.size());
-    parallel_for(edges.size(), [&](std::size_t e) {
-      const HalfEdge& edge = edges[e][0];
-      if (stays(edge.lo, edge.hi)) return;
-      asked[e] = rule_(surface_.points[edge.lo], surface_.points[edge.hi]) ? 1 : 0;
-    });
+  std::vector<int> edges_to_split(const std::vector<Edge>& edges) {
+    ask(edges);
     std::vector<int> corners(surface_.triangles.size(), kNone);
     for (std::size_t e = 0; e < edges.size(); ++e) {
-      if (asked[e] == 0) continue;
+      if (answers_[e].answer == Answer::kNo) continue;
       for (const HalfEdge& h : edges[e]) {
         const auto t = static_cast<std::size_t>(h.triangle);
         corners[t] = longest_edge(surface_.triangles[t]);
@@ -150,6 +172,7 @@ class Splitter {
   const SplitRule& rule_;
   double least_height_;
   std::vector<char> held_;
+  std::vector<AskedEdge> answers_;  // of the last round, in the order of the edges
 };
 
 }  // namespace

@@ -41,7 +41,8 @@ struct SplitOptions {
 ///         they are parts of.
 /// @throws InputError  as require_sound().
 ///
-/// O(m log m) for m triangles in the end, and one call of the rule per edge and round.
+/// O(m log m) for m triangles in the end, and one call of the rule per edge, which must not change
+/// its mind.
 TriMesh split_edges(TriMesh surface, const SplitRule& rule, SplitOptions options);
 
 }  // namespace mesamis::detail::surface
