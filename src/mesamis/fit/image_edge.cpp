@@ -23,7 +23,7 @@ class Profile {
       : middle_(reach + kSides) {
     const double sign = contrast > 0 ? 1 : -1;
     for (int i = -middle_; i <= middle_; ++i) {
-      values_.push_back(sign * space.at(point + (i * kStep * space.voxel()) * normal).value);
+      values_.push_back(sign * space.value_at(point + (i * kStep * space.voxel()) * normal));
     }
   }
 

@@ -123,7 +123,7 @@ class Follower {
     parallel_for(points.size(), [&](std::size_t p) {
       const Vec3 step = (-space_.voxel()) * normals[p];
       double& depth = depths[p] = kThinnest;
-      while (depth < kThick && space_.at(points[p] + depth * step).value >= options_.level) {
+      while (depth < kThick && space_.value_at(points[p] + depth * step) >= options_.level) {
         depth += kDepthStep;
       }
     });
