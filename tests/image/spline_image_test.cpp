@@ -120,6 +120,26 @@ TEST(SplineLine, IsTheSameInAnyOrderOfPlaces) {
   EXPECT_EQ(ahead.at(2.5), first);
 }
 
+TEST(SplineLine, MovesToOtherLinesOfItsSlices) {
+  const SplineImage image = interpolating_spline(random_volume({20, 5, 5}));
+  SplineLine moved(image, 2);
+  for (const double y : {0.0, 1.3, 4.0, 1.0}) {
+    moved.move_to(y);
+    SplineLine fresh(image, y, 2);
+    for (double x = 0; x < 20; x += 0.7) EXPECT_EQ(moved.at(x), fresh.at(x));
+  }
+}
+
+TEST(SplinePatch, HasTheBitsOfALine) {
+  const SplineImage image = interpolating_spline(random_volume({6, 5, 4}));
+  SplinePatch patch(image);
+  for (double t = -1; t < 7; t += 0.043) {
+    const Vec3 p{t, 5 - t, 0.8 * t};
+    EXPECT_EQ(patch.at(p), SplineLine(image, p.y, p.z).at(p.x));
+  }
+  EXPECT_EQ(patch.at({2, 3, 1}), SplineLine(image, 3, 1).at(2)) << "a voxel";
+}
+
 TEST(SplineImage, SameBitsForAnyNumberOfThreads) {
   const Volume volume = random_volume({30, 20, 25});
   const SplineImage one = with_threads(1, [&] { return interpolating_spline(volume); });

@@ -155,13 +155,14 @@ class CellInVoxels {
     const Vec4 step = slopes_along_x(density);
     NormalEquations sums;
     for (Index mz = first(box.lo.z); mz <= last(box.hi.z); ++mz) {
+      SplineLine line(image_, coordinate(mz));
       for (Index my = first(box.lo.y); my <= last(box.hi.y); ++my) {
         Vec3 q{0, coordinate(my), coordinate(mz)};
         double low = box.lo.x, high = box.hi.x;
         if (!clip_row(q, low, high)) continue;
         const Index begin = first(low), count = last(high) - begin + 1;
         if (count <= 0) continue;
-        SplineLine line(image_, q.y, q.z);
+        line.move_to(q.y);
         double sum = 0, moment = 0;
         for (Index k = 0; k < count; ++k) {
           const double value = line.at(coordinate(begin + k));
@@ -178,9 +179,9 @@ class CellInVoxels {
   /// The fit to samples at fixed places.
   Vec4 fit_fixed() const {
     static const FixedSamples samples;
-    return samples.fit([this](const Vec4& l) {
-      const Vec3 q = l[0] * p_[0] + l[1] * p_[1] + l[2] * p_[2] + l[3] * p_[3];
-      return SplineLine(image_, q.y, q.z).at(q.x);
+    SplinePatch patch(image_);
+    return samples.fit([&](const Vec4& l) {
+      return patch.at(l[0] * p_[0] + l[1] * p_[1] + l[2] * p_[2] + l[3] * p_[3]);
     });
   }
 

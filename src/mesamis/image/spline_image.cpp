@@ -156,41 +156,109 @@ double spline_value_at(const SplineImage& image, const Vec3& p) {
   return spline_sum<false>(image, p).value;
 }
 
-SplineLine::SplineLine(const SplineImage& image, double y, double z) : image_(image) {
-  const VoxelGrid& grid = image.grid;
-  const Place in_y(y, grid.size[1]), in_z(z, grid.size[2]);
-  const auto wy = folded(spline_weights(in_y.fraction), in_y, grid.size[1]);
-  const auto wz = folded(spline_weights(in_z.fraction), in_z, grid.size[2]);
+SplineLine::SplineLine(const SplineImage& image, double z) : image_(image) {
+  const auto& size = image.grid.size;
+  const Place place(z, size[2]);
+  slice_weights_ = folded(spline_weights(place.fraction), place, size[2]);
   for (std::size_t k = 0; k < 4; ++k) {
-    for (std::size_t j = 0; j < 4; ++j) {
-      rows_[4 * k + j] = image.coefficients.data() +
-                         grid.offset(0, in_y.tap(j, grid.size[1]), in_z.tap(k, grid.size[2]));
-      weights_[4 * k + j] = wy[j] * wz[k];
-    }
+    slices_[k] = image.coefficients.data() + image.grid.offset(0, 0, place.tap(k, size[2]));
   }
 }
 
-double SplineLine::column(Index i) const {
-  const Index at = std::clamp(i, 0, image_.grid.size[0] - 1);
-  double sum = 0;
-  for (std::size_t n = 0; n < rows_.size(); ++n) sum += weights_[n] * rows_[n][at];
-  return sum;
+SplineLine::SplineLine(const SplineImage& image, double y, double z) : SplineLine(image, z) {
+  move_to(y);
+}
+
+void SplineLine::move_to(double y) {
+  const VoxelGrid& grid = image_.grid;
+  const Place place(y, grid.size[1]);
+  const auto wy = folded(spline_weights(place.fraction), place, grid.size[1]);
+  std::array<std::size_t, 4> offsets;
+  for (std::size_t j = 0; j < 4; ++j) offsets[j] = grid.offset(0, place.tap(j, grid.size[1]), 0);
+  rows_ = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      const double weight = wy[j] * slice_weights_[k];
+      row_[rows_] = slices_[k] + offsets[j];
+      weight_[rows_] = weight;
+      rows_ += weight != 0 ? 1 : 0;  // on lines through voxels seven of them are 0
+    }
+  }
+  known_ = 0;
+}
+
+void SplineLine::find_columns(Index first, double* columns) const {
+  const Index last = image_.grid.size[0] - 1;
+  std::array<double, 4> sums{};
+  if (first >= 0 && first + 3 <= last) {
+    for (std::size_t n = 0; n < rows_; ++n) {
+      const float* row = row_[n] + first;
+      for (std::size_t i = 0; i < 4; ++i) sums[i] += weight_[n] * row[i];
+    }
+  } else {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Index at = std::clamp(first + static_cast<Index>(i), 0, last);
+      for (std::size_t n = 0; n < rows_; ++n) sums[i] += weight_[n] * row_[n][at];
+    }
+  }
+  std::copy(sums.begin(), sums.end(), columns);
 }
 
 double SplineLine::at(double x) {
   const Place place(x, image_.grid.size[0]);
-  while (cell_ < place.cell && cell_ > place.cell - 4) {
-    std::rotate(columns_.begin(), columns_.begin() + 1, columns_.end());
-    columns_[3] = column(++cell_ + 2);
+  const Index before = place.cell - 1;
+  if (before < first_ || before >= first_ + known_) {
+    first_ = before;
+    known_ = 0;
   }
-  if (cell_ != place.cell) {
-    cell_ = place.cell;
-    for (std::size_t n = 0; n < 4; ++n) columns_[n] = column(cell_ - 1 + static_cast<Index>(n));
+  while (before + 4 > first_ + known_) {
+    if (known_ == 8) {
+      std::copy(columns_.begin() + 4, columns_.end(), columns_.begin());
+      first_ += 4;
+      known_ = 4;
+    }
+    find_columns(first_ + known_, columns_.data() + known_);
+    known_ += 4;
   }
   const auto w = folded(spline_weights(place.fraction), place, image_.grid.size[0]);
-  const double value =
-      w[0] * columns_[0] + w[1] * columns_[1] + w[2] * columns_[2] + w[3] * columns_[3];
+  const double* c = columns_.data() + (before - first_);
+  const double value = w[0] * c[0] + w[1] * c[1] + w[2] * c[2] + w[3] * c[3];
   return std::clamp<double>(value, image_.low, image_.high);
+}
+
+double SplinePatch::at(const Vec3& p) {
+  const auto& size = image_.grid.size;
+  const std::array<Place, 3> place{Place(p.x, size[0]), Place(p.y, size[1]), Place(p.z, size[2])};
+  const std::array<Index, 3> cell{place[0].cell, place[1].cell, place[2].cell};
+  if (cell != cell_) move_to(cell);
+  std::array<std::array<double, 4>, 3> w;
+  for (std::size_t a = 0; a < 3; ++a) {
+    w[a] = folded(spline_weights(place[a].fraction), place[a], size[a]);
+  }
+  std::array<double, 16> weight;
+  for (std::size_t n = 0; n < 16; ++n) weight[n] = w[1][n % 4] * w[2][n / 4];
+  std::array<double, 4> sums{};
+  for (std::size_t n = 0; n < 16; ++n) {
+    for (std::size_t i = 0; i < 4; ++i) sums[i] += weight[n] * coefficients_[4 * n + i];
+  }
+  const double value =
+      w[0][0] * sums[0] + w[0][1] * sums[1] + w[0][2] * sums[2] + w[0][3] * sums[3];
+  return std::clamp<double>(value, image_.low, image_.high);
+}
+
+void SplinePatch::move_to(const std::array<Index, 3>& cell) {
+  cell_ = cell;
+  const VoxelGrid& grid = image_.grid;
+  const auto tap = [&](std::size_t axis, Index n) {
+    return std::clamp(cell[axis] - 1 + n, 0, grid.size[axis] - 1);
+  };
+  double* to = coefficients_.data();
+  for (Index k = 0; k < 4; ++k) {
+    for (Index j = 0; j < 4; ++j) {
+      const float* row = image_.coefficients.data() + grid.offset(0, tap(1, j), tap(2, k));
+      for (Index i = 0; i < 4; ++i) *to++ = row[tap(0, i)];
+    }
+  }
 }
 
 }  // namespace mesamis::detail::image

@@ -49,23 +49,52 @@ double spline_value_at(const SplineImage& image, const Vec3& p);
 /// computed once, and what neighbouring points share is kept.
 class SplineLine {
  public:
-  /// Finds the sixteen rows of coefficients around a line.
+  /// Finds the four slices of coefficients around lines, which move_to() chooses from.
   /// @param image  must live longer than this.
-  /// @param y, z   of the line, voxels; clamped to the grid.
+  /// @param z      of the lines, voxels; clamped to the grid.
+  SplineLine(const SplineImage& image, double z);
+  /// The same, at one line.
+  /// @param y  voxels; clamped to the grid.
   SplineLine(const SplineImage& image, double y, double z);
+
+  /// Goes to another line in the same slices.
+  /// @param y  voxels; clamped to the grid.
+  void move_to(double y);
 
   /// The value at a point of the line, in the image's unit. Fastest for ascending x.
   /// @param x  voxels; clamped to the grid.
   double at(double x);
 
  private:
-  double column(Index i) const;
+  void find_columns(Index first, double* columns) const;
 
   const SplineImage& image_;
-  std::array<const float*, 16> rows_{};
-  std::array<double, 16> weights_{};
-  std::array<double, 4> columns_{};  // at cell_ - 1 to cell_ + 2
-  Index cell_ = -100;
+  std::array<const float*, 4> slices_{};
+  std::array<double, 4> slice_weights_{};
+  std::array<const float*, 16> row_{};  // the first rows_ of them, with their weights
+  std::array<double, 16> weight_{};
+  std::size_t rows_ = 0;
+  std::array<double, 8> columns_{};  // from first_ on: sums over the rows
+  Index first_ = 0, known_ = 0;
+};
+
+/// The bounded spline at points that lie near each other: the 64 coefficients around the last one
+/// are kept.
+class SplinePatch {
+ public:
+  /// @param image  must live longer than this.
+  explicit SplinePatch(const SplineImage& image) : image_(image) {}
+
+  /// The value at a point, in the image's unit: that of SplineLine, to the bit.
+  /// @param p  voxels; clamped to the grid.
+  double at(const Vec3& p);
+
+ private:
+  void move_to(const std::array<Index, 3>& cell);
+
+  const SplineImage& image_;
+  std::array<Index, 3> cell_{-1, -1, -1};
+  std::array<double, 64> coefficients_;  // i runs fastest
 };
 
 }  // namespace mesamis::detail::image
