@@ -43,11 +43,10 @@ struct Case {
 TEST(Umbrella, IsAdjointToItsTransposed) {
   const Case c;
   const auto left = c.umbrella.bent(c.springs.goal);
-  const auto right = c.umbrella.transposed(c.surface.points);
   double one = 0, other = 0;
   for (std::size_t p = 0; p < left.size(); ++p) {
     one += dot(left[p], c.surface.points[p]);
-    other += dot(c.springs.goal[p], right[p]);
+    other += dot(c.springs.goal[p], c.umbrella.transposed(p, c.surface.points));
   }
   EXPECT_NEAR(one, other, 1e-9 * std::abs(one));
 }
@@ -73,6 +72,15 @@ TEST(Relax, FindsTheLeastEnergy) {
     for (Vec3& p : other) p += Vec3{normal(generator), normal(generator), normal(generator)};
     EXPECT_GT(c.energy(other, 3), least);
   }
+}
+
+TEST(Relax, EndsEarlierWhereLessAccuracyIsAskedFor) {
+  Case c;
+  const double least = c.energy(relax(c.umbrella, c.springs, 3, c.surface.points), 3);
+  c.springs.accuracy = 0.01;
+  const double near = c.energy(relax(c.umbrella, c.springs, 3, c.surface.points), 3);
+  EXPECT_GT(near, least);
+  EXPECT_LT(near, 1.001 * least);
 }
 
 TEST(Relax, LeavesWhatIsHeldAndGoesToGoalsWithoutBending) {

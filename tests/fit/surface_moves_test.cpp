@@ -90,6 +90,10 @@ TEST(SurfaceMoves, AreTakenBackWhereTrianglesWouldMeet) {
   const TriMesh moved = moved_without_folds(space, surface, shifts);
   EXPECT_TRUE(find_self_intersections(moved).empty());
   EXPECT_LT(norm(moved.points[far] - surface.points[far]), 20) << "halved at least once";
+  TriMesh filed = moved_without_folds(space, surface, shifts, Unfolded::kInFile);
+  EXPECT_LT(norm(filed.points[far] - surface.points[far]), 20);
+  for (Vec3& p : filed.points) p = space.as_in_a_file(p);
+  EXPECT_TRUE(find_self_intersections(filed).empty());
   std::vector<Vec3> small(surface.points.size(), Vec3{0.1, 0, 0});
   const TriMesh shifted = moved_without_folds(space, surface, small);
   EXPECT_EQ(shifted.points[far].x, surface.points[far].x + 0.1) << "what meets nothing stays moved";

@@ -6,38 +6,36 @@
 namespace mesamis::detail::fit {
 namespace {
 
-double product(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  return parallel_sum(a.size(), [&](std::size_t begin, std::size_t end) {
-    double sum = 0;
-    for (std::size_t p = begin; p < end; ++p) sum += dot(a[p], b[p]);
-    return sum;
-  });
-}
-
 /// The matrix of the energy, without rows of points that are held.
 class Matrix {
  public:
   Matrix(const Umbrella& umbrella, const Springs& springs, double bending)
-      : umbrella_(umbrella), springs_(springs), bending_(bending) {}
-
-  std::vector<Vec3> operator*(const std::vector<Vec3>& x) const {
-    std::vector<Vec3> y = umbrella_.transposed(umbrella_.bent(x));
-    parallel_for(x.size(), [&](std::size_t p) {
-      y[p] = is_free(p) ? springs_.weight[p] * x[p] + bending_ * y[p] : Vec3{};
+      : umbrella_(umbrella), springs_(springs), bending_(bending), bent_(springs.weight.size()) {
+    constexpr double kOwn = 1.2, kOfOthers = 0.2;  // with six neighbours
+    inverse_diagonal_.resize(bent_.size());
+    parallel_for(bent_.size(), [&](std::size_t p) {
+      const double bent = umbrella_.smooths(p) ? kOwn : kOfOthers;
+      inverse_diagonal_[p] = 1 / (springs_.weight[p] + bent * bending_);
     });
-    return y;
+  }
+
+  /// @param y  becomes the product with x.
+  /// @return the scalar product of x and y.
+  double multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) {
+    umbrella_.bend(x, bent_);
+    return parallel_sum(x.size(), [&](std::size_t begin, std::size_t end) {
+      double sum = 0;
+      for (std::size_t p = begin; p < end; ++p) {
+        y[p] = is_free(p) ? springs_.weight[p] * x[p] + bending_ * umbrella_.transposed(p, bent_)
+                          : Vec3{};
+        sum += dot(x[p], y[p]);
+      }
+      return sum;
+    });
   }
 
   /// Divided by about the diagonal.
-  std::vector<Vec3> preconditioned(const std::vector<Vec3>& r) const {
-    constexpr double kOwn = 1.2, kOfOthers = 0.2;  // with six neighbours
-    std::vector<Vec3> z(r.size());
-    parallel_for(r.size(), [&](std::size_t p) {
-      const double bent = umbrella_.smooths(p) ? kOwn : kOfOthers;
-      z[p] = (1 / (springs_.weight[p] + bent * bending_)) * r[p];
-    });
-    return z;
-  }
+  Vec3 preconditioned(std::size_t p, const Vec3& r) const { return inverse_diagonal_[p] * r; }
 
   bool is_free(std::size_t p) const { return springs_.held[p] == 0; }
 
@@ -45,44 +43,55 @@ class Matrix {
   const Umbrella& umbrella_;
   const Springs& springs_;
   double bending_;
+  std::vector<Vec3> bent_;  // L x, for the time of a product
+  std::vector<double> inverse_diagonal_;
 };
 
 }  // namespace
 
 Umbrella::Umbrella(const Neighbors& neighbors, const std::vector<char>& on_curve)
-    : neighbors_(neighbors), on_curve_(on_curve), degree_(on_curve.size()) {
-  for (std::size_t p = 0; p < degree_.size(); ++p) {
+    : neighbors_(neighbors),
+      on_curve_(on_curve),
+      share_(on_curve.size(), 0),
+      alike_(on_curve.size()) {
+  parallel_for(share_.size(), [&](std::size_t p) {
     int count = 0;
+    bool alike = true;
     for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
-      count += on_curve_[p] <= on_curve_[neighbors_.points[n]] ? 1 : 0;
+      const char other = on_curve_[neighbors_.points[n]];
+      count += on_curve_[p] <= other ? 1 : 0;
+      alike &= on_curve_[p] == other;
     }
-    degree_[p] = count > 1 ? count : 0;
-  }
+    if (count > 1) share_[p] = 1.0 / count;
+    alike_[p] = alike ? 1 : 0;
+  });
 }
 
 std::vector<Vec3> Umbrella::bent(const std::vector<Vec3>& x) const {
   std::vector<Vec3> y(x.size());
-  parallel_for(x.size(), [&](std::size_t p) {
-    if (degree_[p] == 0) return;
-    Vec3 sum;
-    for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
-      const Index q = neighbors_.points[n];
-      if (on_curve_[p] <= on_curve_[q]) sum += x[q];
-    }
-    y[p] = x[p] - (1.0 / degree_[p]) * sum;
-  });
+  bend(x, y);
   return y;
 }
 
-std::vector<Vec3> Umbrella::transposed(const std::vector<Vec3>& y) const {
-  std::vector<Vec3> x(y.size());
-  parallel_for(y.size(), [&](std::size_t p) {
-    x[p] = y[p];
+void Umbrella::bend(const std::vector<Vec3>& x, std::vector<Vec3>& y) const {
+  parallel_for(x.size(), [&](std::size_t p) {
+    Vec3 sum;
+    const bool alike = alike_[p] != 0;
     for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
       const Index q = neighbors_.points[n];
-      if (degree_[q] > 0 && on_curve_[q] <= on_curve_[p]) x[p] = x[p] - (1.0 / degree_[q]) * y[q];
+      if (alike || on_curve_[p] <= on_curve_[q]) sum += x[q];
     }
+    y[p] = smooths(p) ? x[p] - share_[p] * sum : Vec3{};
   });
+}
+
+Vec3 Umbrella::transposed(std::size_t p, const std::vector<Vec3>& y) const {
+  Vec3 x = y[p];
+  const bool alike = alike_[p] != 0;
+  for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
+    const Index q = neighbors_.points[n];
+    if (alike || on_curve_[q] <= on_curve_[p]) x = x - share_[q] * y[q];
+  }
   return x;
 }
 
@@ -97,24 +106,34 @@ Springs springs_at(const SurfaceSpace& space, const std::vector<Vec3>& points, d
 std::vector<Vec3> relax(const Umbrella& umbrella, const Springs& springs, double bending,
                         std::vector<Vec3> x) {
   constexpr int kMostSteps = 120;
-  constexpr double kAccuracy = 1e-4;
-  const Matrix matrix(umbrella, springs, bending);
-  std::vector<Vec3> residual = matrix * x;
+  Matrix matrix(umbrella, springs, bending);
+  std::vector<Vec3> residual(x.size()), steep(x.size()), image(x.size());
+  matrix.multiply(x, residual);
   parallel_for(x.size(), [&](std::size_t p) {
     if (matrix.is_free(p)) residual[p] = springs.weight[p] * springs.goal[p] - residual[p];
   });
-  std::vector<Vec3> steep = matrix.preconditioned(residual), direction = steep;
-  double size = product(residual, steep);
-  const double enough = kAccuracy * kAccuracy * size;
+  const auto precondition = [&](std::size_t p) {
+    steep[p] = matrix.preconditioned(p, residual[p]);
+    return dot(residual[p], steep[p]);
+  };
+  double size = parallel_sum(x.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t p = begin; p < end; ++p) sum += precondition(p);
+    return sum;
+  });
+  std::vector<Vec3> direction = steep;
+  const double enough = springs.accuracy * springs.accuracy * size;
   for (int step = 0; step < kMostSteps && size > enough; ++step) {
-    const std::vector<Vec3> image = matrix * direction;
-    const double length = size / product(direction, image);
-    parallel_for(x.size(), [&](std::size_t p) {
-      x[p] += length * direction[p];
-      residual[p] = residual[p] - length * image[p];
+    const double length = size / matrix.multiply(direction, image);
+    const double next = parallel_sum(x.size(), [&](std::size_t begin, std::size_t end) {
+      double sum = 0;
+      for (std::size_t p = begin; p < end; ++p) {
+        x[p] += length * direction[p];
+        residual[p] = residual[p] - length * image[p];
+        sum += precondition(p);
+      }
+      return sum;
     });
-    steep = matrix.preconditioned(residual);
-    const double next = product(residual, steep);
     parallel_for(x.size(),
                  [&](std::size_t p) { direction[p] = steep[p] + (next / size) * direction[p]; });
     size = next;

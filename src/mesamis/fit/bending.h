@@ -17,15 +17,18 @@ class Umbrella {
 
   /// L x.
   std::vector<Vec3> bent(const std::vector<Vec3>& x) const;
-  /// L^T y.
-  std::vector<Vec3> transposed(const std::vector<Vec3>& y) const;
+  /// L x, into a vector of as many points.
+  void bend(const std::vector<Vec3>& x, std::vector<Vec3>& y) const;
+  /// L^T y at a point.
+  Vec3 transposed(std::size_t point, const std::vector<Vec3>& y) const;
   /// Whether a point is smoothed at all.
-  bool smooths(std::size_t point) const { return degree_[point] > 0; }
+  bool smooths(std::size_t point) const { return share_[point] > 0; }
 
  private:
   const Neighbors& neighbors_;
   const std::vector<char>& on_curve_;
-  std::vector<int> degree_;
+  std::vector<double> share_;  // of each neighbour in the mean of a point's; 0: it is not smoothed
+  std::vector<char> alike_;    // 1: a point and all its neighbours are on curves, or none is
 };
 
 /// Where points shall be, and how much that counts.
@@ -33,6 +36,7 @@ struct Springs {
   std::vector<double> weight;  ///< >= 0 each
   std::vector<Vec3> goal;
   std::vector<char> held;  ///< 1: the point stays where it is
+  double accuracy = 1e-4;  ///< of relax(): what is left of the residual, > 0
 };
 
 /// Springs of one weight that hold points where they are; those on the grid's box stay.

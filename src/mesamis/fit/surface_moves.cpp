@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "mesamis/base/parallel.h"
@@ -62,7 +63,8 @@ std::vector<double> chosen_around(const Neighbors& neighbors, const std::vector<
 /// Takes moves back until no triangles meet that a move made meet.
 class Unfolding {
  public:
-  Unfolding(const SurfaceSpace& space, const TriMesh& surface) : space_(space), surface_(surface) {}
+  Unfolding(const SurfaceSpace& space, const TriMesh& surface, Unfolded where)
+      : space_(space), surface_(surface), where_(where) {}
 
   TriMesh run(std::vector<Vec3> shifts) const {
     constexpr int kHalvings = 2, kMostTrials = 40;
@@ -70,8 +72,11 @@ class Unfolding {
     TriMesh moved = surface_;
     for (std::size_t p = 0; p < shifts.size(); ++p) moved.points[p] += shifts[p];
     TriMesh filed = as_in_a_file(moved);
-    SelfIntersections here(moved), in_file(filed);
-    std::vector<char> meeting = moved_corners(shifts, here.all(), in_file.all());
+    std::optional<SelfIntersections> here;
+    if (where_ == Unfolded::kHereAndInFile) here.emplace(moved);
+    SelfIntersections in_file(filed);
+    std::vector<char> meeting =
+        moved_corners(shifts, here ? here->all() : std::vector<TrianglePair>{}, in_file.all());
     for (int trial = 0; trial < kMostTrials; ++trial) {
       const std::vector<Index> concerned = triangles_at(meeting);
       if (concerned.empty()) return moved;
@@ -82,7 +87,8 @@ class Unfolding {
         filed.points[p] = space_.as_in_a_file(moved.points[p]);
       }
       meeting =
-          moved_corners(shifts, here.after_move_of(concerned), in_file.after_move_of(concerned));
+          moved_corners(shifts, here ? here->after_move_of(concerned) : std::vector<TrianglePair>{},
+                        in_file.after_move_of(concerned));
     }
     return triangles_at(meeting).empty() ? moved : surface_;
   }
@@ -127,6 +133,7 @@ class Unfolding {
 
   const SurfaceSpace& space_;
   const TriMesh& surface_;
+  Unfolded where_;
 };
 
 }  // namespace
@@ -267,8 +274,8 @@ std::vector<double> filtered_moves(const FollowSpace& space, const Offsets& offs
 }
 
 TriMesh moved_without_folds(const SurfaceSpace& space, const TriMesh& surface,
-                            std::vector<Vec3> shifts) {
-  return Unfolding(space, surface).run(std::move(shifts));
+                            std::vector<Vec3> shifts, Unfolded where) {
+  return Unfolding(space, surface, where).run(std::move(shifts));
 }
 
 }  // namespace mesamis::detail::fit
