@@ -13,6 +13,7 @@
 #include "mesamis/run/write.h"
 #include "mesamis/shape_files/mesh_files.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "mesamis/surface/self_intersections.h"
 #include "mesamis/volume_files/read_volume.h"
 #include "support/ball_volume.h"
 #include "support/run_program.h"
@@ -242,11 +243,16 @@ TEST(SegmentCommand, IsAsFineAsWasAskedForOrSaysThatTheScanIsNot) {
 TEST(SegmentCommand, PreviewsWithoutAMesh) {
   const TempFolder folder;
   write_ball(folder, 24);
-  const ProgramRun run =
-      run_program(folder, {"segment", folder / "ball.nrrd", "--preview", "-o", folder / "a.stl",
-                           "-o", folder / "a.vtp", "--report", folder / "a.json", "--quiet"});
+  const ProgramRun run = run_program(
+      folder, {"segment", folder / "ball.nrrd", "--preview", "-o", folder / "a.stl", "-o",
+               folder / "a.vtp", "-o", folder / "a.ply", "--report", folder / "a.json", "--quiet"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(read_bytes(folder / "a.stl").substr(0, 80), HasSubstr("preview"));
+  for (const char* name : {"a.stl", "a.ply", "a.vtp"}) {
+    const TriMesh surface = read_surface(folder / name);
+    EXPECT_EQ(flaws_of(check_surface(surface)), "") << name;
+    EXPECT_TRUE(find_self_intersections(surface).empty()) << name;
+  }
   const auto report = report_of(folder, "a");
   EXPECT_EQ(report["settings"]["preview"], true);
   EXPECT_EQ(report["surface"]["closed"], true);

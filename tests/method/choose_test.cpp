@@ -156,13 +156,16 @@ TEST(ChooseTolerance, FollowsTheErrorWithinBounds) {
   EXPECT_EQ(chosen({}, 0.03, 2), 0.06);
   EXPECT_EQ(chosen({}, 0, 1), 0.03 * 0.5);
   EXPECT_EQ(chosen({}, 1, 1), 0.1 * 0.5);
+  EXPECT_EQ(chosen({}, 1, kErrorsOfPreview), 0);
   Parameters p;
   p.accuracy = 0.2;
   EXPECT_EQ(chosen(p, 1, 2), 0.1);
+  EXPECT_EQ(chosen(p, 0, kErrorsOfPreview), 0.1) << "also of a preview";
   p.accuracy = 1e-6;
   EXPECT_EQ(chosen(p, 1, 2), 0.01 * 0.5);
   p.triangles = 500;
   EXPECT_TRUE(std::isinf(chosen(p, 1, 1)));
+  EXPECT_TRUE(std::isinf(chosen(p, 0, kErrorsOfPreview)));
   p.tolerance = 0.3;
   EXPECT_EQ(chosen(p, 1, 1), 0.3);
 }

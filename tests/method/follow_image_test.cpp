@@ -8,6 +8,7 @@
 #include <random>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/base/single_precision.h"
 #include "mesamis/surface/self_intersections.h"
 #include "mesamis/surface/split_edges.h"
 #include "support/ball_volume.h"
@@ -50,6 +51,20 @@ TEST(FollowImage, ComesToTheLevelSetWithoutNoise) {
   const SurfaceCheck check = check_surface(followed);
   EXPECT_EQ(check.open_edges + check.nonmanifold_edges + check.misoriented_edges, 0);
   EXPECT_TRUE(find_self_intersections(followed).empty());
+}
+
+TEST(FollowImage, ADraftSplitsLessAndMeetsItselfInNoFile) {
+  const TriMesh coarse = coarse_ball(kRadius);
+  FollowOptions options{.level = kLevel, .noise = 0.1, .smooth = true};
+  const TriMesh fine = follow_image(coarse, ball_image(0), options);
+  options.draft = true;
+  TriMesh draft = follow_image(coarse, ball_image(0), options);
+  const double seen = middle_radius(kRadius, 1);
+  EXPECT_LT(draft.triangles.size(), fine.triangles.size() / 2);
+  EXPECT_LT(misfit(draft, seen), misfit(coarse, seen));
+  for (Vec3& p : draft.points) p = rounded(p);
+  EXPECT_EQ(flaws_of(check_surface(draft)), "");
+  EXPECT_TRUE(find_self_intersections(draft).empty());
 }
 
 // Its pieces would be thinner still, down to rounding errors.

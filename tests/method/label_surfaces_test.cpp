@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/base/single_precision.h"
 #include "mesamis/surface/join_diagonals.h"
 #include "mesamis/surface/self_intersections.h"
 #include "support/throws.h"
@@ -189,6 +190,22 @@ TEST(LabelSurfaces, OfALabelAtTheBorderOfTheMapAreWhole) {
   const LabelResult found = surfaces_of_labels({labels}, as_extracted);
   ASSERT_EQ(found.objects.size(), 1U);
   EXPECT_NEAR(check_surface(found.objects[0].surface).volume, 216, 2.16);
+}
+
+TEST(LabelSurfaces, OfAPreviewAreRoundedButNotDecimated) {
+  Settings settings;
+  settings.preview = true;
+  const LabelMap labels = labels_of(1, 0);
+  for (const LabelResult& found : {find_labelled_objects(usual_scan(), {labels}, settings),
+                                   surfaces_of_labels({labels}, settings)}) {
+    EXPECT_EQ(*found.parameters.tolerance, 0);
+    expect_closed(found);
+    for (const LabelledObject& object : found.objects) {
+      EXPECT_EQ(std::ssize(object.surface.triangles), object.triangles_extracted);
+      EXPECT_TRUE(find_self_intersections(object.surface).empty());
+      for (const Vec3& p : object.surface.points) EXPECT_EQ(p, rounded(p));
+    }
+  }
 }
 
 TEST(LabelSurfaces, OfMirroredGridsFaceOutward) {

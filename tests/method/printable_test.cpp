@@ -67,6 +67,24 @@ TEST(Printable, NoToleranceMeansAsExtracted) {
   EXPECT_EQ(report.extracted_to_result, 0);
 }
 
+TEST(Printable, IsRoundedIfAskedThoughNothingIsDecimated) {
+  TriMesh far = ball();
+  for (Vec3& p : far.points) p = p + Vec3{30000, 0, 0};  // where floats are 0.002 mm apart
+  PrintableOptions options;
+  options.tolerance = 0;
+  options.round = true;
+  PrintableReport report;
+  for (const TriMesh& surface : {ball(), far}) {
+    const TriMesh result = make_printable(surface, options, &report);
+    expect_single_precision(result);
+    EXPECT_EQ(flaws_of(check_surface(result)), "");
+    EXPECT_TRUE(find_self_intersections(result).empty());
+    EXPECT_GT(report.extracted_to_result, 0);
+    EXPECT_LE(max_distance(surface, result, 1e-5), report.extracted_to_result + 1e-5);
+    EXPECT_TRUE(report.within(0)) << "none was asked for";
+  }
+}
+
 TEST(Printable, DropsWhatIsSmallerThanAskedAndSaysSo) {
   const TriMesh crumb = cube({200, 0, 0}, 0.5);
   PrintableOptions options;

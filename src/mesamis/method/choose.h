@@ -94,9 +94,10 @@ double cells_of_image(const VolumeView& image, const LevelInNoise& object, doubl
 void choose_max_tets(Parameters& parameters, double cells, Index slabs = 1);
 
 /// The tolerance over the error to expect. What simplify() takes of an object costs about nothing at
-/// almost three times; labels keep to half of that, slabs and previews, which decimate() alone, to
-/// once.
-inline constexpr double kErrorsOfObject = 2.8, kErrorsOfLabels = 1.4, kErrorsOfDecimation = 1;
+/// almost three times; labels keep to half of that, slabs, which decimate() alone, to once. A
+/// preview is shown, not printed: nothing is decimated.
+inline constexpr double kErrorsOfObject = 2.8, kErrorsOfLabels = 1.4, kErrorsOfDecimation = 1,
+                        kErrorsOfPreview = 0;
 
 /// Chooses the tolerance where it is open: infinite where a number of triangles is asked for; half
 /// of the accuracy, if that is asked for, but no less than 0.01 voxel; else how far the surface is
@@ -104,7 +105,7 @@ inline constexpr double kErrorsOfObject = 2.8, kErrorsOfLabels = 1.4, kErrorsOfD
 /// errors: a surface that is kept closer keeps detail smaller than its error.
 /// @param voxel           geometric mean of the spacing, mm, > 0.
 /// @param expected_error  in the mean over the surface, see expected_error(), mm, >= 0.
-/// @param errors          how many it may lose, > 0.
+/// @param errors          how many it may lose; 0: nothing is decimated.
 void choose_tolerance(Parameters& parameters, double voxel, double expected_error, double errors);
 
 }  // namespace mesamis::detail::method

@@ -15,8 +15,9 @@ namespace {
 
 TriMesh followed(const RunInput& run, TriMesh extracted) {
   const Parameters& p = run.parameters;
-  return follow_image(extracted, run.image,
-                      {p.grey.to_grey(p.level), run.error.noise, p.unit_mm, p.follow, p.fit});
+  return follow_image(
+      extracted, run.image,
+      {p.grey.to_grey(p.level), run.error.noise, p.unit_mm, p.follow, p.fit, p.preview});
 }
 
 void bring_surface_to_world(const RunInput& run, TriMesh& surface) {
@@ -59,8 +60,10 @@ void finish_surface(const RunInput& run, const Progress& progress, Result& resul
   Parameters& p = result.parameters;
   result.printable.triangles_extracted = std::ssize(result.surface.triangles);
   if (p.surface == SurfaceKind::kBand) return;
-  choose_tolerance(p, run.grey.voxel_size(), mean_expected_error(run, result.surface),
-                   p.preview ? kErrorsOfDecimation : kErrorsOfObject);
+  // Nothing of a preview depends on the error, which takes time to find.
+  const double error = p.preview ? 0 : mean_expected_error(run, result.surface);
+  choose_tolerance(p, run.grey.voxel_size(), error, p.preview ? kErrorsOfPreview : kErrorsOfObject);
+  if (p.preview) begin_stage(progress, "rounding");
   result.surface = make_printable(result.surface,
                                   {.min_volume = p.min_volume,
                                    .keep_largest = p.keep_largest,
@@ -68,7 +71,8 @@ void finish_surface(const RunInput& run, const Progress& progress, Result& resul
                                    .tolerance = *p.tolerance,
                                    .triangles = p.triangles,
                                    .progress = progress,
-                                   .refit = !p.preview},
+                                   .refit = !p.preview,
+                                   .round = p.preview},
                                   &result.printable);
   tell_error(run, result);
 }

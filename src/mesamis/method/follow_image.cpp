@@ -21,6 +21,7 @@ constexpr double kShortestEdge = 1.4;  // voxels: shorter ones are not split
 constexpr double kLeastBend = 0.03;    // voxels between an edge and the level set that are worth it
 constexpr double kLeastHeight = 0.002;  // voxels: edges of less high triangles are not split
 constexpr int kMostRounds = 8;          // of splitting: about two halve every edge of a triangle
+constexpr double kDraftBend = 0.1, kDraftAccuracy = 0.01;  // of drafts
 constexpr double kBending = 6;          // against a weight of 1 of the place where a point is
 constexpr double kMostSmoothed = 0.25;  // voxels
 /// Voxels: points that noise moves by more are held with the weight 1, by half of it or less with 4.
@@ -54,7 +55,8 @@ class Follower {
     if (options_.smooth) smooth(part, neighbors, goals);
     for (std::size_t p = 0; p < goals.size(); ++p) goals[p] = goals[p] - part.moved[p];
     part.moved =
-        moved_without_folds(space_, {part.moved, part.extracted.triangles}, std::move(goals))
+        moved_without_folds(space_, {part.moved, part.extracted.triangles}, std::move(goals),
+                            options_.draft ? Unfolded::kInFile : Unfolded::kHereAndInFile)
             .points;
   }
 
@@ -68,9 +70,9 @@ class Follower {
 
   /// Splits edges that the level set leaves.
   void split(FollowedPart& part) const {
-    part.extracted = split_edges(std::move(part.extracted),
-                                 [this](const Vec3& a, const Vec3& b) { return is_bent(a, b); },
-                                 {kMostRounds, kLeastHeight * space_.voxel(), part.held});
+    part.extracted = split_edges(
+        std::move(part.extracted), [this](const Vec3& a, const Vec3& b) { return is_bent(a, b); },
+        {options_.draft ? 1 : kMostRounds, kLeastHeight * space_.voxel(), part.held});
     part.held.resize(part.extracted.points.size(), kFree);
     part.moved.insert(part.moved.end(), part.extracted.points.begin() + std::ssize(part.moved),
                       part.extracted.points.end());
@@ -104,6 +106,7 @@ class Follower {
       springs.held[p] = part.held[p] == kFree ? 0 : 1;
       springs.weight[p] = std::pow(kThick / depths[p], 2);
     });
+    if (options_.draft) springs.accuracy = kDraftAccuracy;
     points = without_terraces(space_, surface, neighbors, springs);
     parallel_for(points.size(),
                  [&](std::size_t p) { springs.weight[p] *= weight_by_noise(points[p]); });
@@ -150,7 +153,7 @@ class Follower {
     const auto at_a = offset_at(a), at_b = offset_at(b), between = offset_at(0.5 * (a + b));
     if (!at_a || !at_b || !between) return false;
     const double bend = std::abs(between->distance - (at_a->distance + at_b->distance) / 2);
-    return bend > std::max(kLeastBend, between->noise);
+    return bend > std::max(options_.draft ? kDraftBend : kLeastBend, between->noise);
   }
 
   FollowSpace space_;

@@ -284,28 +284,32 @@ LayerBoundaries place_by_labels(const LabelRun& run, Index layer, const VoxelGri
   return {layer, std::move(partition)};
 }
 
-/// How exact the boundaries of all layers are expected to be in the mean, mm.
+/// How exact the boundaries of all layers are expected to be in the mean, mm; 0 for a preview, of
+/// which nothing depends on it.
 /// @param input  of the image; nullptr: none, and the labels are right.
 double mean_error_of(const LabelRun& run, const std::vector<LayerBoundaries>& layers,
                      const RunInput* input) {
+  if (run.settings.preview) return 0;
   if (input == nullptr) return kErrorOfLabels * run.request.map.voxel_size();
   TriMesh all;
   for (const LayerBoundaries& layer : layers) append(layer.partition, all);
   return mean_expected_error(*input, all);
 }
 
-/// Decimates what objects share in one.
+/// Rounds and decimates what objects share in one. A preview is rounded in any case.
 /// @return how far boundaries were moved at most, mm.
 double decimate(const LabelRun& run, const Parameters& p, PartitionSurface& partition) {
   const double tolerance = *p.tolerance;
-  if (tolerance == 0 || partition.triangles.empty()) return 0;
-  run.begin("decimation");
+  const bool stays = tolerance == 0 && !run.settings.preview;
+  if (stays || partition.triangles.empty()) return 0;
+  if (tolerance > 0) run.begin("decimation");
   std::vector<Vec3> rounded = round_together(partition.points);
   double shift = 0;
   for (std::size_t n = 0; n < rounded.size(); ++n) {
     shift = std::max(shift, norm(rounded[n] - partition.points[n]));
   }
   partition.points = std::move(rounded);
+  if (tolerance == 0) return shift;
   DecimateOptions options;
   options.tolerance = std::max(0.0, tolerance - shift);
   options.triangles = p.triangles;
@@ -369,7 +373,7 @@ void finish_layers(const LabelRun& run, std::vector<LayerBoundaries> layers, con
   Stopwatch watch;
   const double voxel = input ? input->grey.voxel_size() : run.request.map.voxel_size();
   choose_tolerance(result.parameters, voxel, mean_error_of(run, layers, input),
-                   run.settings.preview ? kErrorsOfDecimation : kErrorsOfLabels);
+                   run.settings.preview ? kErrorsOfPreview : kErrorsOfLabels);
   for (LayerBoundaries& layer : layers) {
     result.flow_converged &= layer.converged;
     result.boundaries.insert(result.boundaries.end(), layer.boundaries.begin(),

@@ -40,17 +40,16 @@ Result run_on(const VolumeView& volume, const ImageSettings& settings, const Pro
               const HasEnough& enough) {
   Stopwatch watch;
   Result result;
-  Parameters& p = result.parameters;
   begin_stage(progress, "preparation");
-  const Prepared prepared = prepare_image(volume, settings);
-  p = prepared.parameters;
+  Prepared prepared = prepare_image(volume, settings);
+  result.stopped = stops_at_preview(prepared.parameters, enough);
+  prepared.parameters.preview |= result.stopped;
+  result.parameters = prepared.parameters;
   result.image = prepared.measured;
   result.seconds.prepare = watch.lap();
 
   const RunInput run(prepared);
-  result.stopped = stops_at_preview(p, enough);
-  p.preview |= result.stopped;
-  if (p.preview) {
+  if (run.parameters.preview) {
     run_preview(run, progress, result);
   } else {
     run_full(run, progress, enough, result);

@@ -54,7 +54,7 @@ struct Result {
 /// @param volume    native units; read in place, nothing is kept of it.
 /// @param settings  valid, see require_valid(); those of a Settings, where no level is known.
 /// @param progress  optional; stages "preparation", "adaptation k of n", "final minimisation",
-///                  "surface", "decimation".
+///                  "surface", "decimation"; of a preview "preview", "surface", "rounding".
 /// @param enough    optional; asked before each pass. Stopped before the first one, a run for a
 ///                  solid delivers its preview, without a mesh; a band needs one adaptation.
 ///                  Stopped later, it minimises on the last mesh that it has made, and extracts the

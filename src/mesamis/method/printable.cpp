@@ -13,12 +13,14 @@
 namespace mesamis::detail::method {
 namespace {
 
-/// First rounded, then decimated and, if asked for, refitted, to values of single precision: what
+/// First rounded, then, if asked for, decimated and refitted, to values of single precision: what
 /// these promise is true of every file.
 TriMesh decimated(const TriMesh& surface, const PrintableOptions& printable,
                   PrintableReport& report) {
   RoundReport rounding;
-  const TriMesh rounded = round_to_single(surface, &rounding);
+  TriMesh rounded = round_to_single(surface, &rounding);
+  report.extracted_to_result = report.result_to_extracted = rounding.shift;
+  if (printable.tolerance == 0) return rounded;
   DecimateOptions options;
   options.tolerance = std::max(0.0, printable.tolerance - rounding.shift);
   options.triangles = printable.triangles;
@@ -26,8 +28,8 @@ TriMesh decimated(const TriMesh& surface, const PrintableOptions& printable,
   DecimateReport decimation;
   TriMesh result = printable.refit ? simplify(rounded, options, &decimation)
                                    : decimate::decimate(rounded, options, &decimation);
-  report.extracted_to_result = decimation.original_to_result + rounding.shift;
-  report.result_to_extracted = decimation.result_to_original + rounding.shift;
+  report.extracted_to_result += decimation.original_to_result;
+  report.result_to_extracted += decimation.result_to_original;
   return result;
 }
 
@@ -43,7 +45,8 @@ TriMesh make_printable(const TriMesh& extracted, const PrintableOptions& options
   const PartSelection wanted{options.min_volume, options.keep_largest, options.fill_cavities};
   TriMesh parts = select_parts(extracted, wanted, &done.parts.emplace());
   done.triangles_extracted = std::ssize(parts.triangles);
-  if (parts.triangles.empty() || options.tolerance == 0) return parts;
+  const bool stays = options.tolerance == 0 && !options.round;
+  if (parts.triangles.empty() || stays) return parts;
   return decimated(parts, options, done);
 }
 

@@ -17,12 +17,13 @@ struct PrintableReport {
   std::int64_t triangles_extracted = 0;  ///< of the parts that stay
   /// The greatest distance of any point of one surface to the other, mm: upper bounds, see
   /// max_distance(), or, without PrintableOptions::refit, those that decimation proved. 0 for a
-  /// surface that is delivered as extracted.
+  /// surface that is delivered as extracted; for one that is only rounded, how far that moved it.
   double extracted_to_result = 0, result_to_extracted = 0;
 
-  /// Whether both distances are within the tolerance, mm. False where single precision is coarser.
+  /// Whether both distances are within the tolerance, mm; with 0 none is asked for. False where
+  /// single precision is coarser.
   bool within(double tolerance) const noexcept {
-    return extracted_to_result <= tolerance && result_to_extracted <= tolerance;
+    return tolerance == 0 || (extracted_to_result <= tolerance && result_to_extracted <= tolerance);
   }
 };
 
@@ -35,11 +36,12 @@ struct PrintableOptions {
   std::int64_t triangles = 0;  ///< where decimation stops; 0: nowhere
   Progress progress = {};      ///< optional; may stop the work
   bool refit = true;           ///< whether points move at the end, see simplify()
+  bool round = false;          ///< to single precision also where nothing is decimated
 };
 
 /// Makes the solid surface ready to be written in any format: the parts asked for; coordinates
 /// that single precision holds; and no more triangles than the tolerance needs. With a tolerance of
-/// 0 the parts that stay are as extracted.
+/// 0 the parts that stay are as extracted, or rounded, see round_to_single().
 /// @param extracted  world frame, mm. A surface that is not closed or not a 2-manifold is returned
 ///                   as it is.
 /// @param report     optional: what was done, distances measured against the parts that stay.

@@ -28,7 +28,8 @@ Stages adaptations() {
 
 Stages object_stages(const RunStages& run) {
   if (run.preview) {
-    return {{"preparation", 12}, {"preview", 5}, {"surface", 42}, {"decimation", 41}};
+    return {
+        {"preparation", 40}, {"preview", 10}, {"surface", 35}, {"rounding", 10}, {"decimation", 1}};
   }
   Stages stages{{"preparation", 5}};
   append(stages, adaptations());
