@@ -91,36 +91,51 @@ std::array<double, 4> folded(std::array<double, 4> w, const Place& place, Index 
   return {w[0] + below, w[1] - above, w[2] - below, w[3] + above};
 }
 
+/// What the coefficients around a point are weighted with along an axis.
+struct Taps {
+  std::array<double, 4> weights, slopes;  // slopes only if asked for
+  std::array<std::size_t, 4> offset;      // of each coefficient
+};
+
+template <bool kGradient>
+Taps taps_at(double x, Index size, std::size_t step) {
+  const Place place(x, size);
+  Taps taps;
+  taps.weights = folded(spline_weights(place.fraction), place, size);
+  if constexpr (kGradient) taps.slopes = folded(spline_slopes(place.fraction), place, size);
+  for (std::size_t n = 0; n < 4; ++n) {
+    taps.offset[n] = static_cast<std::size_t>(place.tap(n, size)) * step;
+  }
+  return taps;
+}
+
 /// The spline at a point and, if it is asked for, its gradient, else zero.
 template <bool kGradient>
 ImageValue spline_sum(const SplineImage& image, const Vec3& p) {
   const VoxelGrid& grid = image.grid;
-  std::array<std::array<double, 4>, 3> weights, slopes;
-  std::array<std::array<Index, 4>, 3> index;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto axis = static_cast<int>(a);
-    const Place place(p[axis] / grid.spacing[axis], grid.size[a]);
-    weights[a] = folded(spline_weights(place.fraction), place, grid.size[a]);
-    if constexpr (kGradient) {
-      slopes[a] = folded(spline_slopes(place.fraction), place, grid.size[a]);
-    }
-    for (std::size_t n = 0; n < 4; ++n) index[a][n] = place.tap(n, grid.size[a]);
-  }
+  const auto nx = static_cast<std::size_t>(grid.size[0]);
+  const Vec3& s = grid.spacing;
+  const Taps x = taps_at<kGradient>(p.x / s.x, grid.size[0], 1);
+  const Taps y = taps_at<kGradient>(p.y / s.y, grid.size[1], nx);
+  const Taps z =
+      taps_at<kGradient>(p.z / s.z, grid.size[2], nx * static_cast<std::size_t>(grid.size[1]));
   ImageValue sum;
   for (std::size_t k = 0; k < 4; ++k) {
-    for (std::size_t j = 0; j < 4; ++j) {
-      const float* row = image.coefficients.data() + grid.offset(0, index[1][j], index[2][k]);
-      double value = 0, slope = 0;
-      for (std::size_t i = 0; i < 4; ++i) {
-        const double coefficient = row[index[0][i]];
-        value += weights[0][i] * coefficient;
-        if constexpr (kGradient) slope += slopes[0][i] * coefficient;
+    std::array<double, 4> value{}, slope{};  // of the rows, side by side
+    for (std::size_t i = 0; i < 4; ++i) {
+      const float* at = image.coefficients.data() + z.offset[k] + x.offset[i];
+      for (std::size_t j = 0; j < 4; ++j) {
+        const double coefficient = at[y.offset[j]];
+        value[j] += x.weights[i] * coefficient;
+        if constexpr (kGradient) slope[j] += x.slopes[i] * coefficient;
       }
-      sum.value += weights[1][j] * weights[2][k] * value;
+    }
+    for (std::size_t j = 0; j < 4; ++j) {
+      sum.value += y.weights[j] * z.weights[k] * value[j];
       if constexpr (kGradient) {
-        sum.gradient.x += weights[1][j] * weights[2][k] * slope;
-        sum.gradient.y += slopes[1][j] * weights[2][k] * value;
-        sum.gradient.z += weights[1][j] * slopes[2][k] * value;
+        sum.gradient.x += y.weights[j] * z.weights[k] * slope[j];
+        sum.gradient.y += y.slopes[j] * z.weights[k] * value[j];
+        sum.gradient.z += y.weights[j] * z.slopes[k] * value[j];
       }
     }
   }

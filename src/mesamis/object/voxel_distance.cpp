@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -22,6 +23,10 @@ class Line {
   /// Replaces n values, `step` apart, by their least sum with the squared distance along the line.
   void transform(float* first, std::size_t step, double spacing) {
     for (std::size_t q = 0; q < values_.size(); ++q) values_[q] = first[q * step];
+    // Where all are equal, none is nearer by way of another: most lines are all 0 or all infinite.
+    if (std::adjacent_find(values_.begin(), values_.end(), std::not_equal_to()) == values_.end()) {
+      return;
+    }
     const double square = spacing * spacing;
     const std::size_t parabolas = lower_envelope(square);
     if (parabolas == 0) return;

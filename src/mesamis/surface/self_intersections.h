@@ -54,8 +54,6 @@ class SelfIntersections {
 
  private:
   Box box_of(Index t) const;
-  template <class Visit>
-  void for_each_met(Index t, Index first, Visit&& visit) const;
 
   const TriMesh& surface_;
   std::unique_ptr<BoxTree> tree_;  // of the triangles
