@@ -38,10 +38,14 @@ Stages object_stages(const RunStages& run) {
 }
 
 Stages label_stages(const RunStages& run) {
+  // A preview is not decimated unless that is asked for.
+  const auto decimation = [&run](double share) {
+    return StageShare{"decimation", run.preview ? 1 : share};
+  };
   if (!run.scan) {
-    return {{"preparation", 5}, {"smoothing the labels", 50}, {"surface", 15}, {"decimation", 30}};
+    return {{"preparation", 5}, {"smoothing the labels", 50}, {"surface", 15}, decimation(30)};
   }
-  Stages stages{{"preparation", 4}, {"flow of the labels", 5}, {"surface", 26}, {"decimation", 65}};
+  Stages stages{{"preparation", 4}, {"flow of the labels", 5}, {"surface", 26}, decimation(65)};
   if (!run.mesh || run.preview) return stages;
   stages.push_back({"preparation", 20});
   append(stages, adaptations());
