@@ -17,11 +17,13 @@ endif()
 
 # Warnings are errors, and a*b+c is never fused: the same input gives the same bits everywhere.
 # No code reads errno after a root or catches floating-point traps; without either, loops with roots and
-# choices can be vectorised, with the same results.
+# choices can be vectorised, with the same results. No function is replaced at load time: calls are inlined though the
+# code is position independent.
 # gcc 12 sees overlaps where strings are added up that are not there (its bug 105651).
 function(mesamis_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
                                            -ffp-contract=off -fno-math-errno -fno-trapping-math
+                                           -fno-semantic-interposition
                                            $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
                                            $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
   if(MESAMIS_FUZZ)
