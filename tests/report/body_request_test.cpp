@@ -32,6 +32,8 @@ TEST(BodyRequest, TheSkinsToleranceIsTheNearestThatWasGiven) {
   wishes.elements.element_size = 4;
   EXPECT_DOUBLE_EQ(complete_request(wishes, {}, {kGrid}).elements.tolerance, 0.4);
   EXPECT_DOUBLE_EQ(complete_request(wishes, {}, {kGrid, 0.3}).elements.tolerance, 0.3);
+  EXPECT_DOUBLE_EQ(complete_request(wishes, {}, {kGrid, 0.0}).elements.tolerance,
+                   0.4);  // a preview's
   wishes.tolerance = 0.2;
   EXPECT_DOUBLE_EQ(complete_request(wishes, {}, {kGrid, 0.3}).elements.tolerance, 0.2);
 }
@@ -92,6 +94,8 @@ TEST(BodyRequest, ASkinNeedsASolidAndATolerance) {
   settings.tolerance = 0;
   EXPECT_REFUSED(require_fillable(settings, {}), HasSubstr("above 0"));
   EXPECT_NO_THROW(require_fillable(settings, 0.1));
+  settings.preview = true;  // its tolerance is 0, as its report says
+  EXPECT_NO_THROW(require_fillable(settings, {}));
   settings.surface = SurfaceKind::kBand;
   EXPECT_REFUSED(require_fillable(settings, 0.1), HasSubstr("found band"));
 }

@@ -88,7 +88,7 @@ void require_fillable(const Settings& settings, std::optional<double> tolerance)
     throw InputError("surface: expected solid, found band");
   }
   if (tolerance) return;
-  if (settings.tolerance && !(*settings.tolerance > 0)) {
+  if (settings.tolerance && !(*settings.tolerance > 0) && !settings.preview) {
     throw InputError("tolerance: expected one above 0 for the skin, found 0");
   }
   if (settings.triangles && !settings.tolerance) {
@@ -103,7 +103,8 @@ BodyRequest complete_request(const BodyWishes& wishes, std::span<const FoundObje
   require_objects_of(wishes.sets, objects);
   BodyRequest request{wishes.elements, wishes.material, {}, wishes.sets};
   const double of_size = kToleranceOfSize * element_size(wishes.elements, source.grid);
-  request.elements.tolerance = wishes.tolerance.value_or(source.tolerance.value_or(of_size));
+  const double of_run = source.tolerance.value_or(0);  // 0: a preview's
+  request.elements.tolerance = wishes.tolerance.value_or(of_run > 0 ? of_run : of_size);
   request.elements.most_elements = most_elements(source.memory_gb);
   if (!wishes.material) return request;
   request.rim = wishes.rim ? Vec3{*wishes.rim, *wishes.rim, *wishes.rim}

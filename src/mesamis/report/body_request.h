@@ -16,7 +16,7 @@ namespace mesamis::detail::report {
 /// What a body follows where nothing was asked for.
 struct BodySource {
   const VoxelGrid& grid;              ///< of the scan
-  std::optional<double> tolerance{};  ///< of the run's settings, mm, > 0; none: none was given
+  std::optional<double> tolerance{};  ///< of the run's settings, mm; none, 0: none was given
   std::array<double, 3> blur{};       ///< of the scan, standard deviation along each axis, voxels
   double memory_gb = 0;               ///< that the body may take; 0: what is free
 };
@@ -24,7 +24,7 @@ struct BodySource {
 /// Checks that a run gives a surface that elements can fill, and a tolerance for their skin.
 /// @param settings   of the run, as they were given.
 /// @param tolerance  that was asked for, mm; none: that of the settings.
-/// @throws InputError  for a band, and where neither is a tolerance.
+/// @throws InputError  for a band, and where neither is a tolerance; a preview needs none.
 void require_fillable(const Settings& settings, std::optional<double> tolerance);
 
 /// The request with what was left open: the skin's tolerance is that of the run's settings if one
