@@ -30,8 +30,8 @@ struct FollowOptions {
 /// of it N = noise / slope. With the local mean m and variance V of d along the surface (Lee 1980),
 /// the point moves by
 ///   a m + k (d - m),   k = max(0, 1 - N^2 / V),   a = max(0, 1 - 0.2 N^2 / m^2),
-/// three times, by no more than 0.7 voxels in all, and never out of the image's box. Points where the image is too flat
-/// to tell stay, as do those on the box; edges between two of these are not split.
+/// three times, by no more than 0.7 voxels in all, and never out of the image's box. Points where the
+/// image is too flat to tell stay, as do those on the box; edges between two of these are not split.
 ///
 /// Smoothing lowers the terraces of thick slices, see without_terraces(), then takes off the ripples of
 /// noise and of single voxels: the points x move, by no more than a quarter of a voxel, from where

@@ -69,8 +69,7 @@ struct LabelResult {
   MeasuredImage image;     ///< without an image nothing
   bool has_image = false;  ///< the image placed the surfaces; else the labels alone
   double margin = 0;       ///< see LabelRequest
-  double decimated =
-      0;  ///< greatest distance by which rounding and decimation moved a boundary, mm
+  double decimated = 0;    ///< greatest move of a boundary by rounding and decimation, mm
   std::vector<LabelledObject> objects;    ///< by layer, in the order chosen
   std::vector<LabelBoundary> boundaries;  ///< of the chosen objects; none without an image
   /// Around the chosen labels, adapted to the image and to all labels; see mesh_beside_labels().

@@ -62,13 +62,13 @@ struct SlabRunResult {
 ///
 /// The parameters come from the whole scan where it has no more than most_looked_at voxels, and then
 /// are those of mes_amis(); else from so many voxels of consecutive slices, those whose samples vary
-/// most, and there is one level for all places. The image is restored and minimised on slab by slab,
-/// each with the slices around that matter to it. Each mesh is adapted in two steps: slabs on their
-/// own, their borders kept; then the cells around each border, kept at their own borders. On meshes
-/// the functional is minimised slab by slab with the cells around. Surfaces are extracted slab by slab, follow the image and
-/// are decimated, each in two steps as the mesh: the memory of rank 0 holds the decimated surface,
-/// and the mesh if that is asked for. Only where a number of triangles is asked for, or no
-/// decimation, rank 0 holds the whole surface as extracted.
+/// most, and there is one level for all places. The image is restored and minimised on slab by
+/// slab, each with the slices around that matter to it. Each mesh is adapted in two steps: slabs on
+/// their own, their borders kept; then the cells around each border, kept at their own borders. On
+/// meshes the functional is minimised slab by slab with the cells around. Surfaces are extracted
+/// slab by slab, follow the image and are decimated, each in two steps as the mesh: the memory of
+/// rank 0 holds the decimated surface, and the mesh if that is asked for. Only where a number of
+/// triangles is asked for, or no decimation, rank 0 holds the whole surface as extracted.
 ///
 /// The scan alone decides how many slabs there are, unless they are asked for. The result depends
 /// on the scan, the settings and that number: not on how many are worked on at a time, not on the

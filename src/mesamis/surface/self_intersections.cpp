@@ -46,27 +46,25 @@ Box SelfIntersections::box_of(Index t) const {
   return box_of_triangle(surface_, surface_.triangles[t]);
 }
 
+/// Calls visit(other) for each triangle from `first` on that t meets; t itself if it has no area.
+template <class Visit>
+void SelfIntersections::for_each_met(Index t, Index first, Visit&& visit) const {
+  const Triangle& own = surface_.triangles[t];
+  if (!has_area(surface_.points, own)) visit(t);
+  tree_->for_each_overlap(box_of(t), [&](std::size_t found) {
+    const auto other = static_cast<Index>(found);
+    const bool is_other = other >= first && other != t;
+    if (is_other && intersect(surface_.points, own, surface_.triangles[other])) visit(other);
+    return true;
+  });
+}
+
 std::vector<TrianglePair> SelfIntersections::all() const {
   const std::size_t count = surface_.triangles.size();
-  const std::vector<Vec3>& points = surface_.points;
-  const std::vector<Triangle>& triangles = surface_.triangles;
-  std::vector<char> areas(count);
-  parallel_for(count, [&](std::size_t t) { areas[t] = has_area(points, triangles[t]) ? 1 : 0; });
   return sorted_once(parallel_collect<TrianglePair>(
       count, kBlock, [&](std::size_t begin, std::size_t end, auto& found) {
         for (auto t = static_cast<Index>(begin); t < static_cast<Index>(end); ++t) {
-          if (areas[t] == 0) {
-            found.push_back({t, t});
-            continue;
-          }
-          tree_->for_each_overlap(box_of(t), [&](std::size_t n) {
-            const auto other = static_cast<Index>(n);
-            const bool may_meet = other > t && areas[other] != 0;
-            if (may_meet && intersect_with_area(points, triangles[t], triangles[other])) {
-              found.push_back({t, other});
-            }
-            return true;
-          });
+          for_each_met(t, t, [&](Index other) { found.push_back({t, other}); });
         }
       }));
 }
@@ -77,14 +75,8 @@ std::vector<TrianglePair> SelfIntersections::after_move_of(std::span<const Index
       triangles.size(), kBlock, [&](std::size_t begin, std::size_t end, auto& found) {
         for (std::size_t i = begin; i < end; ++i) {
           const Index t = triangles[i];
-          const Triangle& own = surface_.triangles[t];
-          if (!has_area(surface_.points, own)) found.push_back({t, t});
-          tree_->for_each_overlap(box_of(t), [&](std::size_t n) {
-            const auto other = static_cast<Index>(n);
-            if (other != t && intersect(surface_.points, own, surface_.triangles[other])) {
-              found.push_back({std::min(t, other), std::max(t, other)});
-            }
-            return true;
+          for_each_met(t, 0, [&](Index other) {
+            found.push_back({std::min(t, other), std::max(t, other)});
           });
         }
       }));

@@ -54,6 +54,8 @@ class SelfIntersections {
 
  private:
   Box box_of(Index t) const;
+  template <class Visit>
+  void for_each_met(Index t, Index first, Visit&& visit) const;
 
   const TriMesh& surface_;
   std::unique_ptr<BoxTree> tree_;  // of the triangles

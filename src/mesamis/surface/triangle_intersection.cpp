@@ -115,19 +115,8 @@ Corners corners_from(std::span<const Vec3> points, const Triangle& t, std::size_
   return {points[t[first]], points[t[(first + 1) % 3]], points[t[(first + 2) % 3]]};
 }
 
-}  // namespace
-
-bool has_area(std::span<const Vec3> points, const Triangle& t) {
-  return axis_with_area(corners_from(points, t, 0)) >= 0;
-}
-
-bool intersect(std::span<const Vec3> points, const Triangle& s, const Triangle& t) {
-  if (is_degenerate(s) || is_degenerate(t)) return false;
-  // Most pairs are told apart by their planes: what is rarely needed comes last.
-  return intersect_with_area(points, s, t) && has_area(points, s) && has_area(points, t);
-}
-
-bool intersect_with_area(std::span<const Vec3> points, const Triangle& s, const Triangle& t) {
+/// As intersect(), for two triangles with areas; the corners of each must differ.
+bool share_a_place(std::span<const Vec3> points, const Triangle& s, const Triangle& t) {
   std::array<std::size_t, 3> in_s{}, in_t{};  // corners in common
   std::size_t common = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -146,6 +135,18 @@ bool intersect_with_area(std::span<const Vec3> points, const Triangle& s, const 
   // Corners 0, 1 of s in turn are common; the third is opposite.
   const std::size_t s_apex = 3 - in_s[0] - in_s[1], t_apex = 3 - in_t[0] - in_t[1];
   return folded(corners_from(points, s, (s_apex + 1) % 3), points[t[t_apex]]);
+}
+
+}  // namespace
+
+bool has_area(std::span<const Vec3> points, const Triangle& t) {
+  return axis_with_area(corners_from(points, t, 0)) >= 0;
+}
+
+bool intersect(std::span<const Vec3> points, const Triangle& s, const Triangle& t) {
+  if (is_degenerate(s) || is_degenerate(t)) return false;
+  // Most pairs are told apart by their planes: what is rarely needed comes last.
+  return share_a_place(points, s, t) && has_area(points, s) && has_area(points, t);
 }
 
 }  // namespace mesamis::detail::surface

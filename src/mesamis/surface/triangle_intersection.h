@@ -12,9 +12,6 @@ namespace mesamis::detail::surface {
 /// Touching counts. A triangle without area meets nothing here, see has_area(). Exact.
 bool intersect(std::span<const Vec3> points, const Triangle& s, const Triangle& t);
 
-/// The same of triangles that have an area, which is not looked for again.
-bool intersect_with_area(std::span<const Vec3> points, const Triangle& s, const Triangle& t);
-
 /// False if the three corners lie on one line. Exact.
 bool has_area(std::span<const Vec3> points, const Triangle& t);
 
