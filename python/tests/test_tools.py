@@ -228,7 +228,9 @@ def test_bad_arguments_of_bodies(result, arguments, message):
 
 
 def test_a_body_needs_a_solid_and_a_tolerance(ball):
-    raw = mesamis.segment(ball, preview=True, tolerance=0)
+    preview = mesamis.segment(ball, preview=True)  # whose tolerance of 0 nobody chose
+    assert len(mesamis.make_body(preview, element_size=4).nodes)
+    raw = mesamis.segment(ball, max_tets=20_000, tolerance=0)
     with pytest.raises(mesamis.InputError, match="tolerance: expected one above 0 for the skin"):
         mesamis.make_body(raw, element_size=4)
     assert len(mesamis.make_body(raw, element_size=4, tolerance=0.3).nodes)

@@ -36,7 +36,7 @@ struct Parameters {
   int adaptations = 0;                  ///< at most
   double tol_mesh = 0, tol_energy = 0;  ///< relative changes that count as settled
   StopRule until = StopRule::kSurface;  ///< what ends the loop
-  bool drafts = false;                  ///< meshes before the last are cheaper
+  bool drafts = false;                  ///< meshes are cheaper, those before the last most
   double max_stretch = 0;               ///< longest to shortest size of a cell
   double gradation = 0;                 ///< growth of sizes from edge to edge; 0: any
   double h_min = 0, h_max = 0;          ///< edge lengths, length units

@@ -127,7 +127,7 @@ State remeshed(const Pass& pass, const TetMesh& start, const MetricField& field,
   constexpr double kShareBefore = 0.4;  // of a stage's time, what comes before remeshing
   RemeshOptions options;
   options.max_cells = sizes.cells;
-  options.draft = sizes.cells < pass.run.parameters.max_tets;
+  options.draft = pass.run.parameters.drafts;
   options.progress = [&pass](std::string_view, double share) {
     pass.stage.advance(kShareBefore + (1 - kShareBefore) * share);
     return true;

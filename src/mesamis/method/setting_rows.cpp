@@ -309,7 +309,7 @@ std::vector<Setting> mesh_rows() {
                "energy, and for a band: when mesh and energy have settled; either: when one has",
            .paper = "either"}, &Settings::until, &Parameters::until),
     bound({.name = "drafts", .form = "yes|no",
-           .help = "Meshes before the last have fewer cells and approximate fields",
+           .help = "Meshes are remeshed in fewer rounds; those before the last have fewer cells and approximate fields",
            .paper = "no"}, &Settings::drafts, &Parameters::drafts),
     bound({.name = "max_stretch", .form = "X", .count = 1, .low = 1.1, .high = 1e6,
            .help = "Longest to shortest size of a cell at most",

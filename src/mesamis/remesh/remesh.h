@@ -18,8 +18,8 @@ struct RemeshOptions {
   int max_rounds = 40;         ///< split, collapse, swap, smooth rounds at most
   int polish_rounds = 3;       ///< quality-only rounds at the end
   std::int64_t max_cells = 0;  ///< coarsen the metric until at most about this many; 0: never
-  /// For a mesh that only leads to the next one: the rounds have converged as soon as fewer than a
-  /// fifth of the vertices are inserted or removed, and one polish round follows at most.
+  /// For a mesh whose last few edges need not fit: the rounds have converged as soon as fewer than
+  /// a fifth of the vertices are inserted or removed, and one polish round follows at most.
   bool draft = false;
   /// Of remesh_body(): vertices of the skin leave the border within the tolerance, so that the
   /// body's volume is kept.

@@ -63,11 +63,11 @@ const Stage& silent_stage();
 std::unique_ptr<Background> grid_background(const MeshRun& run, double low, double high, Index own,
                                             SlabWork& work);
 
-/// Remeshes a piece for mesh k, and takes over what is known around it.
+/// Remeshes a piece for the next mesh, and takes over what is known around it.
 /// @param complexity  of the metric on the piece: it bounds the cells.
 /// @param thickness   of the thinnest slab that the piece is of, length units: edges along z are no
 ///                    longer than half of it.
-Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background& background,
+Piece adapted(const MeshRun& run, const TetMesh& start, const Background& background,
               double complexity, double thickness);
 
 /// Writes mesh k of slab s: the cells that touch its borders, which are still to be adapted, for

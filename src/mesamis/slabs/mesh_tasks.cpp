@@ -255,7 +255,7 @@ const Stage& silent_stage() {
   return stage;
 }
 
-Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background& background,
+Piece adapted(const MeshRun& run, const TetMesh& start, const Background& background,
               double complexity, double thickness) {
   // Only a guard: a border that stays needs cells whatever the metric asks for, and a bound that
   // cannot be kept would make all cells coarser, also those at the surface.
@@ -264,7 +264,7 @@ Piece adapted(const MeshRun& run, int k, const TetMesh& start, const Background&
   constexpr double kHighest = 0.5;
   RemeshOptions options;
   options.max_cells = std::llround(kMost * complexity) + std::ssize(start.cells) + kFewestInPiece;
-  options.draft = run.input.cells_after(k) < run.input.parameters.max_tets;
+  options.draft = run.input.parameters.drafts;
   const LowBackground low(background, run.input.parameters.h_max,
                           std::max(run.input.parameters.h_min, kHighest * thickness));
   Piece piece{remesh_piece(start, run.input.box, low, options), {}};
@@ -323,7 +323,7 @@ SlabWork seam(const MeshRun& run, int k, Index s) {
   }
   const double needed = complexity(start, sample(*background, start.points));
   const double thickness = std::min(plan.thickness(s), plan.thickness(s + 1));
-  const Piece piece = adapted(run, k, start, *background, needed, thickness);
+  const Piece piece = adapted(run, start, *background, needed, thickness);
   write_piece(scratch, file_of("seam", k, s), piece);
   work.cells = std::ssize(piece.mesh.cells);
   return work;
@@ -364,7 +364,7 @@ SlabWork adapt_slab(const MeshRun& run, int k, Index s) {
   });
   const MeshBackground background(std::move(around));
   const double needed = complexity(own.mesh, values_of(own, &NodeValues::metric));
-  hand_on(run, k, s, adapted(run, k, own.mesh, background, needed, plan.thickness(s)), work);
+  hand_on(run, k, s, adapted(run, own.mesh, background, needed, plan.thickness(s)), work);
   return work;
 }
 

@@ -232,7 +232,7 @@ SlabWork first_mesh(const MeshRun& run, Index s) {
   SlabWork work;
   const auto background = grid_background(run, plan.height(s), plan.height(s + 1), s, work);
   const double needed = complexity_in(run, slices_of(plan, s, 0));
-  hand_on(run, 1, s, adapted(run, 1, start_mesh(run, s), *background, needed, plan.thickness(s)),
+  hand_on(run, 1, s, adapted(run, start_mesh(run, s), *background, needed, plan.thickness(s)),
           work);
   return work;
 }
