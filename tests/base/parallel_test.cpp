@@ -25,6 +25,19 @@ TEST(Parallel, VisitsEveryItemOnce) {
   for (const int count : visits) ASSERT_EQ(count, 1);
 }
 
+std::size_t leaves_below(std::size_t items) {
+  if (items == 1) return 1;
+  std::array<std::size_t, 2> leaves{};
+  parallel_halves(items, [&](std::size_t half) {
+    leaves[half] = leaves_below(half == 0 ? items / 2 : items - items / 2);
+  });
+  return leaves[0] + leaves[1];
+}
+
+TEST(Parallel, HalvesOfARecursionAreVisitedOnce) {
+  for (const std::size_t items : {1, 2, 7, 300'001}) EXPECT_EQ(leaves_below(items), items);
+}
+
 TEST(Parallel, SumHasTheSameBitsForAnyNumberOfThreads) {
   std::vector<double> sums;
   for (const int threads : {1, 2, 3, 8}) {

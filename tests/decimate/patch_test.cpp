@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <set>
 
@@ -73,6 +74,28 @@ TEST(CutIntoPatches, HoldsNothingInAWhole) {
   const auto whole = cut_into_patches(cover_of(surface), std::numeric_limits<double>::infinity());
   EXPECT_EQ(std::count(whole[0].held.begin(), whole[0].held.end(), 1), 0);
   EXPECT_TRUE(whole[0].around.empty());
+}
+
+/// Points that patches of a lattice hold.
+std::set<Index> held_points(const TriMesh& surface, double side, double shift) {
+  std::set<Index> held;
+  for (const Patch& patch : cut_into_patches(cover_of(surface), side, shift)) {
+    for (std::size_t i = 0; i < patch.points.size(); ++i) {
+      if (patch.held[i] != 0) held.insert(patch.points[i]);
+    }
+  }
+  return held;
+}
+
+// So that few points are left which neither frees.
+TEST(CutIntoPatches, AShiftedLatticeFreesMostOfWhatTheOtherHolds) {
+  const TriMesh surface = sphere();
+  const auto first = held_points(surface, 1, 0), second = held_points(surface, 1, 0.5);
+  std::vector<Index> both;
+  std::set_intersection(first.begin(), first.end(), second.begin(), second.end(),
+                        std::back_inserter(both));
+  EXPECT_GT(first.size(), 50u);
+  EXPECT_LT(both.size(), first.size() / 2);
 }
 
 TEST(CutIntoPatches, HoldsWhatTouchesASharedPoint) {

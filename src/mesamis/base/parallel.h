@@ -38,6 +38,17 @@ void parallel_for_each(std::size_t n, Body&& body) {
   parallel_blocks(n, 1, [&body](std::size_t begin, std::size_t) { body(begin); });
 }
 
+/// Calls body(0) and body(1), the halves of a recursion over so many items; concurrently where these
+/// are many.
+/// @throws what body throws.
+template <class Body>
+void parallel_halves(std::size_t items, Body&& body) {
+  constexpr std::size_t kMany = 1 << 16;
+  if (items > kMany) return parallel_for_each(2, body);
+  body(0);
+  body(1);
+}
+
 /// Calls body(i) for each i of [0, n), so many at a time, each with its share of the threads that
 /// are allowed here: for long steps that use threads themselves, and take memory.
 /// @param at_once  at least 1; no more are done at a time than there are threads.

@@ -53,29 +53,43 @@ class Decimation {
 
   /// @param held  of each point of the surface 1 if it stays.
   Cover run(Cover cover, const std::vector<char>& held, double side) {
-    const std::vector<Vec3> points = cover.points;
-    std::vector<char> open(points.size(), 1);  // of each point 1 if it may go
+    std::vector<char> open(cover.points.size(), 1);  // of each point 1 if it may go
     if (!std::isinf(side)) {
-      std::vector<Patch> patches = cut_into_patches(std::move(cover), side);
-      open = held_in(patches, points.size());
-      for (Patch& patch : patches) hold_too(held, patch);
-      cover = decimate_patchwork(task(0, kShareOfPatches), points, std::move(patches), report_);
-      choose_rings(cover.triangles, kRingsAtSeams, open);
+      decimate_boxes(cover, held, open, {side, 0, 0, 0.8});
+      decimate_boxes(cover, held, open, {side, 0.5, 0.8, 0.95});  // across the seams of these
     }
-    std::vector<Vec3> now = cover.points;
-    std::vector<Patch> whole = cut_into_patches(std::move(cover), kInfinity);
-    for (std::size_t p = 0; p < whole[0].points.size(); ++p) {
-      whole[0].held[p] = open[whole[0].points[p]] == 0 ? 1 : 0;
-    }
-    hold_too(held, whole[0]);
-    const double begin = std::isinf(side) ? 0 : kShareOfPatches;
-    return decimate_patchwork(task(begin, 1), std::move(now), std::move(whole), report_);
+    decimate_boxes(cover, held, open, {kInfinity, 0, std::isinf(side) ? 0 : 0.95, 1});
+    return cover;
   }
 
  private:
-  static constexpr double kShareOfPatches = 0.85;  // of the work
   static constexpr int kRingsAtSeams = 4;
   static constexpr double kRounding = 1e-9;
+
+  struct Lattice {
+    double side, shift;  ///< see cut_into_patches()
+    double begin, end;   ///< shares of the work
+  };
+
+  /// Decimates the patches in the boxes of a lattice.
+  /// @param open  of each point 1 if it may go; then 1 at the seams: where patches touch.
+  void decimate_boxes(Cover& cover, const std::vector<char>& held, std::vector<char>& open,
+                      const Lattice& lattice) {
+    const std::vector<Vec3> points = cover.points;
+    std::vector<Patch> patches = cut_into_patches(std::move(cover), lattice.side, lattice.shift);
+    std::vector<char> at_seams(points.size(), 0);
+    for (Patch& patch : patches) {
+      for (std::size_t i = 0; i < patch.points.size(); ++i) {
+        const Index p = patch.points[i];
+        if (patch.held[i] != 0 && open[p] != 0) at_seams[p] = 1;
+        if (held[p] != 0 || open[p] == 0) patch.held[i] = 1;
+      }
+    }
+    cover =
+        decimate_patchwork(task(lattice.begin, lattice.end), points, std::move(patches), report_);
+    choose_rings(cover.triangles, kRingsAtSeams, at_seams);
+    open = std::move(at_seams);
+  }
 
   /// @param begin, end  shares of the work.
   DecimateTask task(double begin, double end) {
@@ -89,19 +103,6 @@ class Decimation {
             .triangles = options_.triangles,
             .progress = tell,
             .interfaces = interfaces_};
-  }
-
-  static void hold_too(const std::vector<char>& held, Patch& patch) {
-    for (std::size_t p = 0; p < patch.points.size(); ++p) patch.held[p] |= held[patch.points[p]];
-  }
-
-  /// Of each point 1 if patches hold it because they touch there.
-  static std::vector<char> held_in(const std::vector<Patch>& patches, std::size_t points) {
-    std::vector<char> held(points, 0);
-    for (const Patch& patch : patches) {
-      for (std::size_t p = 0; p < patch.points.size(); ++p) held[patch.points[p]] |= patch.held[p];
-    }
-    return held;
   }
 
   const TriMesh& surface_;

@@ -13,10 +13,11 @@ namespace mesamis::detail::decimate {
 namespace {
 
 /// The number of the patch of each triangle; patches are numbered in the order of their boxes.
-std::vector<Index> patch_numbers(const Cover& cover, double side) {
+std::vector<Index> patch_numbers(const Cover& cover, double side, double shift) {
   const std::vector<Vec3>& points = cover.points;
   using Place = std::array<double, 3>;  // of a box: whole numbers
-  const Vec3 origin = bounding_box(points).lo;
+  const double back = shift * side;
+  const Vec3 origin = bounding_box(points).lo - Vec3{back, back, back};
   std::vector<Place> boxes;
   boxes.reserve(cover.triangles.size());
   for (const Triangle& t : cover.triangles) {
@@ -141,9 +142,10 @@ void hold(Patch& patch, const std::vector<Index>& points, const std::vector<Inde
   for (std::size_t p = 0; p < chosen.size(); ++p) patch.held[p] |= chosen[p];
 }
 
-std::vector<Patch> cut_into_patches(Cover cover, double side) {
-  const std::vector<Index> numbers =
-      std::isinf(side) ? std::vector<Index>(cover.triangles.size(), 0) : patch_numbers(cover, side);
+std::vector<Patch> cut_into_patches(Cover cover, double side, double shift) {
+  const std::vector<Index> numbers = std::isinf(side)
+                                         ? std::vector<Index>(cover.triangles.size(), 0)
+                                         : patch_numbers(cover, side, shift);
   Cutter cutter(cover, numbers);
   return cutter.cut(std::move(cover), numbers);
 }

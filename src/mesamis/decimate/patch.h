@@ -30,9 +30,10 @@ void hold(Patch& patch, const std::vector<Index>& points, const std::vector<Inde
 /// Cuts a cover into patches: the triangles whose centres lie in one box of a lattice. Points that
 /// patches share are held in all of them, as are their neighbours: what touches a shared point
 /// stays.
-/// @param side  of the boxes, mm, > 0; infinity: one patch, nothing held.
+/// @param side   of the boxes, mm, > 0; infinity: one patch, nothing held.
+/// @param shift  of the lattice along each axis, as a share of the side.
 ///
 /// O(n log n) for n triangles.
-std::vector<Patch> cut_into_patches(Cover cover, double side);
+std::vector<Patch> cut_into_patches(Cover cover, double side, double shift = 0);
 
 }  // namespace mesamis::detail::decimate

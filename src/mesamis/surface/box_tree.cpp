@@ -3,29 +3,33 @@
 
 #include <numeric>
 
+#include "mesamis/base/parallel.h"
+
 namespace mesamis::detail::surface {
 BoxTree::BoxTree(std::span<const Box> boxes) {
   if (boxes.empty()) return;
   std::vector<Index> items(boxes.size());
   std::iota(items.begin(), items.end(), 0);
-  nodes_.reserve(2 * boxes.size());
+  nodes_.resize(2 * boxes.size() - 1);
   leaf_of_.resize(boxes.size());
-  build(boxes, items, kNoIndex);
+  build(boxes, items, 0, kNoIndex);
 }
 
-/// Appends the node of the items and, halved at the median of their centres, its children.
-void BoxTree::build(std::span<const Box> boxes, std::span<Index> items, Index parent) {
-  const std::size_t node = nodes_.size();
-  nodes_.push_back({kNoBox, parent, kNoIndex, kNoIndex});
-  Box centers = kNoBox;
+/// Makes the node of the items and, halved at the median of their centres, its children: n items
+/// have 2 n - 1 nodes.
+void BoxTree::build(std::span<const Box> boxes, std::span<Index> items, Index place, Index parent) {
+  Node& node = nodes_[static_cast<std::size_t>(place)];
+  node.parent = parent;
+  Box whole = kNoBox, centers = kNoBox;
   for (const Index i : items) {
-    nodes_[node].box = united(nodes_[node].box, boxes[i]);
+    whole = united(whole, boxes[i]);
     const Vec3 center = boxes[i].lo + boxes[i].hi;
     centers = united(centers, {center, center});
   }
+  node.box = whole;
   if (items.size() == 1) {
-    nodes_[node].item = items[0];
-    leaf_of_[items[0]] = static_cast<Index>(node);
+    node.item = items[0];
+    leaf_of_[items[0]] = place;
     return;
   }
   const Vec3 e = centers.extent();
@@ -37,9 +41,12 @@ void BoxTree::build(std::span<const Box> boxes, std::span<Index> items, Index pa
                      const double y = boxes[b].lo[axis] + boxes[b].hi[axis];
                      return x != y ? x < y : a < b;
                    });
-  build(boxes, items.first(half), static_cast<Index>(node));
-  nodes_[node].second = static_cast<Index>(nodes_.size());
-  build(boxes, items.subspan(half), static_cast<Index>(node));
+  node.second = place + static_cast<Index>(2 * half);
+  const auto build_half = [&](std::size_t child) {
+    child == 0 ? build(boxes, items.first(half), place + 1, place)
+               : build(boxes, items.subspan(half), node.second, place);
+  };
+  parallel_halves(items.size(), build_half);
 }
 
 void BoxTree::update(std::size_t i, const Box& box) {

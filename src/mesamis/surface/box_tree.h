@@ -65,7 +65,7 @@ class BoxTree {
     Index item = kNoIndex;    // of a leaf
   };
 
-  void build(std::span<const Box> boxes, std::span<Index> items, Index parent);
+  void build(std::span<const Box> boxes, std::span<Index> items, Index place, Index parent);
 
   std::vector<Node> nodes_;
   std::vector<Index> leaf_of_;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "mesamis/base/parallel.h"
+
 namespace mesamis::detail::surface {
 namespace {
 
@@ -139,7 +141,8 @@ TriangleTree::TriangleTree(std::vector<Corners> triangles) : triangles_(std::mov
     for (const Vec3& p : triangles_[t]) extend(box, p);
     items[t] = {box.lo + box.hi, static_cast<Index>(t)};
   }
-  build(items, 0, items.size());
+  nodes_.resize(nodes_over(items.size()));
+  build(items, 0, items.size(), 0);
   std::vector<Corners> sorted(items.size());
   order_.resize(items.size());
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -149,15 +152,15 @@ TriangleTree::TriangleTree(std::vector<Corners> triangles) : triangles_(std::mov
   triangles_ = std::move(sorted);
 }
 
-/// Appends the node of items [begin, end) and, halved at the median, its children.
-void TriangleTree::build(std::vector<Item>& items, std::size_t begin, std::size_t end) {
+/// Makes the node of items [begin, end) and, halved at the median, its children.
+void TriangleTree::build(std::vector<Item>& items, std::size_t begin, std::size_t end,
+                         std::size_t place) {
   Box box = kEmptyBox, centers = kEmptyBox;
   for (std::size_t i = begin; i < end; ++i) {
     for (const Vec3& p : triangles_[items[i].triangle]) extend(box, p);
     extend(centers, items[i].center);
   }
-  const std::size_t node = nodes_.size();
-  nodes_.push_back({box, static_cast<Index>(begin), static_cast<Index>(end - begin)});
+  nodes_[place] = {box, static_cast<Index>(begin), static_cast<Index>(end - begin)};
   if (end - begin <= kLeafSize) return;
   const std::size_t middle = begin + (end - begin) / 2;
   const int axis = longest_axis(centers);
@@ -168,10 +171,19 @@ void TriangleTree::build(std::vector<Item>& items, std::size_t begin, std::size_
     const double x = a.center[axis], y = b.center[axis];
     return x != y ? x < y : a.triangle < b.triangle;
   });
-  build(items, begin, middle);
-  nodes_[node].first = static_cast<Index>(nodes_.size());
-  nodes_[node].count = 0;
-  build(items, middle, end);
+  const std::size_t second = place + 1 + nodes_over(middle - begin);
+  nodes_[place].first = static_cast<Index>(second);
+  nodes_[place].count = 0;
+  const auto build_half = [&](std::size_t child) {
+    child == 0 ? build(items, begin, middle, place + 1) : build(items, middle, end, second);
+  };
+  parallel_halves(end - begin, build_half);
+}
+
+/// The nodes of a tree over so many triangles.
+std::size_t TriangleTree::nodes_over(std::size_t triangles) {
+  if (triangles <= kLeafSize) return 1;
+  return 1 + nodes_over(triangles / 2) + nodes_over(triangles - triangles / 2);
 }
 
 double TriangleTree::squared_distance_to_box(const Vec3& p, std::size_t node) const {

@@ -73,7 +73,8 @@ class TriangleTree {
   };
   struct Item;
 
-  void build(std::vector<Item>& items, std::size_t begin, std::size_t end);
+  void build(std::vector<Item>& items, std::size_t begin, std::size_t end, std::size_t place);
+  static std::size_t nodes_over(std::size_t triangles);
   double squared_distance_to_box(const Vec3& p, std::size_t node) const;
 
   std::vector<Node> nodes_;
