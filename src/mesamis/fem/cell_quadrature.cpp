@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "mesamis/mesh/tet_mesh.h"
@@ -12,7 +13,7 @@ namespace {
 
 using Vec4 = std::array<double, 4>;
 
-constexpr int kFinestLattice = 4;  // points per voxel and direction
+constexpr int kFinestLattice = 2;  // points per voxel and direction
 constexpr double kEnoughSamples = 40;
 constexpr double kLeastPivot = 0.02;  // of the normal matrix, against evenly spread samples
 
@@ -82,44 +83,44 @@ Index ceiling(double x) {
   return whole + (whole < x ? 1 : 0);
 }
 
-/// l = (i + 1/2) / 6 for all whole i >= 0 that add up to 4: 35 points. No coordinate differs from
-/// another, so that the normal matrix is a I + b 1 1' and known beforehand.
+/// Walkington's rule of 14 points, exact for polynomials of degree 5 on a tetrahedron of volume 1: so
+/// the fit is the L2 projection of a polynomial of degree 4.
 class FixedSamples {
  public:
   FixedSamples() {
-    for (int a = 0; a <= 4; ++a) {
-      for (int b = 0; a + b <= 4; ++b) {
-        for (int c = 0; a + b + c <= 4; ++c) {
-          points_.push_back(
-              {(a + 0.5) / 6, (b + 0.5) / 6, (c + 0.5) / 6, (4 - a - b - c + 0.5) / 6});
-        }
+    for (const auto& [a, weight] : {std::pair{0.31088591926330060980, 0.11268792571801585080},
+                                    std::pair{0.092735250310891226402, 0.073493043116361949544}}) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        Vec4 l{a, a, a, a};
+        l[i] = 1 - 3 * a;
+        points_.push_back({l, weight});
       }
     }
-    double square = 0, product = 0;
-    for (const Vec4& l : points_) {
-      square += l[0] * l[0];
-      product += l[0] * l[1];
+    constexpr double kBeside = 0.045503704125649649492;
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        Vec4 l{kBeside, kBeside, kBeside, kBeside};
+        l[i] = l[j] = 0.5 - kBeside;
+        points_.push_back({l, 0.042546020777081466438});
+      }
     }
-    own_ = 1 / (square - product);
-    shared_ = product * own_ / (square + 3 * product);
   }
 
   /// @param value  of the image at barycentric coordinates.
   template <class Value>
   Vec4 fit(Value&& value) const {
     Vec4 right{};
-    for (const Vec4& l : points_) {
-      const double v = value(l);
+    for (const auto& [l, weight] : points_) {
+      const double v = weight * value(l);
       for (std::size_t i = 0; i < 4; ++i) right[i] += l[i] * v;
     }
     const double sum = right[0] + right[1] + right[2] + right[3];
-    for (double& x : right) x = own_ * x - shared_ * sum;
+    for (double& x : right) x = 20 * x - 4 * sum;
     return right;
   }
 
  private:
-  std::vector<Vec4> points_;
-  double own_, shared_;  // of the inverse
+  std::vector<std::pair<Vec4, double>> points_;
 };
 
 /// A cell in voxel coordinates, with its barycentric coordinates as linear functions.

@@ -31,9 +31,9 @@ struct ProjectedImage {
 /// Computes Q_h, the L2 projection of the image onto the P1 functions of a mesh.
 ///
 /// The image is the cubic spline through the voxel values. The quadrature uses every
-/// voxel: a cell is sampled on a lattice of one to four points per voxel and direction, so that a
-/// large cell averages all its voxels, which removes noise; a cell too small for that is sampled on
-/// a fixed lattice of its own. The linear fit of a cell's samples gives its exact load
+/// voxel: a cell is sampled on a lattice of one or two points per voxel and direction, so that a
+/// large cell averages all its voxels, which removes noise; a cell too small for that is sampled at
+/// 14 points of its own. The linear fit of a cell's samples gives its exact load
 /// |K|/20 (1 + delta_ij): linear images are reproduced exactly.
 ///
 /// @param image  grey values.
