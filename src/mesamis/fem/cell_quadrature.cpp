@@ -115,7 +115,7 @@ class FixedSamples {
       for (std::size_t i = 0; i < 4; ++i) right[i] += l[i] * v;
     }
     const double sum = right[0] + right[1] + right[2] + right[3];
-    for (double& x : right) x = 20 * x - 4 * sum;
+    for (double& x : right) x = 20 * x - 4 * sum;  // the inverse of (1 + delta_ij) / 20
     return right;
   }
 
