@@ -74,8 +74,8 @@ void ProgressDisplay::finish() {
 }
 
 void ProgressDisplay::show(std::string_view stage, double fraction) {
-  const bool starts_over = stage != stage_ || fraction < fraction_in_stage_;
-  if (starts_over) enter(stage, fraction);
+  const bool is_new = stage != stage_;
+  if (is_new || fraction < fraction_in_stage_) enter(stage, fraction);
   fraction_in_stage_ = fraction;
   done_ = run_.is_known() ? run_.done(stage, fraction) : fraction;
   if (log_is_for_slicer()) {
@@ -87,7 +87,7 @@ void ProgressDisplay::show(std::string_view stage, double fraction) {
     log_json(now, fraction);
   } else if (!log_allows_bar()) {
     log_stage(now);
-  } else if (!drawn_ || now - last_drawn_ >= kBetweenBars) {
+  } else if (!drawn_ || is_new || now - last_drawn_ >= kBetweenBars) {
     last_drawn_ = now;
     draw_bar();
   }
