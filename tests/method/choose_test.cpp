@@ -154,8 +154,8 @@ TEST(ChooseTolerance, FollowsTheErrorWithinBounds) {
   };
   EXPECT_EQ(chosen({}, 0.03, 1), 0.03);
   EXPECT_EQ(chosen({}, 0.03, 2), 0.06);
-  EXPECT_EQ(chosen({}, 0, 1), 0.03 * 0.5);
-  EXPECT_EQ(chosen({}, 1, 1), 0.1 * 0.5);
+  EXPECT_EQ(chosen({}, 0, 1), 0.021 * 0.5);
+  EXPECT_EQ(chosen({}, 1, 1), 0.07 * 0.5);
   EXPECT_EQ(chosen({}, 1, kErrorsOfPreview), 0);
   Parameters p;
   p.accuracy = 0.2;

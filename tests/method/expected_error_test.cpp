@@ -32,14 +32,24 @@ ErrorSummary summary_of(const ErrorOptions& options) {
 }
 
 TEST(ExpectedError, GrowsWithNoiseBlurAndContrast) {
-  const ErrorOptions usual{.noise = 5, .contrast = 110, .blur = {1, 1, 1}};
+  const ErrorOptions usual{.noise = {5, 5, 5}, .contrast = 110, .blur = {1, 1, 1}};
   const double mean = summary_of(usual).mean;
   EXPECT_GT(mean, 0);
-  EXPECT_GT(summary_of({10, 110, {1, 1, 1}}).mean, mean);
-  EXPECT_GT(summary_of({5, 220, {1, 1, 1}}).mean, mean);
-  EXPECT_GT(summary_of({5, 110, {1.5, 1.5, 1.5}}).mean, mean);
+  const auto with = [&usual](auto change) {
+    ErrorOptions other = usual;
+    change(other);
+    return summary_of(other);
+  };
+  EXPECT_GT(with([](ErrorOptions& o) { o.noise = {10, 10, 10}; }).mean, mean);
+  EXPECT_GT(with([](ErrorOptions& o) { o.contrast = 220; }).mean, mean);
+  EXPECT_GT(with([](ErrorOptions& o) { o.level = 5; }).mean, mean);
+  EXPECT_GT(with([](ErrorOptions& o) { o.blur = {1.5, 1.5, 1.5}; }).mean, mean);
   EXPECT_GE(summary_of(usual).percentile95, mean);
-  EXPECT_LE(summary_of({1e9, 110, {1, 1, 1}}).mean, 2 + 1e-9) << "two voxels at most";
+  EXPECT_LE(with([](ErrorOptions& o) {
+              o.noise = {1e9, 0, 0};
+            }).mean,
+            2 + 1e-9)
+      << "two voxels at most";
   EXPECT_EQ(summary_of({}).mean, 0);
   ErrorOptions decimated = usual;
   decimated.decimated = 0.8;
@@ -50,7 +60,7 @@ TEST(ExpectedError, GrowsWithNoiseBlurAndContrast) {
 TEST(ExpectedError, LeavesOutWhereTheBoxCutsTheObject) {
   const SplineImage image = interpolating_spline(make_ball({.noise = 0, .radius = 11}));
   TriMesh surface = ball();
-  const ErrorOptions usual{.noise = 5, .contrast = 110, .blur = {1, 1, 1}};
+  const ErrorOptions usual{.noise = {5, 5, 5}, .contrast = 110, .blur = {1, 1, 1}};
   const double mean = summarize_error(surface, expected_error(surface, image, usual)).mean;
   const auto first = static_cast<int>(surface.points.size());
   for (const Vec3& p : {Vec3{0, 5, 5}, Vec3{0, 30, 5}, Vec3{0, 5, 30}}) surface.points.push_back(p);

@@ -6,6 +6,8 @@
 
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/phantom/degrade.h"
@@ -59,22 +61,71 @@ TEST(Deblur, EveryWaveIsScaledByTheFilter) {
   }
 }
 
-TEST(Deblur, NoiseGrowsByItsGain) {
+Volume white_noise() {
   const Volume flat = sampled_volume({64, 72, 68}, {1, 1, 1}, [](const Vec3&) { return 100; });
-  const Volume noise = degrade(flat, {.noise = 10});
-  const auto deviation = [](const Volume& volume) {  // away from the borders, which mirror it
-    const CropRange inner{{10, 10, 10}, {54, 62, 58}};
-    const std::vector<float> samples = crop(volume, inner).samples;
-    double squares = 0;
-    for (const float x : samples) squares += (x - 100) * (x - 100);
-    return std::sqrt(squares / static_cast<double>(samples.size()));
-  };
+  return degrade(flat, {.noise = 10});
+}
+
+/// Of that noise, away from the borders, which mirror it.
+double deviation(const Volume& volume) {
+  const CropRange inner{{10, 10, 10}, {54, 62, 58}};
+  const std::vector<float> samples = crop(volume, inner).samples;
+  double squares = 0;
+  for (const float x : samples) squares += (x - 100) * (x - 100);
+  return std::sqrt(squares / static_cast<double>(samples.size()));
+}
+
+/// The sum over the voxels on a line through each voxel, weighted by their distance along it.
+Volume filtered(const Volume& volume, int axis, const std::vector<double>& weights) {
+  return sampled_volume(volume.size, volume.spacing, [&](const Vec3& p) {
+    double sum = 0;
+    for (Index d = 1 - static_cast<Index>(weights.size()); d < std::ssize(weights); ++d) {
+      std::array<Index, 3> v;
+      for (int a = 0; a < 3; ++a) {
+        const auto n = static_cast<std::size_t>(a);
+        v[n] = std::clamp<Index>(static_cast<Index>(p[a]) + (a == axis ? d : 0), 0,
+                                 volume.size[n] - 1);
+      }
+      sum += weights[static_cast<std::size_t>(std::abs(d))] * volume.at(v[0], v[1], v[2]);
+    }
+    return sum;
+  });
+}
+
+TEST(Deblur, NoiseGrowsByItsGain) {
+  const Volume noise = white_noise();
   for (const double regularization : {0.002, 0.05, 1.0}) {
     const double gain = noise_gain(kUnequal, regularization);
     EXPECT_NEAR(deviation(deblurred(noise, kUnequal, regularization)) / deviation(noise), gain,
                 0.03 * gain);
   }
   EXPECT_DOUBLE_EQ(noise_gain({0, 0, 0}, kRegularization), 1);
+}
+
+TEST(Deblur, MeansAlongASurfaceHaveTheNoiseOfTheirGain) {
+  // A Gaussian of 0.8 voxels, and noise that neighbours along x share: a, 1, a.
+  std::vector<double> gaussian;
+  for (const double d : {0, 1, 2, 3, 4}) gaussian.push_back(std::exp(-d * d / (2 * 0.8 * 0.8)));
+  const double sum = std::accumulate(gaussian.begin() + 1, gaussian.end(), 0.5) * 2;
+  for (double& weight : gaussian) weight /= sum;
+  for (const double share : {0.0, 0.2, -0.2}) {
+    const Volume noise = filtered(white_noise(), 0, {1 - 2 * share, share});
+    const double square = (1 - 2 * share) * (1 - 2 * share) + 2 * share * share;
+    const std::array<double, 3> correlation{2 * share * (1 - 2 * share) / square, 0, 0};
+    for (const double regularization : {0.01, 1.0}) {
+      const Volume restored = deblurred(noise, kUnequal, regularization);
+      const auto gains = noise_gain_along_surface(kUnequal, regularization, correlation);
+      for (int across = 0; across < 3; ++across) {
+        Volume means = restored;
+        for (int a = 0; a < 3; ++a) {
+          if (a != across) means = filtered(means, a, gaussian);
+        }
+        const double gain = gains[static_cast<std::size_t>(across)];
+        EXPECT_NEAR(deviation(means) / deviation(noise), gain, 0.08 * gain)
+            << share << ' ' << regularization << ' ' << across;
+      }
+    }
+  }
 }
 
 /// Volume of what is above the level, from the mean of the samples clamped to both sides.

@@ -44,6 +44,11 @@ TEST(Restore, DoesAsItIsTold) {
   const Restored left = restore(scan, object, {.noise = 3, .blur = {{0, 0, 0}}});
   EXPECT_TRUE(left.volume.samples == scan.samples);
   EXPECT_EQ(left.noise, 3);
+  EXPECT_EQ(left.noise_left, 3);
+  for (const double along : left.surface_noise) {  // of means over some 8 voxels
+    EXPECT_GT(along, 3 / 4.0);
+    EXPECT_LT(along, 3 / 2.0);
+  }
   const Restored gentle = restore(scan, object, {.noise = 100, .blur = {{1, 1, 1}}});
   const Restored strong = restore(scan, object, {.noise = 1, .blur = {{1, 1, 1}}});
   EXPECT_LT(gentle.noise_left / gentle.noise, strong.noise_left / strong.noise);

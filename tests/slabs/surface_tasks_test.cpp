@@ -73,7 +73,7 @@ TEST_F(FollowSlab, PiecesFitAndLieWhereTheWholeWouldLie) {
   const Parameters& p = input.parameters;
   ASSERT_TRUE(p.follow && p.fit);
   TriMesh whole = follow_image(slabs.whole_surface(), input.image,
-                               {p.grey.to_grey(p.level), input.error.noise, p.unit_mm, true, true});
+                               {p.grey.to_grey(p.level), input.noise, p.unit_mm, true, true});
   bring_to_world(input, whole.points);
   EXPECT_NEAR(static_cast<double>(surface.points.size()) / static_cast<double>(whole.points.size()),
               1, 0.01);

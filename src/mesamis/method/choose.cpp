@@ -186,7 +186,10 @@ Seen look_at(const VolumeView& image, const ImageSettings& settings) {
 /// What was found out about the image beside the parameters.
 MeasuredImage measured_of(const Restored& restored, const HalfMaximumLevel& object,
                           const ImageSettings& settings) {
-  return {restored.noise_left, restored.noise_correlation, restored.impulses,
+  return {restored.noise_left,
+          restored.noise_correlation,
+          restored.surface_noise,
+          restored.impulses,
           object.contrast.difference(),
           settings.level ? settings.level->uncertainty : object.uncertainty};
 }
@@ -257,7 +260,7 @@ void choose_max_tets(Parameters& p, double cells, Index slabs) {
 }
 
 void choose_tolerance(Parameters& p, double voxel, double expected_error, double errors) {
-  constexpr double kLeast = 0.03, kMost = 0.1, kFinest = 0.01;  // voxels
+  constexpr double kLeast = 0.021, kMost = 0.07, kFinest = 0.01;  // voxels
   if (p.tolerance) return;
   if (p.triangles > 0) {
     p.tolerance = std::numeric_limits<double>::infinity();

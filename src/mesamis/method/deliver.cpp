@@ -15,9 +15,8 @@ namespace {
 
 TriMesh followed(const RunInput& run, TriMesh extracted) {
   const Parameters& p = run.parameters;
-  return follow_image(
-      extracted, run.image,
-      {p.grey.to_grey(p.level), run.error.noise, p.unit_mm, p.follow, p.fit, p.preview});
+  return follow_image(extracted, run.image,
+                      {p.grey.to_grey(p.level), run.noise, p.unit_mm, p.follow, p.fit, p.preview});
 }
 
 void bring_surface_to_world(const RunInput& run, TriMesh& surface) {

@@ -11,7 +11,7 @@
 namespace mesamis::detail::method {
 namespace {
 
-constexpr double kOfNoise = 0.67, kOfBends = 0.18, kOfLevelAndBlur = 0.018, kOfLevel = 0.0085;
+constexpr double kOfNoise = 0.8, kOfBends = 0.12, kOfContrastAndBlur = 0.02;
 constexpr double kOfDecimation = 0.25;
 constexpr double kMost = 2;           // voxels
 constexpr double kSlopeOfNoEdge = 1;  // grey values per voxel: less tells of no edge
@@ -36,6 +36,7 @@ std::vector<double> expected_error(const TriMesh& surface, const SplineImage& im
   require_sound(surface);
   const double voxel = image.grid.voxel_size();
   const auto [x, y, z] = options.blur;
+  const auto [along_x, along_y, along_z] = options.noise;
   const double blur = (x * x + y * y + z * z) / 3;
   const double at_box = 1e-3 * voxel;  // single precision does not hit it
   const Vec3 margin{at_box, at_box, at_box};
@@ -44,11 +45,12 @@ std::vector<double> expected_error(const TriMesh& surface, const SplineImage& im
   parallel_for(errors.size(), [&](std::size_t n) {
     const Vec3 p = image.grid.to_grid(surface.points[n]);
     if (!inner.contains(p)) return;
-    const double slope = std::max(norm(spline_at(image, p).gradient) * voxel, kSlopeOfNoEdge);
-    const double noise = options.noise / slope, level = options.contrast / slope;
-    const double error =
-        std::hypot(std::hypot(kOfNoise * noise, kOfLevel * level),
-                   kOfBends * blur * curvature_at(image, p), kOfLevelAndBlur * blur * level);
+    const Vec3 gradient = spline_at(image, p).gradient, normal = unit_or_zero(gradient);
+    const double slope = std::max(norm(gradient) * voxel, kSlopeOfNoEdge);
+    const double noise = std::hypot(normal.x * along_x, normal.y * along_y, normal.z * along_z);
+    const double error = std::hypot(std::hypot(kOfNoise * noise, options.level) / slope,
+                                    kOfBends * blur * curvature_at(image, p),
+                                    kOfContrastAndBlur * blur * options.contrast / slope);
     errors[n] = std::hypot(std::min(error, kMost) * voxel, kOfDecimation * options.decimated);
   });
   return errors;

@@ -11,8 +11,10 @@ namespace mesamis::detail::method {
 
 /// What expected_error() has to know of a scan.
 struct ErrorOptions {
-  double noise = 0;              ///< left in the image, standard deviation, grey values, >= 0
+  /// Of means of the image along a surface across each axis, standard deviation, grey values, >= 0.
+  std::array<double, 3> noise{};
   double contrast = 0;           ///< of the object, grey values, >= 0
+  double level = 0;              ///< uncertainty of the object's level, grey values, >= 0
   std::array<double, 3> blur{};  ///< of the scan before it was undone, voxels, >= 0
   double decimated = 0;          ///< greatest distance by which decimation moved it, mm, >= 0
 };
@@ -20,12 +22,14 @@ struct ErrorOptions {
 /// Estimates how far a surface lies from the truth, at each of its points.
 ///
 /// With the slope of the image at the point, grey values per voxel, four things move the surface,
-/// in voxels: the noise, N = noise / slope; the blur at bends, s^2 K, for the blur s and the
-/// curvature K of the image's level set; and a level that is slightly off, L = contrast / slope,
-/// more so the larger the blur. The mean distance expected is
-///   e^2 = (0.67 N)^2 + (0.18 s^2 K)^2 + (0.018 s^2 L)^2 + (0.0085 L)^2,
-/// no more than two voxels. The factors are least squares over the distances measured on phantoms
-/// and simulated CT (docs/accuracy.md). Decimation adds the square of a quarter of its greatest
+/// in voxels: the noise that is left in means along it, N = noise / slope, where the squares of the
+/// normal's components weigh the axes; the level's uncertainty, U = level / slope; the blur at
+/// bends, s^2 K, for the blur s and the curvature K of the image's level set; and edges that show
+/// less of the object's contrast the larger the blur, L = contrast / slope. The mean distance
+/// expected is
+///   e^2 = (0.8 N)^2 + U^2 + (0.12 s^2 K)^2 + (0.02 s^2 L)^2,
+/// no more than two voxels. 0.8 is the mean size of a normal variable; the factors of the blur are
+/// fitted to distances measured on phantoms and simulated CT (docs/accuracy.md). Decimation adds the square of a quarter of its greatest
 /// distance. Where the image's box cuts the object there is no edge that could be off: 0. Walls and
 /// gaps that the surface has missed are not seen, nor is a level that was chosen for another
 /// tissue.

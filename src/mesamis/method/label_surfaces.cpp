@@ -195,7 +195,7 @@ std::vector<LabelBoundary> boundaries_of(const LabelRun& run, Index layer,
     }
     found.push_back({name_of(map, layer, one), name_of(map, layer, other),
                      grey.to_native(pair.level), pair.contrast / grey.grey_per_native(),
-                     run.settings.follow && shows_edge(pair, input.error.noise)});
+                     run.settings.follow && shows_edge(pair, input.noise)});
   }
   return found;
 }
@@ -217,7 +217,7 @@ PartitionSurface moved_to_image(const LabelRun& run, PartitionSurface partition,
                                 const RunInput& input, const std::vector<BoundaryGuide>& guides) {
   if (!run.settings.follow) return partition;
   if (!run.fits(input.grey)) {
-    return follow_image(std::move(partition), input.image, guides, input.error.noise);
+    return follow_image(std::move(partition), input.image, guides, input.noise);
   }
   const double reach = kReachOfFit * run.margin / input.grey.voxel_size();
   return fit_boundaries(std::move(partition), input.image, guides, reach);
@@ -248,7 +248,7 @@ LayerBoundaries place_by_image(const LabelRun& run, LayerBoundaries found, const
   const RunInput input(edges.prepared);
   const auto pairs = measure_pair_levels(found.partition, input.image);
   found.boundaries = boundaries_of(run, layer, pairs, input);
-  auto guides = guides_of_points(found.partition, pairs, input.error.noise);
+  auto guides = guides_of_points(found.partition, pairs, input.noise);
   found.partition = only_chosen(found.partition, marks_of(run.chosen, layer), guides);
   found.partition = moved_to_image(run, std::move(found.partition), input, guides);
   bring_to_world(input.grey, found.partition);

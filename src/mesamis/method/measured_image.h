@@ -12,9 +12,11 @@ namespace mesamis::detail::method {
 struct MeasuredImage {
   double noise_left = 0;  ///< standard deviation after restoring, native units
   std::array<double, 3>
-      noise_correlation{};       ///< of neighbours in the scan, along each axis, -1 to 1
-  double impulses = 0;           ///< share of the voxels that were replaced, 0 to 1
-  double contrast = 0;           ///< of the object, native units; not positive: none was found
+      noise_correlation{};  ///< of neighbours in the scan, along each axis, -1 to 1
+  std::array<double, 3>
+      surface_noise{};  ///< of means along a surface across each axis, see Restored; native units
+  double impulses = 0;  ///< share of the voxels that were replaced, 0 to 1
+  double contrast = 0;  ///< of the object, native units; not positive: none was found
   double level_uncertainty = 0;  ///< see HalfMaximumLevel, native units; 0: not known
   /// Of levels for each place, see LocalLevel::range, native units; both 0: there is one level.
   std::array<double, 2> level_range{};

@@ -157,6 +157,15 @@ bool has_settled_by_energy(const Parameters& p, const std::vector<Iteration>& pa
   return mesh_settled && energy_settled;
 }
 
+ErrorOptions known_of(const MeasuredImage& measured, const Parameters& p) {
+  const double scale = p.grey.grey_per_native();
+  const auto [x, y, z] = measured.surface_noise;
+  return {.noise = {scale * x, scale * y, scale * z},
+          .contrast = scale * measured.contrast,
+          .level = scale * measured.level_uncertainty,
+          .blur = p.blur};
+}
+
 }  // namespace
 
 RunInput::RunInput(const Prepared& prepared)
@@ -165,8 +174,8 @@ RunInput::RunInput(const Prepared& prepared)
       image(prepared.image),
       box{{0, 0, 0}, (1 / parameters.unit_mm) * grey.box().extent()},
       excess(prepared.excess),
-      error{prepared.measured.noise_left * parameters.grey.grey_per_native(),
-            prepared.measured.contrast * parameters.grey.grey_per_native(), parameters.blur} {}
+      noise(prepared.measured.noise_left * parameters.grey.grey_per_native()),
+      error(known_of(prepared.measured, parameters)) {}
 
 AmisOptions RunInput::final_options() const {
   AmisOptions options;

@@ -54,7 +54,8 @@ struct RunInput {
   const SplineImage& image;  ///< the same between the voxels
   Box box;                   ///< of the voxel centres, length units
   VolumeView excess;         ///< see Prepared
-  ErrorOptions error;        ///< what is known of the image, grey values
+  double noise;              ///< left in the image, standard deviation, grey values
+  ErrorOptions error;        ///< what else is known of the image, grey values
   /// Images on the same grid to whose edges the meshes are adapted as well; mostly none.
   std::vector<const RunInput*> beside{};
 

@@ -140,6 +140,38 @@ void require_range(const char* name, double value, double low, double high) {
 /// The fourth-order second difference of a wave with this angle per voxel, negative.
 double symbol_at(double angle) { return (15 - 16 * std::cos(angle) + std::cos(2 * angle)) / 6; }
 
+constexpr std::size_t kAngles = 32;  // along each axis, at the middles of as many parts of [0, pi]
+using OverAngles = std::array<double, kAngles>;
+
+/// A function of the angle per voxel, along one axis.
+template <class Function>
+OverAngles over_angles(const Function& function) {
+  OverAngles values;
+  for (std::size_t n = 0; n < kAngles; ++n) {
+    values[n] = function((static_cast<double>(n) + 0.5) * std::numbers::pi / kAngles);
+  }
+  return values;
+}
+
+/// The mean over all frequencies of the squared filter times a factor of each axis.
+double mean_square_gain(const std::array<double, 3>& blur, double regularization,
+                        const std::array<OverAngles, 3>& factors) {
+  const OverAngles symbols = over_angles(symbol_at);
+  const auto [x, y, z] = blur;
+  double sum = 0;
+  for (std::size_t k = 0; k < kAngles; ++k) {
+    for (std::size_t j = 0; j < kAngles; ++j) {
+      const double across = z * z * symbols[k] + y * y * symbols[j];
+      const double factor = factors[2][k] * factors[1][j];
+      for (std::size_t i = 0; i < kAngles; ++i) {
+        const double w = filter_at(across + x * x * symbols[i], regularization);
+        sum += factor * factors[0][i] * w * w;
+      }
+    }
+  }
+  return sum / (kAngles * kAngles * kAngles);
+}
+
 }  // namespace
 
 void require_valid_blur(const std::array<double, 3>& blur) {
@@ -173,23 +205,27 @@ Volume deblurred(Volume volume, const std::array<double, 3>& blur, double regula
 }
 
 double noise_gain(const std::array<double, 3>& blur, double regularization) {
-  constexpr int kAngles = 32;  // along each axis, at the middles of as many parts of [0, pi]
-  std::array<double, kAngles> symbols;
-  for (int n = 0; n < kAngles; ++n) {
-    symbols[static_cast<std::size_t>(n)] = symbol_at((n + 0.5) * std::numbers::pi / kAngles);
-  }
-  const auto [x, y, z] = blur;
-  double sum = 0;
-  for (const double along_z : symbols) {
-    for (const double along_y : symbols) {
-      const double across = z * z * along_z + y * y * along_y;
-      for (const double along_x : symbols) {
-        const double w = filter_at(across + x * x * along_x, regularization);
-        sum += w * w;
-      }
+  const OverAngles one = over_angles([](double) { return 1.0; });
+  return std::sqrt(mean_square_gain(blur, regularization, {one, one, one}));
+}
+
+std::array<double, 3> noise_gain_along_surface(const std::array<double, 3>& blur,
+                                               double regularization,
+                                               const std::array<double, 3>& correlation) {
+  constexpr double kWidth = 0.8;  // voxels
+  std::array<double, 3> gains;
+  for (std::size_t across = 0; across < 3; ++across) {
+    std::array<OverAngles, 3> factors;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double shared = 2 * correlation[a], width = a == across ? 0 : kWidth;
+      factors[a] = over_angles([&](double angle) {
+        return std::max(0.0, 1 + shared * std::cos(angle)) *
+               std::exp(-width * width * angle * angle);
+      });
     }
+    gains[across] = std::sqrt(mean_square_gain(blur, regularization, factors));
   }
-  return std::sqrt(sum / (kAngles * kAngles * kAngles));
+  return gains;
 }
 
 }  // namespace mesamis::detail::restore

@@ -40,6 +40,20 @@ void require_valid_blur(const std::array<double, 3>& blur);
 /// @return deviation of the noise after it, per deviation before (no unit); > 0.
 double noise_gain(const std::array<double, 3>& blur, double regularization);
 
+/// Finds by how much deblurred() changes noise that is then averaged along a surface, as a fitted
+/// surface averages it: over a Gaussian of 0.8 voxels in the plane.
+///
+/// It is the root mean square over all frequencies k of the grid of W sqrt(S) exp(-0.8^2 q^2 / 2),
+/// with the noise's spectrum S, the product of 1 + 2 r_a cos k_a over the axes, and the part q of k
+/// along the plane.
+/// @param blur, regularization  as deblurred() takes them; no blur: the noise as it is.
+/// @param correlation  r, of neighbours along each axis, -1 to 1.
+/// @return of surfaces across each axis: deviation of the mean, per deviation of a voxel before (no
+///         unit); >= 0.
+std::array<double, 3> noise_gain_along_surface(const std::array<double, 3>& blur,
+                                               double regularization,
+                                               const std::array<double, 3>& correlation);
+
 inline constexpr double kLargestBlur = 3;  ///< voxels
 
 }  // namespace mesamis::detail::restore

@@ -26,7 +26,10 @@ struct Restored {
   double noise = 0;  ///< standard deviation in the scan, native units
   /// Of the noise between neighbours along each axis, see measure_noise_correlation().
   std::array<double, 3> noise_correlation{};
-  double noise_left = 0;         ///< standard deviation in the volume here, native units
+  double noise_left = 0;  ///< standard deviation in the volume here, native units
+  /// Of means of the volume along a surface across each axis, see noise_gain_along_surface(): their
+  /// standard deviation, native units.
+  std::array<double, 3> surface_noise{};
   std::array<double, 3> blur{};  ///< standard deviations in the scan, voxels
   double impulses = 0;           ///< share of the voxels that were replaced, 0 to 1
   double impulse_height = 0;     ///< see RestoreOptions; 0 where none were replaced

@@ -56,7 +56,7 @@ double level_of(const SurfaceRun& run) {
 FollowOptions follow_options(const SurfaceRun& run) {
   const RunInput& input = run.mesh.input;
   const Parameters& p = input.parameters;
-  return {level_of(run), input.error.noise, p.unit_mm, run.follows, p.fit};
+  return {level_of(run), input.noise, p.unit_mm, run.follows, p.fit};
 }
 
 /// The heights that a slab's own task keeps within: away from rims, which lie at its borders, and
