@@ -23,6 +23,7 @@ set(ROOM_SOURCES
   patchwork.cpp
   quadric.cpp
   two_sided_bound.cpp
+  rim_walk.cpp
   round_together.cpp
   editable_surface.cpp
   fan_height.cpp

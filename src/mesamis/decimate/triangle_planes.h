@@ -31,13 +31,18 @@ class TrianglePlanes {
 
   const Corners& corners() const { return corners_; }
   const Box& box() const { return box_; }
+  /// Whether its planes are lost to rounding.
+  bool is_flat() const { return is_flat_; }
   /// The direction, of unit length, out of the side from corner i to the next.
   const Vec3& outward(std::size_t i) const { return outward_[i]; }
+  /// How far a point lies beyond that side, mm; on the inner side of it: negative.
+  double beyond(std::size_t i, const Vec3& p) const { return dot(outward_[i], p) - offset_[i]; }
+  /// The nearest point of the plane.
+  Vec3 foot_of(const Vec3& p) const { return p - (dot(normal_, p) - height_) * normal_; }
 
   /// How far a point lies beyond the side that it is farthest beyond, mm; none: negative.
   double beyond(const Vec3& p) const {
-    return std::max({dot(outward_[0], p) - offset_[0], dot(outward_[1], p) - offset_[1],
-                     dot(outward_[2], p) - offset_[2]});
+    return std::max({beyond(0, p), beyond(1, p), beyond(2, p)});
   }
   /// Whether all of another triangle lies beyond one side by more than a distance, mm.
   bool is_beyond(const Corners& other, double distance) const {
