@@ -42,7 +42,7 @@ TEST(Covering, AgreesWithTheSearchForTheFarthestPoint) {
     std::size_t hint = 0;
     const double true_bound = farthest_distance(t, tree, {1e-4, 1}, hint);
     Covering covering(kTolerance);
-    const double bound = covering.bound(t, others, others.size());
+    const double bound = covering.bound(t, others);
     if (std::isfinite(bound)) {
       ++proved;
       EXPECT_LE(bound, kTolerance);
@@ -62,14 +62,14 @@ TEST(Covering, TellsWhatItUsed) {
                                         TrianglePlanes(right)};
   Covering covering(0.1);
   const Corners inside{Vec3{0.2, 0.2, 0.05}, {0.8, 0.2, 0.05}, {0.2, 0.8, 0.05}};
-  EXPECT_NEAR(covering.bound(inside, pointers_to(all), 1), 0.05, 1e-12);
+  EXPECT_NEAR(covering.bound(inside, pointers_to(all)), 0.05, 1e-12);
   EXPECT_EQ(covering.used(), std::vector<Index>{1});
   const Corners across{Vec3{0.5, 0.5, 0}, {1.5, 0.5, 0}, {1.5, 1.5, 0}};
-  EXPECT_NEAR(covering.bound(across, pointers_to(all), 3), 0, 0.1);
+  EXPECT_NEAR(covering.bound(across, pointers_to(all)), 0, 0.1);
   for (const Index used : covering.used()) EXPECT_NE(used, 0);
   EXPECT_GE(covering.used().size(), 2u);
   const Corners beyond{Vec3{0.5, 0.5, 0}, {5, 0.5, 0}, {1.5, 1.5, 0}};
-  EXPECT_TRUE(std::isinf(covering.bound(beyond, pointers_to(all), 3)));
+  EXPECT_TRUE(std::isinf(covering.bound(beyond, pointers_to(all))));
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ TEST(RimWalk, ProvesMostOfWhatTheCoveringDoes) {
     const Corners t = triangles.next();
     const bool is_proved =
         std::isfinite(walk.bound(TrianglePlanes(t), ground.walked(), ground.nearest(t[0])));
-    const bool is_covered = std::isfinite(covering.bound(t, all, all.size()));
+    const bool is_covered = std::isfinite(covering.bound(t, all));
     covered += is_covered ? 1 : 0;
     missed += is_covered && !is_proved ? 1 : 0;
   }

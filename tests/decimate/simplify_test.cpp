@@ -28,10 +28,10 @@ double mean_of_points(const TriMesh& from, const TriMesh& to) {
 TEST(Simplify, IsNearerThanDecimationAtTheSameNumberOfTriangles) {
   const TriMesh surface = torus();
   DecimateReport report;
-  const TriMesh simple = simplify(surface, {.tolerance = 0.03}, &report);
+  const TriMesh simple = simplify(surface, {.tolerance = 0.02}, &report);
   const auto triangles = std::ssize(simple.triangles);
   EXPECT_LT(triangles, std::ssize(surface.triangles) / 4);
-  const TriMesh decimated = decimate(surface, {.tolerance = 0.03, .triangles = triangles});
+  const TriMesh decimated = decimate(surface, {.tolerance = 0.02, .triangles = triangles});
   EXPECT_NEAR(static_cast<double>(decimated.triangles.size()), static_cast<double>(triangles), 2);
   EXPECT_LT(mean_of_points(surface, simple), 0.9 * mean_of_points(surface, decimated));
 }

@@ -17,17 +17,12 @@ constexpr int kMostPieces = 500;
 
 }  // namespace
 
-double Covering::bound(const Corners& triangle, std::span<const TrianglePlanes* const> others,
-                       std::size_t guess) {
+double Covering::bound(const Corners& triangle, std::span<const TrianglePlanes* const> others) {
   used_.clear();
   found_ = 0;
   pieces_ = 0;
   Piece whole;
   for (const Vec3& p : triangle) whole.add(p);
-  if (guess < others.size() && is_near(whole, *others[guess])) {
-    used_.push_back(static_cast<Index>(guess));
-    return std::sqrt(found_);
-  }
   near_.clear();
   for (std::size_t n = 0; n < others.size(); ++n) {
     near_.push_back({others[n], static_cast<Index>(n)});

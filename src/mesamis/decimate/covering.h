@@ -18,11 +18,9 @@ class Covering {
   /// @param tolerance  mm.
   explicit Covering(double tolerance) : tolerance_(tolerance), most_(tolerance * tolerance) {}
 
-  /// @param guess  one that is likely to be near all of it; or none, how many there are.
   /// @return a distance, mm, from which no point of the triangle is farther from all others;
   ///         infinity where none up to the tolerance could be proved, which may be in vain.
-  double bound(const Corners& triangle, std::span<const TrianglePlanes* const> others,
-               std::size_t guess);
+  double bound(const Corners& triangle, std::span<const TrianglePlanes* const> others);
 
   /// The others to which pieces of the last triangle were found near, each once or more.
   const std::vector<Index>& used() const { return used_; }

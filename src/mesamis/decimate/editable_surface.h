@@ -29,6 +29,8 @@ class EditableSurface {
   Triangle triangle(Index t) const {
     return {corners_[3 * t], corners_[3 * t + 1], corners_[3 * t + 2]};
   }
+  /// How many points.
+  std::size_t points() const { return leaving_.size(); }
   /// Of triangles that were there in the beginning.
   Index count() const { return static_cast<Index>(corners_.size() / 3); }
   bool is_removed(Index t) const { return corners_[3 * t] == kNoIndex; }

@@ -3,22 +3,76 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mesamis/surface/box_tree.h"
 
 namespace mesamis::detail::decimate {
+namespace {
+
+/// The originals, increasing, of the triangles that do not stay, and those at their corners.
+std::vector<Index> originals_at_stake(const TriMesh& original, const Cover& cover,
+                                      const std::vector<char>& stays) {
+  std::vector<Index> numbers;
+  for (std::size_t t = 0; t < stays.size(); ++t) {
+    if (stays[t] != 0) continue;
+    numbers.insert(numbers.end(), cover.originals[t].begin(), cover.originals[t].end());
+  }
+  std::vector<bool> is_corner(original.points.size());
+  for (const Index o : numbers) {
+    for (const Index p : original.triangles[o]) is_corner[p] = true;
+  }
+  for (std::size_t t = 0; t < stays.size(); ++t) {
+    if (stays[t] == 0) continue;
+    for (const Index o : cover.originals[t]) {
+      const Triangle& k = original.triangles[o];
+      if (is_corner[k[0]] || is_corner[k[1]] || is_corner[k[2]]) numbers.push_back(o);
+    }
+  }
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+/// Of each triangle 1 if its corners are held.
+std::vector<char> staying(const Cover& cover, const std::vector<char>& held) {
+  std::vector<char> stays;
+  for (const Triangle& k : cover.triangles) {
+    stays.push_back(held[k[0]] != 0 && held[k[1]] != 0 && held[k[2]] != 0 ? 1 : 0);
+  }
+  return stays;
+}
+
+/// Some triangles of a surface, by themselves.
+EditableSurface part_of(const TriMesh& surface, const std::vector<Index>& numbers) {
+  std::vector<Index> points;
+  for (const Index t : numbers) {
+    points.insert(points.end(), surface.triangles[t].begin(), surface.triangles[t].end());
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  std::vector<Triangle> triangles;
+  for (const Index t : numbers) {
+    Triangle k = surface.triangles[t];
+    for (Index& p : k) {
+      p = static_cast<Index>(std::lower_bound(points.begin(), points.end(), p) - points.begin());
+    }
+    triangles.push_back(k);
+  }
+  return {points.size(), triangles};
+}
+
+}  // namespace
 
 TwoSidedBound::TwoSidedBound(const TriMesh& original, const Cover& cover,
                              const std::vector<char>& held, double tolerance)
-    : cover_(cover), tolerance_(tolerance), covering_(tolerance) {
-  for (std::size_t t = 0; t < cover.triangles.size(); ++t) {
-    const Triangle& k = cover.triangles[t];
-    stays_.push_back(held[k[0]] != 0 && held[k[1]] != 0 && held[k[2]] != 0 ? 1 : 0);
-    if (stays_[t] != 0) continue;
-    numbers_.insert(numbers_.end(), cover.originals[t].begin(), cover.originals[t].end());
-  }
-  std::sort(numbers_.begin(), numbers_.end());
-  numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+    : cover_(cover),
+      tolerance_(tolerance),
+      walk_(tolerance),
+      covering_(tolerance),
+      stays_(staying(cover, held)),
+      numbers_(originals_at_stake(original, cover, stays_)),
+      original_surface_(part_of(original, numbers_)) {
   for (const Index t : numbers_) {
     originals_.emplace_back(corners_of(original, original.triangles[t]));
   }
@@ -35,6 +89,7 @@ TwoSidedBound::TwoSidedBound(const TriMesh& original, const Cover& cover,
     triangles_.emplace_back(Corners{cover.points[t[0]], cover.points[t[1]], cover.points[t[2]]});
   }
   seen_.assign(numbers_.size(), 0);
+  seen_points_.assign(original_surface_.points(), 0);
 }
 
 std::vector<Index> TwoSidedBound::originals_of(Index triangle) const {
@@ -52,8 +107,7 @@ bool TwoSidedBound::allows(const EditableSurface& surface, const std::vector<Vec
   gather(collapse);
   uses_.clear();
   next_.clear();
-  after_.clear();
-  for (const Corners& t : collapse.after) after_.emplace_back(t);
+  see_after(collapse);
   Bounds lifted = bounds_before(collapse);
   lifted.to_originals += collapse.height;
   lifted.from_originals += collapse.height;
@@ -61,10 +115,33 @@ bool TwoSidedBound::allows(const EditableSurface& surface, const std::vector<Vec
     lift(lifted, collapse);
     return true;
   }
-  look_around(surface, collapse);
-  if (!old_are_near()) return false;
+  around_.clear();
+  around_number_.clear();
+  swap_after(collapse);
+  const bool old_are = old_are_near(surface, collapse);
+  swap_after(collapse);
+  if (!old_are) return false;
   next_.assign(collapse.faces.size(), {lifted.to_originals, 0});
   return lifted.to_originals <= tolerance_ || new_are_near(collapse);
+}
+
+/// The triangles that come: their sides lie at the half-edges of the same numbers.
+void TwoSidedBound::see_after(const Collapse& collapse) {
+  after_.clear();
+  for (std::size_t i = 0; i < collapse.after.size(); ++i) {
+    const Corners& t = collapse.after[i];
+    const auto at = static_cast<std::size_t>(collapse.outer[i] % 3);
+    Corners turned;
+    for (std::size_t k = 0; k < 3; ++k) turned[(at + k) % 3] = t[(k + 1) % 3];
+    after_.emplace_back(turned);
+  }
+}
+
+/// Puts the triangles that come in the place of those before, or back.
+void TwoSidedBound::swap_after(const Collapse& collapse) {
+  for (std::size_t i = 0; i < after_.size(); ++i) {
+    std::swap(after_[i], triangles_[collapse.faces[i]]);
+  }
 }
 
 void TwoSidedBound::apply(const Collapse& collapse) {
@@ -98,15 +175,16 @@ bool TwoSidedBound::ends_are_near(const std::vector<Vec3>& points, const Collaps
 void TwoSidedBound::gather(const Collapse& collapse) {
   ++collapse_count_;
   affected_.clear();
-  const auto add = [this](Index t, std::size_t guess) {
+  const auto add = [this](Index t, Index guess) {
     for (const Index o : lists_[t]) {
       if (seen_[o] == collapse_count_) continue;
       seen_[o] = collapse_count_;
       affected_.push_back({o, guess, 0});
+      for (const Index p : original_surface_.triangle(o)) seen_points_[p] = collapse_count_;
     }
   };
-  for (std::size_t i = 0; i < collapse.faces.size(); ++i) add(collapse.faces[i], i);
-  for (const Index t : collapse.gone) add(t, 0);
+  for (const Index t : collapse.faces) add(t, t);
+  for (const Index t : collapse.gone) add(t, collapse.faces[0]);
 }
 
 TwoSidedBound::Bounds TwoSidedBound::bounds_before(const Collapse& collapse) const {
@@ -139,10 +217,9 @@ void TwoSidedBound::lift(const Bounds& bounds, const Collapse& collapse) {
   }
 }
 
-/// The triangles after a collapse, and those at the ends of what changes.
+/// The triangles after a collapse, and those at the ends of what changes; once for a collapse.
 void TwoSidedBound::look_around(const EditableSurface& surface, const Collapse& collapse) {
-  around_.clear();
-  for (const TrianglePlanes& t : after_) around_.push_back(&t);
+  if (!around_.empty()) return;
   around_number_ = collapse.faces;
   const auto see = [&](Index p) {
     surface.for_each_leaving(p, [&](Index h) {
@@ -152,28 +229,31 @@ void TwoSidedBound::look_around(const EditableSurface& surface, const Collapse& 
         return;
       }
       around_number_.push_back(t);
-      around_.push_back(&triangles_[t]);
     });
   };
   for (const Index h : collapse.outer) see(surface.from(h));
   see(surface.to(collapse.outer.back()));
   if (!collapse.moves) see(collapse.kept);
+  for (const Index t : around_number_) around_.push_back(&triangles_[t]);
 }
 
 /// Whether the centres of the originals are near; what is farthest comes first from now on, and most
 /// refusals are found there.
-bool TwoSidedBound::centers_are_near() {
+bool TwoSidedBound::centers_are_near(const WalkedSurface& on) {
   const double most = tolerance_ * tolerance_;
   for (Affected& a : affected_) {
     const Corners& t = originals_[a.original].corners();
     const Vec3 center = (1.0 / 3) * (t[0] + t[1] + t[2]);
-    a.distance = around_[a.guess]->squared_distance_up_to(most, center);
+    a.guess = RimWalk::triangle_at(on, center, a.guess);
+    a.distance = triangles_[a.guess].squared_distance_up_to(most, center);
+    if (a.distance <= most) continue;
+    look_around(on.surface, *on.collapse);
     for (std::size_t n = 0; a.distance > most && n < around_.size(); ++n) {
       const double distance =
           around_[n]->squared_distance_up_to(std::min(most, a.distance), center);
       if (distance >= a.distance) continue;
       a.distance = distance;
-      a.guess = n;
+      a.guess = around_number_[n];
     }
     if (a.distance > most) return false;
   }
@@ -183,32 +263,62 @@ bool TwoSidedBound::centers_are_near() {
   return true;
 }
 
-bool TwoSidedBound::old_are_near() {
-  if (!centers_are_near()) return false;
-  for (const auto& [o, guess, squared] : affected_) {
-    const double distance = covering_.bound(originals_[o].corners(), around_, guess);
-    if (!std::isfinite(distance)) return false;
-    for (const Index used : covering_.used()) uses_.push_back({o, around_number_[used], distance});
+bool TwoSidedBound::old_are_near(const EditableSurface& surface, const Collapse& collapse) {
+  const WalkedSurface on{surface, triangles_, &collapse};
+  return centers_are_near(on) && std::all_of(affected_.begin(), affected_.end(),
+                                             [&](const Affected& a) { return is_near(a, on); });
+}
+
+/// Whether an original is near the surface; then it says which triangles stand for it.
+bool TwoSidedBound::is_near(const Affected& a, const WalkedSurface& on) {
+  double distance = walk_.bound(originals_[a.original], on, a.guess);
+  if (std::isfinite(distance)) {
+    for (const Index used : walk_.used()) uses_.push_back({a.original, used, distance});
+    return true;
+  }
+  look_around(on.surface, *on.collapse);
+  const double most = tolerance_ * tolerance_;
+  if (std::none_of(around_.begin(), around_.end(), [&](const TrianglePlanes* t) {
+        return t->squared_distance_up_to(most, walk_.stop()) <= most;
+      })) {
+    return false;
+  }
+  distance = covering_.bound(originals_[a.original].corners(), around_);
+  if (!std::isfinite(distance)) return false;
+  for (const Index used : covering_.used()) {
+    uses_.push_back({a.original, around_number_[used], distance});
   }
   return true;
 }
 
 bool TwoSidedBound::new_are_near(const Collapse& collapse) {
   for (std::size_t i = 0; i < collapse.faces.size(); ++i) {
-    near_.clear();
-    for (const Use& use : uses_) {
-      if (use.triangle == collapse.faces[i]) near_.push_back(&originals_[use.original]);
-    }
-    double distance = covering_.bound(collapse.after[i], near_, near_.size());
-    if (!std::isfinite(distance)) {
-      near_.clear();
-      for (const Affected& a : affected_) near_.push_back(&originals_[a.original]);
-      distance = covering_.bound(collapse.after[i], near_, near_.size());
-    }
-    if (!std::isfinite(distance)) return false;
-    next_[i].to_originals = distance;
+    next_[i].to_originals = distance_of_new(collapse.faces[i], after_[i]);
+    if (!std::isfinite(next_[i].to_originals)) return false;
   }
   return true;
+}
+
+/// From a triangle that comes to the originals, mm; infinity: too far.
+double TwoSidedBound::distance_of_new(Index face, const TrianglePlanes& after) {
+  if (affected_.empty()) return std::numeric_limits<double>::infinity();
+  near_.clear();
+  Index start = affected_.front().original;
+  for (const Use& use : uses_) {
+    if (use.triangle != face) continue;
+    near_.push_back(&originals_[use.original]);
+    start = use.original;
+  }
+  const WalkedSurface affected{original_surface_, originals_, nullptr, seen_points_,
+                               collapse_count_};
+  double distance = walk_.bound(after, affected, start);
+  if (!std::isfinite(distance)) distance = covering_.bound(after.corners(), near_);
+  if (!std::isfinite(distance)) {
+    near_.clear();
+    for (const Affected& a : affected_) near_.push_back(&originals_[a.original]);
+    distance = covering_.bound(after.corners(), near_);
+  }
+  return distance;
 }
 
 }  // namespace mesamis::detail::decimate

@@ -6,6 +6,7 @@
 #include "mesamis/decimate/collapse.h"
 #include "mesamis/decimate/cover.h"
 #include "mesamis/decimate/covering.h"
+#include "mesamis/decimate/rim_walk.h"
 
 namespace mesamis::detail::decimate {
 
@@ -14,7 +15,8 @@ namespace mesamis::detail::decimate {
 /// stand for it. It stays true with each collapse allowed here, so that nothing is left to check.
 ///
 /// Where a collapse lifts the surface by so little that what was near stays near, nothing else is
-/// looked at; only else are distances found anew.
+/// looked at. Else distances are found anew: by a walk along the rim of each triangle, or, where that
+/// fails, by cutting it to pieces.
 class TwoSidedBound {
  public:
   /// @param original   mm; what cover.originals number.
@@ -45,8 +47,8 @@ class TwoSidedBound {
   };
   struct Affected {
     Index original;
-    std::size_t guess;  ///< the place of a triangle that it may be near as a whole
-    double distance;    ///< of its centre, mm^2
+    Index guess;      ///< a triangle that its centre may be near
+    double distance;  ///< of its centre, mm^2
   };
   struct Use {
     Index original, triangle;
@@ -54,20 +56,27 @@ class TwoSidedBound {
   };
 
   void gather(const Collapse& collapse);
+  void see_after(const Collapse& collapse);
+  void swap_after(const Collapse& collapse);
   void look_around(const EditableSurface& surface, const Collapse& collapse);
   bool ends_are_near(const std::vector<Vec3>& points, const Collapse& collapse) const;
   Bounds bounds_before(const Collapse& collapse) const;
   void lift(const Bounds& bounds, const Collapse& collapse);
-  bool centers_are_near();
-  bool old_are_near();
+  bool centers_are_near(const WalkedSurface& on);
+  bool old_are_near(const EditableSurface& surface, const Collapse& collapse);
+  bool is_near(const Affected& a, const WalkedSurface& on);
+  double distance_of_new(Index face, const TrianglePlanes& after);
   bool new_are_near(const Collapse& collapse);
 
   const Cover& cover_;  // as it was
   double tolerance_;
+  RimWalk walk_;
   Covering covering_;
-  std::vector<Index> numbers_;  // of the originals of triangles that may change, increasing
+  std::vector<char> stays_;     // of each triangle 1 if it does
+  std::vector<Index> numbers_;  // of the originals of triangles that may change, and of those at
+                                // their corners, increasing
   std::vector<TrianglePlanes> originals_;  // in this order
-  std::vector<char> stays_;                // of each triangle 1 if it does
+  EditableSurface original_surface_;       // of these
   std::vector<std::vector<Index>> lists_;  // of each triangle, places in this order; of those that
                                            // stay only what they have come to stand for
   std::vector<TrianglePlanes> triangles_;  // as they are
@@ -80,7 +89,8 @@ class TwoSidedBound {
   std::vector<Use> uses_;
   std::vector<Bounds> next_;  // of the triangles that change
   std::vector<const TrianglePlanes*> near_;
-  std::vector<Index> seen_;  // of each original, the last collapse that affected it
+  std::vector<Index> seen_;         // of each original, the last collapse that affected it
+  std::vector<Index> seen_points_;  // of their corners the same
   Index collapse_count_ = 0;
 };
 
