@@ -35,6 +35,10 @@ Exit exit_of(const TrianglePlanes& t, const Vec3& from, const Vec3& to, std::siz
   return exit;
 }
 
+void add_once(std::vector<Index>& numbers, Index number) {
+  if (std::find(numbers.begin(), numbers.end(), number) == numbers.end()) numbers.push_back(number);
+}
+
 /// Points of a surface, each once, by a half-edge that leaves it.
 template <std::size_t kMostPoints>
 class PointSet {
@@ -93,6 +97,7 @@ Index RimWalk::triangle_at(const WalkedSurface& on, const Vec3& p, Index start) 
 
 double RimWalk::bound(const TrianglePlanes& triangle, const WalkedSurface& on, Index start) {
   found_ = 0;
+  enclosed_.clear();
   return goes_round(triangle, on, start) ? std::sqrt(found_)
                                          : std::numeric_limits<double>::infinity();
 }
@@ -114,14 +119,14 @@ bool RimWalk::goes_round(const TrianglePlanes& triangle, const WalkedSurface& on
     start = triangle_at(on, stop_, start);
     if (!is_near(stop_, on.triangles[start])) return false;
   }
-  now_ = used_[0] = start;
-  used_count_ = 1;
+  now_ = start;
+  used_.assign(1, start);
   exit_count_ = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     if (!goes_on(corners[(first + i) % 3], corners[(first + i + 1) % 3], on)) return false;
   }
   // The ends of what is near one of two triangles are near the other one.
-  if (used_count_ <= 2) return true;
+  if (used_.size() <= 2) return true;
   if (!goes_back(corners[first], start, on)) return false;
   close_chain(on);
   return exit_count_ == 0 || is_filled(triangle, on);
@@ -165,10 +170,9 @@ bool RimWalk::goes_back(const Vec3& at, Index first, const WalkedSurface& on) {
 
 /// @return false  if there is no room.
 bool RimWalk::cross(Index exit, Index entry) {
-  if (std::max(used_count_, exit_count_) == kMost) return false;
+  if (std::max(used_.size(), exit_count_) == kMost) return false;
   now_ = entry / 3;
-  const auto end = used_.begin() + static_cast<std::ptrdiff_t>(used_count_);
-  if (std::find(used_.begin(), end, now_) == end) used_[used_count_++] = now_;
+  add_once(used_, now_);
   if (exit_count_ > 0 && exits_[exit_count_ - 1] == entry) {
     --exit_count_;
   } else {
@@ -214,7 +218,19 @@ bool RimWalk::is_filled(const TrianglePlanes& triangle, const WalkedSurface& on)
       h = EditableSurface::next(o);
     } while (h != left.leaving(n));
   }
+  for (std::ptrdiff_t n = 0; n < left.count(); ++n) enclosed_.push_back(left.leaving(n));
   return exits == exit_count_;
+}
+
+const std::vector<Index>& RimWalk::used(const WalkedSurface& on) {
+  for (const Index leaving : enclosed_) {
+    Index h = leaving;
+    do {
+      add_once(used_, h / 3);
+      h = EditableSurface::next(on.opposite(h));
+    } while (h != leaving);
+  }
+  return used_;
 }
 
 /// Whether the foot of a point of the surface is near all triangles at the point, which lie all

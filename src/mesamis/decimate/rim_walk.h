@@ -52,8 +52,10 @@ class RimWalk {
   ///         infinity where none up to the tolerance could be proved, which may be in vain.
   double bound(const TrianglePlanes& triangle, const WalkedSurface& on, Index start);
 
-  /// The triangles of the surface to which parts of the last one were found near, each once.
-  std::span<const Index> used() const { return {used_.data(), used_count_}; }
+  /// The triangles of the surface to which parts of the last one were found near, each once: those of
+  /// the chain, and all around the points that it goes round.
+  /// @param on  as bound() had it.
+  const std::vector<Index>& used(const WalkedSurface& on);
   /// After a walk in vain a point of the triangle, mostly one that is too far.
   const Vec3& stop() const { return stop_; }
 
@@ -72,9 +74,9 @@ class RimWalk {
   double most_;       // squared
   double found_ = 0;  // squared
   Vec3 stop_{0, 0, 0};
-  Index now_ = 0;                    // the triangle that the rim is near
-  std::array<Index, kMost> used_{};  // so many:
-  std::size_t used_count_ = 0;
+  Index now_ = 0;                     // the triangle that the rim is near
+  std::vector<Index> used_;           // those of the chain, each once
+  std::vector<Index> enclosed_;       // half-edges that leave the points inside the chain
   std::array<Index, kMost> exits_{};  // the half-edges across which the chain leaves triangles
   std::size_t exit_count_ = 0;
 };

@@ -273,7 +273,7 @@ bool TwoSidedBound::old_are_near(const EditableSurface& surface, const Collapse&
 bool TwoSidedBound::is_near(const Affected& a, const WalkedSurface& on) {
   double distance = walk_.bound(originals_[a.original], on, a.guess);
   if (std::isfinite(distance)) {
-    for (const Index used : walk_.used()) uses_.push_back({a.original, used, distance});
+    for (const Index used : walk_.used(on)) uses_.push_back({a.original, used, distance});
     return true;
   }
   look_around(on.surface, *on.collapse);
