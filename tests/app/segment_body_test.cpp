@@ -183,8 +183,11 @@ TEST_F(SegmentBody, SetsWithoutAFaceAreTold) {
                "set B: expected two of the objects 1 'object', found 2");
 }
 
-/// A surface as it was extracted is no skin's tolerance, unless another one is given.
+/// A surface as it was extracted has no tolerance for the skin, unless one is given. A preview has its
+/// own: nobody chose 0.
 TEST_F(SegmentBody, NeedsATolerance) {
+  EXPECT_EQ(segment("a.inp", {}, "3", "0").status, 0);
+  how = {};
   EXPECT_FAILS(segment("a.inp", {}, "3", "0"), 2,
                "--body: tolerance: expected one above 0 for the skin, found 0");
   EXPECT_EQ(segment("a.inp", {"--skin-tolerance", "0.2"}, "3", "0").status, 0);

@@ -152,10 +152,10 @@ TEST(ChooseTolerance, FollowsTheErrorWithinBounds) {
     choose_tolerance(p, 0.5, error, errors);
     return *p.tolerance;
   };
-  EXPECT_EQ(chosen({}, 0.03, 1), 0.03);
-  EXPECT_EQ(chosen({}, 0.03, 2), 0.06);
-  EXPECT_EQ(chosen({}, 0, 1), 0.021 * 0.5);
-  EXPECT_EQ(chosen({}, 1, 1), 0.07 * 0.5);
+  EXPECT_EQ(chosen({}, 0.02, 1), 0.02);
+  EXPECT_EQ(chosen({}, 0.02, 2), 0.04);
+  EXPECT_EQ(chosen({}, 0, 1), 0.0168 * 0.5);
+  EXPECT_EQ(chosen({}, 1, 1), 0.056 * 0.5);
   EXPECT_EQ(chosen({}, 1, kErrorsOfPreview), 0);
   Parameters p;
   p.accuracy = 0.2;

@@ -21,7 +21,7 @@ TEST_F(ListParts, AddUpToThoseOfTheWhole) {
   EXPECT_EQ(parts.sizes[0].triangles, std::ssize(whole.triangles));
   EXPECT_NEAR(parts.sizes[0].volume / check.volume, 1, 1e-9);
   EXPECT_NEAR(parts.sizes[0].area / check.area, 1, 1e-9);
-  EXPECT_NEAR(parts.mean_error / mean_expected_error(slabs.mesh->input, whole), 1, 1e-9);
+  EXPECT_NEAR(parts.mean_error / expected_shape_error(slabs.mesh->input, whole).mean, 1, 1e-9);
   for (const auto& of_slab : parts.of_slab) EXPECT_EQ(of_slab, std::vector<Index>{0});
   EXPECT_GT(parts.shift, 0);
   EXPECT_LT(parts.shift, 1e-5) << "mm";

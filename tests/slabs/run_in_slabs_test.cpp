@@ -213,7 +213,8 @@ TEST(SlabRun, KeepsAllPartsOfALeftHandedGrid) {
   EXPECT_NEAR(check.volume / check_surface(whole.surface).volume, 1, 0.01);
   EXPECT_EQ(result.printable.parts->islands, 3);
   EXPECT_EQ(result.printable.parts->cavities, 1);
-  EXPECT_NEAR(kErrorsOfObject * *result.parameters.tolerance / *whole.parameters.tolerance, 1, 0.1)
+  const double errors = kErrorsOfObject / kErrorsOfDecimation;
+  EXPECT_NEAR(errors * *result.parameters.tolerance / *whole.parameters.tolerance, 1, 0.1)
       << "the points of the whole move after decimation, see simplify()";
 }
 

@@ -260,7 +260,7 @@ void choose_max_tets(Parameters& p, double cells, Index slabs) {
 }
 
 void choose_tolerance(Parameters& p, double voxel, double expected_error, double errors) {
-  constexpr double kLeast = 0.021, kMost = 0.07, kFinest = 0.01;  // voxels
+  constexpr double kLeast = 0.0168, kMost = 0.056, kFinest = 0.01;  // voxels
   if (p.tolerance) return;
   if (p.triangles > 0) {
     p.tolerance = std::numeric_limits<double>::infinity();

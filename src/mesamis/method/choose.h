@@ -94,17 +94,17 @@ double cells_of_image(const VolumeView& image, const LevelInNoise& object, doubl
 void choose_max_tets(Parameters& parameters, double cells, Index slabs = 1);
 
 /// The tolerance over the error to expect. What simplify() takes of an object costs about nothing at
-/// four times; labels keep to half of that, slabs, which decimate() alone, to about a third. A
+/// five times; labels keep to half of that, slabs, which decimate() alone, to about a third. A
 /// preview is shown, not printed: nothing is decimated.
-inline constexpr double kErrorsOfObject = 4, kErrorsOfLabels = 2, kErrorsOfDecimation = 1.4,
+inline constexpr double kErrorsOfObject = 5, kErrorsOfLabels = 2.5, kErrorsOfDecimation = 1.75,
                         kErrorsOfPreview = 0;
 
 /// Chooses the tolerance where it is open: infinite where a number of triangles is asked for; half
-/// of the accuracy, if that is asked for, but no less than 0.01 voxel; else how far the surface is
-/// expected to be from the truth, but no less than 0.021 and no more than 0.07 voxel, times so many
+/// of the accuracy, if that is asked for, but no less than 0.01 voxel; else how far the shape is
+/// expected to be from the truth, but no less than 0.0168 and no more than 0.056 voxel, times so many
 /// errors: a surface that is kept closer keeps detail smaller than its error.
 /// @param voxel           geometric mean of the spacing, mm, > 0.
-/// @param expected_error  in the mean over the surface, see expected_error(), mm, >= 0.
+/// @param expected_error  in the mean over the surface, see expected_shape_error(), mm, >= 0.
 /// @param errors          how many it may lose; 0: nothing is decimated.
 void choose_tolerance(Parameters& parameters, double voxel, double expected_error, double errors);
 

@@ -60,7 +60,7 @@ void finish_surface(const RunInput& run, const Progress& progress, Result& resul
   result.printable.triangles_extracted = std::ssize(result.surface.triangles);
   if (p.surface == SurfaceKind::kBand) return;
   // Nothing of a preview depends on the error, which takes time to find.
-  const double error = p.preview ? 0 : mean_expected_error(run, result.surface);
+  const double error = p.preview ? 0 : expected_shape_error(run, result.surface).mean;
   choose_tolerance(p, run.grey.voxel_size(), error, p.preview ? kErrorsOfPreview : kErrorsOfObject);
   if (p.preview) begin_stage(progress, "rounding");
   result.surface = make_printable(result.surface,

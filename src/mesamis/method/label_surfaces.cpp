@@ -293,7 +293,7 @@ double mean_error_of(const LabelRun& run, const std::vector<LayerBoundaries>& la
   if (input == nullptr) return kErrorOfLabels * run.request.map.voxel_size();
   TriMesh all;
   for (const LayerBoundaries& layer : layers) append(layer.partition, all);
-  return mean_expected_error(*input, all);
+  return expected_shape_error(*input, all).mean;
 }
 
 /// Rounds and decimates what objects share in one. A preview is rounded in any case.

@@ -338,8 +338,10 @@ void bring_to_world(const RunInput& run, std::vector<Vec3>& points) {
   });
 }
 
-double mean_expected_error(const RunInput& run, const TriMesh& surface) {
-  return summarize_error(surface, expected_error(surface, run.image, run.error)).mean;
+ErrorSummary expected_shape_error(const RunInput& run, const TriMesh& surface) {
+  ErrorOptions of_shape = run.error;
+  of_shape.level = 0;
+  return summarize_error(surface, expected_error(surface, run.image, of_shape));
 }
 
 void record_surface(const Pass& pass, const TetMesh& mesh, std::span<const double> before,
@@ -352,7 +354,7 @@ void record_surface(const Pass& pass, const TetMesh& mesh, std::span<const doubl
       p.unit_mm * level_set_change(mesh, before, now, {level, voxel / p.unit_mm});
   TriMesh surface = extract_solid(mesh, now, level);
   bring_to_world(run, surface.points);
-  const double error = mean_expected_error(run, surface);
+  const double error = expected_shape_error(run, surface).mean;
   record.surface_tolerance = std::max(error, p.follow ? kFollowed * voxel : 0);
 }
 

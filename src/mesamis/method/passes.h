@@ -146,9 +146,10 @@ State adapt(const Pass& pass, const State& state, const Minimum& minimum);
 /// From length units in the grid's axes to mm in the world frame.
 void bring_to_world(const RunInput& run, std::vector<Vec3>& points);
 
-/// The mean over a surface of how far it lies from the truth, mm; see expected_error().
+/// How far the shape of a surface lies from the truth, mm: expected_error() without the uncertainty
+/// of the level, which moves the surface as a whole and hides no detail of it.
 /// @param surface  as extracted, world frame, mm.
-double mean_expected_error(const RunInput& run, const TriMesh& surface);
+ErrorSummary expected_shape_error(const RunInput& run, const TriMesh& surface);
 
 /// Records how far the minimisation has moved the solid's surface, and how far it may; nothing for
 /// a band.

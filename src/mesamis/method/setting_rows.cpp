@@ -368,8 +368,8 @@ std::vector<Setting> surface_rows() {
                    .words = {"auto", "none"}, .unit = "mm",
                    .help = "Decimation keeps the solid surface within this distance; 0: no "
                        "decimation; none: no bound",
-                   .automatic = "4 times the error to expect, 0.084 to 0.28 voxel (labels: half of that; slabs: "
-                                "1.4 times, 0.03 to 0.1; previews: 0), or half of accuracy, if that is asked for; none where "
+                   .automatic = "5 times the error to expect of the shape, 0.084 to 0.28 voxel (labels: half of that; slabs: "
+                                "1.75 times, 0.03 to 0.1; previews: 0), or half of accuracy, if that is asked for; none where "
                                 "triangles says where to stop"}),
     bound({.name = "preview", .form = "yes|no",
            .help = "The solid of the first grid, quickly: no mesh is adapted"},

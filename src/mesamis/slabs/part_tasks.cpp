@@ -138,8 +138,7 @@ SlabWork list_parts(const SurfaceRun& run, Index s) {
   }
   const SurfacePiece piece = surface_of(run, s);
   const TriMesh surface = in_world(run, piece);
-  const ErrorSummary error =
-      summarize_error(surface, expected_error(surface, input.image, input.error));
+  const ErrorSummary error = expected_shape_error(input, surface);
   list.facts.error = error.mean;
   list.facts.area = error.area;
   for (const Vec3& p : surface.points) {

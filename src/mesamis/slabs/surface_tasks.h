@@ -33,7 +33,7 @@ struct SurfaceParts {
   std::vector<Vec3> feet;                      ///< a point of each, world frame, mm
   std::vector<std::vector<Index>> of_slab;     ///< [slab][component of its surface]
   std::vector<HeightRange> core, border;       ///< of the slabs' surfaces, and of those between
-  double mean_error = 0;                       ///< expected of the surface, mm
+  double mean_error = 0;                       ///< expected of the surface's shape, mm
   double shift = 0;                            ///< of any point, rounded to single precision, mm
 };
 
