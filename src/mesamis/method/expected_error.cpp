@@ -36,7 +36,7 @@ std::vector<double> expected_error(const TriMesh& surface, const SplineImage& im
   require_sound(surface);
   const double voxel = image.grid.voxel_size();
   const auto [x, y, z] = options.blur;
-  const auto [along_x, along_y, along_z] = options.noise;
+  const Vec3 along{options.noise[0], options.noise[1], options.noise[2]};
   const double blur = (x * x + y * y + z * z) / 3;
   const double at_box = 1e-3 * voxel;  // single precision does not hit it
   const Vec3 margin{at_box, at_box, at_box};
@@ -47,7 +47,7 @@ std::vector<double> expected_error(const TriMesh& surface, const SplineImage& im
     if (!inner.contains(p)) return;
     const Vec3 gradient = spline_at(image, p).gradient, normal = unit_or_zero(gradient);
     const double slope = std::max(norm(gradient) * voxel, kSlopeOfNoEdge);
-    const double noise = std::hypot(normal.x * along_x, normal.y * along_y, normal.z * along_z);
+    const double noise = std::hypot(normal.x * along.x, normal.y * along.y, normal.z * along.z);
     const double error = std::hypot(std::hypot(kOfNoise * noise, options.level) / slope,
                                     kOfBends * blur * curvature_at(image, p),
                                     kOfContrastAndBlur * blur * options.contrast / slope);
