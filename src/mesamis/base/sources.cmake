@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   available_memory.h
+  each_once.h
   embedded_file.h
   error.h
   median.h

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/mesh/edges.h"
 
 namespace mesamis::detail::body {
@@ -95,8 +96,7 @@ class EdgeMaterials {
 
   /// By edge, each pair once.
   std::vector<EdgeMaterial> sorted() && {
-    std::sort(found_.begin(), found_.end());
-    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+    sort_once(found_);
     return std::move(found_);
   }
 

@@ -8,6 +8,7 @@
 #include <queue>
 #include <tuple>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/single_precision.h"
 #include "mesamis/decimate/collapse.h"
 #include "mesamis/decimate/collapse_intersections.h"
@@ -295,8 +296,7 @@ class Pass {
       });
     }
     woken_.clear();
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
+    sort_once(around);
     push(around);
   }
 

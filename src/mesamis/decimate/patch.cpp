@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/mesh/tet_mesh.h"
 
 namespace mesamis::detail::decimate {
@@ -43,8 +44,7 @@ Places places_of(const Cover& cover, const std::vector<Index>& numbers) {
   for (std::size_t t = 0; t < numbers.size(); ++t) {
     for (const Index p : cover.triangles[t]) places.emplace_back(p, numbers[t]);
   }
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
+  sort_once(places);
   return places;
 }
 
@@ -89,8 +89,7 @@ class Cutter {
     }
     for (Patch& patch : patches_) {
       auto& around = patch.around;
-      std::sort(around.begin(), around.end());
-      around.erase(std::unique(around.begin(), around.end()), around.end());
+      sort_once(around);
     }
     return std::move(patches_);
   }

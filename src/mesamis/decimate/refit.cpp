@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/single_precision.h"
@@ -285,8 +286,7 @@ class Refit {
                 box, [&](std::size_t t) { found.push_back(to_original_.index_of(own, t)); });
           }
         });
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
+    sort_once(near);
     return near;
   }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mesamis/base/each_once.h"
+
 namespace mesamis::detail::decimate {
 namespace {
 
@@ -33,10 +35,6 @@ Exit exit_of(const TrianglePlanes& t, const Vec3& from, const Vec3& to, std::siz
     farthest = there;
   }
   return exit;
-}
-
-void add_once(std::vector<Index>& numbers, Index number) {
-  if (std::find(numbers.begin(), numbers.end(), number) == numbers.end()) numbers.push_back(number);
 }
 
 /// Points of a surface, each once, by a half-edge that leaves it.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/decimate/openmesh.h"
 #include "mesamis/decimate/single_places.h"
 #include "mesamis/surface/measure.h"
@@ -105,8 +106,7 @@ class Rounding {
     for (const TrianglePair& pair : find_self_intersections(rounded_)) {
       meeting.insert(meeting.end(), pair.begin(), pair.end());
     }
-    std::sort(meeting.begin(), meeting.end());
-    meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
+    sort_once(meeting);
     return meeting;
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/surface/box_tree.h"
 
 namespace mesamis::detail::decimate {
@@ -29,8 +30,7 @@ std::vector<Index> originals_at_stake(const TriMesh& original, const Cover& cove
       if (is_corner[k[0]] || is_corner[k[1]] || is_corner[k[2]]) numbers.push_back(o);
     }
   }
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  sort_once(numbers);
   return numbers;
 }
 
@@ -49,8 +49,7 @@ EditableSurface part_of(const TriMesh& surface, const std::vector<Index>& number
   for (const Index t : numbers) {
     points.insert(points.end(), surface.triangles[t].begin(), surface.triangles[t].end());
   }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+  sort_once(points);
   std::vector<Triangle> triangles;
   for (const Index t : numbers) {
     Triangle k = surface.triangles[t];
@@ -96,8 +95,7 @@ std::vector<Index> TwoSidedBound::originals_of(Index triangle) const {
   std::vector<Index> numbers;
   if (stays_[triangle] != 0) numbers = cover_.originals[triangle];
   for (const Index o : lists_[triangle]) numbers.push_back(numbers_[o]);
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  sort_once(numbers);
   return numbers;
 }
 
@@ -155,9 +153,7 @@ void TwoSidedBound::apply(const Collapse& collapse) {
     std::vector<Index>& list = lists_[use.triangle];
     double& distance = bounds_[use.triangle].from_originals;
     distance = std::max(distance, use.distance);
-    if (std::find(list.begin(), list.end(), use.original) == list.end()) {
-      list.push_back(use.original);
-    }
+    add_once(list, use.original);
   }
 }
 
@@ -224,11 +220,7 @@ void TwoSidedBound::look_around(const EditableSurface& surface, const Collapse& 
   const auto see = [&](Index p) {
     surface.for_each_leaving(p, [&](Index h) {
       const Index t = h / 3;
-      if (t == collapse.gone[0] || t == collapse.gone[1]) return;
-      if (std::find(around_number_.begin(), around_number_.end(), t) != around_number_.end()) {
-        return;
-      }
-      around_number_.push_back(t);
+      if (t != collapse.gone[0] && t != collapse.gone[1]) add_once(around_number_, t);
     });
   };
   for (const Index h : collapse.outer) see(surface.from(h));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/parallel.h"
 
 namespace mesamis::detail::fem {
@@ -18,8 +19,7 @@ void build_graph(const TetMesh& mesh, const PointCells& around,
     for (const Index c : around.of(static_cast<Index>(i))) {
       row.insert(row.end(), mesh.cells[c].begin(), mesh.cells[c].end());
     }
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
+    sort_once(row);
     row.shrink_to_fit();
   });
   row_start.assign(n + 1, 0);

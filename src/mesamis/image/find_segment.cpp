@@ -3,6 +3,7 @@
 #include <charconv>
 #include <numeric>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/error.h"
 #include "mesamis/image/label_map.h"
 
@@ -116,7 +117,7 @@ std::vector<Segment> find_segments(std::span<const Segment> segments,
   std::vector<Segment> found;
   for (const std::string& text : names_or_labels) {
     const Segment segment = find_segment(segments, text);
-    if (std::find(found.begin(), found.end(), segment) == found.end()) found.push_back(segment);
+    add_once(found, segment);
   }
   return found;
 }

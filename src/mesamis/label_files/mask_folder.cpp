@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/error.h"
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/refuse.h"
@@ -68,7 +69,7 @@ std::uint16_t label_of(const fs::path& file, const LabelFile& mask) {
 
 void add_new(std::vector<std::string>& all, const std::vector<std::string>& more) {
   for (const std::string& one : more) {
-    if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
+    add_once(all, one);
   }
 }
 

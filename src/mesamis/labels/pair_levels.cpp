@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/median.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/normals.h"
@@ -22,8 +23,7 @@ struct Plateaus {
 /// The pairs of sides that occur, increasing.
 std::vector<PairLevel> pairs_in(const PartitionSurface& partition) {
   std::vector<std::array<Index, 2>> sides = partition.sides;
-  std::sort(sides.begin(), sides.end());
-  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  sort_once(sides);
   std::vector<PairLevel> pairs;
   for (const auto& pair : sides) {
     if (pair[0] != kNoIndex && pair[1] != kNoIndex) pairs.push_back({.sides = pair});

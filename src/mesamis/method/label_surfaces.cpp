@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/median.h"
 #include "mesamis/base/parallel.h"
@@ -461,8 +462,7 @@ std::vector<Index> layers_of(const std::vector<Segment>& segments) {
   std::vector<Index> layers;
   layers.reserve(segments.size());
   for (const Segment& s : segments) layers.push_back(s.layer);
-  std::sort(layers.begin(), layers.end());
-  layers.erase(std::unique(layers.begin(), layers.end()), layers.end());
+  sort_once(layers);
   return layers;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/edges.h"
@@ -128,8 +129,7 @@ class Cut {
         }
       }
     }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    sort_once(edges);
     return edges;
   }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/remesh/body_shape.h"
 #include "mesamis/remesh/geometry.h"
 
@@ -23,9 +24,7 @@ class ManifoldSkin {
     for (int pass = 0; !vertices_.empty(); ++pass) {
       changed_vertices_.clear();
       for (const Index v : vertices_) mend(v, pass < kGentlePasses);
-      std::sort(changed_vertices_.begin(), changed_vertices_.end());
-      changed_vertices_.erase(std::unique(changed_vertices_.begin(), changed_vertices_.end()),
-                              changed_vertices_.end());
+      sort_once(changed_vertices_);
       vertices_ = changed_vertices_;
     }
     return changed_cells_;

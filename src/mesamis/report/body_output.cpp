@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/written_number.h"
 #include "mesamis/body/rim.h"
@@ -65,8 +66,7 @@ FiniteElements::FaceSet face_set(const FiniteElements& elements, const BodyMesh&
       if (node != kNoIndex) set.nodes.push_back(node);
     }
   }
-  std::sort(set.nodes.begin(), set.nodes.end());
-  set.nodes.erase(std::unique(set.nodes.begin(), set.nodes.end()), set.nodes.end());
+  sort_once(set.nodes);
   return set;
 }
 

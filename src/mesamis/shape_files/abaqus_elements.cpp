@@ -3,6 +3,7 @@
 // appended.
 #include <algorithm>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/shape_files/abaqus_sections.h"
 #include "mesamis/shape_files/element_formats.h"
 #include "mesamis/shape_files/surface_formats.h"
@@ -37,8 +38,7 @@ std::vector<Index> nodes_of(const FiniteElements& e, const std::vector<Index>& c
     if (e.mid_nodes.empty()) continue;
     nodes.insert(nodes.end(), e.mid_nodes[c].begin(), e.mid_nodes[c].end());
   }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_once(nodes);
   return nodes;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/error.h"
 #include "mesamis/decimate/round_together.h"
 #include "mesamis/files/atomic_file.h"
@@ -185,8 +186,7 @@ class Splitter {
     TriMesh part{{}, std::move(triangles_[object])};
     std::vector<Index> used;
     for (const Triangle& t : part.triangles) used.insert(used.end(), t.begin(), t.end());
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+    sort_once(used);
     for (const Index p : used) {
       new_index_[p] = static_cast<Index>(part.points.size());
       part.points.push_back(all_.points[p]);

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/error.h"
 #include "mesamis/mesh/kuhn.h"
 #include "mesamis/slabs/mapped_items.h"
@@ -249,8 +250,7 @@ SlabWork join_parts(const LayerRun& run, Index s) {
       }
     }
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  sort_once(pairs);
   ArchiveWriter archive;
   archive.add(pairs);
   run.scratch.write(run.file("pairs", s), archive);

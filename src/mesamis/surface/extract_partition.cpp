@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/box_planes.h"
@@ -68,8 +69,7 @@ void take_points(const std::vector<Vec3>& points, TriMesh& surface) {
   std::vector<Index> used;
   used.reserve(3 * surface.triangles.size());
   for (const Triangle& t : surface.triangles) used.insert(used.end(), t.begin(), t.end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  sort_once(used);
   surface.points.reserve(used.size());
   for (const Index p : used) surface.points.push_back(points[static_cast<std::size_t>(p)]);
   for (Triangle& t : surface.triangles) {

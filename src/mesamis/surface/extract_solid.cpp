@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/box_planes.h"
@@ -140,8 +141,7 @@ std::vector<Site> unique_sites(const std::vector<SiteTriangle>& triangles) {
   std::vector<Site> sites;
   sites.reserve(3 * triangles.size());
   for (const SiteTriangle& t : triangles) sites.insert(sites.end(), t.begin(), t.end());
-  std::sort(sites.begin(), sites.end());
-  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+  sort_once(sites);
   sites.shrink_to_fit();
   return sites;
 }

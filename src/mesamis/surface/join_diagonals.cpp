@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <iterator>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/disjoint_sets.h"
 #include "mesamis/surface/label_parts.h"
@@ -247,8 +248,7 @@ std::vector<std::size_t> touched_sets(std::span<const DiagonalJoin* const> joins
       sets.push_back(parts.find(static_cast<std::size_t>(part)));
     }
   }
-  std::sort(sets.begin(), sets.end());
-  sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
+  sort_once(sets);
   return sets;
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/surface/partition_cells.h"
 
+#include "mesamis/base/each_once.h"
+
 namespace mesamis::detail::surface {
 namespace {
 
-void sort_once(std::vector<Simplex>& sites) {
-  std::sort(sites.begin(), sites.end());
-  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+void sort_and_shrink(std::vector<Simplex>& sites) {
+  sort_once(sites);
   sites.shrink_to_fit();
 }
 
@@ -22,7 +23,7 @@ PartitionBlock block_of(std::span<const PartitionPiece> pieces) {
   for (const PartitionPiece& piece : pieces) {
     block.sites.insert(block.sites.end(), piece.corners.begin(), piece.corners.end());
   }
-  sort_once(block.sites);
+  sort_and_shrink(block.sites);
   block.triangles.reserve(pieces.size());
   block.sides.reserve(pieces.size());
   for (const auto& [corners, sides] : pieces) {
@@ -39,7 +40,7 @@ std::vector<Simplex> all_sites(std::span<const PartitionBlock> blocks) {
   for (const PartitionBlock& block : blocks) {
     sites.insert(sites.end(), block.sites.begin(), block.sites.end());
   }
-  sort_once(sites);
+  sort_and_shrink(sites);
   return sites;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/box_tree.h"
@@ -26,8 +27,7 @@ std::vector<Box> boxes_of(const TriMesh& surface) {
 
 /// Each once, in ascending order.
 std::vector<TrianglePair> sorted_once(std::vector<TrianglePair> pairs) {
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  sort_once(pairs);
   return pairs;
 }
 
