@@ -204,10 +204,15 @@ bool RimWalk::is_filled(const TrianglePlanes& triangle, const WalkedSurface& on)
   std::size_t exits = 0;
   for (std::ptrdiff_t n = 0; n < left.count(); ++n) {
     Index h = left.leaving(n);
-    if (!foot_is_near(triangle, on, h)) return false;
+    const Vec3& p = on.triangles[h / 3].corners()[static_cast<std::size_t>(h % 3)];
+    const Vec3 foot = triangle.foot_of(p), way = p - foot;
+    const double distance = dot(way, way);
+    const bool point_is_near = distance <= most_;  // which is in all triangles around it
+    if (point_is_near) found_ = std::max(found_, distance);
     do {
       const Index o = on.opposite(h);
-      if (is_exit(h)) return false;  // to the right of it
+      if (o == kNoIndex || is_exit(h)) return false;  // a rim; or it is to the right of the chain
+      if (!point_is_near && !is_near(foot, on.triangles[h / 3])) return false;
       if (is_exit(o)) {
         ++exits;
       } else if (!left.add(on, o)) {
@@ -216,8 +221,9 @@ bool RimWalk::is_filled(const TrianglePlanes& triangle, const WalkedSurface& on)
       h = EditableSurface::next(o);
     } while (h != left.leaving(n));
   }
+  if (exits != exit_count_) return false;
   for (std::ptrdiff_t n = 0; n < left.count(); ++n) enclosed_.push_back(left.leaving(n));
-  return exits == exit_count_;
+  return true;
 }
 
 const std::vector<Index>& RimWalk::used(const WalkedSurface& on) {
@@ -229,24 +235,6 @@ const std::vector<Index>& RimWalk::used(const WalkedSurface& on) {
     } while (h != leaving);
   }
   return used_;
-}
-
-/// Whether the foot of a point of the surface is near all triangles at the point, which lie all
-/// around it.
-bool RimWalk::foot_is_near(const TrianglePlanes& triangle, const WalkedSurface& on, Index leaving) {
-  const Vec3& p = on.triangles[leaving / 3].corners()[static_cast<std::size_t>(leaving % 3)];
-  const Vec3 foot = triangle.foot_of(p), way = p - foot;
-  const double distance = dot(way, way);
-  const bool point_is_near = distance <= most_;
-  if (point_is_near) found_ = std::max(found_, distance);
-  Index h = leaving;
-  do {
-    if (!point_is_near && !is_near(foot, on.triangles[h / 3])) return false;
-    const Index o = on.opposite(h);
-    if (o == kNoIndex) return false;
-    h = EditableSurface::next(o);
-  } while (h != leaving);
-  return true;
 }
 
 }  // namespace mesamis::detail::decimate

@@ -69,7 +69,6 @@ class RimWalk {
   bool cross(Index exit, Index entry);
   void close_chain(const WalkedSurface& on);
   bool is_filled(const TrianglePlanes& triangle, const WalkedSurface& on);
-  bool foot_is_near(const TrianglePlanes& triangle, const WalkedSurface& on, Index leaving);
 
   double most_;       // squared
   double found_ = 0;  // squared

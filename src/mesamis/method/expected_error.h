@@ -29,10 +29,10 @@ struct ErrorOptions {
 /// expected is
 ///   e^2 = (0.8 N)^2 + U^2 + (0.12 s^2 K)^2 + (0.02 s^2 L)^2,
 /// no more than two voxels. 0.8 is the mean size of a normal variable; the factors of the blur are
-/// fitted to distances measured on phantoms and simulated CT (docs/accuracy.md). Decimation adds the square of a quarter of its greatest
-/// distance. Where the image's box cuts the object there is no edge that could be off: 0. Walls and
-/// gaps that the surface has missed are not seen, nor is a level that was chosen for another
-/// tissue.
+/// fitted to distances measured on phantoms and simulated CT (docs/accuracy.md). Decimation adds the
+/// square of a quarter of its greatest distance. Where the image's box cuts the object there is no
+/// edge that could be off: 0. Walls and gaps that the surface has missed are not seen, nor is a
+/// level that was chosen for another tissue.
 /// @param surface  n points, world frame, mm.
 /// @param image    the restored image, grey values.
 /// @return n values, mm.

@@ -79,21 +79,10 @@ std::array<double, 3> undoable(const std::array<double, 3>& blur) {
   return undone;
 }
 
-/// Of means along a surface across each axis, native units.
-std::array<double, 3> noise_along_surface(const Restored& restored,
-                                          const std::array<double, 3>& undone,
-                                          double regularization) {
-  auto noise = noise_gain_along_surface(undone, regularization, restored.noise_correlation);
-  for (double& along : noise) along *= restored.noise;
-  return noise;
-}
-
 /// Undoes the blur that was found, also in thin sheets.
 /// @param guide  the scan, smoothed.
 void undo_blur(Restored& restored, const Volume& guide, const ObjectContrast& contrast) {
   const double square = mean_square(restored.blur);
-  restored.surface_noise = noise_along_surface(restored, {}, 1);
-  if (!(square > 0)) return;
   SheetOptions sheets{.contrast = contrast, .blur = restored.blur, .noise = restored.noise};
   const std::array<double, 3> undone = undoable(restored.blur);
   const double undone_square = mean_square(undone);
@@ -103,9 +92,11 @@ void undo_blur(Restored& restored, const Volume& guide, const ObjectContrast& co
         choose_regularization(restored.noise, contrast.difference(), square, undone_square);
     restored.volume = deblurred(std::move(restored.volume), undone, *sheets.regularization);
     restored.noise_left *= noise_gain(undone, *sheets.regularization);
-    restored.surface_noise = noise_along_surface(restored, undone, *sheets.regularization);
   }
-  lift_thin_sheets(restored.volume, guide, sheets);
+  restored.surface_noise = noise_gain_along_surface(
+      sheets.undone, sheets.regularization.value_or(1), restored.noise_correlation);
+  for (double& along : restored.surface_noise) along *= restored.noise;
+  if (square > 0) lift_thin_sheets(restored.volume, guide, sheets);
 }
 
 }  // namespace
