@@ -38,20 +38,16 @@ def table(head, lines):
 # Scans
 
 def scan_of(distance, side, spacing, value=lambda p: 1000.0, blur=BLUR, parts=4):
-    """A CT of what a distance function holds: partial volumes, blur, whole HU. Nothing around it is 0 HU.
+    """A CT of what a distance function holds: blur, partial volumes, whole HU. Nothing around it is 0 HU.
 
-    A part of a voxel counts by how far the surface has come into it: parts that are in or out alone put steps
-    of an eighth of a voxel on a surface where it touches their planes.
+    The blur comes before the voxels, as in a scanner: voxels that are blurred make the surface waver along their
+    planes, by 0.028 instead of 0.008 voxel (rms) at a blur of 0.7. A part of a voxel counts by how far the surface
+    has come into it: parts that are in or out alone put steps of an eighth of a voxel on a surface.
     """
-    centres = [spacing * np.arange(n) for n in side]
-    total = np.zeros(side)
-    shifts = spacing * ((np.arange(parts) + 0.5) / parts - 0.5)
-    for dx in shifts:
-        for dy in shifts:
-            for dz in shifts:
-                p = np.meshgrid(*[c + d for c, d in zip(centres, (dx, dy, dz))], indexing="ij", sparse=True)
-                total += np.clip(0.5 - distance(*p) * parts / spacing, 0, 1) * value(p)
-    image = ndimage.gaussian_filter(total / parts**3, blur, mode="nearest")
+    p = np.meshgrid(*[spacing * ((np.arange(n * parts) + 0.5) / parts - 0.5) for n in side], indexing="ij", sparse=True)
+    fine = (np.clip(0.5 - distance(*p) * parts / spacing, 0, 1) * value(p)).astype(np.float32)
+    fine = ndimage.gaussian_filter(fine, blur * parts, mode="nearest")
+    image = fine.reshape([k for n in side for k in (n, parts)]).mean(axis=(1, 3, 5))
     return Volume(np.rint(image).astype(np.int16), np.full(3, float(spacing)), np.zeros(3))
 
 
