@@ -71,9 +71,35 @@ TEST(FollowImage, ADraftSplitsLessAndMeetsItselfInNoFile) {
 TEST(FollowImage, DoesNotSplitThinTriangles) {
   TriMesh surface = coarse_ball(kRadius);
   const Triangle thin = add_thin_triangle(surface, 0.0002);
-  const TriMesh followed = follow_image(surface, ball_image(0), {.level = kLevel, .noise = 0.1});
-  EXPECT_EQ(std::count(followed.triangles.begin(), followed.triangles.end(), thin), 1);
-  EXPECT_GT(followed.triangles.size(), 2 * surface.triangles.size()) << "others are split";
+  FollowedPart part{surface, surface.points, std::vector<char>(surface.points.size(), 0)};
+  follow_part(part, ball_image(0), {.level = kLevel, .noise = 0.1});
+  const std::vector<Triangle>& followed = part.extracted.triangles;
+  EXPECT_EQ(std::ranges::count(followed, thin), 1);
+  EXPECT_GT(followed.size(), 2 * surface.triangles.size()) << "others are split";
+}
+
+TEST(FollowImage, SortsWhatWasSplitAlongACurve) {
+  const TriMesh coarse = coarse_ball(kRadius);
+  const FollowOptions options{.level = kLevel, .noise = 0.1};
+  const TriMesh followed = follow_image(coarse, ball_image(0), options);
+  FollowedPart part{coarse, coarse.points, std::vector<char>(coarse.points.size(), 0)};
+  follow_part(part, ball_image(0), options);
+  ASSERT_GT(followed.points.size(), 2 * coarse.points.size());
+  EXPECT_EQ(followed.triangles.size(), part.extracted.triangles.size());
+  // The same points, but for the rounding of other sums.
+  std::vector<Vec3> sorted = followed.points, as_split = part.moved;
+  for (auto* points : {&sorted, &as_split}) {
+    std::ranges::sort(*points, {}, [](const Vec3& p) { return norm(p - Vec3{-31, 57, 13}); });
+  }
+  for (std::size_t p = 0; p < sorted.size(); ++p) {
+    ASSERT_NEAR(norm(sorted[p] - as_split[p]), 0, 1e-6);
+  }
+  const auto mean_step = [](const std::vector<Triangle>& triangles) {
+    double sum = 0;
+    for (const Triangle& t : triangles) sum += std::abs(t[0] - t[1]);
+    return sum / static_cast<double>(triangles.size());
+  };
+  EXPECT_LT(mean_step(followed.triangles), 0.5 * mean_step(part.extracted.triangles));
 }
 
 TEST(FollowImage, LeavesASurfaceThatNoiseExplains) {

@@ -6,6 +6,7 @@ set(ROOM_HEADERS
   error.h
   median.h
   message.h
+  morton_code.h
   nearest_names.h
   parallel.h
   progress.h

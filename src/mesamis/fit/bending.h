@@ -36,7 +36,7 @@ struct Springs {
   std::vector<double> weight;  ///< >= 0 each
   std::vector<Vec3> goal;
   std::vector<char> held;  ///< 1: the point stays where it is
-  double accuracy = 1e-4;  ///< of relax(): what is left of the residual, > 0
+  double accuracy = 1e-3;  ///< of relax(): what is left of the residual, > 0
 };
 
 /// Springs of one weight that hold points where they are; those on the grid's box stay.

@@ -3,14 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "mesamis/base/morton_code.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/fit/bending.h"
 #include "mesamis/fit/surface_moves.h"
 #include "mesamis/fit/terraces.h"
+#include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/normals.h"
 #include "mesamis/surface/split_edges.h"
 
@@ -27,6 +30,35 @@ constexpr double kMostSmoothed = 0.25;  // voxels
 /// Voxels: points that noise moves by more are held with the weight 1, by half of it or less with 4.
 constexpr double kNoiseOfWeight = 0.15, kMostWeight = 4;
 constexpr double kThick = 3, kThinnest = 0.75, kDepthStep = 0.25;  // voxels behind the surface
+
+/// Orders points along a Morton curve and triangles by their first corners: what goes from neighbour
+/// to neighbour finds it in memory nearby, though split_edges() appends what it adds.
+void sort_along_curve(FollowedPart& part) {
+  const std::vector<Vec3>& points = part.extracted.points;
+  const Box box = bounding_box(points);
+  std::vector<std::pair<std::uint64_t, Index>> order(points.size());
+  parallel_for(points.size(), [&](std::size_t p) {
+    order[p] = {morton_code(box, points[p]), static_cast<Index>(p)};
+  });
+  std::sort(order.begin(), order.end());
+  std::vector<Index> number(points.size());
+  FollowedPart sorted{{std::vector<Vec3>(points.size()), std::move(part.extracted.triangles)},
+                      std::vector<Vec3>(points.size()),
+                      std::vector<char>(points.size())};
+  parallel_for(order.size(), [&](std::size_t to) {
+    const Index from = order[to].second;
+    number[from] = static_cast<Index>(to);
+    sorted.extracted.points[to] = points[from];
+    sorted.moved[to] = part.moved[from];
+    sorted.held[to] = part.held[from];
+  });
+  for (Triangle& t : sorted.extracted.triangles) {
+    for (Index& p : t) p = number[p];
+    std::rotate(t.begin(), std::ranges::min_element(t), t.end());
+  }
+  std::ranges::sort(sorted.extracted.triangles);
+  part = std::move(sorted);
+}
 
 class Follower {
  public:
@@ -46,9 +78,13 @@ class Follower {
     return offsets;
   }
 
-  void run(FollowedPart& part) const {
+  /// Splits edges that the level set leaves, and holds what nothing may move.
+  void split(FollowedPart& part) const {
     hold_on_box(part);
-    if (options_.to_image) split(part);
+    if (options_.to_image) split_bent_edges(part);
+  }
+
+  void move(FollowedPart& part) const {
     const Neighbors neighbors(part.extracted);
     std::vector<Vec3> goals = part.moved;
     if (options_.to_image) move_to_image(part, neighbors, goals);
@@ -68,8 +104,7 @@ class Follower {
     }
   }
 
-  /// Splits edges that the level set leaves.
-  void split(FollowedPart& part) const {
+  void split_bent_edges(FollowedPart& part) const {
     part.extracted = split_edges(
         std::move(part.extracted), [this](const Vec3& a, const Vec3& b) { return is_bent(a, b); },
         {options_.draft ? 1 : kMostRounds, kLeastHeight * space_.voxel(), part.held});
@@ -160,14 +195,22 @@ class Follower {
   FollowOptions options_;
 };
 
+bool has_work(const TriMesh& surface, const FollowOptions& options) {
+  return (options.to_image || options.smooth) && !surface.triangles.empty();
+}
+
 }  // namespace
 
 TriMesh follow_image(const TriMesh& surface, const SplineImage& image,
                      const FollowOptions& options) {
   FollowOptions what = options;
   what.to_image = options.to_image && look_along(surface, image, options).is_worthwhile();
+  if (!has_work(surface, what)) return surface;
+  const Follower follower(image, what);
   FollowedPart whole{surface, surface.points, std::vector<char>(surface.points.size(), 0)};
-  follow_part(whole, image, what);
+  follower.split(whole);
+  if (whole.extracted.points.size() > surface.points.size()) sort_along_curve(whole);
+  follower.move(whole);
   return {std::move(whole.moved), std::move(whole.extracted.triangles)};
 }
 
@@ -177,8 +220,10 @@ double most_followed(const VoxelGrid& grid, double point_scale) {
 }
 
 void follow_part(FollowedPart& part, const SplineImage& image, const FollowOptions& options) {
-  if (!options.to_image && !options.smooth) return;
-  if (!part.extracted.triangles.empty()) Follower(image, options).run(part);
+  if (!has_work(part.extracted, options)) return;
+  const Follower follower(image, options);
+  follower.split(part);
+  follower.move(part);
 }
 
 FollowCounts look_along(const TriMesh& surface, const SplineImage& image,

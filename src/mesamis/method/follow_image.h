@@ -45,7 +45,8 @@ struct FollowOptions {
 /// that the image could tell, points do not move towards it.
 /// @param surface  in the grid's own axes; without self-intersections.
 /// @param image    in grey values; its bounds do not count here.
-/// @return the surface as it was, where it neither moves to the image nor is smoothed.
+/// @return where edges were split, points along a Morton curve: neighbours are near in memory; the
+///         surface as it was, where it neither moves to the image nor is smoothed.
 /// @throws InputError  as require_sound().
 ///
 /// O(n log n) for n points after splitting, at most about two per square voxel of the surface.

@@ -5,31 +5,12 @@
 #include <limits>
 #include <numeric>
 
+#include "mesamis/base/morton_code.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/remesh/geometry.h"
 
 namespace mesamis::detail::remesh {
 namespace {
-
-/// Spreads the lowest 21 bits of v to every third bit.
-std::uint64_t spread(std::uint64_t v) {
-  v &= 0x1fffff;
-  v = (v | v << 32) & 0x1f00000000ffff;
-  v = (v | v << 16) & 0x1f0000ff0000ff;
-  v = (v | v << 8) & 0x100f00f00f00f00f;
-  v = (v | v << 4) & 0x10c30c30c30c30c3;
-  return (v | v << 2) & 0x1249249249249249;
-}
-
-std::uint64_t morton_code(const Box& box, const Vec3& p) {
-  constexpr double kSteps = (1 << 21) - 1;
-  std::uint64_t code = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double t = (p[axis] - box.lo[axis]) / (box.hi[axis] - box.lo[axis]);
-    code |= spread(static_cast<std::uint64_t>(kSteps * t)) << axis;
-  }
-  return code;
-}
 
 /// New numbers for the items with a key; kNoIndex for the rest.
 struct Renumbering {
