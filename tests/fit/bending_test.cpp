@@ -15,7 +15,7 @@ struct Case {
   TriMesh surface = ball_surface(5, 20);
   Neighbors neighbors{surface};
   std::vector<char> on_curve = std::vector<char>(surface.points.size(), 0);
-  Umbrella umbrella{neighbors, on_curve};
+  Umbrella umbrella{neighbors, links_along_curves(neighbors, on_curve)};
   Springs springs;
 
   Case() {
@@ -56,8 +56,22 @@ TEST(Umbrella, OnACurveHoldsTheCurveAlone) {
                     {{0, 1, 3}, {0, 3, 2}, {0, 2, 4}, {0, 4, 1}}};
   const Neighbors neighbors(fan);
   const std::vector<char> on_curve{1, 1, 1, 0, 0};
-  const Umbrella umbrella(neighbors, on_curve);
+  const Umbrella umbrella(neighbors, links_along_curves(neighbors, on_curve));
   EXPECT_EQ(norm(umbrella.bent(fan.points)[0]), 0) << "the curve is straight";
+}
+
+TEST(Umbrella, IsAdjointToItsTransposedWhateverLinksHoldOneWay) {
+  const Case c;
+  Links links(c.neighbors.points.size());
+  for (std::size_t n = 0; n < links.size(); ++n) links[n] = n % 3 == 0 ? 0 : 1;
+  const Umbrella umbrella(c.neighbors, links);
+  const auto left = umbrella.bent(c.springs.goal);
+  double one = 0, other = 0;
+  for (std::size_t p = 0; p < left.size(); ++p) {
+    one += dot(left[p], c.surface.points[p]);
+    other += dot(c.springs.goal[p], umbrella.transposed(p, c.surface.points));
+  }
+  EXPECT_NEAR(one, other, 1e-9 * std::abs(one));
 }
 
 /// Every other place has more energy.

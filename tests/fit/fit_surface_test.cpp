@@ -3,9 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "fit/rough_ball.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/surface/half_edges.h"
 #include "mesamis/surface/self_intersections.h"
+#include "mesamis/surface/triangle_tree.h"
 #include "support/throws.h"
 
 namespace mesamis {
@@ -13,7 +19,21 @@ namespace {
 
 FitPoints points_of(const TriMesh& surface, double contrast) {
   return {std::vector<double>(surface.points.size(), contrast),
-          std::vector<char>(surface.points.size(), 0)};
+          std::vector<char>(surface.points.size(), 0),
+          Links(Neighbors(surface).points.size(), 1)};
+}
+
+/// Of the edges' length the share where triangles meet at more than 40 degrees.
+double share_of_creases(const TriMesh& surface) {
+  double all = 0, creases = 0;
+  for_each_edge(sorted_half_edges(surface.triangles, surface.points.size()), [&](std::span<const HalfEdge> edge) {
+    const double length = norm(surface.points[edge[0].lo] - surface.points[edge[0].hi]);
+    const Vec3 one = unit_normal(corners_of(surface, surface.triangles[edge[0].triangle])),
+               other = unit_normal(corners_of(surface, surface.triangles[edge[1].triangle]));
+    all += length;
+    if (dot(one, other) < std::cos(40 * std::numbers::pi / 180)) creases += length;
+  });
+  return creases / all;
 }
 
 TEST(FitSurface, LiesOnTheImageAndIsSmooth) {
@@ -45,6 +65,23 @@ TEST(FitSurface, TheSignOfTheContrastTurnsTheEdge) {
   EXPECT_NEAR(distance_of(fitted).first, 0, 0.08);
 }
 
+/// Two boundaries that see the same edge would lie upon each other: there they only become smooth.
+TEST(FitSurface, IsSmoothWhereBoundariesWouldMeet) {
+  TriMesh both = rough_ball(kRadius - 1);
+  const auto inner = static_cast<Index>(both.points.size());
+  const TriMesh outer = rough_ball(kRadius + 1.2);
+  both.points.insert(both.points.end(), outer.points.begin(), outer.points.end());
+  for (const Triangle& t : outer.triangles) {
+    both.triangles.push_back({t[0] + inner, t[2] + inner, t[1] + inner});
+  }
+  FitPoints points = points_of(both, 110);
+  std::fill(points.contrast.begin() + inner, points.contrast.end(), -110);
+  EXPECT_GT(share_of_creases(both), 0.3);
+  const TriMesh fitted = fit_surface(both, ball_image(), points, {});
+  EXPECT_TRUE(find_self_intersections(fitted).empty());
+  EXPECT_LT(share_of_creases(fitted), 0.01);
+}
+
 TEST(FitSurface, LeavesPointsOnTheBox) {
   TriMesh start = moved(ball_surface(kRadius, 30), {0, 19.5, 19.5});
   for (Vec3& p : start.points) p.x = std::max(p.x, 0.0);
@@ -64,7 +101,7 @@ TEST(FitSurface, HasTheSameBitsForAnyNumberOfThreads) {
 TEST(FitSurface, NeedsAnEntryPerPoint) {
   const TriMesh start = rough_ball(kRadius);
   EXPECT_REFUSED(fit_surface(start, ball_image(), {}, {}),
-                 "fit: expected an entry for each point of the surface");
+                 "fit: expected an entry for each point of the surface and each neighbour of it");
 }
 
 }  // namespace

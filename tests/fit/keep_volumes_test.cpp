@@ -48,7 +48,8 @@ TEST(KeepVolumes, ObjectsThatTouchEachHaveTheirs) {
   VoxelGrid grid;
   grid.size = {30, 22, 22};
   const std::vector<char> on_curve(before.points.size(), 0);
-  const TriMesh smooth = smooth_surface(before, grid, on_curve, {.bending = 2000, .rounds = 1});
+  const Links links(Neighbors(before).points.size(), 1);
+  const TriMesh smooth = smooth_surface(before, grid, links, {.bending = 2000, .rounds = 1});
   const TriMesh now = keep_volumes({before, smooth, partition.sides, on_curve}, grid);
   EXPECT_TRUE(find_self_intersections(now).empty());
   for (const Index m : {1, 2}) {

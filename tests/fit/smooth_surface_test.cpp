@@ -12,8 +12,8 @@ namespace mesamis {
 namespace {
 
 TriMesh smoothed_ball(const TriMesh& start, const SmoothingOptions& options = {}) {
-  return smooth_surface(start, ball_image().grid, std::vector<char>(start.points.size(), 0),
-                        options);
+  const Links all(Neighbors(start).points.size(), 1);
+  return smooth_surface(start, ball_image().grid, all, options);
 }
 
 TEST(SmoothSurface, RoughnessGoesAndTheShapeStays) {
@@ -64,9 +64,9 @@ TEST(SmoothSurface, HasTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(with_threads(1, run).points, with_threads(3, run).points);
 }
 
-TEST(SmoothSurface, NeedsAnEntryPerPoint) {
+TEST(SmoothSurface, NeedsAnEntryPerNeighbour) {
   EXPECT_REFUSED(smooth_surface(rough_ball(kRadius), ball_image().grid, {}),
-                 "smoothing: expected an entry for each point of the surface");
+                 "smoothing: expected an entry for each neighbour of each point");
 }
 
 }  // namespace

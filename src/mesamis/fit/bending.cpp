@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/fit/bending.h"
 
+#include <utility>
+
 #include "mesamis/base/parallel.h"
 
 namespace mesamis::detail::fit {
@@ -49,18 +51,32 @@ class Matrix {
 
 }  // namespace
 
-Umbrella::Umbrella(const Neighbors& neighbors, const std::vector<char>& on_curve)
+Links links_along_curves(const Neighbors& neighbors, const std::vector<char>& on_curve) {
+  Links links(neighbors.points.size());
+  parallel_for(on_curve.size(), [&](std::size_t p) {
+    for (std::size_t n = neighbors.start[p]; n < neighbors.start[p + 1]; ++n) {
+      links[n] = on_curve[p] <= on_curve[neighbors.points[n]] ? 1 : 0;
+    }
+  });
+  return links;
+}
+
+Umbrella::Umbrella(const Neighbors& neighbors, Links links)
     : neighbors_(neighbors),
-      on_curve_(on_curve),
-      share_(on_curve.size(), 0),
-      alike_(on_curve.size()) {
+      links_(std::move(links)),
+      back_(links_.size()),
+      share_(neighbors.start.size() - 1, 0),
+      alike_(share_.size()) {
   parallel_for(share_.size(), [&](std::size_t p) {
     int count = 0;
     bool alike = true;
     for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
-      const char other = on_curve_[neighbors_.points[n]];
-      count += on_curve_[p] <= other ? 1 : 0;
-      alike &= on_curve_[p] == other;
+      const Index q = neighbors_.points[n];
+      std::size_t back = neighbors_.start[q];
+      while (neighbors_.points[back] != static_cast<Index>(p)) ++back;
+      back_[n] = links_[back];
+      count += links_[n];
+      alike &= links_[n] != 0 && back_[n] != 0;
     }
     if (count > 1) share_[p] = 1.0 / count;
     alike_[p] = alike ? 1 : 0;
@@ -79,7 +95,7 @@ void Umbrella::bend(const std::vector<Vec3>& x, std::vector<Vec3>& y) const {
     const bool alike = alike_[p] != 0;
     for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
       const Index q = neighbors_.points[n];
-      if (alike || on_curve_[p] <= on_curve_[q]) sum += x[q];
+      if (alike || links_[n] != 0) sum += x[q];
     }
     y[p] = smooths(p) ? x[p] - share_[p] * sum : Vec3{};
   });
@@ -90,7 +106,7 @@ Vec3 Umbrella::transposed(std::size_t p, const std::vector<Vec3>& y) const {
   const bool alike = alike_[p] != 0;
   for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
     const Index q = neighbors_.points[n];
-    if (alike || on_curve_[q] <= on_curve_[p]) x = x - share_[q] * y[q];
+    if (alike || back_[n] != 0) x = x - share_[q] * y[q];
   }
   return x;
 }

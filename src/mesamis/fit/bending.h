@@ -7,13 +7,18 @@
 
 namespace mesamis::detail::fit {
 
+/// Which neighbours smooth each point: an entry for each of Neighbors::points, 1 if it does.
+using Links = std::vector<char>;
+
+/// Points on curves, 1 each, are smoothed by those on curves alone, all others by all.
+Links links_along_curves(const Neighbors& neighbors, const std::vector<char>& on_curve);
+
 /// What smooths a surface: the umbrella operator L, the difference of a point from the mean of the
-/// points beside it. On curves where several boundaries meet these are those of the curve alone; a
-/// point with fewer than two has none.
+/// points that it is linked to; a point with fewer than two links has none.
 class Umbrella {
  public:
-  /// @param neighbors, on_curve  must live as long; one entry per point.
-  Umbrella(const Neighbors& neighbors, const std::vector<char>& on_curve);
+  /// @param neighbors  must live as long.
+  Umbrella(const Neighbors& neighbors, Links links);
 
   /// L x.
   std::vector<Vec3> bent(const std::vector<Vec3>& x) const;
@@ -26,9 +31,9 @@ class Umbrella {
 
  private:
   const Neighbors& neighbors_;
-  const std::vector<char>& on_curve_;
-  std::vector<double> share_;  // of each neighbour in the mean of a point's; 0: it is not smoothed
-  std::vector<char> alike_;    // 1: a point and all its neighbours are on curves, or none is
+  Links links_, back_;         // of a point to its neighbours, and of these to the point
+  std::vector<double> share_;  // of each linked neighbour in their mean; 0: it is not smoothed
+  std::vector<char> alike_;    // 1: all links of a point hold both ways
 };
 
 /// Where points shall be, and how much that counts.

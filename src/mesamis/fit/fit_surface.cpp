@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/fit/fit_surface.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "mesamis/base/error.h"
@@ -8,6 +9,7 @@
 #include "mesamis/fit/bending.h"
 #include "mesamis/fit/image_edge.h"
 #include "mesamis/fit/surface_moves.h"
+#include "mesamis/surface/self_intersections.h"
 
 namespace mesamis::detail::fit {
 namespace {
@@ -15,39 +17,73 @@ namespace {
 /// The rounds of fit_surface().
 class Fit {
  public:
-  Fit(const TriMesh& start, const SplineImage& image, const FitPoints& points,
+  Fit(const TriMesh& start, Neighbors neighbors, const SplineImage& image, const FitPoints& points,
       const FitOptions& options)
       : space_(image, 1),
         start_(start),
         points_(points),
         options_(options),
-        neighbors_(start),
-        umbrella_(neighbors_, points.on_curve),
+        neighbors_(std::move(neighbors)),
+        umbrella_(neighbors_, points.links),
         now_(start),
-        springs_(springs_at(space_, start.points, 0)) {}
+        springs_(springs_at(space_, start.points, 0)),
+        blind_(start.points.size(), 0) {}
 
   void round() {
     aim();
     now_.points = relax(umbrella_, springs_, options_.bending, std::move(now_.points));
   }
 
-  /// The start with its points where they are now, as far as that is possible.
-  TriMesh surface() const {
-    std::vector<Vec3> shifts(now_.points.size());
-    for (std::size_t p = 0; p < shifts.size(); ++p) {
-      shifts[p] = space_.within_box(start_.points[p], now_.points[p] - start_.points[p]);
+  /// Points whose triangles meet, and those beside them, look for no edge any more: that of another
+  /// boundary attracts them. @return whether there were any.
+  bool blind_where_triangles_meet() {
+    std::vector<double> meets(blind_.size(), 0);
+    for (const TrianglePair& pair : find_self_intersections(now_)) {
+      for (const Index t : pair) {
+        for (const Index p : now_.triangles[t]) meets[p] = 1;
+      }
     }
-    return moved_without_folds(space_, start_, std::move(shifts));
+    bool any = false;
+    for (const double m : meets) any |= m > 0;
+    for (int ring = 0; any && ring < kBlindRings; ++ring) {
+      meets = greatest_around(neighbors_, meets);
+    }
+    for (std::size_t p = 0; p < blind_.size(); ++p) {
+      if (meets[p] > 0) blind_[p] = 1;
+    }
+    return any;
+  }
+
+  /// The points where they are now; where triangles would meet nearer to, or at, where smoothness
+  /// alone takes them from the start.
+  TriMesh surface() {
+    const std::vector<Vec3> fitted = now_.points;
+    std::ranges::fill(blind_, char{1});
+    now_.points = start_.points;
+    round();
+    const TriMesh smooth = moved_to(start_, now_.points);
+    return moved_to(smooth, fitted);
   }
 
  private:
+  static constexpr int kBlindRings = 4;
+
+  TriMesh moved_to(const TriMesh& from, const std::vector<Vec3>& goals) const {
+    std::vector<Vec3> shifts(goals.size());
+    for (std::size_t p = 0; p < shifts.size(); ++p) {
+      shifts[p] = space_.within_box(from.points[p], goals[p] - from.points[p]);
+    }
+    return moved_without_folds(space_, from, std::move(shifts));
+  }
+
   bool looks(std::size_t p) const {
-    return springs_.held[p] == 0 && points_.contrast[p] != 0 && points_.on_curve[p] == 0;
+    return springs_.held[p] == 0 && points_.contrast[p] != 0 && points_.on_curve[p] == 0 &&
+           blind_[p] == 0;
   }
 
   /// Pulls each point to the edge that it sees, or else to where it began.
   void aim() {
-    const std::vector<Vec3> normals = smoothed_normals(now_, neighbors_);
+    const std::vector<Vec3> normals = smoothed_normals(now_, neighbors_, points_.on_curve);
     parallel_for(now_.points.size(), [&](std::size_t p) {
       ImageEdge edge;
       if (looks(p)) {
@@ -69,6 +105,7 @@ class Fit {
   Umbrella umbrella_;
   TriMesh now_;
   Springs springs_;
+  std::vector<char> blind_;  // 1: looks for no edge
 };
 
 }  // namespace
@@ -77,11 +114,18 @@ TriMesh fit_surface(const TriMesh& surface, const SplineImage& image, const FitP
                     const FitOptions& options) {
   require_sound(surface);
   const std::size_t n = surface.points.size();
-  if (points.contrast.size() != n || points.on_curve.size() != n) {
-    throw InputError("fit: expected an entry for each point of the surface");
+  Neighbors neighbors(surface);
+  if (points.contrast.size() != n || points.on_curve.size() != n ||
+      points.links.size() != neighbors.points.size()) {
+    throw InputError(
+        "fit: expected an entry for each point of the surface and each neighbour of it");
   }
-  Fit fit(surface, image, points, options);
+  Fit fit(surface, std::move(neighbors), image, points, options);
   for (int round = 0; round < options.rounds; ++round) fit.round();
+  constexpr int kMostUnfoldings = 10;
+  for (int trial = 0; trial < kMostUnfoldings && fit.blind_where_triangles_meet(); ++trial) {
+    fit.round();
+  }
   return fit.surface();
 }
 

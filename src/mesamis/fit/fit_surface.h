@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "mesamis/fit/bending.h"
 #include "mesamis/image/spline_image.h"
 #include "mesamis/surface/tri_mesh.h"
 
@@ -22,7 +23,8 @@ struct FitPoints {
   /// Of the image at the edge that a point belongs to, grey values: of the side behind the surface
   /// above that in front; 0: the image shows no edge there.
   std::vector<double> contrast;
-  std::vector<char> on_curve;  ///< 1 where several boundaries meet: smooth along the curve alone
+  std::vector<char> on_curve;  ///< 1 where several boundaries meet: there no edge is looked for
+  Links links;                 ///< between Neighbors of the surface
 };
 
 /// Fits a surface to the edges of an image.

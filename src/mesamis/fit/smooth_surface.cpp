@@ -11,15 +11,15 @@
 namespace mesamis::detail::fit {
 
 TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid,
-                       const std::vector<char>& on_curve, const SmoothingOptions& options) {
+                       const Links& links, const SmoothingOptions& options) {
   require_sound(surface);
   const std::vector<Vec3>& start = surface.points;
-  if (on_curve.size() != start.size()) {
-    throw InputError("smoothing: expected an entry for each point of the surface");
-  }
   const SurfaceSpace space(grid, 1);
   const Neighbors neighbors(surface);
-  const Umbrella umbrella(neighbors, on_curve);
+  if (links.size() != neighbors.points.size()) {
+    throw InputError("smoothing: expected an entry for each neighbour of each point");
+  }
+  const Umbrella umbrella(neighbors, links);
   Springs springs = springs_at(space, start, 1);
   std::vector<Vec3> now = start;
   for (int round = 0; round < options.rounds; ++round) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "mesamis/fit/bending.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
@@ -26,12 +27,12 @@ struct SmoothingOptions {
 /// taken back. Points on the grid's box stay.
 /// @param surface   in the grid's own axes, mm; closed, or boundaries of several objects that share
 ///                  edges; without self-intersections.
-/// @param on_curve  of each point 1 where several boundaries meet: smooth along the curve alone.
+/// @param links     between Neighbors of the surface, one for each.
 /// @return the same triangles.
 /// @throws InputError  as require_sound(), or if the points do not fit the surface.
 ///
 /// O(n log n) for n points. The same bits for any number of threads.
 TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid,
-                       const std::vector<char>& on_curve, const SmoothingOptions& options = {});
+                       const Links& links, const SmoothingOptions& options = {});
 
 }  // namespace mesamis::detail::fit

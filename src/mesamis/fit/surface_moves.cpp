@@ -47,6 +47,13 @@ std::vector<Value> smoothed_along(const Neighbors& neighbors, const std::vector<
   return values;
 }
 
+std::vector<Vec3> weighted_normals(const TriMesh& surface, const Neighbors& neighbors,
+                                   const std::vector<double>& weights, int sweeps) {
+  std::vector<Vec3> normals = smoothed_along(neighbors, weights, vertex_normals(surface), sweeps);
+  for (Vec3& normal : normals) normal = unit_or_zero(normal);
+  return normals;
+}
+
 /// Of a value at each point and at its neighbours the one that is chosen of any two.
 template <class Choose>
 std::vector<double> chosen_around(const Neighbors& neighbors, const std::vector<double>& values,
@@ -239,10 +246,15 @@ FollowCounts count_told(const Offsets& offsets) {
 }
 
 std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors, int sweeps) {
-  const std::vector<double> ones(surface.points.size(), 1);
-  std::vector<Vec3> normals = smoothed_along(neighbors, ones, vertex_normals(surface), sweeps);
-  for (Vec3& normal : normals) normal = unit_or_zero(normal);
-  return normals;
+  return weighted_normals(surface, neighbors, std::vector<double>(surface.points.size(), 1), sweeps);
+}
+
+std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors,
+                                   const std::vector<char>& on_curve) {
+  std::vector<double> weights;
+  weights.reserve(on_curve.size());
+  for (const char on : on_curve) weights.push_back(on == 0 ? 1 : 0);
+  return weighted_normals(surface, neighbors, weights, kSweepsOfNormals);
 }
 
 std::vector<double> least_around(const Neighbors& neighbors, const std::vector<double>& values) {

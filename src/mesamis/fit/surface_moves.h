@@ -16,6 +16,9 @@ namespace mesamis::detail::fit {
 /// Voxels by which filtered_moves() moves a point at most.
 inline constexpr double kMostMove = 0.7;
 
+/// Sweeps that normals are smoothed by, if nothing else is said.
+inline constexpr int kSweepsOfNormals = 3;
+
 /// A surface's coordinates and the grid that it is moved in.
 class SurfaceSpace {
  public:
@@ -120,7 +123,11 @@ FollowCounts count_told(const Offsets& offsets);
 
 /// Normals, smoothed along the surface: each sweep goes half the way to the neighbours' mean.
 std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors,
-                                   int sweeps = 3);
+                                   int sweeps = kSweepsOfNormals);
+/// The same of boundaries of several objects, whose triangles may be turned against each other where
+/// they meet: points on curves say nothing to those beside them.
+std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors,
+                                   const std::vector<char>& on_curve);
 
 /// The least, and the greatest, of a value at each point and at its neighbours.
 std::vector<double> least_around(const Neighbors& neighbors, const std::vector<double>& values);

@@ -52,7 +52,7 @@ std::vector<Vec3> without_terraces(const SurfaceSpace& space, const TriMesh& sur
     springs.weight[p] *= kWeight / (1 + freedom * between[p]);
   });
   springs.goal = start;
-  const Umbrella umbrella(neighbors, springs.held);
+  const Umbrella umbrella(neighbors, links_along_curves(neighbors, springs.held));
   std::vector<Vec3> now = start;
   for (int round = 0; round < kRounds; ++round) {
     if (round > 0) {

@@ -147,7 +147,7 @@ class Follower {
                  [&](std::size_t p) { springs.weight[p] *= weight_by_noise(points[p]); });
     springs.goal = points;
     // Held points, those of a wall of the box among them, do not bend what is free beside them.
-    const Umbrella umbrella(neighbors, springs.held);
+    const Umbrella umbrella(neighbors, links_along_curves(neighbors, springs.held));
     const std::vector<Vec3> goals = relax(umbrella, springs, kBending, points);
     parallel_for(points.size(), [&](std::size_t p) {
       if (springs.held[p] == 0) points[p] += space_.step_to(goals[p], points[p], kMostSmoothed);

@@ -12,6 +12,7 @@
 #include "mesamis/fit/keep_volumes.h"
 #include "mesamis/fit/smooth_surface.h"
 #include "mesamis/fit/surface_moves.h"
+#include "mesamis/method/sheet_links.h"
 
 namespace mesamis::detail::method {
 namespace {
@@ -38,20 +39,6 @@ Offsets measure(const FollowSpace& space, const TriMesh& surface, const std::vec
     if (offset) offsets.set(p, *offset, slope);
   });
   return offsets;
-}
-
-/// 1 for points where several boundaries meet.
-std::vector<char> curve_points(const PartitionSurface& partition) {
-  constexpr std::array<Index, 2> kNone{-2, -2};
-  std::vector<std::array<Index, 2>> sides(partition.points.size(), kNone);
-  std::vector<char> on_curve(partition.points.size(), 0);
-  for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
-    for (const Index p : partition.triangles[t]) {
-      if (sides[p] != kNone && sides[p] != partition.sides[t]) on_curve[p] = 1;
-      sides[p] = partition.sides[t];
-    }
-  }
-  return on_curve;
 }
 
 /// Points without a guide go with those beside them that have one, by the mean of their moves.
@@ -88,6 +75,11 @@ std::vector<Vec3> faired(const FollowSpace& space, const std::vector<Vec3>& star
     points[p] = (length > most ? most / length : 1) * shift;
   });
   return points;
+}
+
+Links links_of(const PartitionSurface& partition, const std::vector<char>& on_curve) {
+  const TriMesh surface{partition.points, partition.triangles};
+  return sheet_links(partition, Neighbors(surface), on_curve);
 }
 
 }  // namespace
@@ -149,11 +141,11 @@ PartitionSurface follow_image(PartitionSurface partition, const SplineImage& ima
   const std::vector<char> on_curve = curve_points(partition);
   TriMesh surface = taken_from(partition);
   const Neighbors neighbors(surface);
-  const Umbrella umbrella(neighbors, on_curve);
+  const Umbrella umbrella(neighbors, links_along_curves(neighbors, on_curve));
   surface = moved_without_folds(
       space, surface, faired(space, surface.points, umbrella, kMostFairing * space.voxel()));
   for (int round = 0; round < kRounds; ++round) {
-    const std::vector<Vec3> normals = smoothed_normals(surface, neighbors);
+    const std::vector<Vec3> normals = smoothed_normals(surface, neighbors, on_curve);
     const Offsets offsets = measure(space, surface, normals, guides, noise);
     if (!count_told(offsets).is_worthwhile()) break;
     const std::vector<double> moves = filtered_moves(space, offsets, neighbors);
@@ -170,7 +162,8 @@ PartitionSurface follow_image(PartitionSurface partition, const SplineImage& ima
 
 PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& image,
                                 const std::vector<BoundaryGuide>& guides, double reach) {
-  FitPoints points{{}, curve_points(partition)};
+  FitPoints points{{}, curve_points(partition), {}};
+  points.links = links_of(partition, points.on_curve);
   for (const BoundaryGuide& guide : guides) points.contrast.push_back(guide.contrast);
   TriMesh fitted = fit_surface(taken_from(partition), image, points, {.reach = reach});
   return put_back(std::move(fitted), std::move(partition));
@@ -178,8 +171,9 @@ PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& i
 
 PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid) {
   const std::vector<char> on_curve = curve_points(partition);
+  const Links links = links_of(partition, on_curve);
   const TriMesh start = taken_from(partition);
-  const TriMesh smooth = smooth_surface(start, grid, on_curve);
+  const TriMesh smooth = smooth_surface(start, grid, links);
   TriMesh kept = keep_volumes({start, smooth, partition.sides, on_curve}, grid);
   return put_back(std::move(kept), std::move(partition));
 }

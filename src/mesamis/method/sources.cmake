@@ -37,4 +37,5 @@ set(ROOM_SOURCES
   printable.cpp
   setting_rows.cpp
   setting_table.cpp
+  sheet_links.cpp
   surface_change.cpp)

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/method/sheet_links.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+
+#include "mesamis/base/each_once.h"
+#include "mesamis/fit/surface_moves.h"
+
+namespace mesamis::detail::method {
+namespace {
+
+constexpr double kSmooth = 0.6;  // least cosine between the normals of sheets that go on
+
+using Materials = std::vector<Index>;
+
+std::vector<Materials> materials_of_points(const PartitionSurface& partition) {
+  std::vector<Materials> found(partition.points.size());
+  for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
+    for (const Index p : partition.triangles[t]) {
+      for (const Index m : partition.sides[t]) add_once(found[p], m);
+    }
+  }
+  for (Materials& materials : found) std::ranges::sort(materials);
+  return found;
+}
+
+bool has(const Materials& materials, Index m) { return std::ranges::count(materials, m) > 0; }
+
+/// How alike the normals of a material's two sheets are over the curves of three materials.
+struct Turns {
+  std::array<double, 3> cosines{};  // sums
+  int points = 0;
+
+  std::optional<std::size_t> smoothest() const {
+    const auto best = std::ranges::max_element(cosines);
+    if (!(*best > kSmooth * points)) return std::nullopt;
+    return static_cast<std::size_t>(best - cosines.begin());
+  }
+};
+
+class SheetLinker {
+ public:
+  SheetLinker(const PartitionSurface& partition, const Neighbors& neighbors,
+              const std::vector<char>& on_curve)
+      : neighbors_(neighbors),
+        on_curve_(on_curve),
+        materials_(materials_of_points(partition)),
+        normals_(smoothed_normals({partition.points, partition.triangles}, neighbors, on_curve)) {
+    for (std::size_t p = 0; p < on_curve_.size(); ++p) add_turns(p);
+  }
+
+  Links links() const {
+    Links links = links_along_curves(neighbors_, on_curve_);
+    for (std::size_t p = 0; p < on_curve_.size(); ++p) {
+      const std::optional<Index> through = material_through(p);
+      if (!through) continue;
+      for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
+        links[n] = has(materials_[neighbors_.points[n]], *through) ? 1 : 0;
+      }
+    }
+    return links;
+  }
+
+ private:
+  bool joins_three(std::size_t p) const { return on_curve_[p] != 0 && materials_[p].size() == 3; }
+
+  /// The mean normal beside a point of the sheet between two materials, towards the second; 0: none.
+  Vec3 sheet_normal(std::size_t p, Index behind, Index front) const {
+    const Materials sides{std::min(behind, front), std::max(behind, front)};
+    Vec3 sum;
+    for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
+      const Index q = neighbors_.points[n];
+      if (on_curve_[q] == 0 && materials_[q] == sides) sum += normals_[q];
+    }
+    return (behind < front ? 1 : -1) * unit_or_zero(sum);
+  }
+
+  void add_turns(std::size_t p) {
+    if (!joins_three(p)) return;
+    const Materials& m = materials_[p];
+    Turns& turns = turns_[m];
+    ++turns.points;
+    for (std::size_t i = 0; i < 3; ++i) {
+      turns.cosines[i] += dot(sheet_normal(p, m[i], m[(i + 1) % 3]),
+                              sheet_normal(p, m[i], m[(i + 2) % 3]));
+    }
+  }
+
+  std::optional<Index> material_through(std::size_t p) const {
+    if (!joins_three(p)) return std::nullopt;
+    const auto smoothest = turns_.at(materials_[p]).smoothest();
+    if (!smoothest) return std::nullopt;
+    return materials_[p][*smoothest];
+  }
+
+  const Neighbors& neighbors_;
+  const std::vector<char>& on_curve_;
+  std::vector<Materials> materials_;
+  std::vector<Vec3> normals_;
+  std::map<Materials, Turns> turns_;
+};
+
+}  // namespace
+
+std::vector<char> curve_points(const PartitionSurface& partition) {
+  constexpr std::array<Index, 2> kNone{-2, -2};
+  std::vector<std::array<Index, 2>> sides(partition.points.size(), kNone);
+  std::vector<char> on_curve(partition.points.size(), 0);
+  for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
+    for (const Index p : partition.triangles[t]) {
+      if (sides[p] != kNone && sides[p] != partition.sides[t]) on_curve[p] = 1;
+      sides[p] = partition.sides[t];
+    }
+  }
+  return on_curve;
+}
+
+Links sheet_links(const PartitionSurface& partition, const Neighbors& neighbors,
+                  const std::vector<char>& on_curve) {
+  return SheetLinker(partition, neighbors, on_curve).links();
+}
+
+}  // namespace mesamis::detail::method
