@@ -19,20 +19,21 @@ namespace {
 
 FitPoints points_of(const TriMesh& surface, double contrast) {
   return {std::vector<double>(surface.points.size(), contrast),
-          std::vector<char>(surface.points.size(), 0),
-          Links(Neighbors(surface).points.size(), 1)};
+          std::vector<char>(surface.points.size(), 0), Links(Neighbors(surface).points.size(), 1)};
 }
 
 /// Of the edges' length the share where triangles meet at more than 40 degrees.
 double share_of_creases(const TriMesh& surface) {
   double all = 0, creases = 0;
-  for_each_edge(sorted_half_edges(surface.triangles, surface.points.size()), [&](std::span<const HalfEdge> edge) {
-    const double length = norm(surface.points[edge[0].lo] - surface.points[edge[0].hi]);
-    const Vec3 one = unit_normal(corners_of(surface, surface.triangles[edge[0].triangle])),
-               other = unit_normal(corners_of(surface, surface.triangles[edge[1].triangle]));
-    all += length;
-    if (dot(one, other) < std::cos(40 * std::numbers::pi / 180)) creases += length;
-  });
+  for_each_edge(
+      sorted_half_edges(surface.triangles, surface.points.size()),
+      [&](std::span<const HalfEdge> edge) {
+        const double length = norm(surface.points[edge[0].lo] - surface.points[edge[0].hi]);
+        const Vec3 one = unit_normal(corners_of(surface, surface.triangles[edge[0].triangle])),
+                   other = unit_normal(corners_of(surface, surface.triangles[edge[1].triangle]));
+        all += length;
+        if (dot(one, other) < std::cos(40 * std::numbers::pi / 180)) creases += length;
+      });
   return creases / all;
 }
 

@@ -3,9 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "fit/rough_ball.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/surface/grid_partition.h"
 #include "mesamis/surface/self_intersections.h"
+#include "mesamis/surface/smooth_memberships.h"
+#include "mesamis/surface/triangle_tree.h"
+#include "support/label_grids.h"
 #include "support/throws.h"
 
 namespace mesamis {
@@ -38,6 +45,52 @@ TEST(SmoothSurface, ASmallBallShrinksLessTheMoreRounds) {
     before = volume;
   }
   EXPECT_LE(before, check_surface(start).volume * 1.001);
+}
+
+/// How far the normals of a ball's triangles turn from its radii, root mean square by area, radians.
+double roughness(const TriMesh& surface, const Vec3& centre) {
+  double sum = 0, area = 0;
+  for (const Triangle& t : surface.triangles) {
+    const Corners c = corners_of(surface, t);
+    const Vec3 across = cross(c[1] - c[0], c[2] - c[0]);
+    const Vec3 radius = unit_or_zero((1.0 / 3) * (c[0] + c[1] + c[2]) - centre);
+    sum += norm(across) * std::pow(std::acos(std::min(1.0, dot(unit_or_zero(across), radius))), 2);
+    area += norm(across);
+  }
+  return std::sqrt(sum / area);
+}
+
+/// The largest distance of a point from a ball's surface.
+double farthest(const TriMesh& surface, const Vec3& centre, double radius) {
+  double most = 0;
+  for (const Vec3& p : surface.points) most = std::max(most, std::abs(norm(p - centre) - radius));
+  return most;
+}
+
+TEST(SmoothSurface, StepsOfThickSlicesGo) {
+  const Vec3 centre{31.3, 31.6, 31.2};
+  const OwnedLabels labels = labels_where(
+      {64, 64, 22}, {1, 1, 3}, [&](const Vec3& p) { return norm(p - centre) < 27 ? 1 : 0; });
+  const PartitionSurface partition =
+      extract_partition_on_grid(smooth_memberships(labels.grid(), {.most_rounds = 0}));
+  const TriMesh start = object_surface(partition, 1);
+  VoxelGrid grid;
+  grid.size = {64, 64, 22};
+  grid.spacing = {1, 1, 3};
+  const Links all(Neighbors(start).points.size(), 1);
+  const TriMesh usual = smooth_surface(start, grid, all);
+  const TriMesh smooth = smooth_surface(start, grid, all, smoothing_of_labels(grid));
+  EXPECT_LT(roughness(smooth, centre), 0.6 * roughness(usual, centre));
+  EXPECT_LT(farthest(smooth, centre, 27), farthest(start, centre, 27));
+  const double volume = check_surface(start).volume;
+  EXPECT_NEAR(check_surface(smooth).volume, volume, 0.02 * volume);
+}
+
+TEST(SmoothSurface, LabelsOfCubesAreSmoothedAsUsual) {
+  const SmoothingOptions usual, of_cubes = smoothing_of_labels(ball_image().grid);
+  EXPECT_EQ(of_cubes.bending, usual.bending);
+  EXPECT_EQ(of_cubes.rounds, usual.rounds);
+  EXPECT_EQ(of_cubes.reach, usual.reach);
 }
 
 TEST(SmoothSurface, NoPointMovesFarther) {

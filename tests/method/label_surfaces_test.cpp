@@ -192,6 +192,26 @@ TEST(LabelSurfaces, OfALabelAtTheBorderOfTheMapAreWhole) {
   EXPECT_NEAR(check_surface(found.objects[0].surface).volume, 216, 2.16);
 }
 
+/// Single voxels of a label shrink to almost nothing; one that is all of its label stays.
+TEST(LabelSurfaces, HaveNoPartsBelowAVoxelButTheLargest) {
+  LabelMap map = labels_of(2, 0);
+  map.segments.push_back({"voxel", 3, 0, {}});
+  const auto at = [&](Index i, Index j, Index k) -> std::uint16_t& {
+    return map.layers[0][static_cast<std::size_t>(i + map.size[0] * (j + map.size[1] * k))];
+  };
+  at(2, 2, 2) = 1;
+  at(21, 2, 2) = 3;
+  Settings settings;
+  const auto parts_of = [&](std::size_t object) {
+    const LabelResult found = surfaces_of_labels({map}, settings);
+    return check_surface(found.objects.at(object).surface).components;
+  };
+  EXPECT_EQ(parts_of(0), 1);
+  EXPECT_EQ(parts_of(2), 1) << "the voxel that is all of its label";
+  settings.keep_topology = true;
+  EXPECT_EQ(parts_of(0), 2);
+}
+
 TEST(LabelSurfaces, OfAPreviewAreRoundedButNotDecimated) {
   Settings settings;
   settings.preview = true;

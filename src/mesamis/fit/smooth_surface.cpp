@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/fit/smooth_surface.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "mesamis/base/error.h"
@@ -10,8 +12,19 @@
 
 namespace mesamis::detail::fit {
 
-TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid,
-                       const Links& links, const SmoothingOptions& options) {
+SmoothingOptions smoothing_of_labels(const VoxelGrid& grid) {
+  constexpr double kShareOfSlice = 0.85;
+  const double longest = std::max({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+  const double thick = longest / grid.shortest_side();
+  SmoothingOptions options;
+  options.bending *= thick * thick;
+  options.rounds -= static_cast<int>(std::lround(2 * std::min(thick - 1, 1.0)));
+  options.reach = std::max(options.reach, kShareOfSlice * longest / grid.voxel_size());
+  return options;
+}
+
+TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid, const Links& links,
+                       const SmoothingOptions& options) {
   require_sound(surface);
   const std::vector<Vec3>& start = surface.points;
   const SurfaceSpace space(grid, 1);

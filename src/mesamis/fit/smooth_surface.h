@@ -17,6 +17,10 @@ struct SmoothingOptions {
   double reach = 1;      ///< voxels, > 0: how far a point may move
 };
 
+/// Options for the labels of a grid: where slices are thicker than their pixels, the steps between
+/// slices are wide, and smoothing is firmer, comes back less and may go almost a slice.
+SmoothingOptions smoothing_of_labels(const VoxelGrid& grid);
+
 /// Smooths the boundaries of labels, which have the steps of their voxels, and keeps their shape.
 ///
 /// In each round all points move to the least of
@@ -32,7 +36,7 @@ struct SmoothingOptions {
 /// @throws InputError  as require_sound(), or if the points do not fit the surface.
 ///
 /// O(n log n) for n points. The same bits for any number of threads.
-TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid,
-                       const Links& links, const SmoothingOptions& options = {});
+TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid, const Links& links,
+                       const SmoothingOptions& options = {});
 
 }  // namespace mesamis::detail::fit

@@ -246,7 +246,8 @@ FollowCounts count_told(const Offsets& offsets) {
 }
 
 std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors, int sweeps) {
-  return weighted_normals(surface, neighbors, std::vector<double>(surface.points.size(), 1), sweeps);
+  return weighted_normals(surface, neighbors, std::vector<double>(surface.points.size(), 1),
+                          sweeps);
 }
 
 std::vector<Vec3> smoothed_normals(const TriMesh& surface, const Neighbors& neighbors,

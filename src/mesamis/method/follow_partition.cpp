@@ -173,7 +173,7 @@ PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& 
   const std::vector<char> on_curve = curve_points(partition);
   const Links links = links_of(partition, on_curve);
   const TriMesh start = taken_from(partition);
-  const TriMesh smooth = smooth_surface(start, grid, links);
+  const TriMesh smooth = smooth_surface(start, grid, links, smoothing_of_labels(grid));
   TriMesh kept = keep_volumes({start, smooth, partition.sides, on_curve}, grid);
   return put_back(std::move(kept), std::move(partition));
 }

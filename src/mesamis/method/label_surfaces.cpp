@@ -28,6 +28,7 @@
 #include "mesamis/method/label_mesh.h"
 #include "mesamis/method/passes.h"
 #include "mesamis/method/prepare.h"
+#include "mesamis/surface/components.h"
 #include "mesamis/surface/grid_partition.h"
 #include "mesamis/surface/join_diagonals.h"
 #include "mesamis/surface/select_parts.h"
@@ -321,12 +322,23 @@ double decimate(const LabelRun& run, const Parameters& p, PartitionSurface& part
   return shift + std::max(report.original_to_result, report.result_to_original);
 }
 
-/// The parts that the settings leave; unless they say so, all of them.
-TriMesh selected(const Settings& settings, TriMesh surface) {
-  const PartSelection wanted{settings.min_volume.value_or(0), settings.keep_largest,
-                             settings.fill_cavities};
+/// The volume, mm^3, that parts and cavities of a labelled object have at least: that of a voxel of the
+/// labels, unless the settings say otherwise.
+double least_volume(const LabelRun& run) {
+  if (run.settings.min_volume) return *run.settings.min_volume;
+  return run.settings.keep_topology ? 0 : run.request.map.voxel_volume();
+}
+
+/// The parts that the settings leave; one at least, unless they give a volume.
+TriMesh selected(const LabelRun& run, TriMesh surface) {
+  const Settings& settings = run.settings;
+  PartSelection wanted{least_volume(run), settings.keep_largest, settings.fill_cavities};
   const bool all = wanted.volume_min == 0 && wanted.keep_largest == 0 && !wanted.fill_cavities;
   if (all || surface.triangles.empty()) return surface;
+  if (!settings.min_volume) {
+    const double largest = find_components(surface).sizes.front().volume;
+    wanted.volume_min = std::min(wanted.volume_min, std::abs(largest));
+  }
   return select_parts(surface, wanted);
 }
 
@@ -349,7 +361,7 @@ void finish_layer(const LabelRun& run, LayerBoundaries layer, const RunInput* in
   std::vector<TriMesh> surfaces = object_surfaces(layer.partition, labels);
   for (std::size_t n = 0; n < segments.size(); ++n) {
     LabelledObject object{
-        segments[n], selected(run.settings, std::move(surfaces[n])), {}, extracted[labels[n]]};
+        segments[n], selected(run, std::move(surfaces[n])), {}, extracted[labels[n]]};
     if (object.surface.triangles.empty()) continue;
     if (input != nullptr) {
       ErrorOptions delivered = input->error;
@@ -364,7 +376,7 @@ void finish_layer(const LabelRun& run, LayerBoundaries layer, const RunInput* in
 Parameters parameters_of(const LabelRun& run, const Prepared& prepared, const CropRange& range) {
   Parameters p = prepared.parameters;
   p.preview = run.settings.preview;
-  p.min_volume = run.settings.min_volume.value_or(0);
+  p.min_volume = least_volume(run);
   p.crop = range;
   return p;
 }
@@ -441,6 +453,7 @@ LabelResult by_labels(const LabelRun& run) {
   run.begin("preparation");
   LabelResult result;
   result.parameters = parameters_asked(run.settings);
+  result.parameters.min_volume = least_volume(run);
   const LabelBlock block = require_block(run, run.request.map);
   const VoxelGrid grid = grid_of(run.request.map, block);
   result.seconds.prepare = watch.lap();

@@ -354,7 +354,7 @@ std::vector<Setting> surface_rows() {
     bound({.name = "min_volume", .form = "X", .count = 1, .low = 0, .high = 1e12,
            .words = {"auto"}, .unit = "mm^3",
            .help = "Smaller islands of the solid go, smaller cavities are filled",
-           .automatic = "4 voxels"}, &Settings::min_volume, &Parameters::min_volume),
+           .automatic = "4 voxels; with labels one, and the largest part stays"}, &Settings::min_volume, &Parameters::min_volume),
     bound({.name = "keep_largest", .form = "N", .count = 1, .whole = true, .low = 0, .high = 1e9,
            .help = "Islands of the solid to keep; 0: all"}, &Settings::keep_largest, &Parameters::keep_largest),
     bound({.name = "fill_cavities", .form = "yes|no",

@@ -84,8 +84,8 @@ class SheetLinker {
     Turns& turns = turns_[m];
     ++turns.points;
     for (std::size_t i = 0; i < 3; ++i) {
-      turns.cosines[i] += dot(sheet_normal(p, m[i], m[(i + 1) % 3]),
-                              sheet_normal(p, m[i], m[(i + 2) % 3]));
+      turns.cosines[i] +=
+          dot(sheet_normal(p, m[i], m[(i + 1) % 3]), sheet_normal(p, m[i], m[(i + 2) % 3]));
     }
   }
 
