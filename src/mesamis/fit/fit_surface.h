@@ -33,8 +33,10 @@ struct FitPoints {
 /// where there is none and 1 where it is steep. Then all points move to the least of
 ///   sum of w |x - x_edge|^2 + (1 - w) start |x - x_start|^2 + bending |L x|^2
 /// with the umbrella operator L. Where the image shows an edge the surface lies on it; elsewhere the
-/// place where it began and smoothness decide. In the end moves that would make the surface meet
-/// itself are taken back. Points on the image's box stay.
+/// place where it began and smoothness decide. Where triangles meet, as where two boundaries see the
+/// same edge, points around look for none any more, and rounds are added. In the end moves that would
+/// still make the surface meet itself are taken back, to where smoothness alone takes the start.
+/// Points on the image's box stay.
 /// @param surface  in the image's own axes, mm; closed, or boundaries of several objects that share
 ///                 edges; without self-intersections.
 /// @param image    in grey values.
