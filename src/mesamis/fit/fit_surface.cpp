@@ -35,23 +35,24 @@ class Fit {
   }
 
   /// Points whose triangles meet, and those beside them, look for no edge any more: that of another
-  /// boundary attracts them. @return whether there were any.
+  /// boundary attracts them. @return whether any of those that meet looked for one so far.
   bool blind_where_triangles_meet() {
     std::vector<double> meets(blind_.size(), 0);
+    bool any_looked = false;
     for (const TrianglePair& pair : find_self_intersections(now_)) {
       for (const Index t : pair) {
-        for (const Index p : now_.triangles[t]) meets[p] = 1;
+        for (const Index p : now_.triangles[t]) {
+          meets[p] = 1;
+          any_looked |= blind_[p] == 0;
+        }
       }
     }
-    bool any = false;
-    for (const double m : meets) any |= m > 0;
-    for (int ring = 0; any && ring < kBlindRings; ++ring) {
-      meets = greatest_around(neighbors_, meets);
-    }
+    if (!any_looked) return false;
+    for (int ring = 0; ring < kBlindRings; ++ring) meets = greatest_around(neighbors_, meets);
     for (std::size_t p = 0; p < blind_.size(); ++p) {
       if (meets[p] > 0) blind_[p] = 1;
     }
-    return any;
+    return true;
   }
 
   /// The points where they are now; where triangles would meet nearer to, or at, where smoothness
