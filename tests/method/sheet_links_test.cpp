@@ -33,7 +33,7 @@ struct Linked {
       : partition(std::move(of)),
         neighbors({partition.points, partition.triangles}),
         on_curve(curve_points(partition)),
-        links(sheet_links(partition, neighbors, on_curve)) {}
+        links(sheet_links({partition.points, partition.triangles}, partition.sides, on_curve)) {}
 
   /// The links from curves within the box to points off curves: of the boundary of one material
   /// those that hold, of the others those that do not, and how many there are.

@@ -33,6 +33,14 @@ TEST(SelectParts, DropsSmallIslandsAndFillsSmallCavities) {
   EXPECT_NEAR(report.volume_filled, 1, 1e-12);
 }
 
+TEST(SelectParts, TheLargestStaysIfAskedTo) {
+  constexpr double kMore = 5000;  // than any part has
+  EXPECT_TRUE(select_parts(nested(), {.volume_min = kMore}).triangles.empty());
+  const TriMesh kept = select_parts(nested(), {.volume_min = kMore, .largest_stays = true});
+  EXPECT_NEAR(volume_of(kept), 1000, 1e-9);
+  EXPECT_TRUE(select_parts({}, {.largest_stays = true}).triangles.empty());
+}
+
 TEST(SelectParts, AFilledCavityTakesAlongWhatItHolds) {
   SelectionReport report;
   const TriMesh kept = select_parts(nested(), {.fill_cavities = true}, &report);

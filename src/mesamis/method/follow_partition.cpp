@@ -77,11 +77,6 @@ std::vector<Vec3> faired(const FollowSpace& space, const std::vector<Vec3>& star
   return points;
 }
 
-Links links_of(const PartitionSurface& partition, const std::vector<char>& on_curve) {
-  const TriMesh surface{partition.points, partition.triangles};
-  return sheet_links(partition, Neighbors(surface), on_curve);
-}
-
 }  // namespace
 
 bool shows_edge(const PairLevel& pair, double noise) {
@@ -163,16 +158,17 @@ PartitionSurface follow_image(PartitionSurface partition, const SplineImage& ima
 PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& image,
                                 const std::vector<BoundaryGuide>& guides, double reach) {
   FitPoints points{{}, curve_points(partition), {}};
-  points.links = links_of(partition, points.on_curve);
+  const TriMesh start = taken_from(partition);
+  points.links = sheet_links(start, partition.sides, points.on_curve);
   for (const BoundaryGuide& guide : guides) points.contrast.push_back(guide.contrast);
-  TriMesh fitted = fit_surface(taken_from(partition), image, points, {.reach = reach});
+  TriMesh fitted = fit_surface(start, image, points, {.reach = reach});
   return put_back(std::move(fitted), std::move(partition));
 }
 
 PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid) {
   const std::vector<char> on_curve = curve_points(partition);
-  const Links links = links_of(partition, on_curve);
   const TriMesh start = taken_from(partition);
+  const Links links = sheet_links(start, partition.sides, on_curve);
   const TriMesh smooth = smooth_surface(start, grid, links, smoothing_of_labels(grid));
   TriMesh kept = keep_volumes({start, smooth, partition.sides, on_curve}, grid);
   return put_back(std::move(kept), std::move(partition));

@@ -28,7 +28,6 @@
 #include "mesamis/method/label_mesh.h"
 #include "mesamis/method/passes.h"
 #include "mesamis/method/prepare.h"
-#include "mesamis/surface/components.h"
 #include "mesamis/surface/grid_partition.h"
 #include "mesamis/surface/join_diagonals.h"
 #include "mesamis/surface/select_parts.h"
@@ -322,8 +321,8 @@ double decimate(const LabelRun& run, const Parameters& p, PartitionSurface& part
   return shift + std::max(report.original_to_result, report.result_to_original);
 }
 
-/// The volume, mm^3, that parts and cavities of a labelled object have at least: that of a voxel of the
-/// labels, unless the settings say otherwise.
+/// The volume, mm^3, that parts and cavities of a labelled object have at least: that of a voxel of
+/// the labels, unless the settings say otherwise.
 double least_volume(const LabelRun& run) {
   if (run.settings.min_volume) return *run.settings.min_volume;
   return run.settings.keep_topology ? 0 : run.request.map.voxel_volume();
@@ -332,13 +331,10 @@ double least_volume(const LabelRun& run) {
 /// The parts that the settings leave; one at least, unless they give a volume.
 TriMesh selected(const LabelRun& run, TriMesh surface) {
   const Settings& settings = run.settings;
-  PartSelection wanted{least_volume(run), settings.keep_largest, settings.fill_cavities};
+  const PartSelection wanted{least_volume(run), settings.keep_largest, settings.fill_cavities,
+                             !settings.min_volume};
   const bool all = wanted.volume_min == 0 && wanted.keep_largest == 0 && !wanted.fill_cavities;
   if (all || surface.triangles.empty()) return surface;
-  if (!settings.min_volume) {
-    const double largest = find_components(surface).sizes.front().volume;
-    wanted.volume_min = std::min(wanted.volume_min, std::abs(largest));
-  }
   return select_parts(surface, wanted);
 }
 

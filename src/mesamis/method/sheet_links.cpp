@@ -15,12 +15,13 @@ namespace {
 constexpr double kSmooth = 0.6;  // least cosine between the normals of sheets that go on
 
 using Materials = std::vector<Index>;
+using Sides = std::span<const std::array<Index, 2>>;
 
-std::vector<Materials> materials_of_points(const PartitionSurface& partition) {
-  std::vector<Materials> found(partition.points.size());
-  for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
-    for (const Index p : partition.triangles[t]) {
-      for (const Index m : partition.sides[t]) add_once(found[p], m);
+std::vector<Materials> materials_of_points(const TriMesh& surface, Sides sides) {
+  std::vector<Materials> found(surface.points.size());
+  for (std::size_t t = 0; t < sides.size(); ++t) {
+    for (const Index p : surface.triangles[t]) {
+      for (const Index m : sides[t]) add_once(found[p], m);
     }
   }
   for (Materials& materials : found) std::ranges::sort(materials);
@@ -43,12 +44,11 @@ struct Turns {
 
 class SheetLinker {
  public:
-  SheetLinker(const PartitionSurface& partition, const Neighbors& neighbors,
-              const std::vector<char>& on_curve)
-      : neighbors_(neighbors),
+  SheetLinker(const TriMesh& surface, Sides sides, const std::vector<char>& on_curve)
+      : neighbors_(surface),
         on_curve_(on_curve),
-        materials_(materials_of_points(partition)),
-        normals_(smoothed_normals({partition.points, partition.triangles}, neighbors, on_curve)) {
+        materials_(materials_of_points(surface, sides)),
+        normals_(smoothed_normals(surface, neighbors_, on_curve)) {
     for (std::size_t p = 0; p < on_curve_.size(); ++p) add_turns(p);
   }
 
@@ -96,7 +96,7 @@ class SheetLinker {
     return materials_[p][*smoothest];
   }
 
-  const Neighbors& neighbors_;
+  Neighbors neighbors_;
   const std::vector<char>& on_curve_;
   std::vector<Materials> materials_;
   std::vector<Vec3> normals_;
@@ -118,9 +118,8 @@ std::vector<char> curve_points(const PartitionSurface& partition) {
   return on_curve;
 }
 
-Links sheet_links(const PartitionSurface& partition, const Neighbors& neighbors,
-                  const std::vector<char>& on_curve) {
-  return SheetLinker(partition, neighbors, on_curve).links();
+Links sheet_links(const TriMesh& surface, Sides sides, const std::vector<char>& on_curve) {
+  return SheetLinker(surface, sides, on_curve).links();
 }
 
 }  // namespace mesamis::detail::method

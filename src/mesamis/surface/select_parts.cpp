@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/surface/select_parts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -22,10 +23,12 @@ bool leaves_along(const Nesting& nesting, const std::vector<char>& goes, std::si
 std::vector<char> find_unwanted(std::span<const SurfaceComponents::Size> parts,
                                 const Nesting& nesting, const PartSelection& selection) {
   std::vector<char> goes(parts.size(), 0);
+  double least = selection.volume_min;
+  if (selection.largest_stays && !parts.empty()) least = std::min(least, std::abs(parts[0].volume));
   std::int64_t islands = 0;
   for (std::size_t p = 0; p < goes.size(); ++p) {
     const bool cavity = is_cavity(nesting, p);
-    const bool small = std::abs(parts[p].volume) < selection.volume_min;
+    const bool small = std::abs(parts[p].volume) < least;
     const bool filled = cavity && selection.fill_cavities;
     goes[p] = leaves_along(nesting, goes, p) || small || filled;
     if (cavity || goes[p]) continue;

@@ -15,6 +15,7 @@ struct PartSelection {
   double volume_min = 0;          ///< mm^3; removes smaller islands, fills smaller cavities
   std::int64_t keep_largest = 0;  ///< so many islands, by the volume of their skin; 0: all
   bool fill_cavities = false;     ///< every cavity is filled
+  bool largest_stays = false;     ///< however small it is
 };
 
 /// What select_parts() found and removed.
