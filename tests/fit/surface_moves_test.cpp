@@ -62,7 +62,9 @@ TEST(SurfaceMoves, KnowTheNeighboursOfEachPoint) {
   const Neighbors pages(book);
   const std::vector<Index> of_first(
       pages.points.begin(), pages.points.begin() + static_cast<std::ptrdiff_t>(pages.start[1]));
-  EXPECT_EQ(of_first, (std::vector<Index>{1, 4}));
+  EXPECT_EQ(of_first, (std::vector<Index>{1, 4, 2, 3})) << "those of one triangle last";
+  EXPECT_TRUE(pages.has(2, 0) && pages.has(3, 1));
+  EXPECT_FALSE(pages.has(2, 4));
 }
 
 TEST(SurfaceMoves, OffsetsCountWhereTheImageIsSteep) {

@@ -221,6 +221,43 @@ Neighbors::Neighbors(const TriMesh& surface) : start(surface.points.size() + 1, 
     for (std::size_t n = room[p]; n < end[p]; ++n) points.push_back(listed[n]);
     start[p + 1] = points.size();
   }
+  add_way_back();
+}
+
+bool Neighbors::has(std::size_t point, Index neighbor) const {
+  const auto first = points.begin() + static_cast<std::ptrdiff_t>(start[point]);
+  const auto last = points.begin() + static_cast<std::ptrdiff_t>(start[point + 1]);
+  return std::find(first, last, neighbor) != last;
+}
+
+void Neighbors::add_way_back() {
+  std::vector<char> is_one_way(points.size(), 0);
+  parallel_for(start.size() - 1, [&](std::size_t p) {
+    for (std::size_t n = start[p]; n < start[p + 1]; ++n) {
+      is_one_way[n] = has(static_cast<std::size_t>(points[n]), static_cast<Index>(p)) ? 0 : 1;
+    }
+  });
+  std::vector<std::pair<Index, Index>> missing;
+  for (std::size_t p = 0; p + 1 < start.size(); ++p) {
+    for (std::size_t n = start[p]; n < start[p + 1]; ++n) {
+      if (is_one_way[n] != 0) missing.emplace_back(points[n], static_cast<Index>(p));
+    }
+  }
+  if (missing.empty()) return;
+  std::sort(missing.begin(), missing.end());
+  std::vector<Index> all;
+  all.reserve(points.size() + missing.size());
+  auto next = missing.begin();
+  for (std::size_t p = 0; p + 1 < start.size(); ++p) {
+    const std::size_t first = all.size();
+    for (std::size_t n = start[p]; n < start[p + 1]; ++n) all.push_back(points[n]);
+    for (; next != missing.end() && next->first == static_cast<Index>(p); ++next) {
+      all.push_back(next->second);
+    }
+    start[p] = first;
+  }
+  start.back() = all.size();
+  points = std::move(all);
 }
 
 std::optional<ImageOffset> image_offset(double above, double slope, double noise) {

@@ -81,11 +81,18 @@ class FollowSpace : public SurfaceSpace {
 };
 
 /// The neighbours of each point of a surface, each once: those of point p from start[p] to before
-/// start[p + 1]. Edges may belong to any number of triangles.
+/// start[p + 1]. Edges may belong to any number of triangles; the points of an edge are neighbours
+/// of each other.
 struct Neighbors {
   explicit Neighbors(const TriMesh& surface);
+  bool has(std::size_t point, Index neighbor) const;
+
   std::vector<std::size_t> start;
   std::vector<Index> points;
+
+ private:
+  /// Of edges of one triangle, where a surface is open.
+  void add_way_back();
 };
 
 /// What the image tells at a place; voxels.
