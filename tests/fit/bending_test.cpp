@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "mesamis/base/parallel.h"
@@ -70,6 +71,47 @@ TEST(Umbrella, IsAdjointToItsTransposedWhateverLinksHoldOneWay) {
   for (std::size_t p = 0; p < left.size(); ++p) {
     one += dot(left[p], c.surface.points[p]);
     other += dot(c.springs.goal[p], umbrella.transposed(p, c.surface.points));
+  }
+  EXPECT_NEAR(one, other, 1e-9 * std::abs(one));
+}
+
+TEST(Umbrella, IsAdjointToItsTransposedOnAnOpenSurface) {
+  TriMesh open = ball_surface(5, 20);
+  std::erase_if(open.triangles, [&](const Triangle& t) { return open.points[t[0]].z > 1; });
+  const Neighbors neighbors(open);
+  std::size_t one_way = 0;
+  for (std::size_t p = 0; p < open.points.size(); ++p) {
+    for (std::size_t n = neighbors.start[p]; n < neighbors.start[p + 1]; ++n) {
+      one_way += neighbors.has(neighbors.points[n], static_cast<Index>(p)) ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(one_way, 0);
+  const Umbrella umbrella(neighbors, Links(neighbors.points.size(), kLinked));
+  std::vector<Vec3> y = open.points;
+  for (Vec3& row : y) row = {std::sin(row.y), 1, row.x * row.z};
+  const auto left = umbrella.bent(open.points);
+  double one = 0, other = 0;
+  for (std::size_t p = 0; p < y.size(); ++p) {
+    one += dot(left[p], y[p]);
+    other += dot(open.points[p], umbrella.transposed(p, y));
+  }
+  EXPECT_NEAR(one, other, 1e-9 * std::abs(one));
+}
+
+TEST(Umbrella, IsAdjointToItsTransposedWhereTwoBoundariesGoOn) {
+  const Case c;
+  Links links(c.neighbors.points.size());
+  for (std::size_t n = 0; n < links.size(); ++n) links[n] = static_cast<char>(n % 4);
+  const Umbrella umbrella(c.neighbors, links);
+  ASSERT_GT(umbrella.row_count(), c.surface.points.size());
+  const auto left = umbrella.bent(c.springs.goal);
+  ASSERT_EQ(left.size(), umbrella.row_count());
+  std::vector<Vec3> y = left;
+  for (Vec3& row : y) row = {std::sin(row.y), 1, row.x * row.z};
+  double one = 0, other = 0;
+  for (std::size_t row = 0; row < y.size(); ++row) one += dot(left[row], y[row]);
+  for (std::size_t p = 0; p < c.springs.goal.size(); ++p) {
+    other += dot(c.springs.goal[p], umbrella.transposed(p, y));
   }
   EXPECT_NEAR(one, other, 1e-9 * std::abs(one));
 }

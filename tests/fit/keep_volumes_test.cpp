@@ -63,6 +63,38 @@ TEST(KeepVolumes, ObjectsThatTouchEachHaveTheirs) {
   }
 }
 
+/// Where one boundary grows and the other shrinks, the third would have a step.
+TEST(KeepVolumes, MovesFadeTowardsCurves) {
+  PartitionSurface partition = touching_balls();
+  const TriMesh now{partition.points, partition.triangles};
+  TriMesh before = now;
+  for (Vec3& p : before.points) p.x = 14.5 + 1.03 * (p.x - 14.5);
+  VoxelGrid grid;
+  grid.size = {30, 22, 22};
+  std::vector<char> on_curve(now.points.size(), 0);
+  std::vector<Index> touches(now.points.size(), 0);
+  for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
+    const auto [behind, front] = partition.sides[t];
+    for (const Index p : partition.triangles[t]) {
+      if (touches[p] != 0 && touches[p] != 3 * behind + front) on_curve[p] = 1;
+      touches[p] = 3 * behind + front;
+    }
+  }
+  const TriMesh moved = keep_volumes({before, now, partition.sides, on_curve}, grid);
+  double most = 0, step = 0;
+  for (const Triangle& t : now.triangles) {
+    const auto move = [&](Index p) { return norm(moved.points[p] - now.points[p]); };
+    for (int i = 0; i < 3; ++i) {
+      const Index a = t[i], b = t[(i + 1) % 3];
+      most = std::max(most, move(a));
+      step = std::max(step, std::abs(move(a) - move(b)));
+      EXPECT_TRUE(on_curve[a] == 0 || move(a) == 0);
+    }
+  }
+  EXPECT_GT(most, 0.05);
+  EXPECT_LT(step, 0.4 * most);
+}
+
 TEST(KeepVolumes, HasTheSameBitsForAnyNumberOfThreads) {
   const TriMesh ball = rough_ball(kRadius);
   const auto run = [&] { return kept(ball, shrunk(ball, 0.98), {1, 0}); };

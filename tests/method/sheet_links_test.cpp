@@ -72,6 +72,29 @@ TEST(SheetLinks, GoOnAlongTheSmoothBoundary) {
   EXPECT_EQ(links.as_expected, links.all);
 }
 
+/// Two layers part, slowly: the background between them ends in a cusp.
+TEST(SheetLinks, GoOnAlongBothOfTwoThatTouch) {
+  const Linked layers(partition_of([](const Vec3& p) {
+    const double gap = 0.02 * std::pow(std::max(0.0, p.x - 3), 2);
+    return std::abs(p.z - 9.5) < gap ? 0 : p.z < 9.5 ? 1 : 2;
+  }));
+  int with_both = 0;
+  for (std::size_t p = 0; p < layers.on_curve.size(); ++p) {
+    int one = 0, other = 0;
+    for (std::size_t n = layers.neighbors.start[p]; n < layers.neighbors.start[p + 1]; ++n) {
+      one += (layers.links[n] & kLinked) != 0 ? 1 : 0;
+      other += (layers.links[n] & kLinkedOther) != 0 ? 1 : 0;
+    }
+    EXPECT_GT(one, 1);
+    if (layers.on_curve[p] == 0) {
+      EXPECT_EQ(other, 0);
+    } else {
+      with_both += other > 1 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(with_both, 20);
+}
+
 /// Three equal wedges: none is smoother than the others.
 TEST(SheetLinks, KeepToTheCurveWhereNothingGoesOn) {
   const Linked wedges(partition_of([](const Vec3& p) {

@@ -12,10 +12,10 @@ namespace {
 class Matrix {
  public:
   Matrix(const Umbrella& umbrella, const Springs& springs, double bending)
-      : umbrella_(umbrella), springs_(springs), bending_(bending), bent_(springs.weight.size()) {
+      : umbrella_(umbrella), springs_(springs), bending_(bending), bent_(umbrella.row_count()) {
     constexpr double kOwn = 1.2, kOfOthers = 0.2;  // with six neighbours
-    inverse_diagonal_.resize(bent_.size());
-    parallel_for(bent_.size(), [&](std::size_t p) {
+    inverse_diagonal_.resize(springs.weight.size());
+    parallel_for(inverse_diagonal_.size(), [&](std::size_t p) {
       const double bent = umbrella_.smooths(p) ? kOwn : kOfOthers;
       inverse_diagonal_[p] = 1 / (springs_.weight[p] + bent * bending_);
     });
@@ -66,8 +66,10 @@ Umbrella::Umbrella(const Neighbors& neighbors, Links links)
       links_(std::move(links)),
       back_(links_.size()),
       share_(neighbors.start.size() - 1, 0),
-      alike_(share_.size()) {
-  parallel_for(share_.size(), [&](std::size_t p) {
+      alike_(share_.size()),
+      other_row_(share_.size(), kNoIndex) {
+  std::vector<int> others(share_.size(), 0);
+  parallel_for(alike_.size(), [&](std::size_t p) {
     int count = 0;
     bool alike = true;
     for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
@@ -75,38 +77,64 @@ Umbrella::Umbrella(const Neighbors& neighbors, Links links)
       std::size_t back = neighbors_.start[q];
       while (neighbors_.points[back] != static_cast<Index>(p)) ++back;
       back_[n] = links_[back];
-      count += links_[n];
-      alike &= links_[n] != 0 && back_[n] != 0;
+      count += (links_[n] & kLinked) != 0 ? 1 : 0;
+      others[p] += (links_[n] & kLinkedOther) != 0 ? 1 : 0;
+      alike &= links_[n] == kLinked && back_[n] == kLinked;
     }
     if (count > 1) share_[p] = 1.0 / count;
     alike_[p] = alike ? 1 : 0;
   });
+  for (std::size_t p = 0; p < others.size(); ++p) {
+    if (others[p] < 2) continue;
+    other_row_[p] = static_cast<Index>(share_.size());
+    two_through_.push_back(static_cast<Index>(p));
+    share_.push_back(1.0 / others[p]);
+  }
 }
 
 std::vector<Vec3> Umbrella::bent(const std::vector<Vec3>& x) const {
-  std::vector<Vec3> y(x.size());
+  std::vector<Vec3> y(row_count());
   bend(x, y);
   return y;
 }
 
+Vec3 Umbrella::row(const std::vector<Vec3>& x, std::size_t p, std::size_t row, char bit) const {
+  Vec3 sum;
+  for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
+    if ((links_[n] & bit) != 0) sum += x[neighbors_.points[n]];
+  }
+  return x[p] - share_[row] * sum;
+}
+
 void Umbrella::bend(const std::vector<Vec3>& x, std::vector<Vec3>& y) const {
   parallel_for(x.size(), [&](std::size_t p) {
-    Vec3 sum;
-    const bool alike = alike_[p] != 0;
-    for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
-      const Index q = neighbors_.points[n];
-      if (alike || links_[n] != 0) sum += x[q];
+    if (!smooths(p)) {
+      y[p] = {};
+    } else if (alike_[p] == 0) {
+      y[p] = row(x, p, p, kLinked);
+    } else {
+      Vec3 sum;
+      for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
+        sum += x[neighbors_.points[n]];
+      }
+      y[p] = x[p] - share_[p] * sum;
     }
-    y[p] = smooths(p) ? x[p] - share_[p] * sum : Vec3{};
   });
+  for (std::size_t i = 0; i < two_through_.size(); ++i) {
+    y[x.size() + i] = row(x, static_cast<std::size_t>(two_through_[i]), x.size() + i, kLinkedOther);
+  }
 }
 
 Vec3 Umbrella::transposed(std::size_t p, const std::vector<Vec3>& y) const {
   Vec3 x = y[p];
+  if (other_row_[p] != kNoIndex) x += y[other_row_[p]];
   const bool alike = alike_[p] != 0;
   for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
     const Index q = neighbors_.points[n];
-    if (alike || back_[n] != 0) x = x - share_[q] * y[q];
+    if (alike || (back_[n] & kLinked) != 0) x = x - share_[q] * y[q];
+    if (!alike && (back_[n] & kLinkedOther) != 0 && other_row_[q] != kNoIndex) {
+      x = x - share_[other_row_[q]] * y[other_row_[q]];
+    }
   }
   return x;
 }

@@ -7,22 +7,27 @@
 
 namespace mesamis::detail::fit {
 
-/// Which neighbours smooth each point: an entry for each of Neighbors::points, 1 if it does.
+/// Which neighbours smooth each point: an entry for each of Neighbors::points, 0 if it does not.
+/// Where two boundaries go on smoothly through a point, the first has the bit 1, the other the bit
+/// 2, and what both share has both.
 using Links = std::vector<char>;
+inline constexpr char kLinked = 1, kLinkedOther = 2;
 
 /// Points on curves, 1 each, are smoothed by those on curves alone, all others by all.
 Links links_along_curves(const Neighbors& neighbors, const std::vector<char>& on_curve);
 
 /// What smooths a surface: the umbrella operator L, the difference of a point from the mean of the
-/// points that it is linked to; a point with fewer than two links has none.
+/// points that it is linked to; a point with fewer than two links has none. It has one row for each
+/// point, and then one for each point through which two boundaries go on.
 class Umbrella {
  public:
   /// @param neighbors  must live as long.
   Umbrella(const Neighbors& neighbors, Links links);
 
-  /// L x.
+  std::size_t row_count() const { return share_.size(); }
+  /// L x: row_count() entries.
   std::vector<Vec3> bent(const std::vector<Vec3>& x) const;
-  /// L x, into a vector of as many points.
+  /// The same, into a vector of so many.
   void bend(const std::vector<Vec3>& x, std::vector<Vec3>& y) const;
   /// L^T y at a point.
   Vec3 transposed(std::size_t point, const std::vector<Vec3>& y) const;
@@ -31,9 +36,13 @@ class Umbrella {
 
  private:
   const Neighbors& neighbors_;
-  Links links_, back_;         // of a point to its neighbours, and of these to the point
-  std::vector<double> share_;  // of each linked neighbour in their mean; 0: it is not smoothed
-  std::vector<char> alike_;    // 1: all links of a point hold both ways
+  Vec3 row(const std::vector<Vec3>& x, std::size_t point, std::size_t row, char bit) const;
+
+  Links links_, back_;              // of a point to its neighbours, and of these to the point
+  std::vector<double> share_;       // of a row: of each linked neighbour in their mean; 0: none
+  std::vector<char> alike_;         // 1: all links of a point hold both ways
+  std::vector<Index> other_row_;    // of each point, or kNoIndex
+  std::vector<Index> two_through_;  // the points of the rows after those of all points
 };
 
 /// Where points shall be, and how much that counts.

@@ -26,9 +26,7 @@ std::vector<double> sums_of_materials(const TriMesh& surface, Sides sides, doubl
                                       Function&& function) {
   std::vector<double> sums(material_count(sides), 0);
   for (std::size_t t = 0; t < sides.size(); ++t) {
-    const Triangle& k = surface.triangles[t];
-    const Vec3 &a = surface.points[k[0]], &b = surface.points[k[1]], &c = surface.points[k[2]];
-    const double value = function(a, b, c);
+    const double value = function(surface.triangles[t]);
     if (sides[t][0] >= 0) sums[sides[t][0]] += value;
     if (sides[t][1] >= 0) sums[sides[t][1]] += in_front * value;
   }
@@ -37,15 +35,38 @@ std::vector<double> sums_of_materials(const TriMesh& surface, Sides sides, doubl
 
 /// Of each material, but for a constant where its boundary is open on the box, mm^3.
 std::vector<double> volumes_of(const TriMesh& surface, Sides sides) {
-  return sums_of_materials(surface, sides, -1, [](const Vec3& a, const Vec3& b, const Vec3& c) {
-    return dot(a, cross(b, c)) / 6;
+  const std::vector<Vec3>& x = surface.points;
+  return sums_of_materials(surface, sides, -1, [&](const Triangle& t) {
+    return dot(x[t[0]], cross(x[t[1]], x[t[2]])) / 6;
   });
 }
 
-std::vector<double> areas_of(const TriMesh& surface, Sides sides) {
-  return sums_of_materials(surface, sides, 1, [](const Vec3& a, const Vec3& b, const Vec3& c) {
-    return norm(cross(b - a, c - a)) / 2;
+/// How much each material gains if its boundary moves outwards by a unit times the shares, mm^2.
+std::vector<double> areas_of(const TriMesh& surface, Sides sides,
+                             const std::vector<double>& share) {
+  const std::vector<Vec3>& x = surface.points;
+  return sums_of_materials(surface, sides, 1, [&](const Triangle& t) {
+    const double area = norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 2;
+    return area * (share[t[0]] + share[t[1]] + share[t[2]]) / 3;
   });
+}
+
+/// How far points move with their boundary: from 0 on curves to 1 some rings of neighbours away.
+std::vector<double> shares_of_points(const TriMesh& surface, const std::vector<char>& on_curve) {
+  constexpr int kRings = 6;
+  const Neighbors neighbors(surface);
+  std::vector<double> near(on_curve.begin(), on_curve.end());
+  for (int ring = 1; ring < kRings; ++ring) {
+    const std::vector<double> around = greatest_around(neighbors, near);
+    parallel_for(near.size(),
+                 [&](std::size_t p) { near[p] = std::max(near[p], around[p] - 1.0 / kRings); });
+  }
+  std::vector<double> share(near.size());
+  parallel_for(near.size(), [&](std::size_t p) {
+    const double far = 1 - near[p];
+    share[p] = far * far * (3 - 2 * far);
+  });
+  return share;
 }
 
 }  // namespace
@@ -53,24 +74,33 @@ std::vector<double> areas_of(const TriMesh& surface, Sides sides) {
 TriMesh keep_volumes(const MovedBoundaries& boundaries, const VoxelGrid& grid) {
   const auto& [before, now, sides, on_curve] = boundaries;
   constexpr int kSteps = 4;
+  constexpr double kMostVoxels = 0.4;
   const SurfaceSpace space(grid, 1);
   std::vector<std::array<Index, 2>> sides_of(now.points.size(), {0, 0});
   for (std::size_t t = 0; t < sides.size(); ++t) {
     for (const Index p : now.triangles[t]) sides_of[p] = sides[t];
   }
   const std::vector<double> wanted = volumes_of(before, sides);
+  const std::vector<double> share = shares_of_points(now, on_curve);
+  const double most = kMostVoxels * space.voxel();
+  std::vector<double> gone(wanted.size(), 0);  // by each boundary
   TriMesh moved = now;
-  for (int step = 0; step < kSteps; ++step) {
-    const std::vector<double> volumes = volumes_of(moved, sides), areas = areas_of(moved, sides);
-    std::vector<double> distance(volumes.size(), 0);
-    for (std::size_t m = 1; m < distance.size(); ++m) {
-      if (areas[m] > 0) distance[m] = (wanted[m] - volumes[m]) / areas[m];
+  for (int round = 0; round < kSteps; ++round) {
+    const std::vector<double> volumes = volumes_of(moved, sides),
+                              areas = areas_of(moved, sides, share);
+    std::vector<double> step(gone.size(), 0);
+    for (std::size_t m = 1; m < step.size(); ++m) {
+      if (!(areas[m] > 0)) continue;
+      const double goal = gone[m] + (wanted[m] - volumes[m]) / areas[m];
+      step[m] = std::clamp(goal, -most, most) - gone[m];
+      gone[m] += step[m];
     }
-    const auto of = [&](Index m) { return m > 0 ? distance[m] : 0.0; };
+    const auto of = [&](Index m) { return m > 0 ? step[m] : 0.0; };
     const std::vector<Vec3> normals = vertex_normals(moved);
     parallel_for(moved.points.size(), [&](std::size_t p) {
-      if (boundaries.on_curve[p] != 0 || space.on_box(moved.points[p])) return;
-      const Vec3 move = (of(sides_of[p][0]) - of(sides_of[p][1])) * normals[p];
+      if (share[p] == 0 || space.on_box(moved.points[p])) return;
+      const double distance = of(sides_of[p][0]) - of(sides_of[p][1]);
+      const Vec3 move = (share[p] * distance) * normals[p];
       moved.points[p] += space.within_box(moved.points[p], move);
     });
   }

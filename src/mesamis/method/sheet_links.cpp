@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
 
 #include "mesamis/base/each_once.h"
 #include "mesamis/fit/surface_moves.h"
@@ -35,11 +34,7 @@ struct Turns {
   std::array<double, 3> cosines{};  // sums
   int points = 0;
 
-  std::optional<std::size_t> smoothest() const {
-    const auto best = std::ranges::max_element(cosines);
-    if (!(*best > kSmooth * points)) return std::nullopt;
-    return static_cast<std::size_t>(best - cosines.begin());
-  }
+  bool goes_on(std::size_t material) const { return cosines[material] > kSmooth * points; }
 };
 
 class SheetLinker {
@@ -55,10 +50,12 @@ class SheetLinker {
   Links links() const {
     Links links = links_along_curves(neighbors_, on_curve_);
     for (std::size_t p = 0; p < on_curve_.size(); ++p) {
-      const std::optional<Index> through = material_through(p);
-      if (!through) continue;
+      const Materials through = materials_through(p);
+      if (through.empty()) continue;
       for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
-        links[n] = has(materials_[neighbors_.points[n]], *through) ? 1 : 0;
+        const Materials& of_neighbor = materials_[neighbors_.points[n]];
+        links[n] = has(of_neighbor, through[0]) ? kLinked : 0;
+        if (through.size() > 1 && has(of_neighbor, through[1])) links[n] |= kLinkedOther;
       }
     }
     return links;
@@ -89,11 +86,15 @@ class SheetLinker {
     }
   }
 
-  std::optional<Index> material_through(std::size_t p) const {
-    if (!joins_three(p)) return std::nullopt;
-    const auto smoothest = turns_.at(materials_[p]).smoothest();
-    if (!smoothest) return std::nullopt;
-    return materials_[p][*smoothest];
+  /// Those whose boundaries go on through a point: two at most.
+  Materials materials_through(std::size_t p) const {
+    Materials through;
+    if (!joins_three(p)) return through;
+    const Turns& turns = turns_.at(materials_[p]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (turns.goes_on(i) && through.size() < 2) through.push_back(materials_[p][i]);
+    }
+    return through;
   }
 
   Neighbors neighbors_;

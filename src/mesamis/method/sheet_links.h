@@ -15,12 +15,12 @@ std::vector<char> curve_points(const PartitionSurface& partition);
 
 /// Which neighbours smooth the points of a partition's boundaries.
 ///
-/// Where three materials meet along a curve, the boundary of one of them mostly goes on smoothly and
-/// that between the other two ends at it: a bone among muscles, two vertebrae that touch within what
-/// surrounds them. Of each three materials it is the one whose two sheets have the most equal normals
-/// in the mean over their curves. If they turn by less than some 50 degrees there, points of the
-/// curve are smoothed by all neighbours on the boundary of that material; else, and where more than
-/// three materials meet, by those on curves alone.
+/// Where three materials meet along a curve, the boundary of one or two of them mostly goes on
+/// smoothly: that of a bone at which the boundary between two muscles ends, or those of two muscles
+/// that touch, where the background between them ends in a cusp. A boundary goes on if its two
+/// sheets turn by less than some 50 degrees in the mean over the curves of the same three materials.
+/// Points of a curve are smoothed by the neighbours on each boundary that goes on; else, and where
+/// more than three materials meet, by those on curves alone.
 /// @param surface   of the partition.
 /// @param sides     of the partition: of each triangle.
 /// @param on_curve  curve_points().
