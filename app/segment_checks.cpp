@@ -121,14 +121,25 @@ void require_body_for(const SegmentOptions& options, const Settings& settings) {
   if (!options.body.material.empty()) require_grey_values(options.scan.places, "--material");
 }
 
+/// Whether anything is said of how a scan is read, or of which part.
+bool tells_of_scan(const ReadOptions& read, const Settings& settings) {
+  return !(settings.crop == CropRange{}) || read.spacing || read.raw || read.resample ||
+         read.volume || read.channel || !read.series.empty() || !read.modality.empty();
+}
+
 /// What needs no scan to be refused.
 void require_places(const SegmentOptions& options, const Settings& settings) {
   const PlaceArguments& places = options.scan.places;
   require_places(places, options.scan.labels, settings);
-  if (options.scan.input.empty() && places.given()) {
+  const bool has_scan = !options.scan.input.empty();
+  if (!has_scan && places.given()) {
     throw CLI::ValidationError(
         "input",
         "expected a scan for --tissue, --seed, --box, --mask, --remove or --padding, found none");
+  }
+  if (!has_scan && tells_of_scan(options.scan.read, settings)) {
+    throw CLI::ValidationError(
+        "input", "expected a scan for --crop, --spacing and how it is read, found labels alone");
   }
   if (!options.out.meshes.empty()) require_grey_values(places, "--mesh");
 }

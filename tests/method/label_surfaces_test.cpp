@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <numbers>
 #include <random>
 #include <set>
 #include <utility>
@@ -94,6 +96,26 @@ double mean_error(int object, const TriMesh& surface) {
   return sum / area;
 }
 
+/// The length of the edges above 40 degrees over the area, per mm.
+double creases_of(const TriMesh& surface) {
+  std::map<std::array<Index, 2>, Vec3> normal_beside;
+  double length = 0, area = 0;
+  for (const Triangle& t : surface.triangles) {
+    const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+    const Vec3 across = cross(b - a, c - a);
+    area += norm(across) / 2;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::array<Index, 2> edge{std::min(t[i], t[(i + 1) % 3]),
+                                      std::max(t[i], t[(i + 1) % 3])};
+      const auto [other, is_new] = normal_beside.emplace(edge, across);
+      const double cosine = dot(across, other->second) / (norm(across) * norm(other->second));
+      if (is_new || cosine > std::cos(40 * std::numbers::pi / 180)) continue;
+      length += norm(surface.points[edge[0]] - surface.points[edge[1]]);
+    }
+  }
+  return length / area;
+}
+
 void expect_closed(const LabelResult& found) {
   TriMesh all;
   for (const LabelledObject& object : found.objects) {
@@ -133,6 +155,21 @@ TEST(LabelSurfaces, TheImagePlacesWhatLabelsChoose) {
     EXPECT_GT(shared_points(found), 20U) << what;
     EXPECT_LT(mean_error(1, found.objects[0].surface), 0.15) << what;
     EXPECT_LT(mean_error(2, found.objects[1].surface), 0.15) << what;
+  }
+}
+
+/// The first ball's surface goes on where the second one touches it.
+TEST(LabelSurfaces, ABallThatAnotherTouchesHasNoCreases) {
+  constexpr double kMost = 0.02;
+  const auto first_of = [](const LabelMap& map, bool with_image) {
+    const LabelResult found = with_image ? find_labelled_objects(usual_scan(), {map}, Settings{})
+                                         : surfaces_of_labels({map}, Settings{});
+    return creases_of(found.objects.at(0).surface);
+  };
+  for (const Index every : {1, 2}) {
+    const LabelMap map = labels_of(every, 0);
+    EXPECT_LT(first_of(map, true), kMost) << every;
+    EXPECT_LT(every * first_of(map, false), kMost) << every;
   }
 }
 

@@ -55,7 +55,7 @@ struct Linked {
         const Index q = neighbors.points[n];
         if (on_curve[q] != 0) continue;
         ++count.all;
-        count.as_expected += links[n] == is_beside[q] ? 1 : 0;
+        count.as_expected += (links[n] & kLinked) == is_beside[q] ? 1 : 0;
       }
     }
     return count;

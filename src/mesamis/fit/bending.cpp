@@ -87,7 +87,7 @@ Umbrella::Umbrella(const Neighbors& neighbors, Links links)
   for (std::size_t p = 0; p < others.size(); ++p) {
     if (others[p] < 2) continue;
     other_row_[p] = static_cast<Index>(share_.size());
-    two_through_.push_back(static_cast<Index>(p));
+    two_ways_.push_back(static_cast<Index>(p));
     share_.push_back(1.0 / others[p]);
   }
 }
@@ -120,8 +120,8 @@ void Umbrella::bend(const std::vector<Vec3>& x, std::vector<Vec3>& y) const {
       y[p] = x[p] - share_[p] * sum;
     }
   });
-  for (std::size_t i = 0; i < two_through_.size(); ++i) {
-    y[x.size() + i] = row(x, static_cast<std::size_t>(two_through_[i]), x.size() + i, kLinkedOther);
+  for (std::size_t i = 0; i < two_ways_.size(); ++i) {
+    y[x.size() + i] = row(x, static_cast<std::size_t>(two_ways_[i]), x.size() + i, kLinkedOther);
   }
 }
 

@@ -8,8 +8,8 @@
 namespace mesamis::detail::fit {
 
 /// Which neighbours smooth each point: an entry for each of Neighbors::points, 0 if it does not.
-/// Where two boundaries go on smoothly through a point, the first has the bit 1, the other the bit
-/// 2, and what both share has both.
+/// Where a point is smoothed in two ways, as where two boundaries go on smoothly through it, the
+/// neighbours of the first have the bit 1, those of the other the bit 2.
 using Links = std::vector<char>;
 inline constexpr char kLinked = 1, kLinkedOther = 2;
 
@@ -18,7 +18,7 @@ Links links_along_curves(const Neighbors& neighbors, const std::vector<char>& on
 
 /// What smooths a surface: the umbrella operator L, the difference of a point from the mean of the
 /// points that it is linked to; a point with fewer than two links has none. It has one row for each
-/// point, and then one for each point through which two boundaries go on.
+/// point, and then one for each point that is smoothed in two ways.
 class Umbrella {
  public:
   /// @param neighbors  must live as long.
@@ -35,14 +35,14 @@ class Umbrella {
   bool smooths(std::size_t point) const { return share_[point] > 0; }
 
  private:
-  const Neighbors& neighbors_;
   Vec3 row(const std::vector<Vec3>& x, std::size_t point, std::size_t row, char bit) const;
 
-  Links links_, back_;              // of a point to its neighbours, and of these to the point
-  std::vector<double> share_;       // of a row: of each linked neighbour in their mean; 0: none
-  std::vector<char> alike_;         // 1: all links of a point hold both ways
-  std::vector<Index> other_row_;    // of each point, or kNoIndex
-  std::vector<Index> two_through_;  // the points of the rows after those of all points
+  const Neighbors& neighbors_;
+  Links links_, back_;            // of a point to its neighbours, and of these to the point
+  std::vector<double> share_;     // of a row: of each linked neighbour in their mean; 0: none
+  std::vector<char> alike_;       // 1: all links of a point hold both ways
+  std::vector<Index> other_row_;  // of each point, or kNoIndex
+  std::vector<Index> two_ways_;   // the points of the rows after those of all points
 };
 
 /// Where points shall be, and how much that counts.

@@ -41,6 +41,7 @@ constexpr std::size_t kMostObjects = 4096;
 constexpr double kMostMargin = 50;       // voxels of the scan
 constexpr double kReach = 2;             // margins that a label may flow
 constexpr double kReachOfFit = 0.64;     // margins in which a fitted surface looks for edges
+constexpr double kReachAfterFlow = 1.6;  // voxels, the same
 constexpr double kErrorOfLabels = 0.04;  // voxels of the labels, where they are right
 
 void bring_to_world(const VoxelGrid& grid, PartitionSurface& partition) {
@@ -127,8 +128,10 @@ struct LabelRun {
         chosen(asked.chosen.empty() ? asked.map.segments : asked.chosen) {
     require_chosen(chosen, asked.map);
   }
-  /// Whether boundaries are fitted to an image of these voxels; else labels flow.
-  bool fits(const VoxelGrid& scan) const { return image_fits_labels(settings, scan, request.map); }
+  /// Whether boundaries in an image of these voxels start from the labels; else labels flow.
+  bool starts_from_labels(const VoxelGrid& scan) const {
+    return is_fit_from_labels(settings, scan, request.map);
+  }
   bool makes_mesh() const { return request.mesh && !settings.preview; }
   void begin(const char* stage) const { begin_stage(progress, stage); }
 };
@@ -217,10 +220,12 @@ GridMemberships flowed(const LabelRun& run, const GridMemberships& smooth, const
 PartitionSurface moved_to_image(const LabelRun& run, PartitionSurface partition,
                                 const RunInput& input, const std::vector<BoundaryGuide>& guides) {
   if (!run.settings.follow) return partition;
-  if (!run.fits(input.grey)) {
+  if (!run.settings.fit) {
     return follow_image(std::move(partition), input.image, guides, input.noise);
   }
-  const double reach = kReachOfFit * run.margin / input.grey.voxel_size();
+  const double reach = run.starts_from_labels(input.grey)
+                           ? kReachOfFit * run.margin / input.grey.voxel_size()
+                           : kReachAfterFlow;
   return fit_boundaries(std::move(partition), input.image, guides, reach);
 }
 
@@ -231,7 +236,7 @@ LayerBoundaries extract_in_image(const LabelRun& run, Index layer,
   LayerBoundaries found{layer, {}};
   const VoxelGrid& voxels = edges.prepared.grey;
   GridMemberships memberships = without_image(run, voxels, labels);
-  if (!run.fits(voxels)) {
+  if (!run.starts_from_labels(voxels)) {
     memberships =
         flowed(run, memberships, {voxels.size, voxels.spacing, labels}, edges, found.converged);
   }
@@ -420,7 +425,8 @@ LabelResult with_image(const LabelRun& run, const VolumeView& scan) {
   const LabelBlock block = clipped(require_block(run, on_scan), scan);
   const CropRange range = range_of(block);
   Volume part = crop(scan, range);
-  const Edges edges = find_edges(part, with_level(run, part, on_scan, block), !run.fits(scan));
+  const Edges edges =
+      find_edges(part, with_level(run, part, on_scan, block), !run.starts_from_labels(scan));
   if (!run.makes_mesh()) part.samples = {};
   const RunInput input(edges.prepared);
   result.parameters = parameters_of(run, edges.prepared, range);
@@ -520,7 +526,7 @@ double margin_of(const std::optional<double>& asked, const VoxelGrid& scan,
                    " mm, found " + std::to_string(margin));
 }
 
-bool image_fits_labels(const Settings& settings, const VoxelGrid& scan, const VoxelGrid& labels) {
+bool is_fit_from_labels(const Settings& settings, const VoxelGrid& scan, const VoxelGrid& labels) {
   return settings.fit && labels.voxel_size() <= kCoarsestFitted * scan.voxel_size();
 }
 

@@ -41,7 +41,7 @@ struct LabelRequest {
   /// smooth_memberships().
   const Probabilities* probabilities = nullptr;
   /// Extracted boundaries, of which each chosen layer is asked for once; they must live as long. With
-  /// a scan the map must lie on its grid, and image_fits_labels() must hold; without one the map
+  /// a scan the map must lie on its grid, and is_fit_from_labels() must hold; without one the map
   /// needs no layers. nullptr: they are extracted.
   const ExtractedBoundaries* extracted = nullptr;
 };
@@ -91,19 +91,19 @@ double label_margin(const VoxelGrid& scan, const VoxelGrid& labels);
 double margin_of(const std::optional<double>& asked, const VoxelGrid& scan,
                  const VoxelGrid& labels);
 
-/// Voxels of the scan: labels no coarser are fitted.
+/// Voxels of the scan: boundaries of labels no coarser are fitted to the image as they are.
 inline constexpr double kCoarsestFitted = 1.25;
 
-/// Whether boundaries are extracted of the labels alone and then fitted to the image: labels are no
-/// coarser than kCoarsestFitted. Else, and without Settings::fit, labels flow to the edges of the
-/// image.
-bool image_fits_labels(const Settings& settings, const VoxelGrid& scan, const VoxelGrid& labels);
+/// Whether boundaries of the labels alone are fitted to the image: labels are no coarser than
+/// kCoarsestFitted. Coarser ones flow to the edges of the image before they are fitted; without
+/// Settings::fit all flow, and none is fitted.
+bool is_fit_from_labels(const Settings& settings, const VoxelGrid& scan, const VoxelGrid& labels);
 
 /// Finds the objects of a label map in a scan.
 ///
 /// Algorithm 1 finds the edges v of the image; labels flow to the nearest of them within the margin
 /// (flow_memberships()); where memberships are equal is the boundary (extract_partition_on_grid());
-/// each boundary follows the image to its own half maximum (follow_image()); decimation keeps what
+/// each boundary is fitted to the image (fit_boundaries()); decimation keeps what
 /// objects share. The mesh is made last, with no preview. Labels that were not chosen take part: an
 /// object ends where they begin.
 ///

@@ -340,8 +340,8 @@ std::vector<Setting> surface_rows() {
            .help = "Move the solid surface on to the image where that is more exact than the mesh",
            .paper = "no"}, &Settings::follow, &Parameters::follow),
     bound({.name = "fit", .form = "yes|no",
-           .help = "Objects of labels whose voxels are about as fine as the scan's: fit their smooth "
-               "surfaces to the image, in place of the flow of the labels; of labels alone: smooth "
+           .help = "Objects of labels: fit their smooth surfaces to the image, where labels are "
+               "coarser than the scan after these have flowed to its edges; of labels alone: smooth "
                "the steps of their voxels; without labels: smooth the ripples of noise and the "
                "terraces of thick slices",
            .paper = "no"}, &Settings::fit, &Parameters::fit),

@@ -53,9 +53,10 @@ class SheetLinker {
       const Materials through = materials_through(p);
       if (through.empty()) continue;
       for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
-        const Materials& of_neighbor = materials_[neighbors_.points[n]];
-        links[n] = has(of_neighbor, through[0]) ? kLinked : 0;
-        if (through.size() > 1 && has(of_neighbor, through[1])) links[n] |= kLinkedOther;
+        const Index q = neighbors_.points[n];
+        const bool other = through.size() > 1 ? has(materials_[q], through[1]) : on_curve_[q] != 0;
+        links[n] = has(materials_[q], through[0]) ? kLinked : 0;
+        if (other) links[n] |= kLinkedOther;
       }
     }
     return links;

@@ -19,8 +19,8 @@ std::vector<char> curve_points(const PartitionSurface& partition);
 /// smoothly: that of a bone at which the boundary between two muscles ends, or those of two muscles
 /// that touch, where the background between them ends in a cusp. A boundary goes on if its two
 /// sheets turn by less than some 50 degrees in the mean over the curves of the same three materials.
-/// Points of a curve are smoothed by the neighbours on each boundary that goes on; else, and where
-/// more than three materials meet, by those on curves alone.
+/// Points of a curve are smoothed by the neighbours on each boundary that goes on, and if it is one
+/// by those on curves too; else, and where more than three materials meet, by those on curves alone.
 /// @param surface   of the partition.
 /// @param sides     of the partition: of each triangle.
 /// @param on_curve  curve_points().

@@ -66,7 +66,7 @@ struct LabelSlabResult {
 /// @return on rank 0; nothing elsewhere.
 /// @throws InputError  as surfaces_of_labels() and the functions of the request; for slabs that are
 ///                     thinner than two slices; for labels that the image does not fit, see
-///                     image_fits_labels(); or if the folder holds files of another run.
+///                     is_fit_from_labels(); or if the folder holds files of another run.
 /// @throws Cancelled   if progress says stop; the folder is kept.
 ///
 /// Time as surfaces_of_labels(), and for each slab that of 28 slices more. Memory of a process:
