@@ -11,6 +11,54 @@
 #include "mesamis/fit/surface_moves.h"
 
 namespace mesamis::detail::fit {
+namespace {
+
+/// Of the weight of smoothness: that of the surface at which points stop that may not go as far.
+constexpr double kShare = 1.0 / 16;
+
+class Smoothing {
+ public:
+  Smoothing(const TriMesh& start, const VoxelGrid& grid, Umbrella umbrella,
+            const SmoothingOptions& options)
+      : start_(start.points), space_(grid, 1), umbrella_(std::move(umbrella)), options_(options) {}
+
+  /// From the start.
+  std::vector<Vec3> shifts(double bending) const {
+    Springs springs = springs_at(space_, start_, 1);
+    std::vector<Vec3> now = start_;
+    for (int round = 0; round < options_.rounds; ++round) {
+      now = relax(umbrella_, springs, bending, std::move(now));
+      parallel_for(now.size(), [&](std::size_t p) { springs.goal[p] += start_[p] - now[p]; });
+    }
+    std::vector<Vec3> shifts(now.size());
+    parallel_for(now.size(), [&](std::size_t p) {
+      shifts[p] = space_.step_to(now[p], start_[p], options_.reach);
+    });
+    return shifts;
+  }
+
+  /// A surface, moved to where shifts from the start lead.
+  TriMesh moved(const TriMesh& surface, std::vector<Vec3> shifts) const {
+    parallel_for(shifts.size(),
+                 [&](std::size_t p) { shifts[p] = shifts[p] + (start_[p] - surface.points[p]); });
+    return moved_without_folds(space_, surface, std::move(shifts));
+  }
+
+  bool is_moved_so(const TriMesh& surface, const std::vector<Vec3>& shifts) const {
+    for (std::size_t p = 0; p < shifts.size(); ++p) {
+      if (!(surface.points[p] == start_[p] + shifts[p])) return false;
+    }
+    return true;
+  }
+
+ private:
+  const std::vector<Vec3>& start_;
+  SurfaceSpace space_;
+  Umbrella umbrella_;
+  const SmoothingOptions& options_;
+};
+
+}  // namespace
 
 SmoothingOptions smoothing_of_labels(const VoxelGrid& grid) {
   constexpr double kShareOfSlice = 0.85;
@@ -26,23 +74,16 @@ SmoothingOptions smoothing_of_labels(const VoxelGrid& grid) {
 TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid, const Links& links,
                        const SmoothingOptions& options) {
   require_sound(surface);
-  const std::vector<Vec3>& start = surface.points;
-  const SurfaceSpace space(grid, 1);
   const Neighbors neighbors(surface);
   if (links.size() != neighbors.points.size()) {
     throw InputError("smoothing: expected an entry for each neighbour of each point");
   }
-  const Umbrella umbrella(neighbors, links);
-  Springs springs = springs_at(space, start, 1);
-  std::vector<Vec3> now = start;
-  for (int round = 0; round < options.rounds; ++round) {
-    now = relax(umbrella, springs, options.bending, std::move(now));
-    parallel_for(start.size(), [&](std::size_t p) { springs.goal[p] += start[p] - now[p]; });
-  }
-  std::vector<Vec3> shifts(start.size());
-  parallel_for(start.size(),
-               [&](std::size_t p) { shifts[p] = space.step_to(now[p], start[p], options.reach); });
-  return moved_without_folds(space, surface, std::move(shifts));
+  const Smoothing smoothing(surface, grid, Umbrella(neighbors, links), options);
+  const std::vector<Vec3> shifts = smoothing.shifts(options.bending);
+  const TriMesh smooth = smoothing.moved(surface, shifts);
+  if (smoothing.is_moved_so(smooth, shifts)) return smooth;
+  const TriMesh less = smoothing.moved(surface, smoothing.shifts(kShare * options.bending));
+  return smoothing.moved(less, shifts);
 }
 
 }  // namespace mesamis::detail::fit

@@ -77,6 +77,13 @@ std::vector<Vec3> faired(const FollowSpace& space, const std::vector<Vec3>& star
   return points;
 }
 
+/// Between thick slices two boundaries that both go on fold too often.
+Through through_curves(const VoxelGrid& grid) {
+  constexpr double kMostThickness = 2;
+  const double longest = std::max({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+  return longest > kMostThickness * grid.shortest_side() ? Through::kSmoothest : Through::kBoth;
+}
+
 }  // namespace
 
 bool shows_edge(const PairLevel& pair, double noise) {
@@ -159,7 +166,7 @@ PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& i
                                 const std::vector<BoundaryGuide>& guides, double reach) {
   FitPoints points{{}, curve_points(partition), {}};
   const TriMesh start = taken_from(partition);
-  points.links = sheet_links(start, partition.sides, points.on_curve);
+  points.links = sheet_links(start, partition.sides, points.on_curve, through_curves(image.grid));
   for (const BoundaryGuide& guide : guides) points.contrast.push_back(guide.contrast);
   TriMesh fitted = fit_surface(start, image, points, {.reach = reach});
   return put_back(std::move(fitted), std::move(partition));
@@ -168,7 +175,7 @@ PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& i
 PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid) {
   const std::vector<char> on_curve = curve_points(partition);
   const TriMesh start = taken_from(partition);
-  const Links links = sheet_links(start, partition.sides, on_curve);
+  const Links links = sheet_links(start, partition.sides, on_curve, through_curves(grid));
   const TriMesh smooth = smooth_surface(start, grid, links, smoothing_of_labels(grid));
   TriMesh kept = keep_volumes({start, smooth, partition.sides, on_curve}, grid);
   return put_back(std::move(kept), std::move(partition));

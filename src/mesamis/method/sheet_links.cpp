@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <utility>
 
 #include "mesamis/base/each_once.h"
 #include "mesamis/fit/surface_moves.h"
@@ -39,9 +40,10 @@ struct Turns {
 
 class SheetLinker {
  public:
-  SheetLinker(const TriMesh& surface, Sides sides, const std::vector<char>& on_curve)
+  SheetLinker(const TriMesh& surface, Sides sides, const std::vector<char>& on_curve, Through which)
       : neighbors_(surface),
         on_curve_(on_curve),
+        which_(which),
         materials_(materials_of_points(surface, sides)),
         normals_(smoothed_normals(surface, neighbors_, on_curve)) {
     for (std::size_t p = 0; p < on_curve_.size(); ++p) add_turns(p);
@@ -54,8 +56,9 @@ class SheetLinker {
       if (through.empty()) continue;
       for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
         const Index q = neighbors_.points[n];
-        const bool other = through.size() > 1 ? has(materials_[q], through[1]) : on_curve_[q] != 0;
         links[n] = has(materials_[q], through[0]) ? kLinked : 0;
+        if (which_ == Through::kSmoothest) continue;
+        const bool other = through.size() > 1 ? has(materials_[q], through[1]) : on_curve_[q] != 0;
         if (other) links[n] |= kLinkedOther;
       }
     }
@@ -87,19 +90,23 @@ class SheetLinker {
     }
   }
 
-  /// Those whose boundaries go on through a point: two at most.
+  /// Those whose boundaries go on through a point, the smoothest first.
   Materials materials_through(std::size_t p) const {
-    Materials through;
-    if (!joins_three(p)) return through;
+    if (!joins_three(p)) return {};
     const Turns& turns = turns_.at(materials_[p]);
+    std::vector<std::pair<double, Index>> found;
     for (std::size_t i = 0; i < 3; ++i) {
-      if (turns.goes_on(i) && through.size() < 2) through.push_back(materials_[p][i]);
+      if (turns.goes_on(i)) found.emplace_back(-turns.cosines[i], materials_[p][i]);
     }
+    std::ranges::sort(found);
+    Materials through;
+    for (const auto& [cosine, material] : found) through.push_back(material);
     return through;
   }
 
   Neighbors neighbors_;
   const std::vector<char>& on_curve_;
+  Through which_;
   std::vector<Materials> materials_;
   std::vector<Vec3> normals_;
   std::map<Materials, Turns> turns_;
@@ -120,8 +127,9 @@ std::vector<char> curve_points(const PartitionSurface& partition) {
   return on_curve;
 }
 
-Links sheet_links(const TriMesh& surface, Sides sides, const std::vector<char>& on_curve) {
-  return SheetLinker(surface, sides, on_curve).links();
+Links sheet_links(const TriMesh& surface, Sides sides, const std::vector<char>& on_curve,
+                  Through which) {
+  return SheetLinker(surface, sides, on_curve, which).links();
 }
 
 }  // namespace mesamis::detail::method

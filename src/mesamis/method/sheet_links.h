@@ -15,12 +15,16 @@ std::vector<char> curve_points(const PartitionSurface& partition);
 
 /// Which neighbours smooth the points of a partition's boundaries.
 ///
+/// Of the boundaries that go on through a curve: both, or the smoothest alone.
+enum class Through { kBoth, kSmoothest };
+
 /// Where three materials meet along a curve, the boundary of one or two of them mostly goes on
 /// smoothly: that of a bone at which the boundary between two muscles ends, or those of two muscles
 /// that touch, where the background between them ends in a cusp. A boundary goes on if its two
 /// sheets turn by less than some 50 degrees in the mean over the curves of the same three materials.
 /// Points of a curve are smoothed by the neighbours on each boundary that goes on, and if it is one
-/// by those on curves too; else, and where more than three materials meet, by those on curves alone.
+/// of both by those on curves too; else, and where more than three materials meet, by those on curves
+/// alone.
 /// @param surface   of the partition.
 /// @param sides     of the partition: of each triangle.
 /// @param on_curve  curve_points().
@@ -28,6 +32,6 @@ std::vector<char> curve_points(const PartitionSurface& partition);
 ///
 /// O(triangles), up to a logarithm.
 Links sheet_links(const TriMesh& surface, std::span<const std::array<Index, 2>> sides,
-                  const std::vector<char>& on_curve);
+                  const std::vector<char>& on_curve, Through which = Through::kBoth);
 
 }  // namespace mesamis::detail::method
