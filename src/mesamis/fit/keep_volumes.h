@@ -21,11 +21,11 @@ struct MovedBoundaries {
 
 /// Moves the boundaries of several objects so that each has the volume that it had before.
 ///
-/// Each object's boundary moves along its normals by one distance, which Newton's method finds in
-/// four steps, of at most 0.4 voxels; a point between two objects moves by the difference of theirs.
-/// Material 0, the background, gives and takes. Points on the grid's box stay, and so do those on
-/// curves; beside curves moves fade, so that no step comes about. Moves that would make boundaries
-/// meet are taken back.
+/// Each object's boundary moves along its normals by one distance, at most 0.4 voxels, which
+/// Newton's method finds in four steps; a point between two objects moves by the difference of
+/// theirs. Material 0, the background, gives and takes. Points on the grid's box stay, and so do
+/// those on curves; beside curves moves fade, so that no step comes about. Moves that would make
+/// boundaries meet are taken back.
 /// @return the same triangles.
 ///
 /// O(n log n) for n points. The same bits for any number of threads.
