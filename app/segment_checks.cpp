@@ -137,9 +137,10 @@ void require_places(const SegmentOptions& options, const Settings& settings) {
         "input",
         "expected a scan for --tissue, --seed, --box, --mask, --remove or --padding, found none");
   }
-  if (!has_scan && tells_of_scan(options.scan.read, settings)) {
-    throw CLI::ValidationError(
-        "input", "expected a scan for --crop, --spacing and how it is read, found labels alone");
+  if (!has_scan && options.scan.labels.given() && tells_of_scan(options.scan.read, settings)) {
+    throw CLI::ValidationError("input",
+                               "expected a scan for --crop, --spacing, --series, --raw, --volume, "
+                               "--channel, --modality or --resample, found labels alone");
   }
   if (!options.out.meshes.empty()) require_grey_values(places, "--mesh");
 }

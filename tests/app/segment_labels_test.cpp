@@ -220,7 +220,7 @@ TEST_F(SegmentLabels, RefusesInOneLine) {
   expect_refused({scan, "-o", out, "--label", "nose"}, 3, "nose");
   expect_refused({"-o", out, "--crop", "0:9,0:9,0:9"}, 2, "expected a scan for --crop");
   expect_refused({"-o", out, "--spacing", "1,1,2"}, 2, "expected a scan for --crop, --spacing");
-  expect_refused({"-o", out, "--modality", "MR"}, 2, "how it is read");
+  expect_refused({"-o", out, "--modality", "MR"}, 2, "--modality");
   expect_refused({"-o", out, "--label", "1", scan}, 2, "the scan goes before --label");
   expect_refused({scan, "-o", out, "--mesh", folder / "x.vtu", "--preview"}, 2, "--preview");
   expect_refused({scan, "-o", out, "--error"}, 2, "--error");

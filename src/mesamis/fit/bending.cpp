@@ -16,7 +16,8 @@ class Matrix {
     constexpr double kOwn = 1.2, kOfOthers = 0.2;  // with six neighbours
     inverse_diagonal_.resize(springs.weight.size());
     parallel_for(inverse_diagonal_.size(), [&](std::size_t p) {
-      const double bent = umbrella_.smooths(p) ? kOwn : kOfOthers;
+      double bent = umbrella_.smooths(p) ? kOwn : kOfOthers;
+      if (umbrella_.smooths_twice(p)) bent += 1;
       inverse_diagonal_[p] = 1 / (springs_.weight[p] + bent * bending_);
     });
   }

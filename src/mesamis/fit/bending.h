@@ -31,8 +31,9 @@ class Umbrella {
   void bend(const std::vector<Vec3>& x, std::vector<Vec3>& y) const;
   /// L^T y at a point.
   Vec3 transposed(std::size_t point, const std::vector<Vec3>& y) const;
-  /// Whether a point is smoothed at all.
+  /// Whether a point is smoothed in the first way, and in another one.
   bool smooths(std::size_t point) const { return share_[point] > 0; }
+  bool smooths_twice(std::size_t point) const { return other_row_[point] != kNoIndex; }
 
  private:
   Vec3 row(const std::vector<Vec3>& x, std::size_t point, std::size_t row, char bit) const;

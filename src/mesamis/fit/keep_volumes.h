@@ -19,7 +19,8 @@ struct MovedBoundaries {
   const std::vector<char>& on_curve;            ///< of each point 1 where several boundaries meet
 };
 
-/// Moves the boundaries of several objects so that each has the volume that it had before.
+/// Moves the boundaries of several objects so that each has the volume that it had before, as far as
+/// small moves can do that.
 ///
 /// Each object's boundary moves along its normals by one distance, at most 0.4 voxels, which
 /// Newton's method finds in four steps; a point between two objects moves by the difference of

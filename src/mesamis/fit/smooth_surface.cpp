@@ -80,7 +80,7 @@ TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid, const Link
   }
   const Smoothing smoothing(surface, grid, Umbrella(neighbors, links), options);
   const std::vector<Vec3> shifts = smoothing.shifts(options.bending);
-  const TriMesh smooth = smoothing.moved(surface, shifts);
+  TriMesh smooth = smoothing.moved(surface, shifts);
   if (smoothing.is_moved_so(smooth, shifts)) return smooth;
   const TriMesh less = smoothing.moved(surface, smoothing.shifts(kShare * options.bending));
   return smoothing.moved(less, shifts);

@@ -130,7 +130,7 @@ struct LabelRun {
   }
   /// Whether boundaries in an image of these voxels start from the labels; else labels flow.
   bool starts_from_labels(const VoxelGrid& scan) const {
-    return is_fit_from_labels(settings, scan, request.map);
+    return method::starts_from_labels(settings, scan, request.map);
   }
   bool makes_mesh() const { return request.mesh && !settings.preview; }
   void begin(const char* stage) const { begin_stage(progress, stage); }
@@ -223,14 +223,13 @@ PartitionSurface moved_to_image(const LabelRun& run, PartitionSurface partition,
   if (!run.settings.fit) {
     return follow_image(std::move(partition), input.image, guides, input.noise);
   }
-  const double reach = run.starts_from_labels(input.grey)
-                           ? kReachOfFit * run.margin / input.grey.voxel_size()
-                           : kReachAfterFlow;
+  double reach = kReachOfFit * run.margin / input.grey.voxel_size();
+  if (!run.starts_from_labels(input.grey)) reach = std::min(reach, kReachAfterFlow);
   return fit_boundaries(std::move(partition), input.image, guides, reach);
 }
 
-/// Boundaries between all labels, in the block's axes: by the labels alone where the image fits
-/// them, else where they flow to.
+/// Boundaries between all labels, in the block's axes: of the labels alone where they start
+/// from these, else where labels flow to.
 LayerBoundaries extract_in_image(const LabelRun& run, Index layer,
                                  std::vector<std::uint16_t> labels, const Edges& edges) {
   LayerBoundaries found{layer, {}};
@@ -526,7 +525,7 @@ double margin_of(const std::optional<double>& asked, const VoxelGrid& scan,
                    " mm, found " + std::to_string(margin));
 }
 
-bool is_fit_from_labels(const Settings& settings, const VoxelGrid& scan, const VoxelGrid& labels) {
+bool starts_from_labels(const Settings& settings, const VoxelGrid& scan, const VoxelGrid& labels) {
   return settings.fit && labels.voxel_size() <= kCoarsestFitted * scan.voxel_size();
 }
 

@@ -41,7 +41,7 @@ struct LabelRequest {
   /// smooth_memberships().
   const Probabilities* probabilities = nullptr;
   /// Extracted boundaries, of which each chosen layer is asked for once; they must live as long. With
-  /// a scan the map must lie on its grid, and is_fit_from_labels() must hold; without one the map
+  /// a scan the map must lie on its grid, and starts_from_labels() must hold; without one the map
   /// needs no layers. nullptr: they are extracted.
   const ExtractedBoundaries* extracted = nullptr;
 };
@@ -91,21 +91,21 @@ double label_margin(const VoxelGrid& scan, const VoxelGrid& labels);
 double margin_of(const std::optional<double>& asked, const VoxelGrid& scan,
                  const VoxelGrid& labels);
 
-/// Voxels of the scan: boundaries of labels no coarser are fitted to the image as they are.
+/// Voxels of the scan: boundaries of labels no coarser start from the labels.
 inline constexpr double kCoarsestFitted = 1.25;
 
-/// Whether boundaries of the labels alone are fitted to the image: labels are no coarser than
-/// kCoarsestFitted. Coarser ones flow to the edges of the image before they are fitted; without
-/// Settings::fit all flow, and none is fitted.
-bool is_fit_from_labels(const Settings& settings, const VoxelGrid& scan, const VoxelGrid& labels);
+/// Whether boundaries beside a scan start from those of the labels alone, which are no coarser than
+/// kCoarsestFitted. Coarser labels flow to the edges of the image first; without Settings::fit all
+/// do.
+bool starts_from_labels(const Settings& settings, const VoxelGrid& scan, const VoxelGrid& labels);
 
 /// Finds the objects of a label map in a scan.
 ///
-/// Algorithm 1 finds the edges v of the image; labels flow to the nearest of them within the margin
-/// (flow_memberships()); where memberships are equal is the boundary (extract_partition_on_grid());
-/// each boundary is fitted to the image (fit_boundaries()); decimation keeps what
-/// objects share. The mesh is made last, with no preview. Labels that were not chosen take part: an
-/// object ends where they begin.
+/// Boundaries start from the labels, see starts_from_labels(), or from where these flow to: to the
+/// nearest edges v of algorithm 1 within the margin (flow_memberships()). Each is then fitted to the
+/// image (fit_boundaries()), or without Settings::fit follows it to its own half maximum
+/// (follow_image()); decimation keeps what objects share. The mesh is made last, with no preview.
+/// Labels that were not chosen take part: an object ends where they begin.
 ///
 /// @param scan      native units.
 /// @param request   see there.

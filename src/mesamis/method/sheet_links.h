@@ -13,11 +13,11 @@ namespace mesamis::detail::method {
 /// 1 for points where more than two materials meet.
 std::vector<char> curve_points(const PartitionSurface& partition);
 
-/// Which neighbours smooth the points of a partition's boundaries.
-///
 /// Of the boundaries that go on through a curve: both, or the smoothest alone.
 enum class Through { kBoth, kSmoothest };
 
+/// Which neighbours smooth the points of a partition's boundaries.
+///
 /// Where three materials meet along a curve, the boundary of one or two of them mostly goes on
 /// smoothly: that of a bone at which the boundary between two muscles ends, or those of two muscles
 /// that touch, where the background between them ends in a cusp. A boundary goes on if its two

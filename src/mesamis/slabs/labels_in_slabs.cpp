@@ -127,7 +127,7 @@ void bring_labels(const Scratch& scratch, const LabelSlabRequest& request,
   require_valid(labels.map);
   double margin = 0;
   if (request.scan) {
-    if (!is_fit_from_labels(settings, *request.scan, labels.map)) {
+    if (!starts_from_labels(settings, *request.scan, labels.map)) {
       throw InputError(message("slabs: expected labels beside a scan to be no coarser than ",
                                kCoarsestFitted, " voxels of it, and no --no-fit, found ",
                                settings.fit ? "coarser ones" : "--no-fit",

@@ -65,8 +65,8 @@ struct LabelSlabResult {
 /// @param team      the processes that all call this function with the same arguments.
 /// @return on rank 0; nothing elsewhere.
 /// @throws InputError  as surfaces_of_labels() and the functions of the request; for slabs that are
-///                     thinner than two slices; for labels that the image does not fit, see
-///                     is_fit_from_labels(); or if the folder holds files of another run.
+///                     thinner than two slices; for labels that flow, see
+///                     starts_from_labels(); or if the folder holds files of another run.
 /// @throws Cancelled   if progress says stop; the folder is kept.
 ///
 /// Time as surfaces_of_labels(), and for each slab that of 28 slices more. Memory of a process:
