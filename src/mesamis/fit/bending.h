@@ -24,6 +24,7 @@ class Umbrella {
   /// @param neighbors  must live as long.
   Umbrella(const Neighbors& neighbors, Links links);
 
+  /// At least as many as there are points.
   std::size_t row_count() const { return share_.size(); }
   /// L x: row_count() entries.
   std::vector<Vec3> bent(const std::vector<Vec3>& x) const;
@@ -31,8 +32,9 @@ class Umbrella {
   void bend(const std::vector<Vec3>& x, std::vector<Vec3>& y) const;
   /// L^T y at a point.
   Vec3 transposed(std::size_t point, const std::vector<Vec3>& y) const;
-  /// Whether a point is smoothed in the first way, and in another one.
+  /// Whether a point is smoothed in the first way.
   bool smooths(std::size_t point) const { return share_[point] > 0; }
+  /// Whether it is smoothed in another way, too.
   bool smooths_twice(std::size_t point) const { return other_row_[point] != kNoIndex; }
 
  private:
