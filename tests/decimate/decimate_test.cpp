@@ -16,6 +16,7 @@
 #include "mesamis/surface/sampling.h"
 #include "mesamis/surface/self_intersections.h"
 #include "mesamis/surface/triangle_tree.h"
+#include "support/edge_lengths.h"
 #include "support/level_set.h"
 #include "support/shapes.h"
 #include "support/solids.h"
@@ -232,22 +233,6 @@ double sharpest_edge(const TriMesh& surface) {
   return least;
 }
 
-/// The length of the edges that bend by more than 40 degrees.
-double creases_of(const TriMesh& surface) {
-  std::map<std::pair<Index, Index>, Vec3> normals;
-  for (const Triangle& t : surface.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      normals[{t[i], t[(i + 1) % 3]}] = unit_normal(corners_of(surface, t));
-    }
-  }
-  double length = 0;
-  for (const auto& [edge, normal] : normals) {
-    if (dot(normal, normals.at({edge.second, edge.first})) > 0.766) continue;
-    length += norm(surface.points[edge.first] - surface.points[edge.second]) / 2;
-  }
-  return length;
-}
-
 TEST(Decimate, MakesNoCreases) {
   const TriMesh smooth = ball_surface(1, 40);
   const double allowed = std::cos(25.01 * std::numbers::pi / 180);
@@ -256,7 +241,8 @@ TEST(Decimate, MakesNoCreases) {
   EXPECT_LT(result.triangles.size(), smooth.triangles.size() / 4);
   EXPECT_GE(sharpest_edge(result), allowed);
   const TriMesh rough = torus(30);  // with the creases of its grid
-  EXPECT_LE(creases_of(decimate(rough, {.tolerance = 0.05})), 1.1 * creases_of(rough));
+  EXPECT_LE(edge_lengths(decimate(rough, {.tolerance = 0.05})).creases,
+            1.1 * edge_lengths(rough).creases);
 }
 
 TEST(Decimate, ReachesANumberOfTriangles) {

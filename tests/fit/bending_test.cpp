@@ -41,15 +41,23 @@ struct Case {
   }
 };
 
+void expect_adjoint(const Umbrella& umbrella, const std::vector<Vec3>& x) {
+  const std::vector<Vec3> left = umbrella.bent(x);
+  ASSERT_EQ(left.size(), umbrella.row_count());
+  std::vector<Vec3> y;
+  for (std::size_t row = 0; row < left.size(); ++row) {
+    const Vec3& p = x[row % x.size()];
+    y.push_back({std::sin(p.y), 1, p.x * p.z});
+  }
+  double one = 0, other = 0;
+  for (std::size_t row = 0; row < y.size(); ++row) one += dot(left[row], y[row]);
+  for (std::size_t p = 0; p < x.size(); ++p) other += dot(x[p], umbrella.transposed(p, y));
+  EXPECT_NEAR(one, other, 1e-9 * std::abs(one));
+}
+
 TEST(Umbrella, IsAdjointToItsTransposed) {
   const Case c;
-  const auto left = c.umbrella.bent(c.springs.goal);
-  double one = 0, other = 0;
-  for (std::size_t p = 0; p < left.size(); ++p) {
-    one += dot(left[p], c.surface.points[p]);
-    other += dot(c.springs.goal[p], c.umbrella.transposed(p, c.surface.points));
-  }
-  EXPECT_NEAR(one, other, 1e-9 * std::abs(one));
+  expect_adjoint(c.umbrella, c.springs.goal);
 }
 
 TEST(Umbrella, OnACurveHoldsTheCurveAlone) {
@@ -65,14 +73,7 @@ TEST(Umbrella, IsAdjointToItsTransposedWhateverLinksHoldOneWay) {
   const Case c;
   Links links(c.neighbors.points.size());
   for (std::size_t n = 0; n < links.size(); ++n) links[n] = n % 3 == 0 ? 0 : 1;
-  const Umbrella umbrella(c.neighbors, links);
-  const auto left = umbrella.bent(c.springs.goal);
-  double one = 0, other = 0;
-  for (std::size_t p = 0; p < left.size(); ++p) {
-    one += dot(left[p], c.surface.points[p]);
-    other += dot(c.springs.goal[p], umbrella.transposed(p, c.surface.points));
-  }
-  EXPECT_NEAR(one, other, 1e-9 * std::abs(one));
+  expect_adjoint(Umbrella(c.neighbors, links), c.springs.goal);
 }
 
 TEST(Umbrella, IsAdjointToItsTransposedOnAnOpenSurface) {
@@ -80,22 +81,13 @@ TEST(Umbrella, IsAdjointToItsTransposedOnAnOpenSurface) {
   std::erase_if(open.triangles, [&](const Triangle& t) { return open.points[t[0]].z > 1; });
   const Neighbors neighbors(open);
   std::size_t one_way = 0;
-  for (std::size_t p = 0; p < open.points.size(); ++p) {
+  for (Index p = 0; p < std::ssize(open.points); ++p) {
     for (std::size_t n = neighbors.start[p]; n < neighbors.start[p + 1]; ++n) {
-      one_way += neighbors.has(neighbors.points[n], static_cast<Index>(p)) ? 0 : 1;
+      one_way += neighbors.has(neighbors.points[n], p) ? 0 : 1;
     }
   }
-  EXPECT_EQ(one_way, 0);
-  const Umbrella umbrella(neighbors, Links(neighbors.points.size(), kLinked));
-  std::vector<Vec3> y = open.points;
-  for (Vec3& row : y) row = {std::sin(row.y), 1, row.x * row.z};
-  const auto left = umbrella.bent(open.points);
-  double one = 0, other = 0;
-  for (std::size_t p = 0; p < y.size(); ++p) {
-    one += dot(left[p], y[p]);
-    other += dot(open.points[p], umbrella.transposed(p, y));
-  }
-  EXPECT_NEAR(one, other, 1e-9 * std::abs(one));
+  EXPECT_EQ(one_way, 0U);
+  expect_adjoint(Umbrella(neighbors, Links(neighbors.points.size(), kLinked)), open.points);
 }
 
 TEST(Umbrella, IsAdjointToItsTransposedWhereTwoBoundariesGoOn) {
@@ -104,16 +96,7 @@ TEST(Umbrella, IsAdjointToItsTransposedWhereTwoBoundariesGoOn) {
   for (std::size_t n = 0; n < links.size(); ++n) links[n] = static_cast<char>(n % 4);
   const Umbrella umbrella(c.neighbors, links);
   ASSERT_GT(umbrella.row_count(), c.surface.points.size());
-  const auto left = umbrella.bent(c.springs.goal);
-  ASSERT_EQ(left.size(), umbrella.row_count());
-  std::vector<Vec3> y = left;
-  for (Vec3& row : y) row = {std::sin(row.y), 1, row.x * row.z};
-  double one = 0, other = 0;
-  for (std::size_t row = 0; row < y.size(); ++row) one += dot(left[row], y[row]);
-  for (std::size_t p = 0; p < c.springs.goal.size(); ++p) {
-    other += dot(c.springs.goal[p], umbrella.transposed(p, y));
-  }
-  EXPECT_NEAR(one, other, 1e-9 * std::abs(one));
+  expect_adjoint(umbrella, c.springs.goal);
 }
 
 /// Every other place has more energy.

@@ -12,6 +12,7 @@
 #include "mesamis/surface/half_edges.h"
 #include "mesamis/surface/self_intersections.h"
 #include "mesamis/surface/triangle_tree.h"
+#include "support/edge_lengths.h"
 #include "support/throws.h"
 
 namespace mesamis {
@@ -24,17 +25,8 @@ FitPoints points_of(const TriMesh& surface, double contrast) {
 
 /// Of the edges' length the share where triangles meet at more than 40 degrees.
 double share_of_creases(const TriMesh& surface) {
-  double all = 0, creases = 0;
-  for_each_edge(
-      sorted_half_edges(surface.triangles, surface.points.size()),
-      [&](std::span<const HalfEdge> edge) {
-        const double length = norm(surface.points[edge[0].lo] - surface.points[edge[0].hi]);
-        const Vec3 one = unit_normal(corners_of(surface, surface.triangles[edge[0].triangle])),
-                   other = unit_normal(corners_of(surface, surface.triangles[edge[1].triangle]));
-        all += length;
-        if (dot(one, other) < std::cos(40 * std::numbers::pi / 180)) creases += length;
-      });
-  return creases / all;
+  const EdgeLengths lengths = edge_lengths(surface);
+  return lengths.creases / lengths.all;
 }
 
 TEST(FitSurface, LiesOnTheImageAndIsSmooth) {

@@ -65,21 +65,13 @@ TEST(KeepVolumes, ObjectsThatTouchEachHaveTheirs) {
 
 /// Where one boundary grows and the other shrinks, the third would have a step.
 TEST(KeepVolumes, MovesFadeTowardsCurves) {
-  PartitionSurface partition = touching_balls();
+  const PartitionSurface partition = touching_balls();
   const TriMesh now{partition.points, partition.triangles};
   TriMesh before = now;
   for (Vec3& p : before.points) p.x = 14.5 + 1.03 * (p.x - 14.5);
   VoxelGrid grid;
   grid.size = {30, 22, 22};
-  std::vector<char> on_curve(now.points.size(), 0);
-  std::vector<Index> touches(now.points.size(), 0);
-  for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
-    const auto [behind, front] = partition.sides[t];
-    for (const Index p : partition.triangles[t]) {
-      if (touches[p] != 0 && touches[p] != 3 * behind + front) on_curve[p] = 1;
-      touches[p] = 3 * behind + front;
-    }
-  }
+  const std::vector<char> on_curve = curve_points(partition);
   const TriMesh moved = keep_volumes({before, now, partition.sides, on_curve}, grid);
   double most = 0, step = 0;
   for (const Triangle& t : now.triangles) {

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
-#include <numbers>
 #include <random>
 #include <set>
 #include <utility>
@@ -16,6 +14,7 @@
 #include "mesamis/base/single_precision.h"
 #include "mesamis/surface/join_diagonals.h"
 #include "mesamis/surface/self_intersections.h"
+#include "support/edge_lengths.h"
 #include "support/throws.h"
 
 namespace mesamis {
@@ -96,26 +95,6 @@ double mean_error(int object, const TriMesh& surface) {
   return sum / area;
 }
 
-/// The length of the edges above 40 degrees over the area, per mm.
-double creases_of(const TriMesh& surface) {
-  std::map<std::array<Index, 2>, Vec3> normal_beside;
-  double length = 0, area = 0;
-  for (const Triangle& t : surface.triangles) {
-    const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
-    const Vec3 across = cross(b - a, c - a);
-    area += norm(across) / 2;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::array<Index, 2> edge{std::min(t[i], t[(i + 1) % 3]),
-                                      std::max(t[i], t[(i + 1) % 3])};
-      const auto [other, is_new] = normal_beside.emplace(edge, across);
-      const double cosine = dot(across, other->second) / (norm(across) * norm(other->second));
-      if (is_new || cosine > std::cos(40 * std::numbers::pi / 180)) continue;
-      length += norm(surface.points[edge[0]] - surface.points[edge[1]]);
-    }
-  }
-  return length / area;
-}
-
 void expect_closed(const LabelResult& found) {
   TriMesh all;
   for (const LabelledObject& object : found.objects) {
@@ -164,7 +143,8 @@ TEST(LabelSurfaces, ABallThatAnotherTouchesHasNoCreases) {
   const auto first_of = [](const LabelMap& map, bool with_image) {
     const LabelResult found = with_image ? find_labelled_objects(usual_scan(), {map}, Settings{})
                                          : surfaces_of_labels({map}, Settings{});
-    return creases_of(found.objects.at(0).surface);
+    const TriMesh& first = found.objects.at(0).surface;
+    return edge_lengths(first).creases / surface_area(first);
   };
   for (const Index every : {1, 2}) {
     const LabelMap map = labels_of(every, 0);

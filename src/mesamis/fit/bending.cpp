@@ -75,9 +75,7 @@ Umbrella::Umbrella(const Neighbors& neighbors, Links links)
     bool alike = true;
     for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
       const Index q = neighbors_.points[n];
-      std::size_t back = neighbors_.start[q];
-      while (neighbors_.points[back] != static_cast<Index>(p)) ++back;
-      back_[n] = links_[back];
+      back_[n] = links_[neighbors_.place_of(static_cast<Index>(p), q)];
       count += (links_[n] & kLinked) != 0 ? 1 : 0;
       others[p] += (links_[n] & kLinkedOther) != 0 ? 1 : 0;
       alike &= links_[n] == kLinked && back_[n] == kLinked;
@@ -101,29 +99,21 @@ std::vector<Vec3> Umbrella::bent(const std::vector<Vec3>& x) const {
 
 Vec3 Umbrella::row(const std::vector<Vec3>& x, std::size_t p, std::size_t row, char bit) const {
   Vec3 sum;
+  const bool alike = alike_[p] != 0;
   for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
-    if ((links_[n] & bit) != 0) sum += x[neighbors_.points[n]];
+    const Index q = neighbors_.points[n];
+    if (alike || (links_[n] & bit) != 0) sum += x[q];
   }
   return x[p] - share_[row] * sum;
 }
 
 void Umbrella::bend(const std::vector<Vec3>& x, std::vector<Vec3>& y) const {
-  parallel_for(x.size(), [&](std::size_t p) {
-    if (!smooths(p)) {
-      y[p] = {};
-    } else if (alike_[p] == 0) {
-      y[p] = row(x, p, p, kLinked);
-    } else {
-      Vec3 sum;
-      for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
-        sum += x[neighbors_.points[n]];
-      }
-      y[p] = x[p] - share_[p] * sum;
-    }
+  parallel_for(x.size(),
+               [&](std::size_t p) { y[p] = smooths(p) ? row(x, p, p, kLinked) : Vec3{}; });
+  parallel_for(two_ways_.size(), [&](std::size_t i) {
+    const std::size_t other = x.size() + i;
+    y[other] = row(x, static_cast<std::size_t>(two_ways_[i]), other, kLinkedOther);
   });
-  for (std::size_t i = 0; i < two_ways_.size(); ++i) {
-    y[x.size() + i] = row(x, static_cast<std::size_t>(two_ways_[i]), x.size() + i, kLinkedOther);
-  }
 }
 
 Vec3 Umbrella::transposed(std::size_t p, const std::vector<Vec3>& y) const {

@@ -6,7 +6,9 @@
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/fit/surface_moves.h"
+#include "mesamis/surface/measure.h"
 #include "mesamis/surface/normals.h"
+#include "mesamis/surface/triangle_tree.h"
 
 namespace mesamis::detail::fit {
 namespace {
@@ -22,11 +24,10 @@ std::size_t material_count(Sides sides) {
 /// Adds what a function tells of each triangle to the material behind it, and times `in_front` to
 /// the one in front.
 template <class Function>
-std::vector<double> sums_of_materials(const TriMesh& surface, Sides sides, double in_front,
-                                      Function&& function) {
+std::vector<double> sums_of_materials(Sides sides, double in_front, Function&& function) {
   std::vector<double> sums(material_count(sides), 0);
   for (std::size_t t = 0; t < sides.size(); ++t) {
-    const double value = function(surface.triangles[t]);
+    const double value = function(t);
     if (sides[t][0] >= 0) sums[sides[t][0]] += value;
     if (sides[t][1] >= 0) sums[sides[t][1]] += in_front * value;
   }
@@ -35,19 +36,18 @@ std::vector<double> sums_of_materials(const TriMesh& surface, Sides sides, doubl
 
 /// Of each material, but for a constant where its boundary is open on the box, mm^3.
 std::vector<double> volumes_of(const TriMesh& surface, Sides sides) {
-  const std::vector<Vec3>& x = surface.points;
-  return sums_of_materials(surface, sides, -1, [&](const Triangle& t) {
-    return dot(x[t[0]], cross(x[t[1]], x[t[2]])) / 6;
+  return sums_of_materials(sides, -1, [&](std::size_t t) {
+    const auto [a, b, c] = corners_of(surface, surface.triangles[t]);
+    return dot(a, cross(b, c)) / 6;
   });
 }
 
 /// How much each material gains if its boundary moves outwards by a unit times the shares, mm^2.
 std::vector<double> areas_of(const TriMesh& surface, Sides sides,
                              const std::vector<double>& share) {
-  const std::vector<Vec3>& x = surface.points;
-  return sums_of_materials(surface, sides, 1, [&](const Triangle& t) {
-    const double area = norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 2;
-    return area * (share[t[0]] + share[t[1]] + share[t[2]]) / 3;
+  return sums_of_materials(sides, 1, [&](std::size_t t) {
+    const auto [a, b, c] = surface.triangles[t];
+    return triangle_area(surface, t) * (share[a] + share[b] + share[c]) / 3;
   });
 }
 

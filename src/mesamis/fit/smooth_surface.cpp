@@ -62,12 +62,11 @@ class Smoothing {
 
 SmoothingOptions smoothing_of_labels(const VoxelGrid& grid) {
   constexpr double kShareOfSlice = 0.85;
-  const double longest = std::max({grid.spacing.x, grid.spacing.y, grid.spacing.z});
-  const double thick = longest / grid.shortest_side();
+  const double thick = grid.longest_side() / grid.shortest_side();
   SmoothingOptions options;
   options.bending *= thick * thick;
   options.rounds -= static_cast<int>(std::lround(2 * std::min(thick - 1, 1.0)));
-  options.reach = std::max(options.reach, kShareOfSlice * longest / grid.voxel_size());
+  options.reach = std::max(options.reach, kShareOfSlice * grid.longest_side() / grid.voxel_size());
   return options;
 }
 

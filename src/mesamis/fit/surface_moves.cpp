@@ -224,17 +224,21 @@ Neighbors::Neighbors(const TriMesh& surface) : start(surface.points.size() + 1, 
   add_way_back();
 }
 
-bool Neighbors::has(std::size_t point, Index neighbor) const {
-  const auto first = points.begin() + static_cast<std::ptrdiff_t>(start[point]);
-  const auto last = points.begin() + static_cast<std::ptrdiff_t>(start[point + 1]);
-  return std::find(first, last, neighbor) != last;
+std::size_t Neighbors::place_of(Index neighbor, Index point) const {
+  std::size_t place = start[point];
+  while (place < start[point + 1] && points[place] != neighbor) ++place;
+  return place;
+}
+
+bool Neighbors::has(Index point, Index neighbor) const {
+  return place_of(neighbor, point) < start[point + 1];
 }
 
 void Neighbors::add_way_back() {
   std::vector<char> is_one_way(points.size(), 0);
   parallel_for(start.size() - 1, [&](std::size_t p) {
     for (std::size_t n = start[p]; n < start[p + 1]; ++n) {
-      is_one_way[n] = has(static_cast<std::size_t>(points[n]), static_cast<Index>(p)) ? 0 : 1;
+      is_one_way[n] = has(points[n], static_cast<Index>(p)) ? 0 : 1;
     }
   });
   std::vector<std::pair<Index, Index>> missing;

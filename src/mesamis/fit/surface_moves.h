@@ -31,10 +31,7 @@ class SurfaceSpace {
   /// The shortest side of a voxel, in the surface's unit.
   double shortest_side() const noexcept { return grid_.shortest_side() / point_scale_; }
   /// The longest one.
-  double longest_side() const noexcept {
-    const Vec3& s = grid_.spacing;
-    return std::max({s.x, s.y, s.z}) / point_scale_;
-  }
+  double longest_side() const noexcept { return grid_.longest_side() / point_scale_; }
   /// Whether a side of the voxels exceeds the shortest one by more than a twentieth.
   bool has_thick_slices() const noexcept;
   /// How far a point lies from the planes of thick slices, seen along a normal of unit length: f of
@@ -85,7 +82,9 @@ class FollowSpace : public SurfaceSpace {
 /// of each other.
 struct Neighbors {
   explicit Neighbors(const TriMesh& surface);
-  bool has(std::size_t point, Index neighbor) const;
+  /// Where a neighbour stands in the list of a point; start[point + 1] if it is none.
+  std::size_t place_of(Index neighbor, Index point) const;
+  bool has(Index point, Index neighbor) const;
 
   std::vector<std::size_t> start;
   std::vector<Index> points;

@@ -54,6 +54,8 @@ struct VoxelGrid {
   double voxel_size() const noexcept { return std::cbrt(voxel_volume()); }
   /// The shortest side of a voxel, mm.
   double shortest_side() const noexcept { return std::min({spacing.x, spacing.y, spacing.z}); }
+  /// The longest one.
+  double longest_side() const noexcept { return std::max({spacing.x, spacing.y, spacing.z}); }
   /// From the grid's own axes (mm) to the world (LPS, mm).
   Vec3 to_world(const Vec3& p) const noexcept { return origin + direction * p; }
   /// From the world (LPS, mm) to the grid's own axes (mm).

@@ -80,8 +80,8 @@ std::vector<Vec3> faired(const FollowSpace& space, const std::vector<Vec3>& star
 /// Between thick slices two boundaries that both go on fold too often.
 Through through_curves(const VoxelGrid& grid) {
   constexpr double kMostThickness = 2;
-  const double longest = std::max({grid.spacing.x, grid.spacing.y, grid.spacing.z});
-  return longest > kMostThickness * grid.shortest_side() ? Through::kSmoothest : Through::kBoth;
+  const bool is_thick = grid.longest_side() > kMostThickness * grid.shortest_side();
+  return is_thick ? Through::kSmoothest : Through::kBoth;
 }
 
 }  // namespace

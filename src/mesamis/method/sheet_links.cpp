@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <utility>
 
 #include "mesamis/base/each_once.h"
 #include "mesamis/fit/surface_moves.h"
@@ -90,17 +89,18 @@ class SheetLinker {
     }
   }
 
-  /// Those whose boundaries go on through a point, the smoothest first.
+  /// Those whose boundaries go on through a point, the smoothest first: two at most, as the three
+  /// cosines of unit vectors add up to 1.5 at most.
   Materials materials_through(std::size_t p) const {
-    if (!joins_three(p)) return {};
-    const Turns& turns = turns_.at(materials_[p]);
-    std::vector<std::pair<double, Index>> found;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (turns.goes_on(i)) found.emplace_back(-turns.cosines[i], materials_[p][i]);
-    }
-    std::ranges::sort(found);
     Materials through;
-    for (const auto& [cosine, material] : found) through.push_back(material);
+    if (!joins_three(p)) return through;
+    const Turns& turns = turns_.at(materials_[p]);
+    double most = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!turns.goes_on(i)) continue;
+      through.insert(turns.cosines[i] > most ? through.begin() : through.end(), materials_[p][i]);
+      most = std::max(most, turns.cosines[i]);
+    }
     return through;
   }
 
@@ -113,19 +113,6 @@ class SheetLinker {
 };
 
 }  // namespace
-
-std::vector<char> curve_points(const PartitionSurface& partition) {
-  constexpr std::array<Index, 2> kNone{-2, -2};
-  std::vector<std::array<Index, 2>> sides(partition.points.size(), kNone);
-  std::vector<char> on_curve(partition.points.size(), 0);
-  for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
-    for (const Index p : partition.triangles[t]) {
-      if (sides[p] != kNone && sides[p] != partition.sides[t]) on_curve[p] = 1;
-      sides[p] = partition.sides[t];
-    }
-  }
-  return on_curve;
-}
 
 Links sheet_links(const TriMesh& surface, Sides sides, const std::vector<char>& on_curve,
                   Through which) {

@@ -10,9 +10,6 @@
 
 namespace mesamis::detail::method {
 
-/// 1 for points where more than two materials meet.
-std::vector<char> curve_points(const PartitionSurface& partition);
-
 /// Of the boundaries that go on through a curve: both, or the smoothest alone.
 enum class Through { kBoth, kSmoothest };
 

@@ -120,6 +120,19 @@ std::vector<TriMesh> object_surfaces(const PartitionSurface& partition,
   return surfaces;
 }
 
+std::vector<char> curve_points(const PartitionSurface& partition) {
+  constexpr std::array<Index, 2> kNone{-2, -2};
+  std::vector<std::array<Index, 2>> sides(partition.points.size(), kNone);
+  std::vector<char> on_curve(partition.points.size(), 0);
+  for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
+    for (const Index p : partition.triangles[t]) {
+      if (sides[p] != kNone && sides[p] != partition.sides[t]) on_curve[p] = 1;
+      sides[p] = partition.sides[t];
+    }
+  }
+  return on_curve;
+}
+
 std::vector<Index> materials_of(const PartitionSurface& partition) {
   std::vector<Index> materials;
   for (const auto& sides : partition.sides) {

@@ -83,6 +83,10 @@ TriMesh object_surface(const PartitionSurface& partition, Index material);
 std::vector<TriMesh> object_surfaces(const PartitionSurface& partition,
                                      std::span<const Index> materials);
 
+/// Marks the points of a partition where more than two materials meet. O(s) for s triangles.
+/// @return 1 or 0 for each point.
+std::vector<char> curve_points(const PartitionSurface& partition);
+
 /// Lists the materials of a partition. O(s) for s triangles, up to a logarithm.
 /// @return increasing; without kNoIndex.
 std::vector<Index> materials_of(const PartitionSurface& partition);
