@@ -29,7 +29,7 @@ TEST(CollapseIntersections, AgreeWithASearchOverTheWholeSurface) {
     for (const double height : {std::numeric_limits<double>::infinity(),
                                 fan_height(collapses.surface, collapses.points, collapse)}) {
       collapse.height = height;
-      EXPECT_EQ(!intersections.occur(collapses.surface, collapses.points, collapse), clean)
+      EXPECT_EQ(!intersections.occur(collapses.surface, collapses.points, {&collapse, 1}), clean)
           << collapse.removed << " onto " << collapse.kept;
     }
     refused += clean ? 0 : 1;
@@ -50,7 +50,7 @@ TEST(CollapseIntersections, KnowWhatEarlierCollapsesMoved) {
     const Vec3 &a = now.points[now.surface.from(h)], &b = now.points[now.surface.to(h)];
     describe(now.surface, now.points, h, 0.5 * (a + b), collapse);
     collapse.height = std::numeric_limits<double>::infinity();
-    if (intersections.occur(now.surface, now.points, collapse)) continue;
+    if (intersections.occur(now.surface, now.points, {&collapse, 1})) continue;
     now.surface.collapse(h);
     now.points[collapse.kept] = collapse.place;
     intersections.apply(collapse);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "mesamis/decimate/collapse.h"
@@ -14,6 +15,15 @@ inline TriMesh small_sphere() {
   return level_set({{-1, -1, -1}, {1, 1, 1}}, {5, 5, 5}, [](const Vec3& p) {
     return 0.8 - norm(p + Vec3{0.03, 0.02, 0.01});
   });
+}
+
+/// A sphere without its top.
+inline TriMesh small_bowl() {
+  TriMesh bowl = small_sphere();
+  std::erase_if(bowl.triangles, [&](const Triangle& t) {
+    return std::max({bowl.points[t[0]].z, bowl.points[t[1]].z, bowl.points[t[2]].z}) > 0.3;
+  });
+  return bowl;
 }
 
 /// A surface, its half-edges, and each collapse that keeps it a closed 2-manifold.
@@ -33,6 +43,24 @@ class Collapses {
         Collapse collapse;
         describe(surface, points, h, to + share * (from - to), collapse);
         visit(collapse, after(collapse));
+      }
+    }
+  }
+
+  /// The same for collapses along rims.
+  template <class Visit>
+  void for_each_at_rim(Visit visit) {
+    for (Index h = 0; h < 3 * surface.count(); ++h) {
+      if (surface.is_removed(h / 3) || surface.opposite(h) != kNoIndex) continue;
+      for (const auto& [removed, kept] :
+           {std::pair{surface.from(h), surface.to(h)}, std::pair{surface.to(h), surface.from(h)}}) {
+        if (!surface.may_collapse_at_rim(h, removed)) continue;
+        for (const double share : {0.0, 0.4}) {
+          const Vec3 &from = points[removed], &to = points[kept];
+          Collapse collapse;
+          describe_at_rim(surface, points, h, removed, to + share * (from - to), collapse);
+          visit(collapse, after(collapse));
+        }
       }
     }
   }

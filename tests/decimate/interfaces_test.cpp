@@ -50,6 +50,7 @@ TEST(Interfaces, KnowTheirRimsAndCopies) {
     const bool at_side = std::min({x, y, 1 - x, 1 - y}) == 0;
     const bool at_curve = at_side && (std::abs(z - 0.31) < 1e-9 || std::abs(z - 0.64) < 1e-9);
     EXPECT_EQ(interfaces.at_rim[p] != 0, at_curve) << x << " " << y << " " << z;
+    EXPECT_EQ(interfaces.within_curve[p] != 0, at_curve);  // no curve has an end
     const auto copies = std::ranges::count(interfaces.origin, interfaces.origin[p]);
     EXPECT_EQ(copies, at_curve ? 3 : 1);
     const auto first =

@@ -46,6 +46,28 @@ TEST(TwoSidedBound, AgreesWithTheDistanceOfTheWholeSurfaces) {
   EXPECT_GT(allowed, 10);
 }
 
+TEST(TwoSidedBound, AgreesWithTheDistanceAtRims) {
+  Collapses collapses(small_bowl());
+  const TriMesh mesh = collapses.now();
+  const Cover cover = cover_of(mesh);
+  const std::vector<char> held(mesh.points.size(), 0);
+  TwoSidedBound bound(mesh, cover, held, kTolerance);
+  int refused = 0, allowed = 0;
+  collapses.for_each_at_rim([&](Collapse collapse, const TriMesh& after) {
+    collapse.height = fan_height(collapses.surface, collapses.points, collapse);
+    const double distance = distance_between(after, mesh);
+    const bool allows = bound.allows(collapses.surface, collapses.points, collapse);
+    (allows ? allowed : refused) += 1;
+    if (allows) {
+      EXPECT_LE(distance, kDistanceSlack * kTolerance);
+    } else {
+      EXPECT_GE(distance, kTolerance / 1.1);
+    }
+  });
+  EXPECT_GT(refused, 10);
+  EXPECT_GT(allowed, 10);
+}
+
 TEST(TwoSidedBound, HoldsThroughManyCollapses) {
   const TriMesh mesh = coarse_sphere();
   Collapses now(mesh);

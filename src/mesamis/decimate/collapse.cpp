@@ -28,12 +28,17 @@ Corners corners_at(const EditableSurface& surface, const std::vector<Vec3>& poin
   return {points[k[0]], points[k[1]], points[k[2]]};
 }
 
-/// The share of an edge in the creases of a surface: its length, times by how much it is sharper than
-/// edges may be.
-double crease_at(const Vec3& from, const Vec3& to, const Vec3& left, const Vec3& right) {
-  const double excess = kCrease - dot(left, right);
-  if (!(excess > 0) || dot(left, left) == 0 || dot(right, right) == 0) return 0;
-  return excess * norm(to - from);
+/// From the kept point to what the triangles that go share with others there.
+template <class Visit>
+void for_each_side_at_kept(const EditableSurface& surface, const Collapse& collapse,
+                           Visit&& visit) {
+  const Index h = collapse.half_edge, o = surface.opposite(h);
+  if (surface.to(h) == collapse.kept) {
+    visit(EditableSurface::next(h), true);
+  } else {
+    visit(EditableSurface::previous(h), false);
+  }
+  if (o != kNoIndex) visit(EditableSurface::previous(o), false);
 }
 
 double creases_before(const EditableSurface& surface, const std::vector<Vec3>& points,
@@ -51,8 +56,7 @@ double creases_before(const EditableSurface& surface, const std::vector<Vec3>& p
       if (surface.to(h) != collapse.removed) see(h);
     });
   } else {
-    see(EditableSurface::next(collapse.half_edge));
-    see(EditableSurface::previous(surface.opposite(collapse.half_edge)));
+    for_each_side_at_kept(surface, collapse, [&](Index h, bool) { see(h); });
   }
   for (const Index h : collapse.outer) see(h);
   return sum;
@@ -72,10 +76,16 @@ double creases_after(const EditableSurface& surface, const std::vector<Vec3>& no
     if (i + 1 < n) sum += crease_at(t[0], t[2], now[i], now[i + 1]);
   }
   const Corners &first = collapse.after[0], &last = collapse.after[n - 1];
-  if (collapse.moves) return sum + crease_at(first[0], first[1], now[n - 1], now[0]);
-  see(EditableSurface::next(collapse.half_edge), first[0], first[1], now[0]);
-  see(EditableSurface::previous(surface.opposite(collapse.half_edge)), last[0], last[2],
-      now[n - 1]);
+  if (collapse.moves) {
+    return collapse.at_rim ? sum : sum + crease_at(first[0], first[1], now[n - 1], now[0]);
+  }
+  for_each_side_at_kept(surface, collapse, [&](Index h, bool is_first) {
+    if (is_first) {
+      see(h, first[0], first[1], now[0]);
+    } else {
+      see(h, last[0], last[2], now[n - 1]);
+    }
+  });
   return sum;
 }
 
@@ -83,37 +93,75 @@ double creases_after(const EditableSurface& surface, const std::vector<Vec3>& no
 bool has_creases(const EditableSurface& surface, const std::vector<Vec3>& points,
                  const std::vector<Vec3>& normals, const Collapse& collapse,
                  const std::vector<Vec3>& now) {
-  constexpr double kRounding = 1e-9;
   const double after = creases_after(surface, normals, collapse, now);
-  if (after == 0) return false;
-  return after > kMostCreases * creases_before(surface, points, normals, collapse) + kRounding;
+  return after > 0 && creases_grow(creases_before(surface, points, normals, collapse), after);
+}
+
+void start(Index h, Index removed, Index kept, const Vec3& place, const Vec3& before,
+           Collapse& collapse) {
+  collapse.half_edge = h;
+  collapse.removed = removed;
+  collapse.kept = kept;
+  collapse.place = place;
+  collapse.moves = place.x != before.x || place.y != before.y || place.z != before.z;
+  collapse.faces.clear();
+  collapse.outer.clear();
+  collapse.after.clear();
+}
+
+/// @param g  leaves the point that changes.
+void add_face(const EditableSurface& surface, const std::vector<Vec3>& points, Index g,
+              Collapse& collapse) {
+  const Index outer = EditableSurface::next(g);
+  collapse.faces.push_back(g / 3);
+  collapse.outer.push_back(outer);
+  collapse.after.push_back(
+      {collapse.place, points[surface.from(outer)], points[surface.to(outer)]});
 }
 
 }  // namespace
 
+double crease_at(const Vec3& from, const Vec3& to, const Vec3& left, const Vec3& right) {
+  const double excess = kCrease - dot(left, right);
+  if (!(excess > 0) || dot(left, left) == 0 || dot(right, right) == 0) return 0;
+  return excess * norm(to - from);
+}
+
+bool creases_grow(double before, double after) {
+  constexpr double kRounding = 1e-9;
+  return after > kMostCreases * before + kRounding;
+}
+
 void describe(const EditableSurface& surface, const std::vector<Vec3>& points, Index h,
               const Vec3& place, Collapse& collapse) {
-  collapse.half_edge = h;
-  collapse.removed = surface.from(h);
-  collapse.kept = surface.to(h);
-  collapse.place = place;
-  const Vec3& kept = points[collapse.kept];
-  collapse.moves = place.x != kept.x || place.y != kept.y || place.z != kept.z;
+  start(h, surface.from(h), surface.to(h), place, points[surface.to(h)], collapse);
   const Index o = surface.opposite(h);
+  collapse.at_rim = false;
   collapse.gone = {h / 3, o / 3};
-  collapse.faces.clear();
-  collapse.outer.clear();
-  collapse.after.clear();
   const auto go_round = [&](Index first, Index last) {
     for (Index g = surface.rotated(first); g != last; g = surface.rotated(g)) {
-      const Index outer = EditableSurface::next(g);
-      collapse.faces.push_back(g / 3);
-      collapse.outer.push_back(outer);
-      collapse.after.push_back({place, points[surface.from(outer)], points[surface.to(outer)]});
+      add_face(surface, points, g, collapse);
     }
   };
   go_round(h, EditableSurface::next(o));
   if (collapse.moves) go_round(o, EditableSurface::next(h));
+}
+
+void describe_at_rim(const EditableSurface& surface, const std::vector<Vec3>& points, Index h,
+                     Index removed, const Vec3& place, Collapse& collapse) {
+  const bool is_first = surface.from(h) == removed;
+  const Index kept = is_first ? surface.to(h) : surface.from(h);
+  start(h, removed, kept, place, points[kept], collapse);
+  collapse.at_rim = true;
+  collapse.gone = {h / 3, kNoIndex};
+  const auto go_round = [&](Index p) {
+    surface.for_each_leaving(p, [&](Index g) {
+      if (g / 3 != h / 3) add_face(surface, points, g, collapse);
+    });
+  };
+  if (is_first && collapse.moves) go_round(kept);
+  go_round(removed);
+  if (!is_first && collapse.moves) go_round(kept);
 }
 
 bool spoils_shape(const EditableSurface& surface, const std::vector<Vec3>& points,

@@ -9,16 +9,18 @@
 
 namespace mesamis::detail::decimate {
 
-/// A collapse: of what it changes, before and after. An edge goes, with its first point and the
-/// triangles on both sides; its second point may move.
+/// A collapse: of what it changes, before and after. An edge goes, with one of its points and the
+/// triangles beside it; its other point may move.
 struct Collapse {
+  /// Inside the surface it runs from the point that goes to the other one.
   Index half_edge = kNoIndex, removed = kNoIndex, kept = kNoIndex;
   Vec3 place{0, 0, 0};          ///< of the kept point from now on, mm
   bool moves = false;           ///< whether that is another place
-  std::array<Index, 2> gone{};  ///< the triangles that go
-  /// The triangles that change, counter-clockwise around the edge, from the left end of it on: around
-  /// the point that goes, and, if the other moves, around that too. Their first corner is the point
-  /// that changes.
+  bool at_rim = false;          ///< whether both points go on along a rim
+  std::array<Index, 2> gone{};  ///< the triangles that go; at a rim the second is kNoIndex
+  /// The triangles that change, counter-clockwise around the edge, from the left end of it on, at a rim
+  /// from that: around the point that goes, and, if the other moves, around that too. Their first
+  /// corner is the point that changes.
   std::vector<Index> faces;
   std::vector<Index> outer;    ///< of each of these, the half-edge opposite to that corner
   std::vector<Corners> after;  ///< of each of these, mm: the place comes first
@@ -32,6 +34,19 @@ struct Collapse {
 ///           point too.
 void describe(const EditableSurface& surface, const std::vector<Vec3>& points, Index h,
               const Vec3& place, Collapse& collapse);
+
+/// Describes a collapse of an edge at a rim.
+/// @param h        a half-edge for which may_collapse_at_rim() is true.
+/// @param removed  one of its ends.
+void describe_at_rim(const EditableSurface& surface, const std::vector<Vec3>& points, Index h,
+                     Index removed, const Vec3& place, Collapse& collapse);
+
+/// The share of an edge in the creases of a surface: its length, mm, times by how much the cosine
+/// between the triangles beside it, of these unit normals, is less than kCrease.
+double crease_at(const Vec3& from, const Vec3& to, const Vec3& left, const Vec3& right);
+
+/// Whether creases have grown by more than a tenth.
+bool creases_grow(double before, double after);
 
 /// Whether a triangle that is no needle would turn by more than 75 degrees, or one become nearly
 /// degenerate (height below 0.01 of its longest side, and below that of the flattest triangle before),

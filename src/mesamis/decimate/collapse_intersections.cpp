@@ -69,49 +69,75 @@ bool CollapseIntersections::meets(const std::vector<Vec3>& points, const Triangl
   return intersect(points, first(a), first(b));
 }
 
-bool CollapseIntersections::occur(const EditableSurface& surface, std::vector<Vec3>& points,
-                                  const Collapse& collapse) {
-  const Vec3 before = points[collapse.kept];
-  points[collapse.kept] = collapse.place;
-  const auto changed = [&](std::size_t i) {
-    const Index h = collapse.outer[i];
-    return Triangle{collapse.kept, surface.from(h), surface.to(h)};
+/// The triangles that stay and may meet one that changes.
+void CollapseIntersections::look_near(const EditableSurface& surface,
+                                      const std::vector<Vec3>& points,
+                                      std::span<const Collapse> collapses) {
+  Box whole = kNoBox;
+  for (const Collapse& collapse : collapses) {
+    for (const Corners& t : collapse.after) whole = united(whole, bounding_box(t));
+  }
+  const auto changes = [&collapses](Index t) {
+    return std::any_of(collapses.begin(), collapses.end(), [t](const Collapse& c) {
+      return t == c.gone[0] || t == c.gone[1] ||
+             std::find(c.faces.begin(), c.faces.end(), t) != c.faces.end();
+    });
   };
-  Box whole = bounding_box(collapse.after[0]);
-  for (const Corners& t : collapse.after) whole = united(whole, bounding_box(t));
   near_.clear();
   tree_.for_each_overlap(whole, [&](std::size_t other) {
     const auto t = static_cast<Index>(other);
-    const bool changes =
-        t == collapse.gone[0] || t == collapse.gone[1] ||
-        std::find(collapse.faces.begin(), collapse.faces.end(), t) != collapse.faces.end();
-    if (changes) return true;
+    if (changes(t)) return true;
     const Triangle k = surface.triangle(t);
     const Corners corners{points[k[0]], points[k[1]], points[k[2]]};
     near_.push_back({k, corners, bounding_box(corners)});
     return true;
   });
-  const bool folds = std::isinf(collapse.height);
+}
+
+bool CollapseIntersections::meets_others(const std::vector<Vec3>& points,
+                                         const Changed& own) const {
+  if (!has_area(points, own.triangle)) return true;
+  const Box box = bounding_box(own.corners);
+  const Partition partition(own.corners);
+  return std::any_of(near_.begin(), near_.end(), [&](const Near& other) {
+    return overlap(box, other.box) &&
+           !partition.parts(own.triangle, other.triangle, other.corners) &&
+           meets(points, own.triangle, other.triangle);
+  });
+}
+
+bool CollapseIntersections::occur(const EditableSurface& surface, std::vector<Vec3>& points,
+                                  std::span<const Collapse> collapses) {
+  look_near(surface, points, collapses);
+  before_.clear();
+  changed_.clear();
+  for (const Collapse& collapse : collapses) {
+    before_.push_back(std::exchange(points[collapse.kept], collapse.place));
+  }
   bool found = false;
-  for (std::size_t i = 0; i < collapse.faces.size() && !found; ++i) {
-    const Triangle own = changed(i);
-    const Corners& t = collapse.after[i];
-    const Box box = bounding_box(t);
-    const Partition partition(t);
-    found = !has_area(points, own);
-    for (std::size_t j = 0; j < i && !found && folds; ++j) found = meets(points, own, changed(j));
-    for (std::size_t k = 0; k < near_.size() && !found; ++k) {
-      const Near& other = near_[k];
-      found = overlap(box, other.box) && !partition.parts(own, other.triangle, other.corners) &&
-              meets(points, own, other.triangle);
+  for (std::size_t c = 0; c < collapses.size() && !found; ++c) {
+    const Collapse& collapse = collapses[c];
+    const bool folds = std::isinf(collapse.height);
+    for (std::size_t i = 0; i < collapse.faces.size() && !found; ++i) {
+      const Index h = collapse.outer[i];
+      const Changed own{
+          {collapse.kept, surface.from(h), surface.to(h)}, collapse.after[i], collapse};
+      found = meets_others(points, own) ||
+              std::any_of(changed_.begin(), changed_.end(), [&](const Changed& other) {
+                return (folds || &other.collapse != &collapse) &&
+                       meets(points, own.triangle, other.triangle);
+              });
+      changed_.push_back(own);
     }
   }
-  points[collapse.kept] = before;
+  for (std::size_t c = 0; c < collapses.size(); ++c) points[collapses[c].kept] = before_[c];
   return found;
 }
 
 void CollapseIntersections::apply(const Collapse& collapse) {
-  for (const Index t : collapse.gone) tree_.update(static_cast<std::size_t>(t), kNoBox);
+  for (const Index t : collapse.gone) {
+    if (t != kNoIndex) tree_.update(static_cast<std::size_t>(t), kNoBox);
+  }
   for (std::size_t i = 0; i < collapse.faces.size(); ++i) {
     tree_.update(static_cast<std::size_t>(collapse.faces[i]), bounding_box(collapse.after[i]));
   }

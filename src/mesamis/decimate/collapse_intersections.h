@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesamis/decimate/collapse.h"
@@ -17,13 +18,24 @@ class CollapseIntersections {
                         std::vector<Index> first_copies);
 
   /// Whether a triangle that changes would intersect another one, or have no area.
-  /// @param points  as they are; the kept point is moved meanwhile.
-  bool occur(const EditableSurface& surface, std::vector<Vec3>& points, const Collapse& collapse);
+  /// @param points     as they are; the kept points are moved meanwhile.
+  /// @param collapses  made at once: one, or those of all interfaces at an edge of a curve.
+  bool occur(const EditableSurface& surface, std::vector<Vec3>& points,
+             std::span<const Collapse> collapses);
   /// Takes over a collapse that has been done.
   void apply(const Collapse& collapse);
 
  private:
+  struct Changed {
+    Triangle triangle;
+    const Corners& corners;
+    const Collapse& collapse;
+  };
+
   bool meets(const std::vector<Vec3>& points, const Triangle& a, const Triangle& b) const;
+  void look_near(const EditableSurface& surface, const std::vector<Vec3>& points,
+                 std::span<const Collapse> collapses);
+  bool meets_others(const std::vector<Vec3>& points, const Changed& own) const;
 
   std::vector<Index> first_copies_;
   BoxTree tree_;
@@ -33,6 +45,8 @@ class CollapseIntersections {
     Box box;
   };
   std::vector<Near> near_;
+  std::vector<Vec3> before_;  // of the kept points
+  std::vector<Changed> changed_;
 };
 
 }  // namespace mesamis::detail::decimate

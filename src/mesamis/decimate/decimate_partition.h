@@ -9,14 +9,13 @@ namespace mesamis::detail::decimate {
 /// Reduces the number of triangles of several objects at once, within a tolerance.
 ///
 /// The boundaries are cut into interfaces along the curves where three or more objects meet (or two
-/// and the outside of the box). The points and edges of these curves stay exactly as they are; each
-/// interface is decimated between them as decimate() does. So objects go on sharing their
-/// triangles.
+/// and the outside of the box). Each interface is decimated as decimate() does; an edge of a curve is
+/// collapsed in all interfaces that meet there at once. So objects go on sharing their triangles.
 ///
 /// The result always keeps these properties: each object is closed and 2-manifold if it was, and
 /// has as many components and handles; no pair of triangles intersects unless it did before, within
 /// one object or between two; every point of each interface is within the tolerance of the same
-/// interface before, and the reverse.
+/// interface before, and the reverse; curves meet where they met, and are as many.
 ///
 /// @param partition  n triangles, mm; of extract_partition() or extract_partition_on_grid(). It may
 ///                   be open: rims stay as they are.
@@ -28,9 +27,8 @@ namespace mesamis::detail::decimate {
 ///                     2-manifold interfaces of one orientation, or an option is out of range.
 /// @throws Cancelled   if progress returns false.
 ///
-/// Costs as much as decimate(). Limits: the curves keep their fine edges, so that one triangle or
-/// two per edge stay beside them; and no edge is made that joins two points of curves, so that a
-/// interface narrower than a few triangles is hardly decimated.
+/// Costs as much as decimate(). Limits: points where curves meet or end stay, as do those where an
+/// interface touches itself.
 PartitionSurface decimate_partition(const PartitionSurface& partition,
                                     const DecimateOptions& options,
                                     DecimateReport* report = nullptr);

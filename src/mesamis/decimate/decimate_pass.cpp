@@ -12,6 +12,7 @@
 #include "mesamis/base/single_precision.h"
 #include "mesamis/decimate/collapse.h"
 #include "mesamis/decimate/collapse_intersections.h"
+#include "mesamis/decimate/curves.h"
 #include "mesamis/decimate/fan_height.h"
 #include "mesamis/decimate/quadric.h"
 #include "mesamis/decimate/two_sided_bound.h"
@@ -33,15 +34,14 @@ constexpr double kHopeless = 1.3;
 /// So often refused collapses are tried again where the surface has changed.
 constexpr int kMostRounds = 12;
 
-std::vector<Index> first_copies(const DecimateTask& task, const Patch& patch) {
-  std::vector<Index> firsts;
-  if (!task.interfaces) return firsts;
-  for (Index p = 0; p < std::ssize(patch.points); ++p) {
-    const bool is_copy =
-        p > 0 && task.first_copy(patch.points[p]) == task.first_copy(patch.points[p - 1]);
-    firsts.push_back(is_copy ? firsts.back() : p);
-  }
-  return firsts;
+/// Of the points of a patch, which of them are at one place.
+std::vector<Index> first_copies(const std::optional<Curves>& curves) {
+  return curves ? curves->first_copies() : std::vector<Index>{};
+}
+
+std::optional<Curves> curves_of(const DecimateTask& task, const Patch& patch) {
+  if (!task.interfaces) return std::nullopt;
+  return Curves(*task.interfaces, patch);
 }
 
 class Pass {
@@ -51,7 +51,8 @@ class Pass {
         points_(patch.cover.points),
         held_(patch.held),
         surface_(points_.size(), patch.cover.triangles),
-        intersections_(surface_, points_, first_copies(task, patch)),
+        curves_(curves_of(task, patch)),
+        intersections_(surface_, points_, first_copies(curves_)),
         stamps_(points_.size(), 0),
         is_woken_(points_.size(), 0),
         planes_(points_.size()),
@@ -63,10 +64,8 @@ class Pass {
     hopeless_ = kHopeless * kHopeless * task.tolerance * task.tolerance;
     const Box box = bounding_box(points_);
     origin_ = 0.5 * (box.lo + box.hi);
-    if (task.interfaces) {
-      for (const Index p : patch.points) at_rim_.push_back(task.interfaces->at_rim[p]);
-    }
     for (Index t = 0; t < surface_.count(); ++t) add_triangle(t);
+    if (curves_) add_curves();
   }
 
   void run() {
@@ -132,6 +131,33 @@ class Pass {
     }
   }
 
+  /// The lines of the curves, for each point by its first copy.
+  void add_curves() {
+    lines_.resize(points_.size());
+    for (Index h = 0; h < 3 * surface_.count(); ++h) {
+      if (!is_at_curve(h) || first_at_curve(h) != h) continue;
+      const Vec3 &a = points_[surface_.from(h)], &b = points_[surface_.to(h)];
+      const Vec3 way = b - a, along = unit_or_zero(way);
+      const bool steep = std::abs(along.z) < 0.5;
+      const Vec3 n = unit_or_zero(cross(along, steep ? Vec3{0, 0, 1} : Vec3{1, 0, 0}));
+      for (const Vec3& across : {n, cross(along, n)}) {
+        for (const Index p : {surface_.from(h), surface_.to(h)}) {
+          lines_[curves_->first_copies()[p]].add_plane(across, dot(across, a - origin_),
+                                                       dot(way, way) / 6);
+        }
+      }
+    }
+  }
+
+  /// Whether an edge lies at a curve along which it may be collapsed.
+  bool is_at_curve(Index h) const {
+    return curves_ && !surface_.is_removed(h / 3) && surface_.opposite(h) == kNoIndex &&
+           (curves_->may_go(surface_.from(h)) || curves_->may_go(surface_.to(h)));
+  }
+
+  /// Of the half-edges at an edge of a curve the one that stands for all.
+  Index first_at_curve(Index h) const { return curves_->half_edges_at(surface_, h).front(); }
+
   bool is_valid(const Candidate& c) const {
     return stamps_[c.from] == c.from_stamp && stamps_[c.to] == c.to_stamp;
   }
@@ -145,140 +171,210 @@ class Pass {
   }
 
   void push(const std::vector<Index>& half_edges) {
+    std::vector<Index>& at_curves = at_curves_;
+    at_curves.clear();
     for (const Index h : half_edges) {
       const Index o = surface_.opposite(h);
-      if (o == kNoIndex || o < h) continue;
-      const std::optional<Vec3> place = place_of(h);
-      if (!place) continue;
-      const Quadric q = quadric_of(h);
-      const double squares = std::max(q.at(*place - origin_), 0.0);
-      if (squares > hopeless_ * q.weight) continue;
-      const Index a = surface_.from(h), b = surface_.to(h);
-      const Vec3 way = points_[a] - points_[b];
-      const double error = squares + kShortFirst * q.weight * dot(way, way);
-      queue_.push({error, h, a, b, stamps_[a], stamps_[b]});
+      if (o != kNoIndex && o > h) push(h);
+      if (is_at_curve(h)) at_curves.push_back(first_at_curve(h));
     }
+    sort_once(at_curves);
+    for (const Index h : at_curves) push(h);
   }
 
-  /// Of both ends of an edge.
-  Quadric quadric_of(Index h) const {
-    Quadric q = quadrics_[surface_.from(h)];
-    q += quadrics_[surface_.to(h)];
-    return q;
+  void push(Index h) {
+    const Edge edge = edge_at(h);
+    const std::optional<Vec3> place = place_of(edge);
+    if (!place) return;
+    const double squares = std::max(edge.quadric.at(*place - origin_), 0.0);
+    if (squares > hopeless_ * edge.quadric.weight) return;
+    const Vec3 way = points_[edge.a] - points_[edge.b];
+    const double error = squares + kShortFirst * edge.quadric.weight * dot(way, way);
+    queue_.push({error, h, edge.a, edge.b, stamps_[edge.a], stamps_[edge.b]});
   }
 
-  bool is_hopeless(Index h, const Vec3& place) const {
-    const Quadric q = quadric_of(h);
+  using Planes = std::array<bool, 3>;  // of the axes
+
+  /// An edge that may be collapsed. Of a curve: what all interfaces there have to say.
+  struct Edge {
+    Index a, b;
+    bool a_stays, b_stays;
+    Planes a_planes, b_planes;
+    Quadric quadric;  ///< of both ends
+  };
+
+  Edge edge_at(Index h) const {
+    const Index a = surface_.from(h), b = surface_.to(h);
+    if (surface_.opposite(h) != kNoIndex) {
+      Edge edge{a, b, !may_move(a), !may_move(b), planes_[a], planes_[b], quadrics_[a]};
+      edge.quadric += quadrics_[b];
+      return edge;
+    }
+    Edge edge{a, b, !curves_->may_go(a), !curves_->may_go(b), {}, {}, {}};
+    const auto see = [this, &edge](Index p, Planes& planes) {
+      edge.quadric += lines_[curves_->first_copies()[p]];
+      curves_->for_each_copy(p, [&](Index copy) {
+        edge.quadric += quadrics_[copy];
+        for (std::size_t axis = 0; axis < 3; ++axis) planes[axis] |= planes_[copy][axis];
+      });
+    };
+    see(a, edge.a_planes);
+    see(b, edge.b_planes);
+    return edge;
+  }
+
+  bool is_hopeless(const Quadric& q, const Vec3& place) const {
     return q.at(place - origin_) > hopeless_ * q.weight;
   }
 
   /// Which of the axis planes that one point keeps to, the other does not.
-  bool keeps_more(Index a, Index b) const {
+  bool keeps_more(const Planes& a, const Planes& b) const {
     bool more = false;
     if (relaxed_) return false;
-    for (std::size_t axis = 0; axis < 3; ++axis) more |= planes_[a][axis] && !planes_[b][axis];
+    for (std::size_t axis = 0; axis < 3; ++axis) more |= a[axis] && !b[axis];
     return more;
   }
 
   /// Where the edge's points go: none if neither may.
-  std::optional<Vec3> place_of(Index h) const {
-    const Index a = surface_.from(h), b = surface_.to(h);
-    const bool a_stays = !may_move(a), b_stays = !may_move(b);
-    const bool to_a = a_stays || keeps_more(a, b), to_b = b_stays || keeps_more(b, a);
+  std::optional<Vec3> place_of(const Edge& edge) const {
+    const Vec3 &a = points_[edge.a], &b = points_[edge.b];
+    const bool to_a = edge.a_stays || keeps_more(edge.a_planes, edge.b_planes),
+               to_b = edge.b_stays || keeps_more(edge.b_planes, edge.a_planes);
     if (to_a && to_b) return std::nullopt;
-    if (to_a) return points_[a];
-    if (to_b) return points_[b];
+    if (to_a) return a;
+    if (to_b) return b;
     for (int axis = 0; axis < 3; ++axis) {
-      if (!relaxed_ && planes_[a][static_cast<std::size_t>(axis)] &&
-          points_[a][axis] != points_[b][axis]) {
+      if (!relaxed_ && edge.a_planes[static_cast<std::size_t>(axis)] && a[axis] != b[axis]) {
         return std::nullopt;
       }
     }
-    const Quadric q = quadric_of(h);
-    const double at_a = q.at(points_[a] - origin_), at_b = q.at(points_[b] - origin_);
-    const Vec3 better = at_a < at_b ? points_[a] : points_[b];
+    const Quadric& q = edge.quadric;
+    const double at_a = q.at(a - origin_), at_b = q.at(b - origin_);
+    const Vec3 better = at_a < at_b ? a : b;
     // Where it is flat, points that are there lie better than new ones, which are rounded.
-    const Vec3 way = points_[a] - points_[b];
+    const Vec3 way = a - b;
     if (std::min(at_a, at_b) < kFlat * q.weight * dot(way, way)) return better;
-    const Vec3 middle = 0.5 * (points_[a] + points_[b]) - origin_;
-    return rounded(minimum(q, middle, kPull, relaxed_ ? std::array<bool, 3>{} : planes_[a]) +
-                   origin_);
+    const Vec3 middle = 0.5 * (a + b) - origin_;
+    return rounded(minimum(q, middle, kPull, relaxed_ ? Planes{} : edge.a_planes) + origin_);
   }
 
   bool may_move(Index p) const { return held_[p] == 0 && surface_.is_inner(p); }
 
-  bool joins_rims(const Collapse& collapse) const {
-    if (at_rim_.empty() || at_rim_[collapse.kept] == 0) return false;
+  /// Whether two points of curves would get a second edge.
+  bool joins_twice(const Collapse& collapse) const {
+    if (!curves_ || !curves_->holds(collapse.kept)) return false;
     const Index left = surface_.from(EditableSurface::previous(collapse.half_edge)),
                 right = surface_.to(EditableSurface::next(surface_.opposite(collapse.half_edge)));
     bool joins = false;
     surface_.for_each_leaving(collapse.removed, [&](Index h) {
       const Index q = surface_.to(h);
-      joins |= q != collapse.kept && q != left && q != right && at_rim_[q] != 0;
+      joins |= q != collapse.kept && q != left && q != right && curves_->holds(q) &&
+               !curves_->may_join(surface_, collapse.kept, q);
     });
     return joins;
   }
 
   /// Collapses an edge to the best place, or onto one of its ends, if that is allowed.
   bool try_to(Index h) {
-    const std::optional<Vec3> place = place_of(h);
+    const Edge edge = edge_at(h);
+    const std::optional<Vec3> place = place_of(edge);
     if (!place) return false;
-    const Vec3 from = points_[surface_.from(h)], to = points_[surface_.to(h)];
+    const Vec3 from = points_[edge.a], to = points_[edge.b];
     const bool is_new = *place != from && *place != to;
-    if (may_become(h, *place) && become()) return true;
+    if (may_become(h, edge, *place) && become()) return true;
     if (!bound_ && !relaxed_) return false;  // another end would cost more
-    if ((!relaxed_ && planes_[surface_.from(h)] != planes_[surface_.to(h)]) ||
-        !may_move(surface_.from(h)) || !may_move(surface_.to(h))) {
-      return false;
-    }
+    if ((!relaxed_ && edge.a_planes != edge.b_planes) || edge.a_stays || edge.b_stays) return false;
     const Vec3 first = *place == to ? from : to, second = first == to ? from : to;
     const auto may_go_to = [&](const Vec3& end) {
-      return !is_hopeless(h, end) && may_become(h, end) && become();
+      return !is_hopeless(edge.quadric, end) && may_become(h, edge, end) && become();
     };
     return may_go_to(first) || (is_new && may_go_to(second));
   }
 
   /// Whether the shapes of the triangles allow a collapse to a place.
-  bool may_become(Index h, const Vec3& place) {
+  bool may_become(Index h, const Edge& edge, const Vec3& place) {
     // The point that goes is one that may.
-    const Index a = surface_.from(h);
-    if (!may_move(a) || place == points_[a]) h = surface_.opposite(h);
+    const bool b_goes = edge.a_stays || place == points_[edge.a];
+    if (surface_.opposite(h) == kNoIndex) return may_become_at_curve(h, b_goes, place);
+    if (b_goes) h = surface_.opposite(h);
     if (!surface_.may_collapse(h)) return false;
-    describe(surface_, points_, h, place, collapse_);
-    return !joins_rims(collapse_) &&
-           !spoils_shape(surface_, points_, normals_, collapse_, bound_.has_value());
+    collapses_.resize(1);
+    describe(surface_, points_, h, place, collapses_[0]);
+    return !joins_twice(collapses_[0]) && !spoils_shape(collapses_[0]);
+  }
+
+  bool may_become_at_curve(Index h, bool b_goes, const Vec3& place) {
+    const Index removed = b_goes ? surface_.to(h) : surface_.from(h);
+    const std::vector<Index> half_edges = curves_->half_edges_at(surface_, h);
+    const auto count = std::ssize(half_edges);
+    if (left_ - count + 1 < task_.triangles) return false;
+    if (!curves_->may_collapse(surface_, half_edges, removed)) return false;
+    collapses_.resize(half_edges.size());
+    for (std::size_t n = 0; n < half_edges.size(); ++n) {
+      describe_at_rim(surface_, points_, half_edges[n],
+                      curves_->copy_at(surface_, half_edges[n], removed), place, collapses_[n]);
+      if (spoils_shape(collapses_[n])) return false;
+    }
+    return !bound_ || !spoils_curve(surface_, points_, normals_, collapses_);
+  }
+
+  bool spoils_shape(const Collapse& collapse) const {
+    return decimate::spoils_shape(surface_, points_, normals_, collapse, bound_.has_value());
   }
 
   /// Makes the collapse that was looked at last if all else allows it.
   bool become() {
-    collapse_.height = fan_height(surface_, points_, collapse_);
-    if (bound_ && !bound_->allows(surface_, points_, collapse_)) return false;
-    if (intersections_.occur(surface_, points_, collapse_)) return false;
+    for (Collapse& collapse : collapses_) {
+      collapse.height = fan_height(surface_, points_, collapse);
+      if (bound_ && !bound_->allows(surface_, points_, collapse)) return false;
+    }
+    if (intersections_.occur(surface_, points_, collapses_)) return false;
     apply();
     return true;
   }
 
   void apply() {
-    if (bound_) bound_->apply(collapse_);
-    quadrics_[collapse_.kept] += quadrics_[collapse_.removed];
-    surface_.collapse(collapse_.half_edge);
-    points_[collapse_.kept] = collapse_.place;
-    intersections_.apply(collapse_);
-    for (std::size_t i = 0; i < collapse_.faces.size(); ++i) {
-      normals_[collapse_.faces[i]] = unit_normal(collapse_.after[i]);
-    }
-    left_ -= 2;
-    ++stamps_[collapse_.removed];
-    ++stamps_[collapse_.kept];
     std::vector<Index>& around = scratch_;
     around.clear();
-    surface_.for_each_leaving(collapse_.kept, [&](Index h) {
-      for (const Index k : {h, surface_.opposite(h)}) {
-        if (k != kNoIndex) around.push_back(k);
-      }
-      wake(surface_.to(h));
-    });
+    const bool at_curve = collapses_[0].at_rim;
+    if (at_curve) {
+      const auto& first = curves_->first_copies();
+      lines_[first[collapses_[0].kept]] += lines_[first[collapses_[0].removed]];
+    }
+    for (const Collapse& collapse : collapses_) {
+      // Of several interfaces each has its own proof, of which only the last is at hand.
+      if (bound_ && at_curve) bound_->allows(surface_, points_, collapse);
+      apply(collapse);
+      const auto see = [&](Index h, Index neighbor) {
+        for (const Index k : {h, surface_.opposite(h)}) {
+          if (k != kNoIndex) around.push_back(k);
+        }
+        wake(neighbor);
+      };
+      surface_.for_each_leaving(collapse.kept, [&](Index h) { see(h, surface_.to(h)); });
+      if (surface_.is_inner(collapse.kept)) continue;
+      const Index last = surface_.arriving_at_rim(collapse.kept);
+      see(last, surface_.from(last));
+    }
     push(around);
+  }
+
+  void apply(const Collapse& collapse) {
+    if (bound_) bound_->apply(collapse);
+    quadrics_[collapse.kept] += quadrics_[collapse.removed];
+    if (collapse.at_rim) {
+      surface_.collapse_at_rim(collapse.half_edge, collapse.removed);
+    } else {
+      surface_.collapse(collapse.half_edge);
+    }
+    points_[collapse.kept] = collapse.place;
+    intersections_.apply(collapse);
+    for (std::size_t i = 0; i < collapse.faces.size(); ++i) {
+      normals_[collapse.faces[i]] = unit_normal(collapse.after[i]);
+    }
+    left_ -= collapse.at_rim ? 1 : 2;
+    ++stamps_[collapse.removed];
+    ++stamps_[collapse.kept];
   }
 
   void wake(Index p) {
@@ -292,7 +388,8 @@ class Pass {
       is_woken_[p] = 0;
       surface_.for_each_leaving(p, [&](Index h) {
         const Index o = surface_.opposite(h);
-        if (o != kNoIndex) around.push_back(std::min(h, o));
+        around.push_back(o != kNoIndex ? std::min(h, o) : h);
+        if (surface_.rotated(h) == kNoIndex) around.push_back(EditableSurface::previous(h));
       });
     }
     woken_.clear();
@@ -304,21 +401,23 @@ class Pass {
   std::vector<Vec3> points_;
   const std::vector<char>& held_;
   EditableSurface surface_;
+  std::optional<Curves> curves_;  // of interfaces
   CollapseIntersections intersections_;
   std::optional<TwoSidedBound> bound_;
   std::vector<Index> stamps_, woken_;
-  std::vector<char> is_woken_, at_rim_;
-  std::vector<std::array<bool, 3>> planes_;  // of the axes that each point keeps to
-  std::vector<Quadric> quadrics_;            // relative to the origin
-  std::vector<Vec3> normals_;                // of triangles
+  std::vector<char> is_woken_;
+  std::vector<Planes> planes_;     // that each point keeps to
+  std::vector<Quadric> quadrics_;  // of the triangles at each point, relative to the origin
+  std::vector<Quadric> lines_;     // of the curve at each point, by its first copy
+  std::vector<Vec3> normals_;      // of triangles
   Vec3 origin_;
   double hopeless_;  // mean square distance, mm^2
   std::int64_t left_;
   bool relaxed_ = false;  // without a tolerance, once nothing else can be done: ends that cost more
                           // are taken, and planes left
   std::priority_queue<Candidate> queue_;
-  Collapse collapse_;
-  std::vector<Index> scratch_;
+  std::vector<Collapse> collapses_;  // that are looked at: several at an edge of a curve
+  std::vector<Index> scratch_, at_curves_;
 };
 
 }  // namespace

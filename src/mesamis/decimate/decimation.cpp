@@ -40,8 +40,10 @@ class Decimation {
 
   /// @param side  of the patches' boxes, mm; infinity: one patch.
   Cover run(double side) {
-    const std::vector<char> held =
-        interfaces_ ? interfaces_->at_rim : std::vector<char>(surface_.points.size(), 0);
+    std::vector<char> held(surface_.points.size(), 0);
+    for (std::size_t p = 0; interfaces_ && p < held.size(); ++p) {
+      held[p] = interfaces_->at_rim[p] != 0 && interfaces_->within_curve[p] == 0 ? 1 : 0;
+    }
     Cover cover = run(cover_of(surface_), held, side);
     for (const double to_originals : cover.to_originals)
       report_.to_originals = std::max(report_.to_originals, to_originals);

@@ -44,44 +44,76 @@ void EditableSurface::link(Index a, Index b) {
   if (b != kNoIndex) opposite_[b] = a;
 }
 
+int EditableSurface::triangles_at(Index point) const {
+  int count = 0;
+  for_each_leaving(point, [&count](Index) { ++count; });
+  return count;
+}
+
+Index EditableSurface::arriving_at_rim(Index point) const {
+  Index last = kNoIndex;
+  for_each_leaving(point, [&last](Index h) { last = h; });
+  return previous(last);
+}
+
 bool EditableSurface::may_collapse(Index h) const {
   const Index left = from(previous(h)), right = from(previous(opposite(h)));
   const Index a = from(h), b = to(h);
   if (left == right) return false;
   // Of the points around both ends only the two opposite ones may be common.
-  int common = 0, at_left = 0, at_right = 0;
-  bool splits = false;
-  for_each_leaving(b, [&](Index g) {
-    const auto see = [&](Index q) {
-      if (q == a || q == left || q == right) return;
-      for_each_leaving(a, [&](Index k) { common += to(k) == q ? 1 : 0; });
-    };
-    see(to(g));
-    if (rotated(g) == kNoIndex) see(from(previous(g)));
+  int common = 0;
+  for_each_neighbor(b, [&](Index q) {
+    if (q == a || q == left || q == right) return;
+    for_each_leaving(a, [&](Index k) { common += to(k) == q ? 1 : 0; });
   });
-  for_each_leaving(left, [&](Index) { ++at_left; });
-  for_each_leaving(right, [&](Index) { ++at_right; });
-  splits = (is_inner(left) && at_left <= 3) || (is_inner(right) && at_right <= 3);
+  const bool splits =
+      (is_inner(left) && triangles_at(left) <= 3) || (is_inner(right) && triangles_at(right) <= 3);
   return common == 0 && !splits;
 }
 
+bool EditableSurface::may_collapse_at_rim(Index h, Index removed) const {
+  const Index at_removed = from(h) == removed ? previous(h) : next(h);
+  if (opposite(at_removed) == kNoIndex) return false;
+  const Index a = from(h), b = to(h), apex = from(previous(h));
+  int common = 0;
+  for_each_neighbor(b, [&](Index q) {
+    if (q == a || q == apex) return;
+    for_each_neighbor(a, [&](Index k) { common += k == q ? 1 : 0; });
+  });
+  return common == 0 && !(is_inner(apex) && triangles_at(apex) <= 3);
+}
+
+/// Removes the triangle of a half-edge, two of whose corners have become one, and joins what lies beside
+/// its other two sides.
+void EditableSurface::remove_triangle_at(Index h) {
+  const Index after = opposite_[next(h)], before = opposite_[previous(h)];
+  link(after, before);
+  const Index apex = corners_[previous(h)];
+  if (leaving_[apex] == previous(h)) leaving_[apex] = after;
+  const Index t = h / 3;
+  for (Index i = 0; i < 3; ++i) corners_[3 * t + i] = opposite_[3 * t + i] = kNoIndex;
+}
+
 void EditableSurface::collapse(Index h) {
-  const Index o = opposite(h);
-  const Index removed = from(h), kept = to(h);
-  const Index left = from(previous(h)), right = from(previous(o));
+  const Index o = opposite(h), removed = from(h), kept = to(h);
   for_each_leaving(removed, [&](Index g) { corners_[g] = kept; });
-  // The sides of the two triangles that are left, from the kept point's triangles and from the removed's.
-  const Index left_kept = opposite_[next(h)], left_moved = opposite_[previous(h)];
-  const Index right_kept = opposite_[previous(o)], right_moved = opposite_[next(o)];
-  link(left_kept, left_moved);
-  link(right_kept, right_moved);
-  if (is_inner(kept) || leaving_[kept] == next(h)) leaving_[kept] = left_moved;
-  if (leaving_[left] == previous(h)) leaving_[left] = left_kept;
-  if (leaving_[right] == previous(o)) leaving_[right] = right_moved;
+  if (is_inner(kept) || leaving_[kept] == next(h)) leaving_[kept] = opposite_[previous(h)];
   leaving_[removed] = kNoIndex;
-  for (const Index t : {h / 3, o / 3}) {
-    for (Index i = 0; i < 3; ++i) corners_[3 * t + i] = opposite_[3 * t + i] = kNoIndex;
+  remove_triangle_at(h);
+  remove_triangle_at(o);
+}
+
+void EditableSurface::collapse_at_rim(Index h, Index removed) {
+  const bool is_last = to(h) == removed;
+  const Index kept = is_last ? from(h) : to(h);
+  for_each_leaving(removed, [&](Index g) { corners_[g] = kept; });
+  if (is_last) {
+    leaving_[kept] = leaving_[removed];
+  } else if (leaving_[kept] == next(h)) {
+    leaving_[kept] = opposite_[previous(h)];
   }
+  leaving_[removed] = kNoIndex;
+  remove_triangle_at(h);
 }
 
 }  // namespace mesamis::detail::decimate

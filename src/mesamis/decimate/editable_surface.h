@@ -49,6 +49,15 @@ class EditableSurface {
     }
   }
 
+  /// Calls visit(q) for the points that share an edge with a point, each once.
+  template <class Visit>
+  void for_each_neighbor(Index point, Visit&& visit) const {
+    for_each_leaving(point, [&](Index h) {
+      visit(to(h));
+      if (rotated(h) == kNoIndex) visit(from(previous(h)));
+    });
+  }
+
   /// Whether the surface stays a 2-manifold, without triangles that coincide, when the first point of
   /// a half-edge is collapsed onto its second. The first must be an inner point.
   bool may_collapse(Index h) const;
@@ -56,8 +65,20 @@ class EditableSurface {
   /// Removes the first point of a half-edge and the triangles on both sides of it.
   void collapse(Index h);
 
+  /// The same for a half-edge at a rim of which one end is to go: whether the surface stays a 2-manifold
+  /// with as many rims.
+  bool may_collapse_at_rim(Index h, Index removed) const;
+
+  /// Removes one end of a half-edge at a rim and the triangle beside it.
+  void collapse_at_rim(Index h, Index removed);
+
+  /// The half-edge at a rim that ends in a point of the rim.
+  Index arriving_at_rim(Index point) const;
+
  private:
   void link(Index a, Index b);
+  void remove_triangle_at(Index h);
+  int triangles_at(Index point) const;
 
   std::vector<Index> corners_, opposite_;  // of each half-edge
   std::vector<Index> leaving_;             // of each point; at a rim the first counter-clockwise

@@ -32,7 +32,7 @@ class View {
  public:
   View(const EditableSurface& surface, const std::vector<Vec3>& points, const Collapse& collapse) {
     const auto n = static_cast<int>(collapse.faces.size());
-    is_seen_ = n + 4 <= kMostPoints;
+    is_seen_ = n + 4 <= kMostPoints && !collapse.at_rim;
     if (!is_seen_) return;
     Vec3 normal{0, 0, 0};
     for (const Corners& t : collapse.after) normal += cross(t[1] - t[0], t[2] - t[0]);

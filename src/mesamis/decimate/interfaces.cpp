@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/error.h"
 #include "mesamis/surface/half_edges.h"
 
@@ -102,6 +103,39 @@ void find_copies(Interfaces& interfaces) {
   }
 }
 
+/// The two neighbours of each point along the rim that it is on; kNoIndex: it is on none.
+std::vector<std::array<Index, 2>> neighbors_along_rims(const TriMesh& surface) {
+  std::vector<std::array<Index, 2>> along(surface.points.size(), {kNoIndex, kNoIndex});
+  const auto half_edges = sorted_half_edges(surface.triangles, surface.points.size());
+  for_each_edge(half_edges, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 1) return;
+    for (const auto& [p, q] : {std::pair{edge[0].lo, edge[0].hi}, {edge[0].hi, edge[0].lo}}) {
+      along[p][along[p][0] == kNoIndex ? 0 : 1] = q;
+    }
+  });
+  return along;
+}
+
+void find_points_within_curves(Interfaces& interfaces) {
+  std::vector<std::array<Index, 2>> along = neighbors_along_rims(interfaces.surface);
+  for (std::array<Index, 2>& ends : along) {
+    for (Index& q : ends) q = q == kNoIndex ? q : interfaces.first_copy[q];
+    std::sort(ends.begin(), ends.end());
+  }
+  interfaces.within_curve.assign(along.size(), 0);
+  const auto end = static_cast<Index>(along.size());
+  for (Index first = 0, last = 0; first < end; first = last) {
+    std::vector<Index> own;
+    bool same = along[first][0] != kNoIndex && along[first][0] != along[first][1];
+    for (last = first; last < end && interfaces.first_copy[last] == first; ++last) {
+      same &= along[last] == along[first];
+      add_once(own, interfaces.of_point[last]);
+    }
+    if (!same || last - first < 3 || std::ssize(own) < last - first) continue;
+    std::fill(interfaces.within_curve.begin() + first, interfaces.within_curve.begin() + last, 1);
+  }
+}
+
 void number_interfaces(Interfaces& interfaces) {
   DisjointSets sets(interfaces.origin.size());
   for (const Triangle& t : interfaces.surface.triangles) {
@@ -128,6 +162,7 @@ Interfaces cut_into_interfaces(const PartitionSurface& partition) {
   require_manifold(interfaces.surface);
   find_copies(interfaces);
   number_interfaces(interfaces);
+  find_points_within_curves(interfaces);
   return interfaces;
 }
 

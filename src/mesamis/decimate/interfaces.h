@@ -15,9 +15,12 @@ struct Interfaces {
   TriMesh surface;                ///< triangles in the order of the partition's
   std::vector<Index> origin;      ///< of each point: that of the partition; never falls
   std::vector<Index> first_copy;  ///< of each point: the first one of the same origin
-  std::vector<char> at_rim;       ///< of each point, 1 if it must stay: on a rim, or one of copies
-  std::vector<Index> of_point;    ///< the interface of each point; numbered in the order of points
-  Index count = 0;                ///< of interfaces
+  std::vector<char> at_rim;       ///< of each point, 1 if it is on a rim, or one of copies
+  /// Of each point of these, 1 if it may leave the curve that it is on: three interfaces or more, all
+  /// different, go on through it to the same two points, and no other touches it.
+  std::vector<char> within_curve;
+  std::vector<Index> of_point;  ///< the interface of each point; numbered in the order of points
+  Index count = 0;              ///< of interfaces
 };
 
 /// Cuts a partition into interfaces.

@@ -66,7 +66,7 @@ Index WalkedSurface::opposite(Index h) const {
   if (o == kNoIndex) return o;
   if (collapse != nullptr) {
     for (const Index edge : {collapse->half_edge, surface.opposite(collapse->half_edge)}) {
-      if (o / 3 != edge / 3) continue;
+      if (edge == kNoIndex || o / 3 != edge / 3) continue;
       const Index next = EditableSurface::next(edge);
       return surface.opposite(o == next ? EditableSurface::previous(edge) : next);
     }

@@ -17,6 +17,7 @@ set(ROOM_HEADERS
 set(ROOM_SOURCES
   collapse.cpp
   covering.cpp
+  curves.cpp
   decimate.cpp
   decimate_partition.cpp
   patch.cpp

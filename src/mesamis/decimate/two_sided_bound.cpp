@@ -143,7 +143,9 @@ void TwoSidedBound::swap_after(const Collapse& collapse) {
 }
 
 void TwoSidedBound::apply(const Collapse& collapse) {
-  for (const Index t : collapse.gone) lists_[t].clear();
+  for (const Index t : collapse.gone) {
+    if (t != kNoIndex) lists_[t].clear();
+  }
   for (std::size_t i = 0; i < collapse.faces.size(); ++i) {
     lists_[collapse.faces[i]].clear();
     bounds_[collapse.faces[i]] = next_[i];
@@ -180,7 +182,9 @@ void TwoSidedBound::gather(const Collapse& collapse) {
     }
   };
   for (const Index t : collapse.faces) add(t, t);
-  for (const Index t : collapse.gone) add(t, collapse.faces[0]);
+  for (const Index t : collapse.gone) {
+    if (t != kNoIndex) add(t, collapse.faces[0]);
+  }
 }
 
 TwoSidedBound::Bounds TwoSidedBound::bounds_before(const Collapse& collapse) const {
@@ -190,7 +194,9 @@ TwoSidedBound::Bounds TwoSidedBound::bounds_before(const Collapse& collapse) con
     greatest.from_originals = std::max(greatest.from_originals, bounds_[t].from_originals);
   };
   for (const Index t : collapse.faces) see(t);
-  for (const Index t : collapse.gone) see(t);
+  for (const Index t : collapse.gone) {
+    if (t != kNoIndex) see(t);
+  }
   return greatest;
 }
 

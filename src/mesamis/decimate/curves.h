@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesamis/decimate/collapse.h"
+#include "mesamis/decimate/interfaces.h"
+#include "mesamis/decimate/patch.h"
+
+namespace mesamis::detail::decimate {
+
+/// The curves along which the interfaces of a patch meet. Each interface has its own copy of the
+/// points of a curve, and a half-edge at its rim for each edge of it: an edge is collapsed in all
+/// interfaces at once.
+class Curves {
+ public:
+  /// @param patch  of these interfaces.
+  Curves(const Interfaces& interfaces, const Patch& patch);
+
+  /// Of the copies of each point, the first one in the patch.
+  const std::vector<Index>& first_copies() const { return first_copies_; }
+  /// Whether two points on curves may get an edge: they have none yet in any interface.
+  bool may_join(const EditableSurface& surface, Index a, Index b) const {
+    return is_whole_[a] != 0 && is_whole_[b] != 0 && !has_edge(surface, a, b);
+  }
+  /// Whether a point is on a curve, or one of copies.
+  bool holds(Index p) const { return at_rim_[p] != 0; }
+  /// Whether a point of a curve may go along it: it is one within a curve, all its copies are in the
+  /// patch, and none is held.
+  bool may_go(Index p) const { return may_go_[p] != 0; }
+
+  /// Calls visit(q) for the copies of a point in the patch, in order.
+  template <class Visit>
+  void for_each_copy(Index p, Visit&& visit) const {
+    const auto end = static_cast<Index>(first_copies_.size());
+    for (Index q = first_copies_[p]; q < end && first_copies_[q] == first_copies_[p]; ++q) visit(q);
+  }
+
+  /// The half-edges of the interfaces at an edge of a curve, increasing.
+  /// @param h  one of them: all others are found if one of its ends may go.
+  std::vector<Index> half_edges_at(const EditableSurface& surface, Index h) const;
+
+  /// Whether each interface stays a 2-manifold with as many rims, and any two points have an edge in the
+  /// same interfaces, when one end of an edge of a curve is collapsed onto the other.
+  /// @param half_edges  of half_edges_at().
+  /// @param removed     a copy of a point that may go.
+  bool may_collapse(const EditableSurface& surface, const std::vector<Index>& half_edges,
+                    Index removed) const;
+
+  /// The end of a half-edge that is a copy of a point; else the start.
+  Index copy_at(const EditableSurface& surface, Index h, Index point) const {
+    const Index to = surface.to(h);
+    return first_copies_[to] == first_copies_[point] ? to : surface.from(h);
+  }
+
+ private:
+  bool has_edge(const EditableSurface& surface, Index a, Index b) const;
+
+  std::vector<Index> first_copies_;
+  std::vector<char> at_rim_, may_go_, is_whole_;  // the last: all copies are in the patch
+};
+
+/// Whether the creases between two interfaces at a curve would grow by more than a tenth.
+/// @param normals    of each triangle, unit length or 0.
+/// @param collapses  of one edge, one for each interface.
+bool spoils_curve(const EditableSurface& surface, const std::vector<Vec3>& points,
+                  const std::vector<Vec3>& normals, const std::vector<Collapse>& collapses);
+
+}  // namespace mesamis::detail::decimate
