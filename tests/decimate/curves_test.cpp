@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <set>
@@ -132,6 +133,137 @@ TEST(Curves, CollapseInAllInterfacesAtOnce) {
     EXPECT_EQ(flaws_of(after), flaws_of(before));
     EXPECT_EQ(after.components, before.components);
   }
+}
+
+/// An edge of a curve as two interfaces see it: its points, and theirs.
+struct Bend {
+  std::array<Index, 2> edge, pair;
+  double crease;
+  auto key() const { return std::pair{edge, pair}; }
+};
+
+std::vector<Bend> bends_of(const Blobs& blobs, const EditableSurface& surface,
+                           const std::vector<Vec3>& points) {
+  std::map<std::pair<Index, Index>, std::vector<Index>> at_edges;
+  const auto& origin = blobs.interfaces.origin;
+  for (Index h = 0; h < 3 * surface.count(); ++h) {
+    if (surface.is_removed(h / 3) || surface.opposite(h) != kNoIndex) continue;
+    at_edges[std::minmax(origin[surface.from(h)], origin[surface.to(h)])].push_back(h);
+  }
+  const auto normal = [&](Index h) {
+    const Triangle t = surface.triangle(h / 3);
+    return unit_normal({points[t[0]], points[t[1]], points[t[2]]});
+  };
+  std::vector<Bend> bends;
+  for (const auto& [edge, all] : at_edges) {
+    for (const Index g : all) {
+      for (const Index h : all) {
+        const Index own = blobs.interfaces.of_point[surface.from(g)],
+                    other = blobs.interfaces.of_point[surface.from(h)];
+        if (own >= other) continue;
+        const bool same = origin[surface.from(g)] == origin[surface.from(h)];
+        const Vec3 n = normal(g), m = (same ? -1.0 : 1.0) * normal(h);
+        bends.push_back({{edge.first, edge.second},
+                         {own, other},
+                         crease_at(points[surface.from(g)], points[surface.to(g)], n, m)});
+      }
+    }
+  }
+  std::sort(bends.begin(), bends.end(),
+            [](const Bend& a, const Bend& b) { return a.key() < b.key(); });
+  return bends;
+}
+
+std::vector<Vec3> normals_of(const EditableSurface& surface, const std::vector<Vec3>& points) {
+  std::vector<Vec3> normals;
+  for (Index t = 0; t < surface.count(); ++t) {
+    const Triangle k = surface.triangle(t);
+    normals.push_back(unit_normal({points[k[0]], points[k[1]], points[k[2]]}));
+  }
+  return normals;
+}
+
+/// The creases between each two interfaces.
+std::map<std::array<Index, 2>, double> creases_of(const std::vector<Bend>& bends) {
+  std::map<std::array<Index, 2>, double> creases;
+  for (const Bend& bend : bends) creases[bend.pair] += bend.crease;
+  return creases;
+}
+
+TEST(SpoilsCurve, SaysWhetherCreasesBetweenInterfacesGrowAlongACurve) {
+  const Blobs blobs;
+  const Curves curves(blobs.interfaces, blobs.patch);
+  const std::vector<Vec3>& points = blobs.patch.cover.points;
+  const std::vector<Vec3> normals = normals_of(blobs.surface, points);
+  const std::vector<Bend> before = bends_of(blobs, blobs.surface, points);
+  std::array<int, 2> seen{};
+  for_each_at_rim(blobs.surface, [&](Index h) {
+    const Index removed = blobs.surface.from(h), kept = blobs.surface.to(h);
+    const std::vector<Index> all = curves.half_edges_at(blobs.surface, h);
+    if (h % 5 != 0 || !curves.may_go(removed) ||
+        !curves.may_collapse(blobs.surface, all, removed)) {
+      return;
+    }
+    for (const double share : {0.0, 0.4}) {
+      if (share > 0 && !curves.may_go(kept)) continue;
+      const Vec3 place = points[kept] + share * (points[removed] - points[kept]);
+      std::vector<Collapse> collapses(all.size());
+      EditableSurface after = blobs.surface;
+      std::vector<Vec3> moved = points;
+      for (std::size_t n = 0; n < all.size(); ++n) {
+        const Index copy = curves.copy_at(blobs.surface, all[n], removed);
+        describe_at_rim(blobs.surface, points, all[n], copy, place, collapses[n]);
+        after.collapse_at_rim(all[n], copy);
+        moved[collapses[n].kept] = place;
+      }
+      const bool spoils = spoils_curve(blobs.surface, points, normals, collapses);
+      ++seen[spoils ? 1 : 0];
+      // What does not change adds to both sums: growth of a part by a tenth is less of the whole.
+      bool any = false;
+      const auto sums = creases_of(before);
+      for (const auto& [pair, crease] : creases_of(bends_of(blobs, after, moved))) {
+        any |= crease > sums.at(pair);
+        if (!spoils) {
+          EXPECT_LE(crease, 1.1 * sums.at(pair) + 1e-9);
+        }
+      }
+      if (spoils) {
+        EXPECT_TRUE(any);
+      }
+    }
+  });
+  EXPECT_GT(std::min(seen[0], seen[1]), 5);
+}
+
+TEST(BendsCurve, SaysWhetherACreaseAppearsBesideACollapse) {
+  const Blobs blobs;
+  const Curves curves(blobs.interfaces, blobs.patch);
+  const std::vector<Vec3>& points = blobs.patch.cover.points;
+  const std::vector<Vec3> normals = normals_of(blobs.surface, points);
+  const std::vector<Bend> before = bends_of(blobs, blobs.surface, points);
+  std::array<int, 2> seen{};
+  for (Index h = 0; h < 3 * blobs.surface.count(); h += 7) {
+    const Index removed = blobs.surface.from(h), kept = blobs.surface.to(h);
+    if (!blobs.surface.is_inner(removed) || !blobs.surface.may_collapse(h)) continue;
+    bool beside = false;
+    blobs.surface.for_each_neighbor(removed, [&](Index p) { beside |= curves.holds(p); });
+    if (!beside) continue;
+    Collapse collapse;
+    describe(blobs.surface, points, h, points[kept], collapse);
+    EditableSurface after = blobs.surface;
+    after.collapse(h);
+    const bool bends = bends_curve(blobs.surface, normals, curves, collapse);
+    ++seen[bends ? 1 : 0];
+    bool any = false;
+    const std::vector<Bend> now = bends_of(blobs, after, points);
+    ASSERT_EQ(now.size(), before.size());
+    for (std::size_t n = 0; n < now.size(); ++n) {
+      ASSERT_EQ(now[n].key(), before[n].key());
+      any |= before[n].crease == 0 && now[n].crease > 0;
+    }
+    EXPECT_EQ(any, bends);
+  }
+  EXPECT_GT(std::min(seen[0], seen[1]), 5);
 }
 
 }  // namespace

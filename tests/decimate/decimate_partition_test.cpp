@@ -243,7 +243,7 @@ TEST(DecimatePartition, KeepsARoundCurveWithinTheTolerance) {
     return farthest;
   };
   const Curves before = curves_of(partition), after = curves_of(result);
-  EXPECT_LT(after.size(), before.size() / 3);
+  EXPECT_LT(after.size(), before.size() / 2);
   EXPECT_LT(farthest_from_circle(after), farthest_from_circle(before) + tolerance);
 }
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mesamis/base/each_once.h"
+#include "mesamis/decimate/crease.h"
 
 namespace mesamis::detail::decimate {
 namespace {
@@ -100,6 +100,28 @@ bool Curves::may_collapse(const EditableSurface& surface, const std::vector<Inde
     });
     return !joins;
   });
+}
+
+bool bends_curve(const EditableSurface& surface, const std::vector<Vec3>& normals,
+                 const Curves& curves, const Collapse& collapse) {
+  const auto bends = [&](Index h, const Corners& now) {
+    if (surface.opposite(h) != kNoIndex) return false;
+    const std::vector<Index> all = curves.half_edges_at(surface, h);
+    return std::any_of(all.begin(), all.end(), [&](Index g) {
+      const bool same =
+          curves.first_copies()[surface.from(g)] == curves.first_copies()[surface.from(h)];
+      const Vec3 other = (same ? -1.0 : 1.0) * normals[g / 3];
+      return g != h && dot(normals[h / 3], other) >= kCrease &&
+             dot(unit_normal(now), other) < kCrease;
+    });
+  };
+  for (std::size_t i = 0; i < collapse.faces.size(); ++i) {
+    if (bends(collapse.outer[i], collapse.after[i])) return true;
+  }
+  const Index o = surface.opposite(collapse.half_edge);
+  return !collapse.moves &&
+         (bends(EditableSurface::next(collapse.half_edge), collapse.after.front()) ||
+          bends(EditableSurface::previous(o), collapse.after.back()));
 }
 
 bool spoils_curve(const EditableSurface& surface, const std::vector<Vec3>& points,

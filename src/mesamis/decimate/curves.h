@@ -61,9 +61,16 @@ class Curves {
   std::vector<char> at_rim_, may_go_, is_whole_;  // the last: all copies are in the patch
 };
 
-/// Whether the creases between two interfaces at a curve would grow by more than a tenth.
-/// @param normals    of each triangle, unit length or 0.
-/// @param collapses  of one edge, one for each interface.
+/// Whether an edge of a curve between two interfaces would become a crease, see kCrease, by a collapse
+/// inside one of them that changes triangles at its rim.
+/// @param normals  of each triangle, unit length or 0.
+bool bends_curve(const EditableSurface& surface, const std::vector<Vec3>& normals,
+                 const Curves& curves, const Collapse& collapse);
+
+/// Whether creases between two interfaces would grow by more than a tenth where an edge of a curve is
+/// collapsed.
+/// @param normals    as above.
+/// @param collapses  of this edge, one for each interface.
 bool spoils_curve(const EditableSurface& surface, const std::vector<Vec3>& points,
                   const std::vector<Vec3>& normals, const std::vector<Collapse>& collapses);
 

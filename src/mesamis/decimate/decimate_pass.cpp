@@ -300,7 +300,8 @@ class Pass {
     if (!surface_.may_collapse(h)) return false;
     collapses_.resize(1);
     describe(surface_, points_, h, place, collapses_[0]);
-    return !joins_twice(collapses_[0]) && !spoils_shape(collapses_[0]);
+    if (joins_twice(collapses_[0]) || spoils_shape(collapses_[0])) return false;
+    return !curves_ || !bound_ || !bends_curve(surface_, normals_, *curves_, collapses_[0]);
   }
 
   bool may_become_at_curve(Index h, bool b_goes, const Vec3& place) {
