@@ -16,9 +16,13 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// Patches of a large surface, about: more have more seams, which are decimated in one thread.
+constexpr double kMostPatches = 64;
+
 /// The side of the boxes that hold a patch each, mm. A box cuts the surface in about two layers.
 double patch_side(const TriMesh& surface, const DecimateOptions& options, double per_patch) {
   const auto triangles = static_cast<double>(surface.triangles.size());
+  per_patch = std::max(per_patch, triangles / kMostPatches);
   if (triangles < 2 * per_patch || options.triangles > 0) return kInfinity;
   const double side = std::sqrt(surface_area(surface) / triangles * per_patch / 2);
   return side > 0 ? side : kInfinity;

@@ -7,7 +7,8 @@
 
 namespace mesamis::detail::decimate {
 
-/// Triangles of a patch, about. Surfaces of less than two are one patch.
+/// Triangles of a patch, about; more where the surface is very large. Surfaces of less than two are one
+/// patch.
 inline constexpr double kTrianglesPerPatch = 40'000;
 
 /// Checks the options of decimate() and decimate_partition().

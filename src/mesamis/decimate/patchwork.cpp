@@ -55,8 +55,14 @@ class Patchwork {
       const std::lock_guard lock(telling);
       task_.progress(finished / static_cast<double>(open.size()));
     };
-    parallel_for_each(open.size(), [&](std::size_t i) {
-      const std::size_t k = open[i];
+    // The largest first, so that none is left to one thread in the end.
+    std::vector<std::size_t> order = open;
+    std::stable_sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
+      return patches_[a].cover.triangles.size() > patches_[b].cover.triangles.size();
+    });
+    std::atomic<std::size_t> next = 0;
+    parallel_for_each(order.size(), [&](std::size_t) {
+      const std::size_t k = order[next++];
       done_[k] = decimate_pass(task, patches_[k]);
       ++finished;
     });
