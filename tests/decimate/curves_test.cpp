@@ -190,13 +190,19 @@ std::map<std::array<Index, 2>, double> creases_of(const std::vector<Bend>& bends
   return creases;
 }
 
-TEST(SpoilsCurve, SaysWhetherCreasesBetweenInterfacesGrowAlongACurve) {
+class CreasesOfBlobs : public testing::Test {
+ protected:
+  void TearDown() override { EXPECT_GT(std::min(seen[0], seen[1]), 5) << "of both kinds"; }
+
   const Blobs blobs;
-  const Curves curves(blobs.interfaces, blobs.patch);
+  const Curves curves{blobs.interfaces, blobs.patch};
   const std::vector<Vec3>& points = blobs.patch.cover.points;
   const std::vector<Vec3> normals = normals_of(blobs.surface, points);
   const std::vector<Bend> before = bends_of(blobs, blobs.surface, points);
-  std::array<int, 2> seen{};
+  std::array<int, 2> seen{};  // refused or not
+};
+
+TEST_F(CreasesOfBlobs, GrowAlongACurveAsSpoilsCurveSays) {
   for_each_at_rim(blobs.surface, [&](Index h) {
     const Index removed = blobs.surface.from(h), kept = blobs.surface.to(h);
     const std::vector<Index> all = curves.half_edges_at(blobs.surface, h);
@@ -232,16 +238,9 @@ TEST(SpoilsCurve, SaysWhetherCreasesBetweenInterfacesGrowAlongACurve) {
       }
     }
   });
-  EXPECT_GT(std::min(seen[0], seen[1]), 5);
 }
 
-TEST(BendsCurve, SaysWhetherACreaseAppearsBesideACollapse) {
-  const Blobs blobs;
-  const Curves curves(blobs.interfaces, blobs.patch);
-  const std::vector<Vec3>& points = blobs.patch.cover.points;
-  const std::vector<Vec3> normals = normals_of(blobs.surface, points);
-  const std::vector<Bend> before = bends_of(blobs, blobs.surface, points);
-  std::array<int, 2> seen{};
+TEST_F(CreasesOfBlobs, AppearBesideACollapseAsBendsCurveSays) {
   for (Index h = 0; h < 3 * blobs.surface.count(); h += 7) {
     const Index removed = blobs.surface.from(h), kept = blobs.surface.to(h);
     if (!blobs.surface.is_inner(removed) || !blobs.surface.may_collapse(h)) continue;
@@ -263,7 +262,6 @@ TEST(BendsCurve, SaysWhetherACreaseAppearsBesideACollapse) {
     }
     EXPECT_EQ(any, bends);
   }
-  EXPECT_GT(std::min(seen[0], seen[1]), 5);
 }
 
 }  // namespace
