@@ -9,6 +9,8 @@
 #include <map>
 #include <set>
 
+#include "mesamis/decimate/collapse_intersections.h"
+#include "mesamis/surface/self_intersections.h"
 #include "support/label_grids.h"
 
 namespace mesamis {
@@ -35,30 +37,6 @@ void for_each_at_rim(const EditableSurface& surface, Visit visit) {
   for (Index h = 0; h < 3 * surface.count(); ++h) {
     if (surface.opposite(h) == kNoIndex) visit(h);
   }
-}
-
-TEST(Interfaces, PointsWithinCurvesGoOnToTheSameTwoInAll) {
-  const Blobs blobs;
-  std::map<Index, std::set<Index>> neighbors;
-  for_each_at_rim(blobs.surface, [&](Index h) {
-    const auto& origin = blobs.interfaces.origin;
-    neighbors[origin[blobs.surface.from(h)]].insert(origin[blobs.surface.to(h)]);
-    neighbors[origin[blobs.surface.to(h)]].insert(origin[blobs.surface.from(h)]);
-  });
-  int within = 0, ends = 0;
-  for (std::size_t p = 0; p < blobs.interfaces.origin.size(); ++p) {
-    const std::size_t count = neighbors[blobs.interfaces.origin[p]].size();
-    if (blobs.interfaces.within_curve[p] != 0) {
-      EXPECT_EQ(count, 2u);
-      ++within;
-    }
-    if (count > 2) {
-      EXPECT_EQ(blobs.interfaces.within_curve[p], 0);
-      ++ends;
-    }
-  }
-  EXPECT_GT(within, 100);
-  EXPECT_GT(ends, 10);
 }
 
 TEST(Curves, KnowTheHalfEdgesOfAllInterfacesAtAnEdge) {
@@ -190,9 +168,37 @@ std::map<std::array<Index, 2>, double> creases_of(const std::vector<Bend>& bends
   return creases;
 }
 
-class CreasesOfBlobs : public testing::Test {
+class BlobsWithCurves : public testing::Test {
  protected:
   void TearDown() override { EXPECT_GT(std::min(seen[0], seen[1]), 5) << "of both kinds"; }
+
+  /// Calls visit(collapses, surface after them, its points) for some edges of curves. The kept
+  /// point goes a share of the way to the one removed, if it may.
+  template <class Visit>
+  void for_each_collapse(int step, const std::vector<double>& shares, Visit visit) const {
+    for_each_at_rim(blobs.surface, [&](Index h) {
+      const Index removed = blobs.surface.from(h), kept = blobs.surface.to(h);
+      const std::vector<Index> all = curves.half_edges_at(blobs.surface, h);
+      if (h % step != 0 || !curves.may_go(removed) ||
+          !curves.may_collapse(blobs.surface, all, removed)) {
+        return;
+      }
+      for (const double share : shares) {
+        if (share != 0 && !curves.may_go(kept)) continue;
+        const Vec3 place = points[kept] + share * (points[removed] - points[kept]);
+        std::vector<Collapse> collapses(all.size());
+        EditableSurface after = blobs.surface;
+        std::vector<Vec3> moved = points;
+        for (std::size_t n = 0; n < all.size(); ++n) {
+          const Index copy = curves.copy_at(blobs.surface, all[n], removed);
+          describe_at_rim(blobs.surface, points, all[n], copy, place, collapses[n]);
+          after.collapse_at_rim(all[n], copy);
+          moved[collapses[n].kept] = place;
+        }
+        visit(collapses, after, moved);
+      }
+    });
+  }
 
   const Blobs blobs;
   const Curves curves{blobs.interfaces, blobs.patch};
@@ -202,45 +208,28 @@ class CreasesOfBlobs : public testing::Test {
   std::array<int, 2> seen{};  // refused or not
 };
 
-TEST_F(CreasesOfBlobs, GrowAlongACurveAsSpoilsCurveSays) {
-  for_each_at_rim(blobs.surface, [&](Index h) {
-    const Index removed = blobs.surface.from(h), kept = blobs.surface.to(h);
-    const std::vector<Index> all = curves.half_edges_at(blobs.surface, h);
-    if (h % 5 != 0 || !curves.may_go(removed) ||
-        !curves.may_collapse(blobs.surface, all, removed)) {
-      return;
-    }
-    for (const double share : {0.0, 0.4}) {
-      if (share > 0 && !curves.may_go(kept)) continue;
-      const Vec3 place = points[kept] + share * (points[removed] - points[kept]);
-      std::vector<Collapse> collapses(all.size());
-      EditableSurface after = blobs.surface;
-      std::vector<Vec3> moved = points;
-      for (std::size_t n = 0; n < all.size(); ++n) {
-        const Index copy = curves.copy_at(blobs.surface, all[n], removed);
-        describe_at_rim(blobs.surface, points, all[n], copy, place, collapses[n]);
-        after.collapse_at_rim(all[n], copy);
-        moved[collapses[n].kept] = place;
-      }
-      const bool spoils = spoils_curve(blobs.surface, points, normals, collapses);
-      ++seen[spoils ? 1 : 0];
-      // What does not change adds to both sums: growth of a part by a tenth is less of the whole.
-      bool any = false;
-      const auto sums = creases_of(before);
-      for (const auto& [pair, crease] : creases_of(bends_of(blobs, after, moved))) {
-        any |= crease > sums.at(pair);
-        if (!spoils) {
-          EXPECT_LE(crease, 1.1 * sums.at(pair) + 1e-9);
-        }
-      }
-      if (spoils) {
-        EXPECT_TRUE(any);
-      }
-    }
-  });
+TEST_F(BlobsWithCurves, GetCreasesAlongACurveAsSpoilsCurveSays) {
+  const auto sums = creases_of(before);
+  for_each_collapse(5, {0.0, 0.4},
+                    [&](const std::vector<Collapse>& collapses, const EditableSurface& after,
+                        const std::vector<Vec3>& moved) {
+                      const bool spoils = spoils_curve(blobs.surface, points, normals, collapses);
+                      ++seen[spoils ? 1 : 0];
+                      // What does not change adds to both sums: growth of a part by a tenth is less of the whole.
+                      bool any = false;
+                      for (const auto& [pair, crease] : creases_of(bends_of(blobs, after, moved))) {
+                        any |= crease > sums.at(pair);
+                        if (!spoils) {
+                          EXPECT_LE(crease, 1.1 * sums.at(pair) + 1e-9);
+                        }
+                      }
+                      if (spoils) {
+                        EXPECT_TRUE(any);
+                      }
+                    });
 }
 
-TEST_F(CreasesOfBlobs, AppearBesideACollapseAsBendsCurveSays) {
+TEST_F(BlobsWithCurves, GetACreaseBesideACollapseAsBendsCurveSays) {
   for (Index h = 0; h < 3 * blobs.surface.count(); h += 7) {
     const Index removed = blobs.surface.from(h), kept = blobs.surface.to(h);
     if (!blobs.surface.is_inner(removed) || !blobs.surface.may_collapse(h)) continue;
@@ -262,6 +251,48 @@ TEST_F(CreasesOfBlobs, AppearBesideACollapseAsBendsCurveSays) {
     }
     EXPECT_EQ(any, bends);
   }
+}
+
+TEST_F(BlobsWithCurves, IntersectAsASearchOverTheWholeSays) {
+  const auto& first = curves.first_copies();
+  CollapseIntersections intersections(blobs.surface, points, first);
+  for_each_collapse(43, {-4.0, 0.0, 0.4},
+                    [&](const std::vector<Collapse>& collapses, const EditableSurface& after,
+                        const std::vector<Vec3>& moved) {
+                      std::vector<Collapse> alike = collapses;
+                      for (Collapse& collapse : alike) collapse.height = Blobs::kInfinity;
+                      TriMesh whole{moved, {}};
+                      for (Index t = 0; t < after.count(); ++t) {
+                        if (after.is_removed(t)) continue;
+                        const Triangle k = after.triangle(t);
+                        whole.triangles.push_back({first[k[0]], first[k[1]], first[k[2]]});
+                      }
+                      const bool meets = !find_self_intersections(whole).empty();
+                      std::vector<Vec3> now = points;
+                      EXPECT_EQ(intersections.occur(blobs.surface, now, alike), meets);
+                      EXPECT_EQ(now, points);
+                      ++seen[meets ? 1 : 0];
+                    });
+}
+
+TEST(Curves, JoinNoPointsThatHaveEdgesInOtherPatches) {
+  const Blobs blobs;
+  int beside = 0;
+  for (const Patch& patch : cut_into_patches(cover_of(blobs.interfaces.surface), 5)) {
+    const Curves curves(blobs.interfaces, patch);
+    const EditableSurface surface(patch.points.size(), patch.cover.triangles);
+    std::set<Index> around;
+    for (const Triangle& t : patch.around) around.insert(t.begin(), t.end());
+    Index other = 0;
+    while (!curves.may_go(other)) ++other;
+    for (Index p = 0; p < std::ssize(patch.points); ++p) {
+      if (!curves.holds(p) || around.count(patch.points[p]) == 0) continue;
+      EXPECT_FALSE(curves.may_join(surface, p, other));
+      EXPECT_FALSE(curves.may_join(surface, other, p));
+      ++beside;
+    }
+  }
+  EXPECT_GT(beside, 10);
 }
 
 }  // namespace

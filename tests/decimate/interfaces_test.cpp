@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
+#include "mesamis/surface/half_edges.h"
 #include "support/label_grids.h"
 #include "support/throws.h"
 
@@ -108,6 +110,34 @@ TEST(Interfaces, RefuseWhatIsNoPartition) {
   EXPECT_REFUSED(cut_into_interfaces(bad), testing::HasSubstr("repeated corner"));
   bad.triangles[0][1] = 1 << 30;
   EXPECT_REFUSED(cut_into_interfaces(bad), testing::HasSubstr("point"));
+}
+
+TEST(Interfaces, KnowThePointsWithinCurves) {
+  const auto interfaces = cut_into_interfaces(
+      extract_partition_on_grid(smooth_memberships(random_blobs(14, 4, 4).grid())));
+  const auto& origin = interfaces.origin;
+  std::map<Index, std::set<Index>> neighbors;  // of the partition's points, along curves
+  const auto half_edges =
+      sorted_half_edges(interfaces.surface.triangles, interfaces.surface.points.size());
+  for_each_edge(half_edges, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 1) return;
+    neighbors[origin[edge[0].lo]].insert(origin[edge[0].hi]);
+    neighbors[origin[edge[0].hi]].insert(origin[edge[0].lo]);
+  });
+  int within = 0, ends = 0;
+  for (std::size_t p = 0; p < origin.size(); ++p) {
+    const std::size_t count = neighbors[origin[p]].size();
+    if (interfaces.within_curve[p] != 0) {
+      EXPECT_EQ(count, 2u);
+      ++within;
+    }
+    if (count > 2) {
+      EXPECT_EQ(interfaces.within_curve[p], 0);
+      ++ends;
+    }
+  }
+  EXPECT_GT(within, 100);
+  EXPECT_GT(ends, 10);
 }
 
 }  // namespace

@@ -28,19 +28,6 @@ Corners corners_at(const EditableSurface& surface, const std::vector<Vec3>& poin
   return {points[k[0]], points[k[1]], points[k[2]]};
 }
 
-/// From the kept point to what the triangles that go share with others there.
-template <class Visit>
-void for_each_side_at_kept(const EditableSurface& surface, const Collapse& collapse,
-                           Visit&& visit) {
-  const Index h = collapse.half_edge, o = surface.opposite(h);
-  if (surface.to(h) == collapse.kept) {
-    visit(EditableSurface::next(h), true);
-  } else {
-    visit(EditableSurface::previous(h), false);
-  }
-  if (o != kNoIndex) visit(EditableSurface::previous(o), false);
-}
-
 double creases_before(const EditableSurface& surface, const std::vector<Vec3>& points,
                       const std::vector<Vec3>& normals, const Collapse& collapse) {
   double sum = 0;

@@ -18,8 +18,8 @@ struct Collapse {
   bool moves = false;           ///< whether that is another place
   bool at_rim = false;          ///< whether both points go on along a rim
   std::array<Index, 2> gone{};  ///< the triangles that go; at a rim the second is kNoIndex
-  /// The triangles that change, counter-clockwise around the edge, from the left end of it on, at a rim
-  /// from that: around the point that goes, and, if the other moves, around that too. Their first
+  /// The triangles that change, counter-clockwise around the edge, from its left end or from the
+  /// rim on: around the point that goes, and, if the other moves, around that too. Their first
   /// corner is the point that changes.
   std::vector<Index> faces;
   std::vector<Index> outer;    ///< of each of these, the half-edge opposite to that corner
@@ -40,6 +40,20 @@ void describe(const EditableSurface& surface, const std::vector<Vec3>& points, I
 /// @param removed  one of its ends.
 void describe_at_rim(const EditableSurface& surface, const std::vector<Vec3>& points, Index h,
                      Index removed, const Vec3& place, Collapse& collapse);
+
+/// Calls visit(half-edge, is first) for the sides of the triangles that go which remain at the kept
+/// point: where it does not move, the first or the last triangle that changes comes to lie there.
+template <class Visit>
+void for_each_side_at_kept(const EditableSurface& surface, const Collapse& collapse,
+                           Visit&& visit) {
+  const Index h = collapse.half_edge, o = surface.opposite(h);
+  if (surface.to(h) == collapse.kept) {
+    visit(EditableSurface::next(h), true);
+  } else {
+    visit(EditableSurface::previous(h), false);
+  }
+  if (o != kNoIndex) visit(EditableSurface::previous(o), false);
+}
 
 /// The share of an edge in the creases of a surface: its length, mm, times by how much the cosine
 /// between the triangles beside it, of these unit normals, is less than kCrease.

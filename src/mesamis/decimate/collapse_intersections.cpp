@@ -117,16 +117,14 @@ bool CollapseIntersections::occur(const EditableSurface& surface, std::vector<Ve
   bool found = false;
   for (std::size_t c = 0; c < collapses.size() && !found; ++c) {
     const Collapse& collapse = collapses[c];
-    const bool folds = std::isinf(collapse.height);
+    const bool folds = std::isinf(collapse.height);  // at rims always
     for (std::size_t i = 0; i < collapse.faces.size() && !found; ++i) {
       const Index h = collapse.outer[i];
-      const Changed own{
-          {collapse.kept, surface.from(h), surface.to(h)}, collapse.after[i], collapse};
+      const Changed own{{collapse.kept, surface.from(h), surface.to(h)}, collapse.after[i]};
       found = meets_others(points, own) ||
-              std::any_of(changed_.begin(), changed_.end(), [&](const Changed& other) {
-                return (folds || &other.collapse != &collapse) &&
-                       meets(points, own.triangle, other.triangle);
-              });
+              (folds && std::any_of(changed_.begin(), changed_.end(), [&](const Changed& other) {
+                 return meets(points, own.triangle, other.triangle);
+               }));
       changed_.push_back(own);
     }
   }

@@ -29,7 +29,6 @@ class CollapseIntersections {
   struct Changed {
     Triangle triangle;
     const Corners& corners;
-    const Collapse& collapse;
   };
 
   bool meets(const std::vector<Vec3>& points, const Triangle& a, const Triangle& b) const;

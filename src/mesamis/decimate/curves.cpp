@@ -8,8 +8,8 @@
 namespace mesamis::detail::decimate {
 namespace {
 
-/// What an interface shows at the edges of a curve that a collapse changes: beyond the point that goes,
-/// between both, and beyond the other.
+/// What an interface shows at the edges of a curve that a collapse changes: beyond the point that
+/// goes, between both, and beyond the other.
 struct Side {
   bool forward;                ///< whether its rim runs from the point that goes to the other
   std::array<Vec3, 3> before;  ///< normals
@@ -32,10 +32,29 @@ Side side_of(const EditableSurface& surface, const std::vector<Vec3>& points,
   return side;
 }
 
+/// Of each point of a patch 1 if other patches have triangles there, too.
+std::vector<char> points_around(const Patch& patch) {
+  std::vector<char> shared(patch.points.size(), 0);
+  for (const Triangle& t : patch.around) {
+    for (const Index p : t) {
+      const auto found = std::lower_bound(patch.points.begin(), patch.points.end(), p);
+      if (found == patch.points.end() || *found != p) continue;
+      shared[static_cast<std::size_t>(found - patch.points.begin())] = 1;
+    }
+  }
+  return shared;
+}
+
+Index copies_of(const Interfaces& interfaces, Index point) {
+  const auto& firsts = interfaces.first_copy;  // never falls
+  const auto [begin, end] = std::equal_range(firsts.begin(), firsts.end(), firsts[point]);
+  return static_cast<Index>(end - begin);
+}
+
 }  // namespace
 
 Curves::Curves(const Interfaces& interfaces, const Patch& patch)
-    : is_whole_(patch.points.size(), 0) {
+    : has_all_edges_(patch.points.size(), 0) {
   const auto end = static_cast<Index>(patch.points.size());
   for (Index p = 0; p < end; ++p) {
     const Index first = interfaces.first_copy[patch.points[p]];
@@ -44,22 +63,20 @@ Curves::Curves(const Interfaces& interfaces, const Patch& patch)
     at_rim_.push_back(interfaces.at_rim[patch.points[p]]);
     may_go_.push_back(interfaces.within_curve[patch.points[p]]);
   }
+  const std::vector<char> shared = points_around(patch);
   for (Index p = 0; p < end; ++p) {
     if (first_copies_[p] != p) continue;
-    const Index first = interfaces.first_copy[patch.points[p]];
-    Index here = 0, all = 0;
-    bool held = false;
+    Index here = 0;
+    bool held = false, beside = false;
     for_each_copy(p, [&](Index q) {
       ++here;
       held |= patch.held[q] != 0;
+      beside |= shared[q] != 0;
     });
-    while (first + all < std::ssize(interfaces.first_copy) &&
-           interfaces.first_copy[first + all] == first) {
-      ++all;
-    }
+    const bool all = here == copies_of(interfaces, patch.points[p]) && !beside;
     for_each_copy(p, [&](Index q) {
-      is_whole_[q] = here == all ? 1 : 0;
-      if (held || here < all) may_go_[q] = 0;
+      has_all_edges_[q] = all ? 1 : 0;
+      if (held || !all) may_go_[q] = 0;
     });
   }
 }
@@ -118,15 +135,19 @@ bool bends_curve(const EditableSurface& surface, const std::vector<Vec3>& normal
   for (std::size_t i = 0; i < collapse.faces.size(); ++i) {
     if (bends(collapse.outer[i], collapse.after[i])) return true;
   }
-  const Index o = surface.opposite(collapse.half_edge);
-  return !collapse.moves &&
-         (bends(EditableSurface::next(collapse.half_edge), collapse.after.front()) ||
-          bends(EditableSurface::previous(o), collapse.after.back()));
+  bool any = false;
+  if (!collapse.moves) {
+    for_each_side_at_kept(surface, collapse, [&](Index h, bool is_first) {
+      any |= bends(h, is_first ? collapse.after.front() : collapse.after.back());
+    });
+  }
+  return any;
 }
 
 bool spoils_curve(const EditableSurface& surface, const std::vector<Vec3>& points,
                   const std::vector<Vec3>& normals, const std::vector<Collapse>& collapses) {
   std::vector<Side> sides;
+  sides.reserve(collapses.size());
   for (const Collapse& c : collapses) sides.push_back(side_of(surface, points, normals, c));
   const Collapse& one = collapses[0];
   const Vec3 &a = points[one.removed], &b = points[one.kept];

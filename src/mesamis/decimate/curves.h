@@ -20,14 +20,15 @@ class Curves {
 
   /// Of the copies of each point, the first one in the patch.
   const std::vector<Index>& first_copies() const { return first_copies_; }
-  /// Whether two points on curves may get an edge: they have none yet in any interface.
+  /// Whether two points on curves may get an edge: the patch has all edges of both, and none
+  /// between them in any interface.
   bool may_join(const EditableSurface& surface, Index a, Index b) const {
-    return is_whole_[a] != 0 && is_whole_[b] != 0 && !has_edge(surface, a, b);
+    return has_all_edges_[a] != 0 && has_all_edges_[b] != 0 && !has_edge(surface, a, b);
   }
   /// Whether a point is on a curve, or one of copies.
   bool holds(Index p) const { return at_rim_[p] != 0; }
-  /// Whether a point of a curve may go along it: it is one within a curve, all its copies are in the
-  /// patch, and none is held.
+  /// Whether a point may go along its curve: it is one within a curve, the patch has all its copies
+  /// and edges, and holds none.
   bool may_go(Index p) const { return may_go_[p] != 0; }
 
   /// Calls visit(q) for the copies of a point in the patch, in order.
@@ -37,12 +38,12 @@ class Curves {
     for (Index q = first_copies_[p]; q < end && first_copies_[q] == first_copies_[p]; ++q) visit(q);
   }
 
-  /// The half-edges of the interfaces at an edge of a curve, increasing.
-  /// @param h  one of them: all others are found if one of its ends may go.
+  /// The half-edges of the interfaces at an edge of a curve, increasing: those in the patch.
+  /// @param h  one of them.
   std::vector<Index> half_edges_at(const EditableSurface& surface, Index h) const;
 
-  /// Whether each interface stays a 2-manifold with as many rims, and any two points have an edge in the
-  /// same interfaces, when one end of an edge of a curve is collapsed onto the other.
+  /// Whether one end of an edge of a curve may be collapsed onto the other: each interface stays a
+  /// 2-manifold with as many rims, and no two interfaces get the same edge but along curves.
   /// @param half_edges  of half_edges_at().
   /// @param removed     a copy of a point that may go.
   bool may_collapse(const EditableSurface& surface, const std::vector<Index>& half_edges,
@@ -58,17 +59,17 @@ class Curves {
   bool has_edge(const EditableSurface& surface, Index a, Index b) const;
 
   std::vector<Index> first_copies_;
-  std::vector<char> at_rim_, may_go_, is_whole_;  // the last: all copies are in the patch
+  std::vector<char> at_rim_, may_go_, has_all_edges_;
 };
 
-/// Whether an edge of a curve between two interfaces would become a crease, see kCrease, by a collapse
-/// inside one of them that changes triangles at its rim.
+/// Whether an edge of a curve between two interfaces would become a crease, see kCrease, by a
+/// collapse that changes a triangle there but not the edge.
 /// @param normals  of each triangle, unit length or 0.
 bool bends_curve(const EditableSurface& surface, const std::vector<Vec3>& normals,
                  const Curves& curves, const Collapse& collapse);
 
-/// Whether creases between two interfaces would grow by more than a tenth where an edge of a curve is
-/// collapsed.
+/// Whether creases between two interfaces would grow by more than a tenth where an edge of a curve
+/// is collapsed.
 /// @param normals    as above.
 /// @param collapses  of this edge, one for each interface.
 bool spoils_curve(const EditableSurface& surface, const std::vector<Vec3>& points,

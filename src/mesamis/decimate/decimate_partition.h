@@ -9,8 +9,9 @@ namespace mesamis::detail::decimate {
 /// Reduces the number of triangles of several objects at once, within a tolerance.
 ///
 /// The boundaries are cut into interfaces along the curves where three or more objects meet (or two
-/// and the outside of the box). Each interface is decimated as decimate() does; an edge of a curve is
-/// collapsed in all interfaces that meet there at once. So objects go on sharing their triangles.
+/// and the outside of the box). Each interface is decimated as decimate() does; an edge of a curve
+/// is collapsed in all interfaces that meet there at once. So objects go on sharing their
+/// triangles.
 ///
 /// The result always keeps these properties: each object is closed and 2-manifold if it was, and
 /// has as many components and handles; no pair of triangles intersects unless it did before, within

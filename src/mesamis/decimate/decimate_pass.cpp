@@ -34,11 +34,6 @@ constexpr double kHopeless = 1.3;
 /// So often refused collapses are tried again where the surface has changed.
 constexpr int kMostRounds = 12;
 
-/// Of the points of a patch, which of them are at one place.
-std::vector<Index> first_copies(const std::optional<Curves>& curves) {
-  return curves ? curves->first_copies() : std::vector<Index>{};
-}
-
 std::optional<Curves> curves_of(const DecimateTask& task, const Patch& patch) {
   if (!task.interfaces) return std::nullopt;
   return Curves(*task.interfaces, patch);
@@ -52,7 +47,7 @@ class Pass {
         held_(patch.held),
         surface_(points_.size(), patch.cover.triangles),
         curves_(curves_of(task, patch)),
-        intersections_(surface_, points_, first_copies(curves_)),
+        intersections_(surface_, points_, curves_ ? curves_->first_copies() : std::vector<Index>{}),
         stamps_(points_.size(), 0),
         is_woken_(points_.size(), 0),
         planes_(points_.size()),
@@ -307,8 +302,8 @@ class Pass {
   bool may_become_at_curve(Index h, bool b_goes, const Vec3& place) {
     const Index removed = b_goes ? surface_.to(h) : surface_.from(h);
     const std::vector<Index> half_edges = curves_->half_edges_at(surface_, h);
-    const auto count = std::ssize(half_edges);
-    if (left_ - count + 1 < task_.triangles) return false;
+    if (left_ - std::ssize(half_edges) + 2 < task_.triangles)
+      return false;  // too few would be left
     if (!curves_->may_collapse(surface_, half_edges, removed)) return false;
     collapses_.resize(half_edges.size());
     for (std::size_t n = 0; n < half_edges.size(); ++n) {
@@ -316,7 +311,11 @@ class Pass {
                       curves_->copy_at(surface_, half_edges[n], removed), place, collapses_[n]);
       if (spoils_shape(collapses_[n])) return false;
     }
-    return !bound_ || !spoils_curve(surface_, points_, normals_, collapses_);
+    return !bound_ ||
+           !(spoils_curve(surface_, points_, normals_, collapses_) ||
+             std::any_of(collapses_.begin(), collapses_.end(), [this](const Collapse& c) {
+               return bends_curve(surface_, normals_, *curves_, c);
+             }));
   }
 
   bool spoils_shape(const Collapse& collapse) const {
@@ -343,7 +342,8 @@ class Pass {
       lines_[first[collapses_[0].kept]] += lines_[first[collapses_[0].removed]];
     }
     for (const Collapse& collapse : collapses_) {
-      // Of several interfaces each has its own proof, of which only the last is at hand.
+      // Of several interfaces each has its own proof, of which only the last is at hand: it is
+      // found again, for the others change nothing in this one.
       if (bound_ && at_curve) bound_->allows(surface_, points_, collapse);
       apply(collapse);
       const auto see = [&](Index h, Index neighbor) {

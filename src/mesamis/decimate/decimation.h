@@ -7,8 +7,8 @@
 
 namespace mesamis::detail::decimate {
 
-/// Triangles of a patch, about; more where the surface is very large. Surfaces of less than two are one
-/// patch.
+/// Triangles of a patch, about; more where the surface is very large. Surfaces of less than two are
+/// one patch.
 inline constexpr double kTrianglesPerPatch = 40'000;
 
 /// Checks the options of decimate() and decimate_partition().
@@ -35,7 +35,7 @@ Cover decimate_surface(const TriMesh& surface, const DecimateOptions& options,
 Cover decimate_patches(const TriMesh& original, Cover part, const std::vector<char>& held,
                        const DecimateOptions& options, double triangles_per_patch);
 
-/// The same for interfaces, whose points at rims stay.
+/// The same for interfaces: where curves meet, points stay.
 /// @return over the points of the interfaces.
 TriMesh decimate_interfaces(const Interfaces& interfaces, const DecimateOptions& options,
                             double triangles_per_patch, PatchworkReport& report);

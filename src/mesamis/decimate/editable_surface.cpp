@@ -80,11 +80,11 @@ bool EditableSurface::may_collapse_at_rim(Index h, Index removed) const {
     if (q == a || q == apex) return;
     for_each_neighbor(a, [&](Index k) { common += k == q ? 1 : 0; });
   });
-  return common == 0 && !(is_inner(apex) && triangles_at(apex) <= 3);
+  return common == 0;
 }
 
-/// Removes the triangle of a half-edge, two of whose corners have become one, and joins what lies beside
-/// its other two sides.
+/// Removes the triangle of a half-edge, two of whose corners have become one, and joins what lies
+/// beside its other two sides.
 void EditableSurface::remove_triangle_at(Index h) {
   const Index after = opposite_[next(h)], before = opposite_[previous(h)];
   link(after, before);

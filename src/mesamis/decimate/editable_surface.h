@@ -65,8 +65,8 @@ class EditableSurface {
   /// Removes the first point of a half-edge and the triangles on both sides of it.
   void collapse(Index h);
 
-  /// The same for a half-edge at a rim of which one end is to go: whether the surface stays a 2-manifold
-  /// with as many rims.
+  /// The same for a half-edge at a rim of which one end is to go: whether the surface stays a
+  /// 2-manifold with as many rims.
   bool may_collapse_at_rim(Index h, Index removed) const;
 
   /// Removes one end of a half-edge at a rim and the triangle beside it.

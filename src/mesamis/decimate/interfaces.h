@@ -16,7 +16,7 @@ struct Interfaces {
   std::vector<Index> origin;      ///< of each point: that of the partition; never falls
   std::vector<Index> first_copy;  ///< of each point: the first one of the same origin
   std::vector<char> at_rim;       ///< of each point, 1 if it is on a rim, or one of copies
-  /// Of each point of these, 1 if it may leave the curve that it is on: three interfaces or more, all
+  /// Of each point, 1 if it is within a curve, not at an end: three interfaces or more, all
   /// different, go on through it to the same two points, and no other touches it.
   std::vector<char> within_curve;
   std::vector<Index> of_point;  ///< the interface of each point; numbered in the order of points

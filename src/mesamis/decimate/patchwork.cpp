@@ -88,7 +88,10 @@ class Patchwork {
     return cover;
   }
 
-  static bool is_new(const Triangle& t, const Patch& patch) {
+  /// Whether a triangle was not there before, or a corner of it has moved.
+  static bool is_new(const Triangle& t, const Cover& done, const Patch& patch) {
+    const auto has_moved = [&](Index p) { return done.points[p] != patch.cover.points[p]; };
+    if (std::any_of(t.begin(), t.end(), has_moved)) return true;
     const auto is_same = [&t](const Triangle& before) {
       return std::is_permutation(t.begin(), t.end(), before.begin());
     };
@@ -121,7 +124,7 @@ class Patchwork {
         const std::size_t k = patch_of(t);
         const auto& triangles = done_[k].triangles;
         const std::size_t n = static_cast<std::size_t>(t) + triangles.size() - ends[k];
-        if (is_new(triangles[n], patches_[k])) meeting[k].push_back(n);
+        if (is_new(triangles[n], done_[k], patches_[k])) meeting[k].push_back(n);
       }
     }
     return meeting;
