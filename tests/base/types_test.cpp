@@ -50,5 +50,13 @@ TEST(Box, HoldsItsFacesAndNothingThatIsNoNumber) {
   EXPECT_FALSE(box.contains({std::numeric_limits<double>::quiet_NaN(), 1, 1}));
 }
 
+TEST(PerpendicularTo, IsAcrossAndOfUnitLength) {
+  for (const Vec3& n : {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.6, 0, 0.8}, {0.48, -0.6, 0.64}}) {
+    EXPECT_NEAR(dot(perpendicular_to(n), n), 0, 1e-15);
+    EXPECT_NEAR(norm(perpendicular_to(n)), 1, 1e-15);
+  }
+  EXPECT_EQ(perpendicular_to({0, 0, 0}), (Vec3{0, 0, 0}));
+}
+
 }  // namespace
 }  // namespace mesamis

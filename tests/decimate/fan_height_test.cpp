@@ -54,7 +54,7 @@ void for_each_inner(const TriMesh& mesh, Visit visit) {
         const Index o = collapse.outer[i];
         after.triangles.push_back({collapse.kept, now.surface.from(o), now.surface.to(o)});
       }
-      for (const Index t : collapse.gone) before.triangles.push_back(now.surface.triangle(t));
+      for (const Index t : collapse.gone()) before.triangles.push_back(now.surface.triangle(t));
       visit(fan_height(now.surface, mesh.points, collapse), before, after);
     }
   }

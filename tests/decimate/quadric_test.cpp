@@ -23,6 +23,17 @@ TEST(Quadric, IsTheSumOfSquaredDistances) {
   EXPECT_EQ(q.weight, 8);
 }
 
+TEST(Quadric, OfALineIsTheSquaredDistanceFromIt) {
+  for (const Vec3& along : {Vec3{1, 0, 0}, {0, 0, 1}, {0.6, 0, 0.8}, {0.48, 0.6, 0.64}}) {
+    Quadric q;
+    const Vec3 on{1, -2, 3}, x{0.3, 0.4, -0.7};
+    q.add_line(on, along, 5);
+    const Vec3 way = x - on, across = way - dot(way, along) * along;
+    EXPECT_NEAR(q.at(x), 5 * dot(across, across), 1e-12);
+    EXPECT_NEAR(q.at(on + 4 * along), 0, 1e-12);
+  }
+}
+
 TEST(Minimum, IsWhereThePlanesMeet) {
   const Vec3 x = minimum(corner(), {0, 0, 0}, 1e-9, {});
   EXPECT_NEAR(norm(x - Vec3{1, 2, 3}), 0, 1e-6);

@@ -65,6 +65,10 @@ inline Vec3 unit_or_zero(const Vec3& v) noexcept {
   const double length = norm(v);
   return length > 0 ? (1 / length) * v : Vec3{};
 }
+/// A direction across another one, both of unit length; 0 for 0.
+inline Vec3 perpendicular_to(const Vec3& n) noexcept {
+  return unit_or_zero(cross(n, std::abs(n.z) < 0.5 ? Vec3{0, 0, 1} : Vec3{1, 0, 0}));
+}
 
 /// The outer product v v^T, in the square of the unit of v.
 inline Sym3 outer(const Vec3& v) noexcept {

@@ -124,7 +124,7 @@ void describe(const EditableSurface& surface, const std::vector<Vec3>& points, I
   start(h, surface.from(h), surface.to(h), place, points[surface.to(h)], collapse);
   const Index o = surface.opposite(h);
   collapse.at_rim = false;
-  collapse.gone = {h / 3, o / 3};
+  collapse.beside = {h / 3, o / 3};
   const auto go_round = [&](Index first, Index last) {
     for (Index g = surface.rotated(first); g != last; g = surface.rotated(g)) {
       add_face(surface, points, g, collapse);
@@ -137,10 +137,10 @@ void describe(const EditableSurface& surface, const std::vector<Vec3>& points, I
 void describe_at_rim(const EditableSurface& surface, const std::vector<Vec3>& points, Index h,
                      Index removed, const Vec3& place, Collapse& collapse) {
   const bool is_first = surface.from(h) == removed;
-  const Index kept = is_first ? surface.to(h) : surface.from(h);
+  const Index kept = surface.other_end(h, removed);
   start(h, removed, kept, place, points[kept], collapse);
   collapse.at_rim = true;
-  collapse.gone = {h / 3, kNoIndex};
+  collapse.beside = {h / 3, kNoIndex};
   const auto go_round = [&](Index p) {
     surface.for_each_leaving(p, [&](Index g) {
       if (g / 3 != h / 3) add_face(surface, points, g, collapse);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "mesamis/decimate/editable_surface.h"
@@ -14,10 +15,11 @@ namespace mesamis::detail::decimate {
 struct Collapse {
   /// Inside the surface it runs from the point that goes to the other one.
   Index half_edge = kNoIndex, removed = kNoIndex, kept = kNoIndex;
-  Vec3 place{0, 0, 0};          ///< of the kept point from now on, mm
-  bool moves = false;           ///< whether that is another place
-  bool at_rim = false;          ///< whether both points go on along a rim
-  std::array<Index, 2> gone{};  ///< the triangles that go; at a rim the second is kNoIndex
+  Vec3 place{0, 0, 0};  ///< of the kept point from now on, mm
+  bool moves = false;   ///< whether that is another place
+  bool at_rim = false;  ///< whether both points go on along a rim
+  std::array<Index, 2>
+      beside{};  ///< triangles of the edge, see gone(); at a rim one, then kNoIndex
   /// The triangles that change, counter-clockwise around the edge, from its left end or from the
   /// rim on: around the point that goes, and, if the other moves, around that too. Their first
   /// corner is the point that changes.
@@ -27,6 +29,9 @@ struct Collapse {
   /// Between the triangles before and after, see fan_height(), mm; infinity: one of both folds over
   /// itself.
   double height = 0;
+
+  /// The triangles that go.
+  std::span<const Index> gone() const { return {beside.data(), at_rim ? 1u : 2u}; }
 };
 
 /// Describes a collapse.

@@ -79,7 +79,7 @@ void CollapseIntersections::look_near(const EditableSurface& surface,
   }
   const auto changes = [&collapses](Index t) {
     return std::any_of(collapses.begin(), collapses.end(), [t](const Collapse& c) {
-      return t == c.gone[0] || t == c.gone[1] ||
+      return t == c.beside[0] || t == c.beside[1] ||
              std::find(c.faces.begin(), c.faces.end(), t) != c.faces.end();
     });
   };
@@ -133,9 +133,7 @@ bool CollapseIntersections::occur(const EditableSurface& surface, std::vector<Ve
 }
 
 void CollapseIntersections::apply(const Collapse& collapse) {
-  for (const Index t : collapse.gone) {
-    if (t != kNoIndex) tree_.update(static_cast<std::size_t>(t), kNoBox);
-  }
+  for (const Index t : collapse.gone()) tree_.update(static_cast<std::size_t>(t), kNoBox);
   for (std::size_t i = 0; i < collapse.faces.size(); ++i) {
     tree_.update(static_cast<std::size_t>(collapse.faces[i]), bounding_box(collapse.after[i]));
   }

@@ -107,8 +107,7 @@ bool Curves::may_collapse(const EditableSurface& surface, const std::vector<Inde
                           Index removed) const {
   return std::all_of(half_edges.begin(), half_edges.end(), [&](Index h) {
     const Index a = copy_at(surface, h, removed);
-    const Index b = a == surface.to(h) ? surface.from(h) : surface.to(h);
-    const Index apex = surface.from(EditableSurface::previous(h));
+    const Index b = surface.other_end(h, a), apex = surface.from(EditableSurface::previous(h));
     if (!surface.may_collapse_at_rim(h, a)) return false;
     bool joins = false;
     surface.for_each_neighbor(a, [&](Index q) {

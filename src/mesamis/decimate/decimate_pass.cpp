@@ -132,14 +132,10 @@ class Pass {
     for (Index h = 0; h < 3 * surface_.count(); ++h) {
       if (!is_at_curve(h) || first_at_curve(h) != h) continue;
       const Vec3 &a = points_[surface_.from(h)], &b = points_[surface_.to(h)];
-      const Vec3 way = b - a, along = unit_or_zero(way);
-      const bool steep = std::abs(along.z) < 0.5;
-      const Vec3 n = unit_or_zero(cross(along, steep ? Vec3{0, 0, 1} : Vec3{1, 0, 0}));
-      for (const Vec3& across : {n, cross(along, n)}) {
-        for (const Index p : {surface_.from(h), surface_.to(h)}) {
-          lines_[curves_->first_copies()[p]].add_plane(across, dot(across, a - origin_),
-                                                       dot(way, way) / 6);
-        }
+      const Vec3 way = b - a;
+      for (const Index p : {surface_.from(h), surface_.to(h)}) {
+        lines_[curves_->first_copies()[p]].add_line(a - origin_, unit_or_zero(way),
+                                                    dot(way, way) / 6);
       }
     }
   }
@@ -346,16 +342,12 @@ class Pass {
       // found again, for the others change nothing in this one.
       if (bound_ && at_curve) bound_->allows(surface_, points_, collapse);
       apply(collapse);
-      const auto see = [&](Index h, Index neighbor) {
+      surface_.for_each_edge_at(collapse.kept, [&](Index h, Index neighbor) {
         for (const Index k : {h, surface_.opposite(h)}) {
           if (k != kNoIndex) around.push_back(k);
         }
         wake(neighbor);
-      };
-      surface_.for_each_leaving(collapse.kept, [&](Index h) { see(h, surface_.to(h)); });
-      if (surface_.is_inner(collapse.kept)) continue;
-      const Index last = surface_.arriving_at_rim(collapse.kept);
-      see(last, surface_.from(last));
+      });
     }
     push(around);
   }
@@ -387,10 +379,9 @@ class Pass {
     std::vector<Index> around;
     for (const Index p : woken_) {
       is_woken_[p] = 0;
-      surface_.for_each_leaving(p, [&](Index h) {
+      surface_.for_each_edge_at(p, [&](Index h, Index) {
         const Index o = surface_.opposite(h);
         around.push_back(o != kNoIndex ? std::min(h, o) : h);
-        if (surface_.rotated(h) == kNoIndex) around.push_back(EditableSurface::previous(h));
       });
     }
     woken_.clear();

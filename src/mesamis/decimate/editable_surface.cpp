@@ -105,7 +105,7 @@ void EditableSurface::collapse(Index h) {
 
 void EditableSurface::collapse_at_rim(Index h, Index removed) {
   const bool is_last = to(h) == removed;
-  const Index kept = is_last ? from(h) : to(h);
+  const Index kept = other_end(h, removed);
   for_each_leaving(removed, [&](Index g) { corners_[g] = kept; });
   if (is_last) {
     leaving_[kept] = leaving_[removed];

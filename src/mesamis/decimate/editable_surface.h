@@ -20,6 +20,8 @@ class EditableSurface {
   static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
   Index from(Index h) const { return corners_[h]; }
   Index to(Index h) const { return corners_[next(h)]; }
+  /// Of a half-edge's ends the one that is not given.
+  Index other_end(Index h, Index end) const { return from(h) == end ? to(h) : from(h); }
   /// kNoIndex at a rim.
   Index opposite(Index h) const { return opposite_[h]; }
   /// kNoIndex of a point without triangles.
@@ -49,13 +51,20 @@ class EditableSurface {
     }
   }
 
+  /// Calls visit(h, q) for the edges of a point, each once, and their other ends, in
+  /// counter-clockwise order: by half-edges that leave it, the last at a rim by one that arrives.
+  template <class Visit>
+  void for_each_edge_at(Index point, Visit&& visit) const {
+    for_each_leaving(point, [&](Index h) {
+      visit(h, to(h));
+      if (rotated(h) == kNoIndex) visit(previous(h), from(previous(h)));
+    });
+  }
+
   /// Calls visit(q) for the points that share an edge with a point, each once.
   template <class Visit>
   void for_each_neighbor(Index point, Visit&& visit) const {
-    for_each_leaving(point, [&](Index h) {
-      visit(to(h));
-      if (rotated(h) == kNoIndex) visit(from(previous(h)));
-    });
+    for_each_edge_at(point, [&](Index, Index q) { visit(q); });
   }
 
   /// Whether the surface stays a 2-manifold, without triangles that coincide, when the first point of

@@ -37,8 +37,7 @@ class View {
     Vec3 normal{0, 0, 0};
     for (const Corners& t : collapse.after) normal += cross(t[1] - t[0], t[2] - t[0]);
     normal = unit_or_zero(normal);
-    const bool steep = std::abs(normal.z) < 0.5;
-    const Vec3 side = unit_or_zero(cross(normal, steep ? Vec3{0, 0, 1} : Vec3{1, 0, 0}));
+    const Vec3 side = perpendicular_to(normal);
     const Vec3 up = cross(normal, side);
     const auto see = [&](const Vec3& p) {
       const Vec3 d = p - collapse.place;

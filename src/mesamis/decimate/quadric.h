@@ -29,6 +29,13 @@ struct Quadric {
     weight += w;
   }
 
+  /// Adds two planes through a point that meet in a line of this direction, of unit length.
+  void add_line(const Vec3& p, const Vec3& along, double w) {
+    const Vec3 n = perpendicular_to(along), m = cross(along, n);
+    add_plane(n, dot(n, p), w);
+    add_plane(m, dot(m, p), w);
+  }
+
   Quadric& operator+=(const Quadric& q) {
     xx += q.xx;
     xy += q.xy;

@@ -143,9 +143,7 @@ void TwoSidedBound::swap_after(const Collapse& collapse) {
 }
 
 void TwoSidedBound::apply(const Collapse& collapse) {
-  for (const Index t : collapse.gone) {
-    if (t != kNoIndex) lists_[t].clear();
-  }
+  for (const Index t : collapse.gone()) lists_[t].clear();
   for (std::size_t i = 0; i < collapse.faces.size(); ++i) {
     lists_[collapse.faces[i]].clear();
     bounds_[collapse.faces[i]] = next_[i];
@@ -182,9 +180,7 @@ void TwoSidedBound::gather(const Collapse& collapse) {
     }
   };
   for (const Index t : collapse.faces) add(t, t);
-  for (const Index t : collapse.gone) {
-    if (t != kNoIndex) add(t, collapse.faces[0]);
-  }
+  for (const Index t : collapse.gone()) add(t, collapse.faces[0]);
 }
 
 TwoSidedBound::Bounds TwoSidedBound::bounds_before(const Collapse& collapse) const {
@@ -194,9 +190,7 @@ TwoSidedBound::Bounds TwoSidedBound::bounds_before(const Collapse& collapse) con
     greatest.from_originals = std::max(greatest.from_originals, bounds_[t].from_originals);
   };
   for (const Index t : collapse.faces) see(t);
-  for (const Index t : collapse.gone) {
-    if (t != kNoIndex) see(t);
-  }
+  for (const Index t : collapse.gone()) see(t);
   return greatest;
 }
 
@@ -226,7 +220,7 @@ void TwoSidedBound::look_around(const EditableSurface& surface, const Collapse& 
   const auto see = [&](Index p) {
     surface.for_each_leaving(p, [&](Index h) {
       const Index t = h / 3;
-      if (t != collapse.gone[0] && t != collapse.gone[1]) add_once(around_number_, t);
+      if (t != collapse.beside[0] && t != collapse.beside[1]) add_once(around_number_, t);
     });
   };
   for (const Index h : collapse.outer) see(surface.from(h));
