@@ -8,6 +8,7 @@
 
 #include "fit/rough_ball.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/surface/extract_net.h"
 #include "mesamis/surface/grid_partition.h"
 #include "mesamis/surface/self_intersections.h"
 #include "mesamis/surface/smooth_memberships.h"
@@ -18,7 +19,10 @@
 namespace mesamis {
 namespace {
 
-TriMesh smoothed_ball(const TriMesh& start, const SmoothingOptions& options = {}) {
+/// Of points nearer to each other than those of a net, which is what the defaults are for.
+constexpr double kFine = 640;
+
+TriMesh smoothed_ball(const TriMesh& start, const SmoothingOptions& options = {.bending = kFine}) {
   const Links all(Neighbors(start).points.size(), 1);
   return smooth_surface(start, ball_image().grid, all, options);
 }
@@ -40,7 +44,7 @@ TEST(SmoothSurface, ASmallBallShrinksLessTheMoreRounds) {
   const TriMesh start = moved(ball_surface(2, 24), 0.5 * ball_image().grid.box().extent());
   double before = 0;
   for (const int rounds : {1, 2, 4}) {
-    const double volume = check_surface(smoothed_ball(start, {.rounds = rounds})).volume;
+    const double volume = check_surface(smoothed_ball(start, {.bending = kFine, .rounds = rounds})).volume;
     EXPECT_GT(volume, before) << rounds;
     before = volume;
   }
@@ -72,7 +76,7 @@ TEST(SmoothSurface, StepsOfThickSlicesGo) {
   const OwnedLabels labels = labels_where(
       {64, 64, 22}, {1, 1, 3}, [&](const Vec3& p) { return norm(p - centre) < 27 ? 1 : 0; });
   const PartitionSurface partition =
-      extract_partition_on_grid(smooth_memberships(labels.grid(), {.most_rounds = 0}));
+      extract_net_on_grid(smooth_memberships(labels.grid(), {.most_rounds = 0}));
   const TriMesh start = object_surface(partition, 1);
   VoxelGrid grid;
   grid.size = {64, 64, 22};
@@ -95,7 +99,7 @@ TEST(SmoothSurface, LabelsOfCubesAreSmoothedAsUsual) {
 
 TEST(SmoothSurface, NoPointMovesFarther) {
   const TriMesh start = rough_ball(kRadius);
-  const TriMesh smooth = smoothed_ball(start, {.reach = 0.2});
+  const TriMesh smooth = smoothed_ball(start, {.bending = kFine, .reach = 0.2});
   for (std::size_t p = 0; p < start.points.size(); ++p) {
     EXPECT_LE(norm(smooth.points[p] - start.points[p]), 0.2 + 1e-9);
   }

@@ -94,15 +94,20 @@ TEST_F(LabelTasks, FindThePartsOfTheWhole) {
 TEST_F(LabelTasks, ExtractTheBoundariesOfTheWhole) {
   for (const LabelMap& map : {touching_balls(), noisy_blobs()}) {
     const PartitionSurface whole = extract_partition_on_grid(whole_memberships(map));
+    const NetOptions of_net{.chosen = {0, 1}};
+    const PartitionSurface net = extract_net_on_grid(whole_memberships(map), of_net);
     ASSERT_FALSE(whole.triangles.empty());
     store_labels(scratch, map);
     const StoredLabels stored(scratch);
     const LabelBlock block = block_of(map);
     for (const Index slabs : {1, 3, 7}) {
-      const LayerRun run = begin(stored, block, cuts_into(block.size[2], slabs));
-      smooth(run);
+      LayerRun run = begin(stored, block, cuts_into(block.size[2], slabs));
       SCOPED_TRACE(slabs);
+      smooth(run);
       expect_same(joined_boundaries(run), whole);
+      run.net = of_net;
+      smooth(run);
+      expect_same(joined_boundaries(run), net);
     }
   }
 }
@@ -124,10 +129,11 @@ TEST_F(LabelTasks, HoldTheirSlicesAndThoseInReach) {
   EXPECT_EQ(find_wishes(run, 4).voxels, slice * (15 + 2 * 10));
   for (Index s = 0; s < 10; ++s) find_wishes(run, s);
   EXPECT_EQ(let_yield(run).voxels, slice * (15 + 2 * 2)) << "one slab at a time";
+  for (const Index s : {3, 5}) smooth_slab(run, s);
   EXPECT_EQ(smooth_slab(run, 4).voxels, slice * (15 + 1 + 2 * reach));
   const VolumeMatch match(volumes_of(run.parts.eighths, map.spacing), run.smoothing);
   EXPECT_EQ(measure_slab(run, match, 4).voxels, slice * (15 + 1));
-  EXPECT_EQ(extract_slab(run, match, 4).voxels, slice * (15 + 1));
+  EXPECT_EQ(extract_slab(run, match, 4).voxels, slice * (15 + 3));
 }
 
 }  // namespace

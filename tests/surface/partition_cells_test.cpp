@@ -39,7 +39,7 @@ TEST(PartitionCells, BlocksAreJoinedAtTheSitesTheyShare) {
   const std::vector<PartitionBlock> blocks{block_of(one), block_of(two)};
   const std::vector<Simplex> sites = all_sites(blocks);
   EXPECT_EQ(sites, (std::vector<Simplex>{a, c, b, d}));
-  const PartitionSurface partition = joined(blocks, sites);
+  const PartitionSurface partition = over_sites(blocks, sites);
   EXPECT_EQ(partition.triangles, (std::vector<Triangle>{{2, 1, 0}, {2, 0, 3}}));
   EXPECT_EQ(partition.sides, (std::vector<std::array<Index, 2>>{{0, 1}, {1, 4}}));
 }

@@ -14,6 +14,9 @@
 namespace mesamis::detail::fit {
 namespace {
 
+/// Of the rounds, how many of the last ones tell what smoothness has lost.
+constexpr int kRegained = 2;
+
 /// The rounds of fit_surface().
 class Fit {
  public:
@@ -27,11 +30,19 @@ class Fit {
         umbrella_(neighbors_, points.links),
         now_(start),
         springs_(springs_at(space_, start.points, 0)),
+        lost_(start.points.size()),
         blind_(start.points.size(), 0) {}
 
   void round() {
     aim();
     now_.points = relax(umbrella_, springs_, options_.bending, std::move(now_.points));
+  }
+
+  /// What the last round has lost, the goals of the next ones gain.
+  void regain() {
+    parallel_for(lost_.size(), [&](std::size_t p) {
+      if (springs_.held[p] == 0) lost_[p] = springs_.goal[p] - now_.points[p];
+    });
   }
 
   /// Points whose triangles meet, and those beside them, look for no edge any more: that of another
@@ -50,7 +61,9 @@ class Fit {
     if (!any_looked) return false;
     for (int ring = 0; ring < kBlindRings; ++ring) meets = greatest_around(neighbors_, meets);
     for (std::size_t p = 0; p < blind_.size(); ++p) {
-      if (meets[p] > 0) blind_[p] = 1;
+      if (meets[p] == 0) continue;
+      blind_[p] = 1;
+      lost_[p] = {};
     }
     return true;
   }
@@ -60,6 +73,7 @@ class Fit {
   TriMesh surface() {
     const std::vector<Vec3> fitted = now_.points;
     std::ranges::fill(blind_, char{1});
+    std::ranges::fill(lost_, Vec3{});
     now_.points = start_.points;
     round();
     const TriMesh smooth = moved_to(start_, now_.points);
@@ -94,7 +108,8 @@ class Fit {
       const double stay = (1 - edge.weight) * options_.start;
       const Vec3 seen = now_.points[p] + (edge.distance * space_.voxel()) * normals[p];
       springs_.weight[p] = edge.weight + stay;
-      springs_.goal[p] = (1 / springs_.weight[p]) * (edge.weight * seen + stay * start_.points[p]);
+      springs_.goal[p] = lost_[p] + (1 / springs_.weight[p]) *
+                                        (edge.weight * seen + stay * start_.points[p]);
     });
   }
 
@@ -106,6 +121,7 @@ class Fit {
   Umbrella umbrella_;
   TriMesh now_;
   Springs springs_;
+  std::vector<Vec3> lost_;   // by smoothness, so far
   std::vector<char> blind_;  // 1: looks for no edge
 };
 
@@ -122,7 +138,10 @@ TriMesh fit_surface(const TriMesh& surface, const SplineImage& image, const FitP
         "fit: expected an entry for each point of the surface and each neighbour of it");
   }
   Fit fit(surface, std::move(neighbors), image, points, options);
-  for (int round = 0; round < options.rounds; ++round) fit.round();
+  for (int round = 0; round < options.rounds; ++round) {
+    fit.round();
+    if (round + kRegained >= options.rounds) fit.regain();
+  }
   constexpr int kMostUnfoldings = 10;
   for (int trial = 0; trial < kMostUnfoldings && fit.blind_where_triangles_meet(); ++trial) {
     fit.round();

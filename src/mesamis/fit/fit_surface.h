@@ -32,7 +32,8 @@ struct FitPoints {
 /// In each round every point looks along its normal for an edge: at x_edge, with the weight w, 0
 /// where there is none and 1 where it is steep. Then all points move to the least of
 ///   sum of w |x - x_edge|^2 + (1 - w) start |x - x_start|^2 + bending |L x|^2
-/// with the umbrella operator L. Where the image shows an edge the surface lies on it; elsewhere the
+/// with the umbrella operator L; in the last rounds goals gain what smoothness has lost, see
+/// smooth_surface(). Where the image shows an edge the surface lies on it; elsewhere the
 /// place where it began and smoothness decide. Where triangles meet, as where two boundaries see the
 /// same edge, points around look for none any more, and rounds are added. In the end moves that would
 /// still make the surface meet itself are taken back, to where smoothness alone takes the start.

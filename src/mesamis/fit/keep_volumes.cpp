@@ -34,7 +34,7 @@ std::vector<double> sums_of_materials(Sides sides, double in_front, Function&& f
   return sums;
 }
 
-/// Of each material, but for a constant where its boundary is open on the box, mm^3.
+/// Of each material, mm^3.
 std::vector<double> volumes_of(const TriMesh& surface, Sides sides) {
   return sums_of_materials(sides, -1, [&](std::size_t t) {
     const auto [a, b, c] = corners_of(surface, surface.triangles[t]);
@@ -71,8 +71,8 @@ std::vector<double> shares_of_points(const TriMesh& surface, const std::vector<c
 
 }  // namespace
 
-TriMesh keep_volumes(const MovedBoundaries& boundaries, const VoxelGrid& grid) {
-  const auto& [before, now, sides, on_curve] = boundaries;
+TriMesh keep_volumes(const ObjectBoundaries& boundaries, const VoxelGrid& grid) {
+  const auto& [now, sides, on_curve, wanted, first] = boundaries;
   constexpr int kSteps = 4;
   constexpr double kMostVoxels = 0.4;
   const SurfaceSpace space(grid, 1);
@@ -80,11 +80,11 @@ TriMesh keep_volumes(const MovedBoundaries& boundaries, const VoxelGrid& grid) {
   for (std::size_t t = 0; t < sides.size(); ++t) {
     for (const Index p : now.triangles[t]) sides_of[p] = sides[t];
   }
-  const std::vector<double> wanted = volumes_of(before, sides);
   const std::vector<double> share = shares_of_points(now, on_curve);
   const double most = kMostVoxels * space.voxel();
-  std::vector<double> gone(wanted.size(), 0);  // by each boundary
+  std::vector<double> gone(std::min(wanted.size(), material_count(sides)), 0);  // by each boundary
   TriMesh moved = now;
+  for (std::size_t p = 0; p < first.size(); ++p) moved.points[p] += first[p];
   for (int round = 0; round < kSteps; ++round) {
     const std::vector<double> volumes = volumes_of(moved, sides),
                               areas = areas_of(moved, sides, share);
@@ -95,7 +95,7 @@ TriMesh keep_volumes(const MovedBoundaries& boundaries, const VoxelGrid& grid) {
       step[m] = std::clamp(goal, -most, most) - gone[m];
       gone[m] += step[m];
     }
-    const auto of = [&](Index m) { return m > 0 ? step[m] : 0.0; };
+    const auto of = [&](Index m) { return m > 0 && m < std::ssize(step) ? step[m] : 0.0; };
     const std::vector<Vec3> normals = vertex_normals(moved);
     parallel_for(moved.points.size(), [&](std::size_t p) {
       if (share[p] == 0 || space.on_box(moved.points[p])) return;

@@ -12,7 +12,7 @@ namespace mesamis::detail::fit {
 
 /// How a surface is smoothed.
 struct SmoothingOptions {
-  double bending = 640;  ///< weight of smoothness against the place where a point was, > 0
+  double bending = 110;  ///< weight of smoothness against the place where a point was, > 0
   int rounds = 5;        ///< at least 1: the more, the less of the shape is lost
   double reach = 1;      ///< voxels, > 0: how far a point may move
 };

@@ -5,6 +5,7 @@ set(ROOM_HEADERS
   fit_surface.h
   keep_volumes.h
   smooth_surface.h
+  split_bends.h
   surface_moves.h
   terraces.h)
 set(ROOM_SOURCES
@@ -14,5 +15,6 @@ set(ROOM_SOURCES
   image_edge.cpp
   keep_volumes.cpp
   smooth_surface.cpp
+  split_bends.cpp
   surface_moves.cpp
   terraces.cpp)

@@ -11,6 +11,7 @@
 #include "mesamis/fit/fit_surface.h"
 #include "mesamis/fit/keep_volumes.h"
 #include "mesamis/fit/smooth_surface.h"
+#include "mesamis/fit/split_bends.h"
 #include "mesamis/fit/surface_moves.h"
 #include "mesamis/method/sheet_links.h"
 
@@ -168,17 +169,23 @@ PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& i
   const TriMesh start = taken_from(partition);
   points.links = sheet_links(start, partition.sides, points.on_curve, through_curves(image.grid));
   for (const BoundaryGuide& guide : guides) points.contrast.push_back(guide.contrast);
-  TriMesh fitted = fit_surface(start, image, points, {.reach = reach});
-  return put_back(std::move(fitted), std::move(partition));
+  const TriMesh fitted = fit_surface(start, image, points, {.reach = reach});
+  SplitBoundaries split = split_bends(fitted, partition.sides, points.on_curve, image.grid);
+  const SurfaceSpace space(image.grid, 1);
+  TriMesh bent = moved_without_folds(space, split.surface, std::move(split.shifts));
+  return {std::move(bent.points), std::move(bent.triangles), std::move(split.sides)};
 }
 
-PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid) {
-  const std::vector<char> on_curve = curve_points(partition);
+PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid,
+                                   std::span<const double> volumes) {
+  std::vector<char> on_curve = curve_points(partition);
   const TriMesh start = taken_from(partition);
   const Links links = sheet_links(start, partition.sides, on_curve, through_curves(grid));
   const TriMesh smooth = smooth_surface(start, grid, links, smoothing_of_labels(grid));
-  TriMesh kept = keep_volumes({start, smooth, partition.sides, on_curve}, grid);
-  return put_back(std::move(kept), std::move(partition));
+  SplitBoundaries split = split_bends(smooth, partition.sides, on_curve, grid);
+  on_curve.resize(split.surface.points.size(), 0);
+  TriMesh kept = keep_volumes({split.surface, split.sides, on_curve, volumes, split.shifts}, grid);
+  return {std::move(kept.points), std::move(kept.triangles), std::move(split.sides)};
 }
 
 }  // namespace mesamis::detail::method

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesamis/image/spline_image.h"
@@ -63,10 +64,12 @@ PartitionSurface follow_image(PartitionSurface partition, const SplineImage& ima
 PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& image,
                                 const std::vector<BoundaryGuide>& guides, double reach);
 
-/// Smooths the boundaries of several objects, with what they share, and keeps the volume of each:
+/// Smooths the boundaries of several objects, with what they share, and gives each its volume:
 /// smooth_surface() and keep_volumes() for a partition.
-/// @param partition  in the grid's own axes, mm; without self-intersections.
+/// @param partition  in the grid's own axes, mm; without self-intersections; closed at its box.
+/// @param volumes    of each material, mm^3.
 /// @return the same triangles. Cost as smooth_surface().
-PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid);
+PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid,
+                                   std::span<const double> volumes);
 
 }  // namespace mesamis::detail::method

@@ -28,8 +28,10 @@
 #include "mesamis/method/label_mesh.h"
 #include "mesamis/method/passes.h"
 #include "mesamis/method/prepare.h"
+#include "mesamis/surface/extract_net.h"
 #include "mesamis/surface/grid_partition.h"
 #include "mesamis/surface/join_diagonals.h"
+#include "mesamis/surface/match_volumes.h"
 #include "mesamis/surface/select_parts.h"
 #include "mesamis/surface/smooth_memberships.h"
 
@@ -133,8 +135,16 @@ struct LabelRun {
     return method::starts_from_labels(settings, scan, request.map);
   }
   bool makes_mesh() const { return request.mesh && !settings.preview; }
+  /// Whether boundaries are smoothed where they are extracted.
+  bool smooths() const { return settings.fit && request.probabilities == nullptr; }
   void begin(const char* stage) const { begin_stage(progress, stage); }
 };
+
+/// The boundaries between objects; a net where they are smoothed.
+PartitionSurface extract(const LabelRun& run, Index layer, const GridMemberships& memberships) {
+  if (!run.smooths()) return extract_partition_on_grid(memberships);
+  return extract_net_on_grid(memberships, {.chosen = marks_of(run.chosen, layer)});
+}
 
 LabelBlock require_block(const LabelRun& run, const LabelMap& map) {
   if (run.request.extracted != nullptr) return run.request.extracted->block;
@@ -240,7 +250,7 @@ LayerBoundaries extract_in_image(const LabelRun& run, Index layer,
         flowed(run, memberships, {voxels.size, voxels.spacing, labels}, edges, found.converged);
   }
   if (run.makes_mesh()) found.image = label_image(memberships, voxels);
-  found.partition = extract_partition_on_grid(memberships);
+  found.partition = extract(run, layer, memberships);
   return found;
 }
 
@@ -262,29 +272,31 @@ LayerBoundaries place_by_image(const LabelRun& run, LayerBoundaries found, const
 }
 
 /// The boundaries between the labels of a layer, which may have the steps of their voxels.
-PartitionSurface extract_by_labels(const LabelRun& run, Index layer, const LabelBlock& block,
-                                   LabelResult::Seconds& seconds) {
+LayerPartition extract_by_labels(const LabelRun& run, Index layer, const LabelBlock& block,
+                                 LabelResult::Seconds& seconds) {
   if (run.request.extracted != nullptr) return run.request.extracted->of_layer(layer);
   Stopwatch watch;
   const LabelMap& map = run.request.map;
   auto labels = labels_in(map, layer, block);
   run.begin("smoothing the labels");
-  const GridMemberships memberships = without_image(run, grid_of(map, block), labels);
+  const VoxelGrid grid = grid_of(map, block);
+  const GridMemberships memberships = without_image(run, grid, labels);
   seconds.flow += watch.lap();
   run.begin("surface");
-  PartitionSurface partition = extract_partition_on_grid(memberships);
+  LayerPartition found{extract(run, layer, memberships),
+                       volumes_of(label_eighths({grid.size, grid.spacing, labels}), grid.spacing)};
   seconds.surface += watch.lap();
-  return partition;
+  return found;
 }
 
 /// Boundaries of the chosen labels, smooth.
 /// @param grid  of the block that they were extracted in.
 LayerBoundaries place_by_labels(const LabelRun& run, Index layer, const VoxelGrid& grid,
-                                PartitionSurface partition) {
-  std::vector<BoundaryGuide> none(partition.points.size());
-  partition = only_chosen(partition, marks_of(run.chosen, layer), none);
-  const bool has_steps = run.request.probabilities == nullptr;
-  if (run.settings.fit && has_steps) partition = smooth_boundaries(std::move(partition), grid);
+                                const LayerPartition& extracted) {
+  std::vector<BoundaryGuide> none(extracted.partition.points.size());
+  PartitionSurface partition =
+      only_chosen(extracted.partition, marks_of(run.chosen, layer), none);
+  if (run.smooths()) partition = smooth_boundaries(std::move(partition), grid, extracted.volumes);
   bring_to_world(grid, partition);
   return {layer, std::move(partition)};
 }
@@ -436,7 +448,7 @@ LabelResult with_image(const LabelRun& run, const VolumeView& scan) {
     watch.lap();
     run.begin("flow of the labels");
     LayerBoundaries extracted =
-        on_its_grid ? LayerBoundaries{layer, run.request.extracted->of_layer(layer)}
+        on_its_grid ? LayerBoundaries{layer, run.request.extracted->of_layer(layer).partition}
                     : extract_in_image(run, layer, labels_in(on_scan, layer, block), edges);
     result.seconds.flow += watch.lap();
     layers.push_back(place_by_image(run, std::move(extracted), edges, result.seconds));
@@ -460,9 +472,9 @@ LabelResult by_labels(const LabelRun& run) {
   result.seconds.prepare = watch.lap();
   std::vector<LayerBoundaries> layers;
   for (const Index layer : layers_of(run.chosen)) {
-    PartitionSurface partition = extract_by_labels(run, layer, block, result.seconds);
+    const LayerPartition extracted = extract_by_labels(run, layer, block, result.seconds);
     watch.lap();
-    layers.push_back(place_by_labels(run, layer, grid, std::move(partition)));
+    layers.push_back(place_by_labels(run, layer, grid, extracted));
     result.seconds.surface += watch.lap();
   }
   finish_layers(run, std::move(layers), nullptr, result);

@@ -21,12 +21,18 @@
 /// surfaces.
 namespace mesamis::detail::method {
 
+/// The boundaries between all labels of a layer, which have the steps of their voxels.
+struct LayerPartition {
+  PartitionSurface partition;     ///< in the block's axes, mm, its first voxel at the origin; sides are labels
+  std::vector<double> volumes{};  ///< of the voxels of each label, mm^3
+};
+
 /// The boundaries between all labels of a map, which were extracted of their smooth_memberships()
 /// beforehand, slab by slab.
 struct ExtractedBoundaries {
   LabelBlock block;  ///< of the map's voxels: around the chosen segments; within the scan, if any
-  /// Those of a layer, in the block's axes, mm, its first voxel at the origin; sides are labels.
-  std::function<PartitionSurface(Index layer)> of_layer;
+  /// Those of a layer.
+  std::function<LayerPartition(Index layer)> of_layer;
 };
 
 /// Which objects are meant, and how exact their labels are.

@@ -152,16 +152,47 @@ GridMemberships cut_out(const LayerRun& run, const GridMemberships& grid,
   return part;
 }
 
-/// The memberships of the cells of slab s with constants.
-GridMemberships read_memberships(const LayerRun& run, const VolumeMatch& match, Index s) {
+/// The memberships of the cells of slab s without constants.
+GridMemberships read_memberships(const LayerRun& run, Index s) {
   GridMemberships grid = grid_of(run, slices_of_cells(run, s));
   ArchiveReader archive = run.scratch.read(run.file("memberships", s));
   grid.material = archive.next<Index>();
   grid.first = archive.next<std::int64_t>();
   grid.listed = archive.next<Index>();
-  const auto base = archive.next<float>();
-  grid.value.resize(base.size());
+  grid.value = archive.next<float>();
+  return grid;
+}
+
+/// The same with constants.
+GridMemberships read_memberships(const LayerRun& run, const VolumeMatch& match, Index s) {
+  GridMemberships grid = read_memberships(run, s);
+  const std::vector<float> base = grid.value;
   add_constants(base, match.constants(), grid);
+  return grid;
+}
+
+/// Appends the nodes of slices that follow.
+void append_slices(const GridMemberships& next, GridMemberships& grid) {
+  const std::int64_t listed = grid.first.empty() ? 0 : grid.first.back();
+  if (grid.first.empty()) grid.first.push_back(0);
+  for (std::size_t n = 1; n < next.first.size(); ++n) grid.first.push_back(listed + next.first[n]);
+  const auto append = [](const auto& from, auto& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(next.material, grid.material);
+  append(next.listed, grid.listed);
+  append(next.value, grid.value);
+}
+
+/// The memberships of some slices with constants, of all slabs that have any.
+GridMemberships gather_memberships(const LayerRun& run, const VolumeMatch& match,
+                                   const BlockSlices& slices) {
+  GridMemberships grid = grid_of(run, slices);
+  for (Index s = 0; s < run.count(); ++s) {
+    const BlockSlices own = own_slices(run, s);
+    const BlockSlices some{std::max(own.begin, slices.begin), std::min(own.end, slices.end)};
+    if (some.count() > 0) append_slices(cut_out(run, read_memberships(run, match, s), some), grid);
+  }
   return grid;
 }
 
@@ -169,40 +200,14 @@ std::string round_file(const LayerRun& run, const VolumeMatch& match, Index s) {
   return run.file("volumes." + std::to_string(match.report().rounds), s);
 }
 
-/// The points of a slab on the slice where the next one begins, in their order.
-std::vector<Index> points_at(const PartitionSurface& partition, double height) {
-  std::vector<Index> found;
-  for (std::size_t p = 0; p < partition.points.size(); ++p) {
-    if (partition.points[p].z == height) found.push_back(static_cast<Index>(p));
-  }
-  return found;
-}
-
-PartitionSurface read_boundaries(const LayerRun& run, Index s) {
+PartitionPart read_boundaries(const LayerRun& run, Index s) {
   ArchiveReader archive = run.scratch.read(run.file("boundaries", s));
-  PartitionSurface partition;
-  partition.points = archive.next<Vec3>();
-  partition.triangles = archive.next<Triangle>();
-  partition.sides = archive.next<std::array<Index, 2>>();
-  return partition;
-}
-
-void require_same_points(const PartitionSurface& below, const std::vector<Index>& top,
-                         const PartitionSurface& above, const std::vector<Index>& bottom) {
-  const bool same = top.size() == bottom.size() &&
-                    std::equal(top.begin(), top.end(), bottom.begin(), [&](Index a, Index b) {
-                      return below.points[a] == above.points[b];
-                    });
-  if (!same) throw NumericalError("labels: expected slabs that meet in the same points");
-}
-
-/// Appends triangles whose points have other numbers in the whole.
-void append_triangles(const PartitionSurface& from, const std::vector<Index>& number,
-                      PartitionSurface& all) {
-  for (const Triangle& t : from.triangles) {
-    all.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
-  }
-  all.sides.insert(all.sides.end(), from.sides.begin(), from.sides.end());
+  PartitionPart part;
+  part.sites = archive.next<Simplex>();
+  part.surface.points = archive.next<Vec3>();
+  part.surface.triangles = archive.next<Triangle>();
+  part.surface.sides = archive.next<std::array<Index, 2>>();
+  return part;
 }
 
 }  // namespace
@@ -410,42 +415,35 @@ std::vector<LayerVolumes> layers_of_slabs(const LayerRun& run, const VolumeMatch
 }
 
 SlabWork extract_slab(const LayerRun& run, const VolumeMatch& match, Index s) {
-  const PartitionSurface partition = extract_partition_on_grid(read_memberships(run, match, s));
+  const BlockSlices own = own_slices(run, s);
+  const BlockSlices held{std::max(0, own.begin - 1), std::min(slice_count(run), own.end + 2)};
+  const GridMemberships grid = gather_memberships(run, match, held);
+  const NodeSlices slices{own.begin - held.begin, own.end - held.begin};
+  const PartitionPart part = run.net ? extract_net_part(grid, slices, *run.net)
+                                     : extract_partition_part(grid, slices);
   ArchiveWriter archive;
-  archive.add(partition.points);
-  archive.add(partition.triangles);
-  archive.add(partition.sides);
+  archive.add(part.sites);
+  archive.add(part.surface.points);
+  archive.add(part.surface.triangles);
+  archive.add(part.surface.sides);
   run.scratch.write(run.file("boundaries", s), archive);
-  return work_on(run, slices_of_cells(run, s));
+  return work_on(run, held);
 }
 
-// The order of the points is that of the whole: by their lowest nodes. Those on the slice where the
-// next slab begins are its points too.
-PartitionSurface joined_boundaries(const LayerRun& run) {
-  PartitionSurface all, below = read_boundaries(run, 0);
-  for (Index s = 0; s < run.count(); ++s) {
-    std::vector<Index> number(below.points.size());
-    for (std::size_t p = 0; p < number.size(); ++p) {
-      number[p] = static_cast<Index>(all.points.size() + p);
-    }
-    PartitionSurface above;
-    std::size_t own = below.points.size();
-    if (s + 1 < run.count()) {
-      above = read_boundaries(run, s + 1);
-      const double height = run.cuts[static_cast<std::size_t>(s) + 1] * run.source.head().spacing.z;
-      const std::vector<Index> top = points_at(below, height), bottom = points_at(above, height);
-      require_same_points(below, top, above, bottom);
-      own -= top.size();
-      for (std::size_t p = 0; p < top.size(); ++p) {
-        number[top[p]] = static_cast<Index>(all.points.size() + own) + bottom[p];
-      }
-    }
-    append_triangles(below, number, all);
-    all.points.insert(all.points.end(), below.points.begin(),
-                      below.points.begin() + static_cast<std::ptrdiff_t>(own));
-    below = std::move(above);
+std::vector<double> label_volumes(const LayerRun& run) {
+  std::vector<std::int64_t> eighths;
+  for (std::size_t p = 0; p < run.parts.label.size(); ++p) {
+    const auto label = static_cast<std::size_t>(run.parts.label[p]);
+    if (label >= eighths.size()) eighths.resize(label + 1, 0);
+    eighths[label] += run.parts.eighths[p];
   }
-  return all;
+  return volumes_of(eighths, run.source.head().spacing);
+}
+
+PartitionSurface joined_boundaries(const LayerRun& run) {
+  std::vector<PartitionPart> parts;
+  for (Index s = 0; s < run.count(); ++s) parts.push_back(read_boundaries(run, s));
+  return join_parts(std::move(parts));
 }
 
 }  // namespace mesamis::detail::slabs

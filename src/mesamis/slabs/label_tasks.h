@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,13 +11,15 @@
 #include "mesamis/slabs/scratch.h"
 #include "mesamis/slabs/slab_work.h"
 #include "mesamis/slabs/stored_labels.h"
+#include "mesamis/surface/extract_net.h"
 #include "mesamis/surface/join_diagonals.h"
 #include "mesamis/surface/match_volumes.h"
 #include "mesamis/surface/partition.h"
 #include "mesamis/surface/smooth_memberships.h"
 
 /// The tasks that make smooth boundaries of a layer of labels, slab by slab, to the bits of
-/// join_diagonals(), smooth_memberships() and extract_partition_on_grid() of the whole.
+/// join_diagonals(), smooth_memberships() and extract_net_on_grid(), or
+/// extract_partition_on_grid(), of the whole.
 ///
 /// In their order: make_part_file(), find_parts(), join_parts(), learn_parts() on the labels as they
 /// are; find_joins(), learn_joins(), and the first four again if there are any; find_wishes(),
@@ -41,6 +44,7 @@ struct LayerRun {
   LabelBlock block;         ///< of the map's voxels; slices are counted from its first one
   std::vector<Index> cuts;  ///< slab s owns the slices cuts[s] to cuts[s + 1] - 1
   SmoothOptions smoothing{};
+  std::optional<NetOptions> net{};  ///< how a net is extracted; none: the grid's tetrahedra are
   std::vector<DiagonalJoin> joins{};  ///< after learn_joins(), of the block: labels have them
   LayerParts parts{};                 ///< after learn_parts()
 
@@ -76,6 +80,8 @@ SlabWork measure_slab(const LayerRun& run, const VolumeMatch& match, Index s);
 std::vector<LayerVolumes> layers_of_slabs(const LayerRun& run, const VolumeMatch& match);
 /// Extracts the boundaries in the cells of slab s.
 SlabWork extract_slab(const LayerRun& run, const VolumeMatch& match, Index s);
+/// The volumes of the labels, after learn_parts(): of each up to the greatest, mm^3.
+std::vector<double> label_volumes(const LayerRun& run);
 /// The boundaries of all slabs, after extract_slab(): mm, the block's first node at the origin.
 PartitionSurface joined_boundaries(const LayerRun& run);
 

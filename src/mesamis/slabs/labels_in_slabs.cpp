@@ -168,7 +168,7 @@ LabelSlabResult finish(const AllLayers& found, const LabelSlabRequest& request,
   const auto extract = [&](Index layer) {
     const auto at = std::find_if(runs.begin(), runs.end(),
                                  [&](const LayerRun& run) { return run.layer == layer; });
-    return joined_boundaries(*at);
+    return LayerPartition{joined_boundaries(*at), label_volumes(*at)};
   };
   const ExtractedBoundaries extracted{any.block, extract};
   LabelSlabResult all;
@@ -206,6 +206,7 @@ std::optional<LabelSlabResult> run_through(const Scratch& scratch, const LabelSl
   std::vector<LayerRun> runs;
   for (const Index layer : layers_of(chosen)) {
     runs.push_back({labels, scratch, layer, block, cuts});
+    if (settings.fit) runs.back().net = NetOptions{.chosen = marks_of(chosen, layer)};
     run_layer(runs.back(), settings.keep_topology, stages);
   }
   team.wait_for_all();  // all have read what rank 0 removes at the end

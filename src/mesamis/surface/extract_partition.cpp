@@ -86,10 +86,11 @@ PartitionSurface extract_partition(const TetMesh& mesh, Fields memberships,
   require_memberships(mesh, memberships);
   const MeshField field(mesh, memberships, options.close_at_box);
   const std::size_t blocks = (mesh.cells.size() + kBlock - 1) / kBlock;
-  return extract_blocks(field, blocks, [&](std::size_t b, const auto& marcher, auto& pieces) {
+  const auto march = [&](std::size_t b, const auto& marcher, auto& pieces) {
     const std::size_t end = std::min((b + 1) * kBlock, mesh.cells.size());
     for (std::size_t c = b * kBlock; c < end; ++c) marcher.march(mesh.cells[c], pieces);
-  });
+  };
+  return extract_blocks(field, blocks, march).surface;
 }
 
 TriMesh object_surface(const PartitionSurface& partition, Index material) {

@@ -3,12 +3,21 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "mesamis/base/types.h"
 #include "mesamis/mesh/kuhn.h"
 #include "mesamis/surface/grid_partition.h"
 
 namespace mesamis::detail::surface {
+
+/// @throws InputError  if the sizes do not fit, a material or a label is out of range, or a value is
+///                     not finite.
+void require_memberships(const GridMemberships& grid);
+
+/// Names the sides of triangles by the labels of their materials, and turns a triangle where the
+/// order of the labels is not that of the materials. Names sites by the nodes of the whole grid.
+void name_wholly(const GridMemberships& grid, PartitionPart& part);
 
 /// A field of partition_cells.h: memberships on a grid.
 class GridField {

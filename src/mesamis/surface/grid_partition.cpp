@@ -2,77 +2,30 @@
 #include "mesamis/surface/grid_partition.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
 
-#include "mesamis/base/error.h"
-#include "mesamis/base/parallel.h"
 #include "mesamis/surface/grid_field.h"
 #include "mesamis/surface/partition_cells.h"
 
 namespace mesamis::detail::surface {
-namespace {
-
-void require(bool holds, const char* what) {
-  if (!holds) throw InputError(std::string("grid of memberships: expected ") + what);
-}
-
-template <class Values, class IsGood>
-bool all_are(const Values& values, IsGood is_good) {
-  return std::all_of(values.begin(), values.end(), is_good);
-}
-
-void require_memberships(const GridMemberships& grid) {
-  const auto [x, y, z] = grid.size;
-  require(std::min({x, y, z}) >= 2, "2 or more nodes a side");
-  for (const double spacing : {grid.spacing.x, grid.spacing.y, grid.spacing.z}) {
-    require(spacing > 0 && std::isfinite(spacing), "a finite spacing above 0");
-  }
-  const std::int64_t layer = std::int64_t{x} * y;
-  require(layer <= std::numeric_limits<Index>::max() / z, "fewer than 2^31 nodes");
-  const auto nodes = static_cast<std::size_t>(layer * z);
-  require(grid.material.size() == nodes, "one material per node");
-  require(grid.first.size() == nodes + 1 && grid.first.front() == 0 &&
-              std::is_sorted(grid.first.begin(), grid.first.end()),
-          "lists of memberships one after the other");
-  const auto entries = static_cast<std::size_t>(grid.first.back());
-  require(grid.listed.size() == entries && grid.value.size() == entries,
-          "one value per material listed");
-  const auto is_material = [&](Index m) { return m >= 0 && m < std::ssize(grid.label); };
-  require(all_are(grid.material, is_material) && all_are(grid.listed, is_material),
-          "materials that have a label");
-  require(all_are(grid.label, [](Index l) { return l >= 0; }), "labels of 0 or more");
-  require(all_are(grid.value, [](float v) { return std::isfinite(v); }), "finite memberships");
-}
-
-/// Turns a triangle where the order of the labels is not that of the materials.
-void name_labels(const std::vector<Index>& label, PartitionSurface& partition) {
-  parallel_for(partition.sides.size(), [&](std::size_t t) {
-    auto& [behind, before] = partition.sides[t];
-    behind = label[static_cast<std::size_t>(behind)];
-    if (before == kNoIndex) return;
-    before = label[static_cast<std::size_t>(before)];
-    if (before > behind) return;
-    std::swap(behind, before);
-    std::swap(partition.triangles[t][1], partition.triangles[t][2]);
-  });
-}
-
-}  // namespace
 
 PartitionSurface extract_partition_on_grid(const GridMemberships& memberships,
                                            const PartitionOptions& options) {
+  return extract_partition_part(memberships, {0, memberships.size[2]}, options).surface;
+}
+
+PartitionPart extract_partition_part(const GridMemberships& memberships, const NodeSlices& slices,
+                                     const PartitionOptions& options) {
   require_memberships(memberships);
   const GridField field(memberships, options.close_at_box);
-  const auto layers = static_cast<std::size_t>(memberships.size[2] - 1);
-  PartitionSurface partition =
-      extract_blocks(field, layers, [&](std::size_t k, const auto& marcher, auto& pieces) {
-        field.for_cells_above(static_cast<Index>(k),
+  const Index end = std::min(slices.end, memberships.size[2] - 1);
+  PartitionPart part = extract_blocks(
+      field, static_cast<std::size_t>(end - slices.begin),
+      [&](std::size_t b, const auto& marcher, auto& pieces) {
+        field.for_cells_above(slices.begin + static_cast<Index>(b),
                               [&](const Cell& cell) { marcher.march(cell, pieces); });
       });
-  name_labels(memberships.label, partition);
-  return partition;
+  name_wholly(memberships, part);
+  return part;
 }
 
 }  // namespace mesamis::detail::surface

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesamis/base/types.h"
-#include "mesamis/surface/partition.h"
+#include "mesamis/surface/partition_part.h"
 
 namespace mesamis::detail::surface {
 
@@ -31,8 +31,7 @@ struct GridMemberships {
 
 /// Extracts the boundaries between objects as extract_partition() does, on the grid's Kuhn
 /// tetrahedra. Neighbouring nodes whose materials differ belong to objects that differ.
-/// @return points in mm, the first node of the whole grid at the origin; its sides are labels. Of
-///         some slices of a larger grid, what lies between these slices: open where it goes on.
+/// @return points in mm, the first node of the whole grid at the origin; its sides are labels.
 /// @throws InputError  if the sizes do not fit, a material or a label is out of range, or a value
 ///                     is not finite.
 ///
@@ -40,5 +39,9 @@ struct GridMemberships {
 /// number of threads.
 PartitionSurface extract_partition_on_grid(const GridMemberships& memberships,
                                            const PartitionOptions& options = {});
+
+/// The same of the cubes above some slices of it.
+PartitionPart extract_partition_part(const GridMemberships& memberships, const NodeSlices& slices,
+                                     const PartitionOptions& options = {});
 
 }  // namespace mesamis::detail::surface

@@ -134,24 +134,43 @@ double worst_of(const std::vector<double>& lack, const std::vector<double>& want
   return worst;
 }
 
+/// Calls visit(node, eighths of its voxel within the grid) for all nodes of a grid.
+/// @param ends  whether the grid ends at the bottom, and at the top.
+template <class Visit>
+void for_each_share(const std::array<Index, 3>& size, const std::array<bool, 2>& ends,
+                    Visit&& visit) {
+  std::size_t n = 0;
+  for (Index k = 0; k < size[2]; ++k) {
+    const bool is_end = (k == 0 && ends[0]) || (k + 1 == size[2] && ends[1]);
+    for (Index j = 0; j < size[1]; ++j) {
+      for (Index i = 0; i < size[0]; ++i, ++n) {
+        std::int64_t share = is_end ? 4 : 8;
+        if (i == 0 || i + 1 == size[0]) share /= 2;
+        if (j == 0 || j + 1 == size[1]) share /= 2;
+        visit(n, share);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::int64_t> voxel_eighths(const GridMemberships& grid,
                                         std::span<const Index> material) {
   std::vector<std::int64_t> eighths(grid.label.size(), 0);
-  std::size_t n = 0;
-  for (Index k = 0; k < grid.size[2]; ++k) {
-    const bool is_bottom = k == 0 && grid.below == 0;
-    const bool is_top = k + 1 == grid.size[2] && grid.above == 0;
-    for (Index j = 0; j < grid.size[1]; ++j) {
-      for (Index i = 0; i < grid.size[0]; ++i, ++n) {
-        std::int64_t share = is_bottom || is_top ? 4 : 8;
-        if (i == 0 || i + 1 == grid.size[0]) share /= 2;
-        if (j == 0 || j + 1 == grid.size[1]) share /= 2;
-        eighths[material[n]] += share;
-      }
-    }
-  }
+  for_each_share(
+      grid.size, {grid.below == 0, grid.above == 0},
+      [&](std::size_t n, std::int64_t share) { eighths[material[n]] += share; });
+  return eighths;
+}
+
+std::vector<std::int64_t> label_eighths(const LabelGrid& labels) {
+  std::vector<std::int64_t> eighths;
+  for_each_share(labels.size, {true, true}, [&](std::size_t n, std::int64_t share) {
+    const std::size_t label = labels.labels[n];
+    if (label >= eighths.size()) eighths.resize(label + 1, 0);
+    eighths[label] += share;
+  });
   return eighths;
 }
 

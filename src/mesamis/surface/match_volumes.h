@@ -26,6 +26,9 @@ std::vector<std::int64_t> voxel_eighths(const GridMemberships& grid,
 /// @return mm^3.
 std::vector<double> volumes_of(std::span<const std::int64_t> eighths, const Vec3& spacing);
 
+/// The same of labels, up to the greatest that there is.
+std::vector<std::int64_t> label_eighths(const LabelGrid& labels);
+
 /// The boundary between two materials in a layer of cells.
 struct InterfaceVolume {
   std::array<Index, 2> sides{};  ///< materials, the second kNoIndex at the box

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/surface/partition_cells.h"
 
+#include <utility>
+
 #include "mesamis/base/each_once.h"
 
 namespace mesamis::detail::surface {
@@ -44,7 +46,8 @@ std::vector<Simplex> all_sites(std::span<const PartitionBlock> blocks) {
   return sites;
 }
 
-PartitionSurface joined(std::span<const PartitionBlock> blocks, std::span<const Simplex> sites) {
+PartitionSurface over_sites(std::span<const PartitionBlock> blocks,
+                            std::span<const Simplex> sites) {
   PartitionSurface partition;
   std::vector<std::size_t> first{0};
   for (const PartitionBlock& block : blocks) first.push_back(first.back() + block.sides.size());
@@ -62,6 +65,32 @@ PartitionSurface joined(std::span<const PartitionBlock> blocks, std::span<const 
     }
   });
   return partition;
+}
+
+PartitionSurface join_parts(std::vector<PartitionPart> parts) {
+  if (parts.size() == 1) return std::move(parts.front().surface);
+  std::vector<Simplex> sites;
+  for (const PartitionPart& part : parts) {
+    sites.insert(sites.end(), part.sites.begin(), part.sites.end());
+  }
+  sort_and_shrink(sites);
+  PartitionSurface all;
+  all.points.resize(sites.size());
+  for (PartitionPart& part : parts) {
+    std::vector<Index> places;
+    places.reserve(part.sites.size());
+    for (const Simplex& site : part.sites) places.push_back(place_of(site, sites));
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      all.points[static_cast<std::size_t>(places[p])] = part.surface.points[p];
+    }
+    for (Triangle t : part.surface.triangles) {
+      for (Index& p : t) p = places[static_cast<std::size_t>(p)];
+      all.triangles.push_back(t);
+    }
+    all.sides.insert(all.sides.end(), part.surface.sides.begin(), part.surface.sides.end());
+    part = {};
+  }
+  return all;
 }
 
 }  // namespace mesamis::detail::surface

@@ -11,7 +11,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/mesh/tet_mesh.h"
 #include "mesamis/surface/cell_cuts.h"
-#include "mesamis/surface/partition.h"
+#include "mesamis/surface/partition_part.h"
 
 /// The pieces of a partition's boundaries in one cell. A field says, of each node, its position,
 /// the material that wins there, any material's membership and the planes of the box:
@@ -19,10 +19,6 @@
 ///   Vec3 point(Index node);            Index material(Index node);
 ///   unsigned planes(Index node);       double membership(Index node, Index material);
 namespace mesamis::detail::surface {
-
-/// Where a point of a partition sits: inside of the simplex of these nodes, increasing; after them
-/// kNoIndex.
-using Simplex = std::array<Index, 4>;
 
 inline Simplex simplex_of(std::initializer_list<Index> nodes) {
   Simplex simplex{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
@@ -79,19 +75,52 @@ class PartitionMarcher {
 
   /// Appends the boundaries in a cell, and the caps on its faces on the box.
   void march(const Cell& cell, std::vector<PartitionPiece>& out) const {
+    march_inside(cell, out);
+    add_caps(cell, out);
+  }
+
+  /// Appends the boundaries in a cell.
+  void march_inside(const Cell& cell, std::vector<PartitionPiece>& out) const {
     std::array<Index, 4> m;
     for (std::size_t i = 0; i < 4; ++i) m[i] = field_.material(cell[i]);
     std::array<Index, 4> sorted = m;
     std::sort(sorted.begin(), sorted.end());
     const auto kinds = std::unique(sorted.begin(), sorted.end()) - sorted.begin();
     if (kinds == 2) cut_in_two(cell, m, out);
-    if (kinds > 2) fill_cone(cell, m, out);
+    if (kinds > 2) fill_cone(cell, out);
+  }
+
+  /// Appends the caps on a cell's faces on the box.
+  void add_caps(const Cell& cell, std::vector<PartitionPiece>& out) const {
     for (const auto& [i, j, k] : kCellFaces) {
       const Triangle face{cell[i], cell[j], cell[k]};
       if ((field_.planes(face[0]) & field_.planes(face[1]) & field_.planes(face[2])) != 0) {
         cap(face, out);
       }
     }
+  }
+
+  /// Appends the cone from a tip over the curves on a triangle of nodes, which turns
+  /// counter-clockwise seen from the side where the tip is not.
+  void add_cone(const Simplex& tip, const Triangle& face, std::vector<PartitionPiece>& out) const {
+    for (std::size_t turn = 0; turn < 3; ++turn) {
+      const Index i = face[turn], j = face[(turn + 1) % 3], k = face[(turn + 2) % 3];
+      const Index at_i = field_.material(i), at_j = field_.material(j), at_k = field_.material(k);
+      if (at_i == at_j || at_i == at_k) continue;
+      const Simplex end = at_j != at_k ? simplex_of({i, j, k}) : simplex_of({i, k});
+      add({tip, simplex_of({i, j}), end}, at_j, at_i, out);
+    }
+  }
+
+  /// Appends a piece.
+  /// @param behind, before  the materials on either side of it.
+  static void add(std::array<Simplex, 3> corners, Index behind, Index before,
+                  std::vector<PartitionPiece>& out) {
+    if (before != kNoIndex && before < behind) {
+      std::swap(behind, before);
+      std::swap(corners[1], corners[2]);
+    }
+    out.push_back({corners, {behind, before}});
   }
 
  private:
@@ -160,15 +189,6 @@ class PartitionMarcher {
     return amid[0] + 0.5 * (amid[1] - amid[0]);
   }
 
-  /// @param behind, before  the materials on either side of the piece.
-  static void add(std::array<Simplex, 3> corners, Index behind, Index before, Pieces& out) {
-    if (before != kNoIndex && before < behind) {
-      std::swap(behind, before);
-      std::swap(corners[1], corners[2]);
-    }
-    out.push_back({corners, {behind, before}});
-  }
-
   /// Cut along the shorter diagonal: it lies inside the cell or face, no neighbour sees it.
   void add_quad(const std::array<Simplex, 4>& s, Index behind, Index before, Pieces& out) const {
     const Vec3 d02 = position(s[2]) - position(s[0]), d13 = position(s[3]) - position(s[1]);
@@ -198,22 +218,9 @@ class PartitionMarcher {
 
   /// A cell of three or four materials: the cone over the curves on its faces never meets itself,
   /// wherever the points lie.
-  void fill_cone(const Cell& cell, const std::array<Index, 4>& m, Pieces& out) const {
+  void fill_cone(const Cell& cell, Pieces& out) const {
     const Simplex tip = simplex_of({cell[0], cell[1], cell[2], cell[3]});
-    for (const auto& face : kCellFaces) {
-      for (std::size_t turn = 0; turn < 3; ++turn) {
-        // Seen from outside, counter-clockwise.
-        const auto i = static_cast<std::size_t>(face[turn]);
-        const auto j = static_cast<std::size_t>(face[(turn + 1) % 3]);
-        const auto k = static_cast<std::size_t>(face[(turn + 2) % 3]);
-        const Simplex ij = simplex_of({cell[i], cell[j]});
-        if (m[i] != m[j] && m[i] != m[k] && m[j] != m[k]) {
-          add({tip, ij, simplex_of({cell[i], cell[j], cell[k]})}, m[j], m[i], out);
-        } else if (m[i] != m[j] && m[j] == m[k]) {
-          add({tip, ij, simplex_of({cell[i], cell[k]})}, m[j], m[i], out);
-        }
-      }
-    }
+    for (const auto& [i, j, k] : kCellFaces) add_cone(tip, {cell[i], cell[j], cell[k]}, out);
   }
 
   /// Caps a face on the box; its nodes turn counter-clockwise seen from outside.
@@ -255,12 +262,25 @@ PartitionBlock block_of(std::span<const PartitionPiece> pieces);
 std::vector<Simplex> all_sites(std::span<const PartitionBlock> blocks);
 
 /// Joins blocks, in their order, over all their sites. The points are left to the caller.
-PartitionSurface joined(std::span<const PartitionBlock> blocks, std::span<const Simplex> sites);
+PartitionSurface over_sites(std::span<const PartitionBlock> blocks,
+                            std::span<const Simplex> sites);
+
+/// Joins blocks, in their order. O(n log n).
+/// @param position  position(site): of a point, mm; called from several threads.
+template <class Position>
+PartitionPart joined(std::span<const PartitionBlock> blocks, Position&& position) {
+  PartitionPart part{all_sites(blocks), {}};
+  part.surface = over_sites(blocks, part.sites);
+  part.surface.points.resize(part.sites.size());
+  parallel_for(part.sites.size(),
+               [&](std::size_t i) { part.surface.points[i] = position(part.sites[i]); });
+  return part;
+}
 
 /// Extracts the boundaries from blocks of cells.
 /// @param march  march(block, marcher, pieces) appends the pieces of a block.
 template <class Field, class March>
-PartitionSurface extract_blocks(const Field& field, std::size_t block_count, March&& march) {
+PartitionPart extract_blocks(const Field& field, std::size_t block_count, March&& march) {
   const PartitionMarcher<Field> marcher(field);
   std::vector<PartitionBlock> blocks(block_count);
   parallel_for_each(block_count, [&](std::size_t b) {
@@ -268,12 +288,7 @@ PartitionSurface extract_blocks(const Field& field, std::size_t block_count, Mar
     march(b, marcher, pieces);
     blocks[b] = block_of(pieces);
   });
-  const std::vector<Simplex> sites = all_sites(blocks);
-  PartitionSurface partition = joined(blocks, sites);
-  partition.points.resize(sites.size());
-  parallel_for(sites.size(),
-               [&](std::size_t i) { partition.points[i] = marcher.position(sites[i]); });
-  return partition;
+  return joined(std::span<const PartitionBlock>(blocks), [&](const Simplex& site) { return marcher.position(site); });
 }
 
 }  // namespace mesamis::detail::surface

@@ -10,6 +10,7 @@ set(ROOM_HEADERS
   distance.h
   extract.h
   extract_cubes.h
+  extract_net.h
   farthest.h
   grid_partition.h
   half_edges.h
@@ -46,9 +47,11 @@ set(ROOM_SOURCES
   exact_predicates.cpp
   extract_band.cpp
   extract_cubes.cpp
+  extract_net.cpp
   extract_partition.cpp
   extract_solid.cpp
   farthest.cpp
+  grid_field.cpp
   grid_partition.cpp
   half_edges.cpp
   join_diagonals.cpp

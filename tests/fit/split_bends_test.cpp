@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/fit/split_bends.h"
+
+#include <gtest/gtest.h>
+
+#include "fit/rough_ball.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/surface/comparison.h"
+#include "mesamis/surface/extract_net.h"
+#include "mesamis/surface/self_intersections.h"
+#include "support/label_grids.h"
+
+namespace mesamis {
+namespace {
+
+VoxelGrid wide_grid() {
+  VoxelGrid grid;
+  grid.size = {40, 40, 40};
+  return grid;
+}
+
+/// About the middle of the grid.
+TriMesh ball(double radius, int count) {
+  return moved(ball_surface(radius, count), Vec3{20, 20, 20});
+}
+
+SplitBoundaries split(const TriMesh& surface) {
+  const std::vector<std::array<Index, 2>> sides(surface.triangles.size(), {0, 1});
+  return split_bends(surface, sides, std::vector<char>(surface.points.size(), 0), wide_grid());
+}
+
+TEST(SplitBends, AnEvenSurfaceStays) {
+  const TriMesh fine = ball(10, 40);
+  const SplitBoundaries same = split(fine);
+  EXPECT_EQ(same.surface.points, fine.points);
+  EXPECT_EQ(same.surface.triangles, fine.triangles);
+  EXPECT_EQ(same.sides.size(), fine.triangles.size());
+}
+
+/// New points lie on the surface as it was, and their shifts lead to the ball.
+TEST(SplitBends, ACoarseBallGetsPointsOnTheBall) {
+  constexpr double kRound = 10;
+  const TriMesh coarse = ball(kRound, 12);
+  const SplitBoundaries found = split(coarse);
+  EXPECT_EQ(solid_flaws_of(check_surface(found.surface)), "");
+  EXPECT_NEAR(check_surface(found.surface).volume, check_surface(coarse).volume,
+              1e-12 * check_surface(coarse).volume);
+  ASSERT_GT(found.surface.points.size(), coarse.points.size());
+  for (std::size_t p = 0; p < found.surface.points.size(); ++p) {
+    const double before = kRound - norm(found.surface.points[p] - Vec3{20, 20, 20});
+    const Vec3 goal = found.surface.points[p] + found.shifts[p];
+    const double after = kRound - norm(goal - Vec3{20, 20, 20});
+    if (p < coarse.points.size()) {
+      EXPECT_EQ(found.shifts[p], (Vec3{}));
+    } else {
+      EXPECT_GT(before, 0.05);
+      EXPECT_LT(std::abs(after), 0.15 * before);
+    }
+  }
+}
+
+/// Of a partition each object stays closed, and curves where three meet stay as they are.
+TEST(SplitBends, ObjectsThatTouchShareNewPoints) {
+  const OwnedLabels labels = random_blobs(14, 4, 3);
+  const PartitionSurface net = extract_net_on_grid(smooth_memberships(labels.grid()));
+  VoxelGrid grid;
+  grid.size = labels.size;
+  const SplitBoundaries found =
+      split_bends({net.points, net.triangles}, net.sides, curve_points(net), grid);
+  ASSERT_GT(found.surface.triangles.size(), net.triangles.size());
+  const PartitionSurface whole{found.surface.points, found.surface.triangles, found.sides};
+  const std::vector<char> before = curve_points(net), after = curve_points(whole);
+  for (std::size_t p = 0; p < after.size(); ++p) {
+    EXPECT_EQ(after[p], p < before.size() ? before[p] : 0);
+  }
+  for (const Index m : materials_of(net)) {
+    EXPECT_EQ(solid_flaws_of(check_surface(object_surface(whole, m))), "") << m;
+  }
+}
+
+TEST(SplitBends, HasTheSameBitsForAnyNumberOfThreads) {
+  const auto run = [] { return split(ball(10, 12)); };
+  const SplitBoundaries one = with_threads(1, run), three = with_threads(3, run);
+  EXPECT_EQ(one.surface.points, three.surface.points);
+  EXPECT_EQ(one.surface.triangles, three.surface.triangles);
+  EXPECT_EQ(one.shifts, three.shifts);
+}
+
+}  // namespace
+}  // namespace mesamis

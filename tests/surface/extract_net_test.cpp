@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/extract_net.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesamis/base/parallel.h"
+#include "mesamis/surface/measure.h"
+#include "support/label_grids.h"
+#include "support/partition_laws.h"
+#include "support/random_memberships.h"
+#include "support/throws.h"
+
+namespace mesamis {
+namespace {
+
+TEST(ExtractNet, HoldsTheLawsOfPartitionsWhereLabelsAreRandom) {
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const Index materials = 2 + static_cast<Index>(seed % 5);
+    const GridMemberships grid = random_grid({5, 4, 6}, materials, seed);
+    expect_partition_laws(extract_net_on_grid(grid), 4 * 6 * 2.5, "seed " + std::to_string(seed));
+  }
+}
+
+TEST(ExtractNet, HoldsTheLawsOfPartitionsWhereObjectsTouch) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    const OwnedLabels labels = random_blobs(14, 2 + static_cast<int>(seed) % 6, seed);
+    const PartitionSurface net = extract_net_on_grid(smooth_memberships(labels.grid()));
+    expect_partition_laws(net, labels.box_volume(), "seed " + std::to_string(seed));
+  }
+}
+
+/// Labels that are not chosen are one object with the background, which touches itself at an edge or a
+/// corner as rarely as any other.
+TEST(ExtractNet, HoldsTheLawsForChosenLabels) {
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const GridMemberships grid = random_grid({5, 4, 6}, 6, seed);
+    PartitionSurface net = extract_net_on_grid(grid, {.chosen = {0, 1, 0, 1, 0, 0}});
+    PartitionSurface seen{net.points, {}, {}};
+    for (std::size_t t = 0; t < net.sides.size(); ++t) {
+      Triangle triangle = net.triangles[t];
+      std::array<Index, 2> sides = net.sides[t];
+      for (Index& m : sides) m = m == kNoIndex || m == 1 || m == 3 ? m : 0;
+      if (sides[0] == sides[1]) continue;
+      if (sides[1] != kNoIndex && sides[1] < sides[0]) {
+        std::swap(sides[0], sides[1]);
+        std::swap(triangle[1], triangle[2]);
+      }
+      seen.triangles.push_back(triangle);
+      seen.sides.push_back(sides);
+    }
+    expect_partition_laws(seen, 4 * 6 * 2.5, "seed " + std::to_string(seed));
+  }
+}
+
+/// Of a closed surface.
+std::int64_t euler_characteristic(const TriMesh& surface) {
+  return std::ssize(surface.points) - std::ssize(surface.triangles) / 2;
+}
+
+/// Parts, cavities and handles are those of the grid's tetrahedra.
+TEST(ExtractNet, HasTheTopologyOfTheTetrahedra) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const GridMemberships grid = random_grid({6, 6, 6}, 2 + static_cast<Index>(seed % 3), seed);
+    const PartitionSurface net = extract_net_on_grid(grid);
+    const PartitionSurface whole = extract_partition_on_grid(grid);
+    ASSERT_EQ(materials_of(net), materials_of(whole));
+    for (const Index m : materials_of(whole)) {
+      const TriMesh some = object_surface(net, m), all = object_surface(whole, m);
+      EXPECT_EQ(check_surface(some).components, check_surface(all).components) << seed;
+      EXPECT_EQ(euler_characteristic(some), euler_characteristic(all)) << seed;
+    }
+  }
+}
+
+OwnedLabels ball_labels(double radius) {
+  return labels_where({30, 30, 30}, {1, 1, 1}, [&](const Vec3& p) {
+    return norm(p - Vec3{14.3, 14.6, 14.4}) < radius ? 1 : 0;
+  });
+}
+
+/// A point in each cube that the boundary crosses, two triangles for each edge.
+TEST(ExtractNet, ABallHasOnePointInACube) {
+  const GridMemberships grid = smooth_memberships(ball_labels(10).grid());
+  const TriMesh ball = object_surface(extract_net_on_grid(grid), 1);
+  const TriMesh fine = object_surface(extract_partition_on_grid(grid), 1);
+  EXPECT_LT(5 * ball.triangles.size() / 2, fine.triangles.size());
+  EXPECT_NEAR(check_surface(ball).volume, check_surface(fine).volume,
+              0.01 * check_surface(fine).volume);
+  double off = 0;
+  for (const Vec3& p : ball.points) {
+    off += std::abs(norm(p - Vec3{14.3, 14.6, 14.4}) - 10) / static_cast<double>(ball.points.size());
+  }
+  EXPECT_LT(off, 0.1);
+}
+
+TEST(ExtractNet, PartsOfSomeSlicesJoinToTheWhole) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const GridMemberships grid = random_grid({5, 5, 12}, 2 + static_cast<Index>(seed % 3), seed);
+    const PartitionSurface whole = extract_net_on_grid(grid);
+    std::vector<PartitionPart> parts;
+    for (const auto& [begin, end] : {NodeSlices{0, 5}, NodeSlices{5, 7}, NodeSlices{7, 12}}) {
+      const Index first = std::max(0, begin - 1), last = std::min(12, end + 2);
+      GridMemberships some{.size = {5, 5, last - first},
+                           .spacing = grid.spacing,
+                           .material = {grid.material.begin() + 25 * first,
+                                        grid.material.begin() + 25 * last},
+                           .label = grid.label,
+                           .first = {0},
+                           .listed = {},
+                           .value = {},
+                           .below = first,
+                           .above = 12 - last};
+      for (Index n = 25 * first; n < 25 * last; ++n) {
+        const auto at = static_cast<std::size_t>(n);
+        for (std::int64_t i = grid.first[at]; i < grid.first[at + 1]; ++i) {
+          some.listed.push_back(grid.listed[static_cast<std::size_t>(i)]);
+          some.value.push_back(grid.value[static_cast<std::size_t>(i)]);
+        }
+        some.first.push_back(static_cast<std::int64_t>(some.value.size()));
+      }
+      parts.push_back(extract_net_part(some, {begin - first, end - first}));
+    }
+    const PartitionSurface joined = join_parts(std::move(parts));
+    EXPECT_EQ(joined.points, whole.points);
+    EXPECT_EQ(joined.triangles, whole.triangles);
+    EXPECT_EQ(joined.sides, whole.sides);
+  }
+}
+
+TEST(ExtractNet, HasTheSameBytesForAnyNumberOfThreads) {
+  const GridMemberships grid = random_grid({20, 20, 20}, 4, 5);
+  const auto one = with_threads(1, [&] { return extract_net_on_grid(grid); });
+  const auto two = with_threads(2, [&] { return extract_net_on_grid(grid); });
+  EXPECT_EQ(one.points, two.points);
+  EXPECT_EQ(one.triangles, two.triangles);
+  EXPECT_EQ(one.sides, two.sides);
+}
+
+TEST(ExtractNet, RefusesWhatDoesNotFit) {
+  GridMemberships grid = random_grid({3, 3, 3}, 2, 1);
+  grid.material.pop_back();
+  EXPECT_REFUSED(extract_net_on_grid(grid), testing::HasSubstr("one material per node"));
+}
+
+}  // namespace
+}  // namespace mesamis
