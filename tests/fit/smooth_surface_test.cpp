@@ -44,7 +44,8 @@ TEST(SmoothSurface, ASmallBallShrinksLessTheMoreRounds) {
   const TriMesh start = moved(ball_surface(2, 24), 0.5 * ball_image().grid.box().extent());
   double before = 0;
   for (const int rounds : {1, 2, 4}) {
-    const double volume = check_surface(smoothed_ball(start, {.bending = kFine, .rounds = rounds})).volume;
+    const double volume =
+        check_surface(smoothed_ball(start, {.bending = kFine, .rounds = rounds})).volume;
     EXPECT_GT(volume, before) << rounds;
     before = volume;
   }

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "mesamis/surface/grid_partition.h"
+#include "mesamis/surface/extract_net.h"
 #include "mesamis/surface/smooth_memberships.h"
 #include "support/label_grids.h"
 
@@ -20,7 +20,7 @@ const Vec3 kCenter{9.5, 9.5, 9.5};
 template <class LabelAt>
 PartitionSurface partition_of(LabelAt&& label_at) {
   const OwnedLabels labels = labels_where({20, 20, 20}, {1, 1, 1}, label_at);
-  return extract_partition_on_grid(smooth_memberships(labels.grid()));
+  return extract_net_on_grid(smooth_memberships(labels.grid()));
 }
 
 struct Linked {

@@ -9,7 +9,8 @@
 namespace mesamis {
 
 /// Random memberships, all of them listed at each node.
-inline GridMemberships random_grid(const std::array<Index, 3>& size, Index materials, unsigned seed) {
+inline GridMemberships random_grid(const std::array<Index, 3>& size, Index materials,
+                                   unsigned seed) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<float> uniform(0, 1);
   GridMemberships grid{.size = size,

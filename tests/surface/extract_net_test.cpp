@@ -93,7 +93,8 @@ TEST(ExtractNet, ABallHasOnePointInACube) {
               0.01 * check_surface(fine).volume);
   double off = 0;
   for (const Vec3& p : ball.points) {
-    off += std::abs(norm(p - Vec3{14.3, 14.6, 14.4}) - 10) / static_cast<double>(ball.points.size());
+    off +=
+        std::abs(norm(p - Vec3{14.3, 14.6, 14.4}) - 10) / static_cast<double>(ball.points.size());
   }
   EXPECT_LT(off, 0.1);
 }
@@ -105,16 +106,16 @@ TEST(ExtractNet, PartsOfSomeSlicesJoinToTheWhole) {
     std::vector<PartitionPart> parts;
     for (const auto& [begin, end] : {NodeSlices{0, 5}, NodeSlices{5, 7}, NodeSlices{7, 12}}) {
       const Index first = std::max(0, begin - 1), last = std::min(12, end + 2);
-      GridMemberships some{.size = {5, 5, last - first},
-                           .spacing = grid.spacing,
-                           .material = {grid.material.begin() + 25 * first,
-                                        grid.material.begin() + 25 * last},
-                           .label = grid.label,
-                           .first = {0},
-                           .listed = {},
-                           .value = {},
-                           .below = first,
-                           .above = 12 - last};
+      GridMemberships some{
+          .size = {5, 5, last - first},
+          .spacing = grid.spacing,
+          .material = {grid.material.begin() + 25 * first, grid.material.begin() + 25 * last},
+          .label = grid.label,
+          .first = {0},
+          .listed = {},
+          .value = {},
+          .below = first,
+          .above = 12 - last};
       for (Index n = 25 * first; n < 25 * last; ++n) {
         const auto at = static_cast<std::size_t>(n);
         for (std::int64_t i = grid.first[at]; i < grid.first[at + 1]; ++i) {

@@ -25,7 +25,8 @@ TEST(GridField, PartsAreNamedByLabelsAndNodesOfTheWhole) {
   GridMemberships grid = random_grid({4, 3, 5}, 3, 1);
   grid.label = {9, 4, 4};
   grid.below = 2;
-  PartitionPart part{{{1, 2, kNoIndex, kNoIndex}}, {{}, {{0, 1, 2}, {3, 4, 5}}, {{0, 1}, {2, kNoIndex}}}};
+  PartitionPart part{{{1, 2, kNoIndex, kNoIndex}},
+                     {{}, {{0, 1, 2}, {3, 4, 5}}, {{0, 1}, {2, kNoIndex}}}};
   name_wholly(grid, part);
   EXPECT_EQ(part.surface.sides[0], (std::array<Index, 2>{4, 9}));
   EXPECT_EQ(part.surface.triangles[0], (Triangle{0, 2, 1})) << "the labels are in another order";

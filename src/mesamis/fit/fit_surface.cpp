@@ -14,9 +14,6 @@
 namespace mesamis::detail::fit {
 namespace {
 
-/// Of the rounds, how many of the last ones tell what smoothness has lost.
-constexpr int kRegained = 2;
-
 /// The rounds of fit_surface().
 class Fit {
  public:
@@ -30,19 +27,14 @@ class Fit {
         umbrella_(neighbors_, points.links),
         now_(start),
         springs_(springs_at(space_, start.points, 0)),
-        lost_(start.points.size()),
+        shifts_(start.points.size()),
         blind_(start.points.size(), 0) {}
 
   void round() {
     aim();
-    now_.points = relax(umbrella_, springs_, options_.bending, std::move(now_.points));
-  }
-
-  /// What the last round has lost, the goals of the next ones gain.
-  void regain() {
-    parallel_for(lost_.size(), [&](std::size_t p) {
-      if (springs_.held[p] == 0) lost_[p] = springs_.goal[p] - now_.points[p];
-    });
+    shifts_ = relax(umbrella_, springs_, options_.bending, std::move(shifts_));
+    parallel_for(shifts_.size(),
+                 [&](std::size_t p) { now_.points[p] = start_.points[p] + shifts_[p]; });
   }
 
   /// Points whose triangles meet, and those beside them, look for no edge any more: that of another
@@ -63,40 +55,28 @@ class Fit {
     for (std::size_t p = 0; p < blind_.size(); ++p) {
       if (meets[p] == 0) continue;
       blind_[p] = 1;
-      lost_[p] = {};
     }
     return true;
   }
 
-  /// The points where they are now; where triangles would meet nearer to, or at, where smoothness
-  /// alone takes them from the start.
-  TriMesh surface() {
-    const std::vector<Vec3> fitted = now_.points;
-    std::ranges::fill(blind_, char{1});
-    std::ranges::fill(lost_, Vec3{});
-    now_.points = start_.points;
-    round();
-    const TriMesh smooth = moved_to(start_, now_.points);
-    return moved_to(smooth, fitted);
+  /// The points where they are now; where triangles would meet nearer to, or at, the start.
+  TriMesh surface() const {
+    std::vector<Vec3> shifts(shifts_.size());
+    for (std::size_t p = 0; p < shifts.size(); ++p) {
+      shifts[p] = space_.within_box(start_.points[p], shifts_[p]);
+    }
+    return moved_without_folds(space_, start_, std::move(shifts));
   }
 
  private:
   static constexpr int kBlindRings = 4;
-
-  TriMesh moved_to(const TriMesh& from, const std::vector<Vec3>& goals) const {
-    std::vector<Vec3> shifts(goals.size());
-    for (std::size_t p = 0; p < shifts.size(); ++p) {
-      shifts[p] = space_.within_box(from.points[p], goals[p] - from.points[p]);
-    }
-    return moved_without_folds(space_, from, std::move(shifts));
-  }
 
   bool looks(std::size_t p) const {
     return springs_.held[p] == 0 && points_.contrast[p] != 0 && points_.on_curve[p] == 0 &&
            blind_[p] == 0;
   }
 
-  /// Pulls each point to the edge that it sees, or else to where it began.
+  /// Pulls each point to the edge that it sees, or else to where it began: goals are shifts.
   void aim() {
     const std::vector<Vec3> normals = smoothed_normals(now_, neighbors_, points_.on_curve);
     parallel_for(now_.points.size(), [&](std::size_t p) {
@@ -108,8 +88,7 @@ class Fit {
       const double stay = (1 - edge.weight) * options_.start;
       const Vec3 seen = now_.points[p] + (edge.distance * space_.voxel()) * normals[p];
       springs_.weight[p] = edge.weight + stay;
-      springs_.goal[p] = lost_[p] + (1 / springs_.weight[p]) *
-                                        (edge.weight * seen + stay * start_.points[p]);
+      springs_.goal[p] = (edge.weight / springs_.weight[p]) * (seen - start_.points[p]);
     });
   }
 
@@ -121,8 +100,8 @@ class Fit {
   Umbrella umbrella_;
   TriMesh now_;
   Springs springs_;
-  std::vector<Vec3> lost_;   // by smoothness, so far
-  std::vector<char> blind_;  // 1: looks for no edge
+  std::vector<Vec3> shifts_;  // from the start
+  std::vector<char> blind_;   // 1: looks for no edge
 };
 
 }  // namespace
@@ -140,7 +119,6 @@ TriMesh fit_surface(const TriMesh& surface, const SplineImage& image, const FitP
   Fit fit(surface, std::move(neighbors), image, points, options);
   for (int round = 0; round < options.rounds; ++round) {
     fit.round();
-    if (round + kRegained >= options.rounds) fit.regain();
   }
   constexpr int kMostUnfoldings = 10;
   for (int trial = 0; trial < kMostUnfoldings && fit.blind_where_triangles_meet(); ++trial) {

@@ -13,7 +13,7 @@ namespace mesamis::detail::fit {
 /// How a surface is fitted.
 struct FitOptions {
   double reach = 1.6;   ///< voxels, > 0: how far from a point an edge of the image is looked for
-  double bending = 40;  ///< weight of smoothness against a steep edge of the image, > 0
+  double bending = 40;  ///< weight of even shifts against a steep edge of the image, > 0
   double start = 0.1;   ///< weight of the place where a point was, against the same, > 0
   int rounds = 6;       ///< of looking for edges and solving, at least 1
 };
@@ -27,19 +27,18 @@ struct FitPoints {
   Links links;                 ///< between Neighbors of the surface
 };
 
-/// Fits a surface to the edges of an image.
+/// Fits a smooth surface to the edges of an image.
 ///
 /// In each round every point looks along its normal for an edge: at x_edge, with the weight w, 0
 /// where there is none and 1 where it is steep. Then all points move to the least of
-///   sum of w |x - x_edge|^2 + (1 - w) start |x - x_start|^2 + bending |L x|^2
-/// with the umbrella operator L; in the last rounds goals gain what smoothness has lost, see
-/// smooth_surface(). Where the image shows an edge the surface lies on it; elsewhere the
-/// place where it began and smoothness decide. Where triangles meet, as where two boundaries see the
-/// same edge, points around look for none any more, and rounds are added. In the end moves that would
-/// still make the surface meet itself are taken back, to where smoothness alone takes the start.
-/// Points on the image's box stay.
-/// @param surface  in the image's own axes, mm; closed, or boundaries of several objects that share
-///                 edges; without self-intersections.
+///   sum of w |x - x_edge|^2 + (1 - w) start |s|^2 + bending |L s|^2,  s = x - x_start
+/// with the umbrella operator L: the shifts are smooth, so that nothing shrinks. Where the image
+/// shows an edge the surface lies on it; elsewhere it stays, or goes with what is beside it. Where
+/// triangles meet, as where two boundaries see the same edge, points around look for none any more,
+/// and rounds are added. In the end moves that would still make the surface meet itself are taken
+/// back. Points on the image's box stay.
+/// @param surface  smooth, see smooth_surface(); in the image's own axes, mm; closed, or boundaries
+///                 of several objects that share edges; without self-intersections.
 /// @param image    in grey values.
 /// @return the same triangles.
 /// @throws InputError  as require_sound(), or if the points do not fit the surface.

@@ -13,21 +13,21 @@ namespace mesamis::detail::fit {
 
 /// Boundaries of several objects, and the volumes that these shall have.
 struct ObjectBoundaries {
-  const TriMesh& surface;                       ///< in the grid's own axes, mm; without self-intersections
+  const TriMesh& surface;  ///< in the grid's own axes, mm; without self-intersections
   std::span<const std::array<Index, 2>> sides;  ///< of each triangle: materials behind, in front
   const std::vector<char>& on_curve;            ///< of each point 1 where several boundaries meet
   std::span<const double> volumes;              ///< of each material, mm^3
   std::span<const Vec3> shifts{};               ///< of points, which are made first; empty: none
 };
 
-/// Moves the boundaries of several objects so that each has its volume, as far as small moves can do
-/// that.
+/// Moves the boundaries of several objects so that each has its volume, as far as small moves can
+/// do that.
 ///
 /// Each object's boundary moves along its normals by one distance, at most 0.4 voxels, which
 /// Newton's method finds in four steps; a point between two objects moves by the difference of
-/// theirs. Material 0, the background, gives and takes, and so do those whose volume is not told. Points on the grid's box stay, and so do
-/// those on curves; beside curves moves fade, so that no step comes about. Moves that would make
-/// boundaries meet are taken back.
+/// theirs. Material 0, the background, gives and takes, and so do those whose volume is not told.
+/// Points on the grid's box stay, and so do those on curves; beside curves moves fade, so that no
+/// step comes about. Moves that would make boundaries meet are taken back.
 /// @return the same triangles.
 ///
 /// O(n log n) for n points. The same bits for any number of threads.

@@ -147,7 +147,8 @@ SplitBoundaries split_bends(const TriMesh& surface, Sides sides, const std::vect
   }
   for (std::size_t t = 0; t < sides.size(); ++t) {
     const Triangle& triangle = surface.triangles[t];
-    add_parts(triangle, {bent.middle(triangle, 0), bent.middle(triangle, 1), bent.middle(triangle, 2)},
+    add_parts(triangle,
+              {bent.middle(triangle, 0), bent.middle(triangle, 1), bent.middle(triangle, 2)},
               split.surface, split.surface.triangles);
     split.sides.resize(split.surface.triangles.size(), sides[t]);
   }

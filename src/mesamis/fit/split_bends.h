@@ -21,10 +21,10 @@ struct SplitBoundaries {
 /// Splits the edges at which boundaries bend by more than 15 degrees, so that a coarse surface can
 /// follow its own bends.
 ///
-/// A new point lies amid its edge; its shift leads on to the cubic curve through the edge's ends that
-/// touches the surface there (Vlachos et al., Curved PN triangles, 2001). Where several boundaries meet
-/// a point has no normal, and the curve is the parabola of the other end; edges between two such points
-/// stay, and so do those on the grid's box.
+/// A new point lies amid its edge; its shift leads on to the cubic curve through the edge's ends
+/// that touches the surface there (Vlachos et al., Curved PN triangles, 2001). Where several
+/// boundaries meet a point has no normal, and the curve is the parabola of the other end; edges
+/// between two such points stay, and so do those on the grid's box.
 /// @param surface   in the grid's own axes, mm.
 /// @param sides     of each triangle: materials behind, in front.
 /// @param on_curve  of each point 1 where several boundaries meet.

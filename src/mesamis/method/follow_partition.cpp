@@ -22,6 +22,9 @@ constexpr int kRounds = 2;            // a flow of labels ends up to a voxel fro
 constexpr double kLeastContrast = 4;  // standard deviations of the noise
 constexpr double kLeastGrey = 10;     // grey values: a contrast that means something
 
+/// How much firmer labels are smoothed where an image gives back what they lose.
+constexpr double kFirmer = 3;
+
 constexpr int kFairingSweeps = 10;  // pairs of steps of Taubin's filter
 constexpr double kShrink = 0.5, kGrow = -0.53;
 constexpr double kMostFairing = 0.7;  // voxels
@@ -169,7 +172,10 @@ PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& i
   const TriMesh start = taken_from(partition);
   points.links = sheet_links(start, partition.sides, points.on_curve, through_curves(image.grid));
   for (const BoundaryGuide& guide : guides) points.contrast.push_back(guide.contrast);
-  const TriMesh fitted = fit_surface(start, image, points, {.reach = reach});
+  SmoothingOptions smoothing = smoothing_of_labels(image.grid);
+  smoothing.bending *= kFirmer;
+  const TriMesh smooth = smooth_surface(start, image.grid, points.links, smoothing);
+  const TriMesh fitted = fit_surface(smooth, image, points, {.reach = reach});
   SplitBoundaries split = split_bends(fitted, partition.sides, points.on_curve, image.grid);
   const SurfaceSpace space(image.grid, 1);
   TriMesh bent = moved_without_folds(space, split.surface, std::move(split.shifts));

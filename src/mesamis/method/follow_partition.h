@@ -56,19 +56,19 @@ PartitionSurface only_chosen(const PartitionSurface& all, const std::vector<char
 PartitionSurface follow_image(PartitionSurface partition, const SplineImage& image,
                               const std::vector<BoundaryGuide>& guides, double noise);
 
-/// Fits the boundaries of several objects to an image, with what they share: fit_surface() for a
-/// partition.
+/// Smooths the boundaries of several objects and fits them to an image, with what they share:
+/// smooth_surface(), fit_surface() and split_bends() for a partition.
 /// @param partition, image, guides  as for follow_image(); of a guide its contrast counts.
 /// @param reach  voxels, > 0, see FitOptions.
-/// @return the same triangles. Cost as fit_surface().
+/// @return the same triangles, or parts of them. Cost as fit_surface().
 PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& image,
                                 const std::vector<BoundaryGuide>& guides, double reach);
 
 /// Smooths the boundaries of several objects, with what they share, and gives each its volume:
-/// smooth_surface() and keep_volumes() for a partition.
+/// smooth_surface(), split_bends() and keep_volumes() for a partition.
 /// @param partition  in the grid's own axes, mm; without self-intersections; closed at its box.
 /// @param volumes    of each material, mm^3.
-/// @return the same triangles. Cost as smooth_surface().
+/// @return the same triangles, or parts of them. Cost as smooth_surface().
 PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid,
                                    std::span<const double> volumes);
 

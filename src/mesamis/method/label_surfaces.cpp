@@ -294,8 +294,7 @@ LayerPartition extract_by_labels(const LabelRun& run, Index layer, const LabelBl
 LayerBoundaries place_by_labels(const LabelRun& run, Index layer, const VoxelGrid& grid,
                                 const LayerPartition& extracted) {
   std::vector<BoundaryGuide> none(extracted.partition.points.size());
-  PartitionSurface partition =
-      only_chosen(extracted.partition, marks_of(run.chosen, layer), none);
+  PartitionSurface partition = only_chosen(extracted.partition, marks_of(run.chosen, layer), none);
   if (run.smooths()) partition = smooth_boundaries(std::move(partition), grid, extracted.volumes);
   bring_to_world(grid, partition);
   return {layer, std::move(partition)};

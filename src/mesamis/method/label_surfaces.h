@@ -23,7 +23,7 @@ namespace mesamis::detail::method {
 
 /// The boundaries between all labels of a layer, which have the steps of their voxels.
 struct LayerPartition {
-  PartitionSurface partition;     ///< in the block's axes, mm, its first voxel at the origin; sides are labels
+  PartitionSurface partition;     ///< the block's axes, its first voxel at 0, mm; sides are labels
   std::vector<double> volumes{};  ///< of the voxels of each label, mm^3
 };
 

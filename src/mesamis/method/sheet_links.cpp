@@ -11,7 +11,7 @@
 namespace mesamis::detail::method {
 namespace {
 
-constexpr double kSmooth = 0.6;  // least cosine between the normals of sheets that go on
+constexpr double kSmooth = 0.52;  // least cosine between the normals of sheets that go on
 
 using Materials = std::vector<Index>;
 using Sides = std::span<const std::array<Index, 2>>;

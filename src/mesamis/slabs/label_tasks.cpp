@@ -419,8 +419,8 @@ SlabWork extract_slab(const LayerRun& run, const VolumeMatch& match, Index s) {
   const BlockSlices held{std::max(0, own.begin - 1), std::min(slice_count(run), own.end + 2)};
   const GridMemberships grid = gather_memberships(run, match, held);
   const NodeSlices slices{own.begin - held.begin, own.end - held.begin};
-  const PartitionPart part = run.net ? extract_net_part(grid, slices, *run.net)
-                                     : extract_partition_part(grid, slices);
+  const PartitionPart part =
+      run.net ? extract_net_part(grid, slices, *run.net) : extract_partition_part(grid, slices);
   ArchiveWriter archive;
   archive.add(part.sites);
   archive.add(part.surface.points);

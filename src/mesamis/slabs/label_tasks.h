@@ -44,7 +44,7 @@ struct LayerRun {
   LabelBlock block;         ///< of the map's voxels; slices are counted from its first one
   std::vector<Index> cuts;  ///< slab s owns the slices cuts[s] to cuts[s + 1] - 1
   SmoothOptions smoothing{};
-  std::optional<NetOptions> net{};  ///< how a net is extracted; none: the grid's tetrahedra are
+  std::optional<NetOptions> net{};    ///< how a net is extracted; none: the grid's tetrahedra are
   std::vector<DiagonalJoin> joins{};  ///< after learn_joins(), of the block: labels have them
   LayerParts parts{};                 ///< after learn_parts()
 

@@ -71,7 +71,8 @@ class Net {
       for_edges_at(k, [&](Index node, int axis) { add_edge(node, axis, pieces); });
       blocks[b] = block_of(pieces);
     });
-    return joined(std::span<const PartitionBlock>(blocks), [this](const Simplex& site) { return position(site); });
+    return joined(std::span<const PartitionBlock>(blocks),
+                  [this](const Simplex& site) { return position(site); });
   }
 
  private:
@@ -114,9 +115,7 @@ class Net {
   bool is_tame(Index cube) const { return (state_[cube] & kTame) != 0; }
   /// Whether the boundaries cross the face with this lowest node, normal to an axis, in one line
   /// between the points of two cubes.
-  bool is_straight(Index node, int axis) const {
-    return (state_[node] & (kStraight << axis)) != 0;
-  }
+  bool is_straight(Index node, int axis) const { return (state_[node] & (kStraight << axis)) != 0; }
 
   /// The four nodes around a face.
   std::array<Index, 4> around(Index node, int axis) const {
@@ -149,7 +148,9 @@ class Net {
   bool is_disc_of_all(Index cube, std::vector<PartitionPiece>& pieces) const {
     pieces.clear();
     for_cells(cube, [&](const Cell& cell) { marcher_.march_inside(cell, pieces); });
-    if (!is_disc(pieces, [](const PartitionPiece&) { return true; }, false)) return false;
+    if (!is_disc(
+            pieces, [](const PartitionPiece&) { return true; }, false))
+      return false;
     for (const auto& view : objects_.views()) {
       std::vector<Index> seen;
       for (const auto& piece : pieces) {
@@ -283,7 +284,8 @@ class Net {
 
   /// Where the quadrilateral around an edge may be cut: from the first corner, or the second, to the
   /// one across; the shorter one of two.
-  std::optional<std::size_t> diagonal(Index node, int axis, const std::array<Index, 4>& cube) const {
+  std::optional<std::size_t> diagonal(Index node, int axis,
+                                      const std::array<Index, 4>& cube) const {
     std::array<Vec3, 4> p;
     for (std::size_t i = 0; i < 4; ++i) p[i] = point_of(cube[i]);
     const Vec3 low = field_.point(node), high = field_.point(node + stride_[axis]);

@@ -15,19 +15,19 @@ struct NetOptions {
   std::vector<char> chosen{};
 };
 
-/// Extracts the boundaries between objects as a surface net: one point in each cube of eight nodes, at
-/// the mean of the points where the cube's edges are cut, two triangles for each edge that is cut. It
-/// has a third to a quarter of the triangles of extract_partition_on_grid(), of nearly one shape, which is what a
-/// surface that is smoothed afterwards wants.
+/// Extracts the boundaries between objects as a surface net: one point in each cube of eight nodes,
+/// at the mean of the points where the cube's edges are cut, two triangles for each edge that is
+/// cut. A third of the triangles of extract_partition_on_grid(), and of nearly one shape: for
+/// surfaces that are smoothed afterwards.
 ///
-/// The boundaries are joined as on the grid's Kuhn tetrahedra. Where one point would not do, because a
-/// cube holds several pieces of the boundaries, or one that is no disc for each object, the cube keeps
-/// the triangles of its tetrahedra; where objects touch across a face of two cubes, the face keeps its
-/// points. The two triangles at an edge lie within the tetrahedra between the edge's ends and the points
-/// beside it, else four triangles stand for them. So nothing intersects, and all laws of
-/// extract_partition() hold, for chosen objects.
-/// Source: Gibson, Constrained elastic surface nets, 1998; Ju and Udeshi, Intersection-free contouring
-/// on an octree grid, 2006.
+/// Boundaries are joined as on the grid's Kuhn tetrahedra. Where one point would not do, because a
+/// cube holds several pieces of boundaries, or one that is no disc for each object, the cube keeps
+/// the triangles of its tetrahedra; where an object touches itself across a face of two cubes, the
+/// face keeps its points. The two triangles at an edge lie within the tetrahedra between its ends
+/// and the points beside it, else four triangles stand for them. So nothing intersects, and what
+/// extract_partition() promises holds for chosen objects.
+/// Source: Gibson, Constrained elastic surface nets, 1998; Ju and Udeshi, Intersection-free
+/// contouring on an octree grid, 2006.
 /// @return as extract_partition_on_grid().
 /// @throws InputError  as extract_partition_on_grid().
 ///
@@ -36,8 +36,8 @@ PartitionSurface extract_net_on_grid(const GridMemberships& memberships,
                                      const NetOptions& options = {});
 
 /// The same of the cubes above some slices, and of the edges at them.
-/// @param memberships  of some slices of a larger grid: with one slice below these, as far as there is
-///                     one, and two above.
+/// @param memberships  of some slices of a larger grid: with one slice below these, as far as there
+///                     is one, and two above.
 PartitionPart extract_net_part(const GridMemberships& memberships, const NodeSlices& slices,
                                const NetOptions& options = {});
 

@@ -18,12 +18,12 @@ PartitionPart extract_partition_part(const GridMemberships& memberships, const N
   require_memberships(memberships);
   const GridField field(memberships, options.close_at_box);
   const Index end = std::min(slices.end, memberships.size[2] - 1);
-  PartitionPart part = extract_blocks(
-      field, static_cast<std::size_t>(end - slices.begin),
-      [&](std::size_t b, const auto& marcher, auto& pieces) {
-        field.for_cells_above(slices.begin + static_cast<Index>(b),
-                              [&](const Cell& cell) { marcher.march(cell, pieces); });
-      });
+  PartitionPart part = extract_blocks(field, static_cast<std::size_t>(end - slices.begin),
+                                      [&](std::size_t b, const auto& marcher, auto& pieces) {
+                                        field.for_cells_above(
+                                            slices.begin + static_cast<Index>(b),
+                                            [&](const Cell& cell) { marcher.march(cell, pieces); });
+                                      });
   name_wholly(memberships, part);
   return part;
 }

@@ -158,9 +158,8 @@ void for_each_share(const std::array<Index, 3>& size, const std::array<bool, 2>&
 std::vector<std::int64_t> voxel_eighths(const GridMemberships& grid,
                                         std::span<const Index> material) {
   std::vector<std::int64_t> eighths(grid.label.size(), 0);
-  for_each_share(
-      grid.size, {grid.below == 0, grid.above == 0},
-      [&](std::size_t n, std::int64_t share) { eighths[material[n]] += share; });
+  for_each_share(grid.size, {grid.below == 0, grid.above == 0},
+                 [&](std::size_t n, std::int64_t share) { eighths[material[n]] += share; });
   return eighths;
 }
 

@@ -262,8 +262,7 @@ PartitionBlock block_of(std::span<const PartitionPiece> pieces);
 std::vector<Simplex> all_sites(std::span<const PartitionBlock> blocks);
 
 /// Joins blocks, in their order, over all their sites. The points are left to the caller.
-PartitionSurface over_sites(std::span<const PartitionBlock> blocks,
-                            std::span<const Simplex> sites);
+PartitionSurface over_sites(std::span<const PartitionBlock> blocks, std::span<const Simplex> sites);
 
 /// Joins blocks, in their order. O(n log n).
 /// @param position  position(site): of a point, mm; called from several threads.
@@ -288,7 +287,8 @@ PartitionPart extract_blocks(const Field& field, std::size_t block_count, March&
     march(b, marcher, pieces);
     blocks[b] = block_of(pieces);
   });
-  return joined(std::span<const PartitionBlock>(blocks), [&](const Simplex& site) { return marcher.position(site); });
+  return joined(std::span<const PartitionBlock>(blocks),
+                [&](const Simplex& site) { return marcher.position(site); });
 }
 
 }  // namespace mesamis::detail::surface
