@@ -78,6 +78,18 @@ TEST(SplitBends, ObjectsThatTouchShareNewPoints) {
   }
 }
 
+/// On the box a point has no normal: nothing leaves the box, and its rim stays.
+TEST(SplitBends, NothingLeavesTheBox) {
+  TriMesh cut = moved(ball_surface(10, 12), {0, 20, 20});
+  for (Vec3& p : cut.points) p.x = std::max(p.x, 0.0);
+  const SplitBoundaries found = split(cut);
+  ASSERT_GT(found.surface.points.size(), cut.points.size());
+  for (std::size_t p = cut.points.size(); p < found.surface.points.size(); ++p) {
+    EXPECT_GT(found.surface.points[p].x, 0);
+    EXPECT_GE(found.surface.points[p].x + found.shifts[p].x, 0);
+  }
+}
+
 TEST(SplitBends, HasTheSameBitsForAnyNumberOfThreads) {
   const auto run = [] { return split(ball(10, 12)); };
   const SplitBoundaries one = with_threads(1, run), three = with_threads(3, run);

@@ -121,7 +121,7 @@ TEST_F(LabelTasks, HoldTheirSlicesAndThoseInReach) {
   store_labels(scratch, map);
   const StoredLabels stored(scratch);
   const LabelBlock block{{0, 0, 0}, map.size};
-  const LayerRun run = begin(stored, block, cuts_into(150, 10));
+  LayerRun run = begin(stored, block, cuts_into(150, 10));
   const Index reach = smoothing_reach({});
   EXPECT_EQ(reach, 14);
   const std::int64_t slice = 36;
@@ -133,6 +133,8 @@ TEST_F(LabelTasks, HoldTheirSlicesAndThoseInReach) {
   EXPECT_EQ(smooth_slab(run, 4).voxels, slice * (15 + 1 + 2 * reach));
   const VolumeMatch match(volumes_of(run.parts.eighths, map.spacing), run.smoothing);
   EXPECT_EQ(measure_slab(run, match, 4).voxels, slice * (15 + 1));
+  EXPECT_EQ(extract_slab(run, match, 4).voxels, slice * (15 + 1));
+  run.net = NetOptions{};
   EXPECT_EQ(extract_slab(run, match, 4).voxels, slice * (15 + 3));
 }
 

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/mesh/kuhn.h"
 #include "mesamis/surface/measure.h"
 #include "support/label_grids.h"
 #include "support/partition_laws.h"
@@ -32,6 +35,45 @@ TEST(ExtractNet, HoldsTheLawsOfPartitionsWhereObjectsTouch) {
     const PartitionSurface net = extract_net_on_grid(smooth_memberships(labels.grid()));
     expect_partition_laws(net, labels.box_volume(), "seed " + std::to_string(seed));
   }
+}
+
+/// Here a quadrilateral's two triangles would meet others, whichever diagonal cuts it.
+TEST(ExtractNet, KeepsFourTrianglesWhereTwoWouldMeetOthers) {
+  const std::string materials =
+      "00111112211111222111122233312222333001111100411112251111222333322223330001111004"
+      "411105543112255333222533300001110006411005743125554332255533";
+  const std::string values =
+      "00102220020200020002222001212110022221020100020011001211010020110000000200112020"
+      "10021010220200121222211112000100200110020100001001110020201001220201202021102000"
+      "11021122101221120022012020120111002120011211021022002022210211202222011222101022"
+      "20110020000021111110012101200222122012011210002212100122221021110201111212201022"
+      "0220000002200001022";
+  GridMemberships grid{.size = {7, 5, 4},
+                       .spacing = {0.1, 1, 1},
+                       .material = {},
+                       .label = {0, 5, 4, 2, 3, 1, 4, 5},
+                       .first = {0},
+                       .listed = {},
+                       .value = {}};
+  for (const char m : materials) grid.material.push_back(m - '0');
+  for (Index n = 0; n < 7 * 5 * 4; ++n) {
+    const auto [i, j, k] = grid_place(grid.size, n);
+    std::set<Index> listed{grid.material[static_cast<std::size_t>(n)]};
+    for (const auto& [di, dj, dk] : kKuhnSteps) {
+      for (const Index way : {-1, 1}) {
+        const Index x = i + way * di, y = j + way * dj, z = k + way * dk;
+        if (std::min({x, y, z}) < 0 || x > 6 || y > 4 || z > 3) continue;
+        listed.insert(grid.material[static_cast<std::size_t>(x + 7 * (y + 5 * z))]);
+      }
+    }
+    for (const Index m : listed) {
+      grid.value.push_back(static_cast<float>(values[grid.value.size()] - '0'));
+      grid.listed.push_back(m);
+    }
+    grid.first.push_back(std::ssize(grid.value));
+  }
+  ASSERT_EQ(grid.value.size(), values.size());
+  expect_partition_laws(extract_net_on_grid(grid), 0.6 * 4 * 3, "thin voxels");
 }
 
 /// Labels that are not chosen are one object with the background, which touches itself at an edge or a

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/random_memberships.h"
+#include "support/throws.h"
 
 namespace mesamis {
 namespace {
@@ -24,15 +25,26 @@ TEST(GridField, KnowsTheNodesOfALargerGrid) {
 TEST(GridField, PartsAreNamedByLabelsAndNodesOfTheWhole) {
   GridMemberships grid = random_grid({4, 3, 5}, 3, 1);
   grid.label = {9, 4, 4};
-  grid.below = 2;
-  PartitionPart part{{{1, 2, kNoIndex, kNoIndex}},
-                     {{}, {{0, 1, 2}, {3, 4, 5}}, {{0, 1}, {2, kNoIndex}}}};
-  name_wholly(grid, part);
+  grid.below = 1 << 29;
+  const PartitionPart part = named_wholly(
+      grid, {{{1, 2, kNoIndex, kNoIndex}}, {{}, {{0, 1, 2}, {3, 4, 5}}, {{0, 1}, {2, kNoIndex}}}});
   EXPECT_EQ(part.surface.sides[0], (std::array<Index, 2>{4, 9}));
   EXPECT_EQ(part.surface.triangles[0], (Triangle{0, 2, 1})) << "the labels are in another order";
   EXPECT_EQ(part.surface.sides[1], (std::array<Index, 2>{4, kNoIndex}));
   EXPECT_EQ(part.surface.triangles[1], (Triangle{3, 4, 5}));
-  EXPECT_EQ(part.sites[0], (Simplex{25, 26, kNoIndex, kNoIndex}));
+  const std::int64_t first = (std::int64_t{1} << 29) * 12;
+  EXPECT_EQ(part.sites[0], (WholeSite{first + 1, first + 2, kNoIndex, kNoIndex}));
+}
+
+TEST(GridField, SlicesNeedThoseBesideThem) {
+  GridMemberships grid = random_grid({4, 3, 5}, 2, 1);
+  EXPECT_NO_THROW(require_slices(grid, {0, 5}, 1, 2));
+  grid.below = 3;
+  grid.above = 1;
+  EXPECT_NO_THROW(require_slices(grid, {1, 3}, 1, 2));
+  EXPECT_REFUSED(require_slices(grid, {0, 4}, 1, 2), testing::HasSubstr("beside"));
+  EXPECT_REFUSED(require_slices(grid, {1, 4}, 1, 2), testing::HasSubstr("beside"));
+  EXPECT_REFUSED(require_slices(grid, {3, 2}, 0, 0), testing::HasSubstr("slices of the grid"));
 }
 
 }  // namespace

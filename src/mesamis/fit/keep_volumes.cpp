@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/fit/surface_moves.h"
 #include "mesamis/surface/measure.h"
@@ -75,6 +76,9 @@ TriMesh keep_volumes(const ObjectBoundaries& boundaries, const VoxelGrid& grid) 
   const auto& [now, sides, on_curve, wanted, first] = boundaries;
   constexpr int kSteps = 4;
   constexpr double kMostVoxels = 0.4;
+  if (!first.empty() && first.size() != now.points.size()) {
+    throw InputError("volumes: expected a shift for each point");
+  }
   const SurfaceSpace space(grid, 1);
   std::vector<std::array<Index, 2>> sides_of(now.points.size(), {0, 0});
   for (std::size_t t = 0; t < sides.size(); ++t) {

@@ -29,6 +29,7 @@ struct ObjectBoundaries {
 /// Points on the grid's box stay, and so do those on curves; beside curves moves fade, so that no
 /// step comes about. Moves that would make boundaries meet are taken back.
 /// @return the same triangles.
+/// @throws InputError  if there are shifts, but not one for each point.
 ///
 /// O(n log n) for n points. The same bits for any number of threads.
 TriMesh keep_volumes(const ObjectBoundaries& boundaries, const VoxelGrid& grid);

@@ -10,6 +10,7 @@
 #include "mesamis/fit/surface_moves.h"
 #include "mesamis/surface/measure.h"
 #include "mesamis/surface/normals.h"
+#include "mesamis/surface/triangle_tree.h"
 
 namespace mesamis::detail::fit {
 namespace {
@@ -22,7 +23,8 @@ using Sides = std::span<const std::array<Index, 2>>;
 /// The edges of a surface, at their ends' places in Neighbors: at the lower end's.
 class BentEdges {
  public:
-  BentEdges(const TriMesh& surface, const std::vector<char>& on_curve, const SurfaceSpace& space)
+  /// @param no_normal  of each point 1 where the surface has none; edges between two such stay.
+  BentEdges(const TriMesh& surface, const std::vector<char>& no_normal)
       : surface_(surface), neighbors_(surface), at_(neighbors_.points.size()) {
     for (Index t = 0; t < std::ssize(surface.triangles); ++t) {
       for (std::size_t i = 0; i < 3; ++i) {
@@ -37,8 +39,7 @@ class BentEdges {
     parallel_for(surface.points.size(), [&](std::size_t p) {
       for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
         const Index q = neighbors_.points[n];
-        if (at_[n].count != 2 || on_curve[p] + on_curve[q] == 2) continue;
-        if (space.on_box(surface.points[p]) && space.on_box(surface.points[q])) continue;
+        if (at_[n].count != 2 || no_normal[p] + no_normal[q] == 2) continue;
         bent[n] = is_bent(at_[n].some, at_[n].other) ? 1 : 0;
       }
     });
@@ -86,14 +87,14 @@ class BentEdges {
 
 /// From amid an edge to the curve over it.
 Vec3 height_over(const std::array<Index, 2>& edge, const TriMesh& surface,
-                 const std::vector<Vec3>& normals, const std::vector<char>& on_curve) {
+                 const std::vector<Vec3>& normals, const std::vector<char>& no_normal) {
   const auto [a, b] = edge;
   const Vec3 along = surface.points[b] - surface.points[a];
   const Vec3 at_a = dot(along, normals[a]) * normals[a];
   const Vec3 at_b = dot(along, normals[b]) * normals[b];
   Vec3 height = 0.125 * (at_b - at_a);
-  if (on_curve[a] != 0) height = 0.25 * at_b;
-  if (on_curve[b] != 0) height = -0.25 * at_a;
+  if (no_normal[a] != 0) height = 0.25 * at_b;
+  if (no_normal[b] != 0) height = -0.25 * at_a;
   const double length = norm(height), most = kMostHeight * norm(along);
   return (length > most ? most / length : 1) * height;
 }
@@ -137,13 +138,19 @@ void add_parts(Triangle t, std::array<Index, 3> m, const TriMesh& surface,
 
 SplitBoundaries split_bends(const TriMesh& surface, Sides sides, const std::vector<char>& on_curve,
                             const VoxelGrid& grid) {
-  const BentEdges bent(surface, on_curve, SurfaceSpace(grid, 1));
+  const SurfaceSpace space(grid, 1);
+  std::vector<char> no_normal = on_curve;
+  parallel_for(no_normal.size(), [&](std::size_t p) {
+    if (space.on_box(surface.points[p])) no_normal[p] = 1;
+  });
+  const BentEdges bent(surface, no_normal);
   const std::vector<Vec3> normals = vertex_normals(surface);
   SplitBoundaries split{{surface.points, {}}, {}, std::vector<Vec3>(surface.points.size())};
   for (const auto& edge : bent.edges()) {
     split.surface.points.push_back(surface.points[edge[0]] +
                                    0.5 * (surface.points[edge[1]] - surface.points[edge[0]]));
-    split.shifts.push_back(height_over(edge, surface, normals, on_curve));
+    const Vec3 height = height_over(edge, surface, normals, no_normal);
+    split.shifts.push_back(space.within_box(split.surface.points.back(), height));
   }
   for (std::size_t t = 0; t < sides.size(); ++t) {
     const Triangle& triangle = surface.triangles[t];

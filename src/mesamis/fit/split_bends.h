@@ -23,8 +23,8 @@ struct SplitBoundaries {
 ///
 /// A new point lies amid its edge; its shift leads on to the cubic curve through the edge's ends
 /// that touches the surface there (Vlachos et al., Curved PN triangles, 2001). Where several
-/// boundaries meet a point has no normal, and the curve is the parabola of the other end; edges
-/// between two such points stay, and so do those on the grid's box.
+/// boundaries meet, and on the grid's box, a point has no normal: the curve is the parabola of the
+/// other end, and edges between two such points stay.
 /// @param surface   in the grid's own axes, mm.
 /// @param sides     of each triangle: materials behind, in front.
 /// @param on_curve  of each point 1 where several boundaries meet.

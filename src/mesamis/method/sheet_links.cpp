@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 
 #include "mesamis/base/each_once.h"
@@ -11,7 +12,8 @@
 namespace mesamis::detail::method {
 namespace {
 
-constexpr double kSmooth = 0.52;  // least cosine between the normals of sheets that go on
+/// Least cosines between the normals of sheets that go on: of the smoothest, and of another.
+constexpr double kSmooth = 0.52, kSmoothToo = 0.6;
 
 using Materials = std::vector<Index>;
 using Sides = std::span<const std::array<Index, 2>>;
@@ -34,7 +36,7 @@ struct Turns {
   std::array<double, 3> cosines{};  // sums
   int points = 0;
 
-  bool goes_on(std::size_t material) const { return cosines[material] > kSmooth * points; }
+  double cosine(std::size_t material) const { return cosines[material] / points; }
 };
 
 class SheetLinker {
@@ -95,12 +97,10 @@ class SheetLinker {
     Materials through;
     if (!joins_three(p)) return through;
     const Turns& turns = turns_.at(materials_[p]);
-    double most = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!turns.goes_on(i)) continue;
-      through.insert(turns.cosines[i] > most ? through.begin() : through.end(), materials_[p][i]);
-      most = std::max(most, turns.cosines[i]);
-    }
+    std::array<std::size_t, 3> order{0, 1, 2};
+    std::ranges::sort(order, std::greater{}, [&](std::size_t i) { return turns.cosine(i); });
+    if (turns.cosine(order[0]) > kSmooth) through.push_back(materials_[p][order[0]]);
+    if (turns.cosine(order[1]) > kSmoothToo) through.push_back(materials_[p][order[1]]);
     return through;
   }
 

@@ -18,8 +18,8 @@ enum class Through { kBoth, kSmoothest };
 /// Where three materials meet along a curve, the boundary of one or two of them mostly goes on
 /// smoothly: that of a bone at which the boundary between two muscles ends, or those of two muscles
 /// that touch, where the background between them ends in a cusp. A boundary goes on if its two
-/// sheets turn by less than some 58 degrees in the mean over the curves of the same materials;
-/// those of three equal wedges turn by 60.
+/// sheets turn by less than some 58 degrees in the mean over the curves of the same materials, as
+/// those of three equal wedges turn by 60; a second one, if they turn by less than some 53.
 ///
 /// Points of a curve are smoothed by the neighbours on each boundary that goes on. With kBoth, if
 /// one alone goes on, the neighbours on curves smooth them, too. Where none does, and where more

@@ -153,7 +153,7 @@ GridMemberships cut_out(const LayerRun& run, const GridMemberships& grid,
 }
 
 /// The memberships of the cells of slab s without constants.
-GridMemberships read_memberships(const LayerRun& run, Index s) {
+GridMemberships read_base(const LayerRun& run, Index s) {
   GridMemberships grid = grid_of(run, slices_of_cells(run, s));
   ArchiveReader archive = run.scratch.read(run.file("memberships", s));
   grid.material = archive.next<Index>();
@@ -165,7 +165,7 @@ GridMemberships read_memberships(const LayerRun& run, Index s) {
 
 /// The same with constants.
 GridMemberships read_memberships(const LayerRun& run, const VolumeMatch& match, Index s) {
-  GridMemberships grid = read_memberships(run, s);
+  GridMemberships grid = read_base(run, s);
   const std::vector<float> base = grid.value;
   add_constants(base, match.constants(), grid);
   return grid;
@@ -191,8 +191,10 @@ GridMemberships gather_memberships(const LayerRun& run, const VolumeMatch& match
   for (Index s = 0; s < run.count(); ++s) {
     const BlockSlices own = own_slices(run, s);
     const BlockSlices some{std::max(own.begin, slices.begin), std::min(own.end, slices.end)};
-    if (some.count() > 0) append_slices(cut_out(run, read_memberships(run, match, s), some), grid);
+    if (some.count() > 0) append_slices(cut_out(run, read_base(run, s), some), grid);
   }
+  const std::vector<float> base = grid.value;
+  add_constants(base, match.constants(), grid);
   return grid;
 }
 
@@ -203,7 +205,7 @@ std::string round_file(const LayerRun& run, const VolumeMatch& match, Index s) {
 PartitionPart read_boundaries(const LayerRun& run, Index s) {
   ArchiveReader archive = run.scratch.read(run.file("boundaries", s));
   PartitionPart part;
-  part.sites = archive.next<Simplex>();
+  part.sites = archive.next<WholeSite>();
   part.surface.points = archive.next<Vec3>();
   part.surface.triangles = archive.next<Triangle>();
   part.surface.sides = archive.next<std::array<Index, 2>>();
@@ -416,7 +418,8 @@ std::vector<LayerVolumes> layers_of_slabs(const LayerRun& run, const VolumeMatch
 
 SlabWork extract_slab(const LayerRun& run, const VolumeMatch& match, Index s) {
   const BlockSlices own = own_slices(run, s);
-  const BlockSlices held{std::max(0, own.begin - 1), std::min(slice_count(run), own.end + 2)};
+  const BlockSlices of_net{std::max(0, own.begin - 1), std::min(slice_count(run), own.end + 2)};
+  const BlockSlices held = run.net ? of_net : slices_of_cells(run, s);
   const GridMemberships grid = gather_memberships(run, match, held);
   const NodeSlices slices{own.begin - held.begin, own.end - held.begin};
   const PartitionPart part =
@@ -441,8 +444,10 @@ std::vector<double> label_volumes(const LayerRun& run) {
 }
 
 PartitionSurface joined_boundaries(const LayerRun& run) {
-  std::vector<PartitionPart> parts;
-  for (Index s = 0; s < run.count(); ++s) parts.push_back(read_boundaries(run, s));
+  std::vector<PartitionPart> parts(static_cast<std::size_t>(run.count()));
+  for (Index s = 0; s < run.count(); ++s) {
+    parts[static_cast<std::size_t>(s)] = read_boundaries(run, s);
+  }
   return join_parts(std::move(parts));
 }
 

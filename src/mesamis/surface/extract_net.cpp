@@ -45,24 +45,25 @@ class Net {
         marcher_(field_),
         objects_(grid, options.chosen),
         stride_{1, grid.size[0], grid.size[0] * grid.size[1]},
-        state_(grid.material.size(), 0) {
+        tame_(grid.material.size(), 0),
+        straight_(grid.material.size(), 0) {
     const auto layers = static_cast<std::size_t>(grid.size[2] - 1);
     parallel_for_each(layers, [this](std::size_t k) {
       std::vector<PartitionPiece> pieces;
       for_cubes_above(static_cast<Index>(k), [&](Index cube) {
-        if (!is_uniform(cube) && is_disc_of_all(cube, pieces)) state_[cube] |= kTame;
+        if (!is_uniform(cube) && is_disc_of_all(cube, pieces)) tame_[cube] = 1;
       });
     });
     parallel_for_each(layers, [this](std::size_t k) {
       for_cubes_above(static_cast<Index>(k), [&](Index cube) {
-        for (int a = 0; a < 3; ++a) {
-          if (may_be_straight(cube, a)) state_[cube] |= static_cast<std::uint8_t>(kStraight << a);
-        }
+        unsigned straight = 0;
+        for (int a = 0; a < 3; ++a) straight |= (may_be_straight(cube, a) ? 1U : 0U) << a;
+        straight_[cube] = static_cast<std::uint8_t>(straight);
       });
     });
   }
 
-  PartitionPart extract(const NodeSlices& slices) const {
+  JoinedBlocks extract(const NodeSlices& slices) const {
     std::vector<PartitionBlock> blocks(static_cast<std::size_t>(slices.end - slices.begin));
     parallel_for_each(blocks.size(), [&](std::size_t b) {
       const Index k = slices.begin + static_cast<Index>(b);
@@ -76,8 +77,6 @@ class Net {
   }
 
  private:
-  static constexpr std::uint8_t kTame = 1, kStraight = 2;
-
   template <class Visit>
   void for_cubes_above(Index k, Visit visit) const {
     if (k + 1 == grid_.size[2]) return;
@@ -112,10 +111,10 @@ class Net {
     return true;
   }
 
-  bool is_tame(Index cube) const { return (state_[cube] & kTame) != 0; }
+  bool is_tame(Index cube) const { return tame_[cube] != 0; }
   /// Whether the boundaries cross the face with this lowest node, normal to an axis, in one line
   /// between the points of two cubes.
-  bool is_straight(Index node, int axis) const { return (state_[node] & (kStraight << axis)) != 0; }
+  bool is_straight(Index node, int axis) const { return (straight_[node] >> axis & 1U) != 0; }
 
   /// The four nodes around a face.
   std::array<Index, 4> around(Index node, int axis) const {
@@ -144,13 +143,10 @@ class Net {
     for (const auto& path : kKuhnPaths) visit(kuhn_cell(cube, stride_, path));
   }
 
-  /// Whether the boundaries in a cube hang together, and make one disc for each object in it.
+  /// Whether the boundaries in a cube make one disc for each object in it: so they hang together.
   bool is_disc_of_all(Index cube, std::vector<PartitionPiece>& pieces) const {
     pieces.clear();
     for_cells(cube, [&](const Cell& cell) { marcher_.march_inside(cell, pieces); });
-    if (!is_disc(
-            pieces, [](const PartitionPiece&) { return true; }, false))
-      return false;
     for (const auto& view : objects_.views()) {
       std::vector<Index> seen;
       for (const auto& piece : pieces) {
@@ -164,7 +160,7 @@ class Net {
           const bool before = view[static_cast<std::size_t>(piece.sides[1])] == object;
           return behind != before;
         };
-        if (std::any_of(pieces.begin(), pieces.end(), bounds) && !is_disc(pieces, bounds, true)) {
+        if (std::any_of(pieces.begin(), pieces.end(), bounds) && !is_disc(pieces, bounds)) {
           return false;
         }
       }
@@ -172,9 +168,9 @@ class Net {
     return true;
   }
 
-  /// Whether some pieces hang together and, if asked, have the Euler characteristic of a disc.
+  /// Whether some pieces hang together and have the Euler characteristic of a disc.
   template <class Choose>
-  static bool is_disc(const std::vector<PartitionPiece>& pieces, Choose choose, bool euler) {
+  static bool is_disc(const std::vector<PartitionPiece>& pieces, Choose choose) {
     std::vector<Simplex> sites;
     std::vector<std::array<Simplex, 2>> edges;
     std::size_t faces = 0;
@@ -201,7 +197,7 @@ class Net {
     };
     for (const auto& [a, b] : edges) sets.unite(number(a), number(b));
     if (sets.numbers().count != 1) return false;
-    return !euler || sites.size() + faces == edges.size() + 1;
+    return sites.size() + faces == edges.size() + 1;
   }
 
   /// The mean of the points where a cube's edges are cut.
@@ -232,8 +228,7 @@ class Net {
       for (int a = 0; a < 3; ++a) {
         if (!is_straight(cube, a)) add_face(cube, cube, a, false, out);
         const Index far = cube + stride_[a];
-        const bool at_end = field_.place(far)[static_cast<std::size_t>(a)] + 1 == grid_.size[a];
-        if (at_end || !is_straight(far, a)) add_face(cube, far, a, true, out);
+        if (!is_straight(far, a)) add_face(cube, far, a, true, out);
       }
     }
     for_cells(cube, [&](const Cell& cell) { marcher_.add_caps(cell, out); });
@@ -305,7 +300,8 @@ class Net {
   PartitionMarcher<GridField> marcher_;
   Objects objects_;
   std::array<Index, 3> stride_;
-  std::vector<std::uint8_t> state_;  // of the cube above each node, and of its lower faces
+  std::vector<std::uint8_t> tame_;      // of the cube above each node: 1
+  std::vector<std::uint8_t> straight_;  // of its lower faces: a bit for each axis
 };
 
 }  // namespace
@@ -318,9 +314,8 @@ PartitionSurface extract_net_on_grid(const GridMemberships& memberships,
 PartitionPart extract_net_part(const GridMemberships& memberships, const NodeSlices& slices,
                                const NetOptions& options) {
   require_memberships(memberships);
-  PartitionPart part = Net(memberships, options).extract(slices);
-  name_wholly(memberships, part);
-  return part;
+  require_slices(memberships, slices, 1, 2);
+  return named_wholly(memberships, Net(memberships, options).extract(slices));
 }
 
 }  // namespace mesamis::detail::surface

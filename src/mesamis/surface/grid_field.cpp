@@ -47,8 +47,9 @@ void require_memberships(const GridMemberships& grid) {
   require(all_are(grid.value, [](float v) { return std::isfinite(v); }), "finite memberships");
 }
 
-void name_wholly(const GridMemberships& grid, PartitionPart& part) {
+PartitionPart named_wholly(const GridMemberships& grid, JoinedBlocks blocks) {
   const auto label = [&](Index material) { return grid.label[static_cast<std::size_t>(material)]; };
+  PartitionPart part{{}, std::move(blocks.surface)};
   PartitionSurface& partition = part.surface;
   parallel_for(partition.sides.size(), [&](std::size_t t) {
     auto& [behind, before] = partition.sides[t];
@@ -59,11 +60,24 @@ void name_wholly(const GridMemberships& grid, PartitionPart& part) {
     std::swap(behind, before);
     std::swap(partition.triangles[t][1], partition.triangles[t][2]);
   });
-  const Index first = grid.below * grid.size[0] * grid.size[1];
-  if (first == 0) return;
-  for (Simplex& site : part.sites) {
-    for (Index& node : site) node += node == kNoIndex ? 0 : first;
+  const std::int64_t first = std::int64_t{grid.below} * grid.size[0] * grid.size[1];
+  part.sites.reserve(blocks.sites.size());
+  for (const Simplex& site : blocks.sites) {
+    WholeSite& whole = part.sites.emplace_back();
+    std::transform(site.begin(), site.end(), whole.begin(), [&](Index node) {
+      return node == kNoIndex ? std::int64_t{kNoIndex} : node + first;
+    });
   }
+  return part;
+}
+
+void require_slices(const GridMemberships& grid, const NodeSlices& slices, Index below,
+                    Index above) {
+  const auto [begin, end] = slices;
+  require(begin >= 0 && begin <= end && end <= grid.size[2], "slices of the grid");
+  require(begin >= std::min(below, begin + grid.below) &&
+              grid.size[2] - end >= std::min(above, grid.size[2] - end + grid.above),
+          "the slices beside those that are wanted");
 }
 
 }  // namespace mesamis::detail::surface

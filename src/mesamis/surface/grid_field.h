@@ -8,16 +8,23 @@
 #include "mesamis/base/types.h"
 #include "mesamis/mesh/kuhn.h"
 #include "mesamis/surface/grid_partition.h"
+#include "mesamis/surface/partition_cells.h"
 
 namespace mesamis::detail::surface {
 
-/// @throws InputError  if the sizes do not fit, a material or a label is out of range, or a value is
-///                     not finite.
+/// @throws InputError  if the sizes do not fit, a material or a label is out of range, or a value
+///                     is not finite.
 void require_memberships(const GridMemberships& grid);
 
 /// Names the sides of triangles by the labels of their materials, and turns a triangle where the
 /// order of the labels is not that of the materials. Names sites by the nodes of the whole grid.
-void name_wholly(const GridMemberships& grid, PartitionPart& part);
+PartitionPart named_wholly(const GridMemberships& grid, JoinedBlocks blocks);
+
+/// @throws InputError  if slices do not follow each other, or the grid has not those beside them,
+///                     as far as the larger grid has any.
+/// @param below, above  how many slices beside those of the range are needed.
+void require_slices(const GridMemberships& grid, const NodeSlices& slices, Index below,
+                    Index above);
 
 /// A field of partition_cells.h: memberships on a grid.
 class GridField {

@@ -2,6 +2,7 @@
 #include "mesamis/surface/grid_partition.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "mesamis/surface/grid_field.h"
 #include "mesamis/surface/partition_cells.h"
@@ -16,16 +17,16 @@ PartitionSurface extract_partition_on_grid(const GridMemberships& memberships,
 PartitionPart extract_partition_part(const GridMemberships& memberships, const NodeSlices& slices,
                                      const PartitionOptions& options) {
   require_memberships(memberships);
+  require_slices(memberships, slices, 0, 1);
   const GridField field(memberships, options.close_at_box);
   const Index end = std::min(slices.end, memberships.size[2] - 1);
-  PartitionPart part = extract_blocks(field, static_cast<std::size_t>(end - slices.begin),
-                                      [&](std::size_t b, const auto& marcher, auto& pieces) {
-                                        field.for_cells_above(
-                                            slices.begin + static_cast<Index>(b),
-                                            [&](const Cell& cell) { marcher.march(cell, pieces); });
-                                      });
-  name_wholly(memberships, part);
-  return part;
+  JoinedBlocks blocks = extract_blocks(
+      field, static_cast<std::size_t>(end - slices.begin),
+      [&](std::size_t b, const auto& marcher, auto& pieces) {
+        field.for_cells_above(slices.begin + static_cast<Index>(b),
+                              [&](const Cell& cell) { marcher.march(cell, pieces); });
+      });
+  return named_wholly(memberships, std::move(blocks));
 }
 
 }  // namespace mesamis::detail::surface

@@ -8,12 +8,14 @@
 namespace mesamis::detail::surface {
 namespace {
 
-void sort_and_shrink(std::vector<Simplex>& sites) {
+template <class Site>
+void sort_and_shrink(std::vector<Site>& sites) {
   sort_once(sites);
   sites.shrink_to_fit();
 }
 
-Index place_of(const Simplex& site, std::span<const Simplex> sites) {
+template <class Site>
+Index place_of(const Site& site, const std::vector<Site>& sites) {
   return static_cast<Index>(std::lower_bound(sites.begin(), sites.end(), site) - sites.begin());
 }
 
@@ -47,7 +49,7 @@ std::vector<Simplex> all_sites(std::span<const PartitionBlock> blocks) {
 }
 
 PartitionSurface over_sites(std::span<const PartitionBlock> blocks,
-                            std::span<const Simplex> sites) {
+                            const std::vector<Simplex>& sites) {
   PartitionSurface partition;
   std::vector<std::size_t> first{0};
   for (const PartitionBlock& block : blocks) first.push_back(first.back() + block.sides.size());
@@ -69,7 +71,7 @@ PartitionSurface over_sites(std::span<const PartitionBlock> blocks,
 
 PartitionSurface join_parts(std::vector<PartitionPart> parts) {
   if (parts.size() == 1) return std::move(parts.front().surface);
-  std::vector<Simplex> sites;
+  std::vector<WholeSite> sites;
   for (const PartitionPart& part : parts) {
     sites.insert(sites.end(), part.sites.begin(), part.sites.end());
   }
@@ -79,7 +81,7 @@ PartitionSurface join_parts(std::vector<PartitionPart> parts) {
   for (PartitionPart& part : parts) {
     std::vector<Index> places;
     places.reserve(part.sites.size());
-    for (const Simplex& site : part.sites) places.push_back(place_of(site, sites));
+    for (const WholeSite& site : part.sites) places.push_back(place_of(site, sites));
     for (std::size_t p = 0; p < places.size(); ++p) {
       all.points[static_cast<std::size_t>(places[p])] = part.surface.points[p];
     }

@@ -20,6 +20,9 @@
 ///   unsigned planes(Index node);       double membership(Index node, Index material);
 namespace mesamis::detail::surface {
 
+/// Where a point of a partition sits: a WholeSite, by the nodes of a field.
+using Simplex = std::array<Index, 4>;
+
 inline Simplex simplex_of(std::initializer_list<Index> nodes) {
   Simplex simplex{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
   std::copy(nodes.begin(), nodes.end(), simplex.begin());
@@ -262,13 +265,20 @@ PartitionBlock block_of(std::span<const PartitionPiece> pieces);
 std::vector<Simplex> all_sites(std::span<const PartitionBlock> blocks);
 
 /// Joins blocks, in their order, over all their sites. The points are left to the caller.
-PartitionSurface over_sites(std::span<const PartitionBlock> blocks, std::span<const Simplex> sites);
+PartitionSurface over_sites(std::span<const PartitionBlock> blocks,
+                            const std::vector<Simplex>& sites);
+
+/// Blocks as one, and the sites of its points, increasing.
+struct JoinedBlocks {
+  std::vector<Simplex> sites;
+  PartitionSurface surface;
+};
 
 /// Joins blocks, in their order. O(n log n).
 /// @param position  position(site): of a point, mm; called from several threads.
 template <class Position>
-PartitionPart joined(std::span<const PartitionBlock> blocks, Position&& position) {
-  PartitionPart part{all_sites(blocks), {}};
+JoinedBlocks joined(std::span<const PartitionBlock> blocks, Position&& position) {
+  JoinedBlocks part{all_sites(blocks), {}};
   part.surface = over_sites(blocks, part.sites);
   part.surface.points.resize(part.sites.size());
   parallel_for(part.sites.size(),
@@ -279,7 +289,7 @@ PartitionPart joined(std::span<const PartitionBlock> blocks, Position&& position
 /// Extracts the boundaries from blocks of cells.
 /// @param march  march(block, marcher, pieces) appends the pieces of a block.
 template <class Field, class March>
-PartitionPart extract_blocks(const Field& field, std::size_t block_count, March&& march) {
+JoinedBlocks extract_blocks(const Field& field, std::size_t block_count, March&& march) {
   const PartitionMarcher<Field> marcher(field);
   std::vector<PartitionBlock> blocks(block_count);
   parallel_for_each(block_count, [&](std::size_t b) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -9,9 +10,10 @@
 
 namespace mesamis::detail::surface {
 
-/// Where a point of a partition sits: inside of the simplex of these nodes, increasing; after them
-/// kNoIndex. Four times the same node: in the cube above it, see extract_net_on_grid().
-using Simplex = std::array<Index, 4>;
+/// Where a point of a partition sits: inside of the simplex of these nodes of the whole grid,
+/// increasing; after them kNoIndex. Four times the same node: in the cube above it, see
+/// extract_net_on_grid().
+using WholeSite = std::array<std::int64_t, 4>;
 
 /// The slices of a grid of nodes, with the cubes above each, that a PartitionPart is made of.
 struct NodeSlices {
@@ -20,8 +22,8 @@ struct NodeSlices {
 
 /// Some of a partition, which other parts go on from.
 struct PartitionPart {
-  std::vector<Simplex> sites;  ///< of each point, by the nodes of the whole grid; increasing
-  PartitionSurface surface;
+  std::vector<WholeSite> sites;  ///< of each point, increasing
+  PartitionSurface surface;      ///< open where it goes on
 };
 
 /// Joins the parts of a partition, in their order: points of one site are one. O(n log n).
