@@ -53,8 +53,7 @@ class Fit {
     if (!any_looked) return false;
     for (int ring = 0; ring < kBlindRings; ++ring) meets = greatest_around(neighbors_, meets);
     for (std::size_t p = 0; p < blind_.size(); ++p) {
-      if (meets[p] == 0) continue;
-      blind_[p] = 1;
+      if (meets[p] > 0) blind_[p] = 1;
     }
     return true;
   }
@@ -117,9 +116,7 @@ TriMesh fit_surface(const TriMesh& surface, const SplineImage& image, const FitP
         "fit: expected an entry for each point of the surface and each neighbour of it");
   }
   Fit fit(surface, std::move(neighbors), image, points, options);
-  for (int round = 0; round < options.rounds; ++round) {
-    fit.round();
-  }
+  for (int round = 0; round < options.rounds; ++round) fit.round();
   constexpr int kMostUnfoldings = 10;
   for (int trial = 0; trial < kMostUnfoldings && fit.blind_where_triangles_meet(); ++trial) {
     fit.round();

@@ -25,22 +25,21 @@ class BentEdges {
  public:
   /// @param no_normal  of each point 1 where the surface has none; edges between two such stay.
   BentEdges(const TriMesh& surface, const std::vector<char>& no_normal)
-      : surface_(surface), neighbors_(surface), at_(neighbors_.points.size()) {
+      : surface_(surface), neighbors_(surface), middle_(neighbors_.points.size(), kNoIndex) {
+    std::vector<Beside> at(middle_.size());
     for (Index t = 0; t < std::ssize(surface.triangles); ++t) {
       for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t edge = edge_of(surface.triangles[t], i);
-        auto& [count, some, other] = at_[edge];
+        auto& [count, some, other] = at[edge_of(surface.triangles[t], i)];
         (count == 0 ? some : other) = t;
         ++count;
       }
     }
-    middle_.assign(at_.size(), kNoIndex);
-    std::vector<char> bent(at_.size(), 0);
+    std::vector<char> bent(at.size(), 0);
     parallel_for(surface.points.size(), [&](std::size_t p) {
       for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
         const Index q = neighbors_.points[n];
-        if (at_[n].count != 2 || no_normal[p] + no_normal[q] == 2) continue;
-        bent[n] = is_bent(at_[n].some, at_[n].other) ? 1 : 0;
+        if (at[n].count != 2 || no_normal[p] + no_normal[q] == 2) continue;
+        bent[n] = is_bent(at[n].some, at[n].other) ? 1 : 0;
       }
     });
     for (std::size_t p = 0; p < surface.points.size(); ++p) {
@@ -80,7 +79,6 @@ class BentEdges {
 
   const TriMesh& surface_;
   Neighbors neighbors_;
-  std::vector<Beside> at_;
   std::vector<Index> middle_;
   std::vector<std::array<Index, 2>> edges_;
 };

@@ -163,9 +163,7 @@ GridMemberships read_base(const LayerRun& run, Index s) {
   return grid;
 }
 
-/// The same with constants.
-GridMemberships read_memberships(const LayerRun& run, const VolumeMatch& match, Index s) {
-  GridMemberships grid = read_base(run, s);
+GridMemberships with_constants(GridMemberships grid, const VolumeMatch& match) {
   const std::vector<float> base = grid.value;
   add_constants(base, match.constants(), grid);
   return grid;
@@ -193,9 +191,7 @@ GridMemberships gather_memberships(const LayerRun& run, const VolumeMatch& match
     const BlockSlices some{std::max(own.begin, slices.begin), std::min(own.end, slices.end)};
     if (some.count() > 0) append_slices(cut_out(run, read_base(run, s), some), grid);
   }
-  const std::vector<float> base = grid.value;
-  add_constants(base, match.constants(), grid);
-  return grid;
+  return with_constants(std::move(grid), match);
 }
 
 std::string round_file(const LayerRun& run, const VolumeMatch& match, Index s) {
@@ -387,7 +383,7 @@ SlabWork smooth_slab(const LayerRun& run, Index s) {
 }
 
 SlabWork measure_slab(const LayerRun& run, const VolumeMatch& match, Index s) {
-  const std::vector<LayerVolumes> layers = measure_layers(read_memberships(run, match, s));
+  const std::vector<LayerVolumes> layers = measure_layers(with_constants(read_base(run, s), match));
   std::vector<Index> counts;
   LayerVolumes all;
   for (const LayerVolumes& layer : layers) {

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/disjoint_sets.h"
 #include "mesamis/surface/exact_predicates.h"
@@ -20,22 +23,21 @@ namespace {
 Simplex site_of_cube(Index cube) { return {cube, cube, cube, cube}; }
 bool is_of_cube(const Simplex& site) { return site[0] == site[3]; }
 
-/// What makes two materials one object: their labels, and not being chosen.
-class Objects {
- public:
-  Objects(const GridMemberships& grid, const std::vector<char>& chosen)
-      : label_(grid.label), seen_(grid.label) {
-    if (chosen.empty()) return;
-    for (Index& l : seen_) {
-      if (l >= std::ssize(chosen) || chosen[static_cast<std::size_t>(l)] == 0) l = 0;
-    }
-  }
-  /// Of all labels, and of those that are chosen.
-  std::array<std::span<const Index>, 2> views() const { return {label_, seen_}; }
+/// Of each material the object that it is part of.
+using View = std::vector<Index>;
 
- private:
-  std::vector<Index> label_, seen_;
-};
+/// Its label; and where labels are chosen, 0 instead of those that are not: then the laws hold for
+/// both.
+std::vector<View> views_of(const GridMemberships& grid, const std::vector<char>& chosen) {
+  std::vector<View> views{grid.label};
+  if (chosen.empty()) return views;
+  View seen = grid.label;
+  for (Index& l : seen) {
+    if (l >= std::ssize(chosen) || chosen[static_cast<std::size_t>(l)] == 0) l = 0;
+  }
+  if (seen != views.front()) views.push_back(std::move(seen));
+  return views;
+}
 
 class Net {
  public:
@@ -43,19 +45,19 @@ class Net {
       : grid_(grid),
         field_(grid, options.close_at_box),
         marcher_(field_),
-        objects_(grid, options.chosen),
+        views_(views_of(grid, options.chosen)),
         stride_{1, grid.size[0], grid.size[0] * grid.size[1]},
         tame_(grid.material.size(), 0),
         straight_(grid.material.size(), 0) {
     const auto layers = static_cast<std::size_t>(grid.size[2] - 1);
     parallel_for_each(layers, [this](std::size_t k) {
       std::vector<PartitionPiece> pieces;
-      for_cubes_above(static_cast<Index>(k), [&](Index cube) {
-        if (!is_uniform(cube) && is_disc_of_all(cube, pieces)) tame_[cube] = 1;
+      field_.for_cubes_above(static_cast<Index>(k), [&](Index cube) {
+        if (!field_.is_uniform(cube) && is_disc_of_all(cube, pieces)) tame_[cube] = 1;
       });
     });
     parallel_for_each(layers, [this](std::size_t k) {
-      for_cubes_above(static_cast<Index>(k), [&](Index cube) {
+      field_.for_cubes_above(static_cast<Index>(k), [&](Index cube) {
         unsigned straight = 0;
         for (int a = 0; a < 3; ++a) straight |= (may_be_straight(cube, a) ? 1U : 0U) << a;
         straight_[cube] = static_cast<std::uint8_t>(straight);
@@ -64,27 +66,18 @@ class Net {
   }
 
   JoinedBlocks extract(const NodeSlices& slices) const {
-    std::vector<PartitionBlock> blocks(static_cast<std::size_t>(slices.end - slices.begin));
+    std::vector<PartitionBlock> blocks(slices.count());
     parallel_for_each(blocks.size(), [&](std::size_t b) {
       const Index k = slices.begin + static_cast<Index>(b);
       std::vector<PartitionPiece> pieces;
-      for_cubes_above(k, [&](Index cube) { add_cube(cube, pieces); });
+      field_.for_cubes_above(k, [&](Index cube) { add_cube(cube, pieces); });
       for_edges_at(k, [&](Index node, int axis) { add_edge(node, axis, pieces); });
       blocks[b] = block_of(pieces);
     });
-    return joined(std::span<const PartitionBlock>(blocks),
-                  [this](const Simplex& site) { return position(site); });
+    return joined(blocks, [this](const Simplex& site) { return position(site); });
   }
 
  private:
-  template <class Visit>
-  void for_cubes_above(Index k, Visit visit) const {
-    if (k + 1 == grid_.size[2]) return;
-    for (Index j = 0; j + 1 < grid_.size[1]; ++j) {
-      for (Index i = 0; i + 1 < grid_.size[0]; ++i) visit(i + j * stride_[1] + k * stride_[2]);
-    }
-  }
-
   template <class Visit>
   void for_edges_at(Index k, Visit visit) const {
     for (Index j = 0; j < grid_.size[1]; ++j) {
@@ -102,15 +95,6 @@ class Net {
     return field_.material(node) != field_.material(node + stride_[axis]);
   }
 
-  bool is_uniform(Index cube) const {
-    for (const auto& [i, j, k] : kKuhnSteps) {
-      if (field_.material(cube + i + j * stride_[1] + k * stride_[2]) != field_.material(cube)) {
-        return false;
-      }
-    }
-    return true;
-  }
-
   bool is_tame(Index cube) const { return tame_[cube] != 0; }
   /// Whether the boundaries cross the face with this lowest node, normal to an axis, in one line
   /// between the points of two cubes.
@@ -126,7 +110,7 @@ class Net {
     if (field_.place(node)[static_cast<std::size_t>(axis)] == 0) return false;
     if (!is_tame(node) || !is_tame(node - stride_[axis])) return false;
     const auto n = around(node, axis);
-    for (const auto& view : objects_.views()) {
+    for (const View& view : views_) {
       std::array<Index, 4> m;
       for (std::size_t i = 0; i < 4; ++i) {
         m[i] = view[static_cast<std::size_t>(field_.material(n[i]))];
@@ -138,66 +122,44 @@ class Net {
     return true;
   }
 
-  template <class Visit>
-  void for_cells(Index cube, Visit visit) const {
-    for (const auto& path : kKuhnPaths) visit(kuhn_cell(cube, stride_, path));
-  }
-
   /// Whether the boundaries in a cube make one disc for each object in it: so they hang together.
   bool is_disc_of_all(Index cube, std::vector<PartitionPiece>& pieces) const {
     pieces.clear();
-    for_cells(cube, [&](const Cell& cell) { marcher_.march_inside(cell, pieces); });
-    for (const auto& view : objects_.views()) {
-      std::vector<Index> seen;
-      for (const auto& piece : pieces) {
-        for (const Index m : piece.sides) seen.push_back(view[static_cast<std::size_t>(m)]);
+    field_.for_cells(cube, [&](const Cell& cell) { marcher_.march_inside(cell, pieces); });
+    std::vector<PartitionPiece> of_object;
+    for (const View& view : views_) {
+      const auto object = [&](Index material) { return view[static_cast<std::size_t>(material)]; };
+      std::vector<Index> objects;
+      for (const auto& [corners, sides] : pieces) {
+        for (const Index m : sides) add_once(objects, object(m));
       }
-      std::sort(seen.begin(), seen.end());
-      seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
-      for (const Index object : seen) {
-        const auto bounds = [&](const PartitionPiece& piece) {
-          const bool behind = view[static_cast<std::size_t>(piece.sides[0])] == object;
-          const bool before = view[static_cast<std::size_t>(piece.sides[1])] == object;
-          return behind != before;
-        };
-        if (std::any_of(pieces.begin(), pieces.end(), bounds) && !is_disc(pieces, bounds)) {
-          return false;
-        }
+      for (const Index o : objects) {
+        of_object.clear();
+        std::ranges::copy_if(pieces, std::back_inserter(of_object), [&](const auto& piece) {
+          return (object(piece.sides[0]) == o) != (object(piece.sides[1]) == o);
+        });
+        if (!of_object.empty() && !is_disc(of_object)) return false;
       }
     }
     return true;
   }
 
   /// Whether some pieces hang together and have the Euler characteristic of a disc.
-  template <class Choose>
-  static bool is_disc(const std::vector<PartitionPiece>& pieces, Choose choose) {
-    std::vector<Simplex> sites;
-    std::vector<std::array<Simplex, 2>> edges;
-    std::size_t faces = 0;
-    for (const PartitionPiece& piece : pieces) {
-      if (!choose(piece)) continue;
-      ++faces;
+  static bool is_disc(std::span<const PartitionPiece> pieces) {
+    const auto [sites, triangles, sides] = block_of(pieces);
+    std::vector<std::array<Index, 2>> edges;
+    for (const Triangle& t : triangles) {
       for (std::size_t i = 0; i < 3; ++i) {
-        const Simplex& a = piece.corners[i];
-        const Simplex& b = piece.corners[(i + 1) % 3];
-        sites.push_back(a);
+        const Index a = t[i], b = t[(i + 1) % 3];
         edges.push_back({std::min(a, b), std::max(a, b)});
       }
     }
-    const auto once = [](auto& items) {
-      std::sort(items.begin(), items.end());
-      items.erase(std::unique(items.begin(), items.end()), items.end());
-    };
-    once(sites);
-    once(edges);
+    sort_once(edges);
     DisjointSets sets(sites.size());
-    const auto number = [&](const Simplex& s) {
-      return static_cast<std::size_t>(std::lower_bound(sites.begin(), sites.end(), s) -
-                                      sites.begin());
-    };
-    for (const auto& [a, b] : edges) sets.unite(number(a), number(b));
-    if (sets.numbers().count != 1) return false;
-    return sites.size() + faces == edges.size() + 1;
+    for (const auto& [a, b] : edges) {
+      sets.unite(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    }
+    return sets.numbers().count == 1 && sites.size() + triangles.size() == edges.size() + 1;
   }
 
   /// The mean of the points where a cube's edges are cut.
@@ -221,9 +183,7 @@ class Net {
   /// What of the boundaries lies within a cube, or at faces that keep their points.
   void add_cube(Index cube, std::vector<PartitionPiece>& out) const {
     if (!is_tame(cube)) {
-      if (!is_uniform(cube)) {
-        for_cells(cube, [&](const Cell& cell) { marcher_.march_inside(cell, out); });
-      }
+      field_.for_cells(cube, [&](const Cell& cell) { marcher_.march_inside(cell, out); });
     } else {
       for (int a = 0; a < 3; ++a) {
         if (!is_straight(cube, a)) add_face(cube, cube, a, false, out);
@@ -231,7 +191,7 @@ class Net {
         if (!is_straight(far, a)) add_face(cube, far, a, true, out);
       }
     }
-    for_cells(cube, [&](const Cell& cell) { marcher_.add_caps(cell, out); });
+    field_.for_cells(cube, [&](const Cell& cell) { marcher_.add_caps(cell, out); });
   }
 
   /// The cone from a cube's point over the lines on one of its faces.
@@ -298,7 +258,7 @@ class Net {
   const GridMemberships& grid_;
   GridField field_;
   PartitionMarcher<GridField> marcher_;
-  Objects objects_;
+  std::vector<View> views_;
   std::array<Index, 3> stride_;
   std::vector<std::uint8_t> tame_;      // of the cube above each node: 1
   std::vector<std::uint8_t> straight_;  // of its lower faces: a bit for each axis

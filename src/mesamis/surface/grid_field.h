@@ -56,31 +56,43 @@ class GridField {
            unsigned{is_top(k)} << 5U;
   }
 
-  /// Calls visit(cell) for the Kuhn tetrahedra of the cubes above layer k that have boundaries in
-  /// them, or caps on them.
+  /// Whether a cube, named by its lowest node, has one material.
+  bool is_uniform(Index cube) const {
+    for (const auto& [i, j, k] : kKuhnSteps) {
+      if (material(cube + i + j * stride_[1] + k * stride_[2]) != material(cube)) return false;
+    }
+    return true;
+  }
+
+  /// Calls visit(cube) for the cubes above layer k that have boundaries in them, or caps on them.
   template <class Visit>
-  void for_cells_above(Index k, Visit visit) const {
+  void for_cubes_above(Index k, Visit visit) const {
+    if (k + 1 == grid_.size[2]) return;
     for (Index j = 0; j + 1 < grid_.size[1]; ++j) {
       const bool at_end = is_bottom(k) || is_top(k + 1) || j == 0 || j + 2 == grid_.size[1];
       for (Index i = 0; i + 1 < grid_.size[0]; ++i) {
-        const Index corner = i + j * stride_[1] + k * stride_[2];
+        const Index cube = i + j * stride_[1] + k * stride_[2];
         const bool at_box = close_at_box_ && (at_end || i == 0 || i + 2 == grid_.size[0]);
-        if (!at_box && is_uniform(corner)) continue;
-        for (const auto& path : kKuhnPaths) visit(kuhn_cell(corner, stride_, path));
+        if (at_box || !is_uniform(cube)) visit(cube);
       }
     }
+  }
+
+  /// Calls visit(cell) for the Kuhn tetrahedra of a cube.
+  template <class Visit>
+  void for_cells(Index cube, Visit visit) const {
+    for (const auto& path : kKuhnPaths) visit(kuhn_cell(cube, stride_, path));
+  }
+
+  /// Those of the cubes that for_cubes_above() visits.
+  template <class Visit>
+  void for_cells_above(Index k, Visit visit) const {
+    for_cubes_above(k, [&](Index cube) { for_cells(cube, visit); });
   }
 
  private:
   bool is_bottom(Index k) const { return k == 0 && grid_.below == 0; }
   bool is_top(Index k) const { return k + 1 == grid_.size[2] && grid_.above == 0; }
-
-  bool is_uniform(Index corner) const {
-    for (const auto& [i, j, k] : kKuhnSteps) {
-      if (material(corner + i + j * stride_[1] + k * stride_[2]) != material(corner)) return false;
-    }
-    return true;
-  }
 
   const GridMemberships& grid_;
   bool close_at_box_;

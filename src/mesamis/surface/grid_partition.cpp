@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/surface/grid_partition.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "mesamis/surface/grid_field.h"
 #include "mesamis/surface/partition_cells.h"
 
@@ -19,14 +16,11 @@ PartitionPart extract_partition_part(const GridMemberships& memberships, const N
   require_memberships(memberships);
   require_slices(memberships, slices, 0, 1);
   const GridField field(memberships, options.close_at_box);
-  const Index end = std::min(slices.end, memberships.size[2] - 1);
-  JoinedBlocks blocks = extract_blocks(
-      field, static_cast<std::size_t>(end - slices.begin),
-      [&](std::size_t b, const auto& marcher, auto& pieces) {
-        field.for_cells_above(slices.begin + static_cast<Index>(b),
-                              [&](const Cell& cell) { marcher.march(cell, pieces); });
-      });
-  return named_wholly(memberships, std::move(blocks));
+  const auto march = [&](std::size_t b, const auto& marcher, auto& pieces) {
+    field.for_cells_above(slices.begin + static_cast<Index>(b),
+                          [&](const Cell& cell) { marcher.march(cell, pieces); });
+  };
+  return named_wholly(memberships, extract_blocks(field, slices.count(), march));
 }
 
 }  // namespace mesamis::detail::surface

@@ -31,7 +31,8 @@ struct GridMemberships {
 
 /// Extracts the boundaries between objects as extract_partition() does, on the grid's Kuhn
 /// tetrahedra. Neighbouring nodes whose materials differ belong to objects that differ.
-/// @return points in mm, the first node of the whole grid at the origin; its sides are labels.
+/// @param memberships  of a whole grid.
+/// @return points in mm, the first node at the origin; its sides are labels.
 /// @throws InputError  if the sizes do not fit, a material or a label is out of range, or a value
 ///                     is not finite.
 ///
@@ -40,7 +41,9 @@ struct GridMemberships {
 PartitionSurface extract_partition_on_grid(const GridMemberships& memberships,
                                            const PartitionOptions& options = {});
 
-/// The same of the cubes above some slices of it.
+/// The same of the cubes above some slices: open where it goes on.
+/// @param memberships  of some slices of a larger grid: with one above those, as far as there is
+///                     one.
 PartitionPart extract_partition_part(const GridMemberships& memberships, const NodeSlices& slices,
                                      const PartitionOptions& options = {});
 

@@ -22,12 +22,12 @@ inline constexpr float kLeastLead = 0.02F;
 std::vector<std::int64_t> voxel_eighths(const GridMemberships& grid,
                                         std::span<const Index> material);
 
+/// The same for the labels of a whole grid, up to the greatest that there is.
+std::vector<std::int64_t> label_eighths(const LabelGrid& labels);
+
 /// The volumes of so many eighths of voxels.
 /// @return mm^3.
 std::vector<double> volumes_of(std::span<const std::int64_t> eighths, const Vec3& spacing);
-
-/// The same of labels, up to the greatest that there is.
-std::vector<std::int64_t> label_eighths(const LabelGrid& labels);
 
 /// The boundary between two materials in a layer of cells.
 struct InterfaceVolume {

@@ -297,8 +297,7 @@ JoinedBlocks extract_blocks(const Field& field, std::size_t block_count, March&&
     march(b, marcher, pieces);
     blocks[b] = block_of(pieces);
   });
-  return joined(std::span<const PartitionBlock>(blocks),
-                [&](const Simplex& site) { return marcher.position(site); });
+  return joined(blocks, [&](const Simplex& site) { return marcher.position(site); });
 }
 
 }  // namespace mesamis::detail::surface

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "mesamis/surface/partition.h"
@@ -18,6 +17,7 @@ using WholeSite = std::array<std::int64_t, 4>;
 /// The slices of a grid of nodes, with the cubes above each, that a PartitionPart is made of.
 struct NodeSlices {
   Index begin = 0, end = 0;
+  std::size_t count() const { return static_cast<std::size_t>(end - begin); }
 };
 
 /// Some of a partition, which other parts go on from.
