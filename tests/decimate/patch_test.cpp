@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -115,6 +116,32 @@ TEST(CutIntoPatches, HoldsWhatTouchesASharedPoint) {
     EXPECT_EQ(patch.held, expected);
     EXPECT_EQ(patch.around, triangles_around(surface, patch));
   }
+}
+
+/// What has no chosen corner makes the last patch and stays.
+TEST(CutIntoPatches, HoldsTheRest) {
+  const TriMesh surface = sphere();
+  std::vector<char> chosen(surface.points.size());
+  for (std::size_t p = 0; p < chosen.size(); ++p) chosen[p] = surface.points[p].x > 0.3 ? 1 : 0;
+  for (const double side : {0.5, std::numeric_limits<double>::infinity()}) {
+    const auto cut = cut_into_patches(cover_of(surface), side, 0, chosen);
+    ASSERT_GE(cut.size(), 2u);
+    EXPECT_EQ(triangles_of(cut).size(), surface.triangles.size());
+    for (const Patch& patch : cut) {
+      const bool is_rest = &patch == &cut.back();
+      for (const Triangle& t : patch.cover.triangles) {
+        const bool any =
+            std::any_of(t.begin(), t.end(), [&](Index p) { return chosen[patch.points[p]] != 0; });
+        EXPECT_NE(any, is_rest);
+      }
+      const bool is_held = std::count(patch.held.begin(), patch.held.end(), 0) == 0;
+      EXPECT_TRUE(is_held || !is_rest);
+      EXPECT_TRUE(is_held == is_rest || !std::isinf(side));
+    }
+  }
+  const std::vector<char> all(surface.points.size(), 1);
+  EXPECT_EQ(cut_into_patches(cover_of(surface), 0.5, 0, all).size(),
+            cut_into_patches(cover_of(surface), 0.5).size());
 }
 
 TEST(Hold, TakesCornersAndRings) {

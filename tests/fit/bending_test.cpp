@@ -122,6 +122,23 @@ TEST(Relax, EndsEarlierWhereLessAccuracyIsAskedFor) {
   EXPECT_LT(near, 1.001 * least);
 }
 
+TEST(Relax, EndsWhereAStepOnWouldBeShort) {
+  Case c;
+  const std::vector<Vec3> exact = relax(c.umbrella, c.springs, 3, c.surface.points);
+  const auto rms_from_exact = [&] {
+    const std::vector<Vec3> x = relax(c.umbrella, c.springs, 3, c.surface.points);
+    double sum = 0;
+    for (std::size_t p = 0; p < x.size(); ++p) sum += dot(x[p] - exact[p], x[p] - exact[p]);
+    return std::sqrt(sum / static_cast<double>(x.size()));
+  };
+  c.springs.least_step = 0.01;
+  const double near = rms_from_exact();
+  EXPECT_GT(near, 0);
+  EXPECT_LT(near, 0.05);
+  c.springs.least_step = 0.002;
+  EXPECT_LT(rms_from_exact(), near / 2);
+}
+
 TEST(Relax, LeavesWhatIsHeldAndGoesToGoalsWithoutBending) {
   Case c;
   c.springs.held[3] = 1;

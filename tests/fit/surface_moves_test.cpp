@@ -101,5 +101,22 @@ TEST(SurfaceMoves, AreTakenBackWhereTrianglesWouldMeet) {
   EXPECT_EQ(shifted.points[far].x, surface.points[far].x + 0.1) << "what meets nothing stays moved";
 }
 
+TEST(SurfaceMover, MovesAgainFromWhereverItIsTold) {
+  const TriMesh surface = ball(11);
+  const SplineImage scan = image();
+  const FollowSpace space(scan, 1);
+  const auto far = static_cast<std::size_t>(surface.triangles[0][0]);
+  std::vector<Vec3> through(surface.points.size()), small(surface.points.size(), {0.1, 0, 0});
+  through[far] = (25.0 / 11) * (kCenter - surface.points[far]);
+  SurfaceMover mover(space, surface, Unfolded::kHereAndInFile);
+  EXPECT_FALSE(mover.move(surface.points, through)) << "a move is taken back";
+  EXPECT_EQ(mover.points(), moved_without_folds(space, surface, through).points);
+  EXPECT_TRUE(mover.move(surface.points, small));
+  const std::vector<Vec3> start = mover.points();
+  EXPECT_TRUE(mover.move(start, small));
+  EXPECT_EQ(mover.points()[far], start[far] + small[far]);
+  EXPECT_EQ(mover.take_surface().triangles, surface.triangles);
+}
+
 }  // namespace
 }  // namespace mesamis

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -81,6 +83,48 @@ TEST(BoxTree, CopesWithEqualBoxesAndNone) {
   EXPECT_THAT(found_by(equal, {{2, 2, 2}, {3, 3, 3}}), IsEmpty());
   EXPECT_THAT(found_by(equal, kNoBox), IsEmpty());
   EXPECT_THAT(found_by(BoxTree(std::vector<Box>{}), unit), IsEmpty());
+}
+
+using ItemPairs = std::vector<std::array<std::size_t, 2>>;
+
+/// Each pair as often as any share visits it.
+ItemPairs pairs_of_shares(const BoxTree& tree, std::size_t count) {
+  ItemPairs pairs;
+  for (const auto& share : tree.shares_of_pairs(count)) {
+    tree.for_each_pair(share, [&pairs](std::size_t i, std::size_t j) {
+      pairs.push_back({std::min(i, j), std::max(i, j)});
+    });
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+TEST(BoxTree, SharesHoldEachPairThatOverlapsOnce) {
+  for (const std::size_t items : {0, 1, 2, 3, 7, 300}) {
+    std::vector<Box> boxes = random_boxes(items, 6);
+    BoxTree tree(boxes);
+    for (int round = 0; round < 2; ++round) {
+      ItemPairs expected;
+      for (std::size_t i = 0; i < items; ++i) {
+        for (std::size_t j = i + 1; j < items; ++j) {
+          if (overlap(boxes[i], boxes[j])) expected.push_back({i, j});
+        }
+      }
+      EXPECT_GE(expected.size(), items == 300 ? 500u : 0u);
+      for (const std::size_t count : {1, 2, 50, 100000}) {
+        EXPECT_EQ(pairs_of_shares(tree, count), expected) << items << " " << count;
+      }
+      boxes = random_boxes(items, 7);
+      tree.update(boxes);
+    }
+  }
+}
+
+TEST(BoxTree, HasAboutAsManySharesAsAreAskedFor) {
+  const BoxTree tree(random_boxes(300, 6));
+  EXPECT_EQ(tree.shares_of_pairs(1).size(), 1u);
+  EXPECT_GE(tree.shares_of_pairs(100).size(), 100u);
+  EXPECT_LT(tree.shares_of_pairs(100).size(), 400u);
 }
 
 TEST(BoxTree, StopsWhenTheVisitorSaysSo) {

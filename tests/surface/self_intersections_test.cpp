@@ -74,6 +74,15 @@ TEST(SelfIntersections, AreFoundAgainWhereTrianglesMove) {
   with_threads(3, [&] { EXPECT_EQ(search.after_move_of(moved), expected); });
 }
 
+TEST(SelfIntersections, AreFoundAgainWhereAllPointsMove) {
+  TriMesh surface = random_triangles(300, {3, 3, 3});
+  SelfIntersections search(surface);
+  surface.points = random_triangles(300, {4, 2, 3}).points;
+  const Pairs expected = find_self_intersections(surface);
+  EXPECT_GT(expected.size(), 100u);
+  EXPECT_EQ(search.after_move(), expected);
+}
+
 TEST(SelfIntersections, RefuseWhatIsNoSurface) {
   EXPECT_THROW(find_self_intersections({{{0, 0, 0}}, {{0, 1, 2}}}), InputError);
 }

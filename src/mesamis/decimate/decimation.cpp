@@ -62,14 +62,16 @@ class Decimation {
     std::vector<char> open(cover.points.size(), 1);  // of each point 1 if it may go
     if (!std::isinf(side)) {
       decimate_boxes(cover, held, open, {side, 0, 0, 0.8});
-      decimate_boxes(cover, held, open, {side, 0.5, 0.8, 0.95});  // across the seams of these
+      // Across the seams of the lattices before.
+      decimate_boxes(cover, held, open, {side, 0.5, 0.8, 0.95});
+      decimate_boxes(cover, held, open, {side, 0.25, 0.95, 0.99});
     }
-    decimate_boxes(cover, held, open, {kInfinity, 0, std::isinf(side) ? 0 : 0.95, 1});
+    decimate_boxes(cover, held, open, {kInfinity, 0, std::isinf(side) ? 0 : 0.99, 1});
     return cover;
   }
 
  private:
-  static constexpr int kRingsAtSeams = 4;
+  static constexpr int kRingsAtSeams = 4, kRingsAroundOpen = 2;
   static constexpr double kRounding = 1e-9;
 
   struct Lattice {
@@ -82,7 +84,9 @@ class Decimation {
   void decimate_boxes(Cover& cover, const std::vector<char>& held, std::vector<char>& open,
                       const Lattice& lattice) {
     const std::vector<Vec3> points = cover.points;
-    std::vector<Patch> patches = cut_into_patches(std::move(cover), lattice.side, lattice.shift);
+    const std::vector<char> around = points_around(cover, open);
+    std::vector<Patch> patches =
+        cut_into_patches(std::move(cover), lattice.side, lattice.shift, around);
     std::vector<char> at_seams(points.size(), 0);
     for (Patch& patch : patches) {
       for (std::size_t i = 0; i < patch.points.size(); ++i) {
@@ -95,6 +99,17 @@ class Decimation {
         decimate_patchwork(task(lattice.begin, lattice.end), points, std::move(patches), report_);
     choose_rings(cover.triangles, kRingsAtSeams, at_seams);
     open = std::move(at_seams);
+  }
+
+  /// The points that are open, all copies of them, and those around.
+  std::vector<char> points_around(const Cover& cover, std::vector<char> open) const {
+    if (interfaces_) {
+      std::vector<char> any(open.size(), 0);
+      for (std::size_t p = 0; p < open.size(); ++p) any[interfaces_->first_copy[p]] |= open[p];
+      for (std::size_t p = 0; p < open.size(); ++p) open[p] = any[interfaces_->first_copy[p]];
+    }
+    choose_rings(cover.triangles, kRingsAroundOpen, open);
+    return open;
   }
 
   /// @param begin, end  shares of the work.

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "mesamis/base/each_once.h"
+#include "mesamis/base/parallel.h"
 #include "mesamis/mesh/tet_mesh.h"
 
 namespace mesamis::detail::decimate {
@@ -15,36 +18,69 @@ namespace {
 
 /// The number of the patch of each triangle; patches are numbered in the order of their boxes.
 std::vector<Index> patch_numbers(const Cover& cover, double side, double shift) {
+  if (std::isinf(side)) return std::vector<Index>(cover.triangles.size(), 0);
   const std::vector<Vec3>& points = cover.points;
   using Place = std::array<double, 3>;  // of a box: whole numbers
   const double back = shift * side;
   const Vec3 origin = bounding_box(points).lo - Vec3{back, back, back};
-  std::vector<Place> boxes;
-  boxes.reserve(cover.triangles.size());
-  for (const Triangle& t : cover.triangles) {
+  std::vector<Place> boxes(cover.triangles.size());
+  parallel_for(boxes.size(), [&](std::size_t n) {
+    const Triangle& t = cover.triangles[n];
     const Vec3 center = (1.0 / 3) * (points[t[0]] + points[t[1]] + points[t[2]]) - origin;
-    boxes.push_back(
-        {std::floor(center.x / side), std::floor(center.y / side), std::floor(center.z / side)});
-  }
+    boxes[n] = {std::floor(center.x / side), std::floor(center.y / side),
+                std::floor(center.z / side)};
+  });
   std::map<Place, Index> number;
-  for (const Place& box : boxes) number[box] = 0;
+  for (std::size_t n = 0; n < boxes.size(); ++n) {
+    if (n == 0 || boxes[n] != boxes[n - 1]) number[boxes[n]] = 0;
+  }
   Index next = 0;
   for (auto& [box, n] : number) n = next++;
-  std::vector<Index> numbers;
-  numbers.reserve(boxes.size());
-  for (const Place& box : boxes) numbers.push_back(number[box]);
+  std::vector<Index> numbers(boxes.size());
+  parallel_for(boxes.size(), [&](std::size_t n) { numbers[n] = number.at(boxes[n]); });
   return numbers;
+}
+
+/// Numbers the patches anew: those with a chosen corner in the same order, then the rest.
+/// @return whether there is a rest.
+bool number_the_rest(const Cover& cover, const std::vector<char>& chosen,
+                     std::vector<Index>& numbers) {
+  constexpr Index kRest = std::numeric_limits<Index>::max();
+  std::map<Index, Index> number;
+  for (std::size_t t = 0; t < numbers.size(); ++t) {
+    const Triangle& k = cover.triangles[t];
+    if (chosen[k[0]] + chosen[k[1]] + chosen[k[2]] == 0) numbers[t] = kRest;
+    number[numbers[t]] = 0;
+  }
+  Index next = 0;
+  for (auto& [before, now] : number) now = next++;
+  for (Index& n : numbers) n = number[n];
+  return number.count(kRest) > 0;
 }
 
 /// The patches that each point is in, as pairs of point and patch, sorted.
 using Places = std::vector<std::pair<Index, Index>>;
 
 Places places_of(const Cover& cover, const std::vector<Index>& numbers) {
-  Places places;
-  for (std::size_t t = 0; t < numbers.size(); ++t) {
-    for (const Index p : cover.triangles[t]) places.emplace_back(p, numbers[t]);
+  std::vector<std::size_t> ends(cover.points.size() + 1, 0);  // of the triangles at each point
+  for (const Triangle& t : cover.triangles) {
+    for (const Index p : t) ++ends[static_cast<std::size_t>(p) + 1];
   }
-  sort_once(places);
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<Index> at_point(ends.back());
+  for (std::size_t t = 0; t < numbers.size(); ++t) {
+    for (const Index p : cover.triangles[t]) at_point[ends[p]++] = numbers[t];
+  }
+  Places places;
+  places.reserve(cover.points.size());
+  auto begin = at_point.begin();
+  for (std::size_t p = 0; p < cover.points.size(); ++p) {
+    const auto end = at_point.begin() + static_cast<std::ptrdiff_t>(ends[p]);
+    std::sort(begin, end);
+    const auto last = std::unique(begin, end);
+    for (; begin != last; ++begin) places.emplace_back(static_cast<Index>(p), *begin);
+    begin = end;
+  }
   return places;
 }
 
@@ -141,12 +177,14 @@ void hold(Patch& patch, const std::vector<Index>& points, const std::vector<Inde
   for (std::size_t p = 0; p < chosen.size(); ++p) patch.held[p] |= chosen[p];
 }
 
-std::vector<Patch> cut_into_patches(Cover cover, double side, double shift) {
-  const std::vector<Index> numbers = std::isinf(side)
-                                         ? std::vector<Index>(cover.triangles.size(), 0)
-                                         : patch_numbers(cover, side, shift);
+std::vector<Patch> cut_into_patches(Cover cover, double side, double shift,
+                                    const std::vector<char>& chosen) {
+  std::vector<Index> numbers = patch_numbers(cover, side, shift);
+  const bool has_rest = !chosen.empty() && number_the_rest(cover, chosen, numbers);
   Cutter cutter(cover, numbers);
-  return cutter.cut(std::move(cover), numbers);
+  std::vector<Patch> patches = cutter.cut(std::move(cover), numbers);
+  if (has_rest) std::fill(patches.back().held.begin(), patches.back().held.end(), 1);
+  return patches;
 }
 
 }  // namespace mesamis::detail::decimate

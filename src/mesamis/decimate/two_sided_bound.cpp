@@ -72,10 +72,13 @@ TwoSidedBound::TwoSidedBound(const TriMesh& original, const Cover& cover,
       stays_(staying(cover, held)),
       numbers_(originals_at_stake(original, cover, stays_)),
       original_surface_(part_of(original, numbers_)) {
+  originals_.reserve(numbers_.size());
   for (const Index t : numbers_) {
     originals_.emplace_back(corners_of(original, original.triangles[t]));
   }
   lists_.resize(stays_.size());
+  bounds_.reserve(stays_.size());
+  triangles_.reserve(stays_.size());
   for (std::size_t t = 0; t < lists_.size(); ++t) {
     bounds_.push_back({cover.to_originals[t], cover.from_originals[t]});
     if (stays_[t] != 0) continue;

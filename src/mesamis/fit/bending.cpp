@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/fit/bending.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "mesamis/base/parallel.h"
@@ -39,6 +40,15 @@ class Matrix {
 
   /// Divided by about the diagonal.
   Vec3 preconditioned(std::size_t p, const Vec3& r) const { return inverse_diagonal_[p] * r; }
+
+  /// About the trace, of points that are free.
+  double trace() const {
+    return parallel_sum(inverse_diagonal_.size(), [&](std::size_t begin, std::size_t end) {
+      double sum = 0;
+      for (std::size_t p = begin; p < end; ++p) sum += is_free(p) ? 1 / inverse_diagonal_[p] : 0;
+      return sum;
+    });
+  }
 
   bool is_free(std::size_t p) const { return springs_.held[p] == 0; }
 
@@ -157,7 +167,8 @@ std::vector<Vec3> relax(const Umbrella& umbrella, const Springs& springs, double
     return sum;
   });
   std::vector<Vec3> direction = steep;
-  const double enough = springs.accuracy * springs.accuracy * size;
+  const double enough = std::max(springs.accuracy * springs.accuracy * size,
+                                 springs.least_step * springs.least_step * matrix.trace());
   for (int step = 0; step < kMostSteps && size > enough; ++step) {
     const double length = size / matrix.multiply(direction, image);
     const double next = parallel_sum(x.size(), [&](std::size_t begin, std::size_t end) {

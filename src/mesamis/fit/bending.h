@@ -54,6 +54,7 @@ struct Springs {
   std::vector<Vec3> goal;
   std::vector<char> held;  ///< 1: the point stays where it is
   double accuracy = 1e-3;  ///< of relax(): what is left of the residual, > 0
+  double least_step = 0;   ///< surface's unit; relax() ends, too, when a step on is shorter, >= 0
 };
 
 /// Springs of one weight that hold points where they are; those on the grid's box stay.
@@ -61,7 +62,8 @@ Springs springs_at(const SurfaceSpace& space, const std::vector<Vec3>& points, d
 
 /// Finds the points that minimise
 ///   sum of weight |x - goal|^2 + bending |L x|^2
-/// by conjugate gradients.
+/// by conjugate gradients, until the springs' accuracy is reached, or Jacobi's step from there,
+/// which moves each point to the least as if the others stayed, would be short in the mean.
 /// @param x  where they are; the first guess.
 /// @return the same for any number of threads.
 ///

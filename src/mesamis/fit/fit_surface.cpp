@@ -2,6 +2,7 @@
 #include "mesamis/fit/fit_surface.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "mesamis/base/error.h"
@@ -28,7 +29,10 @@ class Fit {
         now_(start),
         springs_(springs_at(space_, start.points, 0)),
         shifts_(start.points.size()),
-        blind_(start.points.size(), 0) {}
+        blind_(start.points.size(), 0),
+        aims_(start.points.size(), 1) {
+    springs_.least_step = kLeastStep * space_.voxel();
+  }
 
   void round() {
     aim();
@@ -38,11 +42,12 @@ class Fit {
   }
 
   /// Points whose triangles meet, and those beside them, look for no edge any more: that of another
-  /// boundary attracts them. @return whether any of those that meet looked for one so far.
+  /// boundary attracts them. Those around aim anew in the next round, no others.
+  /// @return whether any of those that meet looked for an edge so far.
   bool blind_where_triangles_meet() {
     std::vector<double> meets(blind_.size(), 0);
     bool any_looked = false;
-    for (const TrianglePair& pair : find_self_intersections(now_)) {
+    for (const TrianglePair& pair : pairs_that_meet()) {
       for (const Index t : pair) {
         for (const Index p : now_.triangles[t]) {
           meets[p] = 1;
@@ -51,10 +56,12 @@ class Fit {
       }
     }
     if (!any_looked) return false;
-    for (int ring = 0; ring < kBlindRings; ++ring) meets = greatest_around(neighbors_, meets);
+    meets = rings_around(std::move(meets), kBlindRings);
     for (std::size_t p = 0; p < blind_.size(); ++p) {
       if (meets[p] > 0) blind_[p] = 1;
     }
+    meets = rings_around(std::move(meets), kAimRings);
+    for (std::size_t p = 0; p < aims_.size(); ++p) aims_[p] = meets[p] > 0 ? 1 : 0;
     return true;
   }
 
@@ -64,11 +71,21 @@ class Fit {
     for (std::size_t p = 0; p < shifts.size(); ++p) {
       shifts[p] = space_.within_box(start_.points[p], shifts_[p]);
     }
-    return moved_without_folds(space_, start_, std::move(shifts));
+    return moved_without_folds(space_, start_, std::move(shifts), Unfolded::kInFile);
   }
 
  private:
-  static constexpr int kBlindRings = 4;
+  static constexpr int kBlindRings = 4, kAimRings = 4;
+
+  std::vector<double> rings_around(std::vector<double> chosen, int rings) const {
+    for (int ring = 0; ring < rings; ++ring) chosen = greatest_around(neighbors_, chosen);
+    return chosen;
+  }
+
+  std::vector<TrianglePair> pairs_that_meet() {
+    if (intersections_) return intersections_->after_move();
+    return intersections_.emplace(now_).all();
+  }
 
   bool looks(std::size_t p) const {
     return springs_.held[p] == 0 && points_.contrast[p] != 0 && points_.on_curve[p] == 0 &&
@@ -79,6 +96,7 @@ class Fit {
   void aim() {
     const std::vector<Vec3> normals = smoothed_normals(now_, neighbors_, points_.on_curve);
     parallel_for(now_.points.size(), [&](std::size_t p) {
+      if (aims_[p] == 0) return;
       ImageEdge edge;
       if (looks(p)) {
         edge = find_image_edge(space_, now_.points[p], normals[p], points_.contrast[p],
@@ -99,8 +117,10 @@ class Fit {
   Umbrella umbrella_;
   TriMesh now_;
   Springs springs_;
-  std::vector<Vec3> shifts_;  // from the start
-  std::vector<char> blind_;   // 1: looks for no edge
+  std::vector<Vec3> shifts_;                        // from the start
+  std::vector<char> blind_;                         // 1: looks for no edge
+  std::vector<char> aims_;                          // 1: has another goal in the next round
+  std::optional<SelfIntersections> intersections_;  // of now_
 };
 
 }  // namespace

@@ -18,13 +18,14 @@ constexpr double kShare = 1.0 / 16;
 
 class Smoothing {
  public:
-  Smoothing(const TriMesh& start, const VoxelGrid& grid, Umbrella umbrella,
+  Smoothing(const std::vector<Vec3>& start, const SurfaceSpace& space, Umbrella umbrella,
             const SmoothingOptions& options)
-      : start_(start.points), space_(grid, 1), umbrella_(std::move(umbrella)), options_(options) {}
+      : start_(start), space_(space), umbrella_(std::move(umbrella)), options_(options) {}
 
   /// From the start.
   std::vector<Vec3> shifts(double bending) const {
     Springs springs = springs_at(space_, start_, 1);
+    springs.least_step = kLeastStep * space_.voxel();
     std::vector<Vec3> now = start_;
     for (int round = 0; round < options_.rounds; ++round) {
       now = relax(umbrella_, springs, bending, std::move(now));
@@ -37,23 +38,9 @@ class Smoothing {
     return shifts;
   }
 
-  /// A surface, moved to where shifts from the start lead.
-  TriMesh moved(const TriMesh& surface, std::vector<Vec3> shifts) const {
-    parallel_for(shifts.size(),
-                 [&](std::size_t p) { shifts[p] = shifts[p] + (start_[p] - surface.points[p]); });
-    return moved_without_folds(space_, surface, std::move(shifts));
-  }
-
-  bool is_moved_so(const TriMesh& surface, const std::vector<Vec3>& shifts) const {
-    for (std::size_t p = 0; p < shifts.size(); ++p) {
-      if (!(surface.points[p] == start_[p] + shifts[p])) return false;
-    }
-    return true;
-  }
-
  private:
   const std::vector<Vec3>& start_;
-  SurfaceSpace space_;
+  const SurfaceSpace& space_;
   Umbrella umbrella_;
   const SmoothingOptions& options_;
 };
@@ -77,12 +64,19 @@ TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid, const Link
   if (links.size() != neighbors.points.size()) {
     throw InputError("smoothing: expected an entry for each neighbour of each point");
   }
-  const Smoothing smoothing(surface, grid, Umbrella(neighbors, links), options);
+  const SurfaceSpace space(grid, 1);
+  const Smoothing smoothing(surface.points, space, Umbrella(neighbors, links), options);
+  const std::vector<Vec3>& start = surface.points;
   const std::vector<Vec3> shifts = smoothing.shifts(options.bending);
-  TriMesh smooth = smoothing.moved(surface, shifts);
-  if (smoothing.is_moved_so(smooth, shifts)) return smooth;
-  const TriMesh less = smoothing.moved(surface, smoothing.shifts(kShare * options.bending));
-  return smoothing.moved(less, shifts);
+  SurfaceMover mover(space, surface, Unfolded::kInFile);
+  if (!mover.move(start, shifts)) {
+    mover.move(start, smoothing.shifts(kShare * options.bending));
+    const std::vector<Vec3> less = mover.points();
+    std::vector<Vec3> rest(shifts.size());
+    parallel_for(rest.size(), [&](std::size_t p) { rest[p] = shifts[p] + (start[p] - less[p]); });
+    mover.move(less, std::move(rest));
+  }
+  return mover.take_surface();
 }
 
 }  // namespace mesamis::detail::fit

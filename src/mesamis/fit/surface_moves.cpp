@@ -10,7 +10,6 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/single_precision.h"
 #include "mesamis/surface/normals.h"
-#include "mesamis/surface/self_intersections.h"
 
 namespace mesamis::detail::fit {
 namespace {
@@ -67,81 +66,9 @@ std::vector<double> chosen_around(const Neighbors& neighbors, const std::vector<
   return chosen;
 }
 
-/// Takes moves back until no triangles meet that a move made meet.
-class Unfolding {
- public:
-  Unfolding(const SurfaceSpace& space, const TriMesh& surface, Unfolded where)
-      : space_(space), surface_(surface), where_(where) {}
-
-  TriMesh run(std::vector<Vec3> shifts) const {
-    constexpr int kHalvings = 2, kMostTrials = 40;
-    std::vector<int> taken_back(shifts.size(), 0);
-    TriMesh moved = surface_;
-    for (std::size_t p = 0; p < shifts.size(); ++p) moved.points[p] += shifts[p];
-    TriMesh filed = as_in_a_file(moved);
-    std::optional<SelfIntersections> here;
-    if (where_ == Unfolded::kHereAndInFile) here.emplace(moved);
-    SelfIntersections in_file(filed);
-    std::vector<char> meeting =
-        moved_corners(shifts, here ? here->all() : std::vector<TrianglePair>{}, in_file.all());
-    for (int trial = 0; trial < kMostTrials; ++trial) {
-      const std::vector<Index> concerned = triangles_at(meeting);
-      if (concerned.empty()) return moved;
-      for (std::size_t p = 0; p < shifts.size(); ++p) {
-        if (meeting[p] == 0) continue;
-        shifts[p] = (taken_back[p]++ < kHalvings ? 0.5 : 0.0) * shifts[p];
-        moved.points[p] = surface_.points[p] + shifts[p];
-        filed.points[p] = space_.as_in_a_file(moved.points[p]);
-      }
-      meeting =
-          moved_corners(shifts, here ? here->after_move_of(concerned) : std::vector<TrianglePair>{},
-                        in_file.after_move_of(concerned));
-    }
-    return triangles_at(meeting).empty() ? moved : surface_;
-  }
-
- private:
-  /// Of each point 1 if it is a corner of a pair of which any corner is still moved. Others met
-  /// before: needles, in single precision.
-  std::vector<char> moved_corners(const std::vector<Vec3>& shifts,
-                                  const std::vector<TrianglePair>& some,
-                                  const std::vector<TrianglePair>& others) const {
-    std::vector<char> corners(surface_.points.size(), 0);
-    const auto is_moved = [&](Index t) {
-      const Triangle& k = surface_.triangles[t];
-      return std::any_of(k.begin(), k.end(), [&](Index p) { return norm(shifts[p]) > 0; });
-    };
-    for (const auto* pairs : {&some, &others}) {
-      for (const auto& [a, b] : *pairs) {
-        if (!is_moved(a) && !is_moved(b)) continue;
-        for (const Index p : surface_.triangles[a]) corners[p] = 1;
-        for (const Index p : surface_.triangles[b]) corners[p] = 1;
-      }
-    }
-    return corners;
-  }
-
-  /// The triangles at points that are chosen, increasing.
-  std::vector<Index> triangles_at(const std::vector<char>& chosen) const {
-    std::vector<Index> triangles;
-    for (Index t = 0; t < std::ssize(surface_.triangles); ++t) {
-      const Triangle& k = surface_.triangles[t];
-      if (chosen[k[0]] + chosen[k[1]] + chosen[k[2]] > 0) triangles.push_back(t);
-    }
-    return triangles;
-  }
-
-  TriMesh as_in_a_file(TriMesh surface) const {
-    parallel_for(surface.points.size(), [&](std::size_t p) {
-      surface.points[p] = space_.as_in_a_file(surface.points[p]);
-    });
-    return surface;
-  }
-
-  const SurfaceSpace& space_;
-  const TriMesh& surface_;
-  Unfolded where_;
-};
+void append(const std::vector<TrianglePair>& some, std::vector<TrianglePair>& all) {
+  all.insert(all.end(), some.begin(), some.end());
+}
 
 }  // namespace
 
@@ -327,9 +254,76 @@ std::vector<double> filtered_moves(const FollowSpace& space, const Offsets& offs
   return moves;
 }
 
+SurfaceMover::SurfaceMover(const SurfaceSpace& space, TriMesh surface, Unfolded where)
+    : space_(space), moved_(std::move(surface)), filed_(moved_) {
+  file_points();
+  if (where == Unfolded::kHereAndInFile) here_.emplace(moved_);
+  in_file_.emplace(filed_);
+}
+
+bool SurfaceMover::move(const std::vector<Vec3>& start, std::vector<Vec3> shifts) {
+  constexpr int kHalvings = 2, kMostTrials = 40;
+  std::vector<int> taken_back(shifts.size(), 0);
+  parallel_for(shifts.size(), [&](std::size_t p) { moved_.points[p] = start[p] + shifts[p]; });
+  file_points();
+  std::vector<TrianglePair> pairs = in_file_->after_move();
+  if (here_) append(here_->after_move(), pairs);
+  bool whole = true;
+  for (int trial = 0; trial < kMostTrials; ++trial) {
+    const std::vector<char> corners = moved_corners(shifts, pairs);
+    const std::vector<Index> concerned = triangles_at(corners);
+    if (concerned.empty()) return whole;
+    whole = false;
+    for (std::size_t p = 0; p < shifts.size(); ++p) {
+      if (corners[p] == 0) continue;
+      shifts[p] = (taken_back[p]++ < kHalvings ? 0.5 : 0.0) * shifts[p];
+      moved_.points[p] = start[p] + shifts[p];
+      filed_.points[p] = space_.as_in_a_file(moved_.points[p]);
+    }
+    pairs = in_file_->after_move_of(concerned);
+    if (here_) append(here_->after_move_of(concerned), pairs);
+  }
+  if (!triangles_at(moved_corners(shifts, pairs)).empty()) moved_.points = start;
+  return false;
+}
+
+/// Of each point 1 if it is a corner of a pair of which any corner is still moved. Others met
+/// before: needles, in single precision.
+std::vector<char> SurfaceMover::moved_corners(const std::vector<Vec3>& shifts,
+                                              const std::vector<TrianglePair>& pairs) const {
+  std::vector<char> corners(moved_.points.size(), 0);
+  const auto is_moved = [&](Index t) {
+    const Triangle& k = moved_.triangles[t];
+    return std::any_of(k.begin(), k.end(), [&](Index p) { return norm(shifts[p]) > 0; });
+  };
+  for (const auto& [a, b] : pairs) {
+    if (!is_moved(a) && !is_moved(b)) continue;
+    for (const Index p : moved_.triangles[a]) corners[p] = 1;
+    for (const Index p : moved_.triangles[b]) corners[p] = 1;
+  }
+  return corners;
+}
+
+/// The triangles at points that are chosen, increasing.
+std::vector<Index> SurfaceMover::triangles_at(const std::vector<char>& chosen) const {
+  std::vector<Index> triangles;
+  for (Index t = 0; t < std::ssize(moved_.triangles); ++t) {
+    const Triangle& k = moved_.triangles[t];
+    if (chosen[k[0]] + chosen[k[1]] + chosen[k[2]] > 0) triangles.push_back(t);
+  }
+  return triangles;
+}
+
+void SurfaceMover::file_points() {
+  parallel_for(moved_.points.size(),
+               [&](std::size_t p) { filed_.points[p] = space_.as_in_a_file(moved_.points[p]); });
+}
+
 TriMesh moved_without_folds(const SurfaceSpace& space, const TriMesh& surface,
                             std::vector<Vec3> shifts, Unfolded where) {
-  return Unfolding(space, surface, where).run(std::move(shifts));
+  SurfaceMover mover(space, surface, where);
+  mover.move(surface.points, std::move(shifts));
+  return mover.take_surface();
 }
 
 }  // namespace mesamis::detail::fit

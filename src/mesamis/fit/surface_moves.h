@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesamis/image/spline_image.h"
+#include "mesamis/surface/self_intersections.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// How the points of a surface are moved towards the level set of an image: the steps of
@@ -18,6 +19,9 @@ inline constexpr double kMostMove = 0.7;
 
 /// Sweeps that normals are smoothed by, if nothing else is said.
 inline constexpr int kSweepsOfNormals = 3;
+
+/// Voxels: shorter steps of a solver do not change a surface that anybody sees.
+inline constexpr double kLeastStep = 1e-4;
 
 /// A surface's coordinates and the grid that it is moved in.
 class SurfaceSpace {
@@ -147,8 +151,37 @@ std::vector<double> filtered_moves(const FollowSpace& space, const Offsets& offs
 /// precision; or in a file alone, which is found in half the time.
 enum class Unfolded { kHereAndInFile, kInFile };
 
-/// Moves all points, then takes moves back, first half, then whole, where triangles meet.
-/// @return the surface as it was where that does not help.
+/// Moves the points of a surface, and takes moves back where triangles meet.
+class SurfaceMover {
+ public:
+  /// @param space  must live as long.
+  SurfaceMover(const SurfaceSpace& space, TriMesh surface, Unfolded where);
+  SurfaceMover(const SurfaceMover&) = delete;  // searches read the surface where it is
+  SurfaceMover& operator=(const SurfaceMover&) = delete;
+
+  /// Moves all points, then takes moves back, first half, then whole, where triangles meet; all
+  /// where that does not help.
+  /// @param start   where the points are moved from, one each.
+  /// @param shifts  one each.
+  /// @return whether none was taken back.
+  bool move(const std::vector<Vec3>& start, std::vector<Vec3> shifts);
+
+  const std::vector<Vec3>& points() const noexcept { return moved_.points; }
+  /// The surface; the end of the mover.
+  TriMesh take_surface() { return std::move(moved_); }
+
+ private:
+  std::vector<char> moved_corners(const std::vector<Vec3>& shifts,
+                                  const std::vector<TrianglePair>& pairs) const;
+  std::vector<Index> triangles_at(const std::vector<char>& chosen) const;
+  void file_points();
+
+  const SurfaceSpace& space_;
+  TriMesh moved_, filed_;  // the second as in a file
+  std::optional<SelfIntersections> here_, in_file_;
+};
+
+/// The same with a surface's own points as the start.
 TriMesh moved_without_folds(const SurfaceSpace& space, const TriMesh& surface,
                             std::vector<Vec3> shifts, Unfolded where = Unfolded::kHereAndInFile);
 

@@ -28,14 +28,21 @@ inline Box united(const Box& a, const Box& b) {
           {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
 }
 
-/// A bounding volume hierarchy over boxes that may change; finds the boxes that overlap another.
+/// A bounding volume hierarchy over boxes that may change; finds the boxes that overlap another, or
+/// one another.
 class BoxTree {
  public:
+  /// Two nodes: the pairs of an item below the one and an item below the other; twice the same:
+  /// the pairs of items below it.
+  using NodePair = std::array<Index, 2>;
+
   /// O(n log n) for n boxes.
   explicit BoxTree(std::span<const Box> boxes);
 
   /// Gives item i another box. O(log n); the hierarchy itself stays.
   void update(std::size_t i, const Box& box);
+  /// Gives all items other boxes. O(n); the hierarchy itself stays.
+  void update(std::span<const Box> boxes);
 
   /// Calls visit(i) for each item whose box overlaps the given one (touching counts), always in the
   /// same order, until it returns false.
@@ -57,6 +64,26 @@ class BoxTree {
     }
   }
 
+  /// Pairs of nodes, about so many where there are enough items: each pair of items whose boxes
+  /// overlap is one of exactly one of them.
+  std::vector<NodePair> shares_of_pairs(std::size_t count) const;
+
+  /// Calls visit(i, j) for each pair of different items of a share whose boxes overlap (touching
+  /// counts), always in the same order.
+  template <class Visit>
+  void for_each_pair(const NodePair& share, Visit&& visit) const {
+    const auto& [a, b] = share;
+    const Node &one = nodes_[static_cast<std::size_t>(a)],
+               &other = nodes_[static_cast<std::size_t>(b)];
+    if (a != b && one.item != kNoIndex && other.item != kNoIndex) {
+      if (overlap(one.box, other.box)) {
+        visit(static_cast<std::size_t>(one.item), static_cast<std::size_t>(other.item));
+      }
+    } else {
+      for_each_part(share, [&](const NodePair& part) { for_each_pair(part, visit); });
+    }
+  }
+
  private:
   struct Node {
     Box box;
@@ -65,7 +92,35 @@ class BoxTree {
     Index item = kNoIndex;    // of a leaf
   };
 
-  void build(std::span<const Box> boxes, std::span<Index> items, Index place, Index parent);
+  struct Placed {
+    Vec3 center;  // twice
+    Index item;
+  };
+
+  /// Calls part(pair) for the pairs of children of two nodes that may hold what overlaps.
+  template <class Part>
+  void for_each_part(const NodePair& share, Part&& part) const {
+    const auto& [a, b] = share;
+    const Node &one = nodes_[static_cast<std::size_t>(a)],
+               &other = nodes_[static_cast<std::size_t>(b)];
+    if (a == b) {
+      if (one.item != kNoIndex) return;
+      part({a + 1, a + 1});
+      part({one.second, one.second});
+      part({a + 1, one.second});
+    } else if (overlap(one.box, other.box)) {
+      const auto pair_with = [&](Index half) {
+        if (other.item != kNoIndex) return part({half, b});
+        part({half, b + 1});
+        part({half, other.second});
+      };
+      if (one.item != kNoIndex) return pair_with(a);
+      pair_with(a + 1);
+      pair_with(one.second);
+    }
+  }
+
+  void build(std::span<const Box> boxes, std::span<Placed> items, Index place, Index parent);
 
   std::vector<Node> nodes_;
   std::vector<Index> leaf_of_;

@@ -2,6 +2,7 @@
 #include "mesamis/surface/self_intersections.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "mesamis/base/each_once.h"
 #include "mesamis/base/parallel.h"
@@ -25,6 +26,10 @@ std::vector<Box> boxes_of(const TriMesh& surface) {
   return boxes;
 }
 
+TrianglePair ordered(std::size_t t, std::size_t other) {
+  return {static_cast<Index>(std::min(t, other)), static_cast<Index>(std::max(t, other))};
+}
+
 /// Each once, in ascending order.
 std::vector<TrianglePair> sorted_once(std::vector<TrianglePair> pairs) {
   sort_once(pairs);
@@ -46,27 +51,32 @@ Box SelfIntersections::box_of(Index t) const {
   return box_of_triangle(surface_, surface_.triangles[t]);
 }
 
-/// Calls visit(other) for each triangle from `first` on that t meets; t itself if it has no area.
-template <class Visit>
-void SelfIntersections::for_each_met(Index t, Index first, Visit&& visit) const {
-  const Triangle& own = surface_.triangles[t];
-  if (!has_area(surface_.points, own)) visit(t);
-  tree_->for_each_overlap(box_of(t), [&](std::size_t found) {
-    const auto other = static_cast<Index>(found);
-    const bool is_other = other >= first && other != t;
-    if (is_other && intersect(surface_.points, own, surface_.triangles[other])) visit(other);
-    return true;
-  });
+bool SelfIntersections::meet(std::size_t t, std::size_t other) const {
+  return intersect(surface_.points, surface_.triangles[t], surface_.triangles[other]);
 }
 
 std::vector<TrianglePair> SelfIntersections::all() const {
+  constexpr std::size_t kTrianglesPerShare = 1024;
   const std::size_t count = surface_.triangles.size();
-  return sorted_once(parallel_collect<TrianglePair>(
-      count, kBlock, [&](std::size_t begin, std::size_t end, auto& found) {
-        for (auto t = static_cast<Index>(begin); t < static_cast<Index>(end); ++t) {
-          for_each_met(t, t, [&](Index other) { found.push_back({t, other}); });
-        }
-      }));
+  auto pairs = parallel_collect<TrianglePair>(count, kBlock,
+                                              [&](std::size_t begin, std::size_t end, auto& found) {
+                                                for (std::size_t t = begin; t < end; ++t)
+                                                  add_without_area(t, found);
+                                              });
+  const auto shares = tree_->shares_of_pairs(count / kTrianglesPerShare + 1);
+  const auto met = parallel_collect<TrianglePair>(
+      shares.size(), 1, [&](std::size_t begin, std::size_t, auto& found) {
+        tree_->for_each_pair(shares[begin], [&](std::size_t t, std::size_t other) {
+          if (meet(t, other)) found.push_back(ordered(t, other));
+        });
+      });
+  pairs.insert(pairs.end(), met.begin(), met.end());
+  return sorted_once(std::move(pairs));
+}
+
+std::vector<TrianglePair> SelfIntersections::after_move() {
+  tree_->update(boxes_of(surface_));
+  return all();
 }
 
 std::vector<TrianglePair> SelfIntersections::after_move_of(std::span<const Index> triangles) {
@@ -74,12 +84,18 @@ std::vector<TrianglePair> SelfIntersections::after_move_of(std::span<const Index
   return sorted_once(parallel_collect<TrianglePair>(
       triangles.size(), kBlock, [&](std::size_t begin, std::size_t end, auto& found) {
         for (std::size_t i = begin; i < end; ++i) {
-          const Index t = triangles[i];
-          for_each_met(t, 0, [&](Index other) {
-            found.push_back({std::min(t, other), std::max(t, other)});
+          const auto t = static_cast<std::size_t>(triangles[i]);
+          add_without_area(t, found);
+          tree_->for_each_overlap(box_of(triangles[i]), [&](std::size_t other) {
+            if (other != t && meet(t, other)) found.push_back(ordered(t, other));
+            return true;
           });
         }
       }));
+}
+
+void SelfIntersections::add_without_area(std::size_t t, std::vector<TrianglePair>& pairs) const {
+  if (!has_area(surface_.points, surface_.triangles[t])) pairs.push_back(ordered(t, t));
 }
 
 }  // namespace mesamis::detail::surface

@@ -45,6 +45,9 @@ class SelfIntersections {
   /// O(n log n) for a surface that rarely meets itself.
   std::vector<TrianglePair> all() const;
 
+  /// All pairs, where any points have moved.
+  std::vector<TrianglePair> after_move();
+
   /// The pairs that these triangles, whose points have moved, take part in now.
   /// @param triangles  indices, increasing.
   /// @return each pair once, in ascending order.
@@ -54,8 +57,8 @@ class SelfIntersections {
 
  private:
   Box box_of(Index t) const;
-  template <class Visit>
-  void for_each_met(Index t, Index first, Visit&& visit) const;
+  bool meet(std::size_t t, std::size_t other) const;
+  void add_without_area(std::size_t t, std::vector<TrianglePair>& pairs) const;
 
   const TriMesh& surface_;
   std::unique_ptr<BoxTree> tree_;  // of the triangles

@@ -2,16 +2,15 @@
 #include "mesamis/surface/triangle_tree.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/mesh/tet_mesh.h"
 
 namespace mesamis::detail::surface {
 namespace {
 
 constexpr std::size_t kLeafSize = 4;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double squared_norm(const Vec3& a) { return dot(a, a); }
 
@@ -73,21 +72,12 @@ auto at_nearest(const Vec3& p, const Corners& t, Corner&& corner, Edge&& edge, S
   return side(beyond_bc, beyond_ac, beyond_ab);
 }
 
-void extend(Box& box, const Vec3& p) {
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lo[axis] = std::min(box.lo[axis], p[axis]);
-    box.hi[axis] = std::max(box.hi[axis], p[axis]);
-  }
-}
-
 std::vector<Corners> corners_of(const TriMesh& surface) {
   std::vector<Corners> corners;
   corners.reserve(surface.triangles.size());
   for (const Triangle& t : surface.triangles) corners.push_back(mesamis::corners_of(surface, t));
   return corners;
 }
-
-constexpr Box kEmptyBox{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
 int longest_axis(const Box& box) {
   const Vec3 e = box.extent();
@@ -136,32 +126,36 @@ TriangleTree::TriangleTree(const TriMesh& surface) : TriangleTree(corners_of(sur
 
 TriangleTree::TriangleTree(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
   std::vector<Item> items(triangles_.size());
-  for (std::size_t t = 0; t < items.size(); ++t) {
-    Box box = kEmptyBox;
-    for (const Vec3& p : triangles_[t]) extend(box, p);
+  parallel_for(items.size(), [&](std::size_t t) {
+    const Box box = bounding_box(triangles_[t]);
     items[t] = {box.lo + box.hi, static_cast<Index>(t)};
-  }
+  });
   nodes_.resize(nodes_over(items.size()));
   build(items, 0, items.size(), 0);
   std::vector<Corners> sorted(items.size());
   order_.resize(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) {
+  parallel_for(items.size(), [&](std::size_t i) {
     order_[i] = items[i].triangle;
     sorted[i] = triangles_[items[i].triangle];
-  }
+  });
   triangles_ = std::move(sorted);
 }
 
 /// Makes the node of items [begin, end) and, halved at the median, its children.
 void TriangleTree::build(std::vector<Item>& items, std::size_t begin, std::size_t end,
                          std::size_t place) {
-  Box box = kEmptyBox, centers = kEmptyBox;
-  for (std::size_t i = begin; i < end; ++i) {
-    for (const Vec3& p : triangles_[items[i].triangle]) extend(box, p);
-    extend(centers, items[i].center);
+  if (end - begin <= kLeafSize) {
+    Box box = kNoBox;
+    for (std::size_t i = begin; i < end; ++i) {
+      box = united(box, bounding_box(triangles_[items[i].triangle]));
+    }
+    nodes_[place] = {box, static_cast<Index>(begin), static_cast<Index>(end - begin)};
+    return;
   }
-  nodes_[place] = {box, static_cast<Index>(begin), static_cast<Index>(end - begin)};
-  if (end - begin <= kLeafSize) return;
+  Box centers = kNoBox;
+  for (std::size_t i = begin; i < end; ++i) {
+    centers = united(centers, {items[i].center, items[i].center});
+  }
   const std::size_t middle = begin + (end - begin) / 2;
   const int axis = longest_axis(centers);
   const auto at = [&items](std::size_t i) {
@@ -172,12 +166,12 @@ void TriangleTree::build(std::vector<Item>& items, std::size_t begin, std::size_
     return x != y ? x < y : a.triangle < b.triangle;
   });
   const std::size_t second = place + 1 + nodes_over(middle - begin);
-  nodes_[place].first = static_cast<Index>(second);
-  nodes_[place].count = 0;
   const auto build_half = [&](std::size_t child) {
     child == 0 ? build(items, begin, middle, place + 1) : build(items, middle, end, second);
   };
   parallel_halves(end - begin, build_half);
+  nodes_[place] = {united(nodes_[place + 1].box, nodes_[second].box), static_cast<Index>(second),
+                   0};
 }
 
 /// The nodes of a tree over so many triangles.
