@@ -72,7 +72,7 @@ class BoxTree {
   /// counts), always in the same order.
   template <class Visit>
   void for_each_pair(const NodePair& share, Visit&& visit) const {
-    const auto& [a, b] = share;
+    const Index a = share[0], b = share[1];
     const Node &one = nodes_[static_cast<std::size_t>(a)],
                &other = nodes_[static_cast<std::size_t>(b)];
     if (a != b && one.item != kNoIndex && other.item != kNoIndex) {
@@ -100,7 +100,7 @@ class BoxTree {
   /// Calls part(pair) for the pairs of children of two nodes that may hold what overlaps.
   template <class Part>
   void for_each_part(const NodePair& share, Part&& part) const {
-    const auto& [a, b] = share;
+    const Index a = share[0], b = share[1];
     const Node &one = nodes_[static_cast<std::size_t>(a)],
                &other = nodes_[static_cast<std::size_t>(b)];
     if (a == b) {
