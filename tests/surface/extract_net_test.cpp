@@ -87,7 +87,7 @@ TEST(ExtractNet, HoldsTheLawsForChosenLabels) {
       Triangle triangle = net.triangles[t];
       std::array<Index, 2> sides = net.sides[t];
       for (Index& m : sides) m = m == kNoIndex || m == 1 || m == 3 ? m : 0;
-      if (sides[0] == sides[1]) continue;
+      ASSERT_NE(sides[0], sides[1]) << "a boundary between labels that are not chosen";
       if (sides[1] != kNoIndex && sides[1] < sides[0]) {
         std::swap(sides[0], sides[1]);
         std::swap(triangle[1], triangle[2]);
@@ -97,6 +97,28 @@ TEST(ExtractNet, HoldsTheLawsForChosenLabels) {
     }
     expect_partition_laws(seen, 4 * 6 * 2.5, "seed " + std::to_string(seed));
   }
+}
+
+OwnedLabels ball_labels(double radius) {
+  return labels_where({30, 30, 30}, {1, 1, 1}, [&](const Vec3& p) {
+    return norm(p - Vec3{14.3, 14.6, 14.4}) < radius ? 1 : 0;
+  });
+}
+
+/// Labels that are not chosen leave no trace: the net of a chosen one is that of itself alone, but
+/// for where it lies.
+TEST(ExtractNet, HasNoMoreTrianglesForLabelsThatAreNotChosen) {
+  const OwnedLabels alone = ball_labels(10);
+  OwnedLabels among = alone;
+  for (std::size_t n = 0; n < among.labels.size(); ++n) {
+    if (among.labels[n] == 0)
+      among.labels[n] = static_cast<std::uint16_t>(n % 30 < 15 ? 2 : n / 30 % 30 < 14 ? 3 : 4);
+  }
+  const NetOptions chosen{.close_at_box = false, .chosen = {0, 1}};
+  const PartitionSurface one = extract_net_on_grid(smooth_memberships(alone.grid()), chosen),
+                         all = extract_net_on_grid(smooth_memberships(among.grid()), chosen);
+  ASSERT_GT(one.triangles.size(), 1000u);
+  EXPECT_LE(std::ssize(all.triangles), 1.1 * static_cast<double>(one.triangles.size()));
 }
 
 /// Of a closed surface.
@@ -117,12 +139,6 @@ TEST(ExtractNet, HasTheTopologyOfTheTetrahedra) {
       EXPECT_EQ(euler_characteristic(some), euler_characteristic(all)) << seed;
     }
   }
-}
-
-OwnedLabels ball_labels(double radius) {
-  return labels_where({30, 30, 30}, {1, 1, 1}, [&](const Vec3& p) {
-    return norm(p - Vec3{14.3, 14.6, 14.4}) < radius ? 1 : 0;
-  });
 }
 
 /// A point in each cube that the boundary crosses, two triangles for each edge.

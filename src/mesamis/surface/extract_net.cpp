@@ -23,20 +23,14 @@ namespace {
 Simplex site_of_cube(Index cube) { return {cube, cube, cube, cube}; }
 bool is_of_cube(const Simplex& site) { return site[0] == site[3]; }
 
-/// Of each material the object that it is part of.
-using View = std::vector<Index>;
-
-/// Its label; and where labels are chosen, 0 instead of those that are not: then the laws hold for
-/// both.
-std::vector<View> views_of(const GridMemberships& grid, const std::vector<char>& chosen) {
-  std::vector<View> views{grid.label};
-  if (chosen.empty()) return views;
-  View seen = grid.label;
-  for (Index& l : seen) {
+/// Of each material the object that it is part of: its label, or 0 where that is not chosen.
+std::vector<Index> objects_of(const GridMemberships& grid, const std::vector<char>& chosen) {
+  std::vector<Index> objects = grid.label;
+  if (chosen.empty()) return objects;
+  for (Index& l : objects) {
     if (l >= std::ssize(chosen) || chosen[static_cast<std::size_t>(l)] == 0) l = 0;
   }
-  if (seen != views.front()) views.push_back(std::move(seen));
-  return views;
+  return objects;
 }
 
 class Net {
@@ -45,7 +39,7 @@ class Net {
       : grid_(grid),
         field_(grid, options.close_at_box),
         marcher_(field_),
-        views_(views_of(grid, options.chosen)),
+        objects_(objects_of(grid, options.chosen)),
         stride_{1, grid.size[0], grid.size[0] * grid.size[1]},
         tame_(grid.material.size(), 0),
         straight_(grid.material.size(), 0) {
@@ -72,6 +66,7 @@ class Net {
       std::vector<PartitionPiece> pieces;
       field_.for_cubes_above(k, [&](Index cube) { add_cube(cube, pieces); });
       for_edges_at(k, [&](Index node, int axis) { add_edge(node, axis, pieces); });
+      std::erase_if(pieces, [this](const PartitionPiece& piece) { return is_within(piece); });
       blocks[b] = block_of(pieces);
     });
     return joined(blocks, [this](const Simplex& site) { return position(site); });
@@ -92,9 +87,15 @@ class Net {
   }
 
   bool is_cut(Index node, int axis) const {
-    return field_.material(node) != field_.material(node + stride_[axis]);
+    return object(field_.material(node)) != object(field_.material(node + stride_[axis]));
   }
 
+  Index object(Index material) const { return objects_[static_cast<std::size_t>(material)]; }
+  /// Whether a piece lies between materials of one object.
+  bool is_within(const PartitionPiece& piece) const {
+    const auto [behind, before] = piece.sides;
+    return before != kNoIndex && object(behind) == object(before);
+  }
   bool is_tame(Index cube) const { return tame_[cube] != 0; }
   /// Whether the boundaries cross the face with this lowest node, normal to an axis, in one line
   /// between the points of two cubes.
@@ -110,14 +111,10 @@ class Net {
     if (field_.place(node)[static_cast<std::size_t>(axis)] == 0) return false;
     if (!is_tame(node) || !is_tame(node - stride_[axis])) return false;
     const auto n = around(node, axis);
-    for (const View& view : views_) {
-      std::array<Index, 4> m;
-      for (std::size_t i = 0; i < 4; ++i) {
-        m[i] = view[static_cast<std::size_t>(field_.material(n[i]))];
-      }
-      for (std::size_t i = 0; i < 2; ++i) {
-        if (m[i] == m[i + 2] && m[i] != m[i + 1] && m[i] != m[(i + 3) % 4]) return false;
-      }
+    std::array<Index, 4> o;
+    for (std::size_t i = 0; i < 4; ++i) o[i] = object(field_.material(n[i]));
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (o[i] == o[i + 2] && o[i] != o[i + 1] && o[i] != o[(i + 3) % 4]) return false;
     }
     return true;
   }
@@ -127,19 +124,16 @@ class Net {
     pieces.clear();
     field_.for_cells(cube, [&](const Cell& cell) { marcher_.march_inside(cell, pieces); });
     std::vector<PartitionPiece> of_object;
-    for (const View& view : views_) {
-      const auto object = [&](Index material) { return view[static_cast<std::size_t>(material)]; };
-      std::vector<Index> objects;
-      for (const auto& [corners, sides] : pieces) {
-        for (const Index m : sides) add_once(objects, object(m));
-      }
-      for (const Index o : objects) {
-        of_object.clear();
-        std::ranges::copy_if(pieces, std::back_inserter(of_object), [&](const auto& piece) {
-          return (object(piece.sides[0]) == o) != (object(piece.sides[1]) == o);
-        });
-        if (!of_object.empty() && !is_disc(of_object)) return false;
-      }
+    std::vector<Index> objects;
+    for (const auto& [corners, sides] : pieces) {
+      for (const Index m : sides) add_once(objects, object(m));
+    }
+    for (const Index o : objects) {
+      of_object.clear();
+      std::ranges::copy_if(pieces, std::back_inserter(of_object), [&](const auto& piece) {
+        return (object(piece.sides[0]) == o) != (object(piece.sides[1]) == o);
+      });
+      if (!of_object.empty() && !is_disc(of_object)) return false;
     }
     return true;
   }
@@ -258,7 +252,7 @@ class Net {
   const GridMemberships& grid_;
   GridField field_;
   PartitionMarcher<GridField> marcher_;
-  std::vector<View> views_;
+  std::vector<Index> objects_;  // of each material
   std::array<Index, 3> stride_;
   std::vector<std::uint8_t> tame_;      // of the cube above each node: 1
   std::vector<std::uint8_t> straight_;  // of its lower faces: a bit for each axis

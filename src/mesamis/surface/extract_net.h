@@ -10,8 +10,8 @@ namespace mesamis::detail::surface {
 /// How extract_net_on_grid() works.
 struct NetOptions {
   bool close_at_box = true;  ///< see PartitionOptions
-  /// Of each label 1 if its surface is wanted; of the others several may become one object. Empty:
-  /// all are wanted.
+  /// Of each label 1 if its surface is wanted; all others are one object, and have no boundaries with
+  /// each other. Empty: all are wanted.
   std::vector<char> chosen{};
 };
 
@@ -25,7 +25,7 @@ struct NetOptions {
 /// the triangles of its tetrahedra; where an object touches itself across a face of two cubes, the
 /// face keeps its points. The two triangles at an edge lie within the tetrahedra between its ends
 /// and the points beside it, else four triangles stand for them. So nothing intersects, and what
-/// extract_partition() promises holds for chosen objects.
+/// extract_partition() promises holds for chosen objects and that of all others.
 /// Source: Gibson, Constrained elastic surface nets, 1998; Ju and Udeshi, Intersection-free
 /// contouring on an octree grid, 2006.
 /// @return as extract_partition_on_grid().
