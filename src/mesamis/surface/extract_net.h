@@ -10,8 +10,8 @@ namespace mesamis::detail::surface {
 /// How extract_net_on_grid() works.
 struct NetOptions {
   bool close_at_box = true;  ///< see PartitionOptions
-  /// Of each label 1 if its surface is wanted; all others are one object, without boundaries between
-  /// them. Empty: all are wanted.
+  /// Of each label 1 if its surface is wanted; all others are one object, without boundaries within
+  /// it. Empty: all are wanted.
   std::vector<char> chosen{};
 };
 
