@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "support/level_set.h"
@@ -142,6 +143,35 @@ TEST(CutIntoPatches, HoldsTheRest) {
   const std::vector<char> all(surface.points.size(), 1);
   EXPECT_EQ(cut_into_patches(cover_of(surface), 0.5, 0, all).size(),
             cut_into_patches(cover_of(surface), 0.5).size());
+}
+
+/// A surface that is cut along a seam into copies has the rings of the whole one.
+TEST(ChooseRings, GoAcrossCopies) {
+  const TriMesh whole = sphere();
+  TriMesh cut = whole;
+  std::vector<Index> origin(whole.points.size());  // of each copy; those of the whole come first
+  for (std::size_t p = 0; p < origin.size(); ++p) origin[p] = static_cast<Index>(p);
+  std::map<Index, Index> copies;
+  for (Triangle& t : cut.triangles) {
+    const bool is_right = whole.points[t[0]].x + whole.points[t[1]].x + whole.points[t[2]].x > 0;
+    for (Index& p : t) {
+      if (!is_right) continue;
+      const auto [copy, is_new] = copies.try_emplace(p, static_cast<Index>(origin.size()));
+      if (is_new) origin.push_back(p);
+      p = copy->second;
+    }
+  }
+  std::vector<char> expected(whole.points.size(), 0), chosen(origin.size(), 0);
+  const auto start = static_cast<std::size_t>(
+      std::max_element(whole.points.begin(), whole.points.end(),
+                       [](const Vec3& a, const Vec3& b) { return -a.x * a.x < -b.x * b.x; }) -
+      whole.points.begin());
+  expected[start] = chosen[start] = 1;
+  choose_rings(whole.triangles, 3, expected);
+  choose_rings(cut.triangles, origin, 3, chosen);
+  for (std::size_t p = 0; p < chosen.size(); ++p) EXPECT_EQ(chosen[p], expected[origin[p]]) << p;
+  EXPECT_GT(std::count(chosen.begin(), chosen.end(), 1),
+            std::count(expected.begin(), expected.end(), 1));
 }
 
 TEST(Hold, TakesCornersAndRings) {

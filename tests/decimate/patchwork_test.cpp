@@ -112,6 +112,42 @@ TEST(Patchwork, PatchesThatWouldMeetAreMadeAnew) {
   EXPECT_LT(cover.triangles.size(), work.surface.triangles.size() * 3 / 4);
 }
 
+/// Some points of one body or of both may go; what is not near them is held as a whole, however near
+/// it lies to what moves.
+TEST(Patchwork, ARestStaysAndIsNotMet) {
+  const TriMesh lower = neighbours(-1);
+  Work work(joined(lower, neighbours(1)), 0.4);
+  int met = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    std::vector<char> open(work.surface.points.size(), 0);
+    const Vec3 center{0.13 * trial - 0.8, 0.7 - 0.11 * trial, 0};
+    for (std::size_t p = 0; p < open.size(); ++p) {
+      const bool is_lower = p < lower.points.size();
+      if ((trial % 3 == 0 && !is_lower) || (trial % 3 == 1 && is_lower)) continue;
+      const Vec3 away = work.surface.points[p] - center;
+      open[p] = std::abs(away.x) + std::abs(away.y) < 0.5 + 0.05 * trial ? 1 : 0;
+    }
+    std::vector<char> around = open;
+    choose_rings(work.surface.triangles, 2, around);
+    std::vector<Patch> patches =
+        cut_into_patches(cover_of(work.surface), trial % 2 == 0 ? 0.7 : 1e9, 0.25, around);
+    const std::size_t rest = patches.back().cover.triangles.size();
+    ASSERT_GT(rest, 100u);
+    for (Patch& patch : patches) {
+      for (std::size_t i = 0; i < patch.points.size(); ++i) {
+        if (open[patch.points[i]] == 0) patch.held[i] = 1;
+      }
+    }
+    PatchworkReport report;
+    const Cover cover = decimate_patchwork(work.task, work.surface.points, patches, report);
+    work.expect_promises_kept(cover);
+    EXPECT_GE(cover.triangles.size(), rest);
+    EXPECT_LT(cover.triangles.size(), work.surface.triangles.size());
+    met += report.rounds > 0 ? 1 : 0;
+  }
+  EXPECT_GT(met, 0) << "no trial tests anything";
+}
+
 TEST(Patchwork, IsTheSameForAnyNumberOfThreads) {
   Work work(torus(), 0.02);
   const auto run = [&] { return work.run(0.5); };

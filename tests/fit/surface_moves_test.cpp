@@ -113,7 +113,7 @@ TEST(SurfaceMover, MovesAgainFromWhereverItIsTold) {
   EXPECT_EQ(mover.points(), moved_without_folds(space, surface, through).points);
   EXPECT_TRUE(mover.move(surface.points, small));
   const std::vector<Vec3> start = mover.points();
-  EXPECT_TRUE(mover.move(start, small));
+  EXPECT_TRUE(mover.move(mover.points(), small));
   EXPECT_EQ(mover.points()[far], start[far] + small[far]);
   EXPECT_EQ(mover.take_surface().triangles, surface.triangles);
 }

@@ -115,7 +115,9 @@ TEST(BoxTree, SharesHoldEachPairThatOverlapsOnce) {
         EXPECT_EQ(pairs_of_shares(tree, count), expected) << items << " " << count;
       }
       boxes = random_boxes(items, 7);
+      for (Box& box : boxes) box = {box.lo + Vec3{3, 0, 0}, box.hi + Vec3{3, 0, 0}};
       tree.update(boxes);
+      EXPECT_EQ(found_by(tree, {{3, 0, 0}, {5, 2, 2}}).size(), items) << "all are elsewhere";
     }
   }
 }

@@ -104,11 +104,10 @@ class Decimation {
   /// The points that are open, all copies of them, and those around.
   std::vector<char> points_around(const Cover& cover, std::vector<char> open) const {
     if (interfaces_) {
-      std::vector<char> any(open.size(), 0);
-      for (std::size_t p = 0; p < open.size(); ++p) any[interfaces_->first_copy[p]] |= open[p];
-      for (std::size_t p = 0; p < open.size(); ++p) open[p] = any[interfaces_->first_copy[p]];
+      choose_rings(cover.triangles, interfaces_->first_copy, kRingsAroundOpen, open);
+    } else {
+      choose_rings(cover.triangles, kRingsAroundOpen, open);
     }
-    choose_rings(cover.triangles, kRingsAroundOpen, open);
     return open;
   }
 

@@ -161,6 +161,16 @@ void choose_rings(const std::vector<Triangle>& triangles, int rings, std::vector
   }
 }
 
+void choose_rings(std::vector<Triangle> triangles, std::span<const Index> first_copy, int rings,
+                  std::vector<char>& chosen) {
+  for (std::size_t p = 0; p < chosen.size(); ++p) chosen[first_copy[p]] |= chosen[p];
+  for (Triangle& t : triangles) {
+    for (Index& p : t) p = first_copy[p];
+  }
+  choose_rings(triangles, rings, chosen);
+  for (std::size_t p = 0; p < chosen.size(); ++p) chosen[p] = chosen[first_copy[p]];
+}
+
 void hold(Patch& patch, const std::vector<Index>& points, const std::vector<Index>& originals,
           int rings) {
   std::vector<char> chosen(patch.held.size(), 0);

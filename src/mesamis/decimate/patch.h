@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesamis/decimate/cover.h"
@@ -20,6 +21,11 @@ struct Patch {
 /// @param chosen  of each point, 1 or 0.
 void choose_rings(const std::vector<Triangle>& triangles, int rings, std::vector<char>& chosen);
 
+/// The same where several points may be copies of one: with a point its copies are chosen.
+/// @param first_copy  of each point the first of its copies, itself if there are no others.
+void choose_rings(std::vector<Triangle> triangles, std::span<const Index> first_copy, int rings,
+                  std::vector<char>& chosen);
+
 /// Holds points of a patch, the corners of the triangles that stand for any of these originals, and
 /// so many rings of points around all these.
 /// @param points     of the patch, in any order.
@@ -30,7 +36,8 @@ void hold(Patch& patch, const std::vector<Index>& points, const std::vector<Inde
 /// Cuts a cover into patches: the triangles whose centres lie in one box of a lattice. Points that
 /// patches share are held in all of them, as are their neighbours: what touches a shared point
 /// stays.
-/// @param side    of the boxes, mm, > 0; infinity: one patch, nothing held.
+/// @param side    of the boxes, mm, > 0; infinity: one patch, of which nothing is held but for what
+///                touches others than the chosen.
 /// @param shift   of the lattice along each axis, as a share of the side.
 /// @param chosen  of each point, 1 or 0: triangles without a chosen corner are no part of these
 ///                patches, but make one more, the last, of which all is held; empty: all are.

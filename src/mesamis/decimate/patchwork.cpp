@@ -43,13 +43,14 @@ class Patchwork {
   }
 
  private:
-  static bool is_held(const Patch& patch) {
-    return std::find(patch.held.begin(), patch.held.end(), 0) == patch.held.end();
+  static Cover decimated(const DecimateTask& task, const Patch& patch) {
+    const bool is_held = std::find(patch.held.begin(), patch.held.end(), 0) == patch.held.end();
+    return is_held ? patch.cover : decimate_pass(task, patch);
   }
 
   void decimate(const std::vector<std::size_t>& open) {
     if (open.size() == 1) {
-      done_[open[0]] = decimate_pass(task_, patches_[open[0]]);
+      done_[open[0]] = decimated(task_, patches_[open[0]]);
       return;
     }
     std::mutex telling;
@@ -67,7 +68,7 @@ class Patchwork {
     std::atomic<std::size_t> next = 0;
     parallel_for_each(order.size(), [&](std::size_t) {
       const std::size_t k = order[next++];
-      done_[k] = is_held(patches_[k]) ? patches_[k].cover : decimate_pass(task, patches_[k]);
+      done_[k] = decimated(task, patches_[k]);
       ++finished;
     });
   }

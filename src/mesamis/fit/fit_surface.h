@@ -35,8 +35,9 @@ struct FitPoints {
 /// with the umbrella operator L: the shifts are smooth, so that nothing shrinks. Where the image
 /// shows an edge the surface lies on it; elsewhere it stays, or goes with what is beside it. Where
 /// triangles meet, as where two boundaries see the same edge, points around look for none any more,
-/// and rounds are added. In the end moves that would still make the surface meet itself are taken
-/// back. Points on the image's box stay.
+/// and rounds are added, in which others keep their edges. In the end moves that would still make
+/// the surface meet itself, in the single precision of a file, are taken back. Points on the
+/// image's box stay.
 /// @param surface  smooth, see smooth_surface(); in the image's own axes, mm; closed, or boundaries
 ///                 of several objects that share edges; without self-intersections.
 /// @param image    in grey values.

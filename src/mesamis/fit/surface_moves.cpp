@@ -261,7 +261,7 @@ SurfaceMover::SurfaceMover(const SurfaceSpace& space, TriMesh surface, Unfolded 
   in_file_.emplace(filed_);
 }
 
-bool SurfaceMover::move(const std::vector<Vec3>& start, std::vector<Vec3> shifts) {
+bool SurfaceMover::move(std::vector<Vec3> start, std::vector<Vec3> shifts) {
   constexpr int kHalvings = 2, kMostTrials = 40;
   std::vector<int> taken_back(shifts.size(), 0);
   parallel_for(shifts.size(), [&](std::size_t p) { moved_.points[p] = start[p] + shifts[p]; });
@@ -283,7 +283,7 @@ bool SurfaceMover::move(const std::vector<Vec3>& start, std::vector<Vec3> shifts
     pairs = in_file_->after_move_of(concerned);
     if (here_) append(here_->after_move_of(concerned), pairs);
   }
-  if (!triangles_at(moved_corners(shifts, pairs)).empty()) moved_.points = start;
+  if (!triangles_at(moved_corners(shifts, pairs)).empty()) moved_.points = std::move(start);
   return false;
 }
 

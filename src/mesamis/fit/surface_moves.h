@@ -164,7 +164,7 @@ class SurfaceMover {
   /// @param start   where the points are moved from, one each.
   /// @param shifts  one each.
   /// @return whether none was taken back.
-  bool move(const std::vector<Vec3>& start, std::vector<Vec3> shifts);
+  bool move(std::vector<Vec3> start, std::vector<Vec3> shifts);
 
   const std::vector<Vec3>& points() const noexcept { return moved_.points; }
   /// The surface; the end of the mover.

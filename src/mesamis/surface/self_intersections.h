@@ -29,7 +29,7 @@ using TrianglePair = std::array<Index, 2>;
 /// O(n log n) for a surface that rarely meets itself.
 std::vector<TrianglePair> find_self_intersections(const TriMesh& surface);
 
-/// Finds self-intersections again and again while a few points of the surface move.
+/// Finds self-intersections again and again while points of the surface move.
 class SelfIntersections {
  public:
   /// @param surface  n triangles; read where it is, also later.
@@ -46,6 +46,9 @@ class SelfIntersections {
   std::vector<TrianglePair> all() const;
 
   /// All pairs, where any points have moved.
+  /// @return as find_self_intersections().
+  ///
+  /// O(n log n) for a surface that rarely meets itself.
   std::vector<TrianglePair> after_move();
 
   /// The pairs that these triangles, whose points have moved, take part in now.
