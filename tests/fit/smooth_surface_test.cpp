@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "fit/rough_ball.h"
 #include "mesamis/base/parallel.h"
@@ -96,6 +97,29 @@ TEST(SmoothSurface, LabelsOfCubesAreSmoothedAsUsual) {
   EXPECT_EQ(of_cubes.bending, usual.bending);
   EXPECT_EQ(of_cubes.rounds, usual.rounds);
   EXPECT_EQ(of_cubes.reach, usual.reach);
+}
+
+/// Where moves would make the surface meet itself, few points stop for good.
+TEST(SmoothSurface, GoesOnWhereOthersHaveMadeRoom) {
+  std::mt19937 generator(2);
+  OwnedLabels labels = labels_where({14, 14, 14}, {1, 1, 1},
+                                    [&](const Vec3&) { return static_cast<int>(generator() % 3); });
+  const PartitionSurface net =
+      extract_net_on_grid(smooth_memberships(labels.grid(), {.most_rounds = 0}));
+  const TriMesh start{net.points, net.triangles};
+  VoxelGrid grid;
+  grid.size = {14, 14, 14};
+  const Neighbors neighbors(start);
+  const Links all(neighbors.points.size(), 1);
+  const Umbrella umbrella(neighbors, all);
+  const auto bends = [&](const TriMesh& surface) {
+    double sum = 0;
+    for (const Vec3& bend : umbrella.bent(surface.points)) sum += dot(bend, bend);
+    return sum;
+  };
+  const TriMesh smooth = smooth_surface(start, grid, all, smoothing_of_labels(grid));
+  EXPECT_LT(bends(smooth), 0.4 * bends(start));
+  EXPECT_TRUE(find_self_intersections(smooth).empty());
 }
 
 TEST(SmoothSurface, NoPointMovesFarther) {

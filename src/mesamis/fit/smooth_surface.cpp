@@ -13,9 +13,6 @@
 namespace mesamis::detail::fit {
 namespace {
 
-/// Of the weight of smoothness: that of the surface at which points stop that may not go as far.
-constexpr double kShare = 1.0 / 16;
-
 class Smoothing {
  public:
   Smoothing(const std::vector<Vec3>& start, const SurfaceSpace& space, Umbrella umbrella,
@@ -23,12 +20,12 @@ class Smoothing {
       : start_(start), space_(space), umbrella_(std::move(umbrella)), options_(options) {}
 
   /// From the start.
-  std::vector<Vec3> shifts(double bending) const {
+  std::vector<Vec3> shifts() const {
     Springs springs = springs_at(space_, start_, 1);
     springs.least_step = kLeastStep * space_.voxel();
     std::vector<Vec3> now = start_;
     for (int round = 0; round < options_.rounds; ++round) {
-      now = relax(umbrella_, springs, bending, std::move(now));
+      now = relax(umbrella_, springs, options_.bending, std::move(now));
       parallel_for(now.size(), [&](std::size_t p) { springs.goal[p] += start_[p] - now[p]; });
     }
     std::vector<Vec3> shifts(now.size());
@@ -66,15 +63,15 @@ TriMesh smooth_surface(const TriMesh& surface, const VoxelGrid& grid, const Link
   }
   const SurfaceSpace space(grid, 1);
   const Smoothing smoothing(surface.points, space, Umbrella(neighbors, links), options);
-  const std::vector<Vec3>& start = surface.points;
-  const std::vector<Vec3> shifts = smoothing.shifts(options.bending);
+  constexpr int kMostMoves = 6;
+  std::vector<Vec3> goals = smoothing.shifts();
+  parallel_for(goals.size(), [&](std::size_t p) { goals[p] += surface.points[p]; });
   SurfaceMover mover(space, surface, Unfolded::kInFile);
-  if (!mover.move(start, shifts)) {
-    mover.move(start, smoothing.shifts(kShare * options.bending));
-    const std::vector<Vec3> less = mover.points();
-    std::vector<Vec3> rest(shifts.size());
-    parallel_for(rest.size(), [&](std::size_t p) { rest[p] = shifts[p] + (start[p] - less[p]); });
-    mover.move(less, std::move(rest));
+  bool arrived = false;  // where others have moved, most of what was taken back may go on
+  for (int move = 0; move < kMostMoves && !arrived; ++move) {
+    std::vector<Vec3> rest(goals.size());
+    parallel_for(rest.size(), [&](std::size_t p) { rest[p] = goals[p] - mover.points()[p]; });
+    arrived = mover.move(mover.points(), std::move(rest));
   }
   return mover.take_surface();
 }

@@ -27,9 +27,9 @@ SmoothingOptions smoothing_of_labels(const VoxelGrid& grid);
 ///   sum of |x - goal|^2 + bending |L x|^2
 /// with the umbrella operator L, and the goals, at first where the points were, gain what the round
 /// has lost (Bregman's iteration, Osher et al. 2005): steps of a voxel go, bends of several voxels
-/// come back, so that a ball hardly shrinks. Where moves would make the surface meet itself, points
-/// stop at a less smooth surface, or where they were; that takes longer, and holds in the single
-/// precision of a file. Points on the grid's box stay.
+/// come back, so that a ball hardly shrinks. Where moves would make the surface meet itself, in the
+/// single precision of a file, points stop on their way or where they were. Points on the grid's box
+/// stay.
 /// @param surface   in the grid's own axes, mm; closed, or boundaries of several objects that share
 ///                  edges; without self-intersections.
 /// @param links     between Neighbors of the surface, one for each.
