@@ -17,7 +17,8 @@ void require_valid(const DecimateOptions& options);
 
 /// Decimates a surface patch by patch, in the boxes of three lattices, of which each goes across the
 /// seams of those before; then what is left of these in one piece. Where the number of triangles is
-/// given, and for less than two patches, there is one patch: the order of all collapses decides then.
+/// given, and for less than two patches, there is one patch: the order of all collapses decides
+/// then.
 /// @param surface              closed, 2-manifold.
 /// @param options              valid; the tolerance is not 0. Progress grows, and is never called
 ///                             by two threads at once.

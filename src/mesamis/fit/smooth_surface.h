@@ -28,8 +28,8 @@ SmoothingOptions smoothing_of_labels(const VoxelGrid& grid);
 /// with the umbrella operator L, and the goals, at first where the points were, gain what the round
 /// has lost (Bregman's iteration, Osher et al. 2005): steps of a voxel go, bends of several voxels
 /// come back, so that a ball hardly shrinks. Where moves would make the surface meet itself, in the
-/// single precision of a file, points stop on their way or where they were. Points on the grid's box
-/// stay.
+/// single precision of a file, points stop on their way or where they were. Points on the box of the
+/// grid stay.
 /// @param surface   in the grid's own axes, mm; closed, or boundaries of several objects that share
 ///                  edges; without self-intersections.
 /// @param links     between Neighbors of the surface, one for each.
