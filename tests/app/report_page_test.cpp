@@ -199,9 +199,11 @@ std::vector<std::string> console_lines(const std::string& err) {
   }                                                                              \
   static_assert(true)
 
-/// The addresses outside of the file that the browser asked for.
+/// The addresses outside of the file that the page asked for. What the browser asks for itself, as
+/// the time and its updates, is of no origin.
 std::string outside_requests(const std::string& net_log) {
-  static const std::regex outside("\"url\":\"(https?|wss?|ftp):[^\"]{0,200}");
+  static const std::regex outside(
+      R"re("initiator":"(?!not an origin")[^\n]{0,900}"url":"(https?|wss?|ftp):[^"]{0,200})re");
   std::smatch found;
   return std::regex_search(net_log, found, outside) ? found.str() : "";
 }
@@ -315,6 +317,17 @@ TEST_F(ReportPageTest, ABrowserDrawsOutlinesOnThreeSlicesAndAsksForNothing) {
   EXPECT_GT(count(shot.image, shot.panels[3], is_surface), 10'000u) << "the surface in space";
   EXPECT_LT(shot.panels[0].left, 60u) << "the whole width is used";
   EXPECT_GT(shot.panels[3].right, 1540u);
+}
+
+/// So that the test above could fail.
+TEST_F(ReportPageTest, ABrowserTellsOfPagesThatAsk) {
+  MESAMIS_REQUIRE_BROWSER();
+  const std::string page = at("asks.html"), net = at("asks.json");
+  write_bytes(
+      page,
+      "<img src='http://localhost:9/asked.png'><script>fetch('http://localhost:9/b')</script>");
+  ASSERT_EQ(browse(*folder_, page, {"--dump-dom", "--log-net-log=" + net}).status, 0);
+  EXPECT_THAT(outside_requests(read_bytes(net)), testing::HasSubstr("http://localhost:9/"));
 }
 
 TEST_F(ReportPageTest, OnAPhonePanelsLieOneBelowAnother) {
