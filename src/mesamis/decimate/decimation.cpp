@@ -101,8 +101,9 @@ class Decimation {
     open = std::move(at_seams);
   }
 
-  /// The points that are open, all copies of them, and those around.
+  /// The points that are open, all copies of them, and those around; empty where all are open.
   std::vector<char> points_around(const Cover& cover, std::vector<char> open) const {
+    if (std::find(open.begin(), open.end(), 0) == open.end()) return {};
     if (interfaces_) {
       choose_rings(cover.triangles, interfaces_->first_copy, kRingsAroundOpen, open);
     } else {

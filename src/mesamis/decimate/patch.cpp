@@ -16,19 +16,31 @@
 namespace mesamis::detail::decimate {
 namespace {
 
-/// The number of the patch of each triangle; patches are numbered in the order of their boxes.
-std::vector<Index> patch_numbers(const Cover& cover, double side, double shift) {
-  if (std::isinf(side)) return std::vector<Index>(cover.triangles.size(), 0);
-  const std::vector<Vec3>& points = cover.points;
+/// The number of the patch of each triangle.
+struct PatchNumbers {
+  std::vector<Index> of_triangle;
+  bool has_rest;  ///< the last one is what has no chosen corner
+};
+
+/// Patches are numbered in the order of their boxes.
+PatchNumbers patch_numbers(const Cover& cover, double side, double shift,
+                           const std::vector<char>& chosen) {
   using Place = std::array<double, 3>;  // of a box: whole numbers
+  constexpr double kBeyond = std::numeric_limits<double>::infinity();
+  constexpr Place kRest{kBeyond, kBeyond, kBeyond};
+  const std::vector<Vec3>& points = cover.points;
   const double back = shift * side;
   const Vec3 origin = bounding_box(points).lo - Vec3{back, back, back};
   std::vector<Place> boxes(cover.triangles.size());
   parallel_for(boxes.size(), [&](std::size_t n) {
     const Triangle& t = cover.triangles[n];
-    const Vec3 center = (1.0 / 3) * (points[t[0]] + points[t[1]] + points[t[2]]) - origin;
-    boxes[n] = {std::floor(center.x / side), std::floor(center.y / side),
-                std::floor(center.z / side)};
+    if (!chosen.empty() && chosen[t[0]] + chosen[t[1]] + chosen[t[2]] == 0) {
+      boxes[n] = kRest;
+    } else if (!std::isinf(side)) {
+      const Vec3 center = (1.0 / 3) * (points[t[0]] + points[t[1]] + points[t[2]]) - origin;
+      boxes[n] = {std::floor(center.x / side), std::floor(center.y / side),
+                  std::floor(center.z / side)};
+    }
   });
   std::map<Place, Index> number;
   for (std::size_t n = 0; n < boxes.size(); ++n) {
@@ -38,24 +50,7 @@ std::vector<Index> patch_numbers(const Cover& cover, double side, double shift) 
   for (auto& [box, n] : number) n = next++;
   std::vector<Index> numbers(boxes.size());
   parallel_for(boxes.size(), [&](std::size_t n) { numbers[n] = number.at(boxes[n]); });
-  return numbers;
-}
-
-/// Numbers the patches anew: those with a chosen corner in the same order, then the rest.
-/// @return whether there is a rest.
-bool number_the_rest(const Cover& cover, const std::vector<char>& chosen,
-                     std::vector<Index>& numbers) {
-  constexpr Index kRest = std::numeric_limits<Index>::max();
-  std::map<Index, Index> number;
-  for (std::size_t t = 0; t < numbers.size(); ++t) {
-    const Triangle& k = cover.triangles[t];
-    if (chosen[k[0]] + chosen[k[1]] + chosen[k[2]] == 0) numbers[t] = kRest;
-    number[numbers[t]] = 0;
-  }
-  Index next = 0;
-  for (auto& [before, now] : number) now = next++;
-  for (Index& n : numbers) n = number[n];
-  return number.count(kRest) > 0;
+  return {std::move(numbers), number.count(kRest) > 0};
 }
 
 /// The patches that each point is in, as pairs of point and patch, sorted.
@@ -189,11 +184,10 @@ void hold(Patch& patch, const std::vector<Index>& points, const std::vector<Inde
 
 std::vector<Patch> cut_into_patches(Cover cover, double side, double shift,
                                     const std::vector<char>& chosen) {
-  std::vector<Index> numbers = patch_numbers(cover, side, shift);
-  const bool has_rest = !chosen.empty() && number_the_rest(cover, chosen, numbers);
-  Cutter cutter(cover, numbers);
-  std::vector<Patch> patches = cutter.cut(std::move(cover), numbers);
-  if (has_rest) std::fill(patches.back().held.begin(), patches.back().held.end(), 1);
+  const PatchNumbers numbers = patch_numbers(cover, side, shift, chosen);
+  Cutter cutter(cover, numbers.of_triangle);
+  std::vector<Patch> patches = cutter.cut(std::move(cover), numbers.of_triangle);
+  if (numbers.has_rest) std::fill(patches.back().held.begin(), patches.back().held.end(), 1);
   return patches;
 }
 

@@ -9,6 +9,9 @@
 namespace mesamis::detail::fit {
 namespace {
 
+/// Voxels: shorter steps do not change a surface that anybody sees.
+constexpr double kLeastStep = 1e-4;
+
 /// The matrix of the energy, without rows of points that are held.
 class Matrix {
  public:
@@ -143,6 +146,7 @@ Vec3 Umbrella::transposed(std::size_t p, const std::vector<Vec3>& y) const {
 Springs springs_at(const SurfaceSpace& space, const std::vector<Vec3>& points, double weight) {
   Springs springs{std::vector<double>(points.size(), weight), points,
                   std::vector<char>(points.size())};
+  springs.least_step = kLeastStep * space.voxel();
   parallel_for(points.size(),
                [&](std::size_t p) { springs.held[p] = space.on_box(points[p]) ? 1 : 0; });
   return springs;

@@ -57,7 +57,8 @@ struct Springs {
   double least_step = 0;   ///< surface's unit; relax() ends, too, when a step on is shorter, >= 0
 };
 
-/// Springs of one weight that hold points where they are; those on the grid's box stay.
+/// Springs of one weight that hold points where they are; those on the grid's box stay. Steps of a
+/// ten-thousandth of a voxel are short.
 Springs springs_at(const SurfaceSpace& space, const std::vector<Vec3>& points, double weight);
 
 /// Finds the points that minimise

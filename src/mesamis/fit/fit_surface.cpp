@@ -30,9 +30,7 @@ class Fit {
         springs_(springs_at(space_, start.points, 0)),
         shifts_(start.points.size()),
         blind_(start.points.size(), 0),
-        aims_(start.points.size(), 1) {
-    springs_.least_step = kLeastStep * space_.voxel();
-  }
+        aims_(start.points.size(), 1) {}
 
   void round() {
     aim();

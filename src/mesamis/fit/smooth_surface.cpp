@@ -22,7 +22,6 @@ class Smoothing {
   /// From the start.
   std::vector<Vec3> shifts() const {
     Springs springs = springs_at(space_, start_, 1);
-    springs.least_step = kLeastStep * space_.voxel();
     std::vector<Vec3> now = start_;
     for (int round = 0; round < options_.rounds; ++round) {
       now = relax(umbrella_, springs, options_.bending, std::move(now));

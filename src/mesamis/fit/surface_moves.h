@@ -20,9 +20,6 @@ inline constexpr double kMostMove = 0.7;
 /// Sweeps that normals are smoothed by, if nothing else is said.
 inline constexpr int kSweepsOfNormals = 3;
 
-/// Voxels: shorter steps of a solver do not change a surface that anybody sees.
-inline constexpr double kLeastStep = 1e-4;
-
 /// A surface's coordinates and the grid that it is moved in.
 class SurfaceSpace {
  public:

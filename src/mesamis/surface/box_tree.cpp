@@ -7,9 +7,23 @@
 
 namespace mesamis::detail::surface {
 
+std::size_t halve(std::span<PlacedItem> items) {
+  Box centers = kNoBox;
+  for (const PlacedItem& i : items) centers = united(centers, {i.center, i.center});
+  const Vec3 e = centers.extent();
+  const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
+  const std::size_t half = items.size() / 2;
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
+                   [axis](const PlacedItem& a, const PlacedItem& b) {
+                     const double x = a.center[axis], y = b.center[axis];
+                     return x != y ? x < y : a.item < b.item;
+                   });
+  return half;
+}
+
 BoxTree::BoxTree(std::span<const Box> boxes) {
   if (boxes.empty()) return;
-  std::vector<Placed> items(boxes.size());
+  std::vector<PlacedItem> items(boxes.size());
   parallel_for(items.size(), [&](std::size_t i) {
     items[i] = {boxes[i].lo + boxes[i].hi, static_cast<Index>(i)};
   });
@@ -20,7 +34,7 @@ BoxTree::BoxTree(std::span<const Box> boxes) {
 
 /// Makes the node of the items and, halved at the median of their centres, its children: n items
 /// have 2 n - 1 nodes.
-void BoxTree::build(std::span<const Box> boxes, std::span<Placed> items, Index place,
+void BoxTree::build(std::span<const Box> boxes, std::span<PlacedItem> items, Index place,
                     Index parent) {
   Node& node = nodes_[static_cast<std::size_t>(place)];
   node.parent = parent;
@@ -30,16 +44,7 @@ void BoxTree::build(std::span<const Box> boxes, std::span<Placed> items, Index p
     leaf_of_[node.item] = place;
     return;
   }
-  Box centers = kNoBox;
-  for (const Placed& i : items) centers = united(centers, {i.center, i.center});
-  const Vec3 e = centers.extent();
-  const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
-  const std::size_t half = items.size() / 2;
-  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
-                   [axis](const Placed& a, const Placed& b) {
-                     const double x = a.center[axis], y = b.center[axis];
-                     return x != y ? x < y : a.item < b.item;
-                   });
+  const std::size_t half = halve(items);
   node.second = place + static_cast<Index>(2 * half);
   const auto build_half = [&](std::size_t child) {
     child == 0 ? build(boxes, items.first(half), place + 1, place)

@@ -28,6 +28,18 @@ inline Box united(const Box& a, const Box& b) {
           {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
 }
 
+/// What a hierarchy is built of.
+struct PlacedItem {
+  Vec3 center;  ///< of its box, twice
+  Index item;
+};
+
+/// Puts the items with the lesser centres, along the axis along which these lie farthest apart, into
+/// the first half. O(n).
+/// @param items  at least two.
+/// @return how many are in the first half.
+std::size_t halve(std::span<PlacedItem> items);
+
 /// A bounding volume hierarchy over boxes that may change; finds the boxes that overlap another, or
 /// one another.
 class BoxTree {
@@ -72,10 +84,8 @@ class BoxTree {
   /// counts), always in the same order.
   template <class Visit>
   void for_each_pair(const NodePair& share, Visit&& visit) const {
-    const Index a = share[0], b = share[1];
-    const Node &one = nodes_[static_cast<std::size_t>(a)],
-               &other = nodes_[static_cast<std::size_t>(b)];
-    if (a != b && one.item != kNoIndex && other.item != kNoIndex) {
+    const Node &one = node(share[0]), &other = node(share[1]);
+    if (&one != &other && one.item != kNoIndex && other.item != kNoIndex) {
       if (overlap(one.box, other.box)) {
         visit(static_cast<std::size_t>(one.item), static_cast<std::size_t>(other.item));
       }
@@ -92,17 +102,13 @@ class BoxTree {
     Index item = kNoIndex;    // of a leaf
   };
 
-  struct Placed {
-    Vec3 center;  // twice
-    Index item;
-  };
+  const Node& node(Index place) const { return nodes_[static_cast<std::size_t>(place)]; }
 
   /// Calls part(pair) for the pairs of children of two nodes that may hold what overlaps.
   template <class Part>
   void for_each_part(const NodePair& share, Part&& part) const {
     const Index a = share[0], b = share[1];
-    const Node &one = nodes_[static_cast<std::size_t>(a)],
-               &other = nodes_[static_cast<std::size_t>(b)];
+    const Node &one = node(a), &other = node(b);
     if (a == b) {
       if (one.item != kNoIndex) return;
       part({a + 1, a + 1});
@@ -120,7 +126,7 @@ class BoxTree {
     }
   }
 
-  void build(std::span<const Box> boxes, std::span<Placed> items, Index place, Index parent);
+  void build(std::span<const Box> boxes, std::span<PlacedItem> items, Index place, Index parent);
 
   std::vector<Node> nodes_;
   std::vector<Index> leaf_of_;

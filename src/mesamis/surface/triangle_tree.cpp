@@ -79,12 +79,6 @@ std::vector<Corners> corners_of(const TriMesh& surface) {
   return corners;
 }
 
-int longest_axis(const Box& box) {
-  const Vec3 e = box.extent();
-  if (e.x >= e.y && e.x >= e.z) return 0;
-  return e.y >= e.z ? 1 : 2;
-}
-
 }  // namespace
 
 double squared_distance(const Vec3& p, const Corners& t) {
@@ -117,59 +111,41 @@ std::array<double, 3> nearest_place(const Vec3& p, const Corners& t) {
       });
 }
 
-struct TriangleTree::Item {
-  Vec3 center;  // of the bounding box, twice
-  Index triangle;
-};
-
 TriangleTree::TriangleTree(const TriMesh& surface) : TriangleTree(corners_of(surface)) {}
 
 TriangleTree::TriangleTree(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
-  std::vector<Item> items(triangles_.size());
+  std::vector<PlacedItem> items(triangles_.size());
   parallel_for(items.size(), [&](std::size_t t) {
     const Box box = bounding_box(triangles_[t]);
     items[t] = {box.lo + box.hi, static_cast<Index>(t)};
   });
   nodes_.resize(nodes_over(items.size()));
-  build(items, 0, items.size(), 0);
+  build(items, 0, 0);
   std::vector<Corners> sorted(items.size());
   order_.resize(items.size());
   parallel_for(items.size(), [&](std::size_t i) {
-    order_[i] = items[i].triangle;
-    sorted[i] = triangles_[items[i].triangle];
+    order_[i] = items[i].item;
+    sorted[i] = triangles_[order_[i]];
   });
   triangles_ = std::move(sorted);
 }
 
-/// Makes the node of items [begin, end) and, halved at the median, its children.
-void TriangleTree::build(std::vector<Item>& items, std::size_t begin, std::size_t end,
-                         std::size_t place) {
-  if (end - begin <= kLeafSize) {
+/// Makes the node of some items and, halved at the median, its children.
+/// @param first  the number of items before these.
+void TriangleTree::build(std::span<PlacedItem> items, std::size_t first, std::size_t place) {
+  if (items.size() <= kLeafSize) {
     Box box = kNoBox;
-    for (std::size_t i = begin; i < end; ++i) {
-      box = united(box, bounding_box(triangles_[items[i].triangle]));
-    }
-    nodes_[place] = {box, static_cast<Index>(begin), static_cast<Index>(end - begin)};
+    for (const PlacedItem& i : items) box = united(box, bounding_box(triangles_[i.item]));
+    nodes_[place] = {box, static_cast<Index>(first), static_cast<Index>(items.size())};
     return;
   }
-  Box centers = kNoBox;
-  for (std::size_t i = begin; i < end; ++i) {
-    centers = united(centers, {items[i].center, items[i].center});
-  }
-  const std::size_t middle = begin + (end - begin) / 2;
-  const int axis = longest_axis(centers);
-  const auto at = [&items](std::size_t i) {
-    return items.begin() + static_cast<std::ptrdiff_t>(i);
-  };
-  std::nth_element(at(begin), at(middle), at(end), [axis](const Item& a, const Item& b) {
-    const double x = a.center[axis], y = b.center[axis];
-    return x != y ? x < y : a.triangle < b.triangle;
-  });
-  const std::size_t second = place + 1 + nodes_over(middle - begin);
+  const std::size_t half = halve(items);
+  const std::size_t second = place + 1 + nodes_over(half);
   const auto build_half = [&](std::size_t child) {
-    child == 0 ? build(items, begin, middle, place + 1) : build(items, middle, end, second);
+    child == 0 ? build(items.first(half), first, place + 1)
+               : build(items.subspan(half), first + half, second);
   };
-  parallel_halves(end - begin, build_half);
+  parallel_halves(items.size(), build_half);
   nodes_[place] = {united(nodes_[place + 1].box, nodes_[second].box), static_cast<Index>(second),
                    0};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "mesamis/rooms.h"
@@ -71,9 +72,8 @@ class TriangleTree {
     Index first;  // leaf: its first triangle; else: its second child (the first comes next)
     Index count;  // leaf: its triangles; else 0
   };
-  struct Item;
 
-  void build(std::vector<Item>& items, std::size_t begin, std::size_t end, std::size_t place);
+  void build(std::span<PlacedItem> items, std::size_t first, std::size_t place);
   static std::size_t nodes_over(std::size_t triangles);
   double squared_distance_to_box(const Vec3& p, std::size_t node) const;
 
