@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <random>
 #include <set>
 #include <utility>
@@ -105,14 +104,12 @@ void expect_closed(const LabelResult& found) {
 
 /// Points of both objects.
 std::size_t shared_points(const LabelResult& found) {
-  const auto less = [](const Vec3& a, const Vec3& b) {
-    return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
-  };
-  std::set<Vec3, std::function<bool(const Vec3&, const Vec3&)>> first(less);
-  for (const Vec3& p : found.objects[0].surface.points) first.insert(p);
+  std::set<std::array<double, 3>> first;
+  for (const Vec3& p : found.objects[0].surface.points) first.insert({p.x, p.y, p.z});
   return static_cast<std::size_t>(
-      std::count_if(found.objects[1].surface.points.begin(), found.objects[1].surface.points.end(),
-                    [&](const Vec3& p) { return first.count(p) == 1; }));
+      std::ranges::count_if(found.objects[1].surface.points, [&](const Vec3& p) {
+        return first.contains({p.x, p.y, p.z});
+      }));
 }
 
 /// Of the usual scan and a label for each of its voxels.
@@ -150,6 +147,42 @@ TEST(LabelSurfaces, ABallThatAnotherTouchesHasNoCreases) {
     const LabelMap map = labels_of(every, 0);
     EXPECT_LT(first_of(map, true), kMost) << every;
     EXPECT_LT(every * first_of(map, false), kMost) << every;
+  }
+}
+
+/// Two balls whose labels share 3 x 3 voxel faces are as round as if they did not.
+TEST(LabelSurfaces, ANarrowContactLeavesNoSpikes) {
+  constexpr Index kLong = 34, kWide = 21;
+  LabelMap map;
+  map.size = {kLong, kWide, kWide};
+  map.layers.emplace_back();
+  Volume scan{{.size = map.size}, {}};
+  for (Index k = 0; k < kWide; ++k) {
+    for (Index j = 0; j < kWide; ++j) {
+      for (Index i = 0; i < kLong; ++i) {
+        const Vec3 p{1.0 * i, 1.0 * j, 1.0 * k};
+        const double first = norm(p - Vec3{10, 10, 10}), second = norm(p - Vec3{22.9, 10, 10});
+        map.layers[0].push_back(first < 6.2 ? 1 : second < 6.2 ? 2 : 0);
+        const double within = 6.2 - std::min(first, second);
+        scan.samples.push_back(static_cast<float>(100 + 100 * std::clamp(within, -0.8, 0.8)));
+      }
+    }
+  }
+  map.segments = {{"first", 1, 0, {255, 0, 0}}, {"second", 2, 0, {0, 255, 0}}};
+  for (const bool with_image : {true, false}) {
+    const auto find = [&](bool keep_topology) {
+      Settings settings;
+      settings.keep_topology = keep_topology;
+      return with_image ? find_labelled_objects(scan, {map}, settings)
+                        : surfaces_of_labels({map}, settings);
+    };
+    const LabelResult apart = find(false), touching = find(true);
+    expect_closed(apart);
+    EXPECT_EQ(shared_points(apart), 0U);
+    EXPECT_GT(shared_points(touching), 3U);
+    const TriMesh& ball = apart.objects.at(0).surface;
+    EXPECT_LT(edge_lengths(ball).creases / surface_area(ball), 0.01);
+    for (const Vec3& p : ball.points) EXPECT_NEAR(norm(p - Vec3{10, 10, 10}), 6.2, 0.6);
   }
 }
 

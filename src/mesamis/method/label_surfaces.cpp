@@ -32,6 +32,7 @@
 #include "mesamis/surface/grid_partition.h"
 #include "mesamis/surface/join_diagonals.h"
 #include "mesamis/surface/match_volumes.h"
+#include "mesamis/surface/open_contacts.h"
 #include "mesamis/surface/select_parts.h"
 #include "mesamis/surface/smooth_memberships.h"
 
@@ -44,6 +45,8 @@ constexpr double kMostMargin = 50;       // voxels of the scan
 constexpr double kReach = 2;             // margins that a label may flow
 constexpr double kReachOfFit = 0.64;     // margins in which a fitted surface looks for edges
 constexpr double kReachAfterFlow = 1.6;  // voxels, the same
+constexpr int kDepthOfContacts = 2;      // points of a net, about a voxel from each other
+constexpr double kGapOfContacts = 0.1;   // voxels
 constexpr double kErrorOfLabels = 0.04;  // voxels of the labels, where they are right
 
 void bring_to_world(const VoxelGrid& grid, PartitionSurface& partition) {
@@ -144,6 +147,15 @@ struct LabelRun {
 PartitionSurface extract(const LabelRun& run, Index layer, const GridMemberships& memberships) {
   if (!run.smooths()) return extract_partition_on_grid(memberships);
   return extract_net_on_grid(memberships, {.chosen = marks_of(run.chosen, layer)});
+}
+
+/// What is not worth a contact is opened, where boundaries are smoothed.
+PartitionSurface without_narrow_contacts(const LabelRun& run, Index layer, const VoxelGrid& grid,
+                                         PartitionSurface partition) {
+  if (!run.smooths() || run.settings.keep_topology) return partition;
+  const ContactOptions options{.depth = kDepthOfContacts,
+                               .gap = kGapOfContacts * grid.shortest_side()};
+  return open_narrow_contacts(std::move(partition), marks_of(run.chosen, layer), options);
 }
 
 LabelBlock require_block(const LabelRun& run, const LabelMap& map) {
@@ -263,6 +275,7 @@ LayerBoundaries place_by_image(const LabelRun& run, LayerBoundaries found, const
   const RunInput input(edges.prepared);
   const auto pairs = measure_pair_levels(found.partition, input.image);
   found.boundaries = boundaries_of(run, layer, pairs, input);
+  found.partition = without_narrow_contacts(run, layer, input.grey, std::move(found.partition));
   auto guides = guides_of_points(found.partition, pairs, input.noise);
   found.partition = only_chosen(found.partition, marks_of(run.chosen, layer), guides);
   found.partition = moved_to_image(run, std::move(found.partition), input, guides);
@@ -293,8 +306,9 @@ LayerPartition extract_by_labels(const LabelRun& run, Index layer, const LabelBl
 /// @param grid  of the block that they were extracted in.
 LayerBoundaries place_by_labels(const LabelRun& run, Index layer, const VoxelGrid& grid,
                                 const LayerPartition& extracted) {
-  std::vector<BoundaryGuide> none(extracted.partition.points.size());
-  PartitionSurface partition = only_chosen(extracted.partition, marks_of(run.chosen, layer), none);
+  PartitionSurface partition = without_narrow_contacts(run, layer, grid, extracted.partition);
+  std::vector<BoundaryGuide> none(partition.points.size());
+  partition = only_chosen(partition, marks_of(run.chosen, layer), none);
   if (run.smooths()) partition = smooth_boundaries(std::move(partition), grid, extracted.volumes);
   bring_to_world(grid, partition);
   return {layer, std::move(partition)};

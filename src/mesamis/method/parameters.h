@@ -47,7 +47,7 @@ struct Parameters {
   bool local_level = false;       ///< the level is that of the object as a whole, see LocalLevel
   bool follow = false;            ///< the solid is moved on to the image's level set
   bool fit = false;               ///< boundaries of labels are fitted to the image
-  bool keep_topology = false;     ///< neither tunnels nor gaps across diagonals are closed
+  bool keep_topology = false;     ///< no tunnels or gaps are closed, no contacts opened
   double band_threshold = 0;      ///< TOLth
   double min_volume = 0;          ///< of islands and cavities that stay, mm^3
   std::int64_t keep_largest = 0;  ///< islands; 0: all

@@ -346,8 +346,8 @@ std::vector<Setting> surface_rows() {
                "terraces of thick slices",
            .paper = "no"}, &Settings::fit, &Parameters::fit),
     bound({.name = "keep_topology", .form = "yes|no",
-           .help = "Leave the tunnels in thin bones of a CT, and the gaps of no volume in objects of "
-               "labels that open where thin ones pass from voxel to voxel across edges and corners",
+           .help = "Leave the tunnels in thin bones of a CT, narrow contacts of labels, and the gaps of no "
+               "volume that open where thin labels pass across edges and corners",
            .paper = "yes"}, &Settings::keep_topology, &Parameters::keep_topology),
     bound({.name = "band_threshold", .form = "X", .count = 1, .low = 0, .high = 1,
            .help = "TOLth: the band's cells have v below this"}, &Settings::band_threshold, &Parameters::band_threshold),

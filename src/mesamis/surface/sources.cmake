@@ -23,6 +23,7 @@ set(ROOM_HEADERS
   neighbours.h
   nesting.h
   normals.h
+  open_contacts.h
   part_filter.h
   partition.h
   sampling.h
@@ -62,6 +63,7 @@ set(ROOM_SOURCES
   neighbours.cpp
   nesting.cpp
   normals.cpp
+  open_contacts.cpp
   part_filter.cpp
   partition_cells.cpp
   sampling.cpp
