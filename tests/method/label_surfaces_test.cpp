@@ -95,7 +95,6 @@ double mean_error(int object, const TriMesh& surface) {
 }
 
 void expect_closed(const LabelResult& found) {
-  TriMesh all;
   for (const LabelledObject& object : found.objects) {
     EXPECT_EQ(solid_flaws_of(check_surface(object.surface)), "") << object.segment.name;
     EXPECT_TRUE(find_self_intersections(object.surface).empty()) << object.segment.name;

@@ -121,6 +121,51 @@ TEST(OpenContacts, HoldTheLawsOfPartitionsWhereLabelsAreRandom) {
   EXPECT_LT(after, before - before / 20);
 }
 
+/// The boundary of the background together with what lies outside.
+SurfaceCheck check_background(const PartitionSurface& partition) {
+  TriMesh boundary{partition.points, {}};
+  const auto is_background = [](Index side) { return side == 0 || side == kNoIndex; };
+  for (std::size_t t = 0; t < partition.sides.size(); ++t) {
+    const bool behind = is_background(partition.sides[t][0]),
+               before = is_background(partition.sides[t][1]);
+    const auto& [i, j, k] = partition.triangles[t];
+    if (behind != before)
+      boundary.triangles.push_back(behind ? Triangle{i, j, k} : Triangle{i, k, j});
+  }
+  return check_surface(boundary);
+}
+
+/// Labels that reach the border are closed by it, and the background goes on outside.
+TEST(OpenContacts, PinchNoBackgroundAtTheBorder) {
+  int changed = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const PartitionSurface net = extract_net_on_grid(random_grid({7, 6, 8}, 4, seed));
+    const PartitionSurface open = open_narrow_contacts(net, kAll, {.depth = 2, .gap = 0.1});
+    const SurfaceCheck was = check_background(net), is = check_background(open);
+    EXPECT_EQ(is.nonmanifold_edges, was.nonmanifold_edges) << seed;
+    EXPECT_EQ(is.nonmanifold_points, was.nonmanifold_points) << seed;
+    EXPECT_EQ(is.open_edges, 0) << seed;
+    if (!is_same(net, open)) ++changed;
+  }
+  EXPECT_GT(changed, 15);
+}
+
+/// Points that were one are not left so close that they would be one again in a file.
+TEST(OpenContacts, PartPointsByMoreThanRounding) {
+  for (const unsigned seed : {17, 19, 38, 47, 56}) {
+    const PartitionSurface net = extract_net_on_grid(random_grid({7, 6, 8}, 6, seed));
+    const PartitionSurface open = open_narrow_contacts(net, kAll, {.depth = 2, .gap = 0.1});
+    ASSERT_GT(open.points.size(), net.points.size());
+    double least = 1;
+    for (std::size_t p = net.points.size(); p < open.points.size(); ++p) {
+      for (std::size_t q = 0; q < p; ++q) {
+        least = std::min(least, norm(open.points[p] - open.points[q]));
+      }
+    }
+    EXPECT_GT(least, 1e-6) << seed;
+  }
+}
+
 TEST(OpenContacts, HoldTheLawsOfPartitionsWhereBlobsTouch) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     const OwnedLabels labels = random_blobs(14, 2 + static_cast<int>(seed) % 6, seed);

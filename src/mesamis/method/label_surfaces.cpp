@@ -305,8 +305,9 @@ LayerPartition extract_by_labels(const LabelRun& run, Index layer, const LabelBl
 /// Boundaries of the chosen labels, smooth.
 /// @param grid  of the block that they were extracted in.
 LayerBoundaries place_by_labels(const LabelRun& run, Index layer, const VoxelGrid& grid,
-                                const LayerPartition& extracted) {
-  PartitionSurface partition = without_narrow_contacts(run, layer, grid, extracted.partition);
+                                LayerPartition extracted) {
+  PartitionSurface partition =
+      without_narrow_contacts(run, layer, grid, std::move(extracted.partition));
   std::vector<BoundaryGuide> none(partition.points.size());
   partition = only_chosen(partition, marks_of(run.chosen, layer), none);
   if (run.smooths()) partition = smooth_boundaries(std::move(partition), grid, extracted.volumes);
@@ -485,9 +486,9 @@ LabelResult by_labels(const LabelRun& run) {
   result.seconds.prepare = watch.lap();
   std::vector<LayerBoundaries> layers;
   for (const Index layer : layers_of(run.chosen)) {
-    const LayerPartition extracted = extract_by_labels(run, layer, block, result.seconds);
+    LayerPartition extracted = extract_by_labels(run, layer, block, result.seconds);
     watch.lap();
-    layers.push_back(place_by_labels(run, layer, grid, extracted));
+    layers.push_back(place_by_labels(run, layer, grid, std::move(extracted)));
     result.seconds.surface += watch.lap();
   }
   finish_layers(run, std::move(layers), nullptr, result);

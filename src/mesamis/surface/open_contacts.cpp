@@ -13,7 +13,7 @@
 namespace mesamis::detail::surface {
 namespace {
 
-/// Of each material its number if it is chosen, else that of the background.
+/// Of each material its number if it is chosen, else that of the background, as of what lies outside.
 class Objects {
  public:
   explicit Objects(std::span<const char> chosen) : chosen_(chosen) {}
@@ -25,9 +25,8 @@ class Objects {
   bool is_contact(const std::array<Index, 2>& sides) const {
     return of(sides[0]) != 0 && of(sides[1]) != 0;
   }
-  bool is_background(Index side) const { return side != kNoIndex && of(side) == 0; }
   bool bounds_background(const std::array<Index, 2>& sides) const {
-    return is_background(sides[0]) != is_background(sides[1]);
+    return (of(sides[0]) == 0) != (of(sides[1]) == 0);
   }
 
  private:
@@ -84,8 +83,8 @@ struct Copy {
 
 /// A triangle at a point: its other two.
 struct Spoke {
-  Index origin, point, next, last;
-  auto operator<=>(const Spoke&) const = default;
+  Index point, next, last, origin;
+  bool operator<(const Spoke& other) const { return point < other.point; }
 };
 
 /// Whether the triangles at a point are one closed fan.
@@ -134,9 +133,10 @@ class OpenedPartition {
   }
 
   PartitionSurface surface;
-  std::size_t origin_count = 0;  ///< points of the partition that was opened
-  std::vector<Index> origin;     ///< of each point
-  std::vector<char> is_copy;     ///< of each point 1 if another has its origin
+  std::size_t origin_count = 0;             ///< points of the partition that was opened
+  std::vector<Index> origin;                ///< of each point
+  std::vector<char> is_copy;                ///< of each point 1 if another has its origin
+  std::vector<std::array<Index, 2>> twins;  ///< points of one origin
 
  private:
   /// Divides points of open contacts among the objects that still hang together there.
@@ -194,9 +194,6 @@ class OpenedPartition {
     }
     return p;
   }
-  bool is_split(Index p, const std::array<Index, 2>& sides) const {
-    return point_of(p, sides[0]) != point_of(p, sides[1]);
-  }
 
   /// Closes contacts at points around which the background would not be one fan of triangles.
   /// @return whether there was any.
@@ -211,9 +208,8 @@ class OpenedPartition {
       const Triangle& k = from_.triangles[t];
       for (std::size_t i = 0; i < 3; ++i) {
         if (near[k[i]] == 0) continue;
-        const Index p = point_of(k[i], object);
-        spokes.push_back(
-            {k[i], p, point_of(k[(i + 1) % 3], object), point_of(k[(i + 2) % 3], object)});
+        spokes.push_back({point_of(k[i], object), point_of(k[(i + 1) % 3], object),
+                          point_of(k[(i + 2) % 3], object), k[i]});
       }
     };
     for (std::size_t t = 0; t < open_.size(); ++t) {
@@ -225,12 +221,11 @@ class OpenedPartition {
         add_spokes(t, std::max(objects_.of(a), objects_.of(b)));
       }
     }
-    std::ranges::sort(spokes);
+    std::stable_sort(spokes.begin(), spokes.end());
     std::vector<char> pinched(from_.points.size(), 0);
     for (auto first = spokes.begin(); first != spokes.end();) {
-      const auto end = std::find_if(first, spokes.end(), [&](const Spoke& spoke) {
-        return spoke.origin != first->origin || spoke.point != first->point;
-      });
+      const auto end = std::find_if(
+          first, spokes.end(), [&](const Spoke& spoke) { return spoke.point != first->point; });
       if (!is_fan({first, end})) pinched[first->origin] = 1;
       first = end;
     }
@@ -269,6 +264,9 @@ class OpenedPartition {
         origin[copy.point] = p;
         is_copy[copy.point] = 1;
         surface.points[copy.point] = from_.points[p];
+        for (const Copy& other : copies_[p]) {
+          if (other.point < copy.point) twins.push_back({other.point, copy.point});
+        }
       }
     }
   }
@@ -361,7 +359,8 @@ class Parting {
     SelfIntersections search(surface);
     std::vector<Index> moved = triangles_at(surface, opened_.is_copy);
     while (true) {
-      const std::vector<char> meet = origins_of(surface, search.after_move_of(moved));
+      std::vector<char> meet = origins_of(surface, search.after_move_of(moved));
+      add_close_twins(meet);
       bool goes_on = false;
       for (std::size_t o = 0; o < meet.size(); ++o) {
         if (meet[o] == 0 || trial_[o] == kScale.size() - 1) continue;
@@ -405,6 +404,16 @@ class Parting {
       }
     }
     return origins;
+  }
+
+  /// Adds the origins of points that do not part.
+  void add_close_twins(std::vector<char>& origins) const {
+    constexpr double kLeast = 0.05;  // of what each moves
+    for (const auto& [one, other] : opened_.twins) {
+      const Index origin = opened_.origin[one];
+      const auto& ways = trial_[origin] == 0 ? averaged_ : own_;
+      if (norm(ways[one] - ways[other]) < kLeast) origins[origin] = 1;
+    }
   }
 
   const OpenedPartition& opened_;

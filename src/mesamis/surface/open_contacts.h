@@ -10,7 +10,7 @@ namespace mesamis::detail::surface {
 /// Which contacts between objects are opened, and how far.
 struct ContactOptions {
   int depth = 2;   ///< edges, >= 1: what is less deep everywhere is opened
-  double gap = 0;  ///< mm, > 0: how far both sides move apart from where they touched, each
+  double gap = 0;  ///< mm, > 0, a tenth of a voxel or so: how far each side moves away at most
 };
 
 /// Opens contacts between objects where these are narrow: as most are by which the labels of two
@@ -26,7 +26,7 @@ struct ContactOptions {
 /// @param chosen     of each material 1 if its surface is wanted; the others are background, as is
 ///                   material 0.
 /// @return the same triangles, of which some came twice; closed, 2-manifold boundaries of each
-///         chosen object, without self-intersections.
+///         chosen object and of all else, without self-intersections.
 ///
 /// O(n log n) for n triangles. The same bits for any number of threads.
 PartitionSurface open_narrow_contacts(PartitionSurface partition, std::span<const char> chosen,
