@@ -162,8 +162,18 @@ class Bone:
              "--label", self.number, "-o", path)
         return path
 
+    def among_all(self, folder):
+        """The file of our surface from one run on all labels of the map, with the scan."""
+        together = folder / f"{self.labels.name.split('.')[0]}.together"
+        together.mkdir(exist_ok=True)
+        report = once(together.with_suffix(".json"), "segment", self.scan, "--labels", self.labels,
+                      "-o", together / "{label}.ply")
+        return next(together / f"{found['name']}.ply" for found in report["object"]["surfaces"]
+                    if found["label"] == self.number)
+
     def surfaces(self, folder, name):
         yield "with the scan", read_surface(self.ours(folder, name))
+        yield "all labels in one run", read_surface(self.among_all(folder))
         yield "label alone", read_surface(self.ours(folder, name, with_scan=False))
         yield "3D Slicer", self.slicer()
         nets = self.nets()

@@ -206,9 +206,10 @@ def bone_row(runs, name, case):
     from looks_study import Bone, measured  # which needs VTK and nibabel
     bone = Bone(runs.scans, *case)
     found = dict(measured(name, bone, runs.folder))
-    scan, alone, slicer = (found[kind] for kind in ("with the scan", "label alone", "3D Slicer"))
+    scan, among, alone, slicer = (found[kind] for kind in ("with the scan", "all labels in one run", "label alone",
+                                                           "3D Slicer"))
     report = json.loads(bone.ours(runs.folder, name).with_suffix(".json").read_text())
-    return [*(f"{each['creases']:.3f}" for each in (scan, alone, slicer)),
+    return [*(f"{each['creases']:.3f}" for each in (scan, among, alone, slicer)),
             *(count(each["triangles"]) for each in (scan, alone, slicer)),
             *(str(each["genus"]) for each in (scan, slicer)),
             *(f"{each[what]:.2f}" for what in ("mean", "slope") for each in (scan, alone)), version(report)]
