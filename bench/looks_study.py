@@ -168,7 +168,7 @@ class Bone:
         together.mkdir(exist_ok=True)
         report = once(together.with_suffix(".json"), "segment", self.scan, "--labels", self.labels,
                       "-o", together / "{label}.ply")
-        return next(together / f"{found['name']}.ply" for found in report["object"]["surfaces"]
+        return next(pathlib.Path(file["path"]) for found, file in zip(report["object"]["surfaces"], report["files"])
                     if found["label"] == self.number)
 
     def surfaces(self, folder, name):
