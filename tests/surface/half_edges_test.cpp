@@ -84,6 +84,25 @@ TEST(HalfEdges, OfACubeComeInOppositePairs) {
   });
 }
 
+/// Two cubes that share a corner, and beside them triangles without area.
+TEST(PointsOfSeveralFans, AreWhereASurfaceTouchesItself) {
+  TriMesh cubes = joined(cube(), cube({1, 1, 1}));
+  const Vec3 shared{1, 1, 1};
+  const auto first = std::ranges::find(cubes.points, shared);
+  ASSERT_NE(first, cubes.points.end());
+  const Index corner = static_cast<Index>(first - cubes.points.begin());
+  for (Triangle& t : cubes.triangles) {
+    for (Index& p : t) {
+      if (cubes.points[p] == shared) p = corner;
+    }
+  }
+  cubes.triangles.push_back({0, 0, 1});
+  const auto several = points_of_several_fans(
+      cubes.triangles, sorted_half_edges(cubes.triangles, cubes.points.size()),
+      cubes.points.size());
+  for (Index p = 0; p < std::ssize(several); ++p) EXPECT_EQ(several[p], p == corner ? 1 : 0) << p;
+}
+
 TEST(ConnectedTriangles, AgreeWithAWalkAcrossEdges) {
   // 40 triangles over 90 points: some share an edge, most do not.
   auto triangles = crowded_triangles(40, 90);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/triangle_intersection.h"
@@ -81,6 +84,19 @@ TEST(SelfIntersections, AreFoundAgainWhereAllPointsMove) {
   const Pairs expected = find_self_intersections(surface);
   EXPECT_GT(expected.size(), 100u);
   EXPECT_EQ(search.after_move(), expected);
+}
+
+TEST(TrianglesAt, HaveAChosenPoint) {
+  const TriMesh surface = cube();
+  for (Index p = 0; p < std::ssize(surface.points); ++p) {
+    std::vector<char> chosen(surface.points.size(), 0);
+    chosen[p] = 1;
+    std::vector<Index> expected;
+    for (Index t = 0; t < std::ssize(surface.triangles); ++t) {
+      if (std::ranges::count(surface.triangles[t], p) > 0) expected.push_back(t);
+    }
+    EXPECT_EQ(triangles_at(surface.triangles, chosen), expected);
+  }
 }
 
 TEST(SelfIntersections, RefuseWhatIsNoSurface) {

@@ -171,17 +171,9 @@ class Refit {
   /// seen at once; distances are searched for when none is left.
   void keep_shapes(std::vector<char> changed) {
     for (int times = 0; !changed.empty(); ++times) {
-      changed = draw_back(corners_of_all(misshapen(touched_by(changed))), times);
+      changed = draw_back(
+          corners_of_all(misshapen(triangles_at(moved_.surface.triangles, changed))), times);
     }
-  }
-
-  std::vector<Index> touched_by(const std::vector<char>& changed) const {
-    std::vector<Index> touched;
-    for (Index t = 0; t < std::ssize(moved_.surface.triangles); ++t) {
-      const Triangle& k = moved_.surface.triangles[t];
-      if (changed[k[0]] + changed[k[1]] + changed[k[2]] != 0) touched.push_back(t);
-    }
-    return touched;
   }
 
   std::vector<char> corners_of_all(const std::vector<char>& triangles) const {
@@ -233,7 +225,7 @@ class Refit {
   /// Where points have changed: the corners of triangles that meet others or are too far from the
   /// original, and of those nearest to what is too far of that.
   std::vector<char> corners_out_of_place(SelfIntersections& meeting, bool all) {
-    const std::vector<Index> touched = touched_by(changed_);
+    const std::vector<Index> touched = triangles_at(moved_.surface.triangles, changed_);
     std::vector<char> at_fault(moved_.surface.triangles.size(), 0);
     parallel_blocks(touched.size(), kTrianglesInBlock, [&](std::size_t begin, std::size_t end) {
       std::vector<std::size_t> hints = to_original_.hints();

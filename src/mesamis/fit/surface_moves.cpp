@@ -271,7 +271,7 @@ bool SurfaceMover::move(std::vector<Vec3> start, std::vector<Vec3> shifts) {
   bool whole = true;
   for (int trial = 0; trial < kMostTrials; ++trial) {
     const std::vector<char> corners = moved_corners(shifts, pairs);
-    const std::vector<Index> concerned = triangles_at(corners);
+    const std::vector<Index> concerned = triangles_at(moved_.triangles, corners);
     if (concerned.empty()) return whole;
     whole = false;
     for (std::size_t p = 0; p < shifts.size(); ++p) {
@@ -283,7 +283,8 @@ bool SurfaceMover::move(std::vector<Vec3> start, std::vector<Vec3> shifts) {
     pairs = in_file_->after_move_of(concerned);
     if (here_) append(here_->after_move_of(concerned), pairs);
   }
-  if (!triangles_at(moved_corners(shifts, pairs)).empty()) moved_.points = std::move(start);
+  if (!triangles_at(moved_.triangles, moved_corners(shifts, pairs)).empty())
+    moved_.points = std::move(start);
   return false;
 }
 
@@ -302,16 +303,6 @@ std::vector<char> SurfaceMover::moved_corners(const std::vector<Vec3>& shifts,
     for (const Index p : moved_.triangles[b]) corners[p] = 1;
   }
   return corners;
-}
-
-/// The triangles at points that are chosen, increasing.
-std::vector<Index> SurfaceMover::triangles_at(const std::vector<char>& chosen) const {
-  std::vector<Index> triangles;
-  for (Index t = 0; t < std::ssize(moved_.triangles); ++t) {
-    const Triangle& k = moved_.triangles[t];
-    if (chosen[k[0]] + chosen[k[1]] + chosen[k[2]] > 0) triangles.push_back(t);
-  }
-  return triangles;
 }
 
 void SurfaceMover::file_points() {

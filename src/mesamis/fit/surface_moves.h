@@ -170,7 +170,6 @@ class SurfaceMover {
  private:
   std::vector<char> moved_corners(const std::vector<Vec3>& shifts,
                                   const std::vector<TrianglePair>& pairs) const;
-  std::vector<Index> triangles_at(const std::vector<char>& chosen) const;
   void file_points();
 
   const SurfaceSpace& space_;

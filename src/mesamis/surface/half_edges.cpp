@@ -50,4 +50,26 @@ DisjointSets connected_triangles(std::span<const HalfEdge> half_edges, std::size
   return parts;
 }
 
+std::vector<char> points_of_several_fans(std::span<const Triangle> triangles,
+                                         std::span<const HalfEdge> half_edges,
+                                         std::size_t point_count) {
+  DisjointSets fans(3 * triangles.size());
+  for_each_edge(half_edges, [&fans](std::span<const HalfEdge> edge) {
+    for (const HalfEdge& h : edge.subspan(1)) {
+      fans.unite(edge[0].corner_at_lo(), h.corner_at_lo());
+      fans.unite(edge[0].corner_at_hi(), h.corner_at_hi());
+    }
+  });
+  std::vector<char> has_fan(point_count, 0), has_several(point_count, 0);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (is_degenerate(triangles[t])) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (fans.find(3 * t + i) != 3 * t + i) continue;
+      const Index p = triangles[t][i];
+      (has_fan[p] == 0 ? has_fan : has_several)[p] = 1;
+    }
+  }
+  return has_several;
+}
+
 }  // namespace mesamis::detail::surface

@@ -60,4 +60,12 @@ void for_each_edge(std::span<const HalfEdge> half_edges, Visit&& visit) {
 /// @param half_edges  of sorted_half_edges().
 DisjointSets connected_triangles(std::span<const HalfEdge> half_edges, std::size_t triangle_count);
 
+/// Marks the points where the triangles make several fans: one cannot walk from each to each across
+/// edges at the point. Degenerate triangles are left out. O(n log n).
+/// @param half_edges  sorted_half_edges() of the triangles.
+/// @return 1 or 0 for each point.
+std::vector<char> points_of_several_fans(std::span<const Triangle> triangles,
+                                         std::span<const HalfEdge> half_edges,
+                                         std::size_t point_count);
+
 }  // namespace mesamis::detail::surface

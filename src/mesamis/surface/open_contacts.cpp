@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "mesamis/base/each_once.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/surface/half_edges.h"
 #include "mesamis/surface/self_intersections.h"
 
 namespace mesamis::detail::surface {
@@ -33,7 +35,7 @@ class Objects {
   std::span<const char> chosen_;
 };
 
-constexpr int kFar = 1 << 20;
+constexpr int kUnreached = 1 << 20;
 
 /// Lets distances grow along the edges of contacts, as many of them.
 void spread(const PartitionSurface& partition, const std::vector<std::size_t>& contacts, int edges,
@@ -52,7 +54,7 @@ void spread(const PartitionSurface& partition, const std::vector<std::size_t>& c
 std::vector<char> narrow_contacts(const PartitionSurface& partition, const Objects& objects,
                                   int depth) {
   std::vector<std::size_t> contacts;
-  std::vector<int> at_background(partition.points.size(), kFar);
+  std::vector<int> at_background(partition.points.size(), kUnreached);
   for (std::size_t t = 0; t < partition.triangles.size(); ++t) {
     const auto& sides = partition.sides[t];
     if (objects.is_contact(sides)) {
@@ -61,13 +63,14 @@ std::vector<char> narrow_contacts(const PartitionSurface& partition, const Objec
       for (const Index p : partition.triangles[t]) at_background[p] = 0;
     }
   }
+  std::vector<char> narrow(partition.triangles.size(), 0);
+  if (contacts.empty()) return narrow;
   spread(partition, contacts, depth, at_background);
-  std::vector<int> deep(partition.points.size(), kFar);
+  std::vector<int> deep(partition.points.size(), kUnreached);
   for (std::size_t p = 0; p < deep.size(); ++p) {
     if (at_background[p] >= depth) deep[p] = 0;
   }
   spread(partition, contacts, depth, deep);
-  std::vector<char> narrow(partition.triangles.size(), 0);
   for (const std::size_t t : contacts) {
     const Triangle& k = partition.triangles[t];
     narrow[t] = std::ranges::any_of(k, [&](Index p) { return deep[p] > depth; }) ? 1 : 0;
@@ -81,30 +84,14 @@ struct Copy {
   Index point = 0;
 };
 
-/// A triangle at a point: its other two.
-struct Spoke {
-  Index point, next, last, origin;
-  bool operator<(const Spoke& other) const { return point < other.point; }
-};
-
-/// Whether the triangles at a point are one closed fan.
-bool is_fan(std::span<const Spoke> spokes) {
-  if (spokes.size() < 3) return false;
-  std::vector<char> passed(spokes.size(), 0);
-  Index at = spokes[0].last;
-  passed[0] = 1;
-  for (std::size_t step = 1; step < spokes.size(); ++step) {
-    std::size_t next = spokes.size();
-    for (std::size_t n = 0; n < spokes.size(); ++n) {
-      if (passed[n] != 0 || (spokes[n].next != at && spokes[n].last != at)) continue;
-      if (next != spokes.size()) return false;
-      next = n;
-    }
-    if (next == spokes.size()) return false;
-    passed[next] = 1;
-    at = spokes[next].next == at ? spokes[next].last : spokes[next].next;
+/// Marks the points of open contacts.
+std::vector<char> points_of(const PartitionSurface& partition, const std::vector<char>& open) {
+  std::vector<char> points(partition.points.size(), 0);
+  for (std::size_t t = 0; t < open.size(); ++t) {
+    if (open[t] == 0) continue;
+    for (const Index p : partition.triangles[t]) points[p] = 1;
   }
-  return at == spokes[0].next;
+  return points;
 }
 
 /// Closes contacts at points.
@@ -133,8 +120,7 @@ class OpenedPartition {
   }
 
   PartitionSurface surface;
-  std::size_t origin_count = 0;             ///< points of the partition that was opened
-  std::vector<Index> origin;                ///< of each point
+  std::vector<Index> origin;                ///< of each point the one that it was
   std::vector<char> is_copy;                ///< of each point 1 if another has its origin
   std::vector<std::array<Index, 2>> twins;  ///< points of one origin
 
@@ -142,11 +128,7 @@ class OpenedPartition {
   /// Divides points of open contacts among the objects that still hang together there.
   void find_copies() {
     copies_.assign(from_.points.size(), {});
-    std::vector<char> touched(from_.points.size(), 0);
-    for (std::size_t t = 0; t < open_.size(); ++t) {
-      if (open_[t] == 0) continue;
-      for (const Index p : from_.triangles[t]) touched[p] = 1;
-    }
+    std::vector<char> touched = points_of(from_, open_);
     for (std::size_t t = 0; t < open_.size(); ++t) {
       if (from_.sides[t][1] != kNoIndex) continue;
       for (const Index p : from_.triangles[t]) touched[p] = 0;
@@ -163,13 +145,15 @@ class OpenedPartition {
         }
       }
     }
-    point_count_ = from_.points.size();
-    for (std::size_t p = 0; p < copies_.size(); ++p) {
+    origin.resize(from_.points.size());
+    std::iota(origin.begin(), origin.end(), 0);
+    for (Index p = 0; p < std::ssize(copies_); ++p) {
       auto& copies = copies_[p];
       if (copies.size() < 2) copies.clear();
       std::ranges::sort(copies, {}, &Copy::objects);
       for (std::size_t c = 0; c < copies.size(); ++c) {
-        copies[c].point = static_cast<Index>(c == 0 ? p : point_count_++);
+        copies[c].point = c == 0 ? p : static_cast<Index>(origin.size());
+        if (c > 0) origin.push_back(p);
       }
     }
   }
@@ -195,46 +179,45 @@ class OpenedPartition {
     return p;
   }
 
-  /// Closes contacts at points around which the background would not be one fan of triangles.
+  /// A triangle with the points of an object.
+  Triangle triangle_of(std::size_t t, Index object) const {
+    const auto& [a, b, c] = from_.triangles[t];
+    return {point_of(a, object), point_of(b, object), point_of(c, object)};
+  }
+
+  /// Closes contacts at points around which the background would not be one closed fan of triangles,
+  /// or where the two sides of one would have the same points.
   /// @return whether there was any.
   bool close_pinched() {
-    std::vector<char> near(from_.points.size(), 0);
-    for (std::size_t t = 0; t < open_.size(); ++t) {
-      if (open_[t] == 0) continue;
-      for (const Index p : from_.triangles[t]) near[p] = 1;
-    }
-    std::vector<Spoke> spokes;
-    const auto add_spokes = [&](std::size_t t, Index object) {
-      const Triangle& k = from_.triangles[t];
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (near[k[i]] == 0) continue;
-        spokes.push_back({point_of(k[i], object), point_of(k[(i + 1) % 3], object),
-                          point_of(k[(i + 2) % 3], object), k[i]});
-      }
-    };
-    for (std::size_t t = 0; t < open_.size(); ++t) {
+    const std::vector<char> near = points_of(from_, open_);
+    std::vector<char> pinched(origin.size(), 0);
+    std::vector<Triangle> background;  // its boundary at those points
+    for (const Index i : triangles_at(from_.triangles, near)) {
+      const auto t = static_cast<std::size_t>(i);
       const auto& [a, b] = from_.sides[t];
       if (open_[t] != 0) {
-        add_spokes(t, a);
-        add_spokes(t, b);
+        const Triangle one = triangle_of(t, a), other = triangle_of(t, b);
+        background.insert(background.end(), {one, other});
+        if (one != other) continue;
+        for (const Index p : one) pinched[p] = 1;
       } else if (objects_.bounds_background({a, b})) {
-        add_spokes(t, std::max(objects_.of(a), objects_.of(b)));
+        background.push_back(triangle_of(t, std::max(objects_.of(a), objects_.of(b))));
       }
     }
-    std::stable_sort(spokes.begin(), spokes.end());
-    std::vector<char> pinched(from_.points.size(), 0);
-    for (auto first = spokes.begin(); first != spokes.end();) {
-      const auto end = std::find_if(
-          first, spokes.end(), [&](const Spoke& spoke) { return spoke.point != first->point; });
-      if (!is_fan({first, end})) pinched[first->origin] = 1;
-      first = end;
+    const auto half_edges = sorted_half_edges(background, origin.size());
+    for_each_edge(half_edges, [&](std::span<const HalfEdge> edge) {
+      if (edge.size() != 2) pinched[edge[0].lo] = pinched[edge[0].hi] = 1;
+    });
+    const auto several = points_of_several_fans(background, half_edges, origin.size());
+    std::vector<char> origins(near.size(), 0);
+    for (std::size_t p = 0; p < origin.size(); ++p) {
+      if (near[origin[p]] != 0 && pinched[p] + several[p] > 0) origins[origin[p]] = 1;
     }
-    return close_at(from_, pinched, open_);
+    return close_at(from_, origins, open_);
   }
 
   void add(std::size_t t, Index object, const std::array<Index, 2>& sides, bool flips) {
-    Triangle k = from_.triangles[t];
-    for (Index& p : k) p = point_of(p, object);
+    Triangle k = triangle_of(t, object);
     if (flips) std::swap(k[1], k[2]);
     surface.triangles.push_back(k);
     surface.sides.push_back(sides);
@@ -253,18 +236,12 @@ class OpenedPartition {
       const Index b = from_.sides[t][1];
       if (open_[t] != 0) add(t, b, {0, b}, false);
     }
-    surface.points = from_.points;
-    surface.points.resize(point_count_);
-    is_copy.assign(point_count_, 0);
-    origin_count = from_.points.size();
-    for (Index p = 0; p < std::ssize(from_.points); ++p) origin.push_back(p);
-    origin.resize(point_count_);
-    for (Index p = 0; p < std::ssize(copies_); ++p) {
-      for (const Copy& copy : copies_[p]) {
-        origin[copy.point] = p;
+    is_copy.assign(origin.size(), 0);
+    for (const Index p : origin) surface.points.push_back(from_.points[p]);
+    for (const std::vector<Copy>& copies : copies_) {
+      for (const Copy& copy : copies) {
         is_copy[copy.point] = 1;
-        surface.points[copy.point] = from_.points[p];
-        for (const Copy& other : copies_[p]) {
+        for (const Copy& other : copies) {
           if (other.point < copy.point) twins.push_back({other.point, copy.point});
         }
       }
@@ -275,7 +252,6 @@ class OpenedPartition {
   const Objects& objects_;
   std::vector<char>& open_;
   std::vector<std::vector<Copy>> copies_;  // of each point; none where it stays one
-  std::size_t point_count_ = 0;
 };
 
 /// The directions into the objects of each copy that lead away from all their boundaries there; 0
@@ -348,7 +324,7 @@ class Parting {
         gap_(gap),
         own_(ways_inwards(opened, objects)),
         averaged_(averaged(opened, own_)),
-        trial_(opened.origin_count, 0) {}
+        trial_(opened.origin.size(), 0) {}
 
   /// @param surface  of the opened partition.
   /// @return of each origin 1 if that is not possible there; surface: where points have gone.
@@ -357,7 +333,7 @@ class Parting {
     const auto place = [&](std::size_t p) { surface.points[p] = start[p] + move_of(p); };
     parallel_for(start.size(), place);
     SelfIntersections search(surface);
-    std::vector<Index> moved = triangles_at(surface, opened_.is_copy);
+    std::vector<Index> moved = triangles_at(surface.triangles, opened_.is_copy);
     while (true) {
       std::vector<char> meet = origins_of(surface, search.after_move_of(moved));
       add_close_twins(meet);
@@ -374,7 +350,7 @@ class Parting {
         place(p);
         changed[p] = 1;
       });
-      moved = triangles_at(surface, changed);
+      moved = triangles_at(surface.triangles, changed);
     }
   }
 
@@ -386,18 +362,9 @@ class Parting {
     return gap_ * kScale[trial] * (trial == 0 ? averaged_ : own_)[p];
   }
 
-  static std::vector<Index> triangles_at(const TriMesh& surface, const std::vector<char>& chosen) {
-    std::vector<Index> triangles;
-    for (Index t = 0; t < std::ssize(surface.triangles); ++t) {
-      const auto& [a, b, c] = surface.triangles[t];
-      if (chosen[a] + chosen[b] + chosen[c] > 0) triangles.push_back(t);
-    }
-    return triangles;
-  }
-
   std::vector<char> origins_of(const TriMesh& surface,
                                const std::vector<TrianglePair>& pairs) const {
-    std::vector<char> origins(opened_.origin_count, 0);
+    std::vector<char> origins(opened_.origin.size(), 0);
     for (const auto& pair : pairs) {
       for (const Index t : pair) {
         for (const Index p : surface.triangles[t]) origins[opened_.origin[p]] = 1;

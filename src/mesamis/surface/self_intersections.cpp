@@ -42,6 +42,16 @@ std::vector<TrianglePair> find_self_intersections(const TriMesh& surface) {
   return SelfIntersections(surface).all();
 }
 
+std::vector<Index> triangles_at(std::span<const Triangle> triangles,
+                                const std::vector<char>& chosen) {
+  std::vector<Index> found;
+  for (Index t = 0; t < std::ssize(triangles); ++t) {
+    const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
+    if (chosen[a] + chosen[b] + chosen[c] > 0) found.push_back(t);
+  }
+  return found;
+}
+
 SelfIntersections::SelfIntersections(const TriMesh& surface)
     : surface_(surface), tree_(std::make_unique<BoxTree>(boxes_of(surface))) {}
 

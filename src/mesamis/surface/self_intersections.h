@@ -29,6 +29,15 @@ using TrianglePair = std::array<Index, 2>;
 /// O(n log n) for a surface that rarely meets itself.
 std::vector<TrianglePair> find_self_intersections(const TriMesh& surface);
 
+/// The triangles at chosen points: what SelfIntersections::after_move_of() takes once these have
+/// moved.
+/// @param chosen  of each point 1 or 0.
+/// @return indices, increasing.
+///
+/// O(n) for n triangles.
+std::vector<Index> triangles_at(std::span<const Triangle> triangles,
+                                const std::vector<char>& chosen);
+
 /// Finds self-intersections again and again while points of the surface move.
 class SelfIntersections {
  public:

@@ -24,26 +24,6 @@ void count_edges(std::span<const HalfEdge> half_edges, SurfaceCheck& check) {
   });
 }
 
-/// Triangles around a point belong to one fan if one can walk from each to each across edges.
-std::int64_t count_nonmanifold_points(const TriMesh& surface,
-                                      std::span<const HalfEdge> half_edges) {
-  DisjointSets fans(3 * surface.triangles.size());
-  for_each_edge(half_edges, [&fans](std::span<const HalfEdge> edge) {
-    for (const HalfEdge& h : edge.subspan(1)) {
-      fans.unite(edge[0].corner_at_lo(), h.corner_at_lo());
-      fans.unite(edge[0].corner_at_hi(), h.corner_at_hi());
-    }
-  });
-  std::vector<Index> fan_count(surface.points.size(), 0);
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    if (is_degenerate(surface.triangles[t])) continue;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (fans.find(3 * t + i) == 3 * t + i) ++fan_count[surface.triangles[t][i]];
-    }
-  }
-  return std::count_if(fan_count.begin(), fan_count.end(), [](Index n) { return n > 1; });
-}
-
 /// Counts the components and, of a closed surface, which of them are islands.
 void count_components(const TriMesh& surface, std::span<const HalfEdge> half_edges,
                       SurfaceCheck& check) {
@@ -99,7 +79,8 @@ SurfaceCheck check_surface(const TriMesh& surface) {
       std::count_if(surface.triangles.begin(), surface.triangles.end(), is_degenerate);
   const auto half_edges = sorted_half_edges(surface.triangles, surface.points.size());
   count_edges(half_edges, check);
-  check.nonmanifold_points = count_nonmanifold_points(surface, half_edges);
+  check.nonmanifold_points = std::ranges::count(
+      points_of_several_fans(surface.triangles, half_edges, surface.points.size()), 1);
   count_components(surface, half_edges, check);
   check.volume = sum_over_triangles(surface, cone_volume);
   check.area = surface_area(surface);
