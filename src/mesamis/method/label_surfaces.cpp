@@ -14,9 +14,6 @@
 #include "mesamis/base/median.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/stopwatch.h"
-#include "mesamis/decimate/decimate_partition.h"
-#include "mesamis/decimate/round_together.h"
-#include "mesamis/decimate/simplify.h"
 #include "mesamis/fem/grid_amis.h"
 #include "mesamis/labels/flow_memberships.h"
 #include "mesamis/labels/label_block.h"
@@ -24,8 +21,10 @@
 #include "mesamis/labels/label_image.h"
 #include "mesamis/labels/pair_levels.h"
 #include "mesamis/labels/probable_memberships.h"
+#include "mesamis/method/finish_labels.h"
 #include "mesamis/method/follow_partition.h"
 #include "mesamis/method/label_mesh.h"
+#include "mesamis/method/label_run.h"
 #include "mesamis/method/passes.h"
 #include "mesamis/method/prepare.h"
 #include "mesamis/surface/extract_net.h"
@@ -33,7 +32,6 @@
 #include "mesamis/surface/join_diagonals.h"
 #include "mesamis/surface/match_volumes.h"
 #include "mesamis/surface/open_contacts.h"
-#include "mesamis/surface/select_parts.h"
 #include "mesamis/surface/smooth_memberships.h"
 
 namespace mesamis::detail::method {
@@ -47,7 +45,6 @@ constexpr double kReachOfFit = 0.64;     // margins in which a fitted surface lo
 constexpr double kReachAfterFlow = 1.6;  // voxels, the same
 constexpr int kDepthOfContacts = 2;      // points of a net, about a voxel from each other
 constexpr double kGapOfContacts = 0.1;   // voxels
-constexpr double kErrorOfLabels = 0.04;  // voxels of the labels, where they are right
 
 void bring_to_world(const VoxelGrid& grid, PartitionSurface& partition) {
   parallel_for(partition.points.size(),
@@ -101,47 +98,12 @@ CropRange range_of(const LabelBlock& block) {
   return range;
 }
 
-void append(const PartitionSurface& partition, TriMesh& all) {
-  const auto first = static_cast<Index>(all.points.size());
-  all.points.insert(all.points.end(), partition.points.begin(), partition.points.end());
-  for (const Triangle& t : partition.triangles) {
-    all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  }
-}
-
 std::string name_of(const LabelMap& map, Index layer, Index label) {
   for (const Segment& s : map.segments) {
     if (s.layer == layer && s.label == label) return s.name;
   }
   return {};
 }
-
-/// What the steps of a run on labels know.
-struct LabelRun {
-  const LabelRequest& request;
-  const ImageSettings& of_image;
-  const Settings& settings;
-  const Progress& progress;
-  std::vector<Segment> chosen;
-  double margin = 0;  ///< mm
-
-  LabelRun(const LabelRequest& asked, const ImageSettings& how, const Progress& tell)
-      : request(asked),
-        of_image(how),
-        settings(how.asked),
-        progress(tell),
-        chosen(asked.chosen.empty() ? asked.map.segments : asked.chosen) {
-    require_chosen(chosen, asked.map);
-  }
-  /// Whether boundaries in an image of these voxels start from the labels; else labels flow.
-  bool starts_from_labels(const VoxelGrid& scan) const {
-    return method::starts_from_labels(settings, scan, request.map);
-  }
-  bool makes_mesh() const { return request.mesh && !settings.preview; }
-  /// Whether boundaries are smoothed where they are extracted.
-  bool smooths() const { return settings.fit && request.probabilities == nullptr; }
-  void begin(const char* stage) const { begin_stage(progress, stage); }
-};
 
 /// The boundaries between objects; a net where they are smoothed.
 PartitionSurface extract(const LabelRun& run, Index layer, const GridMemberships& memberships) {
@@ -164,15 +126,6 @@ LabelBlock require_block(const LabelRun& run, const LabelMap& map) {
   if (!block) refuse_empty(run.chosen);
   return *block;
 }
-
-/// The boundaries of the chosen objects of a layer, which have not been decimated.
-struct LayerBoundaries {
-  Index layer = 0;
-  PartitionSurface partition;  ///< world frame, mm; material 0 is whatever is not chosen
-  std::vector<LabelBoundary> boundaries{};
-  std::optional<Volume> image{};  ///< label_image(), for the mesh
-  bool converged = true;
-};
 
 /// Where the boundaries are by the labels alone.
 /// @param labels  of the grid; with probabilities they become those that win there.
@@ -315,89 +268,6 @@ LayerBoundaries place_by_labels(const LabelRun& run, Index layer, const VoxelGri
   return {layer, std::move(partition)};
 }
 
-/// How exact the boundaries of all layers are expected to be in the mean, mm; 0 for a preview, of
-/// which nothing depends on it.
-/// @param input  of the image; nullptr: none, and the labels are right.
-double mean_error_of(const LabelRun& run, const std::vector<LayerBoundaries>& layers,
-                     const RunInput* input) {
-  if (run.settings.preview) return 0;
-  if (input == nullptr) return kErrorOfLabels * run.request.map.voxel_size();
-  TriMesh all;
-  for (const LayerBoundaries& layer : layers) append(layer.partition, all);
-  return expected_shape_error(*input, all).mean;
-}
-
-/// Rounds and decimates what objects share in one. A preview is rounded in any case.
-/// @return how far boundaries were moved at most, mm.
-double decimate(const LabelRun& run, const Parameters& p, PartitionSurface& partition) {
-  const double tolerance = *p.tolerance;
-  const bool stays = tolerance == 0 && !run.settings.preview;
-  if (stays || partition.triangles.empty()) return 0;
-  if (tolerance > 0) run.begin("decimation");
-  std::vector<Vec3> rounded = round_together(partition.points);
-  double shift = 0;
-  for (std::size_t n = 0; n < rounded.size(); ++n) {
-    shift = std::max(shift, norm(rounded[n] - partition.points[n]));
-  }
-  partition.points = std::move(rounded);
-  if (tolerance == 0) return shift;
-  DecimateOptions options;
-  options.tolerance = std::max(0.0, tolerance - shift);
-  options.triangles = p.triangles;
-  options.progress = run.progress;
-  DecimateReport report;
-  partition = run.settings.preview ? decimate_partition(partition, options, &report)
-                                   : simplify_partition(partition, options, &report);
-  return shift + std::max(report.original_to_result, report.result_to_original);
-}
-
-/// The volume, mm^3, that parts and cavities of a labelled object have at least: that of a voxel of
-/// the labels, unless the settings say otherwise.
-double least_volume(const LabelRun& run) {
-  if (run.settings.min_volume) return *run.settings.min_volume;
-  return run.settings.keep_topology ? 0 : run.request.map.voxel_volume();
-}
-
-/// The parts that the settings leave; one at least, unless they give a volume.
-TriMesh selected(const LabelRun& run, TriMesh surface) {
-  const Settings& settings = run.settings;
-  const PartSelection wanted{least_volume(run), settings.keep_largest, settings.fill_cavities,
-                             !settings.min_volume};
-  const bool all = wanted.volume_min == 0 && wanted.keep_largest == 0 && !wanted.fill_cavities;
-  if (all || surface.triangles.empty()) return surface;
-  return select_parts(surface, wanted);
-}
-
-/// Decimates the boundaries of a layer, and makes a surface for each of its objects.
-void finish_layer(const LabelRun& run, LayerBoundaries layer, const RunInput* input,
-                  LabelResult& result) {
-  std::map<Index, std::int64_t> extracted;
-  for (const auto& sides : layer.partition.sides) {
-    for (const Index side : sides) ++extracted[side];
-  }
-  const double decimated = decimate(run, result.parameters, layer.partition);
-  result.decimated = std::max(result.decimated, decimated);
-  std::vector<Segment> segments;
-  std::vector<Index> labels;
-  for (const Segment& segment : run.chosen) {
-    if (segment.layer != layer.layer) continue;
-    segments.push_back(segment);
-    labels.push_back(segment.label);
-  }
-  std::vector<TriMesh> surfaces = object_surfaces(layer.partition, labels);
-  for (std::size_t n = 0; n < segments.size(); ++n) {
-    LabelledObject object{
-        segments[n], selected(run, std::move(surfaces[n])), {}, extracted[labels[n]]};
-    if (object.surface.triangles.empty()) continue;
-    if (input != nullptr) {
-      ErrorOptions delivered = input->error;
-      delivered.decimated = decimated;
-      object.expected_error = expected_error(object.surface, input->image, delivered);
-    }
-    result.objects.push_back(std::move(object));
-  }
-}
-
 /// What is chosen for all layers, before any of them.
 Parameters parameters_of(const LabelRun& run, const Prepared& prepared, const CropRange& range) {
   Parameters p = prepared.parameters;
@@ -405,21 +275,6 @@ Parameters parameters_of(const LabelRun& run, const Prepared& prepared, const Cr
   p.min_volume = least_volume(run);
   p.crop = range;
   return p;
-}
-
-void finish_layers(const LabelRun& run, std::vector<LayerBoundaries> layers, const RunInput* input,
-                   LabelResult& result) {
-  Stopwatch watch;
-  const double voxel = input ? input->grey.voxel_size() : run.request.map.voxel_size();
-  choose_tolerance(result.parameters, voxel, mean_error_of(run, layers, input),
-                   run.settings.preview ? kErrorsOfPreview : kErrorsOfLabels);
-  for (LayerBoundaries& layer : layers) {
-    result.flow_converged &= layer.converged;
-    result.boundaries.insert(result.boundaries.end(), layer.boundaries.begin(),
-                             layer.boundaries.end());
-    finish_layer(run, std::move(layer), input, result);
-  }
-  result.seconds.printable = watch.lap();
 }
 
 /// Around the chosen labels, adapted to the image and to the labels of all layers.

@@ -23,6 +23,7 @@ set(ROOM_SOURCES
   chosen_run.cpp
   deliver.cpp
   expected_error.cpp
+  finish_labels.cpp
   follow_image.cpp
   follow_partition.cpp
   label_mesh.cpp
