@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <set>
 #include <utility>
@@ -94,10 +95,32 @@ double mean_error(int object, const TriMesh& surface) {
   return sum / area;
 }
 
+/// The objects of a layer in one: points of one place are one, and so are triangles that two share.
+TriMesh together(const LabelResult& found, Index layer) {
+  TriMesh all;
+  std::map<std::array<double, 3>, Index> number;
+  std::set<std::set<Index>> seen;
+  for (const LabelledObject& object : found.objects) {
+    if (object.segment.layer != layer) continue;
+    for (Triangle t : object.surface.triangles) {
+      for (Index& p : t) {
+        const Vec3& at = object.surface.points[p];
+        const auto next = static_cast<Index>(all.points.size());
+        const auto [place, is_new] = number.emplace(std::array{at.x, at.y, at.z}, next);
+        if (is_new) all.points.push_back(at);
+        p = place->second;
+      }
+      if (seen.insert({t[0], t[1], t[2]}).second) all.triangles.push_back(t);
+    }
+  }
+  return all;
+}
+
 void expect_closed(const LabelResult& found) {
   for (const LabelledObject& object : found.objects) {
     EXPECT_EQ(solid_flaws_of(check_surface(object.surface)), "") << object.segment.name;
-    EXPECT_TRUE(find_self_intersections(object.surface).empty()) << object.segment.name;
+    const TriMesh all = together(found, object.segment.layer);
+    EXPECT_TRUE(find_self_intersections(all).empty()) << object.segment.name;
   }
 }
 
