@@ -26,7 +26,7 @@ TriMesh ball(double radius, int count) {
 
 SplitBoundaries split(const TriMesh& surface) {
   const std::vector<std::array<Index, 2>> sides(surface.triangles.size(), {0, 1});
-  return split_bends(surface, sides, std::vector<char>(surface.points.size(), 0), wide_grid());
+  return split_bends({surface, sides, std::vector<char>(surface.points.size(), 0)}, wide_grid());
 }
 
 TEST(SplitBends, AnEvenSurfaceStays) {
@@ -66,7 +66,7 @@ TEST(SplitBends, ObjectsThatTouchShareNewPoints) {
   VoxelGrid grid;
   grid.size = labels.size;
   const SplitBoundaries found =
-      split_bends({net.points, net.triangles}, net.sides, curve_points(net), grid);
+      split_bends({{net.points, net.triangles}, net.sides, curve_points(net)}, grid);
   ASSERT_GT(found.surface.triangles.size(), net.triangles.size());
   const PartitionSurface whole{found.surface.points, found.surface.triangles, found.sides};
   const std::vector<char> before = curve_points(net), after = curve_points(whole);
@@ -88,6 +88,23 @@ TEST(SplitBends, NothingLeavesTheBox) {
     EXPECT_GT(found.surface.points[p].x, 0);
     EXPECT_GE(found.surface.points[p].x + found.shifts[p].x, 0);
   }
+}
+
+/// Of two ends of an edge both have to be told.
+TEST(SplitBends, EdgesThatAreToldStayWhole) {
+  const TriMesh coarse = ball(10, 12);
+  const std::vector<std::array<Index, 2>> sides(coarse.triangles.size(), {0, 1});
+  const std::vector<char> off_curves(coarse.points.size(), 0);
+  const auto split_but = [&](const std::vector<char>& whole) {
+    return split_bends({coarse, sides, off_curves, whole}, wide_grid());
+  };
+  const std::vector<std::array<Index, 2>> edges = split(coarse).edges;
+  ASSERT_EQ(coarse.points.size() + edges.size(), split(coarse).surface.points.size());
+  std::vector<char> whole(coarse.points.size(), 0);
+  whole[edges[0][0]] = 1;
+  EXPECT_EQ(split_but(whole).edges, edges);
+  whole[edges[0][1]] = 1;
+  EXPECT_EQ(split_but(whole).edges, (std::vector(edges.begin() + 1, edges.end())));
 }
 
 TEST(SplitBends, HasTheSameBitsForAnyNumberOfThreads) {

@@ -118,5 +118,28 @@ TEST(SurfaceMover, MovesAgainFromWhereverItIsTold) {
   EXPECT_EQ(mover.take_surface().triangles, surface.triangles);
 }
 
+/// Two triangles that met before, and one that was moved on to them.
+TEST(SurfaceMover, TellsWhatMetBefore) {
+  const TriMesh three{{{5, 5, 5},
+                       {9, 5, 5},
+                       {5, 9, 5},
+                       {6, 6, 4},
+                       {6, 6, 6},
+                       {9, 9, 5},
+                       {5, 5, 8},
+                       {9, 5, 8},
+                       {5, 9, 8}},
+                      {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}};
+  const SplineImage scan = image();
+  const FollowSpace space(scan, 1);
+  SurfaceMover mover(space, three, Unfolded::kInFile);
+  std::vector<Vec3> shifts(three.points.size());
+  for (std::size_t p = 6; p < 9; ++p) shifts[p] = {0, 0, -3};
+  EXPECT_FALSE(mover.move(three.points, shifts));
+  EXPECT_EQ(mover.pairs_left(), (std::vector<TrianglePair>{{0, 1}}));
+  EXPECT_TRUE(mover.move(mover.points(), std::vector<Vec3>(three.points.size())));
+  EXPECT_EQ(mover.pairs_left(), (std::vector<TrianglePair>{{0, 1}}));
+}
+
 }  // namespace
 }  // namespace mesamis

@@ -15,6 +15,7 @@
 #include "mesamis/surface/join_diagonals.h"
 #include "mesamis/surface/self_intersections.h"
 #include "support/edge_lengths.h"
+#include "support/label_grids.h"
 #include "support/throws.h"
 
 namespace mesamis {
@@ -205,6 +206,40 @@ TEST(LabelSurfaces, ANarrowContactLeavesNoSpikes) {
     const TriMesh& ball = apart.objects.at(0).surface;
     EXPECT_LT(edge_lengths(ball).creases / surface_area(ball), 0.01);
     for (const Vec3& p : ball.points) EXPECT_NEAR(norm(p - Vec3{10, 10, 10}), 6.2, 0.6);
+  }
+}
+
+/// Slanted layers of three labels, and any label in half of the voxels between them.
+LabelMap layers_and_any(unsigned seed) {
+  std::mt19937 generator(seed);
+  const auto any = [&](unsigned count) { return static_cast<int>(generator() % count); };
+  LabelMap map;
+  map.size = {9, 8, 9};
+  map.spacing = {1, 2, 0.5};
+  map.origin = {-101.7, 250.3, 1313.1};
+  map.layers = {labels_where(map.size, {1, 1, 1}, [&](const Vec3& p) {
+                  const int layer = static_cast<int>(0.6 * p.x + 0.5 * p.y + 0.4 * p.z);
+                  if (layer % 2 == 1) return layer / 2 % 3 + 1;
+                  return any(4) != 0 ? 0 : 1 + any(3);
+                }).labels};
+  map.segments = {{"first", 1, 0, {}}, {"second", 2, 0, {}}, {"third", 3, 0, {}}};
+  return map;
+}
+
+/// Also in the single precision of a file, which is coarse far from the origin.
+TEST(LabelSurfaces, OfAnyLabelsDoNotMeet) {
+  for (const unsigned seed : {1, 17}) {
+    const LabelMap map = layers_and_any(seed);
+    Volume scan{map, {}};
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> noise(0, 6);
+    for (const std::uint16_t label : map.layers[0]) {
+      scan.samples.push_back(static_cast<float>(100 + 100 * (label != 0) + noise(generator)));
+    }
+    Settings settings;
+    settings.tolerance = 0;
+    expect_closed(find_labelled_objects(scan, {map}, settings));
+    expect_closed(surfaces_of_labels({map}, settings));
   }
 }
 

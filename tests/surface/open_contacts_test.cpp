@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/base/single_precision.h"
 #include "mesamis/surface/extract_net.h"
+#include "mesamis/surface/self_intersections.h"
 #include "support/label_grids.h"
 #include "support/partition_laws.h"
 #include "support/random_memberships.h"
@@ -164,6 +166,30 @@ TEST(OpenContacts, PartPointsByMoreThanRounding) {
     }
     EXPECT_GT(least, 1e-6) << seed;
   }
+}
+
+/// Far from the origin single precision is coarse: contacts that would not stay open in a file are
+/// not opened.
+TEST(OpenContacts, MeetNothingInAFileFarFromTheOrigin) {
+  std::int64_t opened = 0;
+  int nets = 0;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const PartitionSurface net = extract_net_on_grid(random_grid({7, 6, 8}, 6, seed));
+    const auto in_file = [](const Vec3& p) { return rounded(p + Vec3{-900, 700, 1000}); };
+    const ContactOptions options{.depth = 2, .gap = 0.1, .in_file = in_file};
+    const PartitionSurface open = open_narrow_contacts(net, kAll, options);
+    opened += contact_triangles(net) - contact_triangles(open);
+    const auto meet = [&](const PartitionSurface& partition) {
+      TriMesh filed{partition.points, partition.triangles};
+      for (Vec3& p : filed.points) p = in_file(p);
+      return find_self_intersections(filed).size();
+    };
+    if (meet(net) > 0) continue;
+    ++nets;
+    EXPECT_EQ(meet(open), 0U) << seed;
+  }
+  EXPECT_GT(opened, 100);
+  EXPECT_GT(nets, 5);
 }
 
 TEST(OpenContacts, HoldTheLawsOfPartitionsWhereBlobsTouch) {

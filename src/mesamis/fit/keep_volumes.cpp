@@ -72,7 +72,7 @@ std::vector<double> shares_of_points(const TriMesh& surface, const std::vector<c
 
 }  // namespace
 
-TriMesh keep_volumes(const ObjectBoundaries& boundaries, const VoxelGrid& grid) {
+std::vector<Vec3> keep_volumes(const ObjectBoundaries& boundaries, const VoxelGrid& grid) {
   const auto& [now, sides, on_curve, wanted, first] = boundaries;
   constexpr int kSteps = 4;
   constexpr double kMostVoxels = 0.4;
@@ -110,7 +110,7 @@ TriMesh keep_volumes(const ObjectBoundaries& boundaries, const VoxelGrid& grid) 
   }
   std::vector<Vec3> shifts(now.points.size());
   for (std::size_t p = 0; p < shifts.size(); ++p) shifts[p] = moved.points[p] - now.points[p];
-  return moved_without_folds(space, now, std::move(shifts));
+  return shifts;
 }
 
 }  // namespace mesamis::detail::fit

@@ -20,18 +20,18 @@ struct ObjectBoundaries {
   std::span<const Vec3> shifts{};               ///< of points, which are made first; empty: none
 };
 
-/// Moves the boundaries of several objects so that each has its volume, as far as small moves can
-/// do that.
+/// Finds moves of the boundaries of several objects by which each gets its volume, as far as small
+/// moves can do that.
 ///
 /// Each object's boundary moves along its normals by one distance, at most 0.4 voxels, which
 /// Newton's method finds in four steps; a point between two objects moves by the difference of
 /// theirs. Material 0, the background, gives and takes, and so do those whose volume is not told.
 /// Points on the grid's box stay, and so do those on curves; beside curves moves fade, so that no
-/// step comes about. Moves that would make boundaries meet are taken back.
-/// @return the same triangles.
+/// step comes about. Nothing keeps boundaries from meeting.
+/// @return of each point its shift, mm, with that which is made first.
 /// @throws InputError  if there are shifts, but not one for each point.
 ///
-/// O(n log n) for n points. The same bits for any number of threads.
-TriMesh keep_volumes(const ObjectBoundaries& boundaries, const VoxelGrid& grid);
+/// O(n) for n points. The same bits for any number of threads.
+std::vector<Vec3> keep_volumes(const ObjectBoundaries& boundaries, const VoxelGrid& grid);
 
 }  // namespace mesamis::detail::fit

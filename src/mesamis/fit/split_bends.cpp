@@ -18,13 +18,12 @@ namespace {
 const double kCosineOfBend = std::cos(15 * std::numbers::pi / 180);
 constexpr double kMostHeight = 0.25;  // of an edge's length
 
-using Sides = std::span<const std::array<Index, 2>>;
-
 /// The edges of a surface, at their ends' places in Neighbors: at the lower end's.
 class BentEdges {
  public:
   /// @param no_normal  of each point 1 where the surface has none; edges between two such stay.
-  BentEdges(const TriMesh& surface, const std::vector<char>& no_normal)
+  /// @param whole      the same for another reason; empty: none.
+  BentEdges(const TriMesh& surface, const std::vector<char>& no_normal, std::span<const char> whole)
       : surface_(surface), neighbors_(surface), middle_(neighbors_.points.size(), kNoIndex) {
     std::vector<Beside> at(middle_.size());
     for (Index t = 0; t < std::ssize(surface.triangles); ++t) {
@@ -39,6 +38,7 @@ class BentEdges {
       for (std::size_t n = neighbors_.start[p]; n < neighbors_.start[p + 1]; ++n) {
         const Index q = neighbors_.points[n];
         if (at[n].count != 2 || no_normal[p] + no_normal[q] == 2) continue;
+        if (!whole.empty() && whole[p] + whole[q] == 2) continue;
         bent[n] = is_bent(at[n].some, at[n].other) ? 1 : 0;
       }
     });
@@ -134,17 +134,18 @@ void add_parts(Triangle t, std::array<Index, 3> m, const TriMesh& surface,
 
 }  // namespace
 
-SplitBoundaries split_bends(const TriMesh& surface, Sides sides, const std::vector<char>& on_curve,
-                            const VoxelGrid& grid) {
+SplitBoundaries split_bends(const BentBoundaries& boundaries, const VoxelGrid& grid) {
+  const auto& [surface, sides, on_curve, whole] = boundaries;
   const SurfaceSpace space(grid, 1);
   std::vector<char> no_normal = on_curve;
   parallel_for(no_normal.size(), [&](std::size_t p) {
     if (space.on_box(surface.points[p])) no_normal[p] = 1;
   });
-  const BentEdges bent(surface, no_normal);
+  const BentEdges bent(surface, no_normal, whole);
   const std::vector<Vec3> normals = vertex_normals(surface);
-  SplitBoundaries split{{surface.points, {}}, {}, std::vector<Vec3>(surface.points.size())};
-  for (const auto& edge : bent.edges()) {
+  SplitBoundaries split{
+      {surface.points, {}}, {}, bent.edges(), std::vector<Vec3>(surface.points.size())};
+  for (const auto& edge : split.edges) {
     split.surface.points.push_back(surface.points[edge[0]] +
                                    0.5 * (surface.points[edge[1]] - surface.points[edge[0]]));
     const Vec3 height = height_over(edge, surface, normals, no_normal);

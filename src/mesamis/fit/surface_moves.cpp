@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "mesamis/base/each_once.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/single_precision.h"
 #include "mesamis/surface/normals.h"
@@ -262,6 +263,13 @@ SurfaceMover::SurfaceMover(const SurfaceSpace& space, TriMesh surface, Unfolded 
 }
 
 bool SurfaceMover::move(std::vector<Vec3> start, std::vector<Vec3> shifts) {
+  left_.clear();
+  const bool whole = move_and_take_back(std::move(start), std::move(shifts));
+  sort_once(left_);
+  return whole;
+}
+
+bool SurfaceMover::move_and_take_back(std::vector<Vec3> start, std::vector<Vec3> shifts) {
   constexpr int kHalvings = 2, kMostTrials = 40;
   std::vector<int> taken_back(shifts.size(), 0);
   parallel_for(shifts.size(), [&](std::size_t p) { moved_.points[p] = start[p] + shifts[p]; });
@@ -283,22 +291,27 @@ bool SurfaceMover::move(std::vector<Vec3> start, std::vector<Vec3> shifts) {
     pairs = in_file_->after_move_of(concerned);
     if (here_) append(here_->after_move_of(concerned), pairs);
   }
-  if (!triangles_at(moved_.triangles, moved_corners(shifts, pairs)).empty())
-    moved_.points = std::move(start);
+  if (triangles_at(moved_.triangles, moved_corners(shifts, pairs)).empty()) return false;
+  moved_.points = std::move(start);
+  file_points();
+  left_ = in_file_->after_move();
   return false;
 }
 
-/// Of each point 1 if it is a corner of a pair of which any corner is still moved. Others met
-/// before: needles, in single precision.
+/// Of each point 1 if it is a corner of a pair of which any corner is still moved. Others are left:
+/// they met before.
 std::vector<char> SurfaceMover::moved_corners(const std::vector<Vec3>& shifts,
-                                              const std::vector<TrianglePair>& pairs) const {
+                                              const std::vector<TrianglePair>& pairs) {
   std::vector<char> corners(moved_.points.size(), 0);
   const auto is_moved = [&](Index t) {
     const Triangle& k = moved_.triangles[t];
     return std::any_of(k.begin(), k.end(), [&](Index p) { return norm(shifts[p]) > 0; });
   };
   for (const auto& [a, b] : pairs) {
-    if (!is_moved(a) && !is_moved(b)) continue;
+    if (!is_moved(a) && !is_moved(b)) {
+      left_.push_back({a, b});
+      continue;
+    }
     for (const Index p : moved_.triangles[a]) corners[p] = 1;
     for (const Index p : moved_.triangles[b]) corners[p] = 1;
   }

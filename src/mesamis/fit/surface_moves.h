@@ -164,17 +164,21 @@ class SurfaceMover {
   bool move(std::vector<Vec3> start, std::vector<Vec3> shifts);
 
   const std::vector<Vec3>& points() const noexcept { return moved_.points; }
+  /// Pairs of triangles that meet where the last move left them, though it moved no corner of theirs.
+  const std::vector<TrianglePair>& pairs_left() const noexcept { return left_; }
   /// The surface; the end of the mover.
   TriMesh take_surface() { return std::move(moved_); }
 
  private:
+  bool move_and_take_back(std::vector<Vec3> start, std::vector<Vec3> shifts);
   std::vector<char> moved_corners(const std::vector<Vec3>& shifts,
-                                  const std::vector<TrianglePair>& pairs) const;
+                                  const std::vector<TrianglePair>& pairs);
   void file_points();
 
   const SurfaceSpace& space_;
   TriMesh moved_, filed_;  // the second as in a file
   std::optional<SelfIntersections> here_, in_file_;
+  std::vector<TrianglePair> left_;
 };
 
 /// The same with a surface's own points as the start.

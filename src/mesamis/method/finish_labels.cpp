@@ -39,12 +39,11 @@ double mean_error_of(const LabelRun& run, const std::vector<LayerBoundaries>& la
   return expected_shape_error(*input, all).mean;
 }
 
-/// Rounds and decimates what objects share in one. A preview is rounded in any case.
-/// @return how far boundaries were moved at most, mm.
+/// Rounds and decimates what objects share in one.
+/// @return how far decimation, with rounding, moved boundaries at most, mm.
 double decimate(const LabelRun& run, const Parameters& p, PartitionSurface& partition) {
   const double tolerance = *p.tolerance;
-  const bool stays = tolerance == 0 && !run.settings.preview;
-  if (stays || partition.triangles.empty()) return 0;
+  if (partition.triangles.empty()) return 0;
   if (tolerance > 0) run.begin("decimation");
   std::vector<Vec3> rounded = round_together(partition.points);
   double shift = 0;
@@ -52,7 +51,7 @@ double decimate(const LabelRun& run, const Parameters& p, PartitionSurface& part
     shift = std::max(shift, norm(rounded[n] - partition.points[n]));
   }
   partition.points = std::move(rounded);
-  if (tolerance == 0) return shift;
+  if (tolerance == 0) return 0;
   DecimateOptions options;
   options.tolerance = std::max(0.0, tolerance - shift);
   options.triangles = p.triangles;

@@ -88,6 +88,46 @@ Through through_curves(const VoxelGrid& grid) {
   return is_thick ? Through::kSmoothest : Through::kBoth;
 }
 
+/// Marks the ends of edges amid which a new point is a corner of a pair.
+/// @param whole  of each point of the surface before edges were split.
+/// @return whether there are any.
+bool mark_ends(const SplitBoundaries& split, const std::vector<TrianglePair>& pairs,
+               std::vector<char>& whole) {
+  bool any = false;
+  for (const TrianglePair& pair : pairs) {
+    for (const Index t : pair) {
+      for (const Index p : split.surface.triangles[t]) {
+        if (p < std::ssize(whole)) continue;
+        for (const Index end : split.edges[static_cast<std::size_t>(p) - whole.size()]) {
+          whole[end] = 1;
+        }
+        any = true;
+      }
+    }
+  }
+  return any;
+}
+
+/// Splits edges where boundaries bend, and moves points; edges stay whole where a new point, once it
+/// is in a file, would make boundaries meet even where it is not moved.
+/// @param shifts_of  the shift of each point of the boundaries that were split.
+template <class Shifts>
+PartitionSurface split_and_moved(const TriMesh& surface, const PartitionSurface& partition,
+                                 const std::vector<char>& on_curve, const VoxelGrid& grid,
+                                 Shifts&& shifts_of) {
+  const SurfaceSpace space(grid, 1);
+  std::vector<char> whole(surface.points.size(), 0);
+  while (true) {
+    SplitBoundaries split = split_bends({surface, partition.sides, on_curve, whole}, grid);
+    std::vector<Vec3> shifts = shifts_of(split);
+    SurfaceMover mover(space, split.surface, Unfolded::kInFile);
+    mover.move(split.surface.points, std::move(shifts));
+    if (mark_ends(split, mover.pairs_left(), whole)) continue;
+    TriMesh moved = mover.take_surface();
+    return {std::move(moved.points), std::move(moved.triangles), std::move(split.sides)};
+  }
+}
+
 }  // namespace
 
 bool shows_edge(const PairLevel& pair, double noise) {
@@ -176,22 +216,21 @@ PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& i
   smoothing.bending *= kFirmer;
   const TriMesh smooth = smooth_surface(start, image.grid, points.links, smoothing);
   const TriMesh fitted = fit_surface(smooth, image, points, {.reach = reach});
-  SplitBoundaries split = split_bends(fitted, partition.sides, points.on_curve, image.grid);
-  const SurfaceSpace space(image.grid, 1);
-  TriMesh bent = moved_without_folds(space, split.surface, std::move(split.shifts));
-  return {std::move(bent.points), std::move(bent.triangles), std::move(split.sides)};
+  return split_and_moved(fitted, partition, points.on_curve, image.grid,
+                         [](const SplitBoundaries& split) { return split.shifts; });
 }
 
 PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid,
                                    std::span<const double> volumes) {
-  std::vector<char> on_curve = curve_points(partition);
+  const std::vector<char> on_curve = curve_points(partition);
   const TriMesh start = taken_from(partition);
   const Links links = sheet_links(start, partition.sides, on_curve, through_curves(grid));
   const TriMesh smooth = smooth_surface(start, grid, links, smoothing_of_labels(grid));
-  SplitBoundaries split = split_bends(smooth, partition.sides, on_curve, grid);
-  on_curve.resize(split.surface.points.size(), 0);
-  TriMesh kept = keep_volumes({split.surface, split.sides, on_curve, volumes, split.shifts}, grid);
-  return {std::move(kept.points), std::move(kept.triangles), std::move(split.sides)};
+  return split_and_moved(smooth, partition, on_curve, grid, [&](const SplitBoundaries& split) {
+    std::vector<char> curve = on_curve;
+    curve.resize(split.surface.points.size(), 0);
+    return keep_volumes({split.surface, split.sides, curve, volumes, split.shifts}, grid);
+  });
 }
 
 }  // namespace mesamis::detail::method

@@ -13,6 +13,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/median.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/base/single_precision.h"
 #include "mesamis/base/stopwatch.h"
 #include "mesamis/fem/grid_amis.h"
 #include "mesamis/labels/flow_memberships.h"
@@ -116,7 +117,8 @@ PartitionSurface without_narrow_contacts(const LabelRun& run, Index layer, const
                                          PartitionSurface partition) {
   if (!run.smooths() || run.settings.keep_topology) return partition;
   const ContactOptions options{.depth = kDepthOfContacts,
-                               .gap = kGapOfContacts * grid.shortest_side()};
+                               .gap = kGapOfContacts * grid.shortest_side(),
+                               .in_file = [&](const Vec3& p) { return rounded(grid.to_world(p)); }};
   return open_narrow_contacts(std::move(partition), marks_of(run.chosen, layer), options);
 }
 

@@ -319,23 +319,23 @@ std::vector<Vec3> averaged(const OpenedPartition& opened, std::vector<Vec3> ways
 /// Moves the two sides of open contacts apart: less far where they would meet something.
 class Parting {
  public:
-  Parting(const OpenedPartition& opened, const Objects& objects, double gap)
+  Parting(const OpenedPartition& opened, const Objects& objects, const ContactOptions& options)
       : opened_(opened),
-        gap_(gap),
+        options_(options),
         own_(ways_inwards(opened, objects)),
         averaged_(averaged(opened, own_)),
         trial_(opened.origin.size(), 0) {}
 
-  /// @param surface  of the opened partition.
-  /// @return of each origin 1 if that is not possible there; surface: where points have gone.
-  std::vector<char> part(TriMesh& surface) {
-    const std::vector<Vec3> start = surface.points;
-    const auto place = [&](std::size_t p) { surface.points[p] = start[p] + move_of(p); };
-    parallel_for(start.size(), place);
-    SelfIntersections search(surface);
-    std::vector<Index> moved = triangles_at(surface.triangles, opened_.is_copy);
+  /// @return of each origin 1 if that is not possible there.
+  std::vector<char> part() {
+    const std::vector<Vec3>& start = opened_.surface.points;
+    TriMesh filed{std::vector<Vec3>(start.size()), opened_.surface.triangles};
+    const auto file = [&](std::size_t p) { filed.points[p] = options_.in_file(place_of(p)); };
+    parallel_for(start.size(), file);
+    SelfIntersections search(filed);
+    std::vector<Index> moved = triangles_at(filed.triangles, opened_.is_copy);
     while (true) {
-      std::vector<char> meet = origins_of(surface, search.after_move_of(moved));
+      std::vector<char> meet = origins_of(search.after_move_of(moved));
       add_close_twins(meet);
       bool goes_on = false;
       for (std::size_t o = 0; o < meet.size(); ++o) {
@@ -347,27 +347,28 @@ class Parting {
       std::vector<char> changed(start.size(), 0);
       parallel_for(start.size(), [&](std::size_t p) {
         if (opened_.is_copy[p] == 0 || meet[opened_.origin[p]] == 0) return;
-        place(p);
+        file(p);
         changed[p] = 1;
       });
-      moved = triangles_at(surface.triangles, changed);
+      moved = triangles_at(filed.triangles, changed);
     }
+  }
+
+  /// Where a point of the opened partition goes.
+  Vec3 place_of(std::size_t p) const {
+    const std::size_t trial = trial_[opened_.origin[p]];
+    const Vec3 way = (trial == 0 ? averaged_ : own_)[p];
+    return opened_.surface.points[p] + (options_.gap * kScale[trial]) * way;
   }
 
  private:
   static constexpr std::array<double, 3> kScale{1, 1.0 / 16, 1.0 / 256};
 
-  Vec3 move_of(std::size_t p) const {
-    const std::size_t trial = trial_[opened_.origin[p]];
-    return gap_ * kScale[trial] * (trial == 0 ? averaged_ : own_)[p];
-  }
-
-  std::vector<char> origins_of(const TriMesh& surface,
-                               const std::vector<TrianglePair>& pairs) const {
+  std::vector<char> origins_of(const std::vector<TrianglePair>& pairs) const {
     std::vector<char> origins(opened_.origin.size(), 0);
     for (const auto& pair : pairs) {
       for (const Index t : pair) {
-        for (const Index p : surface.triangles[t]) origins[opened_.origin[p]] = 1;
+        for (const Index p : opened_.surface.triangles[t]) origins[opened_.origin[p]] = 1;
       }
     }
     return origins;
@@ -384,7 +385,7 @@ class Parting {
   }
 
   const OpenedPartition& opened_;
-  double gap_;
+  const ContactOptions& options_;
   std::vector<Vec3> own_, averaged_;
   std::vector<std::size_t> trial_;  // of each origin
 };
@@ -409,11 +410,13 @@ PartitionSurface open_narrow_contacts(PartitionSurface partition, std::span<cons
   std::vector<char> open = narrow_contacts(partition, objects, options.depth);
   while (std::ranges::count(open, 1) > 0) {
     OpenedPartition opened(partition, objects, open);
-    Parting parting(opened, objects, options.gap);
-    TriMesh surface = taken_from(opened.surface);
-    const std::vector<char> failed = parting.part(surface);
+    Parting parting(opened, objects, options);
+    const std::vector<char> failed = parting.part();
     if (std::ranges::count(failed, 1) == 0) {
-      return put_back(std::move(surface), std::move(opened.surface));
+      std::vector<Vec3> apart(opened.surface.points.size());
+      parallel_for(apart.size(), [&](std::size_t p) { apart[p] = parting.place_of(p); });
+      opened.surface.points = std::move(apart);
+      return std::move(opened.surface);
     }
     close_at(partition, around(partition, open, failed), open);
   }
