@@ -58,6 +58,12 @@ TEST(LabelBlock, HoldsTheLabelsWhereTheyLieInTheWorld) {
   EXPECT_EQ(std::accumulate(labels.begin(), labels.end(), 0), 5 + 8 * 3);
 }
 
+TEST(LabelBlock, KeepsTheChosenLabels) {
+  std::vector<std::uint16_t> labels{0, 3, 2, 3, 1};
+  keep_chosen(std::vector<char>{0, 1, 0, 1}, labels);
+  EXPECT_EQ(labels, (std::vector<std::uint16_t>{0, 3, 0, 3, 1}));
+}
+
 TEST(LabelBlock, OfAnySizeAndPlaceHoldsWhatIsThere) {
   const LabelMap map = small_map();
   for (Index begin = -6; begin < 12; ++begin) {

@@ -287,6 +287,19 @@ TEST(LabelSurfaces, OfLabelsAloneKeepTheVolume) {
   }
 }
 
+/// Without an image nothing tells where an object that nobody chose begins.
+TEST(LabelSurfaces, OfLabelsAloneDoNotDependOnObjectsThatNobodyChose) {
+  const LabelMap both = labels_of(2, 0);
+  LabelMap first = both;
+  for (std::uint16_t& label : first.layers[0]) label = label == 1 ? 1 : 0;
+  first.segments.pop_back();
+  const LabelResult chosen = surfaces_of_labels({both, {both.segments[0]}}, Settings{});
+  const LabelResult alone = surfaces_of_labels({first}, Settings{});
+  ASSERT_EQ(chosen.objects.size(), 1U);
+  EXPECT_EQ(chosen.objects[0].surface.points, alone.objects.at(0).surface.points);
+  EXPECT_EQ(chosen.objects[0].surface.triangles, alone.objects[0].surface.triangles);
+}
+
 TEST(LabelSurfaces, OfALabelAtTheBorderOfTheMapAreWhole) {
   LabelMap labels;
   labels.size = {6, 6, 6};

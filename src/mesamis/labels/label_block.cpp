@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesamis/base/parallel.h"
+
 namespace mesamis::detail::labels {
 namespace {
 
@@ -86,6 +88,12 @@ std::vector<std::uint16_t> labels_in(const LabelMap& map, Index layer, const Lab
     }
   }
   return part;
+}
+
+void keep_chosen(std::span<const char> chosen, std::vector<std::uint16_t>& labels) {
+  parallel_for(labels.size(), [&](std::size_t n) {
+    if (chosen[labels[n]] == 0) labels[n] = 0;
+  });
 }
 
 }  // namespace mesamis::detail::labels

@@ -43,4 +43,8 @@ VoxelGrid grid_of(const VoxelGrid& grid, const LabelBlock& block);
 /// @return one per voxel of the block; i runs fastest.
 std::vector<std::uint16_t> labels_in(const LabelMap& map, Index layer, const LabelBlock& block);
 
+/// Makes labels that nobody chose background, as if the map had only the others.
+/// @param chosen  of each label 1 if it is chosen.
+void keep_chosen(std::span<const char> chosen, std::vector<std::uint16_t>& labels);
+
 }  // namespace mesamis::detail::labels

@@ -132,11 +132,11 @@ LabelBlock require_block(const LabelRun& run, const LabelMap& map) {
 /// Where the boundaries are by the labels alone.
 /// @param labels  of the grid; with probabilities they become those that win there.
 GridMemberships without_image(const LabelRun& run, const VoxelGrid& grid,
-                              std::vector<std::uint16_t>& labels) {
+                              std::vector<std::uint16_t>& labels, const SmoothOptions& how) {
   const Probabilities* probabilities = run.request.probabilities;
   if (probabilities == nullptr) {
     if (!run.settings.keep_topology) labels = join_diagonals({grid.size, grid.spacing, labels});
-    return smooth_memberships({grid.size, grid.spacing, labels});
+    return smooth_memberships({grid.size, grid.spacing, labels}, how);
   }
   GridMemberships found = probable_memberships(*probabilities, grid);
   labels = winning_labels(found);
@@ -211,8 +211,10 @@ LayerBoundaries extract_in_image(const LabelRun& run, Index layer,
                                  std::vector<std::uint16_t> labels, const Edges& edges) {
   LayerBoundaries found{layer, {}};
   const VoxelGrid& voxels = edges.prepared.grey;
-  GridMemberships memberships = without_image(run, voxels, labels);
-  if (!run.starts_from_labels(voxels)) {
+  const bool starts_from_labels = run.starts_from_labels(voxels);
+  GridMemberships memberships =
+      without_image(run, voxels, labels, starts_from_labels ? kBeforeNet : SmoothOptions{});
+  if (!starts_from_labels) {
     memberships =
         flowed(run, memberships, {voxels.size, voxels.spacing, labels}, edges, found.converged);
   }
@@ -246,9 +248,11 @@ LayerPartition extract_by_labels(const LabelRun& run, Index layer, const LabelBl
   Stopwatch watch;
   const LabelMap& map = run.request.map;
   auto labels = labels_in(map, layer, block);
+  if (run.smooths()) keep_chosen(marks_of(run.chosen, layer), labels);
   run.begin("smoothing the labels");
   const VoxelGrid grid = grid_of(map, block);
-  const GridMemberships memberships = without_image(run, grid, labels);
+  const GridMemberships memberships =
+      without_image(run, grid, labels, run.smooths() ? kBeforeNet : SmoothOptions{});
   seconds.flow += watch.lap();
   run.begin("surface");
   LayerPartition found{extract(run, layer, memberships),

@@ -15,11 +15,15 @@
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/settings.h"
 #include "mesamis/surface/partition.h"
+#include "mesamis/surface/smooth_memberships.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// Surfaces of the objects of a label map: the labels choose the objects, the image places their
 /// surfaces.
 namespace mesamis::detail::method {
+
+/// How labels are smoothed before a net is extracted that is smoothed itself: volumes need not match.
+inline constexpr SmoothOptions kBeforeNet{.most_rounds = 1};
 
 /// The boundaries between all labels of a layer, which have the steps of their voxels.
 struct LayerPartition {

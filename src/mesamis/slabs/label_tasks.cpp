@@ -67,6 +67,7 @@ std::vector<std::uint16_t> labels_of(const LayerRun& run, const BlockSlices& sli
   some.size[2] = end - first;
   part.begin[2] -= first;
   std::vector<std::uint16_t> labels = labels_in(some, 0, part);
+  if (run.only_chosen) keep_chosen(run.net->chosen, labels);
   take_nodes(run.joins, nodes_in(run, slices.begin), labels);
   return labels;
 }

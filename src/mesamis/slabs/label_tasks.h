@@ -45,6 +45,7 @@ struct LayerRun {
   std::vector<Index> cuts;  ///< slab s owns the slices cuts[s] to cuts[s + 1] - 1
   SmoothOptions smoothing{};
   std::optional<NetOptions> net{};    ///< how a net is extracted; none: the grid's tetrahedra are
+  bool only_chosen = false;           ///< labels that the net does not choose are background
   std::vector<DiagonalJoin> joins{};  ///< after learn_joins(), of the block: labels have them
   LayerParts parts{};                 ///< after learn_parts()
 

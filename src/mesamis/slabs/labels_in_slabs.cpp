@@ -206,7 +206,11 @@ std::optional<LabelSlabResult> run_through(const Scratch& scratch, const LabelSl
   std::vector<LayerRun> runs;
   for (const Index layer : layers_of(chosen)) {
     runs.push_back({labels, scratch, layer, block, cuts});
-    if (settings.fit) runs.back().net = NetOptions{.chosen = marks_of(chosen, layer)};
+    if (settings.fit) {
+      runs.back().net = NetOptions{.chosen = marks_of(chosen, layer)};
+      runs.back().smoothing = kBeforeNet;
+      runs.back().only_chosen = !request.scan;
+    }
     run_layer(runs.back(), settings.keep_topology, stages);
   }
   team.wait_for_all();  // all have read what rank 0 removes at the end
