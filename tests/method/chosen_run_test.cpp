@@ -88,6 +88,39 @@ TEST(RunOnObject, OfADarkObjectTellsNativeUnits) {
   EXPECT_EQ(repeated.parameters.grey.threshold, dark.parameters.grey.threshold);
 }
 
+/// CT of a soft ball of 18 mm in air, in it a dense ball of bone of 8 mm beside a light one of 6 mm.
+Volume body_with_bones() {
+  const Vec3 middle{22, 22, 22};
+  Volume scan = sampled_volume({45, 45, 45}, {1, 1, 1}, [&](const Vec3& p) {
+    return -1000 + 1040 * blurred_ball(norm(p - middle), 18, 0.7) +
+           1600 * blurred_ball(norm(p - middle - Vec3{7, 0, 0}), 8, 0.7) +
+           350 * blurred_ball(norm(p - middle + Vec3{9, 0, 0}), 6, 0.7);
+  });
+  scan.modality = "CT";
+  return scan;
+}
+
+/// Bones differ in density; a level that followed them would leave the range of other tissues.
+TEST(RunOnObject, OnlyBoneHasALevelForEachPlace) {
+  const Volume scan = body_with_bones();
+  const auto run = [&](const char* tissue, double level) {
+    ObjectRequest request;
+    if (*tissue != 0) request.tissue = parse_tissue(tissue);
+    Settings settings = preview();
+    if (level != 0) settings.level = level;
+    return run_on_object(choose(scan, settings, request), settings);
+  };
+  const Result skin = run("skin", 0);
+  EXPECT_FALSE(skin.image.has_local_levels());
+  const double ball = 4.0 / 3 * M_PI * 18 * 18 * 18;
+  EXPECT_NEAR(check_surface(skin.surface).volume, ball, 0.03 * ball);
+  EXPECT_EQ(check_surface(skin.surface).components, 1);
+  EXPECT_FALSE(run("teeth", 0).image.has_local_levels());
+  EXPECT_FALSE(run("soft", 0).image.has_local_levels());
+  EXPECT_FALSE(run("", -400).image.has_local_levels()) << "a level of the skin";
+  EXPECT_TRUE(run("bone", 0).image.has_local_levels());
+}
+
 TEST(RunOnObject, TellsTheCropThatRepeatsIt) {
   Settings settings = preview();
   settings.crop = {{4, 0, 0}, {24, -1, -1}};
