@@ -14,8 +14,10 @@
 #include "mesamis/base/single_precision.h"
 #include "mesamis/surface/join_diagonals.h"
 #include "mesamis/surface/self_intersections.h"
+#include "support/ball_volume.h"
 #include "support/edge_lengths.h"
 #include "support/label_grids.h"
+#include "support/sampled_volume.h"
 #include "support/throws.h"
 
 namespace mesamis {
@@ -240,6 +242,33 @@ TEST(LabelSurfaces, OfAnyLabelsDoNotMeet) {
     settings.tolerance = 0;
     expect_closed(find_labelled_objects(scan, {map}, settings));
     expect_closed(surfaces_of_labels({map}, settings));
+  }
+}
+
+/// Two balls far from each other, the second of which is darker and more blurred.
+TEST(LabelSurfaces, DoNotDependOnObjectsThatDoNotTouch) {
+  const Vec3 one{12, 12, 12}, other{46, 12, 12};
+  Volume scan = sampled_volume({60, 25, 25}, {1, 1, 1}, [&](const Vec3& p) {
+    return 40 + 400 * blurred_ball(norm(p - one), 7, 0.6) +
+           90 * blurred_ball(norm(p - other), 8, 1.5);
+  });
+  std::mt19937 generator(5);
+  std::normal_distribution<float> noise(0, 4);
+  for (float& sample : scan.samples) sample += noise(generator);
+  LabelMap map{scan, {{}}, {{"one", 1, 0, {}}, {"other", 2, 0, {}}}};
+  for (std::size_t n = 0; n < map.voxel_count(); ++n) {
+    const auto [i, j, k] = map.voxel(n);
+    const Vec3 p{1.0 * i, 1.0 * j, 1.0 * k};
+    map.layers[0].push_back(norm(p - one) < 7 ? 1 : norm(p - other) < 8 ? 2 : 0);
+  }
+  Settings settings;
+  settings.tolerance = 0;
+  const LabelResult both = find_labelled_objects(scan, {map}, settings);
+  for (const std::size_t n : {0, 1}) {
+    const LabelResult alone = find_labelled_objects(scan, {map, {map.segments[n]}}, settings);
+    EXPECT_EQ(alone.parameters.blur, both.parameters.blur);
+    const double volume = check_surface(both.objects.at(n).surface).volume;
+    EXPECT_NEAR(check_surface(alone.objects.at(0).surface).volume, volume, 5e-4 * volume) << n;
   }
 }
 

@@ -6,6 +6,7 @@ set(ROOM_HEADERS
   label_map.h
   not_numbers.h
   orientation.h
+  sample_slices.h
   slice_plane.h
   slice_source.h
   spline_image.h
@@ -19,6 +20,7 @@ set(ROOM_SOURCES
   label_map.cpp
   not_numbers.cpp
   orientation.cpp
+  sample_slices.cpp
   slice_plane.cpp
   slice_source.cpp
   spline_image.cpp

@@ -11,7 +11,6 @@
 
 #include "mesamis/base/each_once.h"
 #include "mesamis/base/error.h"
-#include "mesamis/base/median.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/single_precision.h"
 #include "mesamis/base/stopwatch.h"
@@ -24,6 +23,7 @@
 #include "mesamis/labels/probable_memberships.h"
 #include "mesamis/method/finish_labels.h"
 #include "mesamis/method/follow_partition.h"
+#include "mesamis/method/label_choice.h"
 #include "mesamis/method/label_mesh.h"
 #include "mesamis/method/label_run.h"
 #include "mesamis/method/passes.h"
@@ -54,34 +54,14 @@ void bring_to_world(const VoxelGrid& grid, PartitionSurface& partition) {
   for (Triangle& t : partition.triangles) std::swap(t[1], t[2]);
 }
 
-/// Native units half way between the voxels that are chosen and the others; nothing where they are
-/// alike.
-std::optional<double> level_between(const Volume& scan, const std::vector<char>& chosen) {
-  std::vector<float> in, out;
-  for (std::size_t n = 0; n < chosen.size(); ++n) {
-    (chosen[n] != 0 ? in : out).push_back(scan.samples[n]);
-  }
-  if (in.empty() || out.empty()) return std::nullopt;
-  const double a = median(in), b = median(out);
-  return a == b ? std::nullopt : std::optional((a + b) / 2);
-}
-
 /// What was prepared of an image, and its edges, one v per voxel, where labels flow to them.
 struct Edges {
   Prepared prepared;
   std::vector<float> v;
 };
 
-Edges find_edges(const Volume& scan, ImageSettings of_image, bool flows) {
-  Settings& settings = of_image.asked;
-  settings.crop = {};
-  settings.stride = {1, 1, 1};
-  settings.preview = true;  // no mesh is made
-  settings.surface = SurfaceKind::kSolid;
-  if (settings.threshold_rule == ThresholdRule::kAuto) {
-    settings.threshold_rule = ThresholdRule::kNone;
-  }
-  Edges edges{prepare_image(scan, of_image), {}};
+Edges find_edges(const Volume& scan, const Chosen& choice, bool flows) {
+  Edges edges{prepare_slab(scan, {}, choice), {}};
   if (!flows) return edges;
   const RunInput run(edges.prepared);
   const Parameters& p = run.parameters;
@@ -141,25 +121,6 @@ GridMemberships without_image(const LabelRun& run, const VoxelGrid& grid,
   GridMemberships found = probable_memberships(*probabilities, grid);
   labels = winning_labels(found);
   return found;
-}
-
-/// The settings with a level, if there is one: that which is known, or that between the voxels of all
-/// chosen labels and the rest.
-ImageSettings with_level(const LabelRun& run, const Volume& part, const LabelMap& map,
-                         const LabelBlock& block) {
-  ImageSettings settings = run.of_image;
-  settings.asked.local_level = false;  // each boundary has its own
-  if (settings.level) return settings;
-  std::vector<char> chosen(part.samples.size(), 0);
-  for (const Index layer : layers_of(run.chosen)) {
-    const std::vector<char> marks = marks_of(run.chosen, layer);
-    const auto labels = labels_in(map, layer, block);
-    for (std::size_t n = 0; n < chosen.size(); ++n) chosen[n] |= marks[labels[n]];
-  }
-  if (const auto level = level_between(part, chosen)) {
-    settings.level = {*level, LevelSource::kLabels};
-  }
-  return settings;
 }
 
 std::vector<LabelBoundary> boundaries_of(const LabelRun& run, Index layer,
@@ -311,8 +272,9 @@ LabelResult with_image(const LabelRun& run, const VolumeView& scan) {
   const LabelBlock block = clipped(require_block(run, on_scan), scan);
   const CropRange range = range_of(block);
   Volume part = crop(scan, range);
-  const Edges edges =
-      find_edges(part, with_level(run, part, on_scan, block), !run.starts_from_labels(scan));
+  const Chosen choice = choose_beside_labels(scan, run.of_image,
+                                             values_of_labels(part, {on_scan, block, run.chosen}));
+  const Edges edges = find_edges(part, choice, !run.starts_from_labels(scan));
   if (!run.makes_mesh()) part.samples = {};
   const RunInput input(edges.prepared);
   result.parameters = parameters_of(run, edges.prepared, range);

@@ -26,6 +26,7 @@ set(ROOM_SOURCES
   finish_labels.cpp
   follow_image.cpp
   follow_partition.cpp
+  label_choice.cpp
   label_mesh.cpp
   label_surfaces.cpp
   loop.cpp

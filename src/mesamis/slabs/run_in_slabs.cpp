@@ -17,7 +17,7 @@
 #include "mesamis/method/setting_table.h"
 #include "mesamis/slabs/in_scratch.h"
 #include "mesamis/slabs/mapped_items.h"
-#include "mesamis/slabs/sample.h"
+#include "mesamis/image/sample_slices.h"
 #include "mesamis/slabs/stages.h"
 #include "mesamis/slabs/surface_files.h"
 #include "mesamis/slabs/surface_tasks.h"

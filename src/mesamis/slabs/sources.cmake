@@ -25,7 +25,6 @@ set(ROOM_SOURCES
   records.cpp
   run_in_slabs.cpp
   same_run.cpp
-  sample.cpp
   scratch.cpp
   slab_tasks.cpp
   stages.cpp

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/slabs/sample.h"
+#include "mesamis/image/sample_slices.h"
 
 #include <algorithm>
 
 #include "mesamis/base/parallel.h"
 
-namespace mesamis::detail::slabs {
+namespace mesamis::detail::image {
 
-std::vector<SliceSums> sums_of_slices(const Volume& slab) {
+std::vector<SliceSums> sums_of_slices(const VolumeView& slab) {
   std::vector<SliceSums> sums(static_cast<std::size_t>(slab.size[2]));
   const std::size_t slice = slab.offset(0, 0, 1);
   parallel_for_each(sums.size(), [&](std::size_t k) {
@@ -43,4 +43,8 @@ SliceRange sample_slices(const VoxelGrid& whole, const std::vector<SliceSums>& s
   return best;
 }
 
-}  // namespace mesamis::detail::slabs
+SliceRange sample_slices(const VolumeView& scan, std::size_t most) {
+  return sample_slices(scan, sums_of_slices(scan), most);
+}
+
+}  // namespace mesamis::detail::image

@@ -5,8 +5,8 @@
 
 #include "mesamis/image/slice_source.h"
 
-/// What is looked at of a scan before it is cut into slabs.
-namespace mesamis::detail::slabs {
+/// What is looked at of a scan that is too large to look at all of it.
+namespace mesamis::detail::image {
 
 /// Sums over the samples of a slice.
 struct SliceSums {
@@ -14,11 +14,14 @@ struct SliceSums {
 };
 
 /// Of some slices.
-std::vector<SliceSums> sums_of_slices(const Volume& slab);
+std::vector<SliceSums> sums_of_slices(const VolumeView& slab);
 
 /// All slices where they have no more voxels than `most`; else as many as that allows, at least
 /// two, where the samples vary most.
 SliceRange sample_slices(const VoxelGrid& whole, const std::vector<SliceSums>& sums,
                          std::size_t most);
 
-}  // namespace mesamis::detail::slabs
+/// The same of a scan in memory.
+SliceRange sample_slices(const VolumeView& scan, std::size_t most);
+
+}  // namespace mesamis::detail::image

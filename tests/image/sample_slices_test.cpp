@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/slabs/sample.h"
+#include "mesamis/image/sample_slices.h"
 
 #include <gtest/gtest.h>
 
