@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "fit/rough_ball.h"
+#include "fit/smooth_surface.h"
 #include "mesamis/base/parallel.h"
-#include "mesamis/fit/smooth_surface.h"
 #include "mesamis/surface/half_edges.h"
 #include "mesamis/surface/self_intersections.h"
 #include "mesamis/surface/triangle_tree.h"

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "fit/rough_ball.h"
+#include "fit/smooth_surface.h"
 #include "mesamis/base/parallel.h"
-#include "mesamis/fit/smooth_surface.h"
 #include "mesamis/surface/self_intersections.h"
 #include "support/label_grids.h"
 

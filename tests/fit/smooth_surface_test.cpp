@@ -8,6 +8,7 @@
 #include <random>
 
 #include "fit/rough_ball.h"
+#include "fit/smooth_surface.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/extract_net.h"
 #include "mesamis/surface/grid_partition.h"
@@ -138,6 +139,33 @@ TEST(SmoothSurface, LeavesPointsOnTheBox) {
     if (start.points[p].x > 0) continue;
     EXPECT_EQ(smooth.points[p], start.points[p]);
   }
+}
+
+/// Smoothing would leave a thread of a rod that is two voxels wide, and does if it cannot tell parts.
+TEST(SmoothSurface, AThinPartKeepsItsWidth) {
+  const OwnedLabels labels = labels_where({30, 30, 24}, {1, 1, 1}, [](const Vec3& p) {
+    const bool rod = p.x >= 3 && p.x < 5 && p.y >= 3 && p.y < 5 && p.z >= 2 && p.z < 22;
+    return rod || norm(p - Vec3{18, 18, 12}) < 8 ? 1 : 0;
+  });
+  const PartitionSurface net = extract_net_on_grid(smooth_memberships(labels.grid()));
+  const TriMesh start{net.points, net.triangles};
+  const Links all(Neighbors(start).points.size(), 1);
+  const BoundaryParts parts = parts_of_boundaries(start, net.sides);
+  VoxelGrid grid;
+  grid.size = labels.size;
+  const auto left = [&](const BoundaryParts* known) {
+    const TriMesh smooth{smooth_places({start, all, known}, grid), start.triangles};
+    std::vector<double> share = enclosed_volumes(smooth, parts.sides);
+    for (std::size_t p = 1; p < share.size(); ++p) share[p] /= parts.volumes[p];
+    return share;
+  };
+  const std::vector<double> without = left(nullptr), with = left(&parts);
+  ASSERT_EQ(with.size(), 3U);
+  const std::size_t rod = parts.volumes[1] < parts.volumes[2] ? 1 : 2, ball = 3 - rod;
+  EXPECT_LT(without[rod], 0.6);
+  EXPECT_GT(with[rod], 0.75);
+  EXPECT_NEAR(with[ball], without[ball], 1e-3);
+  EXPECT_NEAR(with[ball], 1, 0.02);
 }
 
 TEST(SmoothSurface, HasTheSameBitsForAnyNumberOfThreads) {

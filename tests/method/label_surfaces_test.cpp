@@ -12,6 +12,8 @@
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/base/single_precision.h"
+#include "mesamis/fit/boundary_parts.h"
+#include "mesamis/image/grey_values.h"
 #include "mesamis/surface/join_diagonals.h"
 #include "mesamis/surface/self_intersections.h"
 #include "support/ball_volume.h"
@@ -313,6 +315,38 @@ TEST(LabelSurfaces, OfLabelsAloneKeepTheVolume) {
       EXPECT_NEAR(check_surface(object.surface).volume, volume, 0.01 * volume);
       EXPECT_LT(mean_error(object.segment.label, object.surface), 0.3 * every);
     }
+  }
+}
+
+/// A rod of two voxels and a cube of three beside a ball of the same label. Where the image places
+/// them, their corners are round.
+TEST(LabelSurfaces, ThinPartsKeepTheirVolume) {
+  const Vec3 middle{16, 16, 14};
+  const OwnedLabels labels = labels_where({34, 34, 28}, {1, 1, 1}, [&](const Vec3& p) {
+    const bool rod = p.x >= 27 && p.x < 29 && p.y >= 27 && p.y < 29 && p.z >= 4 && p.z < 24;
+    const bool cube = std::min({p.x, p.y, p.z}) >= 3 && std::max({p.x, p.y, p.z}) < 6;
+    return rod || cube || norm(p - middle) < 9 ? 1 : 0;
+  });
+  LabelMap map;
+  map.size = labels.size;
+  map.layers = {labels.labels};
+  map.segments = {{"all", 1, 0, {}}};
+  Volume scan{map, {}};
+  for (const std::uint16_t label : labels.labels) scan.samples.push_back(label == 0 ? 40 : 240);
+  scan = smoothed(scan);
+  Settings settings;
+  settings.tolerance = 0;
+  for (const bool with_image : {false, true}) {
+    const LabelResult found = with_image ? find_labelled_objects(scan, {map}, settings)
+                                         : surfaces_of_labels({map}, settings);
+    const TriMesh& surface = found.objects.at(0).surface;
+    const std::vector<std::array<Index, 2>> sides(surface.triangles.size(), {1, 0});
+    std::vector<double> volumes = parts_of_boundaries(surface, sides).volumes;
+    ASSERT_EQ(volumes.size(), 4U) << with_image;
+    std::sort(volumes.begin() + 1, volumes.end());
+    EXPECT_GT(volumes[1], (with_image ? 0.5 : 0.7) * 27) << with_image;
+    EXPECT_GT(volumes[2], 0.7 * 80) << with_image;
+    EXPECT_LT(volumes[2], 80) << with_image;
   }
 }
 

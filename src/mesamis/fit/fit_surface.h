@@ -38,7 +38,7 @@ struct FitPoints {
 /// and rounds are added, in which others keep their edges. In the end moves that would still make
 /// the surface meet itself, in the single precision of a file, are taken back. Points on the
 /// image's box stay.
-/// @param surface  smooth, see smooth_surface(); in the image's own axes, mm; closed, or boundaries
+/// @param surface  smooth, see smooth_places(); in the image's own axes, mm; closed, or boundaries
 ///                 of several objects that share edges; without self-intersections.
 /// @param image    in grey values.
 /// @return the same triangles.

@@ -6,42 +6,12 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/fit/boundary_parts.h"
 #include "mesamis/fit/surface_moves.h"
 #include "mesamis/surface/measure.h"
-#include "mesamis/surface/normals.h"
-#include "mesamis/surface/triangle_tree.h"
 
 namespace mesamis::detail::fit {
 namespace {
-
-using Sides = std::span<const std::array<Index, 2>>;
-
-std::size_t material_count(Sides sides) {
-  Index last = 0;
-  for (const auto& pair : sides) last = std::max({last, pair[0], pair[1]});
-  return static_cast<std::size_t>(last) + 1;
-}
-
-/// Adds what a function tells of each triangle to the material behind it, and times `in_front` to
-/// the one in front.
-template <class Function>
-std::vector<double> sums_of_materials(Sides sides, double in_front, Function&& function) {
-  std::vector<double> sums(material_count(sides), 0);
-  for (std::size_t t = 0; t < sides.size(); ++t) {
-    const double value = function(t);
-    if (sides[t][0] >= 0) sums[sides[t][0]] += value;
-    if (sides[t][1] >= 0) sums[sides[t][1]] += in_front * value;
-  }
-  return sums;
-}
-
-/// Of each material, mm^3.
-std::vector<double> volumes_of(const TriMesh& surface, Sides sides) {
-  return sums_of_materials(sides, -1, [&](std::size_t t) {
-    const auto [a, b, c] = corners_of(surface, surface.triangles[t]);
-    return dot(a, cross(b, c)) / 6;
-  });
-}
 
 /// How much each material gains if its boundary moves outwards by a unit times the shares, mm^2.
 std::vector<double> areas_of(const TriMesh& surface, Sides sides,
@@ -53,9 +23,9 @@ std::vector<double> areas_of(const TriMesh& surface, Sides sides,
 }
 
 /// How far points move with their boundary: from 0 on curves to 1 some rings of neighbours away.
-std::vector<double> shares_of_points(const TriMesh& surface, const std::vector<char>& on_curve) {
+std::vector<double> shares_of_points(const Neighbors& neighbors,
+                                     const std::vector<char>& on_curve) {
   constexpr int kRings = 6;
-  const Neighbors neighbors(surface);
   std::vector<double> near(on_curve.begin(), on_curve.end());
   for (int ring = 1; ring < kRings; ++ring) {
     const std::vector<double> around = greatest_around(neighbors, near);
@@ -84,13 +54,14 @@ std::vector<Vec3> keep_volumes(const ObjectBoundaries& boundaries, const VoxelGr
   for (std::size_t t = 0; t < sides.size(); ++t) {
     for (const Index p : now.triangles[t]) sides_of[p] = sides[t];
   }
-  const std::vector<double> share = shares_of_points(now, on_curve);
+  const Neighbors neighbors(now);
+  const std::vector<double> share = shares_of_points(neighbors, on_curve);
   const double most = kMostVoxels * space.voxel();
   std::vector<double> gone(std::min(wanted.size(), material_count(sides)), 0);  // by each boundary
   TriMesh moved = now;
   for (std::size_t p = 0; p < first.size(); ++p) moved.points[p] += first[p];
   for (int round = 0; round < kSteps; ++round) {
-    const std::vector<double> volumes = volumes_of(moved, sides),
+    const std::vector<double> volumes = enclosed_volumes(moved, sides),
                               areas = areas_of(moved, sides, share);
     std::vector<double> step(gone.size(), 0);
     for (std::size_t m = 1; m < step.size(); ++m) {
@@ -100,7 +71,7 @@ std::vector<Vec3> keep_volumes(const ObjectBoundaries& boundaries, const VoxelGr
       gone[m] += step[m];
     }
     const auto of = [&](Index m) { return m > 0 && m < std::ssize(step) ? step[m] : 0.0; };
-    const std::vector<Vec3> normals = vertex_normals(moved);
+    const std::vector<Vec3> normals = smoothed_normals(moved, neighbors, on_curve);
     parallel_for(moved.points.size(), [&](std::size_t p) {
       if (share[p] == 0 || space.on_box(moved.points[p])) return;
       const double distance = of(sides_of[p][0]) - of(sides_of[p][1]);

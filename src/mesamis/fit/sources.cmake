@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
   bending.h
+  boundary_parts.h
   close_tunnels.h
   fit_surface.h
   keep_volumes.h
@@ -10,6 +11,7 @@ set(ROOM_HEADERS
   terraces.h)
 set(ROOM_SOURCES
   bending.cpp
+  boundary_parts.cpp
   close_tunnels.cpp
   fit_surface.cpp
   image_edge.cpp

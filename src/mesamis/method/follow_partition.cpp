@@ -25,6 +25,8 @@ constexpr double kLeastGrey = 10;     // grey values: a contrast that means some
 /// How much firmer labels are smoothed where an image gives back what they lose.
 constexpr double kFirmer = 3;
 
+constexpr double kMuchLost = 0.9;  // of a volume: what is left of it
+
 constexpr int kFairingSweeps = 10;  // pairs of steps of Taubin's filter
 constexpr double kShrink = 0.5, kGrow = -0.53;
 constexpr double kMostFairing = 0.7;  // voxels
@@ -88,6 +90,30 @@ Through through_curves(const VoxelGrid& grid) {
   return is_thick ? Through::kSmoothest : Through::kBoth;
 }
 
+/// Smooth boundaries; parts that would lose much of their volume get it back.
+TriMesh smoothed(const RoughBoundaries& rough, const std::vector<char>& on_curve,
+                 const VoxelGrid& grid, const SmoothingOptions& options) {
+  TriMesh smooth{smooth_places(rough, grid, options), rough.surface.triangles};
+  const BoundaryParts& parts = *rough.parts;
+  std::vector<double> volumes = enclosed_volumes(smooth, parts.sides);
+  for (std::size_t p = 1; p < parts.volumes.size(); ++p) {
+    if (volumes[p] < kMuchLost * parts.volumes[p]) volumes[p] = parts.volumes[p];
+  }
+  const std::vector<Vec3> shifts = keep_volumes({smooth, parts.sides, on_curve, volumes}, grid);
+  parallel_for(shifts.size(), [&](std::size_t p) { smooth.points[p] += shifts[p]; });
+  return moved_to(rough.surface, grid, smooth.points);
+}
+
+/// Boundaries of parts as those of their materials.
+PartitionSurface of_materials(PartitionSurface boundaries, const BoundaryParts& parts) {
+  for (auto& sides : boundaries.sides) {
+    for (Index& side : sides) {
+      if (side > 0) side = parts.material[side];
+    }
+  }
+  return boundaries;
+}
+
 /// Marks the ends of edges amid which a new point is a corner of a pair.
 /// @param whole  of each point of the surface before edges were split.
 /// @return whether there are any.
@@ -111,14 +137,15 @@ bool mark_ends(const SplitBoundaries& split, const std::vector<TrianglePair>& pa
 /// Splits edges where boundaries bend, and moves points; edges stay whole where a new point, once it
 /// is in a file, would make boundaries meet even where it is not moved.
 /// @param shifts_of  the shift of each point of the boundaries that were split.
+/// @return its sides are the parts.
 template <class Shifts>
-PartitionSurface split_and_moved(const TriMesh& surface, const PartitionSurface& partition,
+PartitionSurface split_and_moved(const TriMesh& surface, const BoundaryParts& parts,
                                  const std::vector<char>& on_curve, const VoxelGrid& grid,
                                  Shifts&& shifts_of) {
   const SurfaceSpace space(grid, 1);
   std::vector<char> whole(surface.points.size(), 0);
   while (true) {
-    SplitBoundaries split = split_bends({surface, partition.sides, on_curve, whole}, grid);
+    SplitBoundaries split = split_bends({surface, parts.sides, on_curve, whole}, grid);
     std::vector<Vec3> shifts = shifts_of(split);
     SurfaceMover mover(space, split.surface, Unfolded::kInFile);
     mover.move(split.surface.points, std::move(shifts));
@@ -207,17 +234,21 @@ PartitionSurface follow_image(PartitionSurface partition, const SplineImage& ima
 }
 
 PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& image,
-                                const std::vector<BoundaryGuide>& guides, double reach) {
+                                const BoundaryAims& aims) {
   FitPoints points{{}, curve_points(partition), {}};
   const TriMesh start = taken_from(partition);
-  points.links = sheet_links(start, partition.sides, points.on_curve, through_curves(image.grid));
-  for (const BoundaryGuide& guide : guides) points.contrast.push_back(guide.contrast);
-  SmoothingOptions smoothing = smoothing_of_labels(image.grid);
+  const VoxelGrid& grid = image.grid;
+  points.links = sheet_links(start, partition.sides, points.on_curve, through_curves(grid));
+  for (const BoundaryGuide& guide : aims.guides) points.contrast.push_back(guide.contrast);
+  SmoothingOptions smoothing = smoothing_of_labels(grid);
   smoothing.bending *= kFirmer;
-  const TriMesh smooth = smooth_surface(start, image.grid, points.links, smoothing);
-  const TriMesh fitted = fit_surface(smooth, image, points, {.reach = reach});
-  return split_and_moved(fitted, partition, points.on_curve, image.grid,
-                         [](const SplitBoundaries& split) { return split.shifts; });
+  BoundaryParts parts = parts_of_boundaries(start, partition.sides);
+  parts.scale_to(aims.volumes);
+  const TriMesh smooth = smoothed({start, points.links, &parts}, points.on_curve, grid, smoothing);
+  const TriMesh fitted = fit_surface(smooth, image, points, {.reach = aims.reach});
+  return of_materials(split_and_moved(fitted, parts, points.on_curve, grid,
+                                      [](const SplitBoundaries& split) { return split.shifts; }),
+                      parts);
 }
 
 PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid,
@@ -225,12 +256,16 @@ PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& 
   const std::vector<char> on_curve = curve_points(partition);
   const TriMesh start = taken_from(partition);
   const Links links = sheet_links(start, partition.sides, on_curve, through_curves(grid));
-  const TriMesh smooth = smooth_surface(start, grid, links, smoothing_of_labels(grid));
-  return split_and_moved(smooth, partition, on_curve, grid, [&](const SplitBoundaries& split) {
+  BoundaryParts parts = parts_of_boundaries(start, partition.sides);
+  parts.scale_to(volumes);
+  const TriMesh smooth =
+      smoothed({start, links, &parts}, on_curve, grid, smoothing_of_labels(grid));
+  const auto shifts_of = [&](const SplitBoundaries& split) {
     std::vector<char> curve = on_curve;
     curve.resize(split.surface.points.size(), 0);
-    return keep_volumes({split.surface, split.sides, curve, volumes, split.shifts}, grid);
-  });
+    return keep_volumes({split.surface, split.sides, curve, parts.volumes, split.shifts}, grid);
+  };
+  return of_materials(split_and_moved(smooth, parts, on_curve, grid, shifts_of), parts);
 }
 
 }  // namespace mesamis::detail::method

@@ -56,19 +56,25 @@ PartitionSurface only_chosen(const PartitionSurface& all, const std::vector<char
 PartitionSurface follow_image(PartitionSurface partition, const SplineImage& image,
                               const std::vector<BoundaryGuide>& guides, double noise);
 
+/// What boundaries are fitted to.
+struct BoundaryAims {
+  const std::vector<BoundaryGuide>& guides;  ///< of points
+  std::span<const double> volumes{};         ///< of each material, mm^3, before the image is seen
+  double reach = 0;                          ///< voxels, > 0, see FitOptions
+};
+
 /// Smooths the boundaries of several objects and fits them to an image, with what they share:
-/// smooth_surface(), fit_surface() and split_bends() for a partition.
-/// @param partition, image, guides  as for follow_image(); of a guide its contrast counts.
-/// @param reach  voxels, > 0, see FitOptions.
+/// smooth_places(), fit_surface() and split_bends() for a partition.
+/// @param partition, image, aims  as for follow_image(); of a guide its contrast counts.
 /// @return the same triangles, or parts of them. Cost as fit_surface().
 PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& image,
-                                const std::vector<BoundaryGuide>& guides, double reach);
+                                const BoundaryAims& aims);
 
 /// Smooths the boundaries of several objects, with what they share, and gives each its volume:
-/// smooth_surface(), split_bends() and keep_volumes() for a partition.
+/// smooth_places(), split_bends() and keep_volumes() for a partition.
 /// @param partition  in the grid's own axes, mm; without self-intersections; closed at its box.
 /// @param volumes    of each material, mm^3.
-/// @return the same triangles, or parts of them. Cost as smooth_surface().
+/// @return the same triangles, or parts of them. Cost as moved_to().
 PartitionSurface smooth_boundaries(PartitionSurface partition, const VoxelGrid& grid,
                                    std::span<const double> volumes);
 

@@ -44,7 +44,8 @@ struct LabelRun {
 /// The boundaries of the chosen objects of a layer, which have not been decimated.
 struct LayerBoundaries {
   Index layer = 0;
-  PartitionSurface partition;  ///< world frame, mm; material 0 is whatever is not chosen
+  PartitionSurface partition;     ///< world frame, mm; material 0 is whatever is not chosen
+  std::vector<double> volumes{};  ///< of the voxels of each label, mm^3; empty: they have flowed
   std::vector<LabelBoundary> boundaries{};
   std::optional<Volume> image{};  ///< label_image(), for the mesh
   bool converged = true;

@@ -155,15 +155,17 @@ GridMemberships flowed(const LabelRun& run, const GridMemberships& smooth, const
 }
 
 /// Moves boundaries on to the image.
-PartitionSurface moved_to_image(const LabelRun& run, PartitionSurface partition,
-                                const RunInput& input, const std::vector<BoundaryGuide>& guides) {
-  if (!run.settings.follow) return partition;
+void move_to_image(const LabelRun& run, const RunInput& input,
+                   const std::vector<BoundaryGuide>& guides, LayerBoundaries& found) {
+  if (!run.settings.follow) return;
+  PartitionSurface before = std::move(found.partition);
   if (!run.settings.fit) {
-    return follow_image(std::move(partition), input.image, guides, input.noise);
+    found.partition = follow_image(std::move(before), input.image, guides, input.noise);
+    return;
   }
   double reach = kReachOfFit * run.margin / input.grey.voxel_size();
   if (!run.starts_from_labels(input.grey)) reach = std::min(reach, kReachAfterFlow);
-  return fit_boundaries(std::move(partition), input.image, guides, reach);
+  found.partition = fit_boundaries(std::move(before), input.image, {guides, found.volumes, reach});
 }
 
 /// Boundaries between all labels, in the block's axes: of the labels alone where they start
@@ -181,7 +183,17 @@ LayerBoundaries extract_in_image(const LabelRun& run, Index layer,
   }
   if (run.makes_mesh()) found.image = label_image(memberships, voxels);
   found.partition = extract(run, layer, memberships);
+  if (starts_from_labels) {
+    found.volumes =
+        volumes_of(label_eighths({voxels.size, voxels.spacing, labels}), voxels.spacing);
+  }
   return found;
+}
+
+/// The same, where they were extracted slab by slab.
+LayerBoundaries extracted_beforehand(const LabelRun& run, Index layer) {
+  LayerPartition extracted = run.request.extracted->of_layer(layer);
+  return {layer, std::move(extracted.partition), std::move(extracted.volumes)};
 }
 
 /// Boundaries of the labels, as the image places them.
@@ -196,7 +208,7 @@ LayerBoundaries place_by_image(const LabelRun& run, LayerBoundaries found, const
   found.partition = without_narrow_contacts(run, layer, input.grey, std::move(found.partition));
   auto guides = guides_of_points(found.partition, pairs, input.noise);
   found.partition = only_chosen(found.partition, marks_of(run.chosen, layer), guides);
-  found.partition = moved_to_image(run, std::move(found.partition), input, guides);
+  move_to_image(run, input, guides, found);
   bring_to_world(input.grey, found.partition);
   seconds.surface += watch.lap();
   return found;
@@ -285,7 +297,7 @@ LabelResult with_image(const LabelRun& run, const VolumeView& scan) {
     watch.lap();
     run.begin("flow of the labels");
     LayerBoundaries extracted =
-        on_its_grid ? LayerBoundaries{layer, run.request.extracted->of_layer(layer).partition}
+        on_its_grid ? extracted_beforehand(run, layer)
                     : extract_in_image(run, layer, labels_in(on_scan, layer, block), edges);
     result.seconds.flow += watch.lap();
     layers.push_back(place_by_image(run, std::move(extracted), edges, result.seconds));
