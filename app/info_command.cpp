@@ -17,6 +17,7 @@
 #include "mesamis/image/orientation.h"
 #include "mesamis/label_files/read_labels.h"
 #include "mesamis/shape_files/file_kind.h"
+#include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "mesamis/volume_files/chunked_scan.h"
 #include "mesamis/volume_files/read_volume.h"
@@ -112,6 +113,19 @@ std::string surface_line(const fs::path& path, const ReadLimits& limits) {
        << (check.manifold() ? "2-manifold" : "not 2-manifold") << ", " << check.volume << " mm^3, "
        << check.area << " mm^2, " << box_text(surface.points);
   return line.str();
+}
+
+/// A line for each object of a file of several.
+void print_objects(const fs::path& path, const ReadLimits& limits) {
+  const std::vector<NamedSurface> objects = read_objects(path, limits);
+  if (objects.size() == 1) return;
+  for (const NamedSurface& object : objects) {
+    const SurfaceCheck check = check_surface(object.surface);
+    const std::string flaws = flaws_of(check);
+    std::cout << "  " << one_line(object.name) << "  label " << object.label << ", "
+              << object.surface.triangles.size() << " triangles, " << check.volume << " mm^3, "
+              << (flaws.empty() ? "closed" : flaws) << "\n";
+  }
 }
 
 std::string mesh_line(const fs::path& path, const ReadLimits& limits) {
@@ -220,6 +234,7 @@ int run_info(const InfoCommand& command) {
   switch (command.read.raw ? FileKind::kVolume : kind_of(input)) {
     case FileKind::kSurface:
       std::cout << surface_line(input, command.read.limits) << "\n";
+      print_objects(input, command.read.limits);
       break;
     case FileKind::kMesh:
       std::cout << mesh_line(input, command.read.limits) << "\n";

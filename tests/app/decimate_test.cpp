@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <array>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "mesamis/surface/distance.h"
 #include "support/level_set.h"
@@ -104,6 +108,111 @@ TEST(DecimateCommand, RefusesInOneLineAndWritesNothing) {
   EXPECT_FAILS(decimate("cube.ply", {"--tolerance", "1", "--min-volume", "2"}), 3,
                "expected a part of at least --min-volume");
   EXPECT_FALSE(std::filesystem::exists(folder / "b.stl"));
+}
+
+/// Each triangle cut into four.
+TriMesh finer(const TriMesh& surface) {
+  TriMesh result{surface.points, {}};
+  std::map<std::array<Index, 2>, Index> middles;
+  const auto middle = [&](Index a, Index b) {
+    const auto next = static_cast<Index>(result.points.size());
+    const auto [found, added] = middles.try_emplace({std::min(a, b), std::max(a, b)}, next);
+    if (added) result.points.push_back(0.5 * (surface.points[a] + surface.points[b]));
+    return found->second;
+  };
+  for (const auto& [a, b, c] : surface.triangles) {
+    const Index ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    result.triangles.insert(result.triangles.end(),
+                            {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+  }
+  return result;
+}
+
+/// Two cubes of many triangles, the second on the first: they share a face.
+std::vector<NamedSurface> cubes_on_each_other() {
+  return {{"lower", {10, 20, 30}, 7, finer(finer(cube({0, 0, -2}, 4)))},
+          {"upper", {40, 50, 60}, 3, finer(finer(cube({0, 0, 2}, 4)))}};
+}
+
+std::set<std::array<double, 3>> places(const TriMesh& surface, double z) {
+  std::set<std::array<double, 3>> places;
+  for (const Vec3& p : surface.points) {
+    if (p.z == z) places.insert({p.x, p.y, p.z});
+  }
+  return places;
+}
+
+TEST(DecimateCommand, KeepsEachObjectOfAFileWithWhatItShares) {
+  const TempFolder folder;
+  const std::vector<NamedSurface> objects = cubes_on_each_other();
+  for (const char* from : {"a.3mf", "a.amf", "a.vtp", "a.obj"}) {
+    write_objects(folder / from, objects);
+    for (const char* to : {"b.3mf", "b.amf", "b.vtp", "b.obj"}) {
+      const ProgramRun run =
+          run_program(folder, {"decimate", folder / from, "-o", folder / to, "--tolerance", "0.05",
+                               "--report", folder / "r.json", "--quiet"});
+      EXPECT_EQ(run.status, 0) << run.err;
+      const ObjectFile file = read_object_file(folder / to);
+      const auto report = nlohmann::json::parse(read_bytes(folder / "r.json"))["surfaces"];
+      ASSERT_EQ(file.objects.size(), 2) << from << " " << to;
+      EXPECT_TRUE(file.coloured);
+      for (std::size_t n = 0; n < 2; ++n) {
+        const NamedSurface &before = objects[n], &after = file.objects[n];
+        EXPECT_EQ(after.name, before.name);
+        EXPECT_EQ(after.label, before.label);
+        EXPECT_EQ(after.colour, before.colour);
+        EXPECT_EQ(flaws_of(check_surface(after.surface)), "");
+        EXPECT_LT(after.surface.triangles.size(), before.surface.triangles.size() / 2);
+        EXPECT_LE(max_distance(before.surface, after.surface, 1e-3), 0.05 + 1e-4);
+        EXPECT_LE(max_distance(after.surface, before.surface, 1e-3), 0.05 + 1e-4);
+        EXPECT_EQ(report[n]["name"], before.name);
+        EXPECT_EQ(report[n]["triangles"], after.surface.triangles.size());
+        EXPECT_LE(report[n]["distance_extracted_to_result_max"], 0.05);
+        EXPECT_EQ(report[n]["self_intersections"], 0);
+      }
+      const auto shared = places(file.objects[0].surface, 2);
+      EXPECT_GE(shared.size(), 4);
+      EXPECT_EQ(shared, places(file.objects[1].surface, 2));
+    }
+  }
+}
+
+TEST(DecimateCommand, WritesAFileOfEachObjectWhereAFormatHoldsOne) {
+  const TempFolder folder;
+  write_objects(folder / "a.3mf", cubes_on_each_other());
+  const ProgramRun run = run_program(folder, {"decimate", folder / "a.3mf", "-o", folder / "b.stl",
+                                              "--triangles", "100", "--quiet"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("lower: "));
+  EXPECT_FALSE(std::filesystem::exists(folder / "b.stl"));
+  for (const char* name : {"b-lower.stl", "b-upper.stl"}) {
+    EXPECT_EQ(flaws_of(check_surface(read_surface(folder / name))), "") << name;
+  }
+}
+
+TEST(DecimateCommand, SelectsPartsOfEachObject) {
+  const TempFolder folder;
+  std::vector<NamedSurface> objects = cubes_on_each_other();
+  objects.push_back({"crumb", {1, 2, 3}, 9, cube({20, 0, 0}, 0.1)});
+  write_objects(folder / "a.vtp", objects);
+  const ProgramRun run = run_program(folder, {"decimate", folder / "a.vtp", "-o", folder / "b.vtp",
+                                              "--tolerance", "0.05", "--min-volume", "1"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("crumb: no part of at least --min-volume"));
+  EXPECT_EQ(read_objects(folder / "b.vtp").size(), 2);
+}
+
+TEST(DecimateCommand, TakesOpenPartsOfAClosedSurfaceAsOne) {
+  const TempFolder folder;
+  write_bytes(folder / "a.obj",
+              "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+              "g a\nf 1 3 2\nf 1 2 4\ng b\nf 2 3 4\nf 1 4 3\n");
+  const std::vector<std::string> words{"decimate",       folder / "a.obj", "-o",
+                                       folder / "b.obj", "--tolerance",    "0.2"};
+  const ProgramRun run = run_program(folder, words);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("parts that are not closed, taken as one surface"));
+  EXPECT_EQ(flaws_of(check_surface(read_surface(folder / "b.obj"))), "");
 }
 
 }  // namespace

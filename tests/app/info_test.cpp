@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "mesamis/shape_files/mesh_files.h"
+#include "mesamis/shape_files/object_files.h"
 #include "support/contour_bytes.h"
 #include "support/picture_bytes.h"
 #include "support/run_program.h"
 #include "support/scan_bytes.h"
 #include "support/seg_bytes.h"
+#include "support/shapes.h"
 #include "support/test_data.h"
 
 namespace mesamis {
@@ -225,6 +227,19 @@ TEST(Info, DescribesAMeshAndItsArrays) {
   const ProgramRun run = run_program(folder, {"info", folder / "m.vtu"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("6 tetrahedra, 8 vertices, 2 x 3 x 4 mm, arrays u"));
+}
+
+TEST(Info, ListsTheObjectsOfASurfaceFile) {
+  const TempFolder folder;
+  write_objects(folder / "a.3mf", std::vector<NamedSurface>{{"hip", {}, 7, cube()},
+                                                            {"femur", {}, 3, cube({5, 0, 0}, 2)}});
+  const ProgramRun run = run_program(folder, {"info", folder / "a.3mf"});
+  EXPECT_THAT(run.out, HasSubstr("surface  24 triangles"));
+  EXPECT_THAT(run.out, HasSubstr("\n  hip  label 7, 12 triangles, 1 mm^3, closed\n"
+                                 "  femur  label 3, 12 triangles, 8 mm^3, closed\n"));
+  write_surface(folder / "b.stl", cube());
+  const std::string one = run_program(folder, {"info", folder / "b.stl"}).out;
+  EXPECT_EQ(std::count(one.begin(), one.end(), '\n'), 1);
 }
 
 TEST(Info, RefusesWhatIsNotThereOrNothingKnown) {

@@ -13,6 +13,7 @@ set(ROOM_HEADERS
   round_to_single.h
   round_together.h
   simplify.h
+  simplify_objects.h
   single_places.h)
 set(ROOM_SOURCES
   collapse.cpp
@@ -36,4 +37,5 @@ set(ROOM_SOURCES
   refit.cpp
   round_to_single.cpp
   simplify.cpp
+  simplify_objects.cpp
   NEXT decimate_pass.cpp)
