@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "commands.h"
@@ -128,13 +129,25 @@ Paths listed_files(const ReportCommand& command, const json& report, FileKind ki
   return found;
 }
 
+/// Files that the user names must be some of those that the run wrote.
+void require_listed(const Paths& paths, const json& report) {
+  std::set<std::string> sums;
+  for (const json& file : entries(report, "/files")) sums.insert(text_at(file, "/sha256"));
+  for (const fs::path& path : paths) {
+    if (sums.count(sha256(path)) > 0) continue;
+    throw InputError(path.string() +
+                     ": expected a file of the run, found another one: the report lists no file "
+                     "of its sha256");
+  }
+}
+
 /// A surface of the run, with the error expected at its points where its file has it.
 struct ReadSurface {
   NamedSurface named;
   std::vector<double> error;
 };
 
-/// Of the one surface of a file; empty where it has none.
+/// Of the one surface of a file; empty where the file has none.
 std::vector<double> read_error(const fs::path& path, const ReadLimits& limits) {
   if (!carries_arrays(path)) return {};
   try {
@@ -156,9 +169,10 @@ std::vector<ReadSurface> read_surfaces(const ReportCommand& command, const json&
       one.error = read_error(path, command.read.limits);
       break;
     }
-    for (NamedSurface& s : in_lps(read_object_file(path, command.read.limits))) {
-      surfaces.push_back({std::move(s), {}});
-    }
+    std::vector<NamedSurface> objects = in_lps(read_object_file(path, command.read.limits));
+    const bool alone = objects.size() == 1;
+    for (NamedSurface& s : objects) surfaces.push_back({std::move(s), {}});
+    if (alone) surfaces.back().error = read_error(path, command.read.limits);
   }
   return surfaces;
 }
@@ -211,6 +225,8 @@ int run_report(const ReportCommand& command) {
   inputs.insert(inputs.end(), command.surfaces.begin(), command.surfaces.end());
   require_distinct_files(page_outputs(command.page), inputs);
   const json report = read_report(command.report);
+  require_listed(command.surfaces, report);
+  if (!command.mesh.empty()) require_listed({command.mesh}, report);
   const fs::path scan_file =
       command.scan.empty() ? found_file(command, text_at(report, "/input/path")) : command.scan;
   const auto scan = read_shown_scan({scan_file, command.read, text_at(report, "/input/sha256")});

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <regex>
 
+#include "mesamis/label_files/read_labels.h"
+#include "mesamis/label_files/write_labels.h"
 #include "support/external_program.h"
 #include "support/png_pixels.h"
 #include "support/run_program.h"
@@ -154,6 +156,42 @@ TEST_F(ReportPageTest, ShowsObjectsInTheirColours) {
   EXPECT_EQ(value_of(page, "/object/surfaces/0/triangles"),
             facts["object"]["surfaces"][0]["triangles"].dump());
   EXPECT_TRUE(holds(page, "labelled objects"));
+}
+
+TEST_F(ReportPageTest, OfLabelsIsMadeAgainToTheByteToo) {
+  LabelFile file = read_label_map(at("labels.nrrd"), {});
+  LabelMap& map = file.map;
+  for (std::size_t n = 0; n < map.layers[0].size(); ++n) {
+    const bool right = n % static_cast<std::size_t>(map.size[0]) > 11;
+    if (map.layers[0][n] != 0 && right) map.layers[0][n] = 2;
+  }
+  map.segments.push_back({"right", 2, 0, {200, 100, 50}});
+  write_label_map(at("two.nrrd"), map);
+  const ProgramRun made = run_program(
+      *folder_, {"segment", at("scan.nrrd"), "--labels", at("two.nrrd"), "-o", at("two.ply"),
+                 "--error", "--report", at("two.json"), "--html", at("two.html")});
+  EXPECT_EQ(made.status, 0) << made.err;
+  const ProgramRun run =
+      run_program(*folder_, {"report", at("two.json"), "--html", at("again.html")});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(read_bytes(at("again.html")) == read_bytes(at("two.html")));
+}
+
+TEST_F(ReportPageTest, RefusesShapesThatTheUserNamesButTheRunDidNotWrite) {
+  fs::create_directory(at("theirs"));
+  for (const char* name : {"a.ply", "a.vtu"}) {
+    const std::string option = std::string(name) == "a.ply" ? "--surface" : "--mesh";
+    const auto page_with = [&](const std::string& file) {
+      return run_program(*folder_,
+                         {"report", at("a.json"), "--html", at("named.html"), option, file});
+    };
+    EXPECT_EQ(page_with(at(name)).status, 0);
+    fs::remove(at("named.html"));
+    const std::string other = at(std::string("theirs/") + name);
+    write_bytes(other, read_bytes(at(name)) + " ");
+    EXPECT_FAILS(page_with(other), 3, "expected a file of the run, found another one");
+    EXPECT_FALSE(fs::exists(at("named.html")));
+  }
 }
 
 /// Starts a browser without a window on a page.
