@@ -19,6 +19,7 @@
 #include "mesamis/report/json_file.h"
 #include "mesamis/report/label_surface_files.h"
 #include "mesamis/report/report.h"
+#include "mesamis/run/outcome_details.h"
 #include "mesamis/shape_files/object_files.h"
 #include "mesamis/surface/select_parts.h"
 #include "mesamis/surface/self_intersections.h"
@@ -200,6 +201,17 @@ std::size_t triangles_of(const std::vector<NamedSurface>& objects) {
   return triangles;
 }
 
+/// Warns where there are more triangles than were asked for.
+void warn_of_triangles(const DecimateCommand& command, const std::vector<NamedSurface>& objects) {
+  std::vector<FoundObject> found;
+  found.reserve(objects.size());
+  for (const NamedSurface& object : objects) found.push_back({object.surface, {}});
+  const auto triangles = static_cast<std::int64_t>(triangles_of(objects)) - shared_triangles(found);
+  const std::string line =
+      triangles_unmet(command.triangles.value_or(0), triangles, command.most());
+  if (!line.empty()) log_warning(line);
+}
+
 void print_line(const NamedSurface& object, std::size_t before, const PrintableReport& report) {
   std::cout << object.surface.triangles.size() << " of " << before << " triangles, at most "
             << report.extracted_to_result << " mm there and " << report.result_to_extracted
@@ -244,6 +256,7 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
       print_line(objects[n], static_cast<std::size_t>(reports[n].triangles_extracted), reports[n]);
     }
   }
+  warn_of_triangles(command, objects);
   return judge(command, objects, reports);
 }
 

@@ -13,10 +13,15 @@
 namespace mesamis {
 namespace {
 
-std::string plural(std::int64_t count, const std::string& what) {
+/// "105 158"
+std::string grouped(std::int64_t count) {
   std::string digits = std::to_string(count);
   for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, " ");
-  return digits + " " + what + (count == 1 ? "" : "s");
+  return digits;
+}
+
+std::string plural(std::int64_t count, const std::string& what) {
+  return grouped(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 /// "0.30 mm"
@@ -79,7 +84,8 @@ std::string whole_size(const RunFigures& run) {
 std::string surface_text(const RunFigures& run) {
   std::int64_t triangles = 0;
   for (const ObjectFigures& object : run.objects) triangles += object.triangles;
-  const std::string text = plural(triangles, "triangle");
+  std::string text = plural(triangles, "triangle");
+  if (run.shared > 0) text += " (" + grouped(run.shared) + " that two objects share count twice)";
   if (!run.level) return text;
   const std::string level =
       text + fmt::format(", level {} {}", significant_text(*run.level, 4), run.unit);
@@ -145,7 +151,10 @@ RunFigures figures_of(const OutcomeDetails& outcome) {
   }
   if (!points.empty()) figures.size = bounding_box(points).extent();
   if (area > 0) figures.expected_error = error / area;
-  if (objects.size() > 1) figures.largest_error.reset();
+  if (objects.size() > 1) {
+    figures.largest_error.reset();
+    figures.shared = shared_triangles(objects);
+  }
   if (outcome.one) name_object(outcome, figures);
   return figures;
 }

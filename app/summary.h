@@ -24,6 +24,7 @@ struct ObjectFigures {
 /// What came out of a run, for people.
 struct RunFigures {
   std::vector<ObjectFigures> objects;
+  std::int64_t shared = 0;      ///< triangles that two objects have
   std::optional<double> level;  ///< native units
   /// Of most places, native units; where these differ.
   std::optional<std::array<double, 2>> level_range{};

@@ -17,6 +17,7 @@ namespace mesamis {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// A ball of radius 8 mm, far from the origin, with a hollow in it and a crumb beside it.
 TriMesh hollow_ball_and_crumb() {
@@ -188,6 +189,24 @@ TEST(DecimateCommand, WritesAFileOfEachObjectWhereAFormatHoldsOne) {
   for (const char* name : {"b-lower.stl", "b-upper.stl"}) {
     EXPECT_EQ(flaws_of(check_surface(read_surface(folder / name))), "") << name;
   }
+}
+
+TEST(DecimateCommand, SaysThatTheToleranceCameBeforeTheTriangles) {
+  const TempFolder folder;
+  write_surface(folder / "a.ply", hollow_ball_and_crumb());
+  write_objects(folder / "a.vtp", cubes_on_each_other());
+  const auto decimate = [&](const char* from, const char* triangles, const char* tolerance) {
+    return run_program(folder, {"decimate", folder / from, "-o", folder / "b.vtp", "--triangles",
+                                triangles, "--tolerance", tolerance});
+  };
+  const ProgramRun stopped = decimate("a.ply", "500", "0.01");
+  EXPECT_EQ(stopped.status, 0);
+  EXPECT_THAT(stopped.err, HasSubstr("triangles: expected 500 at most, found "));
+  EXPECT_THAT(stopped.err, HasSubstr(": the tolerance of 0.01 mm was reached first"));
+  EXPECT_THAT(decimate("a.ply", "500", "5").err, Not(HasSubstr("triangles:")));
+  // Two cubes of 12 triangles, two of them shared.
+  EXPECT_THAT(decimate("a.vtp", "22", "0.01").err, Not(HasSubstr("triangles:")));
+  EXPECT_THAT(decimate("a.vtp", "10", "0.01").err, HasSubstr("expected 10 at most, found 22: "));
 }
 
 TEST(DecimateCommand, SelectsPartsOfEachObject) {

@@ -53,7 +53,11 @@ TEST(Summary, HasALineForEachOfSeveralObjects) {
   EXPECT_EQ(lines[1],
             "object   hip: 12 000 triangles, 10.0 x 20.0 x 30.0 mm, 5.00 cm³, not closed");
   EXPECT_EQ(lines[2], "size     320 x 219 x 98.4 mm, 808 cm³");
-  EXPECT_THAT(lines[3], StartsWith("surface  117 158 triangles"));
+  EXPECT_THAT(lines[3], StartsWith("surface  117 158 triangles, level"));
+  run.shared = 1200;
+  EXPECT_THAT(
+      summary_lines(run)[3],
+      StartsWith("surface  117 158 triangles (1 200 that two objects share count twice), "));
 }
 
 TEST(Summary, OfManyObjectsShowsThoseThatAreNotClosedAndCountsTheRest) {

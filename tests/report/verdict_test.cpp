@@ -47,6 +47,16 @@ TEST(Verdict, AnUnmetToleranceCountsForSolidsAlone) {
   EXPECT_EQ(far.verdict().kind, VerdictKind::kKept);
 }
 
+TEST(Verdict, MoreTrianglesThanAskedForHaveAReason) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(triangles_unmet(0, 500, 0.1), "");
+  EXPECT_EQ(triangles_unmet(500, 500, 0.1), "");
+  EXPECT_EQ(
+      triangles_unmet(500, 502, 0.1),
+      "triangles: expected 500 at most, found 502: the tolerance of 0.1 mm was reached first");
+  EXPECT_THAT(triangles_unmet(4, 8, kNone), testing::HasSubstr("triangles would intersect"));
+}
+
 TEST(Verdict, ARunThatWasStoppedSaysWhere) {
   Case stopped;
   stopped.result.stopped = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/report/verdict.h"
 
+#include <cmath>
 #include <sstream>
 
 #include "mesamis/method/expected_error.h"
@@ -78,6 +79,18 @@ std::string tolerance_unmet(double tolerance, const PrintableReport& printable) 
   line << "tolerance: expected distances of " << tolerance << " mm at most, found "
        << printable.extracted_to_result << " and " << printable.result_to_extracted
        << ": single precision is too coarse so far from the origin";
+  return line.str();
+}
+
+std::string triangles_unmet(std::int64_t asked, std::int64_t found, double tolerance) {
+  if (asked == 0 || found <= asked) return {};
+  std::ostringstream line;
+  line << "triangles: expected " << asked << " at most, found " << found << ": ";
+  if (std::isinf(tolerance)) {
+    line << "with fewer, triangles would intersect or parts be lost";
+  } else {
+    line << "the tolerance of " << tolerance << " mm was reached first";
+  }
   return line.str();
 }
 

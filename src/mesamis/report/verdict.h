@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "mesamis/method/mes_amis.h"
@@ -28,5 +29,10 @@ Verdict judge(const Result& result, const SurfaceCheck& check);
 /// Why a surface is farther from the extracted one than it should be, on one line.
 /// @param tolerance  mm.
 std::string tolerance_unmet(double tolerance, const PrintableReport& printable);
+
+/// Why decimation stopped at more triangles than were asked for, on one line; empty: it did not.
+/// @param asked      triangles, those that two objects share once; 0: no number was.
+/// @param tolerance  mm; infinite: none.
+std::string triangles_unmet(std::int64_t asked, std::int64_t found, double tolerance);
 
 }  // namespace mesamis::detail::report

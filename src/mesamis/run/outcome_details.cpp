@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/run/outcome_details.h"
 
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include <utility>
 
 #include "mesamis/method/chosen_run.h"
@@ -80,6 +83,34 @@ const Result* OutcomeDetails::mesh() const {
 
 const std::vector<double>& OutcomeDetails::expected_error(std::size_t n) const {
   return one ? one->expected_error : several->objects[n].expected_error;
+}
+
+std::int64_t shared_triangles(std::span<const FoundObject> objects) {
+  using Corner = std::array<double, 3>;
+  std::vector<std::array<Corner, 3>> all;
+  for (const FoundObject& object : objects) {
+    const auto& [points, triangles] = object.surface;
+    for (const Triangle& t : triangles) {
+      std::array<Corner, 3>& corners = all.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3& p = points[t[i]];
+        corners[i] = {p.x, p.y, p.z};
+      }
+      std::sort(corners.begin(), corners.end());
+    }
+  }
+  std::sort(all.begin(), all.end());
+  return std::distance(std::unique(all.begin(), all.end()), all.end());
+}
+
+std::vector<std::string> triangle_warnings(const OutcomeDetails& outcome) {
+  const Parameters& p = outcome.parameters();
+  if (p.triangles == 0 || p.surface != SurfaceKind::kSolid || !p.tolerance) return {};
+  const std::vector<FoundObject> objects = outcome.objects();
+  std::int64_t found = -shared_triangles(objects);
+  for (const FoundObject& object : objects) found += std::ssize(object.surface.triangles);
+  std::string line = triangles_unmet(p.triangles, found, *p.tolerance);
+  return line.empty() ? std::vector<std::string>{} : std::vector{std::move(line)};
 }
 
 void judge_surfaces(OutcomeDetails& outcome) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -59,6 +60,13 @@ void tell(const std::function<void(const std::string&)>& hear,
 /// @param outcome  learns grid, object, object_asked and in_place.
 /// @throws InputError  as choose_object(). Cost as there.
 void choose_image(Request& request, const Listener& listener, OutcomeDetails& outcome);
+
+/// Counts the triangles that two of the objects share. O(n log n) for n triangles.
+std::int64_t shared_triangles(std::span<const FoundObject> objects);
+
+/// Says where the surfaces have more triangles than were asked for.
+/// @return one line, or none.
+std::vector<std::string> triangle_warnings(const OutcomeDetails& outcome);
 
 /// Checks the surfaces of the objects that were found, and judges them.
 void judge_surfaces(OutcomeDetails& outcome);

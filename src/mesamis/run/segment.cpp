@@ -21,6 +21,12 @@ void require_scan_where_needed(const Request& request) {
   }
 }
 
+void add_warnings(const Listener& listener, OutcomeDetails& outcome,
+                  const std::vector<std::string>& lines) {
+  outcome.warnings.insert(outcome.warnings.end(), lines.begin(), lines.end());
+  tell(listener.warning, lines);
+}
+
 void run_one(const Request& request, const Listener& listener, OutcomeDetails& outcome) {
   outcome.wanted = {one_object()};
   const ObjectInPlace object{*outcome.object, outcome.image()};
@@ -41,8 +47,7 @@ void run_several(const Request& request, const LabelChoice& choice, const Listen
                         ? run_on_labels(ObjectInPlace{*outcome.object, outcome.image()}, labels,
                                         request.settings, listener.progress)
                         : surfaces_of_labels(labels, request.settings, listener.progress);
-  outcome.warnings = missing_objects(*outcome.several, outcome.wanted);
-  tell(listener.warning, outcome.warnings);
+  add_warnings(listener, outcome, missing_objects(*outcome.several, outcome.wanted));
 }
 
 /// The surface of elements in the place of the one that they were made for, with its errors.
@@ -75,8 +80,8 @@ void fill(const Request& request, const Progress& progress, OutcomeDetails& outc
 /// Warns where a surface may show something else than what was meant.
 void warn_of_surface(const Listener& listener, OutcomeDetails& outcome) {
   if (!outcome.one || outcome.parameters().surface != SurfaceKind::kSolid) return;
-  outcome.warnings = surface_warnings(*outcome.object, outcome.image(), outcome.parameters().level);
-  tell(listener.warning, outcome.warnings);
+  add_warnings(listener, outcome,
+               surface_warnings(*outcome.object, outcome.image(), outcome.parameters().level));
 }
 
 }  // namespace
@@ -97,6 +102,7 @@ Outcome segment(Request request, const Listener& listener) {
   } else {
     run_one(request, listener, outcome);
   }
+  add_warnings(listener, outcome, triangle_warnings(outcome));
   fill(request, listener.progress, outcome);
   warn_of_surface(listener, outcome);
   judge_surfaces(outcome);

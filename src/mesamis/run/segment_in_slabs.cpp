@@ -60,6 +60,10 @@ std::string of_one_level(const VoxelGrid& grid, const SlabRunOptions& options) {
          ": one level for all places (take a crop, or every n-th voxel)";
 }
 
+void add_triangle_warnings(OutcomeDetails& outcome) {
+  for (std::string& line : triangle_warnings(outcome)) outcome.warnings.push_back(std::move(line));
+}
+
 OutcomeDetails outcome_of(const SlabRequest& request, SlabRunResult& work) {
   OutcomeDetails outcome;
   outcome.asked = request.settings;
@@ -68,6 +72,7 @@ OutcomeDetails outcome_of(const SlabRequest& request, SlabRunResult& work) {
   outcome.grey = std::move(work.grey);
   outcome.wanted = {one_object()};
   if (work.is_too_large) outcome.warnings.push_back(of_one_level(outcome.grid, request.slabs));
+  add_triangle_warnings(outcome);
   judge_surfaces(outcome);
   return outcome;
 }
@@ -116,6 +121,7 @@ std::optional<LabelSlabOutcome> segment_labels_in_slabs(const LabelSlabRun& run,
   outcome.several = std::move(work->result);
   outcome.wanted = work->chosen;
   outcome.warnings = missing_objects(*outcome.several, outcome.wanted);
+  add_triangle_warnings(outcome);
   judge_surfaces(outcome);
   return LabelSlabOutcome{Outcome(std::move(outcome)), *std::move(work), std::move(scan)};
 }
