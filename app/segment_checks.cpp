@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "arguments.h"
+#include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/report/label_surface_files.h"
@@ -195,6 +196,24 @@ void require_layers(const SegmentOptions& options, const std::vector<Segment>& w
   }
 }
 
+/// Objects that share boundaries are solids, and each boundary has a level of its own.
+void require_settings_of_objects(const SegmentOptions& options) {
+  const ScanArguments& scan = options.scan;
+  const bool labels = scan.labels.given();
+  for (const auto& [name, text, option] : options.settings.overrides) {
+    if (name == "surface" && text == "band" && (labels || scan.places.seeds.size() > 1)) {
+      throw CLI::ValidationError(option, "expected solid for several objects, found band");
+    }
+    if (name != "level" || !labels || text == "local" || text == "auto") continue;
+    if (scan.input.empty()) {
+      throw CLI::ValidationError(option, "expected a scan beside the labels, found none");
+    }
+    log_warning(option +
+                ": each boundary of labels has its own level; this one only measures the "
+                "scan's edges and guides the mesh");
+  }
+}
+
 /// A list takes all words up to the next option, the scan with them.
 void require_input_before_list(const ScanArguments& scan) {
   if (!scan.input.empty() || scan.labels.chosen.empty()) return;
@@ -210,6 +229,7 @@ void require_segment(const SegmentOptions& options, const Settings& settings) {
   require_input_before_list(options.scan);
   if (!options.plan) require_outputs(options);
   require_places(options, settings);
+  require_settings_of_objects(options);
   require_mesh_for(options, settings);
   require_body_for(options, settings);
   if (options.time_limit && options.scan.labels.given()) {

@@ -208,6 +208,17 @@ TEST_F(SegmentLabels, TheMeshHasALabelPerCell) {
   }
 }
 
+TEST_F(SegmentLabels, SaysThatALevelPlacesNoBoundary) {
+  const auto run_with = [&](const std::string& level) {
+    return run_program(folder, {"segment", folder / "balls.nrrd", "--labels",
+                                folder / "labels.nrrd", "-o", folder / "a.vtp", "--level", level});
+  };
+  const ProgramRun run = run_with("150");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("--level: each boundary of labels has its own level"));
+  EXPECT_THAT(run_with("local").err, testing::Not(HasSubstr("--level")));
+}
+
 TEST_F(SegmentLabels, RefusesInOneLine) {
   EXPECT_FAILS(segment({"--mesh", folder / "a.vtu"}), 2, "--mesh: expected a scan");
   const auto expect_refused = [&](std::vector<std::string> more, int status, const char* what) {
@@ -223,6 +234,8 @@ TEST_F(SegmentLabels, RefusesInOneLine) {
   expect_refused({"-o", out, "--modality", "MR"}, 2, "--modality");
   expect_refused({"-o", out, "--label", "1", scan}, 2, "the scan goes before --label");
   expect_refused({scan, "-o", out, "--mesh", folder / "x.vtu", "--preview"}, 2, "--preview");
+  expect_refused({scan, "-o", out, "--surface", "band"}, 2, "--surface: expected solid");
+  expect_refused({"-o", out, "--level", "150"}, 2, "--level: expected a scan");
   expect_refused({scan, "-o", out, "--error"}, 2, "--error");
   expect_refused({scan, "--labelmap", folder / "x.gz"}, 2, "--labelmap");
   expect_refused({scan, "-o", out, "--margin", "nan"}, 2, "margin");
