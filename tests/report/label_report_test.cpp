@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+
+#include "mesamis/report/report.h"
 
 namespace mesamis {
 namespace {
@@ -43,7 +46,7 @@ std::vector<SurfaceCheck> checks_of(const LabelResult& result) {
 
 TEST(LabelReport, ListsObjectsAndBoundaries) {
   const LabelResult result = two_objects();
-  const auto report = label_run_json(result, checks_of(result));
+  const auto report = label_run_json({}, result, checks_of(result));
   const auto& object = report["object"];
   EXPECT_EQ(object["margin_mm"], 2.5);
   ASSERT_EQ(object["surfaces"].size(), 2U);
@@ -60,10 +63,60 @@ TEST(LabelReport, ListsObjectsAndBoundaries) {
   EXPECT_TRUE(report.contains("quality"));
 }
 
+/// All that a report of one object has of its surface, but for its level and parts.
+TEST(LabelReport, HasTheFieldsOfASurfaceForEachObject) {
+  LabelResult result = two_objects();
+  result.decimated = 0.08;
+  result.objects[1].surface.triangles.push_back(kTetrahedron.triangles.back());
+  const auto report = label_run_json({}, result, checks_of(result));
+  Result one;
+  one.parameters.tolerance = 0.1;
+  one.surface = kTetrahedron;
+  one.expected_error = {0.1, 0.1, 0.1, 0.1};
+  one.iterations.resize(1);
+  const auto of_one = run_json({}, one, check_surface(kTetrahedron));
+  for (const auto& surface : report["object"]["surfaces"]) {
+    for (const auto& [field, value] : of_one["surface"].items()) {
+      if (field == "level_native" || field == "level_grey" || field == "parts") continue;
+      EXPECT_TRUE(surface.contains(field)) << field;
+    }
+    EXPECT_EQ(surface["kind"], "solid");
+    EXPECT_EQ(surface["tolerance_mm"], 0.1);
+    EXPECT_EQ(surface["distance_extracted_to_result_max"], 0.08);
+    EXPECT_EQ(surface["distance_result_to_extracted_max"], 0.08);
+    EXPECT_EQ(surface["self_intersections"], 0);
+  }
+  result.parameters.tolerance = std::numeric_limits<double>::infinity();
+  const auto unbounded = label_run_json({}, result, checks_of(result));
+  EXPECT_TRUE(unbounded["object"]["surfaces"][0]["tolerance_mm"].is_null());
+  EXPECT_TRUE(unbounded["object"]["surfaces"][0]["distance_result_to_extracted_max"].is_null());
+}
+
+TEST(LabelReport, TellsOfSettingsAsThatOfOneObjectDoes) {
+  const LabelResult result = two_objects();
+  Settings asked;
+  asked.tolerance = 0.1;
+  const auto report = label_run_json(asked, result, checks_of(result));
+  EXPECT_EQ(report["given"], nlohmann::ordered_json({"tolerance"}));
+  EXPECT_EQ(report["chosen"]["tolerance"]["source"], "given");
+  EXPECT_EQ(report["chosen"]["noise"]["source"], "measured");
+  EXPECT_FALSE(report["chosen"].contains("level"));
+  EXPECT_TRUE(report["grey"].contains("window_native"));
+}
+
+TEST(LabelReport, HasNoLevelOfABoundaryThatLabelsPlaced) {
+  const LabelResult result = two_objects();
+  const auto boundaries = label_run_json({}, result, checks_of(result))["object"]["boundaries"];
+  EXPECT_EQ(boundaries[0]["level_native"], 150);
+  EXPECT_EQ(boundaries[0]["contrast_native"], -300);
+  EXPECT_FALSE(boundaries[1].contains("level_native"));
+  EXPECT_FALSE(boundaries[1].contains("contrast_native"));
+}
+
 TEST(LabelReport, OfLabelsAloneSaysNothingOfAnImage) {
   LabelResult result = two_objects();
   result.has_image = false;
-  const auto report = label_run_json(result, checks_of(result));
+  const auto report = label_run_json({}, result, checks_of(result));
   EXPECT_TRUE(report["object"]["margin_mm"].is_null());
   EXPECT_FALSE(report.contains("quality"));
   EXPECT_FALSE(report.contains("settings"));

@@ -9,13 +9,14 @@
 
 namespace mesamis::detail::report {
 
-/// What a report says of a run on labels: settings, object (its labels, margin, surfaces,
-/// boundaries), quality, seconds_parts; docs/formats.md lists the keys.
+/// What a report says of a run on labels: settings, chosen, given, grey, object (its labels, margin,
+/// surfaces, boundaries), quality, seconds_parts; docs/formats.md lists the keys.
+/// @param asked   the settings the run was started with.
 /// @param result  of find_labelled_objects() or surfaces_of_labels().
 /// @param checks  of the surfaces of its objects, in their order.
 ///
 /// O(points and triangles), up to a logarithm.
-nlohmann::ordered_json label_run_json(const LabelResult& result,
+nlohmann::ordered_json label_run_json(const Settings& asked, const LabelResult& result,
                                       std::span<const SurfaceCheck> checks);
 
 /// Judges the surfaces of objects: each must be closed, 2-manifold and face outward.

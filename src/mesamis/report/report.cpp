@@ -254,6 +254,16 @@ ordered_json check_json(const TriMesh& surface, const SurfaceCheck& check) {
                     static_cast<std::int64_t>(surface.points.size()), check);
 }
 
+ordered_json settings_used_json(const Settings& asked, const Parameters& used,
+                                const MeasuredImage& image) {
+  ordered_json report;
+  report["settings"] = to_json(settings_of(used));
+  report["chosen"] = chosen_json(asked, report["settings"], image);
+  report["given"] = given_json(asked);
+  report["grey"] = grey_json(used);
+  return report;
+}
+
 ordered_json run_json(const Settings& asked, const Result& result, const SurfaceCheck& surface) {
   return run_json(asked, summarize(result, surface));
 }
@@ -270,11 +280,7 @@ ordered_json loop_json(const RunSummary& run) {
 }
 
 ordered_json run_json(const Settings& asked, const RunSummary& run) {
-  ordered_json report;
-  report["settings"] = to_json(settings_of(run.parameters));
-  report["chosen"] = chosen_json(asked, report["settings"], run.image);
-  report["given"] = given_json(asked);
-  report["grey"] = grey_json(run.parameters);
+  ordered_json report = settings_used_json(asked, run.parameters, run.image);
   report["quality"] = quality_json(run);
   report.update(loop_json(run));
   report["surface"] = surface_json(run);

@@ -69,6 +69,11 @@ nlohmann::ordered_json files_json(const OutputSet& set);
 /// @param tolerance  mm; infinite where there was no bound.
 nlohmann::ordered_json printable_json(const PrintableReport& printable, double tolerance);
 
+/// What a report says of settings: settings, chosen, given, grey.
+/// @param asked  the settings the run was started with, to tell what was chosen.
+nlohmann::ordered_json settings_used_json(const Settings& asked, const Parameters& used,
+                                          const MeasuredImage& image);
+
 /// What was found out about a scan: noise, blur, contrast, as docs/formats.md lists them.
 nlohmann::ordered_json image_json(const Parameters& parameters, const MeasuredImage& image);
 

@@ -66,8 +66,8 @@ void write_meshes(const OutcomeDetails& o, const RunFiles& w, const std::optiona
 
 /// What the report says of the method and of the elements.
 ordered_json found_json(const OutcomeDetails& o) {
-  ordered_json found =
-      o.one ? run_json(o.asked, *o.one, o.checks.front()) : label_run_json(*o.several, o.checks);
+  ordered_json found = o.one ? run_json(o.asked, *o.one, o.checks.front())
+                             : label_run_json(o.asked, *o.several, o.checks);
   if (o.elements.body) found["body"] = body_json(*o.elements.body);
   const auto& quality = o.elements.quality;
   for (std::size_t n = 0; n < quality.size(); ++n) {
