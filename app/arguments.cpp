@@ -2,6 +2,7 @@
 #include "arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -41,6 +42,11 @@ void refuse_usage(const std::string& message) { throw CLI::ValidationError(messa
 
 void refuse_usage(const std::string& option, const std::string& message) {
   throw CLI::ValidationError(option, message);
+}
+
+std::string without_subject(const std::string& message, const std::string& option) {
+  const std::string subject = option.substr(std::min(option.size(), std::size_t{2})) + ": ";
+  return message.starts_with(subject) ? message.substr(subject.size()) : message;
 }
 
 bool parse_number(const std::string& text, double& value) {

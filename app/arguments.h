@@ -44,6 +44,9 @@ auto as_usage(const Check& check) {
   }
 }
 
+/// A message without the subject that is the option's own name: "box: expected ..." of "--box".
+std::string without_subject(const std::string& message, const std::string& option);
+
 /// Parses the value of an option. A value that is written wrongly is an error of usage that names
 /// its option.
 /// @throws CLI::ValidationError  with the message of the InputError.
@@ -52,7 +55,7 @@ auto parsed(const std::string& option, const Parse& parse) {
   try {
     return parse();
   } catch (const InputError& error) {
-    refuse_usage(option, error.what());
+    refuse_usage(option, without_subject(error.what(), option));
   }
 }
 

@@ -178,7 +178,7 @@ void bind_run(py::module_& module) {
       .def_property_readonly("flaw", [](const Run& r) { return r.details().verdict.message; })
       .def("require_surface",
            [](const Run& r) {
-             if (r.details().one) require_surface(*r.details().one);
+             if (r.details().one) require_surface(*r.details().one, r.details().asked);
            })
       .def("report",
            [](const Run& r) {

@@ -40,6 +40,19 @@ TEST(Arguments, UsageErrorsAreOneLineAndStatusTwo) {
   EXPECT_FAILS(run_program(folder, {"remesh", "a.mesh", "-o", "b.mesh"}), 2, "--metric");
 }
 
+TEST(Arguments, ErrorsOfAnOptionNameItOnce) {
+  const TempFolder folder;
+  for (const char* option : {"--box", "--tissue", "--padding", "--crop", "--window"}) {
+    const ProgramRun run =
+        run_program(folder, {"segment", "a.nrrd", "-o", "a.stl", option, "nonsense"});
+    EXPECT_EQ(run.status, 2) << option;
+    EXPECT_THAT(run.err, testing::HasSubstr(std::string(option) + ": expected ")) << run.err;
+  }
+  const ProgramRun set =
+      run_program(folder, {"segment", "a.nrrd", "--body", "a.inp", "--set", "x"});
+  EXPECT_THAT(set.err, testing::HasSubstr("--set: expected ")) << set.err;
+}
+
 TEST(Arguments, CommonOptionsMayStandBeforeOrAfterTheCommand) {
   const TempFolder folder;
   const std::string none = folder / "none.nii";

@@ -169,7 +169,7 @@ TEST_F(SegmentBody, RefusesInOneLineBeforeItReads) {
   EXPECT_FAILS(
       segment("a.inp", {"--tissue", "airway", "--material", "E=1*rho^1", "--calibration", "0,1"}),
       2, "--material: expected a bright --tissue");
-  EXPECT_FAILS(segment("a.inp", {"--set", "a=left:z,1"}), 2, "--set: set: expected NAME=");
+  EXPECT_FAILS(segment("a.inp", {"--set", "a=left:z,1"}), 2, "--set: expected NAME=");
 }
 
 /// What was asked for and is not there ends a run as one that missed a promise; the rest is
@@ -196,12 +196,12 @@ TEST_F(SegmentBody, NeedsATolerance) {
 TEST_F(SegmentBody, RefusesNamesOfSetsThatSolversCannotTellApart) {
   write_bytes(folder / "block.nrrd", "no scan");
   EXPECT_FAILS(segment("a.inp", {"--set", "up=top:z,1", "--set", "UP=bottom:z,1"}), 2,
-               "--set: set: expected names that differ in more than case, found 'UP' beside 'up'");
+               "--set: expected names that differ in more than case, found 'UP' beside 'up'");
   EXPECT_FAILS(segment("a.inp", {"--set", "up=top:z,1", "--set", "up=bottom:z,1"}), 2,
                "found 'up' twice");
   for (const std::string name : {"ALL", "all", "Part_1", "PART_2_object", "mat_001"}) {
     EXPECT_FAILS(segment("a.inp", {"--set", name + "=top:z,1"}), 2,
-                 "--set: set: expected a name other than ALL and those of parts and materials");
+                 "--set: expected a name other than ALL and those of parts and materials");
   }
 }
 

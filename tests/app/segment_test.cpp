@@ -353,7 +353,7 @@ TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
                "memory: expected about 0.1 GB for this run, found 0.0 GB; no stride fits");
   EXPECT_FAILS(
       run_program(folder, segment_arguments(folder, "a", {"--min-volume", "1e9", "--quiet"})), 3,
-      "surface: expected a part of at least --min-volume 1000000000 mm^3, found none");
+      "surface: expected a part of at least --min-volume 1e+09 mm^3, found 1 of ");
   EXPECT_FAILS(
       run_program(folder, segment_arguments(folder, "a", {"--window", "900,990", "--quiet"})), 3,
       "window: expected a range that contains samples");

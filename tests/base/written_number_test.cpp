@@ -56,6 +56,10 @@ TEST(WrittenNumber, ItsTextReadsBackAsTheSameNumber) {
     EXPECT_EQ(written_number(number_text(x)).value_or(std::nan("")), x);
   }
   EXPECT_EQ(number_text(0.1), "0.1");
+  EXPECT_EQ(rounded_text(0.1 + 0.2), "0.3");
+  EXPECT_EQ(rounded_text(285.18468755167737, 4), "285.2");
+  EXPECT_EQ(rounded_text(-1234567.0, 6), "-1234570");
+  EXPECT_EQ(rounded_text(0, 3), "0");
 }
 
 TEST(WrittenNumber, ItsSignificantDigitsAreKept) {

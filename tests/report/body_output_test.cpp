@@ -226,6 +226,11 @@ TEST(BodyOutput, TellsWhatIsMissing) {
   EXPECT_THAT(unmet(body),
               testing::StartsWith("expected dihedral angles of at least 10.7, found 5; expected a "
                                   "distance to the surface, mm, of at most 0.2, found 0.5; set"));
+  body.tolerance = 0.1 + 0.2;
+  body.facts.fit.surface_to_skin = 0.5123456789;
+  EXPECT_THAT(unmet(body), testing::HasSubstr("at most 0.3, found 0.5123; set"));
+  body.facts.quality.least_angle = 10.6999996;
+  EXPECT_THAT(unmet(body), testing::HasSubstr("at least 10.7, found 10.6999996; "));
   request.sets.clear();
   EXPECT_EQ(unmet(body_of(ramp(), request)), "");
 }

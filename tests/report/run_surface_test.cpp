@@ -11,7 +11,9 @@
 namespace mesamis {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 Result run() {
   Result result;
@@ -45,16 +47,27 @@ TEST(RunSurface, MarksAPreviewAndAddsTheErrorIfAsked) {
 }
 
 TEST(RunSurface, WithoutTrianglesIsRefusedAndSaysWhatToChange) {
-  EXPECT_NO_THROW(require_surface(run()));
+  EXPECT_NO_THROW(require_surface(run(), {}));
   Result result;
   result.parameters.level = 0.1;
-  EXPECT_REFUSED(require_surface(result), HasSubstr("values above --level 0.1, found none"));
-  result.printable.parts.emplace().islands_dropped = 1;
-  result.parameters.min_volume = 20;
-  EXPECT_REFUSED(require_surface(result), HasSubstr("at least --min-volume 20 mm^3, found none"));
+  Settings asked;
+  asked.level = 0.1;
+  EXPECT_REFUSED(require_surface(result, asked), HasSubstr("values above --level 0.1, found none"));
+  result.parameters.level = 285.18468755167737;
+  EXPECT_REFUSED(require_surface(result, {}),
+                 AllOf(HasSubstr("above the level of 285.2 that"), Not(HasSubstr("--level"))));
+  auto& parts = result.printable.parts.emplace();
+  parts.islands_dropped = 3;
+  parts.volume_dropped = 0.1 + 0.2;
+  asked.min_volume = result.parameters.min_volume = 20;
+  EXPECT_REFUSED(require_surface(result, asked),
+                 HasSubstr("at least --min-volume 20 mm^3, found 3 of 0.3 mm^3 in all"));
+  EXPECT_REFUSED(require_surface(result, {}),
+                 HasSubstr("at least 20 mm^3, found 3 of 0.3 mm^3 in all; --min-volume 0 keeps"));
   result.parameters.surface = SurfaceKind::kBand;
   result.parameters.band_threshold = 0.25;
-  EXPECT_REFUSED(require_surface(result), HasSubstr("v below --band-threshold 0.25, found none"));
+  EXPECT_REFUSED(require_surface(result, {}),
+                 HasSubstr("v below --band-threshold 0.25, found none"));
 }
 
 }  // namespace

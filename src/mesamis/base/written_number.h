@@ -25,6 +25,11 @@ bool take(std::string_view& text, std::string_view word);
 /// @param value  in any unit.
 std::string number_text(double value);
 
+/// As number_text(), rounded to so many significant digits: for messages about computed numbers.
+/// @param value   in any unit, finite.
+/// @param digits  1 to 17.
+std::string rounded_text(double value, int digits = 6);
+
 /// A number in decimals, rounded to so many significant digits, without an exponent: 0.30, 12, 803,
 /// 105 158 (groups of three from 10 000 on). Digits before the point are never cut: 105158 keeps
 /// six.

@@ -110,9 +110,8 @@ void require_elements_fit(const MetricField& sizes, const Box& box, const BodyOp
   const double asked = cells_for_metric(sizes, box);
   const auto most = static_cast<double>(options.most_elements);
   if (asked <= most) return;
-  throw InputError("body: elements of " + number_text(size) + " mm would be about " +
-                   number_text(std::round(asked)) + ", of which " +
-                   std::to_string(options.most_elements) +
+  throw InputError("body: elements of " + rounded_text(size) + " mm would be about " +
+                   rounded_text(asked) + ", of which " + std::to_string(options.most_elements) +
                    " may be made; expected an element size of at least " +
                    number_text(std::ceil(100 * size * std::cbrt(asked / most)) / 100) + " mm");
 }

@@ -117,8 +117,10 @@ std::string unmet(const BodyOutput& body) {
   std::string missed;
   const auto expect = [&](bool kept, const std::string& what, double expected, double found) {
     if (kept) return;
-    missed += (missed.empty() ? "" : "; ") + what + " " + number_text(expected) + ", found " +
-              number_text(found);
+    int digits = 4;  // as many as tell both apart
+    while (digits < 17 && rounded_text(found, digits) == rounded_text(expected, digits)) ++digits;
+    missed += (missed.empty() ? "" : "; ") + what + " " + rounded_text(expected, digits) +
+              ", found " + rounded_text(found, digits);
   };
   expect(q.least_angle >= 10.7, "expected dihedral angles of at least", 10.7, q.least_angle);
   expect(q.greatest_angle <= 165, "expected dihedral angles of at most", 165, q.greatest_angle);

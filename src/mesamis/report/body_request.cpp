@@ -57,8 +57,8 @@ std::int64_t most_elements(double memory_gb) {
 
 std::string wrong_least_size(const BodyOptions& options) {
   if (options.element_size <= 0 || options.least_size <= options.element_size) return "";
-  return "expected at most the element size " + number_text(options.element_size) + ", found " +
-         number_text(options.least_size);
+  return "expected at most the element size " + rounded_text(options.element_size) + ", found " +
+         rounded_text(options.least_size);
 }
 
 void require_valid(const BodyWishes& wishes) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/report/run_surface.h"
 
-#include <array>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/written_number.h"
 #include "mesamis/report/report.h"
 #include "mesamis/report/settings_json.h"
 
@@ -13,12 +12,13 @@ namespace mesamis::detail::report {
 
 namespace {
 
-/// A number as the user would write it: the shortest that reads back, without an exponent.
-std::string shortest(double value) {
-  std::array<char, 400> text;  // the largest numbers have 309 digits
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-  return end.ec == std::errc() ? std::string(text.data(), end.ptr) : std::to_string(value);
+[[noreturn]] void refuse_volume(const SelectionReport& parts, double least, bool is_given) {
+  const std::string found = ", found " + std::to_string(parts.islands_dropped) + " of " +
+                            rounded_text(parts.volume_dropped) + " mm^3 in all";
+  const std::string bound = number_text(least) + " mm^3";
+  throw InputError(
+      "surface: expected a part of at least " +
+      (is_given ? "--min-volume " + bound + found : bound + found + "; --min-volume 0 keeps them"));
 }
 
 }  // namespace
@@ -38,19 +38,22 @@ SurfaceWriteOptions surface_options(const Result& result, double voxel,
   return as;
 }
 
-void require_surface(const Result& result) {
+void require_surface(const Result& result, const Settings& asked) {
   if (!result.surface.triangles.empty()) return;
   const Parameters& p = result.parameters;
   if (p.surface == SurfaceKind::kBand) {
     throw InputError("surface: expected cells with v below --band-threshold " +
-                     shortest(p.band_threshold) + ", found none");
+                     number_text(p.band_threshold) + ", found none");
   }
   const auto& parts = result.printable.parts;
   if (parts && parts->islands_dropped > 0) {
-    throw InputError("surface: expected a part of at least --min-volume " + shortest(p.min_volume) +
-                     " mm^3, found none");
+    refuse_volume(*parts, p.min_volume, asked.min_volume.has_value());
   }
-  throw InputError("surface: expected values above --level " + shortest(p.level) + ", found none");
+  throw InputError("surface: expected values above " +
+                   (asked.level
+                        ? "--level " + number_text(*asked.level)
+                        : "the level of " + rounded_text(p.level, 4) + " that the scan suggests") +
+                   ", found none");
 }
 
 }  // namespace mesamis::detail::report

@@ -28,8 +28,9 @@ SurfaceWriteOptions surface_options(const Result& result, double voxel,
                                     const RunSurfaceOptions& options);
 
 /// Refuses a run that found nothing.
+/// @param asked  the settings the run was started with: only they are named as given.
 /// @throws InputError  if the surface has no triangle: which bound left nothing is what the user
 ///                     can change.
-void require_surface(const Result& result);
+void require_surface(const Result& result, const Settings& asked);
 
 }  // namespace mesamis::detail::report

@@ -58,7 +58,7 @@ void take_skin(TriMesh skin, TriMesh& surface, std::vector<double>& errors) {
 
 void fill(const Request& request, const Progress& progress, OutcomeDetails& outcome) {
   if (!request.elements.wanted()) return;
-  if (outcome.one) require_surface(*outcome.one);
+  if (outcome.one) require_surface(*outcome.one, outcome.asked);
   const std::vector<FoundObject> objects = outcome.objects();
   const VolumeView image = outcome.image();
   const VoxelGrid& grid = outcome.object ? static_cast<const VoxelGrid&>(image) : outcome.grid;

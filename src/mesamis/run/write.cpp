@@ -143,7 +143,7 @@ ordered_json detail::run::report_json(const OutcomeDetails& o, const RunFiles& w
 void detail::run::write(const OutcomeDetails& o, const RunFiles& w, OutputSet& set) {
   std::optional<MeshOutput> mesh;  // before any file is written: it may be refused
   if (!w.meshes.empty()) mesh = mesh_output(o, w.mesh);
-  if (o.one && !w.surfaces.empty()) require_surface(*o.one);
+  if (o.one && !w.surfaces.empty()) require_surface(*o.one, o.asked);
   if (!w.surfaces.empty()) write_surfaces(o, w, set);
   write_meshes(o, w, mesh, set);
   if (o.elements.body) {
