@@ -122,7 +122,9 @@ void name_object(const OutcomeDetails& outcome, RunFigures& figures) {
   }
   if (result.parameters.surface == SurfaceKind::kSolid) figures.level = result.parameters.level;
   if (result.image.has_local_levels()) figures.level_range = result.image.level_range;
-  figures.unit = outcome.grid.modality == "CT" ? "HU" : "native units";
+  // The object's image is called CT also where its values told so.
+  const bool is_ct = outcome.grid.modality == "CT" || outcome.image().modality == "CT";
+  figures.unit = is_ct ? "HU" : "native units";
 }
 
 }  // namespace

@@ -4,7 +4,10 @@
 
 #include <gmock/gmock.h>
 
+#include "mesamis/volume_files/write_volume.h"
+#include "support/ball_volume.h"
 #include "support/run_program.h"
+#include "support/sampled_volume.h"
 
 namespace mesamis {
 namespace {
@@ -103,6 +106,19 @@ TEST(Summary, FollowsEachRunThatIsNotQuiet) {
   EXPECT_THAT(labelled.err,
               testing::ContainsRegex("mesamis: object   [a-z0-9_ ]+, 1 part, closed\n"));
   EXPECT_THAT(labelled.err, HasSubstr("mesamis: error    not known\n"));
+}
+
+TEST(Summary, SaysHounsfieldUnitsWhereOnlyTheValuesTellThem) {
+  const TempFolder folder;
+  for (const double air : {-1000, 4000}) {
+    write_nrrd(folder / "scan.nrrd", sampled_volume({20, 20, 20}, {1, 1, 1}, [&](const Vec3& p) {
+                 return air + 1400 * blurred_ball(norm(p - Vec3{9.5, 9.5, 9.5}), 6, 0.7);
+               }));
+    const ProgramRun run =
+        run_program(folder, {"segment", folder / "scan.nrrd", "-o", folder / "a.stl", "--preview"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.err, testing::ContainsRegex(air < 0 ? "level -?[0-9.]+ HU" : "native units"));
+  }
 }
 
 }  // namespace
