@@ -11,10 +11,12 @@ RESTORED_IMAGE = str(pathlib.Path(MESAMIS).parent / "bench/bench_restored_image"
 
 
 def run(*arguments):
-    """Runs mesamis; ends with its message if it fails. Not converged (4) is no failure."""
+    """Runs mesamis and returns what it did, with stdout and stderr; ends with its message if it fails. Not converged (4)
+    is no failure."""
     done = subprocess.run([MESAMIS, *map(str, arguments)], capture_output=True, text=True)
     if done.returncode not in (0, 4):
         sys.exit(f"{' '.join(map(str, arguments))}: {done.stderr.strip()}")
+    return done
 
 
 def once(report, *arguments):

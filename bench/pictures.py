@@ -130,14 +130,18 @@ def tutorial_slice(runs, out):
     draw(out, slices, "--clip", "z,200", "--outline", hip, *small(420, 520))
 
 
-def tutorial_stiffness(runs, out):
+def femur_model(runs):
+    """Body and report of the tutorial's femur."""
     scan = runs.folder / "tutorial_femur.nrrd"
     truth, labels, filled = (scan.with_suffix(end) for end in (".ply", ".nii.gz", ".vtu"))
     once(scan.with_suffix(".json"), "phantom", "femur", "--noise", 4, "-o", scan, "--truth", truth)
     run("label", truth, "--like", scan, "-o", labels)
-    once(filled.with_suffix(".run.json"), "segment", scan, "--labels", labels, "--body", filled, "--element-size", 4,
-         "--material", "keyak-1994", "--calibration", "120:0,230:1.2")
-    draw(out, filled, "--color", "modulus", "--view", "front", "--clip", "y,32", "--edges", *small(420, 520))
+    return filled, once(filled.with_suffix(".run.json"), "segment", scan, "--labels", labels, "--body", filled,
+                        "--element-size", 4, "--material", "keyak-1994", "--calibration", "120:0,230:1.2")
+
+
+def tutorial_stiffness(runs, out):
+    draw(out, femur_model(runs)[0], "--color", "modulus", "--view", "front", "--clip", "y,32", "--edges", *small(420, 520))
 
 
 def tutorial_thickness(runs, out):

@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the tables and pictures of README.md and docs/ from fresh runs on real scans.
+"""Writes tables, pictures and figures in prose of README.md and docs/ from fresh runs on real scans.
 
     bench/tables.py --scans FOLDER --all               every table and picture; goes on where it was stopped
     bench/tables.py --scans FOLDER --only README       those of one page
+    bench/tables.py --scans FOLDER --texts             figures in prose
     bench/tables.py --scan pelvis=ct.nii.gz            one scan, wherever it is: its rows
     bench/tables.py --list                             the scans, and where FOLDER has them
     bench/tables.py --stale                            what is older than the last change of output bytes, and
                                                        tables and pictures that no command makes
     bench/tables.py --prune                            deletes pictures that no command makes and no page shows
 
-A table stands between <!-- table:NAME --> and <!-- /table:NAME -->. A row is replaced if its scan is
+A table stands between <!-- table:NAME --> and <!-- /table:NAME -->, figures in prose between <!-- text:NAME --> and
+<!-- /text:NAME -->. A row is replaced if its scan is
 there; the other rows stay as they are, with a note on stderr. Under each table the script names the
 command, and the last column names the version and the commit of the program that made the row.
-docs/figures.json has the commit of each table and picture. The bytes of outputs have changed with the last commit that
+docs/figures.json has the commit of each of them. The bytes of outputs have changed with the last commit that
 touched tests/output_bytes.txt (scripts/bytes).
 One run at a time, with default settings. Times mean something only on a machine without other work.
 --folder keeps surfaces and reports and does not repeat a run whose report is there (--all: build/tables). `mesamis` is
@@ -32,6 +34,7 @@ import tempfile
 
 from mesamis_runs import once
 from pictures import PICTURES
+from texts import TEXTS
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -262,6 +265,13 @@ def with_rows(text, name, rows):
     return text[:start] + "\n".join([*lines, "", NOTES[name], ""]) + text[stop:]
 
 
+def with_text(text, name, made):
+    """The page with these words in one of its places."""
+    begin, end = f"<!-- text:{name} -->", f"<!-- /text:{name} -->"
+    start = text.index(begin) + len(begin)
+    return text[:start] + made + text[text.index(end, start):]
+
+
 def rewrite(page, tables):
     text = page.read_text()
     for name, rows in tables.items():
@@ -317,6 +327,20 @@ def commit_of(runs):
     return made["program"]["commit"]
 
 
+def make_texts(runs, pages, record):
+    """Figures in the prose of pages; None: of all."""
+    commit = commit_of(runs)
+    for name, (page, scans, words) in TEXTS.items():
+        if pages is not None and page not in pages:
+            continue
+        if not all(runs.scan(scan) for scan in scans):
+            note(f"{name}: no scan, the old text stays")
+            continue
+        path = ROOT / page
+        path.write_text(with_text(path.read_text(), name, words(runs)))
+        record.note(name, commit)
+
+
 def make(runs, pages, record):
     """Tables and pictures of pages; None: of all. What the record has of this commit is not made again."""
     commit = commit_of(runs)
@@ -343,9 +367,9 @@ def pages_of_project():
 
 
 def stale(record):
-    """One line for each table or picture that is older than the outputs' bytes, or made by no command."""
+    """One line for each table, picture or text that is older than the outputs' bytes, or made by no command."""
     changed = git("log", "-1", "--format=%H", "--", BYTES)
-    for name in [*TABLES, *PICTURES]:
+    for name in [*TABLES, *PICTURES, *TEXTS]:
         commit = record.commits.get(name, "").removesuffix("-dirty")
         known = commit and subprocess.run(["git", "merge-base", "--is-ancestor", changed or "HEAD", commit], cwd=ROOT,
                                           check=False, stderr=subprocess.DEVNULL).returncode == 0
@@ -373,8 +397,9 @@ def arguments_of(parser):
     parser.add_argument("--scans", type=pathlib.Path, metavar="FOLDER")
     parser.add_argument("--scan", action="append", default=[], metavar="NAME=PATH")
     parser.add_argument("--only", choices=sorted({pathlib.Path(page).stem for page, *_ in
-                                                  [*TABLES.values(), *PICTURES.values()]}))
+                                                  [*TABLES.values(), *PICTURES.values(), *TEXTS.values()]}))
     parser.add_argument("--all", action="store_true", help="every table and picture")
+    parser.add_argument("--texts", action="store_true", help="figures in prose alone")
     parser.add_argument("--stale", action="store_true", help="names what is old or made by no command")
     parser.add_argument("--prune", action="store_true", help="deletes pictures that nothing makes or shows")
     parser.add_argument("--folder", type=pathlib.Path, help="keeps surfaces and reports")
@@ -400,17 +425,20 @@ def main():
         parser.error("expected the Python package mesamis, which the tutorial's pictures need, found none; "
                      "build it with scripts/python and set PYTHONPATH=build/release/python")
     places = places_of(parser, arguments.scan)
-    if not (arguments.all or arguments.only or places):
-        parser.error("expected --all, --only PAGE or --scan NAME=PATH, found none of them")
+    if not (arguments.all or arguments.only or arguments.texts or places):
+        parser.error("expected --all, --only PAGE, --texts or --scan NAME=PATH, found none of them")
     load = os.getloadavg()[0]
     if load > 0.5:
         note(f"the machine has other work (load {load:.1f}): times will be too long")
     pages = None if not arguments.only else {
-        page for page, *_ in [*TABLES.values(), *PICTURES.values()] if pathlib.Path(page).stem == arguments.only}
+        page for page, *_ in [*TABLES.values(), *PICTURES.values(), *TEXTS.values()] if pathlib.Path(page).stem == arguments.only}
     with tempfile.TemporaryDirectory() as temporary:
         folder = arguments.folder or (ROOT / "build/tables" if arguments.all else pathlib.Path(temporary))
         folder.mkdir(parents=True, exist_ok=True)
-        make(Runs(folder, arguments.scans, places), pages, record)
+        runs = Runs(folder, arguments.scans, places)
+        if not arguments.texts:
+            make(runs, pages, record)
+        make_texts(runs, pages, record)
 
 
 if __name__ == "__main__":
