@@ -431,7 +431,8 @@ def main():
     if load > 0.5:
         note(f"the machine has other work (load {load:.1f}): times will be too long")
     pages = None if not arguments.only else {
-        page for page, *_ in [*TABLES.values(), *PICTURES.values(), *TEXTS.values()] if pathlib.Path(page).stem == arguments.only}
+        page for page, *_ in [*TABLES.values(), *PICTURES.values(), *TEXTS.values()]
+        if pathlib.Path(page).stem == arguments.only}
     with tempfile.TemporaryDirectory() as temporary:
         folder = arguments.folder or (ROOT / "build/tables" if arguments.all else pathlib.Path(temporary))
         folder.mkdir(parents=True, exist_ok=True)
