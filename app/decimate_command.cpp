@@ -147,8 +147,7 @@ std::vector<PrintableReport> reduce(const DecimateCommand& command,
 
 /// The files of the objects: one of all where its format can.
 Paths files_of(const fs::path& path, const std::vector<NamedSurface>& objects) {
-  if (objects.size() == 1 || holds_all(path)) return {path};
-  return label_paths(path, objects, true);
+  return holds_all(path) ? Paths{path} : label_paths(path, objects, objects.size() > 1);
 }
 
 void write(const DecimateCommand& command, const ObjectFile& file, OutputSet& set) {

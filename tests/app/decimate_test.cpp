@@ -186,7 +186,11 @@ TEST(DecimateCommand, WritesAFileOfEachObjectWhereAFormatHoldsOne) {
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("lower: "));
   EXPECT_FALSE(std::filesystem::exists(folder / "b.stl"));
-  for (const char* name : {"b-lower.stl", "b-upper.stl"}) {
+  EXPECT_EQ(run_program(folder, {"decimate", folder / "b-lower.stl", "-o", folder / "{label}.stl",
+                                 "--triangles", "50", "--quiet"})
+                .status,
+            0);
+  for (const char* name : {"b-lower.stl", "b-upper.stl", "object_1.stl"}) {
     EXPECT_EQ(flaws_of(check_surface(read_surface(folder / name))), "") << name;
   }
 }
