@@ -284,7 +284,8 @@ TEST(Curves, JoinNoPointsThatHaveEdgesInOtherPatches) {
     std::set<Index> around;
     for (const Triangle& t : patch.around) around.insert(t.begin(), t.end());
     Index other = 0;
-    while (!curves.may_go(other)) ++other;
+    while (other < std::ssize(patch.points) && !curves.may_go(other)) ++other;
+    if (other == std::ssize(patch.points)) continue;
     for (Index p = 0; p < std::ssize(patch.points); ++p) {
       if (!curves.holds(p) || around.count(patch.points[p]) == 0) continue;
       EXPECT_FALSE(curves.may_join(surface, p, other));

@@ -12,11 +12,14 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/decimate/collapse.h"
 #include "mesamis/decimate/decimation.h"
+#include "mesamis/decimate/round_together.h"
 #include "mesamis/surface/distance.h"
+#include "mesamis/surface/extract_net.h"
 #include "mesamis/surface/half_edges.h"
 #include "support/label_grids.h"
 #include "support/level_set.h"
 #include "support/partition_laws.h"
+#include "support/random_memberships.h"
 #include "support/throws.h"
 
 namespace mesamis {
@@ -221,6 +224,24 @@ TEST(DecimatePartition, KeepsItsPromisesForNoise) {
     for (const double tolerance : {0.1, 5.0}) {
       const auto result = decimate_partition(partition, {.tolerance = tolerance});
       expect_promises_kept(partition, result, tolerance);
+    }
+  }
+}
+
+/// Beyond a point at which an interface touches itself a collapse could make the same edge again.
+TEST(DecimatePartition, MakesNoEdgeTwiceWhereAnInterfaceTouchesItself) {
+  for (const unsigned seed : {38, 39, 40}) {
+    PartitionSurface net = extract_net_on_grid(random_grid({6, 5, 6}, 5, seed));
+    net.points = round_together(net.points);
+    for (const double tolerance : {0.15, 0.4}) {
+      const PartitionSurface few = decimate_partition(net, {.tolerance = tolerance});
+      EXPECT_LT(few.triangles.size(), net.triangles.size());
+      for (const Index m : materials_of(net)) {
+        const SurfaceCheck was = check_surface(object_surface(net, m));
+        const SurfaceCheck is = check_surface(object_surface(few, m));
+        EXPECT_EQ(is.nonmanifold_edges, was.nonmanifold_edges) << seed << " " << m;
+        EXPECT_EQ(is.components, was.components) << seed << " " << m;
+      }
     }
   }
 }

@@ -51,10 +51,20 @@ Index copies_of(const Interfaces& interfaces, Index point) {
   return static_cast<Index>(end - begin);
 }
 
+/// Whether two copies of a point belong to the same interface.
+bool touches_itself(const Interfaces& interfaces, Index point) {
+  const auto& firsts = interfaces.first_copy;
+  const auto [begin, end] = std::equal_range(firsts.begin(), firsts.end(), firsts[point]);
+  std::vector<Index> of(interfaces.of_point.begin() + (begin - firsts.begin()),
+                        interfaces.of_point.begin() + (end - firsts.begin()));
+  std::sort(of.begin(), of.end());
+  return std::adjacent_find(of.begin(), of.end()) != of.end();
+}
+
 }  // namespace
 
 Curves::Curves(const Interfaces& interfaces, const Patch& patch)
-    : has_all_edges_(patch.points.size(), 0) {
+    : has_all_edges_(patch.points.size(), 0), touches_itself_(patch.points.size(), 0) {
   const auto end = static_cast<Index>(patch.points.size());
   for (Index p = 0; p < end; ++p) {
     const Index first = interfaces.first_copy[patch.points[p]];
@@ -76,6 +86,7 @@ Curves::Curves(const Interfaces& interfaces, const Patch& patch)
     const bool all = here == copies_of(interfaces, patch.points[p]) && !beside;
     for_each_copy(p, [&](Index q) {
       has_all_edges_[q] = all ? 1 : 0;
+      touches_itself_[q] = touches_itself(interfaces, patch.points[q]) ? 1 : 0;
       if (held || !all) may_go_[q] = 0;
     });
   }
@@ -111,7 +122,7 @@ bool Curves::may_collapse(const EditableSurface& surface, const std::vector<Inde
     if (!surface.may_collapse_at_rim(h, a)) return false;
     bool joins = false;
     surface.for_each_neighbor(a, [&](Index q) {
-      if (q == b || q == apex || at_rim_[q] == 0) return;
+      if (q == b || q == apex) return;
       joins |= !may_join(surface, b, q);
     });
     return !joins;

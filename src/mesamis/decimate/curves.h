@@ -20,13 +20,18 @@ class Curves {
 
   /// Of the copies of each point, the first one in the patch.
   const std::vector<Index>& first_copies() const { return first_copies_; }
-  /// Whether two points on curves may get an edge: the patch has all edges of both, and none
-  /// between them in any interface.
-  bool may_join(const EditableSurface& surface, Index a, Index b) const {
-    return has_all_edges_[a] != 0 && has_all_edges_[b] != 0 && !has_edge(surface, a, b);
-  }
   /// Whether a point is on a curve, or one of copies.
   bool holds(Index p) const { return at_rim_[p] != 0; }
+  /// Whether two points may get an edge. Of points on curves the patch must have all edges, and none
+  /// between them in any interface; so of a point at which an interface touches itself, and any other.
+  bool may_join(const EditableSurface& surface, Index a, Index b) const {
+    if (holds(a) && holds(b)) {
+      return has_all_edges_[a] != 0 && has_all_edges_[b] != 0 && !has_edge(surface, a, b);
+    }
+    const Index touching = touches_itself_[a] != 0 ? a : b;
+    if (touches_itself_[touching] == 0) return true;
+    return has_all_edges_[touching] != 0 && !has_edge(surface, a, b);
+  }
   /// Whether a point may go along its curve: it is one within a curve, the patch has all its copies
   /// and edges, and holds none.
   bool may_go(Index p) const { return may_go_[p] != 0; }
@@ -59,7 +64,7 @@ class Curves {
   bool has_edge(const EditableSurface& surface, Index a, Index b) const;
 
   std::vector<Index> first_copies_;
-  std::vector<char> at_rim_, may_go_, has_all_edges_;
+  std::vector<char> at_rim_, may_go_, has_all_edges_, touches_itself_;
 };
 
 /// Whether an edge of a curve between two interfaces would become a crease, see kCrease, by a

@@ -251,15 +251,16 @@ class Pass {
 
   bool may_move(Index p) const { return held_[p] == 0 && surface_.is_inner(p); }
 
-  /// Whether two points of curves would get a second edge.
+  /// Whether two points would get a second edge: of other interfaces, or beyond a point at which this
+  /// one touches itself.
   bool joins_twice(const Collapse& collapse) const {
-    if (!curves_ || !curves_->holds(collapse.kept)) return false;
+    if (!curves_) return false;
     const Index left = surface_.from(EditableSurface::previous(collapse.half_edge)),
                 right = surface_.to(EditableSurface::next(surface_.opposite(collapse.half_edge)));
     bool joins = false;
     surface_.for_each_leaving(collapse.removed, [&](Index h) {
       const Index q = surface_.to(h);
-      joins |= q != collapse.kept && q != left && q != right && curves_->holds(q) &&
+      joins |= q != collapse.kept && q != left && q != right &&
                !curves_->may_join(surface_, collapse.kept, q);
     });
     return joins;
