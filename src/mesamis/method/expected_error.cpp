@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "mesamis/base/parallel.h"
@@ -27,6 +28,28 @@ double curvature_at(const SplineImage& image, const Vec3& p) {
     squares += dot(turn, turn) / 4;
   }
   return std::min(std::sqrt(squares), kMostCurvature);
+}
+
+/// The distance within which a share of the area is expected to lie.
+/// @param parts  mean sizes of normal variables, > 0, increasing, and the area of each.
+double distance_of_share(double share, const std::vector<std::pair<double, double>>& parts,
+                         double area) {
+  constexpr int kClasses = 512, kHalvings = 40;
+  const double root_of_pi = std::sqrt(std::numbers::pi);
+  std::vector<double> sizes;  // of classes of equal area
+  double below = 0;
+  for (const auto& [size, own] : parts) {
+    below += own;
+    while (static_cast<double>(sizes.size()) + 0.5 < kClasses * below / area) sizes.push_back(size);
+  }
+  double near = 0, far = 4 * sizes.back();
+  for (int step = 0; step < kHalvings; ++step) {
+    const double x = (near + far) / 2;
+    double inside = 0;
+    for (const double size : sizes) inside += std::erf(x / (size * root_of_pi));
+    (inside < share * static_cast<double>(sizes.size()) ? near : far) = x;
+  }
+  return (near + far) / 2;
 }
 
 }  // namespace
@@ -70,12 +93,7 @@ ErrorSummary summarize_error(const TriMesh& surface, const std::vector<double>& 
   }
   if (!(area > 0)) return {};
   std::sort(parts.begin(), parts.end());
-  double below = 0;
-  const auto at = std::find_if(parts.begin(), parts.end(), [&](const auto& part) {
-    below += part.second;
-    return below >= 0.95 * area;
-  });
-  return {sum / area, at == parts.end() ? parts.back().first : at->first, parts.back().first, area};
+  return {sum / area, distance_of_share(0.95, parts, area), parts.back().first, area};
 }
 
 }  // namespace mesamis::detail::method
