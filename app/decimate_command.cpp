@@ -131,6 +131,7 @@ std::vector<PrintableReport> reduce(const DecimateCommand& command,
         &reports[0]);
   } else {
     std::vector<TriMesh> surfaces;
+    surfaces.reserve(objects.size());
     for (NamedSurface& object : objects) surfaces.push_back(std::move(object.surface));
     std::vector<DecimateReport> done;
     surfaces = simplify_objects(surfaces, {tolerance, triangles, display.callback()}, &done);
@@ -222,12 +223,12 @@ int judge(const DecimateCommand& command, const std::vector<NamedSurface>& objec
           const std::vector<PrintableReport>& reports) {
   int status = kExitDone;
   for (std::size_t n = 0; n < objects.size(); ++n) {
-    const std::string name = objects.size() > 1 ? objects[n].name + ": " : "";
+    std::string line = objects.size() > 1 ? objects[n].name + ": " : "";
     if (const auto flaws = flaws_of(check_surface(objects[n].surface)); !flaws.empty()) {
-      log_error(name + "expected a closed 2-manifold surface, found " + flaws);
+      log_error(line.append("expected a closed 2-manifold surface, found ").append(flaws));
       status = kExitNotClosed;
     } else if (!reports[n].within(command.most())) {
-      log_error(name + tolerance_unmet(command.most(), reports[n]));
+      log_error(line.append(tolerance_unmet(command.most(), reports[n])));
       if (status == kExitDone) status = kExitNotConverged;
     }
   }

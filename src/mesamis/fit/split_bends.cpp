@@ -135,13 +135,14 @@ void add_parts(Triangle t, std::array<Index, 3> m, const TriMesh& surface,
 }  // namespace
 
 SplitBoundaries split_bends(const BentBoundaries& boundaries, const VoxelGrid& grid) {
-  const auto& [surface, sides, on_curve, whole] = boundaries;
+  const TriMesh& surface = boundaries.surface;
+  const Sides sides = boundaries.sides;
   const SurfaceSpace space(grid, 1);
-  std::vector<char> no_normal = on_curve;
+  std::vector<char> no_normal = boundaries.on_curve;
   parallel_for(no_normal.size(), [&](std::size_t p) {
     if (space.on_box(surface.points[p])) no_normal[p] = 1;
   });
-  const BentEdges bent(surface, no_normal, whole);
+  const BentEdges bent(surface, no_normal, boundaries.whole);
   const std::vector<Vec3> normals = vertex_normals(surface);
   SplitBoundaries split{
       {surface.points, {}}, {}, bent.edges(), std::vector<Vec3>(surface.points.size())};

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "mesamis/fit/boundary_parts.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
@@ -13,9 +14,9 @@ namespace mesamis::detail::fit {
 
 /// Boundaries of several objects, of which edges may be split.
 struct BentBoundaries {
-  const TriMesh& surface;                       ///< in the grid's own axes, mm
-  std::span<const std::array<Index, 2>> sides;  ///< of each triangle: materials behind, in front
-  const std::vector<char>& on_curve;            ///< of each point 1 where several boundaries meet
+  const TriMesh& surface;             ///< in the grid's own axes, mm
+  Sides sides;                        ///< of each triangle: materials behind, in front
+  const std::vector<char>& on_curve;  ///< of each point 1 where several boundaries meet
   /// Of each point 1 or 0: edges between two points of 1 stay whole. Empty: all 0.
   std::span<const char> whole{};
 };
