@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
+#include "mesamis/surface/extract_net.h"
 #include "mesamis/surface/half_edges.h"
 #include "support/label_grids.h"
+#include "support/random_memberships.h"
 #include "support/throws.h"
 
 namespace mesamis {
@@ -110,6 +113,22 @@ TEST(Interfaces, RefuseWhatIsNoPartition) {
   EXPECT_REFUSED(cut_into_interfaces(bad), testing::HasSubstr("repeated corner"));
   bad.triangles[0][1] = 1 << 30;
   EXPECT_REFUSED(cut_into_interfaces(bad), testing::HasSubstr("point"));
+}
+
+/// Of any two copies of a point that one interface has.
+TEST(Interfaces, KnowWhereTheyTouchThemselves) {
+  const Interfaces found = cut_into_interfaces(extract_net_on_grid(random_grid({6, 5, 6}, 5, 39)));
+  std::map<std::pair<Index, Index>, int> copies;  // of an origin in an interface
+  for (std::size_t p = 0; p < found.origin.size(); ++p)
+    ++copies[{found.origin[p], found.of_point[p]}];
+  std::set<Index> touching;
+  for (const auto& [place, count] : copies) {
+    if (count > 1) touching.insert(place.first);
+  }
+  EXPECT_FALSE(touching.empty());
+  for (std::size_t p = 0; p < found.origin.size(); ++p) {
+    EXPECT_EQ(found.touches_itself[p] != 0, touching.count(found.origin[p]) > 0);
+  }
 }
 
 TEST(Interfaces, KnowThePointsWithinCurves) {

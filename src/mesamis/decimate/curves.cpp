@@ -51,20 +51,10 @@ Index copies_of(const Interfaces& interfaces, Index point) {
   return static_cast<Index>(end - begin);
 }
 
-/// Whether two copies of a point belong to the same interface.
-bool touches_itself(const Interfaces& interfaces, Index point) {
-  const auto& firsts = interfaces.first_copy;
-  const auto [begin, end] = std::equal_range(firsts.begin(), firsts.end(), firsts[point]);
-  std::vector<Index> of(interfaces.of_point.begin() + (begin - firsts.begin()),
-                        interfaces.of_point.begin() + (end - firsts.begin()));
-  std::sort(of.begin(), of.end());
-  return std::adjacent_find(of.begin(), of.end()) != of.end();
-}
-
 }  // namespace
 
 Curves::Curves(const Interfaces& interfaces, const Patch& patch)
-    : has_all_edges_(patch.points.size(), 0), touches_itself_(patch.points.size(), 0) {
+    : has_all_edges_(patch.points.size(), 0) {
   const auto end = static_cast<Index>(patch.points.size());
   for (Index p = 0; p < end; ++p) {
     const Index first = interfaces.first_copy[patch.points[p]];
@@ -72,6 +62,7 @@ Curves::Curves(const Interfaces& interfaces, const Patch& patch)
     first_copies_.push_back(is_copy ? first_copies_.back() : p);
     at_rim_.push_back(interfaces.at_rim[patch.points[p]]);
     may_go_.push_back(interfaces.within_curve[patch.points[p]]);
+    touches_itself_.push_back(interfaces.touches_itself[patch.points[p]]);
   }
   const std::vector<char> shared = points_around(patch);
   for (Index p = 0; p < end; ++p) {
@@ -86,7 +77,6 @@ Curves::Curves(const Interfaces& interfaces, const Patch& patch)
     const bool all = here == copies_of(interfaces, patch.points[p]) && !beside;
     for_each_copy(p, [&](Index q) {
       has_all_edges_[q] = all ? 1 : 0;
-      touches_itself_[q] = touches_itself(interfaces, patch.points[q]) ? 1 : 0;
       if (held || !all) may_go_[q] = 0;
     });
   }

@@ -116,13 +116,14 @@ std::vector<std::array<Index, 2>> neighbors_along_rims(const TriMesh& surface) {
   return along;
 }
 
-void find_points_within_curves(Interfaces& interfaces) {
+void find_kinds_of_points(Interfaces& interfaces) {
   std::vector<std::array<Index, 2>> along = neighbors_along_rims(interfaces.surface);
   for (std::array<Index, 2>& ends : along) {
     for (Index& q : ends) q = q == kNoIndex ? q : interfaces.first_copy[q];
     std::sort(ends.begin(), ends.end());
   }
   interfaces.within_curve.assign(along.size(), 0);
+  interfaces.touches_itself.assign(along.size(), 0);
   const auto end = static_cast<Index>(along.size());
   for (Index first = 0, last = 0; first < end; first = last) {
     std::vector<Index> own;
@@ -131,8 +132,12 @@ void find_points_within_curves(Interfaces& interfaces) {
       same &= along[last] == along[first];
       add_once(own, interfaces.of_point[last]);
     }
-    if (!same || last - first < 3 || std::ssize(own) < last - first) continue;
-    std::fill(interfaces.within_curve.begin() + first, interfaces.within_curve.begin() + last, 1);
+    const bool touches_itself = std::ssize(own) < last - first;
+    const bool is_within = same && last - first >= 3 && !touches_itself;
+    for (Index p = first; p < last; ++p) {
+      interfaces.within_curve[p] = is_within ? 1 : 0;
+      interfaces.touches_itself[p] = touches_itself ? 1 : 0;
+    }
   }
 }
 
@@ -162,7 +167,7 @@ Interfaces cut_into_interfaces(const PartitionSurface& partition) {
   require_manifold(interfaces.surface);
   find_copies(interfaces);
   number_interfaces(interfaces);
-  find_points_within_curves(interfaces);
+  find_kinds_of_points(interfaces);
   return interfaces;
 }
 

@@ -19,6 +19,7 @@ struct Interfaces {
   /// Of each point, 1 if it is within a curve, not at an end: three interfaces or more, all
   /// different, go on through it to the same two points, and no other touches it.
   std::vector<char> within_curve;
+  std::vector<char> touches_itself;  ///< of each point, 1 if an interface has several copies of it
   std::vector<Index> of_point;  ///< the interface of each point; numbered in the order of points
   Index count = 0;              ///< of interfaces
 };
