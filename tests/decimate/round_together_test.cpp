@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -40,6 +41,20 @@ TEST(RoundTogether, KeepsEqualPointsEqualAndDifferentOnesDifferent) {
       ASSERT_EQ(points[a] == points[b], result[a] == result[b]) << a << ' ' << b;
     }
   }
+}
+
+TEST(RoundTogether, TellsInPlaceHowFarAPointMoved) {
+  const std::vector<Vec3> before = crowd(4);
+  std::vector<Vec3> points = before;
+  const double most = round_in_place(points);
+  EXPECT_EQ(points, round_together(before));
+  double found = 0;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    found = std::max(found, norm(points[p] - before[p]));
+  }
+  EXPECT_GT(found, 0);
+  EXPECT_EQ(most, found);
+  EXPECT_EQ(round_in_place(points), 0) << "they are rounded";
 }
 
 TEST(RoundTogether, GivesSinglePrecisionNearThePoint) {

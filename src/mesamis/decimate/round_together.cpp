@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "mesamis/decimate/single_places.h"
 
@@ -40,6 +41,16 @@ std::vector<Vec3> round_together(std::span<const Vec3> points) {
     }
   }
   return result;
+}
+
+double round_in_place(std::vector<Vec3>& points) {
+  std::vector<Vec3> result = round_together(points);
+  double most = 0;
+  for (std::size_t p = 0; p < result.size(); ++p) {
+    most = std::max(most, norm(result[p] - points[p]));
+  }
+  points = std::move(result);
+  return most;
 }
 
 }  // namespace mesamis::detail::decimate

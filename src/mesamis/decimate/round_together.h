@@ -23,4 +23,8 @@ namespace mesamis::detail::decimate {
 /// O(n log n) for n points.
 std::vector<Vec3> round_together(std::span<const Vec3> points);
 
+/// The same in place.
+/// @return how far a point moved at most, mm.
+double round_in_place(std::vector<Vec3>& points);
+
 }  // namespace mesamis::detail::decimate

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -69,17 +68,6 @@ class Joining {
   Index count_ = 0;  ///< of objects
 };
 
-/// @return how far a point moved at most, mm.
-double round_points(PartitionSurface& partition) {
-  std::vector<Vec3> rounded = round_together(partition.points);
-  double shift = 0;
-  for (std::size_t p = 0; p < rounded.size(); ++p) {
-    shift = std::max(shift, norm(rounded[p] - partition.points[p]));
-  }
-  partition.points = std::move(rounded);
-  return shift;
-}
-
 }  // namespace
 
 std::vector<TriMesh> simplify_objects(const std::vector<TriMesh>& objects,
@@ -88,7 +76,7 @@ std::vector<TriMesh> simplify_objects(const std::vector<TriMesh>& objects,
   Joining joining;
   for (const TriMesh& object : objects) joining.add(object);
   PartitionSurface partition = joining.taken();
-  const double shift = round_points(partition);
+  const double shift = round_in_place(partition.points);
   DecimateOptions left = options;
   if (options.tolerance > 0) left.tolerance = std::max(0.0, options.tolerance - shift);
   DecimateReport proved;

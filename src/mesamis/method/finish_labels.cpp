@@ -45,12 +45,7 @@ double decimate(const LabelRun& run, const Parameters& p, PartitionSurface& part
   const double tolerance = *p.tolerance;
   if (partition.triangles.empty()) return 0;
   if (tolerance > 0) run.begin("decimation");
-  std::vector<Vec3> rounded = round_together(partition.points);
-  double shift = 0;
-  for (std::size_t n = 0; n < rounded.size(); ++n) {
-    shift = std::max(shift, norm(rounded[n] - partition.points[n]));
-  }
-  partition.points = std::move(rounded);
+  const double shift = round_in_place(partition.points);
   if (tolerance == 0) return 0;
   DecimateOptions options;
   options.tolerance = std::max(0.0, tolerance - shift);
