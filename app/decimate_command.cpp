@@ -203,12 +203,12 @@ std::size_t triangles_of(const std::vector<NamedSurface>& objects) {
 
 /// Warns where there are more triangles than were asked for.
 void warn_of_triangles(const DecimateCommand& command, const std::vector<NamedSurface>& objects) {
+  if (!command.triangles) return;
   std::vector<FoundObject> found;
   found.reserve(objects.size());
   for (const NamedSurface& object : objects) found.push_back({object.surface, {}});
   const auto triangles = static_cast<std::int64_t>(triangles_of(objects)) - shared_triangles(found);
-  const std::string line =
-      triangles_unmet(command.triangles.value_or(0), triangles, command.most());
+  const std::string line = triangles_unmet(*command.triangles, triangles, command.most());
   if (!line.empty()) log_warning(line);
 }
 

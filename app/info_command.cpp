@@ -103,8 +103,7 @@ std::string volume_line(const VolumeInfo& info) {
   return line.str();
 }
 
-std::string surface_line(const fs::path& path, const ReadLimits& limits) {
-  const TriMesh surface = read_surface(path, limits);
+std::string surface_line(const fs::path& path, const TriMesh& surface) {
   const SurfaceCheck check = check_surface(surface);
   std::ostringstream line;
   line << one_line(path.filename().string()) << "  surface  " << surface.triangles.size()
@@ -115,10 +114,14 @@ std::string surface_line(const fs::path& path, const ReadLimits& limits) {
   return line.str();
 }
 
-/// A line for each object of a file of several.
-void print_objects(const fs::path& path, const ReadLimits& limits) {
+/// A line for a surface, and one for each of its objects if there are several.
+void print_surface(const fs::path& path, const ReadLimits& limits) {
   const std::vector<NamedSurface> objects = read_objects(path, limits);
-  if (objects.size() == 1) return;
+  if (objects.size() == 1) {
+    std::cout << surface_line(path, objects[0].surface) << "\n";
+    return;
+  }
+  std::cout << surface_line(path, read_surface(path, limits)) << "\n";
   for (const NamedSurface& object : objects) {
     const SurfaceCheck check = check_surface(object.surface);
     const std::string flaws = flaws_of(check);
@@ -233,8 +236,7 @@ int run_info(const InfoCommand& command) {
   const fs::path& input = command.input;
   switch (command.read.raw ? FileKind::kVolume : kind_of(input)) {
     case FileKind::kSurface:
-      std::cout << surface_line(input, command.read.limits) << "\n";
-      print_objects(input, command.read.limits);
+      print_surface(input, command.read.limits);
       break;
     case FileKind::kMesh:
       std::cout << mesh_line(input, command.read.limits) << "\n";
