@@ -41,6 +41,17 @@ TEST(SampleSlices, AreThoseThatVaryMost) {
   EXPECT_GT(some.first + some.count, 6);
 }
 
+TEST(SampleSlices, OfAScanAreThoseOfItsSums) {
+  const Volume scan =
+      sampled_volume({4, 4, 10}, {1, 1, 1}, [](const Vec3& p) { return p.z == 6 ? p.x + p.y : 0; });
+  const SliceRange some = sample_slices(scan, 3 * 16);
+  const SliceRange same = sample_slices(scan, sums_of_slices(scan), 3 * 16);
+  EXPECT_EQ(some.first, same.first);
+  EXPECT_EQ(some.count, same.count);
+  EXPECT_EQ(sample_slices(scan, 160).first, 0);
+  EXPECT_EQ(sample_slices(scan, 160).count, 10);
+}
+
 TEST(SampleSlices, AreTwoAtLeast) {
   const std::vector<SliceSums> sums(10, {1, 1});
   EXPECT_EQ(sample_slices(grid_of({4, 4, 10}), sums, 1).count, 2);

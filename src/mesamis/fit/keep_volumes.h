@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
+#include "mesamis/fit/boundary_parts.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/rooms.h"
 #include "mesamis/surface/tri_mesh.h"
@@ -13,11 +13,11 @@ namespace mesamis::detail::fit {
 
 /// Boundaries of several objects, and the volumes that these shall have.
 struct ObjectBoundaries {
-  const TriMesh& surface;  ///< in the grid's own axes, mm; without self-intersections
-  std::span<const std::array<Index, 2>> sides;  ///< of each triangle: materials behind, in front
-  const std::vector<char>& on_curve;            ///< of each point 1 where several boundaries meet
-  std::span<const double> volumes;              ///< of each material, mm^3
-  std::span<const Vec3> shifts{};               ///< of points, which are made first; empty: none
+  const TriMesh& surface;             ///< in the grid's own axes, mm; without self-intersections
+  Sides sides;                        ///< of each triangle: materials behind, in front
+  const std::vector<char>& on_curve;  ///< of each point 1 where several boundaries meet
+  std::span<const double> volumes;    ///< of each material, mm^3
+  std::span<const Vec3> shifts{};     ///< of points, which are made first; empty: none
 };
 
 /// Finds moves of the boundaries of several objects by which each gets its volume, as far as small

@@ -44,6 +44,7 @@ SliceRange sample_slices(const VoxelGrid& whole, const std::vector<SliceSums>& s
 }
 
 SliceRange sample_slices(const VolumeView& scan, std::size_t most) {
+  if (scan.samples.size() <= most) return {0, scan.size[2]};
   return sample_slices(scan, sums_of_slices(scan), most);
 }
 

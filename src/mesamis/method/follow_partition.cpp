@@ -96,11 +96,16 @@ TriMesh smoothed(const RoughBoundaries& rough, const std::vector<char>& on_curve
   TriMesh smooth{smooth_places(rough, grid, options), rough.surface.triangles};
   const BoundaryParts& parts = *rough.parts;
   std::vector<double> volumes = enclosed_volumes(smooth, parts.sides);
+  bool any = false;
   for (std::size_t p = 1; p < parts.volumes.size(); ++p) {
-    if (volumes[p] < kMuchLost * parts.volumes[p]) volumes[p] = parts.volumes[p];
+    if (!(volumes[p] < kMuchLost * parts.volumes[p])) continue;
+    volumes[p] = parts.volumes[p];
+    any = true;
   }
-  const std::vector<Vec3> shifts = keep_volumes({smooth, parts.sides, on_curve, volumes}, grid);
-  parallel_for(shifts.size(), [&](std::size_t p) { smooth.points[p] += shifts[p]; });
+  if (any) {
+    const std::vector<Vec3> shifts = keep_volumes({smooth, parts.sides, on_curve, volumes}, grid);
+    parallel_for(shifts.size(), [&](std::size_t p) { smooth.points[p] += shifts[p]; });
+  }
   return moved_to(rough.surface, grid, smooth.points);
 }
 
