@@ -8,6 +8,7 @@
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/files/refuse.h"
+#include "mesamis/method/label_surfaces.h"
 #include "mesamis/report/label_surface_files.h"
 #include "mesamis/report/mesh_output.h"
 #include "mesamis/shape_files/surface_files.h"
@@ -197,13 +198,13 @@ void require_layers(const SegmentOptions& options, const std::vector<Segment>& w
 }
 
 /// Objects that share boundaries are solids, and each boundary has a level of its own.
-void require_settings_of_objects(const SegmentOptions& options) {
+void require_settings_of_objects(const SegmentOptions& options, const Settings& settings) {
   const ScanArguments& scan = options.scan;
   const bool labels = scan.labels.given();
+  if (labels || scan.places.seeds.size() > 1) {
+    parsed("--surface", [&] { require_solids(settings); });
+  }
   for (const auto& [name, text, option] : options.settings.overrides) {
-    if (name == "surface" && text == "band" && (labels || scan.places.seeds.size() > 1)) {
-      throw CLI::ValidationError(option, "expected solid for several objects, found band");
-    }
     if (name != "level" || !labels || text == "local" || text == "auto") continue;
     if (scan.input.empty()) {
       throw CLI::ValidationError(option, "expected a scan beside the labels, found none");
@@ -229,7 +230,7 @@ void require_segment(const SegmentOptions& options, const Settings& settings) {
   require_input_before_list(options.scan);
   if (!options.plan) require_outputs(options);
   require_places(options, settings);
-  require_settings_of_objects(options);
+  require_settings_of_objects(options, settings);
   require_mesh_for(options, settings);
   require_body_for(options, settings);
   if (options.time_limit && options.scan.labels.given()) {

@@ -283,6 +283,16 @@ def test_objects_of_seeds_and_labels():
     assert len(alone) == 2
 
 
+@pytest.mark.parametrize("how", [{"surface": "band"}, {"preset": "paper"}, {"settings_file": "band.json"}])
+def test_several_objects_are_solids_whatever_sets_the_band(ball, tmp_path, how):
+    if "settings_file" in how:
+        (tmp_path / "band.json").write_text('{"surface": "band"}')
+        how = {"settings_file": tmp_path / "band.json"}
+    for objects in ({"labels": (ball.array > 128).astype(int)}, {"seeds": [(9, 12, 12), (15, 12, 12)]}):
+        with pytest.raises(mesamis.InputError, match="^surface: expected solid for several objects, found band$"):
+            mesamis.segment(ball, **objects, **how)
+
+
 def _labels_file(labels):
     nibabel = pytest.importorskip("nibabel")
     return nibabel.Nifti1Image(labels.astype(np.uint8), np.eye(4))

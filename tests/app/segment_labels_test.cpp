@@ -235,6 +235,10 @@ TEST_F(SegmentLabels, RefusesInOneLine) {
   expect_refused({"-o", out, "--label", "1", scan}, 2, "the scan goes before --label");
   expect_refused({scan, "-o", out, "--mesh", folder / "x.vtu", "--preview"}, 2, "--preview");
   expect_refused({scan, "-o", out, "--surface", "band"}, 2, "--surface: expected solid");
+  expect_refused({scan, "-o", out, "--preset", "paper"}, 2, "--surface: expected solid");
+  write_bytes(folder / "band.json", R"({"surface": "band"})");
+  expect_refused({scan, "-o", out, "--settings", folder / "band.json"}, 2,
+                 "--surface: expected solid for several objects, found band");
   expect_refused({"-o", out, "--level", "150"}, 2, "--level: expected a scan");
   expect_refused({scan, "-o", out, "--error"}, 2, "--error");
   expect_refused({scan, "--labelmap", folder / "x.gz"}, 2, "--labelmap");

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/method/setting_table.h"
 #include "run/small_request.h"
 #include "support/throws.h"
 
@@ -101,6 +102,19 @@ TEST(Segment, SeveralSeedsMakeAnObjectEach) {
   const Outcome found = segment(std::move(request), listener);
   EXPECT_EQ(found.objects().size(), 2U);
   EXPECT_EQ(told, found.details().wanted);
+}
+
+TEST(Segment, SeveralObjectsAreSolidsWhateverSetsTheBand) {
+  Request request = ball_request();
+  request.settings = preset_settings("paper");
+  request.object.seeds = {{9, 12.5, 12.5}, {16, 12.5, 12.5}};
+  EXPECT_REFUSED(segment(request), "surface: expected solid for several objects, found band");
+  request.object.seeds.clear();
+  request.labels = LabelChoice{half_balls()};
+  EXPECT_REFUSED(segment(request), "surface: expected solid for several objects, found band");
+  request.scan = {};
+  request.mesh = false;
+  EXPECT_REFUSED(segment(request), "surface: expected solid for several objects, found band");
 }
 
 TEST(Segment, ATimeLimitIsForOneObject) {

@@ -349,6 +349,11 @@ std::vector<char> marks_of(const std::vector<Segment>& chosen, Index layer) {
   return marks;
 }
 
+void require_solids(const Settings& settings) {
+  if (settings.surface == SurfaceKind::kSolid) return;
+  throw InputError("surface: expected solid for several objects, found band");
+}
+
 void require_chosen(const std::vector<Segment>& chosen, const LabelMap& map) {
   if (chosen.size() > kMostObjects) {
     throw InputError("labels: expected at most " + std::to_string(kMostObjects) +

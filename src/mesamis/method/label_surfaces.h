@@ -150,6 +150,10 @@ std::vector<char> marks_of(const std::vector<Segment>& chosen, Index layer);
 ///                     map's.
 void require_chosen(const std::vector<Segment>& chosen, const LabelMap& map);
 
+/// Objects that share boundaries are solids: checks it wherever the settings come from.
+/// @throws InputError  if the settings ask for a band.  O(1).
+void require_solids(const Settings& settings);
+
 /// @throws InputError  that no chosen segment has a voxel.
 [[noreturn]] void refuse_empty(const std::vector<Segment>& chosen);
 

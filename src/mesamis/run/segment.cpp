@@ -5,6 +5,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/method/chosen_run.h"
+#include "mesamis/method/label_surfaces.h"
 #include "mesamis/report/label_report.h"
 #include "mesamis/report/run_surface.h"
 #include "mesamis/run/outcome_details.h"
@@ -88,6 +89,7 @@ void warn_of_surface(const Listener& listener, OutcomeDetails& outcome) {
 
 Outcome segment(Request request, const Listener& listener) {
   require_scan_where_needed(request);
+  if (request.labels || request.object.seeds.size() > 1) require_solids(request.settings);
   OutcomeDetails outcome;
   outcome.asked = request.settings;
   if (request.has_scan()) {

@@ -85,7 +85,8 @@ struct Listener {
 ///                  "final minimisation", "surface", "decimation", "elements"; see
 ///                  stage_shares() for those of other runs.
 /// @throws InputError  one line that says what was expected and found: if neither a scan nor labels
-///                     are given, a request that needs a scan has labels alone, or a scan, a label map or a setting is unusable.
+///                     are given, a request that needs a scan has labels alone, several objects are to be bands, or a
+///                     scan, a label map or a setting is unusable.
 /// @throws Cancelled   if progress returns false.
 ///
 /// Time and memory are those of the steps. The same bits for any number of threads, except for a
