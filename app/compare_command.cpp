@@ -47,8 +47,14 @@ Box box_of(const std::string& text) {
   return box;
 }
 
-void write_report(const CompareCommand& command, const SurfacePair& pair,
-                  const std::vector<DirectedDistances>& directions, OutputSet& set) {
+/// The distances between the surfaces, and between their objects of one name.
+struct Measured {
+  std::vector<DirectedDistances> directions;
+  std::vector<ObjectDistances> objects;
+};
+
+void write_report(const CompareCommand& command, const SurfacePair& pair, const Measured& measured,
+                  OutputSet& set) {
   nlohmann::ordered_json report;
   report["program"] = program_json();
   report["reference"] = command.reference.string();
@@ -59,8 +65,9 @@ void write_report(const CompareCommand& command, const SurfacePair& pair,
     const auto& [lo, hi] = *command.part;
     report["box"] = {lo.x, lo.y, lo.z, hi.x, hi.y, hi.z};
   }
-  for (const DirectedDistances& d : directions) report[d.name] = distances_json(d);
-  report["paper"] = paper_distances_json(directions[1]);
+  for (const DirectedDistances& d : measured.directions) report[d.name] = distances_json(d);
+  report["paper"] = paper_distances_json(measured.directions[1]);
+  if (!measured.objects.empty()) report["objects"] = objects_json(measured.objects);
   report["files"] = files_json(set);
   add_costs(report);
   write_json(set.file(command.report), report);
@@ -81,6 +88,23 @@ void print_line(const std::string& name, const char* how, const std::vector<doub
               s.rms, s.p95, s.p99, s.max);
 }
 
+void print_lines(const std::vector<DirectedDistances>& directions) {
+  for (const DirectedDistances& d : directions) {
+    print_line(d.name, "vertices", d.from_vertices);
+    print_line(d.name, "area", d.from_area);
+  }
+}
+
+void print(const Measured& measured) {
+  std::printf("%-22s %-8s %9s %9s %9s %9s %9s %9s\n", "distance, mm", "from", "points", "mean",
+              "rms", "p95", "p99", "max");
+  print_lines(measured.directions);
+  for (const ObjectDistances& object : measured.objects) {
+    std::printf("%s\n", object.name.c_str());
+    print_lines(object.directions);
+  }
+}
+
 void require_all(const CompareCommand& command) {
   const auto& [reference, surface, report, histogram, colored, frames, part] = command;
   if (!colored.empty()) require_output(colored, {".vtp"}, "--colored");
@@ -93,26 +117,19 @@ int run_compare(const CompareCommand& command, const ReadLimits& limits) {
   require_all(command);
   const SurfacePair pair = read_pair(command.reference, command.surface, command.frames, limits);
   for (const std::string& warning : pair.warnings) log_warning(warning);
-  const std::vector<DirectedDistances> directions{
-      measure_distances("surface_to_reference", pair.surface, pair.reference, command.part),
-      measure_distances("reference_to_surface", pair.reference, pair.surface, command.part)};
+  const Measured measured{measure_both(pair, command.part), measure_objects(pair, command.part)};
   OutputSet set;
   if (!command.histogram.empty()) {
-    write_file(set.file(command.histogram), to_csv(histogram_of(directions)));
+    write_file(set.file(command.histogram), to_csv(histogram_of(measured.directions)));
   }
   if (!command.colored.empty()) {
     write_colored(set.file(command.colored), pair,
                   command.part ? distances_to_surface(pair.surface.points, pair.reference)
-                               : directions[0].from_vertices);
+                               : measured.directions[0].from_vertices);
   }
-  if (!command.report.empty()) write_report(command, pair, directions, set);
+  if (!command.report.empty()) write_report(command, pair, measured, set);
   commit(set);
-  std::printf("%-22s %-8s %9s %9s %9s %9s %9s %9s\n", "distance, mm", "from", "points", "mean",
-              "rms", "p95", "p99", "max");
-  for (const DirectedDistances& d : directions) {
-    print_line(d.name, "vertices", d.from_vertices);
-    print_line(d.name, "area", d.from_area);
-  }
+  print(measured);
   return kExitDone;
 }
 
@@ -120,7 +137,9 @@ int run_compare(const CompareCommand& command, const ReadLimits& limits) {
 
 void add_compare_command(CLI::App& app, CommonOptions& common, Action& action) {
   auto options = std::make_shared<CompareCommand>();
-  CLI::App* command = app.add_subcommand("compare", "Measure the distances between two surfaces");
+  CLI::App* command = app.add_subcommand(
+      "compare",
+      "Measure the distances between two surfaces, and between their objects of one name");
   command->add_option("reference", options->reference, "Reference surface")->required();
   command->add_option("surface", options->surface, "Surface to judge")->required();
   command->add_option("--report", options->report, "Report: .json");

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "mesamis/shape_files/object_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "support/run_program.h"
 #include "support/shapes.h"
@@ -61,6 +62,53 @@ TEST(CompareCommand, MeasuresInsideABoxAlone) {
   EXPECT_EQ(report["box"], nlohmann::json({-1, -1, -1, 5, 5, 5}));
   EXPECT_FAILS(compare("0,0,0,0,1,1"), 2, "--box");
   EXPECT_FAILS(compare("20,20,20,21,21,21"), 3, "inside the box");
+}
+
+/// Two cubes beside each other, as objects of these names.
+void write_cubes(const std::string& path, const char* left, const char* right) {
+  write_objects(path, std::vector<NamedSurface>{{left, {1, 2, 3}, 1, cube({0, 0, 0}, 4)},
+                                                {right, {4, 5, 6}, 2, cube({9, 1, 2}, 4)}});
+}
+
+TEST(CompareCommand, MeasuresObjectsOfOneNameOnTheirOwn) {
+  const TempFolder folder;
+  const std::string report = folder / "r.json";
+  for (const char* format : {".3mf", ".vtp", ".obj", ".amf"}) {
+    const std::string a = folder / ("a" + std::string(format)), b = folder / "b.vtp";
+    write_cubes(a, "left", "right");
+    write_cubes(b, "right", "left");
+    const ProgramRun run = run_program(folder, {"compare", a, b, "--report", report});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    EXPECT_THAT(run.out, testing::HasSubstr("\nleft\nsurface_to_reference "));
+    const auto found = nlohmann::json::parse(read_bytes(report));
+    EXPECT_NEAR(found["surface_to_reference"]["max"], 0, 1e-5) << "together they are the same";
+    ASSERT_EQ(found["objects"].size(), 2);
+    EXPECT_EQ(found["objects"][0]["name"], "left");
+    for (const auto& object : found["objects"]) {
+      EXPECT_GT(object["surface_to_reference"]["by_area"]["mean"], 3);
+      EXPECT_GT(object["reference_to_surface"]["mean"], 3);
+    }
+  }
+}
+
+TEST(CompareCommand, SaysThatObjectsAreMeasuredTogether) {
+  const TempFolder folder;
+  write_cubes(folder / "a.3mf", "left", "right");
+  write_cubes(folder / "b.3mf", "one", "two");
+  write_surface(folder / "one.ply", cube({0, 0, 0}, 4));
+  const auto compare = [&](const char* reference, const char* surface) {
+    return run_program(
+        folder, {"compare", folder / reference, folder / surface, "--report", folder / "r.json"});
+  };
+  const auto line = testing::HasSubstr("a.3mf: 2 objects, measured together as one surface");
+  for (const ProgramRun& run :
+       {compare("a.3mf", "one.ply"), compare("one.ply", "a.3mf"), compare("a.3mf", "b.3mf")}) {
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.err, line);
+    EXPECT_FALSE(nlohmann::json::parse(read_bytes(folder / "r.json")).contains("objects"));
+  }
+  EXPECT_EQ(compare("one.ply", "one.ply").err, "");
 }
 
 TEST(CompareCommand, HistogramCountsEveryPoint) {

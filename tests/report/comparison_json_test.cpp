@@ -22,6 +22,17 @@ TEST(DistancesJson, SummarisesVerticesAndArea) {
   EXPECT_DOUBLE_EQ(paper["least_local"], 3);
 }
 
+TEST(ObjectsJson, HasBothDirectionsOfEachObject) {
+  const DirectedDistances there{"surface_to_reference", {1}, {2}};
+  const DirectedDistances back{"reference_to_surface", {3}, {4}};
+  const auto json = objects_json({{"femur", {there, back}}});
+  ASSERT_EQ(json.size(), 1u);
+  EXPECT_EQ(json[0]["name"], "femur");
+  EXPECT_EQ(json[0]["surface_to_reference"], distances_json(there));
+  EXPECT_EQ(json[0]["reference_to_surface"], distances_json(back));
+  EXPECT_TRUE(objects_json({}).is_array());
+}
+
 TEST(FramesJson, WhatNoFileStatesIsNull) {
   SurfacePair pair;
   pair.surface_frame = Frame::kRas;

@@ -29,6 +29,8 @@ TEST(MeasureDistances, OnlyPointsInsideThePartCount) {
   EXPECT_EQ(d.from_vertices.size(), 4u);
   EXPECT_REFUSED(measure_distances("a", surface, surface, Box{{5, 5, 5}, {6, 6, 6}}),
                  testing::HasSubstr("no point of the first lies inside the box"));
+  EXPECT_FALSE(find_distances("a", surface, surface, Box{{5, 5, 5}, {6, 6, 6}}));
+  EXPECT_EQ(find_distances("a", surface, surface, part)->from_vertices, d.from_vertices);
 }
 
 TEST(Summarize, KeepsVerticesAndAreaApart) {

@@ -38,6 +38,16 @@ ordered_json paper_distances_json(const DirectedDistances& reference_to_surface)
           {"least_local", *std::min_element(local.begin(), local.end())}};
 }
 
+ordered_json objects_json(const std::vector<ObjectDistances>& objects) {
+  ordered_json list = ordered_json::array();
+  for (const ObjectDistances& object : objects) {
+    ordered_json entry{{"name", object.name}};
+    for (const DirectedDistances& d : object.directions) entry[d.name] = distances_json(d);
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 ordered_json frames_json(const SurfacePair& pair) {
   ordered_json flip;
   if (pair.flip) {

@@ -22,6 +22,9 @@ nlohmann::ordered_json distances_json(const DirectedSummary& summary);
 /// O(n log n) for n distances.
 nlohmann::ordered_json paper_distances_json(const DirectedDistances& reference_to_surface);
 
+/// The entry "objects" of a report: of each its name and its distances in both directions.
+nlohmann::ordered_json objects_json(const std::vector<ObjectDistances>& objects);
+
 /// The entry "frames" of a report: the frames that the files state, and whether the surface was
 /// turned.
 nlohmann::ordered_json frames_json(const SurfacePair& pair);

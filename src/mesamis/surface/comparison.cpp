@@ -38,17 +38,23 @@ void keep_inside(std::vector<Vec3>& points, const Box& box) {
 
 }  // namespace
 
-DirectedDistances measure_distances(const std::string& name, const TriMesh& from, const TriMesh& to,
-                                    const std::optional<Box>& part) {
+std::optional<DirectedDistances> find_distances(const std::string& name, const TriMesh& from,
+                                                const TriMesh& to, const std::optional<Box>& part) {
   std::vector<Vec3> vertices = from.points, samples = sample_by_area(from, kAreaSamples);
   if (part) {
     keep_inside(vertices, *part);
     keep_inside(samples, *part);
-    if (vertices.empty() || samples.empty()) {
-      throw InputError(name + ": no point of the first lies inside the box");
-    }
+    if (vertices.empty() || samples.empty()) return std::nullopt;
   }
-  return {name, distances_to_surface(vertices, to), distances_to_surface(samples, to)};
+  return DirectedDistances{name, distances_to_surface(vertices, to),
+                           distances_to_surface(samples, to)};
+}
+
+DirectedDistances measure_distances(const std::string& name, const TriMesh& from, const TriMesh& to,
+                                    const std::optional<Box>& part) {
+  std::optional<DirectedDistances> found = find_distances(name, from, to, part);
+  if (!found) throw InputError(name + ": no point of the first lies inside the box");
+  return *std::move(found);
 }
 
 DirectedSummary summarize(const DirectedDistances& distances) {

@@ -31,6 +31,11 @@ struct DirectedDistances {
 DirectedDistances measure_distances(const std::string& name, const TriMesh& from, const TriMesh& to,
                                     const std::optional<Box>& part = std::nullopt);
 
+/// Measures the distances as measure_distances() does.
+/// @return nothing where no point counts.
+std::optional<DirectedDistances> find_distances(const std::string& name, const TriMesh& from,
+                                                const TriMesh& to, const std::optional<Box>& part);
+
 /// The figures that reports give of distances in one direction.
 struct DirectedSummary {
   DistanceSummary vertices;  ///< of the distances from the vertices, mm
