@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesamis decimate: closed surfaces, with fewer triangles, within a distance.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -13,15 +12,13 @@
 #include "costs.h"
 #include "log.h"
 #include "mesamis/base/error.h"
-#include "mesamis/decimate/simplify_objects.h"
 #include "mesamis/method/printable.h"
 #include "mesamis/method/setting_table.h"
 #include "mesamis/report/json_file.h"
 #include "mesamis/report/label_surface_files.h"
 #include "mesamis/report/report.h"
-#include "mesamis/run/outcome_details.h"
+#include "mesamis/run/decimate_objects.h"
 #include "mesamis/shape_files/object_files.h"
-#include "mesamis/surface/select_parts.h"
 #include "mesamis/surface/self_intersections.h"
 #include "outputs.h"
 #include "progress.h"
@@ -43,29 +40,6 @@ struct DecimateCommand {
 
   double most() const { return tolerance.value_or(std::numeric_limits<double>::infinity()); }
 };
-
-bool is_closed(const NamedSurface& object) {
-  return flaws_of(check_surface(object.surface)).empty();
-}
-
-/// The objects of a file, in LPS where it states a frame. Parts of one surface that are open, such
-/// as groups of an .obj, are one object.
-ObjectFile read_closed(const fs::path& path, const ReadLimits& limits) {
-  ObjectFile file = read_object_file(path, limits);
-  if (!std::all_of(file.objects.begin(), file.objects.end(), is_closed)) {
-    SurfaceFile whole = read_surface_file(path, limits);
-    const std::string flaws = flaws_of(check_surface(whole.surface));
-    if (!flaws.empty()) {
-      throw InputError(path.string() + ": expected a closed 2-manifold surface, found " + flaws);
-    }
-    log_warning(path.string() + ": parts that are not closed, taken as one surface without names");
-    file = {{NamedSurface{}}, whole.frame};
-    file.objects[0].surface = std::move(whole.surface);
-  }
-  const auto frame = file.frame;
-  const bool coloured = file.coloured;
-  return {in_lps(std::move(file)), frame, coloured};
-}
 
 /// What the settings of a run say of the same things holds here as well.
 void require_valid_options(const DecimateCommand& command) {
@@ -91,59 +65,31 @@ void require_all(const DecimateCommand& command) {
   require_valid_options(command);
 }
 
-/// The parts that the options leave. An object of which nothing is left goes.
-std::vector<SelectionReport> select(const DecimateCommand& command,
-                                    std::vector<NamedSurface>& objects) {
-  const PartSelection wanted{command.min_volume, command.keep_largest, command.fill_cavities};
-  std::vector<SelectionReport> reports;
-  std::vector<NamedSurface> left;
-  for (NamedSurface& object : objects) {
-    SelectionReport report;
-    object.surface = select_parts(object.surface, wanted, &report);
-    if (object.surface.triangles.empty()) {
-      if (objects.size() > 1) log_warning(object.name + ": no part of at least --min-volume");
-      continue;
-    }
-    left.push_back(std::move(object));
-    reports.push_back(report);
+/// Reduces the triangles of the objects. Those of which nothing is left go.
+/// @return what was done to each of the others.
+std::vector<PrintableReport> reduce(const DecimateCommand& command,
+                                    std::vector<NamedSurface>& objects, bool quiet) {
+  ProgressDisplay display(quiet);
+  PrintableOptions options;
+  options.min_volume = command.min_volume;
+  options.keep_largest = command.keep_largest;
+  options.fill_cavities = command.fill_cavities;
+  options.tolerance = command.most();
+  options.triangles = command.triangles.value_or(0);
+  options.progress = display.callback();
+  const bool several = objects.size() > 1;
+  DecimatedObjects done = decimate_objects(std::move(objects), options);
+  display.finish();
+  for (const std::string& name : done.dropped) {
+    if (several) log_warning(name + ": no part of at least --min-volume");
   }
-  if (left.empty()) {
+  if (done.objects.empty()) {
     throw InputError(command.input.string() +
                      ": expected a part of at least --min-volume, found none");
   }
-  objects = std::move(left);
-  return reports;
-}
-
-/// Reduces the triangles of the objects.
-/// @return what was done to each.
-std::vector<PrintableReport> reduce(const DecimateCommand& command,
-                                    std::vector<NamedSurface>& objects, bool quiet) {
-  const std::vector<SelectionReport> parts = select(command, objects);
-  ProgressDisplay display(quiet);
-  const double tolerance = command.most();
-  const std::int64_t triangles = command.triangles.value_or(0);
-  std::vector<PrintableReport> reports(objects.size());
-  if (objects.size() == 1) {
-    objects[0].surface = make_printable(
-        objects[0].surface,
-        {.tolerance = tolerance, .triangles = triangles, .progress = display.callback()},
-        &reports[0]);
-  } else {
-    std::vector<TriMesh> surfaces;
-    surfaces.reserve(objects.size());
-    for (NamedSurface& object : objects) surfaces.push_back(std::move(object.surface));
-    std::vector<DecimateReport> done;
-    surfaces = simplify_objects(surfaces, {tolerance, triangles, display.callback()}, &done);
-    for (std::size_t n = 0; n < objects.size(); ++n) {
-      objects[n].surface = std::move(surfaces[n]);
-      reports[n] = {
-          {}, done[n].triangles_before, done[n].original_to_result, done[n].result_to_original};
-    }
-  }
-  display.finish();
-  for (std::size_t n = 0; n < objects.size(); ++n) reports[n].parts = parts[n];
-  return reports;
+  objects = std::move(done.objects);
+  if (!done.unmet.empty()) log_warning(done.unmet);
+  return std::move(done.reports);
 }
 
 /// The files of the objects: one of all where its format can.
@@ -155,14 +101,10 @@ void write(const DecimateCommand& command, const ObjectFile& file, OutputSet& se
   const std::vector<NamedSurface>& objects = file.objects;
   SurfaceWriteOptions options{.name = command.name};
   if (!file.frame) options.frame.reset();
-  if (holds_all(command.output) && (objects.size() > 1 || file.coloured)) {
-    return write_objects(set.file(command.output), objects, options);
+  if (objects.size() > 1 || (file.coloured && holds_all(command.output))) {
+    return write_named_surfaces(set.file(command.output), objects, options);
   }
-  const Paths files = files_of(command.output, objects);
-  for (std::size_t n = 0; n < objects.size(); ++n) {
-    if (objects.size() > 1) options.name = objects[n].name;
-    write_surface(set.file(files[n]), objects[n].surface, options);
-  }
+  write_surface(set.file(files_of(command.output, objects)[0]), objects[0].surface, options);
 }
 
 /// The entry of one surface in the report.
@@ -201,17 +143,6 @@ std::size_t triangles_of(const std::vector<NamedSurface>& objects) {
   return triangles;
 }
 
-/// Warns where there are more triangles than were asked for.
-void warn_of_triangles(const DecimateCommand& command, const std::vector<NamedSurface>& objects) {
-  if (!command.triangles) return;
-  std::vector<FoundObject> found;
-  found.reserve(objects.size());
-  for (const NamedSurface& object : objects) found.push_back({object.surface, {}});
-  const auto triangles = static_cast<std::int64_t>(triangles_of(objects)) - shared_triangles(found);
-  const std::string line = triangles_unmet(*command.triangles, triangles, command.most());
-  if (!line.empty()) log_warning(line);
-}
-
 void print_line(const NamedSurface& object, std::size_t before, const PrintableReport& report) {
   std::cout << object.surface.triangles.size() << " of " << before << " triangles, at most "
             << report.extracted_to_result << " mm there and " << report.result_to_extracted
@@ -237,7 +168,9 @@ int judge(const DecimateCommand& command, const std::vector<NamedSurface>& objec
 
 int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
   require_all(command);
-  ObjectFile file = read_closed(command.input, common.limits);
+  std::vector<std::string> warnings;
+  ObjectFile file = read_closed_objects(command.input, common.limits, warnings);
+  for (const std::string& warning : warnings) log_warning(warning);
   std::vector<NamedSurface>& objects = file.objects;
   Paths outputs = files_of(command.output, objects);
   outputs.push_back(command.report);
@@ -256,7 +189,6 @@ int run_decimate(const DecimateCommand& command, const CommonOptions& common) {
       print_line(objects[n], static_cast<std::size_t>(reports[n].triangles_extracted), reports[n]);
     }
   }
-  warn_of_triangles(command, objects);
   return judge(command, objects, reports);
 }
 

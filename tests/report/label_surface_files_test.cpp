@@ -54,6 +54,18 @@ TEST(LabelSurfaceFiles, PathsNameEachObjectOrAll) {
   EXPECT_THAT(label_paths("out.ply", std::span(objects).first(1), false), ElementsAre("out.ply"));
 }
 
+TEST(LabelSurfaceFiles, WritesNamedSurfacesInOneOrOneOfEach) {
+  const TempFolder folder;
+  const auto objects = named_surfaces(two_cubes());
+  write_named_surfaces(folder / "all.amf", objects, {.frame = std::nullopt, .name = "both"});
+  EXPECT_EQ(read_object_file(folder / "all.amf").objects[0].name, "left hip");
+  EXPECT_EQ(read_object_file(folder / "all.amf").frame, std::nullopt);
+  write_named_surfaces(folder / "x.stl", objects, {.frame = Frame::kRas});
+  write_named_surfaces(folder / "{label}.vtp", objects, {});
+  EXPECT_EQ(read_surface_file(folder / "x-femur.stl").frame, Frame::kRas);
+  EXPECT_EQ(read_surface(folder / "left_hip.vtp").triangles.size(), cube().triangles.size());
+}
+
 TEST(LabelSurfaceFiles, WritesAllInOneOrOneOfEach) {
   const TempFolder folder;
   const std::vector<OutputPath> paths{folder / "all.vtp", folder / "{label}.ply", folder / "x.stl"};

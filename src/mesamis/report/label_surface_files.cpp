@@ -22,6 +22,10 @@ SurfaceWriteOptions write_options(const RunSurfaceOptions& options, const std::s
   return as;
 }
 
+bool is_of_single_precision(const fs::path& path) {
+  return lower_extension(path) == ".stl" || lower_extension(path) == ".dcm";
+}
+
 }  // namespace
 
 std::vector<NamedSurface> named_segments(std::span<const Segment> segments) {
@@ -76,6 +80,19 @@ std::vector<fs::path> label_paths(const fs::path& path, std::span<const NamedSur
   return paths;
 }
 
+void write_named_surfaces(const OutputPath& path, std::span<const NamedSurface> objects,
+                          const SurfaceWriteOptions& options) {
+  if (holds_all(path)) return write_objects(path, objects, options);
+  std::vector<NamedSurface> ready(objects.begin(), objects.end());
+  if (is_of_single_precision(path)) ready = rounded_together(std::move(ready));
+  const auto files = label_paths(path, objects, objects.size() > 1);
+  SurfaceWriteOptions as = options;
+  for (std::size_t n = 0; n < ready.size(); ++n) {
+    as.name = ready[n].name;
+    write_surface({files[n], path.set}, ready[n].surface, as);
+  }
+}
+
 void write_label_surfaces(std::span<const OutputPath> paths, const LabelResult& result,
                           const RunSurfaceOptions& options, bool several) {
   const std::vector<NamedSurface> objects = named_surfaces(result);
@@ -85,7 +102,7 @@ void write_label_surfaces(std::span<const OutputPath> paths, const LabelResult& 
       write_objects(path, objects, write_options(options, options.name));
       continue;
     }
-    const bool single = lower_extension(path) == ".stl" || lower_extension(path) == ".dcm";
+    const bool single = is_of_single_precision(path);
     if (single && rounded.empty()) rounded = rounded_together(objects);
     const auto files = label_paths(path, objects, several);
     for (std::size_t n = 0; n < objects.size(); ++n) {

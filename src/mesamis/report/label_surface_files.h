@@ -36,6 +36,14 @@ bool holds_all(const std::filesystem::path& path);
 std::vector<std::filesystem::path> label_paths(const std::filesystem::path& path,
                                                std::span<const NamedSurface> objects, bool several);
 
+/// Writes objects to one file where that holds all, else to one for each object.
+/// @param options  as for write_objects(); `name` is that of the whole.
+/// @throws InputError  as write_objects(), write_surface() and rounded_together().
+///
+/// O(points and triangles).
+void write_named_surfaces(const OutputPath& path, std::span<const NamedSurface> objects,
+                          const SurfaceWriteOptions& options);
+
 /// Writes the surfaces of a run on labels to each of the paths, or to the files of each object that
 /// a path stands for.
 /// @param options  `name` is that of the whole.

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 set(ROOM_HEADERS
+  decimate_objects.h
   elements.h
   outcome.h
   outcome_details.h
@@ -9,6 +10,7 @@ set(ROOM_HEADERS
   segment_in_slabs.h
   write.h)
 set(ROOM_SOURCES
+  decimate_objects.cpp
   elements.cpp
   outcome.cpp
   outcome_details.cpp
