@@ -153,7 +153,7 @@ class Mesh:
 
 class _AnyResult:
     """What results of one object and of several have in common."""
-    frame: _Frame
+    frame: _Frame | None
     @property
     def report(self) -> dict[str, Any]:
         """The run's report, as the program writes it with --report."""
@@ -242,15 +242,15 @@ class Object(_Shape):
     points: _Doubles
     triangles: _Indices
     expected_error: _Doubles
-    frame: _Frame
+    frame: _Frame | None
     def save(self, path: _Path, *, name: str | None = ..., error: bool = ...) -> None:
         """Writes the object's surface alone: .stl .ply .obj .vtp .3mf .amf .glb .dcm. `name` is what the file
         calls it (default: its own name); `error` adds the expected error to a .vtp or .ply.
         """
 
 class LabelResult(_AnyResult):
-    """The result of `segment` for several objects: iterate over it, or ask for one by name or
-    label.
+    """The result of `segment` or `decimate` for several objects: iterate over it, or ask for one by
+    name or label. Of `decimate` it has surfaces and report alone; `frame` is None where a file states none.
     """
     def to_pyvista(self) -> Any:
         """The surfaces as PyVista's MultiBlock, a PolyData for each object under its name."""
@@ -312,11 +312,13 @@ class Comparison:
     """Distances between two surfaces, mm.
 
     `report` has mean, rms, p95, p99 and max for both directions, of the vertices and by area;
-    `surface_to_reference` and `reference_to_surface` are the distances of the vertices.
+    `surface_to_reference` and `reference_to_surface` are the distances of the vertices. `objects` is a dict
+    of names and comparisons: of each object that both surfaces have under this name, with itself.
     """
     report: dict[str, Any]
     surface_to_reference: _Doubles
     reference_to_surface: _Doubles
+    objects: dict[str, Comparison]
     @property
     def mean(self) -> float:
         """By area, the mean of both directions."""
@@ -532,11 +534,16 @@ def decimate(
     fill_cavities: bool = ...,
     progress: _Progress | None = ...,
     threads: int = ...,
-) -> Surface:
+) -> Any:
     """Removes triangles of a closed surface while it stays within `tolerance` (mm), down to `triangles`.
 
     `surface` is a path, a result, a Surface or (points, triangles). Islands and cavities below
     `min_volume` (mm^3) go, all but the `keep_largest` islands, and with `fill_cavities` every cavity.
+
+    Returns a Surface. Of several objects, which a LabelResult or the file of a path has, a LabelResult
+    without a mesh: each object keeps name, label and colour, and shares triangles as before; `triangles` is
+    the number of all, shared ones counted once. `report["surfaces"]` has an entry for each. An object of
+    which no part is left goes, with a warning. Raises InputError for surfaces that are not closed.
 
     >>> import mesamis
     >>> ball = mesamis.phantom_surface("sphere", size=(20, 20, 20))
@@ -575,6 +582,9 @@ def compare(
     Each is a path, a result, a Surface or (points, triangles). Points of files that state no frame are
     taken as they are; `frames` is "auto", "as-is" or "turned". `box` is (x0, y0, z0, x1, y1, z1): only
     points inside count.
+
+    Several objects, which a LabelResult or the file of a path has, are measured together as one surface,
+    and those of one name also on their own: `objects` of the Comparison. A warning names the others.
 
     >>> import mesamis
     >>> ball = mesamis.phantom_surface("sphere", size=(20, 20, 20))

@@ -115,6 +115,24 @@ def surface_parts(surface):
         f"surface: expected a path, a result, a Surface or (points, triangles), found {type(surface).__name__}")
 
 
+def object_parts(surface):
+    """What is several objects: dicts of them as the module in C++ takes them, their points in the frame of
+    the surface. None of what is one."""
+    if isinstance(surface, (str, os.PathLike)):
+        objects, _ = _core.read_objects(os.fspath(surface))
+        return objects if len(objects) > 1 else None
+    if isinstance(getattr(surface, "objects", None), list):  # a LabelResult
+        return [vars(o) for o in surface.objects]
+    return None
+
+
+def joined_parts(objects):
+    """Points and triangles of several objects as of one surface."""
+    starts = np.cumsum([0, *(len(o["points"]) for o in objects)])
+    return (np.concatenate([o["points"] for o in objects]),
+            np.concatenate([o["triangles"] + s for o, s in zip(objects, starts)]))
+
+
 def mesh_parts(mesh):
     """Nodes, tetrahedra and frame of whatever is a mesh."""
     if isinstance(mesh, tuple) and len(mesh) == 2:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Results that were pickled: arrays and report, without the run that they came from."""
+"""Results without a run: those that were pickled, and objects that were decimated."""
 
 import json
 
@@ -27,11 +27,19 @@ def _own(value):
 
 
 class KeptRun:
-    """Answers for a run that is gone."""
+    """Answers for a run that is gone, or that there never was."""
+
+    _found = "one that was pickled"
 
     def __init__(self, state):
         self._report = state["report"]
         self.__dict__.update({key: value for key, value in state.items() if key != "report"})
+
+    @classmethod
+    def of_objects(cls, objects, report, frame):
+        """Objects that no run made, points in LPS where a frame is known."""
+        return cls({**dict.fromkeys(_FIELDS), "several": True, "warnings": [], "notes": [], "objects": objects,
+                    "report": report, "frame": frame, "_found": "decimated objects"})
 
     def report(self):
         return json.dumps(self._report)
@@ -40,8 +48,11 @@ class KeptRun:
         pass
 
     def save_surface(self, path, name, error, patient):
-        if self.several or patient:
+        if patient or (self.several and error):
             self._refuse(path)
+        if self.several:
+            _core.write_objects(path, self.objects, self.frame or "", name)
+            return
         one = self.objects[0]
         arrays = {"expected_error": np.asarray(one["expected_error"], dtype=float)} if error else {}
         turn = np.array([1.0, 1, 1]) if self.frame == "lps" else np.array([-1.0, -1, 1])
@@ -52,7 +63,6 @@ class KeptRun:
 
     save_band = save_labelmap = save_page = save_mesh
 
-    @staticmethod
-    def _refuse(path):
+    def _refuse(self, path):
         raise _core.InputError(
-            f"{path}: expected a result of this session, found one that was pickled: it has arrays and report")
+            f"{path}: expected a result of segment() in this session, found {self._found}, arrays and report alone")

@@ -43,7 +43,8 @@ class _AnyResult:
         self.frame = frame
 
     def _turned(self, points):
-        return points if self.frame == "lps" else points * np.array([-1.0, -1.0, 1.0])
+        turns = self.frame == "ras" and points is not None
+        return points * np.array([-1.0, -1.0, 1.0]) if turns else points
 
     @property
     def report(self):
@@ -229,8 +230,8 @@ class Object(Shape):
 
 
 class LabelResult(_AnyResult):
-    """The result of `segment` for several objects: iterate over it, or ask for one by name or
-    label."""
+    """The result of `segment` or `decimate` for several objects: iterate over it, or ask for one by
+    name or label. Of `decimate` it has surfaces and report alone; `frame` is None where a file states none."""
 
     @property
     def objects(self):

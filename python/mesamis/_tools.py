@@ -7,8 +7,10 @@ import os
 import numpy as np
 
 from . import _core
-from ._geometry import Mesh, Surface, mesh_parts, surface_parts
+from ._geometry import Mesh, Surface, joined_parts, mesh_parts, object_parts, surface_parts
+from ._kept import KeptRun
 from ._progress import Follow
+from ._result import LabelResult
 from ._volume import Volume, is_path, read_scan, scan_of
 from ._warnings import warn
 
@@ -19,6 +21,11 @@ def decimate(surface, *, tolerance=None, triangles=None, min_volume=0, keep_larg
 
     `surface` is a path, a result, a Surface or (points, triangles). Islands and cavities below
     `min_volume` (mm^3) go, all but the `keep_largest` islands, and with `fill_cavities` every cavity.
+
+    Returns a Surface. Of several objects, which a LabelResult or the file of a path has, a LabelResult
+    without a mesh: each object keeps name, label and colour, and shares triangles as before; `triangles` is
+    the number of all, shared ones counted once. `report["surfaces"]` has an entry for each. An object of
+    which no part is left goes, with a warning. Raises InputError for surfaces that are not closed.
 
     >>> import mesamis
     >>> ball = mesamis.phantom_surface("sphere", size=(20, 20, 20))
@@ -33,15 +40,40 @@ def decimate(surface, *, tolerance=None, triangles=None, min_volume=0, keep_larg
     for name, value in (("tolerance", tolerance), ("triangles", triangles)):
         if value is not None and not value >= 0:
             raise _core.InputError(f"{name}: expected 0 or more, found {value}")
-    points, corners, frame = surface_parts(surface)
-    turn = np.array([-1.0, -1.0, 1.0]) if frame == "ras" else 1.0  # the program decimates in LPS
-    points = np.asarray(points) * turn
     wanted = {"tolerance": tolerance, "triangles": triangles, "min_volume": min_volume,
               "keep_largest": keep_largest, "fill_cavities": bool(fill_cavities)}
+    objects, frame, several, warnings = _closed_objects(surface)
+    numbered = [{**o, "label": n} for n, o in enumerate(objects)]
     with Follow(progress) as tell:
-        points, corners, report, flaw = _core.decimate(points, corners, wanted, tell, threads)
-    warn([flaw])
-    return Surface(points * turn, corners, frame or None, json.loads(report))
+        left, reports, more = _core.decimate(numbered, wanted, tell, threads)
+    warn([*warnings, *more])
+    reports = [json.loads(report) for report in reports]
+    if not several:
+        return Surface(left[0]["points"] * _turn(frame), left[0]["triangles"], frame, reports[0])
+    known = ("name", "label", "layer", "colour")
+    left = [{**o, **{key: objects[o["label"]][key] for key in known}} for o in left]
+    named = [{"name": o["name"], "label": o["label"], **r} for o, r in zip(left, reports)]
+    return LabelResult(KeptRun.of_objects(left, {"surfaces": named}, frame), frame)
+
+
+def _turn(frame):
+    """From a frame to LPS and back."""
+    return np.array([-1.0, -1.0, 1.0]) if frame == "ras" else 1.0
+
+
+def _closed_objects(surface):
+    """The objects of whatever is a surface, in LPS as far as is known; its frame; whether they are several;
+    warnings."""
+    if is_path(surface):
+        objects, frame, warnings = _core.read_closed_objects(os.fspath(surface))
+        return objects, frame, len(objects) > 1, warnings
+    if isinstance(surface, LabelResult):
+        objects, frame = object_parts(surface), surface.frame
+        return [{**o, "points": o["points"] * _turn(frame)} for o in objects], frame, True, []
+    points, triangles, frame = surface_parts(surface)
+    one = {"name": "", "label": 1, "colour": (0, 0, 0), "points": np.asarray(points) * _turn(frame),
+           "triangles": triangles}
+    return [one], frame or None, False, []
 
 
 def label(surfaces, like, path):
@@ -73,13 +105,15 @@ class Comparison:
     """Distances between two surfaces, mm.
 
     `report` has mean, rms, p95, p99 and max for both directions, of the vertices and by area;
-    `surface_to_reference` and `reference_to_surface` are the distances of the vertices.
+    `surface_to_reference` and `reference_to_surface` are the distances of the vertices. `objects` is a dict
+    of names and comparisons: of each object that both surfaces have under this name, with itself.
     """
 
-    def __init__(self, report, to_reference, to_surface):
+    def __init__(self, report, to_reference, to_surface, objects=None):
         self.report = report
         self.surface_to_reference = to_reference
         self.reference_to_surface = to_surface
+        self.objects = objects or {}
 
     @property
     def mean(self):
@@ -105,6 +139,9 @@ def compare(reference, surface, *, frames="auto", box=None, threads=0):
     taken as they are; `frames` is "auto", "as-is" or "turned". `box` is (x0, y0, z0, x1, y1, z1): only
     points inside count.
 
+    Several objects, which a LabelResult or the file of a path has, are measured together as one surface,
+    and those of one name also on their own: `objects` of the Comparison. A warning names the others.
+
     >>> import mesamis
     >>> ball = mesamis.phantom_surface("sphere", size=(20, 20, 20))
     >>> c = mesamis.compare(ball, mesamis.decimate(ball, tolerance=0.1))
@@ -114,10 +151,23 @@ def compare(reference, surface, *, frames="auto", box=None, threads=0):
     box = None if box is None else np.asarray(box, dtype=float).ravel().tolist()
     if box is not None and (len(box) != 6 or not all(box[a] < box[a + 3] for a in range(3))):
         raise _core.InputError("box: expected x0, y0, z0, x1, y1, z1 with each first below its second")
-    report, warnings, there, back = _core.compare(surface_parts(reference), surface_parts(surface), frames,
-                                                  box, threads)
+    report, warnings, whole, parts = _core.compare((_compared(reference, "reference"), _compared(surface, "surface")),
+                                                   frames, box, threads)
     warn(warnings)
-    return Comparison(json.loads(report), there, back)
+    report = json.loads(report)
+    own = {one["name"]: Comparison(one, *distances) for one, distances in zip(report.get("objects", []), parts)}
+    return Comparison(report, *whole, own)
+
+
+def _compared(surface, name):
+    """A surface and its objects, as the module in C++ compares them."""
+    objects = object_parts(surface) or []
+    if isinstance(surface, LabelResult):
+        (points, triangles), frame = joined_parts(objects), surface.frame or ""
+    else:
+        points, triangles, frame = surface_parts(surface)
+    return {"points": points, "triangles": triangles, "frame": frame, "objects": objects,
+            "name": os.fspath(surface) if is_path(surface) else name}
 
 
 def _tensors(metric):

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "arrays.h"
 
+#include <pybind11/stl.h>
+
+#include <array>
 #include <limits>
 #include <string>
 
@@ -85,6 +88,32 @@ TriMesh surface_of(const Doubles& points, const Indices& triangles) {
   TriMesh surface{points_of(points, "points"), triangles_of(triangles, "triangles")};
   require_sound(surface);
   return surface;
+}
+
+py::list dicts_of(std::vector<NamedSurface> objects) {
+  using namespace py::literals;
+  py::list dicts;
+  for (NamedSurface& o : objects) {
+    dicts.append(py::dict("name"_a = o.name, "label"_a = o.label, "layer"_a = 0,
+                          "colour"_a = py::make_tuple(o.colour[0], o.colour[1], o.colour[2]),
+                          "points"_a = array_of<double>(std::move(o.surface.points)),
+                          "triangles"_a = array_of<Index>(std::move(o.surface.triangles)),
+                          "expected_error"_a = array_of<double>(std::vector<double>{})));
+  }
+  return dicts;
+}
+
+std::vector<NamedSurface> named_surfaces_of(const py::list& dicts) {
+  std::vector<NamedSurface> objects;
+  objects.reserve(dicts.size());
+  for (const py::handle one : dicts) {
+    const auto object = one.cast<py::dict>();
+    objects.push_back(
+        {object["name"].cast<std::string>(), object["colour"].cast<std::array<std::uint8_t, 3>>(),
+         object["label"].cast<Index>(),
+         surface_of(object["points"].cast<Doubles>(), object["triangles"].cast<Indices>())});
+  }
+  return objects;
 }
 
 }  // namespace mesamis::python

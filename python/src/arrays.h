@@ -10,6 +10,7 @@
 #include "mesamis/base/types.h"
 #include "mesamis/mesh/metric.h"
 #include "mesamis/mesh/tet_mesh.h"
+#include "mesamis/shape_files/object_files.h"
 #include "mesamis/surface/tri_mesh.h"
 
 /// NumPy arrays that share their memory with vectors of the library.
@@ -61,5 +62,13 @@ std::vector<Sym3> tensors_of(const Doubles& array, const char* what);
 /// A surface whose triangles name points that there are.
 /// @throws InputError  as points_of() and require_sound().
 TriMesh surface_of(const Doubles& points, const Indices& triangles);
+
+/// Objects as dicts of name, label, layer, colour, points, triangles and expected_error, which is
+/// empty. No copy of points and triangles.
+py::list dicts_of(std::vector<NamedSurface> objects);
+
+/// Objects of such dicts.
+/// @throws InputError  as surface_of().
+std::vector<NamedSurface> named_surfaces_of(const py::list& dicts);
 
 }  // namespace mesamis::python

@@ -9,6 +9,9 @@
 #include "arrays.h"
 #include "binding.h"
 #include "mesamis/base/error.h"
+#include "mesamis/files/output_set.h"
+#include "mesamis/report/label_surface_files.h"
+#include "mesamis/run/decimate_objects.h"
 #include "mesamis/shape_files/mesh_files.h"
 #include "mesamis/shape_files/surface_files.h"
 #include "request.h"
@@ -20,16 +23,63 @@ namespace {
 using namespace py::literals;
 using Arrays = std::map<std::string, Doubles>;
 
+py::object frame_name_of(const std::optional<Frame>& frame) {
+  if (!frame) return py::none();
+  return py::str(*frame == Frame::kRas ? "ras" : "lps");
+}
+
 py::tuple read_surface_file(const std::string& path) {
   SurfaceFile file;
   {
     const py::gil_scoped_release lock_released;
     file = mesamis::read_surface_file(path);
   }
-  const bool ras = file.frame == Frame::kRas;
-  const py::object frame = file.frame ? py::object(py::str(ras ? "ras" : "lps")) : py::none();
   return py::make_tuple(array_of<double>(std::move(file.surface.points)),
-                        array_of<Index>(std::move(file.surface.triangles)), frame);
+                        array_of<Index>(std::move(file.surface.triangles)),
+                        frame_name_of(file.frame));
+}
+
+/// @return the objects of a file, points as they are in it, and the frame that it states.
+py::tuple read_objects(const std::string& path) {
+  ObjectFile file;
+  {
+    const py::gil_scoped_release lock_released;
+    file = read_object_file(path);
+  }
+  return py::make_tuple(dicts_of(std::move(file.objects)), frame_name_of(file.frame));
+}
+
+/// @return closed objects, points in LPS where the file states a frame; that frame; warnings.
+py::tuple read_closed(const std::string& path) {
+  ObjectFile file;
+  std::vector<std::string> warnings;
+  {
+    const py::gil_scoped_release lock_released;
+    file = read_closed_objects(path, {}, warnings);
+  }
+  return py::make_tuple(dicts_of(std::move(file.objects)), frame_name_of(file.frame), warnings);
+}
+
+/// Objects of several layers may share labels: all are then numbered 1, 2, ...
+void number_apart(std::vector<NamedSurface>& objects) {
+  std::vector<Segment> segments;
+  segments.reserve(objects.size());
+  for (const NamedSurface& o : objects) segments.push_back({o.name, o.label, 0, o.colour});
+  const std::vector<NamedSurface> numbered = named_segments(segments);
+  for (std::size_t n = 0; n < objects.size(); ++n) objects[n].label = numbered[n].label;
+}
+
+/// @param dicts  objects, points in LPS where a frame is given.
+void write_object_files(const std::string& path, const py::list& dicts, const std::string& frame,
+                        const std::string& name) {
+  std::vector<NamedSurface> objects = named_surfaces_of(dicts);
+  SurfaceWriteOptions as{.frame = std::nullopt, .name = name};
+  if (!frame.empty()) as.frame = frame_of(frame);
+  const py::gil_scoped_release lock_released;
+  number_apart(objects);
+  OutputSet set;
+  write_named_surfaces(set.file(path), objects, as);
+  set.commit();
 }
 
 std::vector<double> flat(const Doubles& array) {
@@ -116,6 +166,9 @@ void bind_files(py::module_& module) {
   module.def("read_surface", &read_surface_file, "path"_a);
   module.def("write_surface", &write_surface_file, "path"_a, "shape"_a, "frame"_a, "content"_a,
              "patient"_a.none(true));
+  module.def("read_objects", &read_objects, "path"_a);
+  module.def("read_closed_objects", &read_closed, "path"_a);
+  module.def("write_objects", &write_object_files, "path"_a, "objects"_a, "frame"_a, "name"_a);
   module.def("read_mesh", &read_mesh_file, "path"_a);
   module.def("write_mesh", &write_mesh_file, "path"_a, "nodes"_a, "tets"_a, "frame"_a, "arrays"_a);
 }

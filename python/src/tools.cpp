@@ -20,6 +20,7 @@
 #include "mesamis/report/remesh_json.h"
 #include "mesamis/report/report.h"
 #include "mesamis/report/verdict.h"
+#include "mesamis/run/decimate_objects.h"
 #include "mesamis/shape_files/surface_pair.h"
 #include "mesamis/surface/comparison.h"
 #include "request.h"
@@ -34,42 +35,53 @@ using Vector = std::array<double, 3>;
 
 // ---- decimate
 
-/// A surface of Python in its frame: "lps", "ras", or none.
-SurfaceFile surface_file(const Doubles& points, const Indices& triangles,
-                         const std::string& frame) {
-  SurfaceFile file{surface_of(points, triangles), std::nullopt};
-  if (!frame.empty()) file.frame = frame_of(frame);
-  return file;
-}
-
+/// Objects with fewer triangles, a report of each, and what is to be warned of.
 struct Decimated {
-  TriMesh surface;
-  std::string report, flaw;
+  std::vector<NamedSurface> objects;
+  std::vector<std::string> reports, warnings;
 };
 
-Decimated decimated(const TriMesh& surface, const PrintableOptions& options) {
-  const std::string flaws = flaws_of(check_surface(surface));
-  if (!flaws.empty()) {
-    throw InputError("surface: expected a closed 2-manifold surface, found " + flaws);
+std::string report_text(const NamedSurface& object, const PrintableReport& done, double tolerance) {
+  nlohmann::ordered_json report = printable_json(done, tolerance);
+  report.update(check_json(object.surface, check_surface(object.surface)));
+  return json_text(report);
+}
+
+Decimated decimated(std::vector<NamedSurface> objects, const PrintableOptions& options) {
+  const bool several = objects.size() > 1;
+  const auto of = [several](const std::string& name) { return several ? name + ": " : ""; };
+  for (const NamedSurface& object : objects) {
+    const std::string flaws = flaws_of(check_surface(object.surface));
+    if (flaws.empty()) continue;
+    throw InputError("surface: " + of(object.name) +
+                     "expected a closed 2-manifold surface, found " + flaws);
   }
-  PrintableReport printable;
-  Decimated result{make_printable(surface, options, &printable), "", ""};
-  if (result.surface.triangles.empty()) {
+  DecimatedObjects done = decimate_objects(std::move(objects), options);
+  if (done.objects.empty()) {
     throw InputError("surface: expected a part of at least min_volume, found none");
   }
-  nlohmann::ordered_json report = printable_json(printable, options.tolerance);
-  report.update(check_json(result.surface, check_surface(result.surface)));
-  result.report = json_text(report);
-  if (!printable.within(options.tolerance)) {
-    result.flaw = tolerance_unmet(options.tolerance, printable);
+  Decimated result;
+  for (const std::string& name : done.dropped) {
+    result.warnings.push_back(name + ": no part of at least min_volume");
   }
+  result.warnings.push_back(done.unmet);
+  for (std::size_t n = 0; n < done.objects.size(); ++n) {
+    const PrintableReport& report = done.reports[n];
+    result.reports.push_back(report_text(done.objects[n], report, options.tolerance));
+    if (report.within(options.tolerance)) continue;
+    result.warnings.push_back(of(done.objects[n].name) +
+                              tolerance_unmet(options.tolerance, report));
+  }
+  result.objects = std::move(done.objects);
   return result;
 }
 
-py::tuple decimate_surface(const Doubles& points, const Indices& triangles,
-                           const py::dict& arguments, const py::object& progress, int threads) {
+/// @param dicts  objects, LPS.
+/// @return those that are left, a report of each, and warnings.
+py::tuple decimate_dicts(const py::list& dicts, const py::dict& arguments,
+                         const py::object& progress, int threads) {
   const Arguments wanted(arguments);
-  const TriMesh surface = surface_of(points, triangles);
+  std::vector<NamedSurface> objects = named_surfaces_of(dicts);
   PrintableOptions options;
   options.tolerance = wanted.get("tolerance", std::numeric_limits<double>::infinity());
   options.triangles = wanted.get<std::int64_t>("triangles");
@@ -78,13 +90,20 @@ py::tuple decimate_surface(const Doubles& points, const Indices& triangles,
   options.fill_cavities = wanted.get<bool>("fill_cavities");
   Decimated done = released({progress, threads}, [&](const Progress& tell) {
     options.progress = tell;
-    return decimated(surface, options);
+    return decimated(std::move(objects), options);
   });
-  return py::make_tuple(array_of<double>(std::move(done.surface.points)),
-                        array_of<Index>(std::move(done.surface.triangles)), done.report, done.flaw);
+  return py::make_tuple(dicts_of(std::move(done.objects)), done.reports, done.warnings);
 }
 
 // ---- compare
+
+/// A surface of Python in its frame: "lps", "ras", or none.
+SurfaceFile surface_file(const Doubles& points, const Indices& triangles,
+                         const std::string& frame) {
+  SurfaceFile file{surface_of(points, triangles), std::nullopt};
+  if (!frame.empty()) file.frame = frame_of(frame);
+  return file;
+}
 
 FrameRule rule_of(const std::string& name) {
   if (name == "auto") return FrameRule::kAuto;
@@ -93,43 +112,62 @@ FrameRule rule_of(const std::string& name) {
   throw InputError("frames: expected 'auto', 'as-is' or 'turned', found '" + name + "'");
 }
 
+/// A surface, its objects where it has several, and what messages call it.
+struct ComparedSurface {
+  SurfaceFile whole;
+  PairedFile objects;
+};
+
+/// Of a dict of points, triangles, frame, objects and name.
+ComparedSurface compared_surface(const py::dict& dict) {
+  return {surface_file(dict["points"].cast<Doubles>(), dict["triangles"].cast<Indices>(),
+                       dict["frame"].cast<std::string>()),
+          {dict["name"].cast<std::string>(), named_surfaces_of(dict["objects"].cast<py::list>())}};
+}
+
 struct Compared {
   SurfacePair pair;
   std::vector<DirectedDistances> directions;
+  std::vector<ObjectDistances> objects;
   std::string report;
 };
 
-Compared compared(const SurfaceFile& reference, const SurfaceFile& surface, FrameRule rule,
+Compared compared(const ComparedSurface& reference, const ComparedSurface& surface, FrameRule rule,
                   const std::optional<Box>& box) {
-  Compared c{pair_up(reference, surface, rule, "surface"), {}, ""};
-  c.directions = {measure_distances("surface_to_reference", c.pair.surface, c.pair.reference, box),
-                  measure_distances("reference_to_surface", c.pair.reference, c.pair.surface, box)};
+  Compared c{pair_up(reference.whole, surface.whole, rule, "surface"), {}, {}, ""};
+  pair_objects(c.pair, reference.objects, surface.objects);
+  c.directions = measure_both(c.pair, box);
+  c.objects = measure_objects(c.pair, box);
   nlohmann::ordered_json report;
   report["frames"] = frames_json(c.pair);
   report["unit"] = "mm";
   for (const DirectedDistances& d : c.directions) report[d.name] = distances_json(d);
   report["paper"] = paper_distances_json(c.directions[1]);
+  if (!c.objects.empty()) report["objects"] = objects_json(c.objects);
   c.report = json_text(report);
   return c;
 }
 
-using SurfaceOfPython = std::tuple<Doubles, Indices, std::string>;
+/// The distances of the vertices in both directions.
+py::tuple vertex_distances(std::vector<DirectedDistances>& directions) {
+  return py::make_tuple(array_of<double>(std::move(directions[0].from_vertices)),
+                        array_of<double>(std::move(directions[1].from_vertices)));
+}
 
-py::tuple compare_surfaces(const SurfaceOfPython& reference, const SurfaceOfPython& surface,
-                           const std::string& frames, const std::optional<std::array<double, 6>>& b,
-                           int threads) {
-  const auto file = [](const SurfaceOfPython& s) {
-    return surface_file(std::get<0>(s), std::get<1>(s), std::get<2>(s));
-  };
-  const SurfaceFile first = file(reference), second = file(surface);
+/// @return the report, the warnings, the distances of the vertices, and those of each object that
+///         the report has.
+py::tuple compare_surfaces(const std::pair<py::dict, py::dict>& surfaces, const std::string& frames,
+                           const std::optional<std::array<double, 6>>& b, int threads) {
+  const ComparedSurface first = compared_surface(surfaces.first);
+  const ComparedSurface second = compared_surface(surfaces.second);
   std::optional<Box> box;
   if (b) box = Box{{(*b)[0], (*b)[1], (*b)[2]}, {(*b)[3], (*b)[4], (*b)[5]}};
   const FrameRule rule = rule_of(frames);
   Compared c = released({py::none(), threads},
                         [&](const Progress&) { return compared(first, second, rule, box); });
-  return py::make_tuple(c.report, c.pair.warnings,
-                        array_of<double>(std::move(c.directions[0].from_vertices)),
-                        array_of<double>(std::move(c.directions[1].from_vertices)));
+  py::list of_objects;
+  for (ObjectDistances& o : c.objects) of_objects.append(vertex_distances(o.directions));
+  return py::make_tuple(c.report, c.pair.warnings, vertex_distances(c.directions), of_objects);
 }
 
 // ---- remesh
@@ -254,11 +292,9 @@ py::tuple write_labels(const NamedParts& parts, const std::shared_ptr<Scan>& sca
 
 void bind_tools(py::module_& module) {
   module.def("require_frame", [](const std::string& name) { frame_of(name); });
-  module.def("decimate", &decimate_surface, "points"_a, "triangles"_a, "wanted"_a, "progress"_a,
-             "threads"_a);
+  module.def("decimate", &decimate_dicts, "objects"_a, "wanted"_a, "progress"_a, "threads"_a);
   module.def("label", &write_labels, "parts"_a, "scan"_a, "path"_a);
-  module.def("compare", &compare_surfaces, "reference"_a, "surface"_a, "frames"_a, "box"_a,
-             "threads"_a);
+  module.def("compare", &compare_surfaces, "surfaces"_a, "frames"_a, "box"_a, "threads"_a);
   module.def("remesh", &remesh_mesh, "nodes"_a, "tets"_a, "metric"_a, "max_tets"_a, "progress"_a,
              "threads"_a);
   module.def("box_mesh", &box_of_cells, "low"_a, "high"_a, "cells"_a);

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Remeshing, distances, decimation, bodies, files."""
 
+import pickle
+import warnings
+
 import numpy as np
 import pytest
 
@@ -61,6 +64,127 @@ def test_decimate_keeps_its_promise():
         mesamis.decimate((truth.points, truth.triangles[1:]), tolerance=1)
     with pytest.raises(mesamis.InputError, match="triangle 0 names point"):
         mesamis.decimate((truth.points[:5], truth.triangles), tolerance=1)
+
+def two_cubes():
+    """Surfaces of two cubes of many triangles, the upper one on the lower: they share a face."""
+    corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
+    faces = np.array([[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4], [2, 6, 7], [2, 7, 3],
+                      [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]])
+    for _ in range(2):  # each triangle becomes four
+        edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+        ends, number = np.unique(edges, axis=0, return_inverse=True)
+        ab, bc, ca = number.reshape(3, -1) + len(corners)
+        (a, b, c), corners = faces.T, np.concatenate([corners, corners[ends].mean(axis=1)])
+        faces = np.concatenate([np.stack(t, axis=1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+    return {"lower": (4 * corners, faces), "upper": (4 * corners + [0, 0, 4], faces)}
+
+
+def write_cubes(path, frame="lps", names=("lower", "upper")):
+    """A file of both, as many programs write them: labels 7 and 3, colours."""
+    objects = [{"name": name, "label": label, "colour": colour, "points": points, "triangles": triangles}
+               for name, label, colour, (points, triangles)
+               in zip(names, (7, 3), ((10, 20, 30), (40, 50, 60)), two_cubes().values())]
+    mesamis._core.write_objects(str(path), objects, frame, "cubes")
+
+
+@pytest.mark.parametrize("extension", [".3mf", ".vtp", ".obj", ".amf"])
+def test_decimate_keeps_each_object_of_a_file(tmp_path, program, extension):
+    write_cubes(tmp_path / f"a{extension}")
+    fewer = mesamis.decimate(tmp_path / f"a{extension}", tolerance=0.05)
+    assert isinstance(fewer, mesamis.LabelResult) and fewer.frame == "lps"
+    assert [(o.name, o.label) for o in fewer] == [("lower", 7), ("upper", 3)]
+    assert [tuple(o.colour) for o in fewer] == [(10, 20, 30), (40, 50, 60)]
+    assert [(r["name"], r["label"]) for r in fewer.report["surfaces"]] == [("lower", 7), ("upper", 3)]
+    assert all(r["closed"] for r in fewer.report["surfaces"]) and fewer.nodes is None
+    shared = [{tuple(p) for p in o.points if p[2] == 4} for o in fewer]
+    assert shared[0] == shared[1] and len(shared[0]) >= 4
+    for o in fewer:
+        assert len(o.triangles) == 12 and mesamis.compare(two_cubes()[o.name], o).max < 0.05
+    fewer.save(tmp_path / "python.3mf")
+    assert program("decimate", f"a{extension}", "-o", "program.3mf", "--tolerance", "0.05").returncode == 0
+    assert (tmp_path / "python.3mf").read_bytes() == (tmp_path / "program.3mf").read_bytes()
+    fewer.save(tmp_path / "{label}.stl")
+    assert len(mesamis.read_surface(tmp_path / "upper.stl").triangles) == 12
+
+
+def test_decimate_counts_shared_triangles_once(tmp_path):
+    write_cubes(tmp_path / "a.vtp")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert sum(len(o.triangles) for o in mesamis.decimate(tmp_path / "a.vtp", triangles=22)) == 24
+    with pytest.warns(mesamis.MesamisWarning, match="triangles: expected 10 at most, found 22: "):
+        mesamis.decimate(tmp_path / "a.vtp", triangles=10, tolerance=0.01)
+
+
+@pytest.mark.parametrize("frame", ["lps", "ras", None])
+def test_decimated_objects_stay_in_the_frame_of_their_file(tmp_path, frame):
+    write_cubes(tmp_path / "a.vtp", frame or "")
+    fewer = mesamis.decimate(tmp_path / "a.vtp", tolerance=0.05)
+    assert fewer.frame == frame and fewer.nodes is None
+    before = mesamis.read_surface(tmp_path / "a.vtp")
+    assert np.array_equal(np.concatenate([o.points for o in fewer]).max(axis=0), before.points.max(axis=0))
+    for again in (fewer, pickle.loads(pickle.dumps(fewer)), mesamis.decimate(fewer, tolerance=0.05)):
+        again.save(tmp_path / "b.vtp")
+        after = mesamis.read_surface(tmp_path / "b.vtp")
+        assert after.frame == frame and np.array_equal(after.points.max(axis=0), before.points.max(axis=0))
+
+
+def test_decimate_of_a_result_with_several_objects(ball):
+    i = np.arange(24)[:, None, None]
+    labels = np.where(ball.array > 128, np.where(i < 12, 1, 2), 0)
+    found = mesamis.segment(ball, labels=labels, label_names={1: "left", 2: "right"}, preview=True)
+    fewer = mesamis.decimate(found, tolerance=0.5)
+    assert [o.name for o in fewer] == ["left", "right"] and fewer["left"].colour == found["left"].colour
+    assert sum(len(o.triangles) for o in fewer) < sum(len(o.triangles) for o in found) / 2
+    assert mesamis.compare(found, fewer).objects["left"].mean < 1
+
+
+def test_decimate_says_which_objects_went_or_are_open(tmp_path):
+    write_cubes(tmp_path / "a.vtp")
+    with pytest.raises(mesamis.InputError, match="expected a part of at least min_volume, found none"):
+        mesamis.decimate(tmp_path / "a.vtp", tolerance=1, min_volume=100)
+    crumb = two_cubes()["lower"]
+    objects = [{"name": "big", "label": 1, "colour": (1, 2, 3), "points": crumb[0], "triangles": crumb[1]},
+               {"name": "crumb", "label": 2, "colour": (1, 2, 3), "points": 0.1 * crumb[0] + 9, "triangles": crumb[1]}]
+    mesamis._core.write_objects(str(tmp_path / "c.vtp"), objects, "lps", "")
+    with pytest.warns(mesamis.MesamisWarning, match="crumb: no part of at least min_volume"):
+        assert [o.name for o in mesamis.decimate(tmp_path / "c.vtp", tolerance=0.05, min_volume=1)] == ["big"]
+    (tmp_path / "d.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                    "g a\nf 1 3 2\nf 1 2 4\ng b\nf 2 3 4\nf 1 4 3\n")
+    with pytest.warns(mesamis.MesamisWarning, match="taken as one surface without names"):
+        assert isinstance(mesamis.decimate(tmp_path / "d.obj", tolerance=0.2), mesamis.Surface)
+    fewer = mesamis.decimate(tmp_path / "a.vtp", tolerance=0.05)
+    with pytest.raises(mesamis.InputError, match="found decimated objects"):
+        fewer.save(tmp_path / "a.html")
+
+
+def test_compare_measures_objects_of_one_name(tmp_path):
+    write_cubes(tmp_path / "a.3mf")
+    write_cubes(tmp_path / "b.vtp", "ras")
+    with pytest.warns(mesamis.MesamisWarning, match="turned from RAS to LPS"):
+        own = mesamis.compare(tmp_path / "a.3mf", tmp_path / "b.vtp")
+    assert list(own.objects) == ["lower", "upper"] and own.max < 1e-6
+    swapped = tmp_path / "swapped.vtp"
+    write_cubes(swapped, names=("upper", "lower"))
+    found = mesamis.compare(tmp_path / "a.3mf", swapped)
+    assert found.max < 1e-6, "together they are the same"
+    assert found.objects["lower"].max == pytest.approx(4) and len(found.objects["lower"].surface_to_reference)
+    assert [o["name"] for o in found.report["objects"]] == ["lower", "upper"]
+    boxed = mesamis.compare(tmp_path / "a.3mf", tmp_path / "a.3mf", box=(-9, -9, -1, 9, 9, 3.5))
+    assert list(boxed.objects) == ["lower"]
+
+
+def test_compare_says_what_it_measures_together(tmp_path):
+    write_cubes(tmp_path / "a.vtp")
+    write_cubes(tmp_path / "b.vtp", names=("lower", "top"))
+    write_cubes(tmp_path / "c.vtp", names=("one", "two"))
+    one = mesamis.Surface(*two_cubes()["lower"])
+    with pytest.warns(mesamis.MesamisWarning, match="a.vtp: 2 objects, measured together as one surface"):
+        assert not mesamis.compare(tmp_path / "a.vtp", one).objects
+    with pytest.warns(mesamis.MesamisWarning, match="c.vtp: 2 objects, measured together as one surface"):
+        assert not mesamis.compare(tmp_path / "a.vtp", tmp_path / "c.vtp").objects
+    with pytest.warns(mesamis.MesamisWarning, match='b.vtp: objects that no name pairs.*: "top"'):
+        assert list(mesamis.compare(tmp_path / "a.vtp", tmp_path / "b.vtp").objects) == ["lower"]
 
 
 def test_compare_knows_frames(tmp_path):
