@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/image/grey_values.h"
@@ -128,6 +129,29 @@ TEST(ChooseObject, SeveralSeedsMakeAPartEach) {
   EXPECT_FALSE(chosen.alone);
   EXPECT_EQ(mask_on(*chosen.parts, {&chosen.parts->segments[0], 1}, kGrid), ball_mask(kRight));
   EXPECT_EQ(mask_on(*chosen.parts, {&chosen.parts->segments[1], 1}, kGrid), ball_mask(kLeft));
+}
+
+/// A dense ball and one of spongy bone, which is dense in its middle alone.
+TEST(ChooseObject, SeedsSplitBoneOfManyDensitiesWhereEachPlaceHasItsLevel) {
+  constexpr double kRadius = 9, kBlur = 0.8, kBall = 4 / 3. * std::numbers::pi * 729;
+  const Vec3 dense{14, 14, 14}, light{46, 14, 14};
+  Volume scan = sampled_volume({61, 29, 29}, {1, 1, 1}, [&](const Vec3& p) {
+    return 50 + 1150 * blurred_ball(norm(p - dense), kRadius, kBlur) +
+           300 * blurred_ball(norm(p - light), kRadius, kBlur) +
+           850 * blurred_ball(norm(p - light), 1.5, kBlur);
+  });
+  scan.modality = "CT";
+  const auto voxels_of = [&scan](const Vec3& seed, const Vec3& other, bool local) {
+    const ChosenObject chosen = choose_object(scan, {.local_level = local, .seeds = {seed, other}});
+    return static_cast<double>(
+        count_marked(mask_on(*chosen.parts, {chosen.parts->segments.data(), 1}, chosen.volume)));
+  };
+  EXPECT_NEAR(voxels_of(dense, light, true), kBall, 0.05 * kBall);
+  EXPECT_NEAR(voxels_of(light, dense, true), kBall, 0.1 * kBall);
+  EXPECT_LT(voxels_of(light, dense, false), 0.1 * kBall);
+  const ChosenObject alone = choose_object(scan, {.local_level = true, .seeds = {light}});
+  EXPECT_EQ(alone.volume.at(46, 20, 14), scan.at(46, 20, 14));
+  EXPECT_LT(alone.volume.at(14, 14, 14), 100);
 }
 
 TEST(ChooseObject, WithoutASeedAnIslandIsNoPart) {

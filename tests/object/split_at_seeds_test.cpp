@@ -93,6 +93,24 @@ TEST(SplitAtSeeds, SplitsFilledCavitiesWithTheirWalls) {
   });
 }
 
+/// Spongy bone is darker than its shell, which has openings: a seed in it stands for the shell.
+TEST(SplitAtSeeds, SplitsOpenShellsFromTheirMiddles) {
+  VoxelMask open = kBalls;
+  for_each_voxel(kGrid, [&](const std::array<Index, 3>& v, std::size_t n) {
+    const Vec3 p{double(v[0]), double(v[1]), double(v[2])};
+    const bool hollow = norm(p - Vec3{10, 10, 10}) < 6 || norm(p - Vec3{29, 10, 10}) < 6;
+    const bool opening = std::hypot(p.x - 10, p.z - 10) < 2 && p.y > 10;
+    if (hollow || opening) open[n] = 0;
+  });
+  ASSERT_EQ(without_cavities(open, kGrid)[kGrid.offset(10, 10, 10)], 0);
+  const auto labels = split(volume_of(kGrid, open, 100, 0), open, {{10, 10, 10}, {29, 10, 10}});
+  expect_all_labelled(labels, open);
+  for_each_voxel(kGrid, [&](const std::array<Index, 3>& v, std::size_t n) {
+    if (open[n] == 0 || std::abs(v[0] - 19.5) < 2) return;
+    EXPECT_EQ(labels[n], v[0] < 20 ? 1 : 2) << v[0] << ' ' << v[1] << ' ' << v[2];
+  });
+}
+
 TEST(SplitAtSeeds, LeavesIslandsWithoutASeed) {
   const VoxelGrid grid = grid_of({10, 4, 4});
   const VoxelMask mask = mask_where(grid, [](const Vec3& p) { return p.x < 4 || p.x > 5; });
@@ -122,7 +140,7 @@ TEST(SplitAtSeeds, RefusesSeedsThatFitNothing) {
   EXPECT_REFUSED(at(Seeds(65536, {0, 0, 0})), HasSubstr("expected 1 to 65535"));
   EXPECT_REFUSED(at({{0, 0, 4}}), HasSubstr("voxel of the scan"));
   EXPECT_REFUSED(at({{-1, 0, 0}}), HasSubstr("voxel of the scan"));
-  EXPECT_REFUSED(at({{8, 0, 0}}), HasSubstr("nothing of it within 3 mm"));
+  EXPECT_REFUSED(at({{8, 0, 0}}), HasSubstr("nothing of it within 3 mm or around it"));
   EXPECT_REFUSED(at({{1, 1, 1}, {1, 1, 1}}), HasSubstr("same voxel"));
   EXPECT_REFUSED(split_at_seeds(volume, VoxelMask(3), 50, Seeds{{0, 0, 0}}), HasSubstr("mask"));
 }

@@ -77,7 +77,7 @@ TEST(VoxelIslands, TheMasksOfAllMakeUpTheMask) {
   EXPECT_EQ(all, mask);
 }
 
-TEST(NearestMarked, IsThatOfBruteForce) {
+TEST(FindMarked, IsThatOfBruteForce) {
   const VoxelGrid grid = grid_of({9, 8, 7}, {0.7, 1.3, 2.9});
   const VoxelMask mask = random_mask(grid, 0.03, 5);
   constexpr double kMost = 3;
@@ -93,11 +93,10 @@ TEST(NearestMarked, IsThatOfBruteForce) {
     });
     if (expected < mask.size()) {
       EXPECT_EQ(find_marked(mask, grid, v, kMost), expected);
-      EXPECT_EQ(nearest_marked(mask, grid, v, kMost), expected);
+      EXPECT_EQ(find_marked_at(mask, grid, v), std::vector{expected});
     } else {
       ++refused;
       EXPECT_FALSE(find_marked(mask, grid, v, kMost));
-      EXPECT_REFUSED(nearest_marked(mask, grid, v, kMost), HasSubstr("within 3 mm"));
     }
   });
   EXPECT_GT(refused, 0u);
@@ -124,6 +123,35 @@ VoxelMask shell(const VoxelGrid& grid) {
     const double away = std::max({std::abs(p.x - 4), std::abs(p.y - 4), std::abs(p.z - 4)});
     return away == 2;
   });
+}
+
+/// Around a place with nothing within 3 mm: a cavity that opens to one side, as that of spongy bone.
+TEST(FindMarkedAt, IsWhatEnclosesThePlace) {
+  const VoxelGrid grid = grid_of({31, 31, 31});
+  const Vec3 middle{15, 15, 15};
+  const VoxelMask open_shell = mask_where(grid, [&](const Vec3& p) {
+    const double away = norm(p - middle);
+    return away >= 8 && away < 10 && p.x < 21;
+  });
+  const std::vector<std::size_t> around = find_marked_at(open_shell, grid, {15, 15, 15});
+  EXPECT_GE(around.size(), 17u);
+  EXPECT_EQ(around[0], grid.offset(15, 15, 7));  // the first of those at 8 mm
+  for (const std::size_t n : around) EXPECT_NE(open_shell[n], 0);
+  EXPECT_TRUE(find_marked_at(open_shell, grid, {27, 15, 15}).empty()) << "outside";
+  EXPECT_EQ(marked_at(open_shell, grid, {15, 15, 15}), around);
+  EXPECT_REFUSED(marked_at(open_shell, grid, {27, 15, 15}), HasSubstr("within 3 mm or around it"));
+}
+
+/// What lies far beyond an opening is not around the place.
+TEST(FindMarkedAt, LeavesOutWhatIsFarThroughAnOpening) {
+  const VoxelGrid grid = grid_of({61, 31, 31});
+  const VoxelMask mask = mask_where(grid, [&](const Vec3& p) {
+    const double away = norm(p - Vec3{15, 15, 15});
+    return (away >= 8 && away < 10 && p.x < 22) || p.x > 40;
+  });
+  for (const std::size_t n : find_marked_at(mask, grid, {15, 15, 15})) {
+    EXPECT_LT(grid.voxel(n)[0], 40);
+  }
 }
 
 TEST(WithoutCavities, FillsWhatIsEnclosed) {

@@ -26,8 +26,6 @@ namespace {
 constexpr double kDefaultMinVolume = 4;
 /// The paper's T of (13), of 255 grey values.
 constexpr double kPaperThreshold = 140;
-/// HU: surfaces of bone lie at more, those of the skin and of organs at less.
-constexpr double kLeastOfBone = 100;
 /// Half the contrast at a place, of that of the object.
 constexpr double kLeastHalf = 0.1;
 
@@ -213,7 +211,7 @@ ChosenImage choose_but_cells(const VolumeView& image, const VoxelGrid& whole,
   const double level = level_or(settings, object.level);
   MeasuredImage& measured = found.chosen.measured;
   measured = measured_of(restored, object, settings);
-  p.local_level = p.local_level && is_hounsfield(image) && level >= kLeastOfBone;
+  p.local_level = p.local_level && is_likely_bone(image, level);
   if (p.local_level) found.excess = level_out(restored, object.contrast, level, measured);
   if (measured.has_local_levels() && !asked.keep_topology) {
     measured.closed_tunnels =

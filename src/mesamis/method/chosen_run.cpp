@@ -6,9 +6,6 @@
 namespace mesamis::detail::method {
 namespace {
 
-/// The tissue whose level may differ from place to place: that of others stays within their range.
-constexpr char kOfManyDensities[] = "bone";
-
 /// With a T of the user's own the run places the level between it and the object.
 bool has_own_threshold(const Settings& settings) {
   return settings.threshold_rule == ThresholdRule::kPaper ||
@@ -22,6 +19,7 @@ ObjectRequest object_request(const Settings& settings) {
   ObjectRequest request;
   request.crop = settings.crop;
   request.measure_level = solid && !has_own_threshold(settings);
+  request.local_level = settings.has_local_level();
   if (solid) request.level = settings.level;
   return request;
 }
@@ -30,7 +28,7 @@ ImageSettings settings_for(const ChosenObject& object, Settings settings) {
   const bool measured = object_request(settings).measure_level;
   const ImageUnits units = object.units();
   settings.crop = {};
-  if (!object.tissue.empty() && object.tissue != kOfManyDensities) settings.local_level = false;
+  if (!object.may_be_bone()) settings.local_level = false;
   if (object.alone && settings.keep_largest == 0) settings.keep_largest = 1;
   if (settings.window) settings.window = units.turned(*settings.window);
   settings.threshold = units.turned(settings.threshold);

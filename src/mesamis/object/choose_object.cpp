@@ -19,6 +19,9 @@
 #include "mesamis/object/tissue_level.h"
 #include "mesamis/object/voxel_islands.h"
 #include "mesamis/object/whole_values.h"
+#include "mesamis/restore/local_level.h"
+#include "mesamis/restore/object_edge.h"
+#include "mesamis/restore/restore.h"
 
 namespace mesamis::detail::object {
 namespace {
@@ -237,10 +240,26 @@ class ObjectChooser {
         kept_to(std::move(chosen_.volume), mask, {.margin = request_.margin, .background = low});
   }
 
-  /// A seed in a cavity, as in a marrow canal, counts for what encloses it.
+  /// The scan, restored, less what the level of each place exceeds that of the object.
+  Volume levelled(double level) const {
+    const HalfMaximumLevel seen = find_half_maximum_level(chosen_.volume);
+    Volume image = clamped(chosen_.volume, window_with_room(chosen_.volume, seen.contrast, level));
+    const HalfMaximumLevel edge = find_object_edge(image, seen);
+    if (!(edge.contrast.difference() > 0)) return image;
+    Restored restored = restore::restore(std::move(image), edge);
+    const LocalLevel local =
+        find_local_level(restored.volume, edge.contrast, level, restored.noise_left);
+    take_off(local.excess, restored.volume);
+    return std::move(restored.volume);
+  }
+
+  /// A seed in a cavity, as in a marrow canal or spongy bone, counts for what encloses it.
   void keep_seeds() {
-    const VolumeView volume = chosen_.volume;
     const double level = chosen_.level->value;
+    const bool is_local =
+        request_.local_level && chosen_.may_be_bone() && is_likely_bone(chosen_.volume, level);
+    const std::optional<Volume> image = is_local ? std::optional(levelled(level)) : std::nullopt;
+    const VolumeView volume = image ? *image : chosen_.volume;
     const VoxelMask above = mask_above(volume, level);
     const VoxelMask solid = without_cavities(above, volume);
     std::vector<std::array<Index, 3>> places;
@@ -259,10 +278,10 @@ class ObjectChooser {
 
   std::array<Index, 3> place_of(const Vec3& seed, const VoxelMask& solid) const {
     const auto place = voxel_at(chosen_.volume, seed);
-    if (find_marked(solid, chosen_.volume, place, kBesideMm)) return place;
+    if (!find_marked_at(solid, chosen_.volume, place).empty()) return place;
     const bool dark = chosen_.kind == TissueKind::kDark;
     throw InputError(
-        line("seed: expected values %s %.4g within %g mm of %g,%g,%g (LPS), found "
+        line("seed: expected values %s %.4g within %g mm of %g,%g,%g (LPS) or around it, found "
              "none",
              dark ? "below" : "above", units_.turned(chosen_.level->value), kBesideMm, seed.x,
              seed.y, seed.z));

@@ -38,6 +38,9 @@ struct ChosenObject {
   std::vector<std::string> notes;         ///< one line each: what was done unasked
   std::vector<std::string> warnings;      ///< one line each: what may not be what was meant
 
+  /// Whether its level may differ from place to place: that of other tissues stays in their range.
+  bool may_be_bone() const { return tissue.empty() || tissue == "bone"; }
+
   /// From the units of the scan to those of the volume, and back.
   ImageUnits units() const noexcept { return ImageUnits(kind); }
 };

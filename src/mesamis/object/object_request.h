@@ -66,6 +66,7 @@ struct ObjectRequest {
   std::optional<Tissue> tissue{};  ///< none: everything bright
   std::optional<double> level{};   ///< native units of the scan; overrides the tissue's
   bool measure_level = true;       ///< false: measure one for tissues and seeds alone
+  bool local_level = false;        ///< places of bone may differ in their level, see LocalLevel
   bool has_labels = false;         ///< labels choose the objects: the scan is no label map itself
   SurroundingsRule surroundings = SurroundingsRule::kRemoveIfPatient;
   PaddingRule padding{};             ///< which voxels were not measured

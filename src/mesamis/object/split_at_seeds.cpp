@@ -130,21 +130,23 @@ class Flood {
   std::priority_queue<Candidate> open_;
 };
 
-std::vector<std::size_t> places_of(std::span<const std::array<Index, 3>> seeds,
-                                   std::span<const std::uint8_t> mask, const VoxelGrid& grid) {
-  std::vector<std::size_t> places;
+/// The marked voxels that each seed stands for.
+std::vector<std::vector<std::size_t>> places_of(std::span<const std::array<Index, 3>> seeds,
+                                                std::span<const std::uint8_t> mask,
+                                                const VoxelGrid& grid) {
+  std::vector<std::vector<std::size_t>> places;
+  places.reserve(seeds.size());
   for (const auto& seed : seeds) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (seed[a] >= 0 && seed[a] < grid.size[a]) continue;
       throw InputError("seed: expected a voxel of the scan, found " + std::to_string(seed[a]) +
                        " along axis " + std::to_string(a));
     }
-    const std::size_t place =
-        nearest_marked(mask, grid, seed, std::max(kBesideMm, grid.voxel_size()));
-    if (std::find(places.begin(), places.end(), place) != places.end()) {
+    places.push_back(marked_at(mask, grid, seed));
+    const auto is_first = [&](const auto& others) { return others[0] == places.back()[0]; };
+    if (std::count_if(places.begin(), places.end(), is_first) > 1) {
       throw InputError("seed: expected one per part, found two at the same voxel");
     }
-    places.push_back(place);
   }
   return places;
 }
@@ -158,16 +160,18 @@ LabelMap split_at_seeds(const VolumeView& volume, std::span<const std::uint8_t> 
     throw InputError("seed: expected 1 to " + std::to_string(kMaxLabel) + ", found " +
                      std::to_string(seeds.size()));
   }
-  const std::vector<std::size_t> places = places_of(seeds, mask, volume);
+  const auto places = places_of(seeds, mask, volume);
   const std::vector<float> depth = depths(mask, volume);
   std::vector<std::size_t> tops;
   tops.reserve(places.size());
-  for (const std::size_t place : places) tops.push_back(climb(volume, depth, place));
+  for (const auto& voxels : places) tops.push_back(climb(volume, depth, voxels[0]));
   Flood flood(volume, mask, strengths(volume, mask, level, depth));
   LabelMap map{volume, {}, {}};
   for (std::size_t n = 0; n < places.size(); ++n) {
     const auto label = static_cast<Index>(n + 1);
-    flood.add_seed(places[n], static_cast<std::uint16_t>(label));
+    for (const std::size_t voxel : places[n]) {
+      flood.add_seed(voxel, static_cast<std::uint16_t>(label));
+    }
     const bool is_its_own = std::count(tops.begin(), tops.end(), tops[n]) == 1;
     if (is_its_own) flood.add_seed(tops[n], static_cast<std::uint16_t>(label));
     map.segments.push_back({"part " + std::to_string(label), label, 0, default_colour(label)});

@@ -32,8 +32,8 @@ namespace mesamis::detail::object {
 ///                without_cavities() of mask_above(). A cavity that is left open is outside, and
 ///                the wall around it thin.
 /// @param level   native units: of the objects' surface.
-/// @param seeds   at least 1, voxels within the grid; each counts for the marked voxel nearest to
-///                it, within kBesideMm.
+/// @param seeds   at least 1, voxels within the grid; each stands for the marked voxels of
+///                find_marked_at().
 /// @return one layer on the volume's grid. Seed n has the label n + 1, and its part is called
 ///         "part N". Parts of the mask without a seed are 0.
 /// @throws InputError  if the mask does not fit, a seed is outside of the grid or has no object

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
@@ -30,6 +31,59 @@ std::size_t flood(VoxelIslands& islands, std::span<const std::uint8_t> mask, con
     });
   }
   return count;
+}
+
+/// A straight way over voxels.
+struct Way {
+  std::array<Index, 3> from, step;
+  Index most_steps;
+};
+
+struct WayEnd {
+  Index steps = 0;        ///< to the first marked voxel; 0: none is met
+  std::size_t voxel = 0;  ///< that one
+  bool leaves_grid = false;
+};
+
+WayEnd end_of(const Way& way, std::span<const std::uint8_t> mask, const VoxelGrid& grid) {
+  std::array<Index, 3> v = way.from;
+  for (Index n = 1; n <= way.most_steps; ++n) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      v[a] += way.step[a];
+      if (v[a] < 0 || v[a] >= grid.size[a]) return {.leaves_grid = true};
+    }
+    const std::size_t voxel = grid.offset(v[0], v[1], v[2]);
+    if (mask[voxel] != 0) return {n, voxel};
+  }
+  return {};
+}
+
+/// The marked voxels around a place, see find_marked_at().
+std::vector<std::size_t> enclosing(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
+                                   const std::array<Index, 3>& from) {
+  constexpr double kMostMm = 30, kLeastShare = 0.75, kMostOfMedian = 1.5;
+  constexpr std::size_t kLeast = 13;                // half of all ways
+  std::vector<std::pair<double, std::size_t>> met;  // how far, mm, and the voxel
+  std::size_t ways = 0;
+  for (Index way = 0; way < 27; ++way) {
+    const std::array<Index, 3> step{way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1};
+    const double mm =
+        norm(Vec3{step[0] * grid.spacing.x, step[1] * grid.spacing.y, step[2] * grid.spacing.z});
+    if (mm == 0) continue;
+    const WayEnd end = end_of({from, step, static_cast<Index>(kMostMm / mm)}, mask, grid);
+    if (end.steps > 0) met.emplace_back(end.steps * mm, end.voxel);
+    if (!end.leaves_grid) ++ways;
+  }
+  const bool is_enclosed = met.size() >= kLeast && static_cast<double>(met.size()) >=
+                                                       kLeastShare * static_cast<double>(ways);
+  if (!is_enclosed) return {};
+  std::sort(met.begin(), met.end());
+  std::vector<std::size_t> voxels;
+  voxels.reserve(met.size());
+  for (const auto& [mm, voxel] : met) {
+    if (mm <= kMostOfMedian * met[met.size() / 2].first) voxels.push_back(voxel);
+  }
+  return voxels;
 }
 
 }  // namespace
@@ -96,20 +150,28 @@ std::optional<std::size_t> find_marked(std::span<const std::uint8_t> mask, const
   return nearest;
 }
 
-std::size_t nearest_marked(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
-                           const std::array<Index, 3>& from, double most_mm) {
-  if (const auto nearest = find_marked(mask, grid, from, most_mm)) return *nearest;
-  std::array<char, 96> text;
+std::vector<std::size_t> find_marked_at(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
+                                        const std::array<Index, 3>& at) {
+  const double beside = std::max(kBesideMm, grid.voxel_size());
+  if (const auto nearest = find_marked(mask, grid, at, beside)) return {*nearest};
+  return enclosing(mask, grid, at);
+}
+
+std::vector<std::size_t> marked_at(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
+                                   const std::array<Index, 3>& at) {
+  std::vector<std::size_t> found = find_marked_at(mask, grid, at);
+  if (!found.empty()) return found;
+  std::array<char, 120> text;
   std::snprintf(text.data(), text.size(),
-                "place: expected one of the object, found nothing of it within %g mm", most_mm);
+                "place: expected one of the object, found nothing of it within %g mm or around it",
+                kBesideMm);
   throw InputError(text.data());
 }
 
 VoxelMask island_at(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
                     const std::array<Index, 3>& at) {
-  const std::size_t n = nearest_marked(mask, grid, at, std::max(kBesideMm, grid.voxel_size()));
   VoxelIslands island{std::vector<Index>(mask.size(), 0), {}};
-  flood(island, mask, grid, n);
+  flood(island, mask, grid, marked_at(mask, grid, at).front());
   return mask_of_island(island, 1);
 }
 

@@ -285,6 +285,11 @@ LocalLevel find_local_level(const VolumeView& volume, const ObjectContrast& cont
   return local;
 }
 
+bool is_likely_bone(const VolumeView& volume, double level) {
+  constexpr double kLeastHu = 100;  // surfaces of the skin and of organs lie at less
+  return level >= kLeastHu && is_hounsfield(volume);
+}
+
 void take_off(const VolumeView& excess, Volume& volume) {
   if (excess.samples.empty()) return;
   parallel_for(volume.samples.size(),

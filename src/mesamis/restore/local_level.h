@@ -48,6 +48,11 @@ struct LocalLevel {
 LocalLevel find_local_level(const VolumeView& volume, const ObjectContrast& contrast, double level,
                             double noise);
 
+/// Whether an object is likely bone, whose parts differ in density; the skin and organs have one
+/// level.
+/// @param level  of its surface, native units.
+bool is_likely_bone(const VolumeView& volume, double level);
+
 /// Takes the excess off an image: where its level was the local one, it is that of the object.
 /// @param excess  of each voxel of the volume, its unit; no samples: nothing changes.
 void take_off(const VolumeView& excess, Volume& volume);

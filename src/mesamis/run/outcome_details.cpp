@@ -18,6 +18,7 @@ ObjectRequest completed(const Request& request) {
   ObjectRequest object = request.object;
   object.level = by_settings.level;
   object.measure_level = by_settings.measure_level && !request.labels;
+  object.local_level = by_settings.local_level;
   object.has_labels = request.labels.has_value();
   if (object.crop == CropRange{}) object.crop = by_settings.crop;
   if (object.has_labels && object.surroundings == SurroundingsRule::kRemoveIfPatient) {
