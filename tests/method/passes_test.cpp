@@ -92,7 +92,11 @@ TEST(RunInput, DraftsHaveFewerCellsAndTheLastHaveAll) {
   }
   EXPECT_LT(run.cells_after(1), p.max_tets);
   EXPECT_EQ(last, p.max_tets);
+  EXPECT_EQ(run.cells_after(2), p.max_tets) << "one draft of many cells is enough";
   EXPECT_GT(run.draft_options().solver.tolerance, run.final_options().solver.tolerance);
+  p.max_tets = 100'000;
+  EXPECT_LT(run.cells_after(1), run.cells_after(2));
+  EXPECT_LT(run.cells_after(2), run.cells_after(3));
   p.adaptations = 1;
   EXPECT_EQ(run.cells_after(1), p.max_tets) << "the only mesh is the one delivered";
   p.adaptations = 10;
@@ -145,6 +149,15 @@ TEST(HasSettled, WantsTheSurfaceToMoveByNoMoreThanItsError) {
   EXPECT_FALSE(settled(0.5, 0.4));
   p.drafts = true;
   p.max_tets = 1'000'000;
+  EXPECT_TRUE(has_settled(run, {pass_with(1, 1), pass_with(0, 0)})) << "the second has all of many";
+  EXPECT_FALSE(has_settled(run, {pass_with(0, 0)})) << "the first has not";
+  Iteration from_grid = pass_with(0, 0);
+  from_grid.surface_tolerance = 0.5;
+  from_grid.surface_change = 0.55;
+  EXPECT_TRUE(has_settled(run, {pass_with(1, 1), from_grid})) << "the grid's is no mesh's surface";
+  from_grid.surface_change = 0.65;
+  EXPECT_FALSE(has_settled(run, {pass_with(1, 1), from_grid}));
+  p.max_tets = 100'000;
   EXPECT_TRUE(settled(0.5, 0.6)) << "the third mesh has all cells";
   EXPECT_FALSE(has_settled(run, {pass_with(1, 1), pass_with(0, 0)})) << "the second has not";
   p.adaptations = 2;

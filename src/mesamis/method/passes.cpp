@@ -32,9 +32,13 @@ constexpr int kSmoothingSweeps = 3;
 constexpr double kDraftTolerance = 1e-3;
 constexpr int kDraftAlternations = 4;
 /// Cells of the meshes against max_tets, one after the other; with fewer adaptations the first are
-/// left out.
-constexpr std::array kShares{0.3, 0.6, 1.0};
-constexpr int kMeshes = kShares.size();
+/// left out. Where there are many, a mesh less is as accurate.
+constexpr std::array kSharesOfFew{0.3, 0.6, 1.0};
+constexpr std::array kSharesOfMany{0.4, 1.0};
+constexpr std::int64_t kFew = 150'000;
+/// The first mesh moves the grid's surface by more than the second moves that of the first: in the
+/// mean of fifteen scans so many times.
+constexpr double kFromGrid = 1.2;
 /// Voxels: following the image makes up for meshes that are so far from it.
 constexpr double kFollowed = 0.2;
 
@@ -145,6 +149,12 @@ State remeshed(const Pass& pass, const TetMesh& start, const MetricField& field,
   return next;
 }
 
+/// One for each mesh that is made at least.
+std::span<const double> shares_of(const Parameters& p) {
+  if (p.drafts && p.max_tets > kFew) return kSharesOfMany;
+  return kSharesOfFew;
+}
+
 bool has_settled_by_energy(const Parameters& p, const std::vector<Iteration>& passes) {
   const Iteration& last = passes.back();
   // Energies on the grid and on adapted meshes are not compared: the first Ei means nothing.
@@ -196,9 +206,11 @@ AmisOptions RunInput::draft_options() const {
 
 std::int64_t RunInput::cells_after(int k) const {
   if (!parameters.drafts) return parameters.max_tets;
-  const int left_out = std::max(0, kMeshes - parameters.adaptations);
-  const int place = std::min(k - 1 + left_out, kMeshes - 1);
-  const double share = kShares[static_cast<std::size_t>(place)];
+  const std::span<const double> shares = shares_of(parameters);
+  const auto meshes = static_cast<int>(shares.size());
+  const int left_out = std::max(0, meshes - parameters.adaptations);
+  const int place = std::min(k - 1 + left_out, meshes - 1);
+  const double share = shares[static_cast<std::size_t>(place)];
   return std::min(parameters.max_tets,
                   std::max<std::int64_t>(
                       kFewestTets, std::llround(share * static_cast<double>(parameters.max_tets))));
@@ -364,8 +376,9 @@ bool has_settled(const RunInput& run, const std::vector<Iteration>& passes) {
   const bool solid = p.surface == SurfaceKind::kSolid;
   if (p.until != StopRule::kSurface || !solid) return has_settled_by_energy(p, passes);
   const Iteration& last = passes.back();
-  const auto needed = std::min<std::ptrdiff_t>(kMeshes, p.adaptations);
-  return std::ssize(passes) >= needed && last.surface_change <= last.surface_tolerance;
+  const auto needed = std::min(std::ssize(shares_of(p)), std::ptrdiff_t{p.adaptations});
+  const double times = passes.size() == 2 ? kFromGrid : 1;
+  return std::ssize(passes) >= needed && last.surface_change <= times * last.surface_tolerance;
 }
 
 }  // namespace mesamis::detail::method

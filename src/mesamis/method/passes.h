@@ -159,7 +159,8 @@ void record_surface(const Pass& pass, const TetMesh& mesh, std::span<const doubl
 
 /// Whether, by Parameters::until, no mesh is needed after the one that the last of these passes has
 /// made. While the number of cells is still to grow, one is. Where the surface decides, three are
-/// made if as many are allowed: the first tell how many cells the remesher makes of a metric.
+/// made, or two of more than 150 000 cells, if as many are allowed: the first tell how many cells
+/// the remesher makes of a metric. The first may move the surface of the grid by a fifth more.
 bool has_settled(const RunInput& run, const std::vector<Iteration>& passes);
 
 }  // namespace mesamis::detail::method
