@@ -121,6 +121,33 @@ TEST(RunOnObject, OnlyBoneHasALevelForEachPlace) {
   EXPECT_TRUE(run("bone", 0).image.has_local_levels());
 }
 
+/// What else a crop shows, such as metal, does not change how its bones are found.
+TEST(RunOnObject, ACropOfCtIsRestoredAsTheWholeIs) {
+  const Vec3 middle{24, 24, 24};
+  Volume scan = sampled_volume({96, 48, 48}, {1, 1, 1}, [&](const Vec3& p) {
+    double hu = -1000 + 1040 * blurred_ball(norm(p - Vec3{48, 24, 24}), 44, 0.7);
+    for (const double x : {30.0, 50.0, 70.0}) {
+      hu += 900 * blurred_ball(norm(p - Vec3{x, 24, 24}), 8, 0.7);
+    }
+    return hu + 2500 * blurred_ball(norm(p - middle + Vec3{6, 0, 0}), 7, 1.6);
+  });
+  scan.modality = "CT";
+  Settings settings = preview();
+  const Result whole = run_on_object(choose(scan, settings, {}), settings);
+  settings.crop = {{0, 0, 0}, {40, 48, 48}};
+  const ChosenObject object = choose(scan, settings, {});
+  const Result part = run_on_object(object, settings);
+  EXPECT_EQ(part.parameters.noise, whole.parameters.noise);
+  EXPECT_EQ(part.parameters.blur, whole.parameters.blur);
+  EXPECT_EQ(part.parameters.grey.low, whole.parameters.grey.low);
+  EXPECT_EQ(part.parameters.grey.high, whole.parameters.grey.high);
+  EXPECT_EQ(part.image.contrast, whole.image.contrast);
+  EXPECT_NE(part.parameters.blur, mes_amis(object.volume, preview()).parameters.blur)
+      << "the crop by itself tells another";
+  settings.noise = 7;
+  EXPECT_EQ(run_on_object(object, settings).parameters.noise, 7) << "the user's comes first";
+}
+
 TEST(RunOnObject, TellsTheCropThatRepeatsIt) {
   Settings settings = preview();
   settings.crop = {{4, 0, 0}, {24, -1, -1}};

@@ -131,27 +131,49 @@ TEST(ChooseObject, SeveralSeedsMakeAPartEach) {
   EXPECT_EQ(mask_on(*chosen.parts, {&chosen.parts->segments[1], 1}, kGrid), ball_mask(kLeft));
 }
 
-/// A dense ball and one of spongy bone, which is dense in its middle alone.
-TEST(ChooseObject, SeedsSplitBoneOfManyDensitiesWhereEachPlaceHasItsLevel) {
-  constexpr double kRadius = 9, kBlur = 0.8, kBall = 4 / 3. * std::numbers::pi * 729;
-  const Vec3 dense{14, 14, 14}, light{46, 14, 14};
+constexpr double kBoneRadius = 9, kBoneBlur = 0.8;
+const Vec3 kDense{14, 14, 14}, kSpongy{46, 14, 14};
+
+/// A ball of dense bone and one of spongy bone, which is dense in its middle alone.
+Volume two_bones() {
   Volume scan = sampled_volume({61, 29, 29}, {1, 1, 1}, [&](const Vec3& p) {
-    return 50 + 1150 * blurred_ball(norm(p - dense), kRadius, kBlur) +
-           300 * blurred_ball(norm(p - light), kRadius, kBlur) +
-           850 * blurred_ball(norm(p - light), 1.5, kBlur);
+    return 50 + 1150 * blurred_ball(norm(p - kDense), kBoneRadius, kBoneBlur) +
+           300 * blurred_ball(norm(p - kSpongy), kBoneRadius, kBoneBlur) +
+           850 * blurred_ball(norm(p - kSpongy), 1.5, kBoneBlur);
   });
   scan.modality = "CT";
+  return scan;
+}
+
+TEST(ChooseObject, SeedsSplitBoneOfManyDensitiesWhereEachPlaceHasItsLevel) {
+  constexpr double kBall = 4 / 3. * std::numbers::pi * kBoneRadius * kBoneRadius * kBoneRadius;
+  const Volume scan = two_bones();
   const auto voxels_of = [&scan](const Vec3& seed, const Vec3& other, bool local) {
     const ChosenObject chosen = choose_object(scan, {.local_level = local, .seeds = {seed, other}});
     return static_cast<double>(
         count_marked(mask_on(*chosen.parts, {chosen.parts->segments.data(), 1}, chosen.volume)));
   };
-  EXPECT_NEAR(voxels_of(dense, light, true), kBall, 0.05 * kBall);
-  EXPECT_NEAR(voxels_of(light, dense, true), kBall, 0.1 * kBall);
-  EXPECT_LT(voxels_of(light, dense, false), 0.1 * kBall);
-  const ChosenObject alone = choose_object(scan, {.local_level = true, .seeds = {light}});
+  EXPECT_NEAR(voxels_of(kDense, kSpongy, true), kBall, 0.05 * kBall);
+  EXPECT_NEAR(voxels_of(kSpongy, kDense, true), kBall, 0.1 * kBall);
+  EXPECT_LT(voxels_of(kSpongy, kDense, false), 0.1 * kBall);
+  const ChosenObject alone = choose_object(scan, {.local_level = true, .seeds = {kSpongy}});
   EXPECT_EQ(alone.volume.at(46, 20, 14), scan.at(46, 20, 14));
   EXPECT_LT(alone.volume.at(14, 14, 14), 100);
+}
+
+/// One bone by itself has one density; in the whole scan each place has its level.
+TEST(ChooseObject, ACropOfCtIsMeasuredInTheWhole) {
+  const ChosenObject spongy =
+      choose_object(two_bones(), {.crop = {{31, 0, 0}, {61, 29, 29}}, .local_level = true});
+  ASSERT_TRUE(spongy.scan);
+  EXPECT_EQ(spongy.scan->level_share, 1);
+  EXPECT_NEAR(spongy.scan->object.contrast.object, 1200, 120);
+  const ChosenObject one =
+      choose_object(two_bones(), {.crop = {{31, 0, 0}, {61, 29, 29}}, .level = 200});
+  ASSERT_TRUE(one.scan);
+  EXPECT_FALSE(one.scan->level_share);
+  EXPECT_FALSE(choose_object(two_bones(), {}).scan) << "the whole is measured where it is restored";
+  EXPECT_FALSE(choose_object(two_balls(), {.crop = {{0, 0, 0}, {24, 24, 24}}}).scan) << "no CT";
 }
 
 TEST(ChooseObject, WithoutASeedAnIslandIsNoPart) {

@@ -31,7 +31,7 @@ Volume two_balls(double light = kLight, double grain = kDense) {
 }
 
 TEST(LocalLevel, IsMidwayBetweenTheSidesOfTheEdgeNearby) {
-  const LocalLevel local = find_local_level(two_balls(), kOfDense, kHalfMaximum, 0);
+  const LocalLevel local = find_local_level(two_balls(), kOfDense, kHalfMaximum, {});
   for (const Vec3& way : {Vec3{0, 1, 0}, Vec3{0, 0, -1}, Vec3{0, 0.6, 0.8}}) {
     const double dense = Trilinear(local.excess).at(kDenseCentre + kBall * way);
     const double light = Trilinear(local.excess).at(kLightCentre + kBall * way);
@@ -44,7 +44,7 @@ TEST(LocalLevel, IsMidwayBetweenTheSidesOfTheEdgeNearby) {
 
 TEST(LocalLevel, TakenOffMakesTheObjectsLevelThatOfEachPlace) {
   Volume scan = two_balls();
-  take_off(find_local_level(scan, kOfDense, kHalfMaximum, 0).excess, scan);
+  take_off(find_local_level(scan, kOfDense, kHalfMaximum, {}).excess, scan);
   const Vec3 middle{0, middle_radius(kBall, kBlur), 0};
   EXPECT_NEAR(Trilinear(scan).at(kLightCentre + middle), kHalfMaximum, 0.07 * (kLight - kAround));
   EXPECT_GT(Trilinear(scan).at(kLightCentre + Vec3{0, kBall - 2, 0}), kHalfMaximum);
@@ -54,7 +54,7 @@ TEST(LocalLevel, TakenOffMakesTheObjectsLevelThatOfEachPlace) {
 /// Ears and vessels have edges, and are no bone.
 TEST(LocalLevel, PartsThatNowhereReachTheObjectsLevelKeepIt) {
   Volume scan = two_balls(kLight, kLight);
-  const LocalLevel local = find_local_level(scan, kOfDense, kHalfMaximum, 0);
+  const LocalLevel local = find_local_level(scan, kOfDense, kHalfMaximum, {});
   EXPECT_LT(local.range[0], 0.5 * kHalfMaximum);
   take_off(local.excess, scan);
   for (Index i = 30; i < 61; ++i) ASSERT_LT(scan.at(i, 14, 14), kHalfMaximum);
@@ -70,7 +70,7 @@ TEST(LocalLevel, PartsBesideOneThatReachesHaveTheirOwnLevel) {
       return kAround + (kDense - kAround) * blurred_ball(norm(p - kDenseCentre), kBall, kBlur) +
              (nearly - kAround) * blurred_ball(norm(p - light), kBall, kBlur);
     });
-    take_off(find_local_level(scan, kOfDense, kHalfMaximum, 0).excess, scan);
+    take_off(find_local_level(scan, kOfDense, kHalfMaximum, {}).excess, scan);
     return Trilinear(scan).at(light) > kHalfMaximum;
   };
   EXPECT_TRUE(in_reach(1));
@@ -86,8 +86,8 @@ TEST(LocalLevel, ThinWallsAndNoiseHaveNoSay) {
   });
   const Volume nothing = sampled_volume({30, 30, 30}, {1, 1, 1},
                                         [&](const Vec3&) { return kAround + noise(generator); });
-  for (const LocalLevel& local : {find_local_level(wall, kOfDense, kHalfMaximum, 0),
-                                  find_local_level(nothing, kOfDense, kHalfMaximum, 60)}) {
+  for (const LocalLevel& local : {find_local_level(wall, kOfDense, kHalfMaximum, {}),
+                                  find_local_level(nothing, kOfDense, kHalfMaximum, {60})}) {
     EXPECT_EQ(local.edge_share, 0);
     EXPECT_TRUE(local.excess.samples.empty());
   }
@@ -103,7 +103,7 @@ TEST(LocalLevel, NoiseAroundASmallObjectHasNoSay) {
       return kAround + (kDense - kAround) * blurred_ball(norm(p - centre), 5, kBlur) +
              noise(generator);
     });
-    const LocalLevel local = find_local_level(scan, kOfDense, kHalfMaximum, deviation);
+    const LocalLevel local = find_local_level(scan, kOfDense, kHalfMaximum, {deviation});
     EXPECT_GT(local.edge_share, 0) << deviation;
     EXPECT_TRUE(local.excess.samples.empty()) << deviation;
   }
@@ -111,15 +111,29 @@ TEST(LocalLevel, NoiseAroundASmallObjectHasNoSay) {
 
 TEST(LocalLevel, IsOneWhereTheDensitiesScatterAsThoseOfOneObject) {
   const double light = kDense - 0.15 * (kDense - kAround);
-  const LocalLevel one = find_local_level(two_balls(light, light), kOfDense, kHalfMaximum, 0);
+  const LocalLevel one = find_local_level(two_balls(light, light), kOfDense, kHalfMaximum, {});
   EXPECT_GT(one.edge_share, 0);
   EXPECT_TRUE(one.excess.samples.empty());
   EXPECT_EQ(one.range[0], one.range[1]);
 }
 
+/// A part of a scan takes the share of the whole.
+TEST(LocalLevel, CountsByTheShareThatIsKnown) {
+  const Volume scan = two_balls();
+  const LocalLevel found = find_local_level(scan, kOfDense, kHalfMaximum, {});
+  EXPECT_EQ(found.share, 1);
+  const LocalLevel half = find_local_level(scan, kOfDense, kHalfMaximum, {.share = 0.5});
+  EXPECT_EQ(half.share, 0.5);
+  EXPECT_NEAR(half.range[0] - kHalfMaximum, 0.5 * (found.range[0] - kHalfMaximum), 1);
+  const LocalLevel none = find_local_level(scan, kOfDense, kHalfMaximum, {.share = 0});
+  EXPECT_TRUE(none.excess.samples.empty());
+}
+
 TEST(LocalLevel, HasTheSameBitsForAnyNumberOfThreads) {
   const Volume scan = two_balls();
-  const auto run = [&] { return find_local_level(scan, kOfDense, kHalfMaximum, 0).excess.samples; };
+  const auto run = [&] {
+    return find_local_level(scan, kOfDense, kHalfMaximum, {}).excess.samples;
+  };
   EXPECT_EQ(with_threads(1, run), with_threads(3, run));
 }
 

@@ -47,12 +47,22 @@ Parameters parameters_from_grid(const VoxelGrid& volume, const Settings& s) {
   return p;
 }
 
+/// What the user says of noise and blur comes before what the whole scan shows.
+RestoreOptions restore_options(const ImageSettings& settings) {
+  RestoreOptions options = settings.scan ? settings.scan->options() : RestoreOptions{};
+  if (settings.asked.noise) options.noise = settings.asked.noise;
+  if (settings.asked.blur) options.blur = settings.asked.blur;
+  return options;
+}
+
 /// What restore() makes of the image; where restoring is off, the image as it is, with its noise.
-Restored restore_if_asked(Volume image, const HalfMaximumLevel& object, const Settings& settings) {
-  if (settings.restore)
-    return restore::restore(std::move(image), object, {settings.noise, settings.blur});
-  constexpr std::array<double, 3> kNone{};
-  Restored as_it_is = restore::restore(image, object, {settings.noise, kNone});
+Restored restore_if_asked(Volume image, const HalfMaximumLevel& object,
+                          const ImageSettings& settings) {
+  RestoreOptions options = restore_options(settings);
+  if (settings.asked.restore) return restore::restore(std::move(image), object, options);
+  options.blur = std::array<double, 3>{};
+  options.impulse_height = std::nullopt;
+  Restored as_it_is = restore::restore(image, object, options);
   as_it_is.volume = std::move(image);
   as_it_is.noise_left = as_it_is.noise;
   as_it_is.impulses = 0;
@@ -134,14 +144,13 @@ double level_or(const ImageSettings& settings, double measured) {
 }
 
 /// Takes what the level of each place exceeds the object's off the image.
-/// @return that excess, native units; no samples: there is one level.
-Volume level_out(Restored& restored, const ObjectContrast& contrast, double level,
-                 MeasuredImage& measured) {
+LocalLevel level_out(Restored& restored, const ObjectContrast& contrast, double level,
+                     const std::optional<double>& share) {
   if (!(contrast.difference() > 0)) return {};
-  LocalLevel local = find_local_level(restored.volume, contrast, level, restored.noise_left);
-  measured.level_range = local.range;
+  LocalLevel local =
+      find_local_level(restored.volume, contrast, level, {restored.noise_left, share});
   take_off(local.excess, restored.volume);
-  return std::move(local.excess);
+  return local;
 }
 
 /// Lowers the level where a faint sheet closes a tunnel through a thin wall.
@@ -175,6 +184,9 @@ struct Seen {
 };
 
 Seen look_at(const VolumeView& image, const ImageSettings& settings) {
+  if (const auto& scan = settings.scan) {
+    return {scan->seen, settings.asked.window.value_or(scan->window)};
+  }
   const HalfMaximumLevel seen = find_half_maximum_level(image);
   if (seen.in_noise && !settings.level && settings.asked.surface == SurfaceKind::kSolid) {
     throw InputError("level: found no object that stands out from the noise; expected --level");
@@ -200,8 +212,9 @@ ChosenImage choose_but_cells(const VolumeView& image, const VoxelGrid& whole,
   const Settings& asked = settings.asked;
   const auto [seen, window] = look_at(image, settings);
   Volume scan = clamped(image, window);
-  const HalfMaximumLevel object = find_object_edge(scan, seen);
-  Restored restored = restore_if_asked(std::move(scan), object, asked);
+  const HalfMaximumLevel object =
+      settings.scan ? settings.scan->object : find_object_edge(scan, seen);
+  Restored restored = restore_if_asked(std::move(scan), object, settings);
 
   ChosenImage found{{parameters_from_grid(whole, asked), {}, object, restored.impulse_height}, {}};
   Parameters& p = found.chosen.parameters;
@@ -212,7 +225,12 @@ ChosenImage choose_but_cells(const VolumeView& image, const VoxelGrid& whole,
   MeasuredImage& measured = found.chosen.measured;
   measured = measured_of(restored, object, settings);
   p.local_level = p.local_level && is_likely_bone(image, level);
-  if (p.local_level) found.excess = level_out(restored, object.contrast, level, measured);
+  if (p.local_level) {
+    const auto share = settings.scan ? settings.scan->level_share : std::nullopt;
+    LocalLevel local = level_out(restored, object.contrast, level, share);
+    measured.level_range = local.range;
+    found.excess = std::move(local.excess);
+  }
   if (measured.has_local_levels() && !asked.keep_topology) {
     measured.closed_tunnels =
         lower_at_tunnels(found.excess, object.contrast, level, restored.volume);

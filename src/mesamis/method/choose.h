@@ -20,6 +20,7 @@ namespace mesamis::detail::method {
 struct ImageSettings {
   Settings asked{};                   ///< units of the image
   std::optional<KnownLevel> level{};  ///< of the object as a whole; nothing: that of its edge
+  std::optional<ScanMeasure> scan{};  ///< of the scan that the image is a part of
 
   ImageSettings() = default;
   /// The level, if any, is the user's.

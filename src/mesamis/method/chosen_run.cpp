@@ -34,8 +34,10 @@ ImageSettings settings_for(const ChosenObject& object, Settings settings) {
   settings.threshold = units.turned(settings.threshold);
   if (settings.level) settings.level = units.turned(*settings.level);
   const bool given = object.level && object.level->from == LevelSource::kUser;
-  if (!object.tissue.empty() || given || measured) return {settings, object.level};
-  return settings;
+  ImageSettings of_image(settings);
+  if (!object.tissue.empty() || given || measured) of_image = {settings, object.level};
+  of_image.scan = object.scan;
+  return of_image;
 }
 
 Parameters in_scan_units(Parameters p, const ChosenObject& object) {

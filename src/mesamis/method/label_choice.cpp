@@ -29,12 +29,12 @@ Settings looking(Settings settings) {
 }
 
 /// Chooses in the usual window, or in one that is as wide as the values need.
-Chosen choose_in_window(const VolumeView& part, const VoxelGrid& whole, Settings settings,
+Chosen choose_in_window(const VolumeView& part, const VoxelGrid& whole, ImageSettings settings,
                         const Window& values) {
   Chosen found = choose_from_part(part, whole, settings).chosen;
   const GreyMap& grey = found.parameters.grey;
-  if (settings.window || (grey.low <= values.low && values.high <= grey.high)) return found;
-  settings.window = {std::min(grey.low, values.low), std::max(grey.high, values.high)};
+  if (settings.asked.window || (grey.low <= values.low && values.high <= grey.high)) return found;
+  settings.asked.window = {std::min(grey.low, values.low), std::max(grey.high, values.high)};
   return choose_from_part(part, whole, settings).chosen;
 }
 
@@ -80,8 +80,10 @@ Chosen choose_beside_labels(const VolumeView& scan, const ImageSettings& setting
   const bool is_whole = seen.count == scan.size[2];
   Volume slices;
   if (!is_whole) slices = crop(scan, range);
-  Chosen found = choose_in_window(is_whole ? scan : VolumeView(slices), scan,
-                                  looking(settings.asked), values.medians);
+  ImageSettings looked(looking(settings.asked));
+  looked.scan = settings.scan;
+  Chosen found =
+      choose_in_window(is_whole ? scan : VolumeView(slices), scan, looked, values.medians);
   Parameters& p = found.parameters;
   p.surface = SurfaceKind::kSolid;
   p.level = settings.level ? settings.level->value : values.level.value_or(p.level);

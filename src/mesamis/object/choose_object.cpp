@@ -10,6 +10,7 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/median.h"
 #include "mesamis/image/grey_values.h"
+#include "mesamis/image/sample_slices.h"
 #include "mesamis/object/keep.h"
 #include "mesamis/object/mirror.h"
 #include "mesamis/object/padding.h"
@@ -20,13 +21,12 @@
 #include "mesamis/object/voxel_islands.h"
 #include "mesamis/object/whole_values.h"
 #include "mesamis/restore/local_level.h"
-#include "mesamis/restore/object_edge.h"
-#include "mesamis/restore/restore.h"
 
 namespace mesamis::detail::object {
 namespace {
 
 constexpr double kAirHu = -1000, kSoftHu = 40;
+constexpr std::size_t kMostLookedAt = std::size_t{1} << 24;  // voxels, for the scatter of levels
 
 /// A text with a number in it.
 template <class... Values>
@@ -96,6 +96,7 @@ class ObjectChooser {
     turn();
     if (chosen_.kind == TissueKind::kDark && request_.tissue->in_patient) fill_around_patient();
     find_level();
+    measure_before_crop();
     crop_all();
     if (needs_level_of_crop()) set_level(find_tissue_level(chosen_.volume, bright_tissue()), true);
     if (chosen_.kind != TissueKind::kBright) remove_marked();
@@ -206,6 +207,18 @@ class ObjectChooser {
         request_.tissue ? chosen_.tissue.c_str() : "the object"));
   }
 
+  /// Parts of a scan are restored alike: bones in a crop, or metal, would tell another contrast.
+  void measure_before_crop() {
+    const bool is_crop = !(request_.crop == CropRange{});
+    if (!is_crop || !in_hounsfield_ || chosen_.kind != TissueKind::kBright) return;
+    const Volume& scan = chosen_.volume;
+    chosen_.scan = measure_scan(scan, request_.level);
+    if (!chosen_.scan || !chosen_.level || !has_local_level()) return;
+    const SliceRange seen = sample_slices(scan, kMostLookedAt);
+    const Volume slices = crop(scan, {{0, 0, seen.first}, {-1, -1, seen.first + seen.count}});
+    chosen_.scan->level_share = levels_in(slices, *chosen_.scan).local.share;
+  }
+
   void crop_all() {
     if (request_.crop == CropRange{}) return;
     if (!chosen_.unmeasured.empty()) {
@@ -240,25 +253,40 @@ class ObjectChooser {
         kept_to(std::move(chosen_.volume), mask, {.margin = request_.margin, .background = low});
   }
 
-  /// The scan, restored, less what the level of each place exceeds that of the object.
-  Volume levelled(double level) const {
-    const HalfMaximumLevel seen = find_half_maximum_level(chosen_.volume);
-    Volume image = clamped(chosen_.volume, window_with_room(chosen_.volume, seen.contrast, level));
-    const HalfMaximumLevel edge = find_object_edge(image, seen);
-    if (!(edge.contrast.difference() > 0)) return image;
-    Restored restored = restore::restore(std::move(image), edge);
-    const LocalLevel local =
-        find_local_level(restored.volume, edge.contrast, level, restored.noise_left);
-    take_off(local.excess, restored.volume);
-    return std::move(restored.volume);
+  bool has_local_level() const {
+    return request_.local_level && chosen_.may_be_bone() &&
+           is_likely_bone(chosen_.volume, chosen_.level->value);
+  }
+
+  /// A restored image, and the level of each place in it.
+  struct Levels {
+    Restored restored;
+    LocalLevel local;
+  };
+
+  Levels levels_in(const Volume& image, const ScanMeasure& scan) const {
+    Levels found{restore::restore(clamped(image, scan.window), scan.object, scan.options()), {}};
+    found.local =
+        find_local_level(found.restored.volume, scan.object.contrast, chosen_.level->value,
+                         {found.restored.noise_left, scan.level_share});
+    return found;
+  }
+
+  /// The image, restored, less what the level of each place exceeds that of the object.
+  Volume levelled() const {
+    const auto scan =
+        chosen_.scan ? chosen_.scan : measure_scan(chosen_.volume, chosen_.level->value);
+    if (!scan) return chosen_.volume;
+    Levels found = levels_in(chosen_.volume, *scan);
+    take_off(found.local.excess, found.restored.volume);
+    return std::move(found.restored.volume);
   }
 
   /// A seed in a cavity, as in a marrow canal or spongy bone, counts for what encloses it.
   void keep_seeds() {
     const double level = chosen_.level->value;
-    const bool is_local =
-        request_.local_level && chosen_.may_be_bone() && is_likely_bone(chosen_.volume, level);
-    const std::optional<Volume> image = is_local ? std::optional(levelled(level)) : std::nullopt;
+    const std::optional<Volume> image =
+        has_local_level() ? std::optional(levelled()) : std::nullopt;
     const VolumeView volume = image ? *image : chosen_.volume;
     const VoxelMask above = mask_above(volume, level);
     const VoxelMask solid = without_cavities(above, volume);

@@ -12,6 +12,7 @@
 #include "mesamis/object/object_request.h"
 #include "mesamis/object/patient.h"
 #include "mesamis/object/voxel_distance.h"
+#include "mesamis/restore/restore.h"
 
 /// From a scan and what a user says of the object to an image that shows this object alone.
 namespace mesamis::detail::object {
@@ -30,6 +31,7 @@ struct ChosenObject {
   std::string tissue;                     ///< its name; empty: none was asked for
   std::optional<KnownLevel> level;        ///< nothing: the run measures it
   CropRange crop;                         ///< the part of the scan that the volume is
+  std::optional<ScanMeasure> scan;        ///< of a crop of CT: how the whole scan is restored
   std::vector<Surroundings> removed;      ///< from the whole scan
   std::optional<FilledPadding> padding;   ///< of the whole scan
   VoxelMask unmeasured;                   ///< the padding, by voxels of the volume; empty: none
@@ -54,6 +56,8 @@ struct ChosenObject {
 /// later, in the cropped image); a dark object or a range of values becomes bright; the level is
 /// measured in the whole scan; the scan is cropped; what lies beyond the mask goes; at the level,
 /// islands without a seed go, and several seeds split what touches.
+///
+/// Noise, blur, window and contrast of a crop of CT are those of the whole scan.
 ///
 /// A level is measured here for a tissue, in CT for a crop, a mask or seeds, and in other scans for
 /// a mask or seeds, there in the crop. Without a tissue it is the number that a run finds in the

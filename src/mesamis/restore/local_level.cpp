@@ -266,14 +266,16 @@ void drop_parts_below(double level, const VolumeView& image, Volume& excess) {
 }  // namespace
 
 LocalLevel find_local_level(const VolumeView& volume, const ObjectContrast& contrast, double level,
-                            double noise) {
-  const std::vector<Edge> edges = EdgeFinder(volume, contrast, noise).all();
+                            const LocalLevelOptions& options) {
+  const std::vector<Edge> edges = EdgeFinder(volume, contrast, options.noise).all();
   LocalLevel local;
   local.edge_share = static_cast<double>(edges.size()) / static_cast<double>(volume.samples.size());
   if (edges.empty()) return local;
   Volume excess = mean_excess(edges, volume, level, contrast.difference());
-  const auto share = static_cast<float>(share_that_counts(excess, edges, contrast.difference()));
-  if (share == 0) return local;
+  local.share =
+      options.share ? *options.share : share_that_counts(excess, edges, contrast.difference());
+  if (local.share == 0) return local;
+  const auto share = static_cast<float>(local.share);
   parallel_for(excess.samples.size(), [&](std::size_t n) { excess.samples[n] *= share; });
   drop_parts_below(level, volume, excess);
   std::vector<float> levels;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "mesamis/image/volume.h"
 #include "mesamis/restore/object_contrast.h"
@@ -17,6 +18,13 @@ struct LocalLevel {
   /// 5 % and 95 % quantiles of the local levels at edges, native units; both 0: there is one level.
   std::array<double, 2> range{};
   double edge_share = 0;  ///< voxels at edges over all voxels
+  double share = 0;       ///< how much of the local levels counts, 0 (there is one level) to 1
+};
+
+/// What is known of a scan whose local levels are looked for.
+struct LocalLevelOptions {
+  double noise = 0;               ///< standard deviation, native units, >= 0
+  std::optional<double> share{};  ///< see LocalLevel; default: as the scatter has it
 };
 
 /// Finds the level of half maximum for each place from the edges nearby.
@@ -42,11 +50,11 @@ struct LocalLevel {
 /// agent, have edges too.
 /// @param volume    native values.
 /// @param contrast  of the object; its difference is > 0.
-/// @param noise     standard deviation, native units, >= 0.
+/// @param options   noise, and for a part of a scan the share of the whole.
 ///
 /// O(voxels); three copies of the samples. The same bits for any number of threads.
 LocalLevel find_local_level(const VolumeView& volume, const ObjectContrast& contrast, double level,
-                            double noise);
+                            const LocalLevelOptions& options);
 
 /// Whether an object is likely bone, whose parts differ in density; the skin and organs have one
 /// level.

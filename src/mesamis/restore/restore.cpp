@@ -9,6 +9,7 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/restore/deblur.h"
 #include "mesamis/restore/impulses.h"
+#include "mesamis/restore/object_edge.h"
 #include "mesamis/restore/scan_quality.h"
 #include "mesamis/restore/thick_places.h"
 #include "mesamis/restore/thin_sheets.h"
@@ -99,7 +100,40 @@ void undo_blur(Restored& restored, const Volume& guide, const ObjectContrast& co
   if (square > 0) lift_thin_sheets(restored.volume, guide, sheets);
 }
 
+/// Removes the impulses of a volume and measures what the options leave open.
+Guide clean(Restored& restored, const HalfMaximumLevel& object, const RestoreOptions& options) {
+  Guide guide = make_guide(restored.volume, object.level);
+  const auto noise_now = [&] {
+    return measure_noise(restored.volume, guide.image, guide.points, object.level);
+  };
+  if (!options.noise) restored.noise = noise_now();
+  const double height =
+      options.impulse_height.value_or(impulse_height(restored.noise, object.contrast.difference()));
+  if (remove_impulses(restored, height, options.impulse_height ? 0 : kFewImpulses)) {
+    guide = make_guide(restored.volume, object.level);
+    if (!options.noise) restored.noise = noise_now();
+  }
+  if (!options.blur) {
+    restored.blur =
+        measure_blur(restored.volume, thick_places(guide.image, guide.points, object.level).points);
+  }
+  return guide;
+}
+
 }  // namespace
+
+std::optional<ScanMeasure> measure_scan(const VolumeView& scan,
+                                        const std::optional<double>& level) {
+  const HalfMaximumLevel seen = find_half_maximum_level(scan);
+  if (seen.in_noise || !(seen.contrast.difference() > 0)) return std::nullopt;
+  const Window window = window_with_room(scan, seen.contrast, level.value_or(seen.level));
+  Restored restored;
+  restored.volume = clamped(scan, window);
+  const HalfMaximumLevel object = find_object_edge(restored.volume, seen);
+  if (!(object.contrast.difference() > 0)) return std::nullopt;
+  clean(restored, object, {});
+  return ScanMeasure{seen, object, window, restored.noise, restored.blur, restored.impulse_height};
+}
 
 Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOptions& options) {
   Restored restored;
@@ -107,24 +141,10 @@ Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOpt
   restored.noise = options.noise.value_or(0);
   restored.blur = options.blur.value_or(std::array<double, 3>{});
   require_valid_blur(restored.blur);
-  const double contrast = object.contrast.difference();
-  if (!(contrast > 0)) return restored;
-  Guide guide = make_guide(restored.volume, object.level);
-  const auto noise_now = [&] {
-    return measure_noise(restored.volume, guide.image, guide.points, object.level);
-  };
-  if (!options.noise) restored.noise = noise_now();
-  const double height = options.impulse_height.value_or(impulse_height(restored.noise, contrast));
-  if (remove_impulses(restored, height, options.impulse_height ? 0 : kFewImpulses)) {
-    guide = make_guide(restored.volume, object.level);
-    if (!options.noise) restored.noise = noise_now();
-  }
+  if (!(object.contrast.difference() > 0)) return restored;
+  const Guide guide = clean(restored, object, options);
   restored.noise_correlation =
       measure_noise_correlation(restored.volume, guide.image, guide.points, object.level);
-  if (!options.blur) {
-    restored.blur =
-        measure_blur(restored.volume, thick_places(guide.image, guide.points, object.level).points);
-  }
   restored.noise_left = restored.noise;
   undo_blur(restored, guide.image, object.contrast);
   return restored;

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "mesamis/image/grey_values.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/restore/half_maximum_level.h"
 
@@ -19,6 +20,28 @@ struct RestoreOptions {
   /// Default: as noise and contrast have it, where so many are found that they are no structures.
   std::optional<double> impulse_height = std::nullopt;
 };
+
+/// What restoring a scan goes by.
+struct ScanMeasure {
+  HalfMaximumLevel seen;                ///< of the object through all of its surface
+  HalfMaximumLevel object;              ///< where it is thick, see find_object_edge()
+  Window window;                        ///< see window_with_room()
+  double noise = 0;                     ///< standard deviation, native units
+  std::array<double, 3> blur{};         ///< standard deviations, voxels
+  double impulse_height = 0;            ///< see RestoreOptions; 0 where there are none
+  std::optional<double> level_share{};  ///< see LocalLevel::share; nothing: not measured
+
+  /// To restore parts of the scan alike.
+  RestoreOptions options() const { return {noise, blur, impulse_height}; }
+};
+
+/// Measures a scan, so that its parts can be restored alike.
+/// @param level  of the surface, native units, for which the window has room; default: that seen.
+/// @return nothing where no object stands out from the noise.
+///
+/// O(voxels); two copies of the samples.
+std::optional<ScanMeasure> measure_scan(const VolumeView& scan,
+                                        const std::optional<double>& level = std::nullopt);
 
 /// A scan without its impulses and with its blur undone, as far as the noise permits.
 struct Restored {
