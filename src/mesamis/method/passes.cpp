@@ -34,7 +34,7 @@ constexpr int kDraftAlternations = 4;
 /// Cells of the meshes against max_tets, one after the other; with fewer adaptations the first are
 /// left out. Where there are many, a mesh less is as accurate.
 constexpr std::array kSharesOfFew{0.3, 0.6, 1.0};
-constexpr std::array kSharesOfMany{0.4, 1.0};
+constexpr std::array kSharesOfMany{0.6, 1.0};
 constexpr std::int64_t kFew = 150'000;
 /// The first mesh moves the grid's surface by more than the second moves that of the first: in the
 /// mean of fifteen scans so many times.
