@@ -148,6 +148,20 @@ TEST(RunOnObject, ACropOfCtIsRestoredAsTheWholeIs) {
   EXPECT_EQ(run_on_object(object, settings).parameters.noise, 7) << "the user's comes first";
 }
 
+/// The window of the whole has room for the level of the tissue, which may be far from that of bone.
+TEST(RunOnObject, ACropHasRoomForTheLevelThatIsAsked) {
+  Settings settings = preview();
+  settings.crop = {{0, 0, 0}, {-1, -1, 30}};
+  const Volume scan = body_with_bones();
+  for (const char* tissue : {"skin", "soft", "bone", "teeth"}) {
+    ObjectRequest request;
+    request.tissue = parse_tissue(tissue);
+    EXPECT_FALSE(run_on_object(choose(scan, settings, request), settings).surface.points.empty());
+  }
+  settings.level = -600;
+  EXPECT_FALSE(run_on_object(choose(scan, settings, {}), settings).surface.points.empty());
+}
+
 TEST(RunOnObject, TellsTheCropThatRepeatsIt) {
   Settings settings = preview();
   settings.crop = {{4, 0, 0}, {24, -1, -1}};

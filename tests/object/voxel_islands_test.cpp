@@ -142,6 +142,24 @@ TEST(FindMarkedAt, IsWhatEnclosesThePlace) {
   EXPECT_REFUSED(marked_at(open_shell, grid, {27, 15, 15}), HasSubstr("within 3 mm or around it"));
 }
 
+/// Grains of spongy bone are not what a seed in it means.
+TEST(FindMarkedAt, IsWhatEnclosesACrumb) {
+  const VoxelGrid grid = grid_of({31, 31, 31});
+  const auto with_grain = [&grid](double radius) {
+    return mask_where(grid, [&](const Vec3& p) {
+      const double away = norm(p - Vec3{15, 15, 15});
+      const bool other_grain = norm(p - Vec3{15, 15, 20}) < 1.5;
+      return away < radius || other_grain || (away >= 8 && away < 10 && p.x < 21);
+    });
+  };
+  const VoxelMask grains = with_grain(2);
+  const std::vector<std::size_t> around = find_marked_at(grains, grid, {15, 15, 15});
+  EXPECT_GE(around.size(), 16u);
+  EXPECT_GT(count_marked(island_at(grains, grid, {15, 15, 15})), 500u) << "the shell";
+  EXPECT_EQ(find_marked_at(with_grain(6), grid, {15, 15, 15}).size(), 1u) << "no crumb";
+  EXPECT_EQ(find_marked_at(with_grain(2), grid, {15, 15, 6}).size(), 1u) << "in the shell";
+}
+
 /// What lies far beyond an opening is not around the place.
 TEST(FindMarkedAt, LeavesOutWhatIsFarThroughAnOpening) {
   const VoxelGrid grid = grid_of({61, 31, 31});

@@ -212,7 +212,9 @@ class ObjectChooser {
     const bool is_crop = !(request_.crop == CropRange{});
     if (!is_crop || !in_hounsfield_ || chosen_.kind != TissueKind::kBright) return;
     const Volume& scan = chosen_.volume;
-    chosen_.scan = measure_scan(scan, request_.level);
+    const bool is_asked = chosen_.level && (request_.level || request_.tissue);
+    chosen_.scan =
+        measure_scan(scan, is_asked ? std::optional(chosen_.level->value) : std::nullopt);
     if (!chosen_.scan || !chosen_.level || !has_local_level()) return;
     const SliceRange seen = sample_slices(scan, kMostLookedAt);
     const Volume slices = crop(scan, {{0, 0, seen.first}, {-1, -1, seen.first + seen.count}});

@@ -33,6 +33,16 @@ std::size_t flood(VoxelIslands& islands, std::span<const std::uint8_t> mask, con
   return count;
 }
 
+/// The number of voxels of the island of a marked voxel, which is added unless it is there.
+std::size_t add_island(VoxelIslands& islands, std::span<const std::uint8_t> mask,
+                       const VoxelGrid& grid, std::size_t voxel) {
+  if (islands.of_voxel[voxel] == 0) {
+    const std::size_t count = flood(islands, mask, grid, voxel);
+    islands.voxels.push_back(count);
+  }
+  return islands.voxels[static_cast<std::size_t>(islands.of_voxel[voxel] - 1)];
+}
+
 /// A straight way over voxels.
 struct Way {
   std::array<Index, 3> from, step;
@@ -152,9 +162,23 @@ std::optional<std::size_t> find_marked(std::span<const std::uint8_t> mask, const
 
 std::vector<std::size_t> find_marked_at(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
                                         const std::array<Index, 3>& at) {
-  const double beside = std::max(kBesideMm, grid.voxel_size());
-  if (const auto nearest = find_marked(mask, grid, at, beside)) return {*nearest};
-  return enclosing(mask, grid, at);
+  constexpr std::size_t kCrumb = 10;  // so many times as large is what it lies in
+  VoxelIslands islands{std::vector<Index>(mask.size(), 0), {}};
+  const auto nearest = find_marked(mask, grid, at, std::max(kBesideMm, grid.voxel_size()));
+  const std::size_t own = nearest ? add_island(islands, mask, grid, *nearest) : 0;
+  const VoxelMask others =
+      nearest ? only_in(mask, mask_of_island(islands, 1)) : VoxelMask(mask.begin(), mask.end());
+  std::vector<std::size_t> around = enclosing(others, grid, at);
+  Index largest = 0;
+  std::size_t most = 0;
+  for (const std::size_t voxel : around) {
+    const std::size_t size = add_island(islands, mask, grid, voxel);
+    if (size <= std::max(kCrumb * own, most)) continue;
+    most = size;
+    largest = islands.of_voxel[voxel];
+  }
+  std::erase_if(around, [&](std::size_t n) { return islands.of_voxel[n] != largest; });
+  return around.empty() && nearest ? std::vector{*nearest} : around;
 }
 
 std::vector<std::size_t> marked_at(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
