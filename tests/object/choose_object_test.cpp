@@ -167,7 +167,7 @@ TEST(ChooseObject, ACropOfCtIsMeasuredInTheWhole) {
       choose_object(two_bones(), {.crop = {{31, 0, 0}, {61, 29, 29}}, .local_level = true});
   ASSERT_TRUE(spongy.scan);
   EXPECT_EQ(spongy.scan->level_share, 1);
-  EXPECT_NEAR(spongy.scan->object.contrast.object, 1200, 120);
+  EXPECT_NEAR(spongy.scan->object.object.contrast.object, 1200, 120);
   const ChosenObject one =
       choose_object(two_bones(), {.crop = {{31, 0, 0}, {61, 29, 29}}, .level = 200});
   ASSERT_TRUE(one.scan);

@@ -185,7 +185,7 @@ struct Seen {
 
 Seen look_at(const VolumeView& image, const ImageSettings& settings) {
   if (const auto& scan = settings.scan) {
-    return {scan->seen, settings.asked.window.value_or(scan->window)};
+    return {scan->object.seen, settings.asked.window.value_or(scan->object.window)};
   }
   const HalfMaximumLevel seen = find_half_maximum_level(image);
   if (seen.in_noise && !settings.level && settings.asked.surface == SurfaceKind::kSolid) {
@@ -213,7 +213,7 @@ ChosenImage choose_but_cells(const VolumeView& image, const VoxelGrid& whole,
   const auto [seen, window] = look_at(image, settings);
   Volume scan = clamped(image, window);
   const HalfMaximumLevel object =
-      settings.scan ? settings.scan->object : find_object_edge(scan, seen);
+      settings.scan ? settings.scan->object.object : find_object_edge(scan, seen);
   Restored restored = restore_if_asked(std::move(scan), object, settings);
 
   ChosenImage found{{parameters_from_grid(whole, asked), {}, object, restored.impulse_height}, {}};

@@ -183,7 +183,9 @@ class ObjectChooser {
     } else if (request_.tissue) {
       set_level(find_tissue_level(chosen_.volume, units_.turned(*request_.tissue)), false);
     } else if (in_hounsfield_ && is_part() && wants_level()) {
-      set_level(find_tissue_level(chosen_.volume, bright_tissue()), false);
+      const TissueLevel found = find_tissue_level(chosen_.volume, bright_tissue());
+      set_level(found, false);
+      seen_ = found.seen;
     }
   }
 
@@ -212,13 +214,17 @@ class ObjectChooser {
     const bool is_crop = !(request_.crop == CropRange{});
     if (!is_crop || !in_hounsfield_ || chosen_.kind != TissueKind::kBright) return;
     const Volume& scan = chosen_.volume;
-    const bool is_asked = chosen_.level && (request_.level || request_.tissue);
-    chosen_.scan =
-        measure_scan(scan, is_asked ? std::optional(chosen_.level->value) : std::nullopt);
+    chosen_.scan = measure_scan(scan, seen_ ? *seen_ : see_object(scan, {.level = asked_level()}));
     if (!chosen_.scan || !chosen_.level || !has_local_level()) return;
     const SliceRange seen = sample_slices(scan, kMostLookedAt);
     const Volume slices = crop(scan, {{0, 0, seen.first}, {-1, -1, seen.first + seen.count}});
     chosen_.scan->level_share = levels_in(slices, *chosen_.scan).local.share;
+  }
+
+  /// That of the user, or of the tissue.
+  std::optional<double> asked_level() const {
+    const bool is_asked = chosen_.level && (request_.level || request_.tissue);
+    return is_asked ? std::optional(chosen_.level->value) : std::nullopt;
   }
 
   void crop_all() {
@@ -267,17 +273,19 @@ class ObjectChooser {
   };
 
   Levels levels_in(const Volume& image, const ScanMeasure& scan) const {
-    Levels found{restore::restore(clamped(image, scan.window), scan.object, scan.options()), {}};
-    found.local =
-        find_local_level(found.restored.volume, scan.object.contrast, chosen_.level->value,
-                         {found.restored.noise_left, scan.level_share});
+    const auto& [seen, object, window] = scan.object;
+    Levels found{restore::restore(clamped(image, window), object, scan.options()), {}};
+    found.local = find_local_level(found.restored.volume, object.contrast, chosen_.level->value,
+                                   {found.restored.noise_left, scan.level_share});
     return found;
   }
 
   /// The image, restored, less what the level of each place exceeds that of the object.
   Volume levelled() const {
     const auto scan =
-        chosen_.scan ? chosen_.scan : measure_scan(chosen_.volume, chosen_.level->value);
+        chosen_.scan ? chosen_.scan
+                     : measure_scan(chosen_.volume,
+                                    see_object(chosen_.volume, {.level = chosen_.level->value}));
     if (!scan) return chosen_.volume;
     Levels found = levels_in(chosen_.volume, *scan);
     take_off(found.local.excess, found.restored.volume);
@@ -308,7 +316,7 @@ class ObjectChooser {
 
   std::array<Index, 3> place_of(const Vec3& seed, const VoxelMask& solid) const {
     const auto place = voxel_at(chosen_.volume, seed);
-    if (!find_marked_at(solid, chosen_.volume, place).empty()) return place;
+    if (has_marked_at(solid, chosen_.volume, place)) return place;
     const bool dark = chosen_.kind == TissueKind::kDark;
     throw InputError(
         line("seed: expected values %s %.4g within %g mm of %g,%g,%g (LPS) or around it, found "
@@ -335,6 +343,7 @@ class ObjectChooser {
   bool in_hounsfield_;
   ChosenObject chosen_;
   std::optional<Patient> patient_;
+  std::optional<SeenObject> seen_;    // in the whole scan; nothing: a tissue's or a given level
   std::optional<double> background_;  // measured at the object's surface, units of the image
 };
 

@@ -8,18 +8,6 @@
 #include "mesamis/restore/object_edge.h"
 
 namespace mesamis::detail::object {
-namespace {
-
-/// The edge of the bright object of a volume.
-HalfMaximumLevel measure(const VolumeView& volume, const std::optional<double>& start) {
-  const HalfMaximumLevel seen = find_half_maximum_level(volume, {.start = start});
-  if (!(seen.contrast.difference() > 0)) return seen;
-  const Window window = window_with_room(volume, seen.contrast, seen.level);
-  return find_object_edge(clamped(volume, window), seen);
-}
-
-}  // namespace
-
 void require_hounsfield(const VolumeView& scan, const Tissue& tissue) {
   if (!tissue.hounsfield || is_hounsfield(scan)) return;
   throw InputError("tissue: expected a CT scan in Hounsfield units for " + tissue.name +
@@ -33,7 +21,8 @@ TissueLevel find_tissue_level(const VolumeView& image, const Tissue& tissue) {
     result.level = tissue.levels.low;
     return result;
   }
-  const HalfMaximumLevel object = measure(image, tissue.start);
+  result.seen = see_object(image, {.start = tissue.start});
+  const HalfMaximumLevel& object = result.seen->object;
   if (object.contrast.difference() == 0 || object.in_noise) {
     if (!tissue.start) {
       throw InputError("tissue: expected an object that stands out from the noise, found none");

@@ -3,17 +3,18 @@
 
 #include "mesamis/image/volume.h"
 #include "mesamis/object/tissue.h"
-#include "mesamis/restore/half_maximum_level.h"
+#include "mesamis/restore/object_edge.h"
 
 namespace mesamis::detail::object {
 
 /// The level of a tissue's surface.
 struct TissueLevel {
-  double level = 0;         ///< units of the image
-  ObjectContrast contrast;  ///< at the surface, units of the image
-  double uncertainty = 0;   ///< native units, see HalfMaximumLevel; 0 if the user gave the level
-  bool measured = false;    ///< false: given by the user, or nothing was found in Tissue::levels
-  bool bounded = false;     ///< the half maximum was beyond Tissue::levels, and their end is taken
+  double level = 0;                  ///< units of the image
+  std::optional<SeenObject> seen{};  ///< what was found; nothing: the user gave the level
+  ObjectContrast contrast;           ///< at the surface, units of the image
+  double uncertainty = 0;  ///< native units, see HalfMaximumLevel; 0 if the user gave the level
+  bool measured = false;   ///< false: given by the user, or nothing was found in Tissue::levels
+  bool bounded = false;    ///< the half maximum was beyond Tissue::levels, and their end is taken
 };
 
 /// Finds the level of a tissue's surface in a whole scan.

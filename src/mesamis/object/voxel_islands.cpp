@@ -55,7 +55,9 @@ struct WayEnd {
   bool leaves_grid = false;
 };
 
-WayEnd end_of(const Way& way, std::span<const std::uint8_t> mask, const VoxelGrid& grid) {
+/// @param is_met  tells whether a voxel ends the way.
+template <class IsMet>
+WayEnd end_of(const Way& way, const VoxelGrid& grid, IsMet&& is_met) {
   std::array<Index, 3> v = way.from;
   for (Index n = 1; n <= way.most_steps; ++n) {
     for (std::size_t a = 0; a < 3; ++a) {
@@ -63,14 +65,15 @@ WayEnd end_of(const Way& way, std::span<const std::uint8_t> mask, const VoxelGri
       if (v[a] < 0 || v[a] >= grid.size[a]) return {.leaves_grid = true};
     }
     const std::size_t voxel = grid.offset(v[0], v[1], v[2]);
-    if (mask[voxel] != 0) return {n, voxel};
+    if (is_met(voxel)) return {n, voxel};
   }
   return {};
 }
 
-/// The marked voxels around a place, see find_marked_at().
-std::vector<std::size_t> enclosing(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
-                                   const std::array<Index, 3>& from) {
+/// The voxels around a place that end the ways from it, see find_marked_at().
+template <class IsMet>
+std::vector<std::size_t> enclosing(const VoxelGrid& grid, const std::array<Index, 3>& from,
+                                   IsMet&& is_met) {
   constexpr double kMostMm = 30, kLeastShare = 0.75, kMostOfMedian = 1.5;
   constexpr std::size_t kLeast = 13;                // half of all ways
   std::vector<std::pair<double, std::size_t>> met;  // how far, mm, and the voxel
@@ -80,7 +83,7 @@ std::vector<std::size_t> enclosing(std::span<const std::uint8_t> mask, const Vox
     const double mm =
         norm(Vec3{step[0] * grid.spacing.x, step[1] * grid.spacing.y, step[2] * grid.spacing.z});
     if (mm == 0) continue;
-    const WayEnd end = end_of({from, step, static_cast<Index>(kMostMm / mm)}, mask, grid);
+    const WayEnd end = end_of({from, step, static_cast<Index>(kMostMm / mm)}, grid, is_met);
     if (end.steps > 0) met.emplace_back(end.steps * mm, end.voxel);
     if (!end.leaves_grid) ++ways;
   }
@@ -107,9 +110,7 @@ VoxelIslands find_islands(std::span<const std::uint8_t> mask, const VoxelGrid& g
   require_mask_of(mask, grid);
   VoxelIslands islands{std::vector<Index>(mask.size(), 0), {}};
   for (std::size_t n = 0; n < mask.size(); ++n) {
-    if (mask[n] == 0 || islands.of_voxel[n] != 0) continue;
-    const std::size_t count = flood(islands, mask, grid, n);
-    islands.voxels.push_back(count);
+    if (mask[n] != 0) add_island(islands, mask, grid, n);
   }
   return islands;
 }
@@ -160,15 +161,24 @@ std::optional<std::size_t> find_marked(std::span<const std::uint8_t> mask, const
   return nearest;
 }
 
+namespace {
+
+/// The marked voxel that a place lies beside.
+std::optional<std::size_t> find_beside(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
+                                       const std::array<Index, 3>& at) {
+  return find_marked(mask, grid, at, std::max(kBesideMm, grid.voxel_size()));
+}
+
+}  // namespace
+
 std::vector<std::size_t> find_marked_at(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
                                         const std::array<Index, 3>& at) {
   constexpr std::size_t kCrumb = 10;  // so many times as large is what it lies in
   VoxelIslands islands{std::vector<Index>(mask.size(), 0), {}};
-  const auto nearest = find_marked(mask, grid, at, std::max(kBesideMm, grid.voxel_size()));
+  const auto nearest = find_beside(mask, grid, at);
   const std::size_t own = nearest ? add_island(islands, mask, grid, *nearest) : 0;
-  const VoxelMask others =
-      nearest ? only_in(mask, mask_of_island(islands, 1)) : VoxelMask(mask.begin(), mask.end());
-  std::vector<std::size_t> around = enclosing(others, grid, at);
+  std::vector<std::size_t> around =
+      enclosing(grid, at, [&](std::size_t n) { return mask[n] != 0 && islands.of_voxel[n] == 0; });
   Index largest = 0;
   std::size_t most = 0;
   for (const std::size_t voxel : around) {
@@ -179,6 +189,12 @@ std::vector<std::size_t> find_marked_at(std::span<const std::uint8_t> mask, cons
   }
   std::erase_if(around, [&](std::size_t n) { return islands.of_voxel[n] != largest; });
   return around.empty() && nearest ? std::vector{*nearest} : around;
+}
+
+bool has_marked_at(std::span<const std::uint8_t> mask, const VoxelGrid& grid,
+                   const std::array<Index, 3>& at) {
+  return find_beside(mask, grid, at) ||
+         !enclosing(grid, at, [&](std::size_t n) { return mask[n] != 0; }).empty();
 }
 
 std::vector<std::size_t> marked_at(std::span<const std::uint8_t> mask, const VoxelGrid& grid,

@@ -79,4 +79,11 @@ HalfMaximumLevel find_object_edge(const VolumeView& volume, const HalfMaximumLev
   return object;
 }
 
+SeenObject see_object(const VolumeView& volume, const SeeOptions& options) {
+  const HalfMaximumLevel seen = find_half_maximum_level(volume, {.start = options.start});
+  if (!(seen.contrast.difference() > 0)) return {seen, seen, {}};
+  const Window window = window_with_room(volume, seen.contrast, options.level.value_or(seen.level));
+  return {seen, find_object_edge(clamped(volume, window), seen), window};
+}
+
 }  // namespace mesamis::detail::restore

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "mesamis/image/grey_values.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/restore/half_maximum_level.h"
@@ -38,5 +40,26 @@ Window window_with_room(const VolumeView& volume, const ObjectContrast& contrast
 ///
 /// O(voxels) per iteration, at most three; a smoothed copy of the samples.
 HalfMaximumLevel find_object_edge(const VolumeView& volume, const HalfMaximumLevel& seen);
+
+/// The object of a scan, and the window in which its edge is measured.
+struct SeenObject {
+  HalfMaximumLevel seen;    ///< through all of its surface
+  HalfMaximumLevel object;  ///< where it is thick; as seen where there is no contrast
+  Window window;            ///< see window_with_room()
+};
+
+/// What is known of an object before it is looked for.
+struct SeeOptions {
+  std::optional<double> start{};  ///< see HalfMaximumOptions
+  std::optional<double>
+      level{};  ///< native units, for which the window has room; default: that seen
+};
+
+/// Finds the object of a scan and measures its edge: find_half_maximum_level(), and
+/// find_object_edge() in the window with room.
+/// @param volume  native values; usable, see require_usable().
+///
+/// O(voxels) per iteration of both; two copies of the samples.
+SeenObject see_object(const VolumeView& volume, const SeeOptions& options = {});
 
 }  // namespace mesamis::detail::restore

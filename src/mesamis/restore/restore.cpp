@@ -9,7 +9,6 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/restore/deblur.h"
 #include "mesamis/restore/impulses.h"
-#include "mesamis/restore/object_edge.h"
 #include "mesamis/restore/scan_quality.h"
 #include "mesamis/restore/thick_places.h"
 #include "mesamis/restore/thin_sheets.h"
@@ -122,17 +121,13 @@ Guide clean(Restored& restored, const HalfMaximumLevel& object, const RestoreOpt
 
 }  // namespace
 
-std::optional<ScanMeasure> measure_scan(const VolumeView& scan,
-                                        const std::optional<double>& level) {
-  const HalfMaximumLevel seen = find_half_maximum_level(scan);
-  if (seen.in_noise || !(seen.contrast.difference() > 0)) return std::nullopt;
-  const Window window = window_with_room(scan, seen.contrast, level.value_or(seen.level));
+std::optional<ScanMeasure> measure_scan(const VolumeView& scan, const SeenObject& object) {
+  const bool stands_out = !object.seen.in_noise && object.object.contrast.difference() > 0;
+  if (!stands_out) return std::nullopt;
   Restored restored;
-  restored.volume = clamped(scan, window);
-  const HalfMaximumLevel object = find_object_edge(restored.volume, seen);
-  if (!(object.contrast.difference() > 0)) return std::nullopt;
-  clean(restored, object, {});
-  return ScanMeasure{seen, object, window, restored.noise, restored.blur, restored.impulse_height};
+  restored.volume = clamped(scan, object.window);
+  clean(restored, object.object, {});
+  return ScanMeasure{object, restored.noise, restored.blur, restored.impulse_height};
 }
 
 Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOptions& options) {

@@ -4,9 +4,9 @@
 #include <array>
 #include <optional>
 
-#include "mesamis/image/grey_values.h"
 #include "mesamis/image/volume.h"
 #include "mesamis/restore/half_maximum_level.h"
+#include "mesamis/restore/object_edge.h"
 
 namespace mesamis::detail::restore {
 
@@ -23,9 +23,7 @@ struct RestoreOptions {
 
 /// What restoring a scan goes by.
 struct ScanMeasure {
-  HalfMaximumLevel seen;                ///< of the object through all of its surface
-  HalfMaximumLevel object;              ///< where it is thick, see find_object_edge()
-  Window window;                        ///< see window_with_room()
+  SeenObject object;
   double noise = 0;                     ///< standard deviation, native units
   std::array<double, 3> blur{};         ///< standard deviations, voxels
   double impulse_height = 0;            ///< see RestoreOptions; 0 where there are none
@@ -36,12 +34,11 @@ struct ScanMeasure {
 };
 
 /// Measures a scan, so that its parts can be restored alike.
-/// @param level  of the surface, native units, for which the window has room; default: that seen.
+/// @param object  of this scan, see see_object().
 /// @return nothing where no object stands out from the noise.
 ///
 /// O(voxels); two copies of the samples.
-std::optional<ScanMeasure> measure_scan(const VolumeView& scan,
-                                        const std::optional<double>& level = std::nullopt);
+std::optional<ScanMeasure> measure_scan(const VolumeView& scan, const SeenObject& object);
 
 /// A scan without its impulses and with its blur undone, as far as the noise permits.
 struct Restored {
